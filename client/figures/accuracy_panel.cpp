@@ -55,8 +55,11 @@ Range triangles_of(const std::vector<Bounds>& stages) {
 
 std::string heading(const std::vector<Bounds>& stages) {
   const Bounds& last = stages.back();
-  return "energy to " + readable(100 * last.error, 2) + " % on " + readable(last.triangles, 7) +
-         " triangles, " + std::to_string(stages.size()) + " stages";
+  const std::string of_a = std::isfinite(last.displacement_error)
+                               ? ", A " + readable(100 * last.displacement_error, 2) + " %"
+                               : "";
+  return "energy " + readable(100 * last.error, 2) + " %" + of_a + " on " +
+         readable(last.triangles, 7) + " triangles, " + std::to_string(stages.size()) + " stages";
 }
 
 std::string curve(int column, const std::string& style, const std::string& title) {

@@ -253,7 +253,7 @@ TEST(Script, shows_how_the_bounds_close_in) {
             {-1, -1.5, -1.998}, {0.9, 0.3, 0.03}, {results::unknown, 0.25, 0.01},
             {0.1, 0.2, 1}};
   const auto drawn = [&] { return script(accuracy_picture(result, result.loads[0]), both); };
-  EXPECT_THAT(drawn(), HasSubstr("'energy to 0.2 % on 20000 triangles, 3 stages'"));
+  EXPECT_THAT(drawn(), HasSubstr("'energy 0.2 %, A 1 % on 20000 triangles, 3 stages'"));
   EXPECT_THAT(drawn(), HasSubstr("\n100 2 NaN -3 -1 -1 0.4 \n"));
   EXPECT_THAT(drawn(), HasSubstr("\n20000 0.002 0.01 -2.002 -1.998 -2 0.002 \n"));
   EXPECT_THAT(drawn(), HasSubstr("title 'A, half the width of its bounds'"));
