@@ -41,8 +41,6 @@ def sweep_of(job: solve_pb2.Job, coefficients: Any, nodal_forces: Any, traces: S
         raise CaseError(f"an array of shape {matrix.shape} is not (rows, {wanted})")
     if matrix.dtype.kind not in "fiu" or not np.isfinite(matrix).all():
         raise CaseError("coefficients and forces are finite numbers")
-    if job.HasField("accuracy"):
-        raise CaseError("a sweep is on one mesh; leave accuracy out")
     del job.outputs[:]
     job.sweep.bounds = bounds
     try:

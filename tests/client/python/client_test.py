@@ -154,6 +154,15 @@ class Jobs(unittest.TestCase):
         self.assertTrue((frame["A_lower of gamma_c"] < frame["A of gamma_c"]).all())
         self.assertIsNone(self.client.run(case, coefficients, progress=False).sweep.energy_lower)
 
+    def test_sweeps_leave_out_the_accuracy(self):
+        case = Case(GEOMETRY, [OPENING])
+        plain = self.client.run(case, [[1.0]], progress=False)
+        case.tables["accuracy"] = {"energy": 1e-6}
+        with self.assertWarnsRegex(UserWarning, r"^\[accuracy\] is not used: .* bounds=True"):
+            result = self.client.run(case, [[1.0]], progress=False)
+        self.assertEqual(result.mesh_name, plain.mesh_name)  # graded, not the coarse one of an accuracy
+        self.assertIn("accuracy", case.tables)
+
     def test_wrong_sweeps_are_refused(self):
         case = EXAMPLES / "load-ratio.toml"
         for arguments, said in (({"coefficients": [[1.0]]}, r"\(1, 1\) is not \(rows, 2\)"),
