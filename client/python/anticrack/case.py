@@ -8,9 +8,10 @@ import copy
 import os
 import pathlib
 import tomllib
+import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, fields
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from .arrays import Array
 from .errors import CaseError
@@ -270,7 +271,8 @@ class Units(_Table):
 
 
 class Case:
-    """tables: as tomllib reads a case; may be changed before it is submitted."""
+    """tables: as tomllib reads a case; may be changed before it is submitted. Geometry, loads and the other objects are
+    read when the case is built."""
 
     def __init__(self, geometry: Geometry | None = None, loads: Sequence[Load] = (), mesh: Mesh | None = None,
                  solver: ActiveSet | Uzawa | None = None, accuracy: Accuracy | None = None, title: str = "",
@@ -321,12 +323,25 @@ class Case:
     def __repr__(self) -> str:
         return f"<Case {self.tables.get('title', '')!r} with {listed(self.tables)}>"
 
+    if not TYPE_CHECKING:  # a type checker knows the attributes and reports others itself
+        def __setattr__(self, name: str, value: Any) -> None:
+            if name not in ("tables", "text", "source", "folder"):
+                raise AttributeError(f"case.{name} cannot be set: the case is built; change case.tables, which has "
+                                     f"{listed(self.tables)}, or build another Case", name=name, obj=self)
+            super().__setattr__(name, value)
+
     def copy(self) -> Case:
         return copy.deepcopy(self)
 
-    def requests(self, loads_needed: bool = True) -> Requests:
-        """For the server; raises CaseError."""
-        return requests_of(self.tables, self.source, self.folder, loads_needed)
+    def requests(self, loads_needed: bool = True, sweep: bool = False) -> Requests:
+        """For the server; raises CaseError. sweep: leaves the accuracy out, and the coarse mesh that only it would
+        begin on."""
+        tables = self.tables
+        if sweep and "accuracy" in tables:
+            warnings.warn("[accuracy] is not used: a sweep has one mesh, of mesh.size; bounds=True tells how far each "
+                          "row is from the membrane")
+            tables = {key: table for key, table in tables.items() if key != "accuracy"}
+        return requests_of(tables, self.source, self.folder, loads_needed)
 
 
 def as_case(case: Case | str | os.PathLike[str]) -> Case:

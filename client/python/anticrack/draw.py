@@ -10,12 +10,13 @@ import numpy as np
 from .arrays import Array
 from .errors import Error, package
 from .names import place
-from .result import BONDED, CRACK, DELAMINATED, FREE, Interface, Load, Mesh, Result, Trace, runs
+from .result import BONDED, CRACK, DELAMINATED, FREE, Interface, Load, Mesh, Result, Sweep, Trace, runs
 
 
-# Of kinds of edges: name, line and colour.
-_LINES = {BONDED: ("bonded inclusion", "-", "black"), DELAMINATED: ("delaminated inclusion", "--", "black"),
-          CRACK: ("crack, [u] \u2265 0", "-", "tab:red"), FREE: ("free crack", "-", "tab:orange")}
+# Of kinds of edges: name and colour, as in the command's figures.
+_LINES = {BONDED: ("bonded inclusion", "#000000"), DELAMINATED: ("delaminated inclusion", "#E69F00"),
+          CRACK: ("crack, [u] \u2265 0", "#B04A8A"), FREE: ("free crack", "#8CD17D")}
+_CURVES = 6  # of a sweep, at most
 
 
 def _axes(ax: Any) -> Any:
@@ -69,11 +70,13 @@ def _arc_length(result: Result, line: Interface) -> str:
     return f"arc length of {line.name} from ({line.x[0]:.4g}, {line.y[0]:.4g}){result.units.label('L')}"
 
 
-def _shade_contact(line: Interface, trace: Trace, ax: Any) -> None:
-    label: str | None = "contact"
+def _shade_contact(line: Interface, trace: Trace, ax: Any, load: Load, curve: Any) -> None:
+    """In the colour of its curve, so that those of several loads are told apart."""
+    label: str | None = f"{load.name}: contact"
     for first, last in runs(trace.contact):
         if trace.contact[first]:
-            ax.axvspan(line.s[first], line.s[last - 1], color="0.85", zorder=0, label=label)
+            ax.axvspan(line.s[first], line.s[last - 1], color=curve.get_color(), alpha=0.2, linewidth=0, zorder=0,
+                       label=label)
             label = None
 
 
@@ -105,7 +108,7 @@ def interfaces(result: Result, ax: Any = None, labels: bool = True) -> Any:
     ax = _axes(ax)
     from matplotlib.collections import LineCollection
     drawn: dict[str, Any] = {}
-    for (what, edges), color, width in zip(_boundary(result.mesh).items(), ("0.3", "tab:green"), (2.5, 1.2)):
+    for (what, edges), color, width in zip(_boundary(result.mesh).items(), ("#444444", "#009E73"), (2.5, 1.2)):
         if len(edges):
             segments = LineCollection(list(result.mesh.nodes[edges]), linewidth=width, color=color, capstyle="round")
             drawn[what] = ax.add_collection(segments)
@@ -117,12 +120,12 @@ def interfaces(result: Result, ax: Any = None, labels: bool = True) -> Any:
             if kind not in _LINES:
                 continue
             x, y = interface.x[first:last + 1], interface.y[first:last + 1]
-            what, line, color = _LINES[kind]
-            (drawn[what],) = ax.plot(x, y, line, color=color, linewidth=2)
+            what, color = _LINES[kind]
+            (drawn[what],) = ax.plot(x, y, color=color, linewidth=2)
             across = np.stack((-np.gradient(y), np.gradient(x))) / np.hypot(np.gradient(x), np.gradient(y))
             if kind == DELAMINATED:
                 (drawn["the side that came off"],) = ax.plot(x - away * across[0], y - away * across[1], ":",
-                                                             color="tab:red")
+                                                             color="#D00000")
             if labels and inclusion >= 0 and inclusion not in named:
                 named.add(inclusion)
                 middle = len(x) // 2
@@ -201,23 +204,26 @@ def plan(result: Result, load: str | Load | None = None, ax: Any = None, levels:
 
 
 def traces(result: Result, load: str | Load | None = None, interface: int | str | None = None, ax: Any = None) -> Any:
-    """u on both sides of an interface and the jump; contact is shaded, inclusions are bars with their names. Unless
-    it is named, the interface with the largest jump."""
+    """u on both sides of an interface and the jump [u] = u+ - u-; contact is shaded, inclusions are bars with
+    their names. Unless it is named, the interface with the largest jump."""
     ax, load = _axes(ax), _load(result, load)
     index = _interface(result, load, interface)
     line, trace = result.interfaces[index], load.traces[index]
-    ax.plot(line.s, trace.u_minus, label="$u^-$")
-    ax.plot(line.s, trace.u_plus, "--", label="$u^+$")
-    ax.plot(line.s, trace.jump, ":", color="black", label="$[u] = u^+ - u^-$")
-    _shade_contact(line, trace, ax)
-    for inclusion in sorted(set(line.edge_inclusion.tolist()) - {-1}):
+    first = not ax.lines
+    (curve,) = ax.plot(line.s, trace.u_minus, label=f"{load.name}: $u^-$")
+    ax.plot(line.s, trace.u_plus, "--", label=f"{load.name}: $u^+$")
+    ax.plot(line.s, trace.jump, ":", label=f"{load.name}: $[u]$")
+    _shade_contact(line, trace, ax, load, curve)
+    for inclusion in sorted(set(line.edge_inclusion.tolist()) - {-1}) if first else ():
         lies = line.edge_inclusion == inclusion
         begin, end = line.s[:-1][lies].min(), line.s[1:][lies].max()
         ax.axvspan(begin, end, 0, 0.02, color="0.3")
         ax.annotate(result.mesh.inclusions[inclusion], ((begin + end) / 2, 0.03), ha="center",
                     xycoords=ax.get_xaxis_transform())
-    ax.set(xlabel=_arc_length(result, line), ylabel="displacement" + result.units.label("L"), title=load.name)
-    ax.legend()
+    ax.set(xlabel=_arc_length(result, line), ylabel="displacement" + result.units.label("L"),
+           title=load.name if first else "")
+    # Several loads leave no room between their curves.
+    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncol=2, fontsize="small", frameon=False)
     return ax
 
 
@@ -230,18 +236,20 @@ def pressure(result: Result, load: str | Load | None = None, interface: int | st
     line, trace = result.interfaces[index], load.traces[index]
     cracked = np.isin(line.kind, (CRACK, DELAMINATED))  # on glue it is a flux
     first = not ax.lines
-    ax.plot(line.s, np.where(cracked, trace.pressure, np.nan), label=load.name)
+    closed = trace.contact != 0
+    name = load.name if closed.any() else f"{load.name}: no contact"
+    (curve,) = ax.plot(line.s, np.where(cracked, trace.pressure, np.nan), label=name)
     unit = result.units.label("F/L")
     label = ax.get_ylabel() or "contact pressure" + unit
-    closed = trace.contact != 0
     if closed.any():
-        _shade_contact(line, trace, ax)
+        _shade_contact(line, trace, ax, load, curve)
         shown, highest = _cut(trace.pressure[closed], _lengths(line)[closed], 0.9, 1.5)
         ax.set_ylim(0, max(1.05 * shown, 0 if first else ax.get_ylim()[1]))
         if shown < highest:
             label = f"contact pressure{unit}, cut off at the tips, up to {highest:.2g}"
-    title = load.name if closed.any() else f"{load.name}: no contact"
-    ax.set(xlabel=_arc_length(result, line), ylabel=label, title=title)
+    ax.set(xlabel=_arc_length(result, line), ylabel=label, title=name if first else "")
+    if not first:
+        ax.legend(loc="best", fontsize="small")
     return ax
 
 
@@ -252,7 +260,8 @@ def convergence(result: Result, load: str | Load | None = None, ax: Any = None) 
     ax.plot(iterations, load.history["criterion"], ".-", label=f"{load.name}: relative change per iteration")
     residuals = [load.history[name] for name in ("kkt_equilibrium", "kkt_gap", "kkt_sign", "kkt_complementarity")]
     ax.plot(iterations, np.max(residuals, axis=0), ".--", label=f"{load.name}: largest KKT residual")
-    ax.set(yscale="log", xlabel="iteration")
+    ax.set(yscale="log", xlabel="iteration", ylabel="relative change, KKT residual")
+    ax.xaxis.get_major_locator().set_params(integer=True, min_n_ticks=1)
     ax.legend()
     return ax
 
@@ -271,14 +280,39 @@ def error_band(result: Result, load: str | Load | None = None, ax: Any = None) -
     return ax
 
 
-def sweep(result: Result, x: str | int | Array = 0, inclusion: str | int = 0, ax: Any = None) -> Any:
-    """A of an inclusion (where there is none: the contact length) over a coefficient by the name or index of its load,
-    or over values (rows) of one's own, with a band where rows have bounds. Rows that did not converge are left out."""
+def _sweep_axis(columns: Sweep) -> tuple[str, Array, str]:
+    """As the command: label, values and line: over the coefficient that varies, the angle of two that lie on a circle
+    around 0, or else the rows, whose points are not joined."""
+    rows = np.arange(len(columns.status))
+    given = columns.coefficients if columns.coefficients is not None else np.empty((len(rows), 0))
+    varying = np.flatnonzero((given != given[:1]).any(axis=0))
+    if len(varying) == 1:
+        return f"coefficient of {columns.loads[varying[0]]}", given[:, varying[0]], ".-"
+    if len(varying) == 2:
+        x, y = given[:, varying].T
+        radius = np.hypot(x, y)
+        if np.allclose(radius, radius[0], rtol=1e-6, atol=0):
+            plain = np.arctan2(y, x)
+            angle = np.unwrap(plain)
+            first, second = (columns.loads[i] for i in varying)
+            one_turn = np.ptp(angle) <= 2 * np.pi * (1 + 1e-6)
+            return f"angle from {first} to {second} [\u00b0]", np.degrees(angle if one_turn else plain), ".-"
+    return "row", rows, "."
+
+
+def sweep(result: Result, x: str | int | Array | None = None, inclusion: str | int | None = None,
+          ax: Any = None) -> Any:
+    """A of the first six inclusions, or of one by name or index (where there is none: the contact length), over the
+    coefficient that varies, of a load by name or index, or over values (rows) of one's own, with bands where rows have
+    bounds. Rows that did not converge are left out."""
     ax = _axes(ax)
     columns = result.sweep
     if columns is None:
         raise Error("this is not the result of a sweep")
-    if isinstance(x, (str, int)):
+    line = ".-"
+    if x is None:
+        label, values, line = _sweep_axis(columns)
+    elif isinstance(x, (str, int)):
         if columns.coefficients is None:
             raise Error("the coefficients are not known; give x, a value for every row")
         index = place("load", x, columns.loads) if isinstance(x, str) else x
@@ -287,14 +321,19 @@ def sweep(result: Result, x: str | int | Array = 0, inclusion: str | int = 0, ax
         label, values = "", np.asarray(x)
     rows = np.flatnonzero(columns.converged)
     rows = rows[np.argsort(values[rows], kind="stable")]
-    if columns.inclusions:
-        chosen = place("inclusion", inclusion, columns.inclusions) if isinstance(inclusion, str) else inclusion
-        name, heights = f"A of {columns.inclusions[chosen]}", columns.displacement[:, chosen]
-        if columns.displacement_lower is not None and columns.displacement_upper is not None:
-            ax.fill_between(values[rows], columns.displacement_lower[rows, chosen],
-                            columns.displacement_upper[rows, chosen], alpha=0.3, label="bounds")
-    else:
-        name, heights = "contact length", columns.contact_length
-    ax.plot(values[rows], heights[rows], ".-", label=name)
+    chosen = list(range(len(columns.inclusions)))
+    if inclusion is not None and chosen:
+        chosen = [place("inclusion", inclusion, columns.inclusions) if isinstance(inclusion, str) else inclusion]
+    for i in chosen[:_CURVES]:
+        (curve,) = ax.plot(values[rows], columns.displacement[rows, i], line, label=f"A of {columns.inclusions[i]}")
+        if line == ".-" and columns.displacement_lower is not None and columns.displacement_upper is not None:
+            ax.fill_between(values[rows], columns.displacement_lower[rows, i], columns.displacement_upper[rows, i],
+                            color=curve.get_color(), alpha=0.3, linewidth=0)
+    if not chosen:
+        ax.plot(values[rows], columns.contact_length[rows], line, label="contact length")
+    name = f"A of {columns.inclusions[chosen[0]]}" if len(chosen) == 1 else "A" if chosen else "contact length"
     ax.set(xlabel=label, ylabel=name + result.units.label("L"))
+    if len(ax.get_lines()) > 1:
+        more = len(chosen) - _CURVES
+        ax.legend(loc="best", fontsize="small", title=f"and {more} more" if more > 0 else None)
     return ax

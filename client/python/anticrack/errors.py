@@ -25,6 +25,10 @@ class UnknownName(Error, KeyError):
         return Exception.__str__(self)  # KeyError's is in quotes
 
 
+class UnknownIndex(Error, IndexError):
+    """There are not so many; the message has their number."""
+
+
 class MissingPackage(Error, ImportError):
     """What is asked for takes a package that is not installed."""
 

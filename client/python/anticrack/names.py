@@ -6,8 +6,8 @@ import difflib
 from collections.abc import Iterable
 from typing import Any, SupportsIndex, TypeVar, overload
 
-from .errors import UnknownName
-from .text import lines, listed
+from .errors import UnknownIndex, UnknownName
+from .text import counted, lines, listed
 
 T = TypeVar("T")
 
@@ -54,7 +54,11 @@ class Parts(list[T]):
     def __getitem__(self, key: slice) -> list[T]: ...
 
     def __getitem__(self, key: Any) -> Any:
-        return super().__getitem__(self.place(key) if isinstance(key, str) else key)
+        try:
+            return super().__getitem__(self.place(key) if isinstance(key, str) else key)
+        except IndexError:
+            raise UnknownIndex(f"there is no {self.what} {key}; there {'is' if len(self) == 1 else 'are'} "
+                               f"{counted(len(self), self.what)}, counted from 0") from None
 
     def place(self, name: str) -> int:
         """The index of the one of this name."""

@@ -80,7 +80,9 @@ class State:
 
 
 def _word(name: str) -> str:
-    return name.removeprefix("STATE_").removeprefix("STATUS_").lower().replace("_", " ")
+    """As the command's."""
+    word = name.removeprefix("STATE_").removeprefix("STATUS_").lower().replace("_", " ")
+    return {"waiting for mesh": "waiting for the mesh", "succeeded": "done"}.get(word, word)
 
 
 def _errors(stage: solve_pb2.Stage, asked: solve_pb2.Accuracy) -> str:

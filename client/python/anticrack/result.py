@@ -366,6 +366,9 @@ class Result:
                 if file.attrs.get("format") != "anticrack-result/1":
                     raise Error(f"{os.fspath(path)}: is no result file of anticrack")
                 return _told(_of_file(file))
+        except FileNotFoundError:
+            raise Error(f"there is no file {os.fspath(path)}; name a result file, as Result.save or the command's -o "
+                        "writes it") from None
         except (OSError, KeyError) as error:
             raise Error(f"{os.fspath(path)}: cannot be read as a result file: {error}") from None
 

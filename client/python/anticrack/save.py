@@ -10,6 +10,7 @@ from typing import Any
 import h5py
 import numpy as np
 
+from .errors import Error
 from .result import KKT, SCALARS, Inclusion, Load, Result, Sweep, Units
 
 _TEXT = h5py.string_dtype()
@@ -27,6 +28,8 @@ _DIMENSIONS = {
 def save(result: Result, path: str | os.PathLike[str]) -> None:
     """Whole or not at all."""
     folder = os.path.dirname(os.path.abspath(path))
+    if not os.path.isdir(folder):
+        raise Error(f"{os.fspath(path)}: there is no folder {folder}; make it, or name another")
     with tempfile.TemporaryDirectory(prefix=".anticrack-", dir=folder) as scratch:
         made = os.path.join(scratch, "result.h5")
         with h5py.File(made, "w") as file:

@@ -157,9 +157,10 @@ class Session:
     async def submit(self, case: Case | str | os.PathLike[str], coefficients: Any = None, nodal_forces: Any = None,
                      traces: Sequence[int] = (), bounds: bool = False) -> solve_pb2.Job:
         case = as_case(case)
+        sweep = coefficients is not None or nodal_forces is not None
         try:
-            return await self._submit(case.requests(loads_needed=nodal_forces is None), coefficients, nodal_forces,
-                                      traces, bounds)
+            return await self._submit(case.requests(nodal_forces is None, sweep), coefficients, nodal_forces, traces,
+                                      bounds)
         except ServerError as error:
             raise in_terms_of(case.source, error) from None
 

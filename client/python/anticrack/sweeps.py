@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import operator
+import os
 from collections.abc import Sequence
 from typing import Any
 
@@ -26,6 +27,11 @@ def sweep_of(job: solve_pb2.Job, coefficients: Any, nodal_forces: Any, traces: S
         return None
     if coefficients is not None and nodal_forces is not None:
         raise CaseError("give coefficients or nodal_forces, not both")
+    for key, values in (("coefficients", coefficients), ("nodal_forces", nodal_forces)):
+        if isinstance(values, (str, os.PathLike)):
+            raise CaseError(f"{key}: {shown(values)} is no array; give an array (rows, "
+                            + ("nodes)" if key == "nodal_forces" else
+                               "loads) or a DataFrame, of a CSV file pandas.read_csv(...)"))
     names = [load.name for load in job.load_cases]
     if coefficients is not None and hasattr(coefficients, "columns"):
         if sorted(map(str, coefficients.columns)) != sorted(names):
@@ -41,8 +47,6 @@ def sweep_of(job: solve_pb2.Job, coefficients: Any, nodal_forces: Any, traces: S
         raise CaseError(f"an array of shape {matrix.shape} is not (rows, {wanted})")
     if matrix.dtype.kind not in "fiu" or not np.isfinite(matrix).all():
         raise CaseError("coefficients and forces are finite numbers")
-    if job.HasField("accuracy"):
-        raise CaseError("a sweep is on one mesh; leave accuracy out")
     del job.outputs[:]
     job.sweep.bounds = bounds
     try:

@@ -231,6 +231,15 @@ boundary_value = "x"
         with self.assertRaises(TypeError):
             anticrack.Accuracy(0.01)  # of what?
 
+    def test_only_its_tables_can_be_changed(self):
+        case = Case(Geometry(SQUARE), [Load("a", 1)], accuracy=anticrack.Accuracy(A=0.1))
+        for name in ("accuracy", "acuracy"):
+            with self.assertRaisesRegex(AttributeError, f"case.{name} .* case.tables, which has geometry, acc"):
+                setattr(case, name, None)
+        copied = case.copy()
+        copied.tables = {**case.tables, "title": "other"}
+        self.assertEqual(copied.requests().job.title, "other")
+
     def test_are_told_by_what_is_given(self):
         self.assertEqual(repr(Inclusion("fibre", (0, 0), (1, 0), fixed=0.5)),
                          "Inclusion(name='fibre', start=(0, 0), end=(1, 0), fixed=0.5)")

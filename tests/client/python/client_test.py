@@ -11,7 +11,8 @@ import numpy
 
 import anticrack
 from anticrack import Accuracy, Case, Geometry, Inclusion, Interface, Load, Mesh, Msh
-from anticrack.progress import Progress
+from anticrack.progress import Progress, State
+from anticrack.v1 import solve_pb2
 from processes import ANTICRACKD, Daemon, FolderTest, run
 
 EXAMPLES = pathlib.Path(os.environ["EXAMPLES"])
@@ -154,12 +155,22 @@ class Jobs(unittest.TestCase):
         self.assertTrue((frame["A_lower of gamma_c"] < frame["A of gamma_c"]).all())
         self.assertIsNone(self.client.run(case, coefficients, progress=False).sweep.energy_lower)
 
+    def test_sweeps_leave_out_the_accuracy(self):
+        case = Case(GEOMETRY, [OPENING])
+        plain = self.client.run(case, [[1.0]], progress=False)
+        case.tables["accuracy"] = {"energy": 1e-6}
+        with self.assertWarnsRegex(UserWarning, r"^\[accuracy\] is not used: .* bounds=True"):
+            result = self.client.run(case, [[1.0]], progress=False)
+        self.assertEqual(result.mesh_name, plain.mesh_name)  # graded, not the coarse one of an accuracy
+        self.assertIn("accuracy", case.tables)
+
     def test_wrong_sweeps_are_refused(self):
         case = EXAMPLES / "load-ratio.toml"
         for arguments, said in (({"coefficients": [[1.0]]}, r"\(1, 1\) is not \(rows, 2\)"),
                                 ({"traces": [0]}, "traces"), ({"bounds": True}, "have bounds anyway"),
                                 ({"coefficients": [[numpy.inf, 1]]}, "finite"),
                                 ({"coefficients": [[1, 1], [1]]}, "not all of one length"),
+                                ({"coefficients": "ratio.csv"}, "'ratio.csv' is no array; .*loads.*DataFrame.*csv"),
                                 ({"coefficients": [[1, 1]], "traces": ["a"]}, "traces: .*write .0, 2."),
                                 ({"coefficients": [[1, 1]], "nodal_forces": [[1]]}, "not both")):
             with self.assertRaisesRegex(anticrack.CaseError, said):
@@ -204,7 +215,7 @@ class Jobs(unittest.TestCase):
         for message in job.events():
             shown.take(message)
         self.assertIn(said, bar.getvalue().split("\n")[-3])
-        self.assertIn(f"\r{job.name} [####################] 1/1 load cases, succeeded", bar.getvalue())
+        self.assertIn(f"\r{job.name} [####################] 1/1 load cases, done", bar.getvalue())
         unreached = self.client.run(Case(GEOMETRY, [OPENING], accuracy=Accuracy(A=1e-6, max_triangles=2000)),
                                     progress=False)
         self.assertFalse(unreached.converged)
@@ -214,12 +225,14 @@ class Jobs(unittest.TestCase):
         plain, bar = io.StringIO(), Terminal()
         job = self.client.submit(Case(GEOMETRY, [OPENING], COARSE)).wait(out=plain)
         self.assertRegex(plain.getvalue(), rf"(?m)^{job.name}: opening: converged after \d+ steps?$")
-        self.assertTrue(plain.getvalue().endswith(f"{job.name}: succeeded\n"))
+        self.assertTrue(plain.getvalue().endswith(f"{job.name}: done\n"))
         shown = Progress(job.message, bar)
         for message in job.events():
             shown.take(message)
-        self.assertIn(f"\r{job.name} [####################] 1/1 load cases, succeeded", bar.getvalue())
+        self.assertIn(f"\r{job.name} [####################] 1/1 load cases, done", bar.getvalue())
         self.assertEqual(bar.getvalue().count("\n"), 1)
+        waits = solve_pb2.WatchJobResponse(phase={"state": solve_pb2.Job.STATE_WAITING_FOR_MESH})
+        self.assertEqual(State(job.message).take(waits), "waiting for the mesh")
 
     def test_progress_in_a_notebook_is_one_text_that_changes(self):
         ipython = unittest.mock.MagicMock()
@@ -228,7 +241,7 @@ class Jobs(unittest.TestCase):
         with unittest.mock.patch.dict("sys.modules", IPython=ipython):
             job.wait()
         ((shown,), options) = handle.update.call_args
-        self.assertRegex(shown["text/plain"], rf"^{job.name} \[#+\] 1/1 load cases, succeeded$")
+        self.assertRegex(shown["text/plain"], rf"^{job.name} \[#+\] 1/1 load cases, done$")
         self.assertTrue(options["raw"])
 
 

@@ -59,6 +59,19 @@ class Figures(unittest.TestCase):
             draw.traces(self.several, "pushed")
         ax.figure.canvas.draw()
 
+    def test_traces_of_loads_on_one_panel_are_told_apart(self):
+        ax = draw.traces(self.several, "pulled", "middle")
+        names = [text.get_text() for text in ax.texts]
+        draw.traces(self.several, "opening", "middle", ax)
+        self.assertEqual((ax.get_title(), [text.get_text() for text in ax.texts]), ("", names))
+        said = [text.get_text() for text in ax.get_legend().get_texts()]
+        self.assertEqual(len(said), len(set(said)))
+        for load in ("pulled", "opening"):
+            self.assertLessEqual({f"{load}: $u^-$", f"{load}: $u^+$", f"{load}: $[u]$"}, set(said))
+        shades = {patch.get_label(): patch.get_facecolor() for patch in ax.patches if "contact" in patch.get_label()}
+        self.assertEqual(len(shades), len(set(shades.values())))
+        self.assertIn("pulled: contact", shades)
+
     def test_plan_cuts_off_the_peaks_of_the_flux(self):
         ax = draw.plan(self.several, "pulled")
         ax.figure.canvas.draw()
@@ -82,7 +95,8 @@ class Figures(unittest.TestCase):
         self.assertTrue(draw.plan(result, "pulled").figure.axes[1].get_ylabel().startswith(r"$|\nabla u|$"))
 
     def test_the_side_that_came_off_is_the_minus_side(self):
-        dots = [line for line in draw.interfaces(self.skew).lines if line.get_linestyle() == ":"]
+        inclusion, *dots = draw.interfaces(self.skew).lines
+        self.assertEqual(inclusion.get_color(), "#E69F00")  # as in the command's figures
         self.assertEqual(len(dots), 1)
         self.assertLess(dots[0].get_ydata().max(), 0)  # its interface runs along y = 0, the plus side above
 
@@ -136,6 +150,9 @@ class Figures(unittest.TestCase):
         ax = draw.convergence(self.skew)
         self.assertIs(draw.convergence(self.several, "opening", ax), ax)
         self.assertEqual(len(ax.lines), 4)
+        self.assertTrue(ax.get_ylabel())
+        few = draw.convergence(self.several, "pulled")  # one step
+        self.assertTrue(all(tick == int(tick) for tick in few.get_xticks()))
         self.assertIn("example-2: relative change per iteration", ax.get_legend_handles_labels()[1])
 
     def test_error_band(self):
@@ -158,3 +175,20 @@ class Figures(unittest.TestCase):
             draw.sweep(self.sweep, "openin")
         with self.assertRaisesRegex(anticrack.Error, "not the result of a sweep"):
             draw.sweep(self.skew)
+
+    def test_sweep_is_over_what_varies(self):
+        result = copy.deepcopy(self.sweep)
+        columns = result.sweep
+        self.assertEqual(draw.sweep(result).get_xlabel(), "angle from skew to opening [\u00b0]")
+        columns.coefficients = numpy.array([[1.0, 0], [1, 3]])
+        columns.inclusions = [f"i{i}" for i in range(8)]
+        for name in ("displacement", "displacement_lower", "displacement_upper"):
+            setattr(columns, name, numpy.tile(getattr(columns, name), 8))
+        ax = draw.sweep(result)
+        self.assertEqual((ax.get_xlabel(), ax.lines[0].get_xdata().tolist()), ("coefficient of opening", [0, 3]))
+        self.assertEqual([text.get_text() for text in ax.get_legend().get_texts()], [f"A of i{i}" for i in range(6)])
+        self.assertEqual(ax.get_legend().get_title().get_text(), "and 2 more")
+        self.assertEqual(len(draw.sweep(result, inclusion="i7").lines), 1)
+        columns.coefficients = None
+        ax = draw.sweep(result)
+        self.assertEqual((ax.get_xlabel(), ax.lines[0].get_linestyle()), ("row", "None"))

@@ -171,6 +171,8 @@ max_iterations = 3
             with self.assertRaisesRegex(anticrack.Error, said) as caught:
                 find()
             self.assertIsInstance(caught.exception, KeyError)
+        with self.assertRaisesRegex(IndexError, "no interface 17; there are 2 interfaces, counted from 0"):
+            load.traces[17]
 
     def test_an_interval_contains_the_bounds(self):
         self.assertEqual(interval(0.44447, 0.45197, 0.4457, " mm"), "0.4482 +- 0.0038 mm (0.4457 on the mesh)")
@@ -204,6 +206,9 @@ for name, use in (("pandas", result.frame), ("matplotlib", lambda: anticrack.dra
             file.attrs["format"] = "other"
         with self.assertRaisesRegex(anticrack.Error, "other.h5: is no result file"):
             anticrack.read(other)
-        for path in (self.folder / "none.h5", EXAMPLES / "arc.toml"):
-            with self.assertRaisesRegex(anticrack.Error, f"{path.name}: cannot be read"):
+        for path, said in ((self.folder / "none.h5", "^there is no file .*none.h5; "),
+                           (EXAMPLES / "arc.toml", "arc.toml: cannot be read")):
+            with self.assertRaisesRegex(anticrack.Error, said):
                 anticrack.read(path)
+        with self.assertRaisesRegex(anticrack.Error, f"there is no folder {self.folder}/none; make it"):
+            self.both(EXAMPLES / "slit.toml", "run")[0].save(self.folder / "none" / "result.h5")
