@@ -71,11 +71,13 @@ def _arc_length(result: Result, line: Interface) -> str:
 
 
 def _shade_contact(line: Interface, trace: Trace, ax: Any, load: Load, curve: Any) -> None:
-    """In the colour of its curve, so that those of several loads are told apart."""
+    """In the colour of its curve, so that those of several loads are told apart. To the middles of the edges at its
+    ends: the bands add up to the contact length."""
+    middles = np.concatenate((line.s[:1], (line.s[:-1] + line.s[1:]) / 2, line.s[-1:]))
     label: str | None = f"{load.name}: contact"
     for first, last in runs(trace.contact):
         if trace.contact[first]:
-            ax.axvspan(line.s[first], line.s[last - 1], color=curve.get_color(), alpha=0.2, linewidth=0, zorder=0,
+            ax.axvspan(middles[first], middles[last], color=curve.get_color(), alpha=0.2, linewidth=0, zorder=0,
                        label=label)
             label = None
 

@@ -72,6 +72,15 @@ class Figures(unittest.TestCase):
         self.assertEqual(len(shades), len(set(shades.values())))
         self.assertIn("pulled: contact", shades)
 
+    def test_shaded_contact_adds_up_to_its_length(self):
+        skew, total = self.skew["example-2"], 0
+        for line in self.skew.interfaces:
+            for band in draw.traces(self.skew, skew, line.name).patches:
+                if band.get_alpha() == 0.2:
+                    total += numpy.ptp(band.get_path().vertices[:, 0])
+        self.assertGreater(total, 0.1)
+        self.assertAlmostEqual(total, skew.contact_length, delta=1e-9)
+
     def test_plan_cuts_off_the_peaks_of_the_flux(self):
         ax = draw.plan(self.several, "pulled")
         ax.figure.canvas.draw()
