@@ -224,10 +224,12 @@ TEST(Watch, ThatStallsIsBrokenOff) {
 TEST(Watch, BeatsWhereNothingHappens) {
   RunningServer server([](auto& settings) {
     settings.engine.threads = 1;
+    settings.engine.turn = std::chrono::hours(1);  // the other mesh waits for its own
     settings.server.heartbeat = std::chrono::milliseconds(20);
   });
-  const std::string mesh = server.create(paper_mesh()).name();
-  const std::string running = server.create(endless_job(mesh)).name();
+  const std::string mesh = server.create(paper_mesh(0.5)).name();
+  const std::string running = server.create(endless_job(server.create(paper_mesh()).name())).name();
+  ASSERT_TRUE(eventually([&] { return server.job(running).state() == v1::Job::STATE_RUNNING; }));
   const std::string waiting = server.create(opening_job(mesh)).name();
   Context context;
   const auto reader = server.jobs->WatchJob(&context, watch_request(waiting));
