@@ -212,10 +212,10 @@ int subdomain_within(int region, const std::string& field, const Outlines& outli
   return subdomain;
 }
 
-Named name_subdomains(const Drawn& geometry, const Network& network, const Plan& plan,
-                      const Outlines& outlines, const Edges& edges, const std::vector<bool>& kept,
-                      const Arrangement& loops, const Order& order,
-                      std::vector<std::string>& warnings) {
+/// Warns in the plan of a tension that nobody gave.
+Named name_subdomains(const Drawn& geometry, const Network& network, const Outlines& outlines,
+                      const Edges& edges, const std::vector<bool>& kept, const Arrangement& loops,
+                      const Order& order, Plan& plan) {
   const auto count = at(order.count);
   const bool any_tension = std::ranges::any_of(geometry.regions, [](const RegionSpec& region) {
     return region.tension != 1 || region.tension_law;
@@ -249,9 +249,9 @@ Named name_subdomains(const Drawn& geometry, const Network& network, const Plan&
     if (!named.name[s].empty()) continue;
     named.name[s] = unused_name("omega" + std::to_string(s + 1), used);
     if (any_tension) {
-      warnings.push_back("no region names the subdomain " + named.name[s] +
-                         ", so its tension is 1; a region with a point of it as `at` gives it "
-                         "another");
+      plan.warnings.push_back("no region names the subdomain " + named.name[s] +
+                              ", so its tension is 1; a region with a point of it as `at` gives it "
+                              "another");
     }
   }
   return named;
@@ -296,8 +296,8 @@ void lay_subdomains(const Drawn& geometry, const Network& network,
   for (std::size_t e = 0; e < edges.size(); ++e)
     if (at(network.chords[e].line) < network.boundary) faces.loops.right[e] = Arrangement::outside;
   const Order order = order_faces(plan, outlines, faces.loops, kept);
-  const Named named = name_subdomains(geometry, network, plan, outlines, edges, kept, faces.loops,
-                                      order, plan.warnings);
+  const Named named =
+      name_subdomains(geometry, network, outlines, edges, kept, faces.loops, order, plan);
   std::vector<int> place(faces.loops.faces.size(), -1);
   plan.faces.reserve(order.faces.size());
   for (const int f : order.faces) {

@@ -101,12 +101,17 @@ TEST(Script, says_that_spikes_of_the_pressure_are_cut_off) {
   EXPECT_THAT(drawn(), HasSubstr("set yrange [0:0.795]"));
 }
 
-TEST(Script, shows_the_most_eventful_interface_in_the_overview) {
-  auto result = sample_result(4);
-  auto& load = result.loads[0];
+/// The first one again, with the load's traces on it.
+void add_second_interface(results::Result& result, results::Load& load) {
   result.interfaces.push_back(result.interfaces[0]);
   result.interfaces[1].name = "second";
   load.traces.push_back(load.traces[0]);
+}
+
+TEST(Script, shows_the_most_eventful_interface_in_the_overview) {
+  auto result = sample_result(4);
+  auto& load = result.loads[0];
+  add_second_interface(result, load);
   const auto seen = [&] { return overview(result, load, surface(result, load, 1000)); };
   EXPECT_THAT(seen(), HasSubstr("displacements on sigma"));
   for (double& jump : load.traces[1].jump) jump *= -2;
@@ -120,9 +125,7 @@ TEST(Script, shows_the_most_eventful_interface_in_the_overview) {
 TEST(Script, shows_the_pressure_of_the_interface_that_has_most_of_it) {
   auto result = sample_result(10);
   auto& load = result.loads[1];
-  result.interfaces.push_back(result.interfaces[0]);
-  result.interfaces[1].name = "second";
-  load.traces.push_back(load.traces[0]);
+  add_second_interface(result, load);
   const auto seen = [&] { return overview(result, load, surface(result, load, 1000)); };
   EXPECT_THAT(seen(), HasSubstr("'contact pressure on sigma'"));
   // The first opens more and is in contact in a single node.
