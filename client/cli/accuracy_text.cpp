@@ -21,9 +21,10 @@ double energy_error(const v1::StageAnswer& answer) {
   return width > 0 ? width / std::abs(answer.energy()) : 0;
 }
 
-// "0.0021 of 0.001"; what is not asked for in per cent.
+// "0.21 % (asked 0.1 %)"
 std::string error_text(double error, double asked) {
-  return asked > 0 ? pad_left(number(error, 3), 8) + " of " + number(asked, 6) : per_cent(error);
+  if (!(asked > 0)) return per_cent(error);
+  return pad_left(number(100 * error, 3), 6) + " % (asked " + number(100 * asked, 6) + " %)";
 }
 
 std::string unpadded(std::string text) { return text.erase(0, text.find_first_not_of(' ')); }

@@ -28,14 +28,14 @@ StageErrors errors_of(const v1::Stage& stage);
 /// Those that have ended.
 std::vector<StageErrors> stages_of(const v1::Job& job);
 
-/// "  stage 4    12345 triangles   energy  0.00213 of 0.001   A 0.8 %  [######----]" for each of
-/// the last stages, at most `count`. The bar is full where all that is asked for is reached; a
+/// "  stage 4    12345 triangles   energy  0.213 % (asked 0.1 %)   A 0.8 %  [######----]" for each
+/// of the last stages, at most `count`. The bar is full where all that is asked for is reached; a
 /// terminal of few columns has none.
 std::vector<std::string> stage_lines(const std::vector<StageErrors>& stages,
                                      const v1::Accuracy& asked, std::size_t width,
                                      std::size_t count);
 
-/// "stage 4: 12345 triangles, energy 0.00213 of 0.001, A 0.8 %".
+/// "stage 4: 12345 triangles, energy 0.213 % (asked 0.1 %), A 0.8 %".
 std::string stage_text(std::size_t number, const StageErrors& stage, const v1::Accuracy& asked);
 
 /// For below the answers: what was reached on which mesh, and what was not and why. Empty of a job

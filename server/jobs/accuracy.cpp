@@ -60,6 +60,11 @@ double relative_width(const store::StageAnswer& answer) {
   return width > 0 ? width / std::abs(answer.energy) : 0;
 }
 
+/// As the client tells the errors of a stage.
+std::string in_per_cent(double error, double asked) {
+  return fmt::format("{:.3g} % (asked {:g} %)", 100 * error, 100 * asked);
+}
+
 }  // namespace
 
 void check_accuracy(const store::JobSpec& spec) {
@@ -158,10 +163,10 @@ std::string not_reached(const store::StageRecord& last, const store::JobSpec& sp
   const store::StageAnswer& answer = last.answers[load];
   std::string reached;
   if (wanted.energy && answer.energy_lower)
-    reached += fmt::format("energy {:.2g} of {:g}", relative_width(answer), *wanted.energy);
+    reached = "energy " + in_per_cent(relative_width(answer), *wanted.energy);
   if (wanted.displacement && answer.displacement_error) {
-    reached += fmt::format("{}A {:.2g} of {:g}", reached.empty() ? "" : ", ",
-                           *answer.displacement_error, *wanted.displacement);
+    reached += (reached.empty() ? "A " : ", A ") +
+               in_per_cent(*answer.displacement_error, *wanted.displacement);
   }
   return fmt::format("load case \"{}\" reached {} on {} triangles: {}", spec.loads[load].name,
                      reached.empty() ? "no bounds" : reached, last.triangles, why);

@@ -86,12 +86,11 @@ def _word(name: str) -> str:
 
 
 def _errors(stage: solve_pb2.Stage, asked: solve_pb2.Accuracy) -> str:
-    """The largest of all load cases, as the command tells them: "energy 0.0021 of 0.001", what is not asked for in per
-    cent; "-" where one is not known."""
+    """The largest of all load cases, as the command tells them: "energy 0.21 % (asked 0.1 %)"; "-" where one is
+    not known."""
     def text(error: float, most: float) -> str:
-        if most:
-            return f"{error:.3g} of {most:.6g}" if np.isfinite(error) else f"- of {most:.6g}"
-        return f"{100 * error:.{2 if error < 1 else 3}g} %" if np.isfinite(error) else "- %"
+        percent = f"{100 * error:.{2 if error < 1 and not most else 3}g} %" if np.isfinite(error) else "- %"
+        return percent + (f" (asked {100 * most:.6g} %)" if most else "")
     columns = {name: np.array([known(answer, name) for answer in stage.answers])
                for name in ("energy", "energy_lower", "energy_upper", "displacement_error")}
     widths = np.maximum(columns["energy_upper"] - columns["energy_lower"], 0)

@@ -49,16 +49,16 @@ TEST(ErrorsOf, OfNoLoadIsZero) {
 TEST(StageLines, HaveABarOfTheLogarithmOfTheError) {
   const std::vector<StageErrors> stages{errors_of(stage(1, 900, 0.032)),
                                         errors_of(stage(2, 12345, 0.0009))};
-  EXPECT_THAT(stage_lines(stages, asked(1e-3), 91, 9),
-              ElementsAre("  stage  1       900 triangles   energy    0.032 of 0.001   A 32 %   "
+  EXPECT_THAT(stage_lines(stages, asked(1e-3), 96, 9),
+              ElementsAre("  stage  1       900 triangles   energy    3.2 % (asked 0.1 %)   A 32 %   "
                           "[#########-----------]",
-                          "  stage  2     12345 triangles   energy   0.0009 of 0.001   A 0.9 %  "
+                          "  stage  2     12345 triangles   energy   0.09 % (asked 0.1 %)   A 0.9 %  "
                           "[####################]"));
-  EXPECT_THAT(stage_lines(stages, asked(1e-3), 90, 1), ElementsAre(HasSubstr("stage  2")));
-  EXPECT_THAT(stage_lines(stages, asked(1e-3), 90, 0), ElementsAre());
-  EXPECT_THAT(stage_lines({}, asked(1e-3), 90, 9), ElementsAre());
-  EXPECT_THAT(stage_lines(stages, asked(1e-3), 70, 1),
-              ElementsAre("  stage  2     12345 triangles   energy   0.0009 of 0.001   A 0.9 %"));
+  EXPECT_THAT(stage_lines(stages, asked(1e-3), 95, 1), ElementsAre(HasSubstr("stage  2")));
+  EXPECT_THAT(stage_lines(stages, asked(1e-3), 95, 0), ElementsAre());
+  EXPECT_THAT(stage_lines({}, asked(1e-3), 95, 9), ElementsAre());
+  EXPECT_THAT(stage_lines(stages, asked(1e-3), 72, 1),
+              ElementsAre("  stage  2     12345 triangles   energy   0.09 % (asked 0.1 %)   A 0.9 %"));
   for (const std::string& line : stage_lines(stages, asked(1e-3), 20, 9))
     EXPECT_EQ(columns_of(line), 20U);
 }
@@ -69,12 +69,12 @@ TEST(StageLines, AreFullWhereAllThatIsAskedForIsReached) {
   const auto line = [&both](double error) {
     return stage_lines({errors_of(stage(1, 900, error))}, both, 120, 1).at(0);
   };
-  EXPECT_THAT(line(0.01), HasSubstr("energy     0.01 of 0.01   A      0.1 of 0.05"));
+  EXPECT_THAT(line(0.01), HasSubstr("energy      1 % (asked 1 %)   A     10 % (asked 5 %)"));
   EXPECT_THAT(line(0.01), HasSubstr("#-")) << "not yet A";
   EXPECT_THAT(line(0.004), HasSubstr("##]"));
   StageErrors unknown = errors_of(stage(1, 900, 0.004));
   unknown.displacement = NAN;
-  EXPECT_THAT(stage_lines({unknown}, both, 120, 1).at(0), HasSubstr("A        - of 0.05  [--"));
+  EXPECT_THAT(stage_lines({unknown}, both, 120, 1).at(0), HasSubstr("A      - % (asked 5 %)  [--"));
 }
 
 TEST(AccuracyText, TellsWhatWasReachedAndWhatNot) {
@@ -86,12 +86,12 @@ TEST(AccuracyText, TellsWhatWasReachedAndWhatNot) {
   *job.add_stages() = stage(2, 12345, 0.0009);
   job.add_stages()->set_mesh("meshes/3");  // was stopped
   EXPECT_EQ(accuracy_text(job),
-            "accuracy: energy 0.0009 of 0.001, A 0.9 %; 2 stages, 12345 triangles, 0.5 s\n");
+            "accuracy: energy 0.09 % (asked 0.1 %), A 0.9 %; 2 stages, 12345 triangles, 0.5 s\n");
   job.mutable_stages()->DeleteSubrange(1, 2);
   job.mutable_stages(0)->mutable_answers(0)->clear_displacement_error();
   job.set_not_reached("no\x1bmore");
   EXPECT_EQ(accuracy_text(job),
-            "accuracy: energy 0.02 of 0.001; 1 stage, 900 triangles, 0.25 s\n"
+            "accuracy: energy 2 % (asked 0.1 %); 1 stage, 900 triangles, 0.25 s\n"
             "not reached: no?more\n");
 }
 

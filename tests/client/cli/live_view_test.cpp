@@ -173,11 +173,11 @@ JobProgress staged(int stages) {
 }
 
 TEST(Frame, HasALinePerStageAboveTheLoadCasesOfTheNewest) {
-  EXPECT_THAT(frame(staged(2), 92, 24),
+  EXPECT_THAT(frame(staged(2), 97, 24),
               ElementsAre("jobs/1: running, 0 of 2 load cases ended",
-                          "  stage  1      1000 triangles   energy      0.1 of 0.001   A 100 %  "
+                          "  stage  1      1000 triangles   energy     10 % (asked 0.1 %)   A 100 %  "
                           "[######--------------]",
-                          "  stage  2      2000 triangles   energy    0.025 of 0.001   A 25 %   "
+                          "  stage  2      2000 triangles   energy    2.5 % (asked 0.1 %)   A 25 %   "
                           "[##########----------]",
                           "  load-0  waiting",  //
                           "  load-1  running        step     2  contact  41"));
@@ -202,7 +202,7 @@ TEST(PlainLog, TellsEachStageOnceAndWhatGoesWrongInIt) {
   EXPECT_THAT(log.lines(progress), IsEmpty());
   progress.apply(stage_ended(stage(1, 900, 0.02)));
   EXPECT_THAT(log.lines(progress),
-              ElementsAre("stage 1: 900 triangles, energy 0.02 of 0.001, A 20 %"));
+              ElementsAre("stage 1: 900 triangles, energy 2 % (asked 0.1 %), A 20 %"));
   progress.apply(stage_ended(stage(1, 900, 0.02)));
   EXPECT_THAT(log.lines(progress), IsEmpty());
   progress.apply(load_ended(0, 7, 0, v1::LoadCaseAnswer::STATUS_NOT_CONVERGED));

@@ -181,7 +181,7 @@ class TerminalView(FolderTest):
             stages = [row for row in view if row.startswith("  stage ")]
             self.assertEqual([int(row.split()[1]) for row in stages], list(range(1, len(stages) + 1)))
             for row in stages:
-                self.assertRegex(row, r"^  stage +\d+ +\d+ triangles   energy +\S+ of 0.0001 .*\[#*-*\]$")
+                self.assertRegex(row, r"^  stage +\d+ +\d+ triangles   energy +\S+ % \(asked 0.01 %\) .*\[#*-*\]$")
             self.assertTrue(stages[-1].endswith("#]"), "it is reached")
             self.assertRegex(view[1 + len(stages)], "^  example-3  converged ")
 

@@ -206,8 +206,8 @@ class Jobs(unittest.TestCase):
         self.assertEqual(load.stages["triangles"][-1], len(result.mesh.triangles))
         self.assertEqual(load.stages["energy"][-1], load.energy)
         width = (load.energy_upper - load.energy_lower) / abs(load.energy)
-        said = (f"stage {len(job.message.stages)}: {len(result.mesh.triangles)} triangles, energy {width:.3g} of 0.02, "
-                f"A {load.stages['displacement_error'][-1]:.3g} of 0.05")
+        said = (f"stage {len(job.message.stages)}: {len(result.mesh.triangles)} triangles, energy {100 * width:.3g} % (asked 2 %), "
+                f"A {100 * load.stages['displacement_error'][-1]:.3g} % (asked 5 %)")
         self.assertIn(f"{job.name}: {said}\n", out.getvalue())
         self.assertEqual(out.getvalue().count("stage 1: "), 1)
         bar = Terminal()
