@@ -19,6 +19,7 @@
 #include "cli/sweep_text.hpp"
 #include "cli/text.hpp"
 #include "results/interval.hpp"
+#include "results/notes.hpp"
 #include "results/tables.hpp"
 
 namespace anticrack::cli {
@@ -265,8 +266,11 @@ std::string answers_table(const std::vector<results::Load>& loads, const results
 }
 
 std::string answers_table(const results::Result& result) {
-  return result.sweep ? sweep_table(*result.sweep, result.units)
-                      : answers_table(result.loads, result.units);
+  std::string text = result.sweep ? sweep_table(*result.sweep, result.units)
+                                  : answers_table(result.loads, result.units);
+  for (const std::string& note : results::notes_on(result))
+    text += "note: " + sanitise(note) + "\n";
+  return text;
 }
 
 std::string inclusions_table(const results::Result& result) {
@@ -328,7 +332,8 @@ std::string answers_json(const results::Result& result, const std::filesystem::p
             {"factorize_seconds", result.timings.factorize_seconds},
             {"solve_seconds", result.timings.solve_seconds},
             {"total_seconds", result.timings.total_seconds},
-            {"not_reached", result.not_reached}};
+            {"not_reached", result.not_reached},
+            {"notes", results::notes_on(result)}};
   if (result.sweep) json["sweep"] = sweep_json(*result.sweep);
   Json& answers = json["answers"] = Json::array();
   for (const results::Load& load : result.loads) {

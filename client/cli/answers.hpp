@@ -22,7 +22,8 @@ inline constexpr std::size_t few_inclusions = 6;
 /// are. Of Uzawa's method the criterion that stops it, with theta; of the active set, which is
 /// exact, the largest relative KKT residual.
 std::string answers_table(const std::vector<results::Load>& loads, const results::Units& units);
-/// The same of a result; of a sweep how its rows ended, and what they span.
+/// The same of a result; of a sweep how its rows ended, and what they span. Ends with the notes on
+/// it.
 std::string answers_table(const results::Result& result);
 
 /// A row per load case with an answer and inclusion: A, of those that tilt B and the moment,
@@ -33,7 +34,7 @@ std::string inclusions_table(const results::Result& result);
 /// sweep sweep_csv.
 std::string answers_csv(const results::Result& result);
 
-/// {title, file, job, mesh, sizes, timings, answers: [one per load case]}; of a sweep also {sweep:
+/// {title, file, job, mesh, sizes, timings, notes, answers: [one per load case]}; of a sweep also {sweep:
 /// {rows, converged, ...}}, and the answers are those of the rows whose traces were kept.
 std::string answers_json(const results::Result& result, const std::filesystem::path& file);
 

@@ -200,7 +200,8 @@ int fetch_result(const JobOptions& options, const Globals& globals) {
   if (job.result_state() == v1::Job::RESULT_STATE_EXPIRED)
     throw client::Error(client::Code::failed_precondition, expired_text(job));
   const results::Result result = fetch(session, job, session.stop());
-  results::write(output, result);
+  const std::string kept = results::write(output, result);
+  if (!kept.empty()) say(globals, kept);
   if (globals.json)
     print_document(answers_json(result, output));
   else if (globals.quiet)

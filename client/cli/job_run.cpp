@@ -149,7 +149,9 @@ void save(const fs::path& file, const results::Result& result, const Session& se
           const Followed& followed) {
   try {
     const auto ahead = followed.ahead.get();
-    results::write(file, result, ahead ? ahead->compressed : results::CompressedMesh());
+    const std::string kept =
+        results::write(file, result, ahead ? ahead->compressed : results::CompressedMesh());
+    if (!kept.empty()) say(session.globals(), kept);
   } catch (const results::Error&) {
     tell_fetch(session, result.job_name);
     throw;

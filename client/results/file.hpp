@@ -28,9 +28,11 @@ CompressedMesh compress(const Mesh& mesh);
 
 /// Replaces the file completely or not at all: temporary file in the same folder, fsync, rename.
 /// Needs memory for a copy of the file. Not for two threads at once unless HDF5 is thread-safe.
-/// `compressed`: what compress(result.mesh) gave, or nothing; the file is the same.
-void write(const std::filesystem::path& path, const Result& result,
-           const CompressedMesh& compressed = {});
+/// `compressed`: what compress(result.mesh) gave, or nothing; the file is the same. A file that is
+/// there and no result of the same job, or of the same case without a sweep, is kept as FILE~.
+/// Returns a sentence that says so; empty: none was.
+std::string write(const std::filesystem::path& path, const Result& result,
+                  const CompressedMesh& compressed = {});
 
 /// Reads a file of `format`. Throws Error for a file that is not HDF5, truncated, not a result, of
 /// another format version or inconsistent. Sizes are checked before memory is allocated.

@@ -92,15 +92,30 @@ void check_writable(const fs::path& path) {
     if (!S_ISREG(status.st_mode))
       throw Error(path.string(), "is not a regular file", "choose another path with -o");
     if (access(path.c_str(), W_OK) != 0) fail(path, "may not be replaced", errno);
+    if (fs::is_directory(backup_of(path)))
+      throw Error(backup_of(path).string(), "is a folder, and a former result is kept by this name",
+                  "choose another path with -o");
   } else if (errno != ENOENT) {
     fail(path, "cannot be written", errno);
   }
   TemporaryFile{path};
 }
 
-void replace_file(const fs::path& path, std::span<const std::byte> bytes) {
+fs::path backup_of(const fs::path& path) {
+  fs::path backup = path;
+  return backup += "~";
+}
+
+void replace_file(const fs::path& path, std::span<const std::byte> bytes, bool keep) {
   TemporaryFile file(path);
   file.write(bytes);
+  if (keep) {
+    const fs::path backup = backup_of(path);
+    unlink(backup.c_str());
+    // A second name, so that the first is never without a file; not every file system has them.
+    if (link(path.c_str(), backup.c_str()) != 0 && rename(path.c_str(), backup.c_str()) != 0)
+      fail(path, "cannot be kept as " + backup.string(), errno);
+  }
   file.rename_to_target();
 }
 

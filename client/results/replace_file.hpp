@@ -9,7 +9,12 @@ namespace anticrack::results {
 
 /// Makes `bytes` the content of `path`: temporary file in the same folder, fsync, rename, fsync of
 /// the folder. On failure throws Error, removes the temporary file and leaves `path` unchanged.
-void replace_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
+/// `keep`: what was there is called backup_of(path) from then on.
+void replace_file(const std::filesystem::path& path, std::span<const std::byte> bytes,
+                  bool keep = false);
+
+/// The name of what was in `path` before: FILE~.
+std::filesystem::path backup_of(const std::filesystem::path& path);
 
 /// Creates `folder` and its parents where missing. Throws Error where that fails or the folder is
 /// not writable.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cstddef>
+#include <exception>
 #include <filesystem>
 #include <functional>
 #include <ranges>
@@ -96,6 +97,22 @@ void put_all(const Handle& root, const Result& result, const CompressedMesh& com
   if (result.sweep) put_sweep(root, *result.sweep, result.units);
 }
 
+/// Whether a file holds what the result makes again: then it is no loss. A sweep's coefficients are
+/// not in its case.
+bool holds_the_same(const std::filesystem::path& path, const Result& result) {
+  try {
+    const Handle root = hdf5::open_root(path, "");
+    std::string job, case_text;
+    hdf5::get(root, "job", job);
+    hdf5::get(root, "case", case_text);
+    if (job == result.job_name) return true;
+    return !case_text.empty() && case_text == result.case_text && !result.sweep &&
+           !hdf5::has(root, "sweep");
+  } catch (const std::exception&) {
+    return false;  // not ours, or damaged
+  }
+}
+
 }  // namespace
 
 CompressedMesh compress(const Mesh& mesh) {
@@ -111,8 +128,8 @@ CompressedMesh compress(const Mesh& mesh) {
   return compressed;
 }
 
-void write(const std::filesystem::path& path, const Result& result,
-           const CompressedMesh& compressed) {
+std::string write(const std::filesystem::path& path, const Result& result,
+                  const CompressedMesh& compressed) {
   const std::string fault = first_fault(result);
   if (!fault.empty()) throw Error(path.string(), "the result is inconsistent: " + fault, "");
   const hdf5::Quiet quiet;
@@ -122,7 +139,11 @@ void write(const std::filesystem::path& path, const Result& result,
   } catch (const hdf5::Fault& error) {
     throw Error(path.string(), error.what(), "");
   }
-  replace_file(path, bytes);
+  const bool former = std::filesystem::is_regular_file(path) && !holds_the_same(path, result);
+  replace_file(path, bytes, former);
+  return former ? "Kept: " + backup_of(path).string() + ", what " + path.filename().string() +
+                      " was before"
+                : "";
 }
 
 }  // namespace anticrack::results

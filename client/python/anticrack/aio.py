@@ -13,7 +13,7 @@ import grpc
 from .arrays import Array
 from . import private_server
 from .case import Case, as_case
-from .client import JobState
+from .client import JobState, noted
 from .credentials import CHANNEL, Credentials, Path, address_of, token_of
 from .errors import of_call, of_status
 from .progress import Progress
@@ -111,7 +111,7 @@ class AsyncClient:
     async def run(self, case: Case | str | os.PathLike[str], coefficients: Any = None, nodal_forces: Any = None,
                   traces: Sequence[int] = (), progress: bool = False, bounds: bool = False) -> Result:
         job = await self.submit(case, coefficients, nodal_forces, traces, bounds)
-        return await (await job.wait(progress)).result()
+        return noted(await (await job.wait(progress)).result())
 
     async def mesh(self, case: Case | str | os.PathLike[str]) -> mesh_pb2.Mesh:
         mesh = await self._session.mesh((await self._session.create_mesh(case)).name)

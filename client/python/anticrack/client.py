@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import warnings
 from collections.abc import Iterator, Sequence
 from typing import Any, TextIO
 
@@ -14,6 +15,7 @@ from . import private_server
 from .case import Case, as_case
 from .credentials import Credentials, Path, address_of, token_of
 from .errors import ServerError, of_status
+from .notes import notes_on
 from .places import in_terms_of
 from .progress import Progress
 from .result import Result
@@ -62,6 +64,13 @@ class JobState:
 
     def __repr__(self) -> str:
         return f"<{self.name}: {self.state}>"
+
+
+def noted(result: Result) -> Result:
+    """Warns of what is to be known, at the line that called run()."""
+    for note in notes_on(result):
+        warnings.warn(note, stacklevel=3)
+    return result
 
 
 class Job(JobState):
@@ -127,8 +136,8 @@ class Client:
 
     def run(self, case: Case | str | os.PathLike[str], coefficients: Any = None, nodal_forces: Any = None,
             traces: Sequence[int] = (), progress: bool = True, bounds: bool = False) -> Result:
-        """Submits, waits and fetches the answers."""
-        return self.submit(case, coefficients, nodal_forces, traces, bounds).wait(progress).result()
+        """Submits, waits and fetches the answers; warns where u is not small against the sheet."""
+        return noted(self.submit(case, coefficients, nodal_forces, traces, bounds).wait(progress).result())
 
     def mesh(self, case: Case | str | os.PathLike[str]) -> mesh_pb2.Mesh:
         """The mesh of a case, once it is meshed: its counts, subdomains and interfaces (Mesh in mesh.proto)."""

@@ -4,6 +4,7 @@ displacements are in the units of the case; a number that is not known is NaN.""
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from typing import Any
@@ -373,10 +374,12 @@ class Result:
             raise Error(f"{os.fspath(path)}: cannot be read as a result file: {error}") from None
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """As a result file, which the command shows, plots and exports too; replaces one that is there."""
+        """As a result file, which the command shows, plots and exports too. What is there is replaced; where it is no
+        result of the same case, it is kept as PATH~, with a warning."""
         package("h5py")
         from .save import save
-        save(self, path)
+        if save(self, path):
+            warnings.warn(f"kept {os.fspath(path)}~, what {os.path.basename(path)} was before", stacklevel=2)
 
     @classmethod
     def of_job(cls, job: solve_pb2.Job, mesh: mesh_pb2.Mesh, mesh_arrays: Mapping[str, Array],

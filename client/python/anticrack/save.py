@@ -2,6 +2,7 @@
 """Writes the result file that the project's README describes."""
 from __future__ import annotations
 
+import contextlib
 import os
 import tempfile
 from dataclasses import fields
@@ -25,8 +26,8 @@ _DIMENSIONS = {
     "tension": "F/L", "pressure": "F/L", "resultant": "F", "seconds": "s"}
 
 
-def save(result: Result, path: str | os.PathLike[str]) -> None:
-    """Whole or not at all."""
+def save(result: Result, path: str | os.PathLike[str]) -> bool:
+    """Whole or not at all. Whether what was there is kept as PATH~: no result of the same case."""
     folder = os.path.dirname(os.path.abspath(path))
     if not os.path.isdir(folder):
         raise Error(f"{os.fspath(path)}: there is no folder {folder}; make it, or name another")
@@ -34,7 +35,32 @@ def save(result: Result, path: str | os.PathLike[str]) -> None:
         made = os.path.join(scratch, "result.h5")
         with h5py.File(made, "w") as file:
             _put_result(file, result)
+        former = os.path.isfile(path) and not _holds_the_same(path, result)
+        if former:
+            _keep(path)
         os.replace(made, path)
+    return former
+
+
+def _holds_the_same(path: str | os.PathLike[str], result: Result) -> bool:
+    """What the result makes again, which is no loss. A sweep's coefficients are not in its case."""
+    try:
+        with h5py.File(path) as file:
+            job, case = file.attrs["job"], file.attrs["case"]
+            return bool(job == result.job or case and case == result.case and result.sweep is None
+                        and "sweep" not in file)
+    except (OSError, KeyError):
+        return False
+
+
+def _keep(path: str | os.PathLike[str]) -> None:
+    backup = os.fspath(path) + "~"
+    with contextlib.suppress(FileNotFoundError):
+        os.remove(backup)
+    try:
+        os.link(path, backup)
+    except OSError:  # not every file system has second names
+        os.replace(path, backup)
 
 
 def _put(group: Any, name: str, values: Any) -> None:

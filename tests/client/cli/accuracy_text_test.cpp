@@ -49,16 +49,18 @@ TEST(ErrorsOf, OfNoLoadIsZero) {
 TEST(StageLines, HaveABarOfTheLogarithmOfTheError) {
   const std::vector<StageErrors> stages{errors_of(stage(1, 900, 0.032)),
                                         errors_of(stage(2, 12345, 0.0009))};
-  EXPECT_THAT(stage_lines(stages, asked(1e-3), 96, 9),
-              ElementsAre("  stage  1       900 triangles   energy    3.2 % (asked 0.1 %)   A 32 %   "
-                          "[#########-----------]",
-                          "  stage  2     12345 triangles   energy   0.09 % (asked 0.1 %)   A 0.9 %  "
-                          "[####################]"));
+  EXPECT_THAT(
+      stage_lines(stages, asked(1e-3), 96, 9),
+      ElementsAre("  stage  1       900 triangles   energy    3.2 % (asked 0.1 %)   A 32 %   "
+                  "[#########-----------]",
+                  "  stage  2     12345 triangles   energy   0.09 % (asked 0.1 %)   A 0.9 %  "
+                  "[####################]"));
   EXPECT_THAT(stage_lines(stages, asked(1e-3), 95, 1), ElementsAre(HasSubstr("stage  2")));
   EXPECT_THAT(stage_lines(stages, asked(1e-3), 95, 0), ElementsAre());
   EXPECT_THAT(stage_lines({}, asked(1e-3), 95, 9), ElementsAre());
-  EXPECT_THAT(stage_lines(stages, asked(1e-3), 72, 1),
-              ElementsAre("  stage  2     12345 triangles   energy   0.09 % (asked 0.1 %)   A 0.9 %"));
+  EXPECT_THAT(
+      stage_lines(stages, asked(1e-3), 72, 1),
+      ElementsAre("  stage  2     12345 triangles   energy   0.09 % (asked 0.1 %)   A 0.9 %"));
   for (const std::string& line : stage_lines(stages, asked(1e-3), 20, 9))
     EXPECT_EQ(columns_of(line), 20U);
 }

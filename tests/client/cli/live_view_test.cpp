@@ -173,14 +173,15 @@ JobProgress staged(int stages) {
 }
 
 TEST(Frame, HasALinePerStageAboveTheLoadCasesOfTheNewest) {
-  EXPECT_THAT(frame(staged(2), 97, 24),
-              ElementsAre("jobs/1: running, 0 of 2 load cases ended",
-                          "  stage  1      1000 triangles   energy     10 % (asked 0.1 %)   A 100 %  "
-                          "[######--------------]",
-                          "  stage  2      2000 triangles   energy    2.5 % (asked 0.1 %)   A 25 %   "
-                          "[##########----------]",
-                          "  load-0  waiting",  //
-                          "  load-1  running        step     2  contact  41"));
+  EXPECT_THAT(
+      frame(staged(2), 97, 24),
+      ElementsAre("jobs/1: running, 0 of 2 load cases ended",
+                  "  stage  1      1000 triangles   energy     10 % (asked 0.1 %)   A 100 %  "
+                  "[######--------------]",
+                  "  stage  2      2000 triangles   energy    2.5 % (asked 0.1 %)   A 25 %   "
+                  "[##########----------]",
+                  "  load-0  waiting",  //
+                  "  load-1  running        step     2  contact  41"));
 }
 
 TEST(Frame, ShowsTheLastStagesWhereTheyDoNotFit) {

@@ -4,8 +4,10 @@ import hashlib
 import io
 import os
 import pathlib
+import tempfile
 import unittest
 import unittest.mock
+import warnings
 
 import numpy
 
@@ -13,7 +15,7 @@ import anticrack
 from anticrack import Accuracy, Case, Geometry, Inclusion, Interface, Load, Mesh, Msh
 from anticrack.progress import Progress, State
 from anticrack.v1 import solve_pb2
-from processes import ANTICRACKD, Daemon, FolderTest, run
+from processes import ANTICRACK, ANTICRACKD, Daemon, FolderTest, run
 
 EXAMPLES = pathlib.Path(os.environ["EXAMPLES"])
 DEPLOY = pathlib.Path(os.environ["DEPLOY"])
@@ -48,6 +50,22 @@ class Jobs(unittest.TestCase):
         self.assertEqual(len(load.traces[0].jump), len(result.interfaces[0].s))
         self.assertEqual(sum(len(field.triangles) for field in load.fields), len(result.mesh.triangles))
         self.assertEqual(len(load.indicator), len(result.mesh.triangles))
+
+    def test_warn_of_u_that_is_not_small(self):
+        loads = [Load("opening", "y > 0 ? 1 : -1"), Load("strong", "y > 0 ? 1000 : -1000")]
+        units = anticrack.Units("mm", "N")
+        with self.assertWarnsRegex(UserWarning, r"^u reaches \d+ mm in load \"strong\", and the smaller side of the "
+                                                r"sheet is 2 mm: .*small slopes") as caught:
+            result = self.client.run(Case(GEOMETRY, loads, COARSE, units=units), progress=False)
+        self.assertEqual(caught.filename, __file__)
+        path = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory())) / "result.h5"
+        result.save(path)
+        self.assertIn(f"note: {caught.warning}\n", run(ANTICRACK, "show", path).stdout)
+        with self.assertWarnsRegex(UserWarning, "gives no force"):
+            self.client.run(Case(GEOMETRY, [OPENING], COARSE, units=anticrack.Units("km")), progress=False)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")  # without units u may have another one than x
+            self.client.run(Case(GEOMETRY, loads, COARSE), progress=False)
 
     def test_are_found_again_listed_and_deleted(self):
         job = self.client.submit(Case(GEOMETRY, [OPENING], COARSE))
@@ -206,8 +224,8 @@ class Jobs(unittest.TestCase):
         self.assertEqual(load.stages["triangles"][-1], len(result.mesh.triangles))
         self.assertEqual(load.stages["energy"][-1], load.energy)
         width = (load.energy_upper - load.energy_lower) / abs(load.energy)
-        said = (f"stage {len(job.message.stages)}: {len(result.mesh.triangles)} triangles, energy {100 * width:.3g} % (asked 2 %), "
-                f"A {100 * load.stages['displacement_error'][-1]:.3g} % (asked 5 %)")
+        said = (f"stage {len(job.message.stages)}: {len(result.mesh.triangles)} triangles, "
+                f"energy {100 * width:.3g} % (asked 2 %), A {100 * load.stages['displacement_error'][-1]:.3g} % (asked 5 %)")
         self.assertIn(f"{job.name}: {said}\n", out.getvalue())
         self.assertEqual(out.getvalue().count("stage 1: "), 1)
         bar = Terminal()

@@ -7,6 +7,7 @@ import os
 import pathlib
 import re
 import sys
+import warnings
 
 import h5py
 import numpy
@@ -133,6 +134,25 @@ max_iterations = 3
         told.sweep.coefficients = file.sweep.coefficients  # which the server does not tell
         self.assert_same(file, told, "")
         self.assert_saved(told)
+
+    def test_of_another_case_are_kept(self):
+        file, _ = self.both(EXAMPLES / "slit.toml", "run")
+        path = self.folder / "saved.h5"
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            file.save(path)
+            file.job = "jobs/other"
+            file.save(path)  # the same case
+        file.job, file.case = "jobs/third", "another"
+        with self.assertWarnsRegex(UserWarning, "^kept .*saved.h5~, what saved.h5 was before$") as caught:
+            file.save(path)
+        self.assertEqual(caught.filename, __file__)
+        self.assertEqual(anticrack.read(f"{path}~").job, "jobs/other")
+        path.write_text("not a result")
+        with self.assertWarns(UserWarning):
+            file.save(path)
+        self.assertEqual(pathlib.Path(f"{path}~").read_text(), "not a result")
+        self.assertEqual(anticrack.read(path).case, "another")
 
     def test_as_a_table(self):
         file, _ = self.both(EXAMPLES / "several-inclusions.toml", "run")

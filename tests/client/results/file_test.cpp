@@ -332,6 +332,50 @@ void expect_unwritable(const std::string& path, const std::string& cause) {
   }
 }
 
+TEST(File, of_another_case_is_kept) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "a.h5";
+  Result result = sample_result();
+  result.case_text = "one";
+  EXPECT_EQ(write(path, result), "");
+  const std::string first = bytes_of(path);
+  result.job_name = "jobs/fedcba9876543210";
+  EXPECT_EQ(write(path, result), "") << "the same case again";
+  result.job_name = "jobs/0000000000000000";
+  result.case_text = "two";
+  EXPECT_EQ(write(path, result), "Kept: " + path + "~, what a.h5 was before");
+  EXPECT_EQ(read(path + "~").case_text, "one");
+  EXPECT_EQ(read(path).case_text, "two");
+  EXPECT_EQ(write(path, result), "");
+  EXPECT_EQ(read(path + "~").case_text, "one") << "two runs of two do not lose it";
+  result.case_text.clear();
+  EXPECT_EQ(write(path, result), "") << "the same job, fetched";
+  result.job_name = "jobs/1111111111111111";
+  EXPECT_THAT(write(path, result), HasSubstr("Kept")) << "two fetched jobs have no case to compare";
+}
+
+TEST(File, that_is_no_result_is_kept) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "notes.txt";
+  std::ofstream(path) << "of a year";
+  EXPECT_THAT(write(path, sample_result()), HasSubstr("Kept"));
+  EXPECT_EQ(bytes_of(path + "~"), "of a year");
+}
+
+TEST(File, of_another_sweep_is_kept) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "a.h5";
+  Result result = sample_result();
+  result.case_text = "one";
+  write(path, result);
+  result.job_name = "jobs/fedcba9876543210";
+  result.sweep.emplace();
+  result.loads.clear();
+  EXPECT_THAT(write(path, result), HasSubstr("Kept"));
+  result.job_name = "jobs/0000000000000000";
+  EXPECT_THAT(write(path, result), HasSubstr("Kept")) << "its coefficients may be others";
+}
+
 TEST(Writable, says_what_is_wrong_with_a_path) {
   const TemporaryFolder folder;
   std::ofstream(folder / "file") << "x";
@@ -342,7 +386,9 @@ TEST(Writable, says_what_is_wrong_with_a_path) {
   EXPECT_THROW(check_writable(""), Error);
   EXPECT_THROW(check_writable(folder / ""), Error);
   EXPECT_THROW(check_writable("/dev/null"), Error);
-  EXPECT_EQ(files_in(folder.path()), 1u);
+  fs::create_directory(folder / "file~");
+  expect_unwritable(folder / "file", "is a folder, and a former result is kept by this name");
+  EXPECT_EQ(files_in(folder.path()), 2u);
 }
 
 TEST(Writable, says_so_of_a_read_only_folder_and_file) {

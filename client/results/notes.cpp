@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "results/notes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <string_view>
+
+namespace anticrack::results {
+namespace {
+
+/// A slope of about 0.4 in a parabola, whose square, which the equation neglects, is 0.16.
+constexpr double largest_part = 0.1;
+
+struct Largest {
+  double u = 0;
+  std::string_view load;  ///< of a sweep: empty
+
+  void take(const std::vector<double>& values, std::string_view of) {
+    for (const double value : values)
+      if (std::abs(value) > u) *this = {std::abs(value), of};
+  }
+};
+
+Largest largest_of(const Result& result) {
+  Largest largest;
+  for (const Load& load : result.loads) {
+    for (const Inclusion& inclusion : load.inclusions)
+      largest.take({inclusion.displacement}, load.name);
+    for (const Trace& trace : load.traces) {
+      largest.take(trace.u_minus, load.name);
+      largest.take(trace.u_plus, load.name);
+    }
+    for (const Field& field : load.fields) largest.take(field.u, load.name);
+  }
+  if (result.sweep) {
+    for (const SweepSummary::Range& range : summary(*result.sweep).displacement)
+      largest.take({range.low, range.high}, "");
+  }
+  return largest;
+}
+
+double smaller_side(const Mesh& mesh) {
+  double side = std::numeric_limits<double>::infinity();
+  for (const std::size_t axis : {0, 1}) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (std::size_t i = axis; i < mesh.xy.size(); i += 2) {
+      low = std::min(low, mesh.xy[i]);
+      high = std::max(high, mesh.xy[i]);
+    }
+    side = std::min(side, high - low);
+  }
+  return side;
+}
+
+}  // namespace
+
+std::vector<std::string> notes_on(const Result& result) {
+  std::vector<std::string> notes;
+  const auto& [length, force] = result.units;
+  if (length.empty() != force.empty()) {
+    const std::string missing = length.empty() ? "length" : "force";
+    notes.push_back("[units] gives no " + missing +
+                    ", so energies and tensions have no unit here; write both length and force");
+  }
+  if (length.empty()) return notes;  // u may have another unit than x and y
+  const Largest largest = largest_of(result);
+  const double side = smaller_side(result.mesh);
+  if (!(largest.u > largest_part * side)) return notes;
+  std::ostringstream note;
+  note.precision(3);
+  note << "u reaches " << largest.u << ' ' << length;
+  if (!largest.load.empty()) note << " in load \"" << largest.load << '"';
+  note << ", and the smaller side of the sheet is " << side << ' ' << length
+       << ": the equation is that of small slopes, u up to about a tenth of the side. u is "
+          "proportional to the load and to 1/tension: look for a factor in them";
+  notes.push_back(note.str());
+  return notes;
+}
+
+}  // namespace anticrack::results
