@@ -30,6 +30,7 @@ void read_mesh(const Section& root, Case& result) {
   }
   root.need("geometry", "write [geometry] with boundary and interface, or mesh.file = \"x.msh\"");
   *result.mesh.mutable_geometry() = read_geometry(*geometry, result.spots);
+  note_missing_tension(result);
   if (root.find("accuracy") && !(mesh && mesh->find("preset")))
     result.mesh.mutable_options()->set_preset(v1::MESH_PRESET_COARSE);
 }

@@ -32,6 +32,7 @@ struct Case {
   v1::CreateMeshRequest mesh;  ///< its source is set unless there is a mesh_file
   v1::Job job;                 ///< all but `mesh` and the uploads of `force_files`
   std::vector<ForceFile> force_files;
+  std::vector<std::string> notes;     ///< what is allowed, but may be a slip
   std::map<std::string, Spot> spots;  ///< field of a request -> where its value was written
 
   /// Where the value of a field of CreateMeshRequest or CreateJobRequest was written, or the

@@ -8,7 +8,7 @@ namespace anticrack::casefile {
 
 /// Where a value of a case was written.
 struct Spot {
-  std::string key;     ///< dotted path, arrays by index from 0: "load.1.f"; empty: the whole
+  std::string key;     ///< dotted path, entries by name or index: "load.up.f"; empty: the whole
   std::string source;  ///< the case's file, or the --set that wrote it
   unsigned line = 0;   ///< from 1; 0: no line (a --set, or the whole file)
 };

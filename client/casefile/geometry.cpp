@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "casefile/sections.hpp"
 
+#include <algorithm>
+
 namespace anticrack::casefile {
 namespace {
 
@@ -106,6 +108,22 @@ void read_neumann(const Section& section, v1::Geometry& geometry, Spots& spots) 
   v1::BoundaryPart& part = *geometry.add_neumann();
   *part.mutable_from() = geometry.boundary(0);
   *part.mutable_to() = geometry.boundary(0);
+}
+
+void note_missing_tension(Case& result) {
+  const auto& regions = result.mesh.geometry().regions();
+  const auto given = [](const v1::Region& region) {
+    return region.has_tension() || region.has_tension_law();
+  };
+  const auto with = std::ranges::count_if(regions, given);
+  const auto first = std::ranges::find_if_not(regions, given);
+  if (with == 0 || first == regions.end()) return;
+  const auto others = regions.size() - with - 1;
+  const Spot& spot = result.spots.at(entry_field("geometry.regions", first - regions.begin()));
+  result.notes.push_back(
+      prefix(spot) +
+      (others == 0 ? "it gives" : "it and " + std::to_string(others) + " more give") +
+      " no tension, as other regions do, which is then 1; write tension = 1 where that is meant");
 }
 
 v1::Geometry read_geometry(const Section& section, Spots& spots) {

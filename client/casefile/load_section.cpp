@@ -104,6 +104,13 @@ void check_names(const Section& section, const v1::LoadCase& load, const v1::Geo
   if (load.force().has_per_region()) check_names(section, "f", "region", regions);
   check_names(section, "inclusion_forces", "inclusion", inclusions);
   check_names(section, "inclusion_moments", "inclusion", inclusions);
+  for (const v1::Inclusion& inclusion : geometry.inclusions()) {
+    if (inclusion.tilt() || !load.inclusion_moments().contains(inclusion.name())) continue;
+    throw Error(section.spot_of("inclusion_moments"),
+                "the inclusion \"" + inclusion.name() +
+                    "\" does not tilt, so a moment on it does nothing; write tilt = true in its "
+                    "[[geometry.inclusion]], or leave the moment out");
+  }
 }
 
 void read_load(const Section& section, std::size_t index, Case& result) {

@@ -32,6 +32,14 @@ std::string prefix(const Spot& spot) {
 
 namespace {
 
+// By which an override finds the entry of a list.
+std::string name_or_index(const toml::table& entry, std::size_t index) {
+  const auto name = entry["name"].value_exact<std::string>();
+  constexpr std::size_t longest = 64;
+  const bool short_enough = name && !name->empty() && name->size() <= longest;
+  return short_enough ? *name : std::to_string(index);
+}
+
 // Tables that an override makes on the way to its value have no source of their own.
 const toml::node& first_written(const toml::node& node) {
   const toml::table* table = node.as_table();
@@ -225,9 +233,10 @@ std::vector<Section> Section::sections(std::string_view key,
   std::vector<Section> sections;
   sections.reserve(list->size());
   for (std::size_t i = 0; i < list->size(); ++i) {
-    const std::string path = entry_key(path_of(key), i);
     const toml::node& entry = *list->get(i);
     const toml::table* table = entry.as_table();
+    const std::string path =
+        table ? path_of(key, name_or_index(*table, i)) : entry_key(path_of(key), i);
     if (!table)
       throw Error(casefile::spot_of(entry, path), shown(entry) + " is not a table" + cure);
     sections.emplace_back(*table, path, known);

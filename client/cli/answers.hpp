@@ -34,8 +34,8 @@ std::string inclusions_table(const results::Result& result);
 /// sweep sweep_csv.
 std::string answers_csv(const results::Result& result);
 
-/// {title, file, job, mesh, sizes, timings, notes, answers: [one per load case]}; of a sweep also {sweep:
-/// {rows, converged, ...}}, and the answers are those of the rows whose traces were kept.
+/// {title, file, job, mesh, sizes, timings, notes, answers: [one per load case]}; of a sweep also
+/// {sweep: {rows, converged, ...}}, and the answers are those of the rows whose traces were kept.
 std::string answers_json(const results::Result& result, const std::filesystem::path& file);
 
 }  // namespace anticrack::cli

@@ -125,6 +125,9 @@ client::Error in_terms_of(const casefile::Case& the_case, const client::Error& e
 }
 
 v1::Mesh create_mesh(Session& session, const casefile::Case& the_case) {
+  // standard output may be for the name alone
+  for (const std::string& note : the_case.notes)
+    if (!session.globals().quiet) complain("note: " + note);
   if (the_case.mesh_file && !std::filesystem::is_regular_file(*the_case.mesh_file)) {
     const bool folder = std::filesystem::is_directory(*the_case.mesh_file);
     const casefile::Spot spot = *the_case.locate("upload");

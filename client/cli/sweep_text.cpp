@@ -87,6 +87,20 @@ Json range_json(const SweepSummary::Range& range) {
   return {{"min", range.low}, {"max", range.high}};
 }
 
+/// "rows 3, 7, 12, 20, 21 and 4 more": those of which it holds.
+template <class Holds>
+std::string first_rows(const results::Sweep& sweep, const Holds& holds) {
+  constexpr std::size_t most = 5;
+  std::string rows;
+  std::size_t count = 0;
+  for (std::size_t row = 0; row < sweep.rows(); ++row) {
+    if (!holds(row) || ++count > most) continue;
+    rows += (count == 1 ? " " : ", ") + std::to_string(row);
+  }
+  return (count == 1 ? "row" : "rows") + rows +
+         (count > most ? " and " + std::to_string(count - most) + " more" : "");
+}
+
 /// "bounds of 9 rows: of the energy at most 0.89 % wide, of A at most +- 0.0056".
 std::string bounds_text(const results::Sweep& sweep, const SweepSummary& counts,
                         const results::Units& units) {
@@ -97,6 +111,12 @@ std::string bounds_text(const results::Sweep& sweep, const SweepSummary& counts,
   if (std::isfinite(counts.displacement_error))
     text += ", of A at most +- " + number(counts.displacement_error, 2) +
             (units.label("L").empty() ? "" : " " + sanitise(units.label("L")));
+  if (counts.bounded < counts.converged) {
+    text += "; none of " + first_rows(sweep, [&](std::size_t row) {
+              return sweep.status[row] == results::Status::converged &&
+                     std::isnan(sweep.energy_lower[row]);
+            });
+  }
   return text + "\n";
 }
 
@@ -121,7 +141,15 @@ std::string sweep_table(const results::Sweep& sweep, const results::Units& units
   const SweepSummary counts = summary(sweep);
   std::string text = counted(sweep.rows(), "row");
   if (!sweep.source.empty()) text += " of " + sanitise(sweep.source);
-  text += ": " + endings(counts) + "\n";
+  text += ": " + endings(counts);
+  if (counts.converged > 0 && counts.converged < sweep.rows()) {
+    text += " (" +
+            first_rows(
+                sweep,
+                [&](std::size_t row) { return sweep.status[row] != results::Status::converged; }) +
+            ")";
+  }
+  text += "\n";
   if (counts.converged > 0) {
     text += "at most " + counted(static_cast<std::size_t>(counts.most_steps), "step") +
             ", KKT residuals at most " + number(counts.worst_kkt, 2) + "\n\n";

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -54,6 +55,21 @@ void prepare_locale() {
   }();
 }
 
+/// The number of "3 N/mm"; of "3 x", where a sign is forgotten, none.
+std::optional<std::string> number_with_unit(const std::string& text) {
+  double value = 0;
+  const char* const end = text.data() + text.size();
+  const char* const first = std::find_if(text.data(), end, [](char c) { return c > ' '; });
+  const char* const rest = std::from_chars(first, end, value).ptr;
+  const auto letter = [](char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); };
+  const char* const unit = std::find_if(rest, end, [](char c) { return c > ' '; });
+  const char* const behind = std::find_if_not(unit, end, letter);
+  const std::string_view word(unit, static_cast<std::size_t>(behind - unit));
+  const bool named = rest != first && !word.empty() && word != "x" && word != "y";
+  if (!named || std::find(behind, end, '(') != end) return std::nullopt;
+  return std::string(first, rest);
+}
+
 /// muParser says whether a text is an expression, and what is wrong where it is none.
 void require_syntax(const std::string& text, const std::string& field) {
   require_plain(text, field);
@@ -68,6 +84,10 @@ void require_syntax(const std::string& text, const std::string& field) {
     parser.SetExpr(text);
     parser.Eval();
   } catch (const mu::Parser::exception_type& error) {
+    if (const auto number = number_with_unit(text)) {
+      throw invalid(field, "\"" + text + "\" is a number with a unit; write " + *number +
+                               ": the units of all numbers are those of [units]");
+    }
     throw invalid(field, "the expression \"" + text + "\" cannot be read: " + error.GetMsg() +
                              " (symbols are x, y, _pi, _e)");
   }

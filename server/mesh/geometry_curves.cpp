@@ -12,7 +12,7 @@ namespace {
 /// Refuses points far outside the membrane first: products of such coordinates would overflow.
 void check_near(const Point& p, const std::string& field, const Outline& outline) {
   if (distance(p, outline.boundary.front()) > 10 * outline.tolerance / relative_tolerance)
-    refuse(field, field, " ", show(p), " lies outside the polygon; it must lie in the membrane");
+    refuse(field, field, " ", show(p), " lies outside the boundary; it must lie in the membrane");
 }
 
 /// Of a polyline or spline.

@@ -121,8 +121,14 @@ void check_inside(const Network& network) {
       if (l != at(chord.line) && ray_meets(middle, edges[l])) odd = !odd;
     if (odd) continue;
     const std::string& field = network.lines[at(chord.line)].field;
-    refuse(field, field, " runs outside the polygon or in a hole, at ", show(middle),
-           "; it must lie in the membrane");
+    const auto around = [&](std::size_t l) {
+      return l != at(chord.line) && ray_meets(middle, edges[l]);
+    };
+    std::size_t hole = network.outer;
+    while (hole < network.boundary && !around(hole)) ++hole;
+    refuse(field, field, " lies ",
+           hole < network.boundary ? "in " + network.lines[hole].field : "outside the boundary",
+           ", at ", show(middle), "; it must lie in the membrane");
   }
 }
 

@@ -25,8 +25,9 @@ Edges edges_of(const Plan& plan) {
 
 /// The curves of the outlines of regions, and on which side of each its inside lies.
 struct Outlines {
-  std::vector<int> region;   ///< of each curve; -1: no outline's
-  std::vector<bool> inside;  ///< of each region: on the left
+  std::vector<int> region;                   ///< of each curve; -1: no outline's
+  std::vector<bool> inside;                  ///< of each region: on the left
+  std::vector<std::vector<Point>> polygons;  ///< of each region; empty: no outline
 };
 
 Outlines find_outlines(const Drawn& geometry, const Network& network, const Plan& plan) {
@@ -35,15 +36,15 @@ Outlines find_outlines(const Drawn& geometry, const Network& network, const Plan
     const int line = geometry.region_lines[i];
     if (line >= 0) of_line[network.boundary + at(line)] = static_cast<int>(i);
   }
-  Outlines outlines{{}, std::vector<bool>(geometry.regions.size())};
+  Outlines outlines{{}, std::vector<bool>(geometry.regions.size()), {}};
   outlines.region.reserve(plan.curves.size());
   for (const Chord& chord : network.chords) outlines.region.push_back(of_line[at(chord.line)]);
-  std::vector<std::vector<Point>> polygons(geometry.regions.size());
+  outlines.polygons.resize(geometry.regions.size());
   for (std::size_t e = 0; e < plan.curves.size(); ++e)
     if (outlines.region[e] >= 0)
-      polygons[at(outlines.region[e])].push_back(plan.points[at(plan.curves[e].a)]);
-  for (std::size_t i = 0; i < polygons.size(); ++i)
-    outlines.inside[i] = signed_area(polygons[i]) > 0;
+      outlines.polygons[at(outlines.region[e])].push_back(plan.points[at(plan.curves[e].a)]);
+  for (std::size_t i = 0; i < outlines.polygons.size(); ++i)
+    outlines.inside[i] = signed_area(outlines.polygons[i]) > 0;
   return outlines;
 }
 
@@ -200,16 +201,68 @@ int subdomain_at(const RegionSpec& region, const std::string& field, const Netwo
 int subdomain_within(int region, const std::string& field, const Outlines& outlines,
                      const Network& network, const Arrangement& loops, const Order& order) {
   int subdomain = -1;
+  const auto side = [&](int face) { return face < 0 ? -1 : order.subdomain[at(face)]; };
   for (std::size_t e = 0; e < outlines.region.size(); ++e) {
     if (outlines.region[e] != region) continue;
     const int own = order.subdomain[at(inner_face(outlines, loops, e))];
     if (subdomain < 0) subdomain = own;
     if (own == subdomain) continue;
-    refuse(field, field, ", at ", show(network.points[at(network.chords[e].a)]),
-           ", is crossed by an interface that divides the region into several subdomains; end the "
-           "interface at the outline, or make a region of each part");
+    // the line that parts these two
+    for (std::size_t c = 0; c < outlines.region.size(); ++c) {
+      const std::pair sides = std::minmax({side(loops.left[c]), side(loops.right[c])});
+      if (outlines.region[c] == region || sides != std::minmax({own, subdomain})) continue;
+      refuse(field, field, ", at ", show(network.points[at(network.chords[e].a)]),
+             ", is crossed by ", network.lines[at(network.chords[c].line)].field,
+             outlines.region[c] < 0
+                 ? ", which divides it into several subdomains; end the interface at the outline, "
+                   "or make a region of each part"
+                 : "; draw them apart, or one inside the other");
+    }
   }
   return subdomain;
+}
+
+/// Of each region the smallest one whose outline is around its own; -1: none.
+std::vector<int> regions_around(const Outlines& outlines) {
+  const auto& polygons = outlines.polygons;
+  std::vector<double> area;
+  for (const std::vector<Point>& polygon : polygons) area.push_back(std::abs(signed_area(polygon)));
+  std::vector<int> around(polygons.size(), -1);
+  for (std::size_t i = 0; i < polygons.size(); ++i) {
+    for (std::size_t j = 0; j < polygons.size(); ++j) {
+      if (polygons[i].empty() || !(area[j] > area[i])) continue;
+      if (around[i] >= 0 && area[at(around[i])] < area[j]) continue;
+      // the outlines do not cross, but may touch in a point
+      const auto own = std::ranges::find_if(polygons[i], [&](const Point& p) {
+        return std::ranges::find(polygons[j], p) == polygons[j].end();
+      });
+      if (own != polygons[i].end() && inside(*own, polygons[j])) around[i] = static_cast<int>(j);
+    }
+  }
+  return around;
+}
+
+/// Says which regions are cut out of another one, as people take them for parts of it.
+void note_nested(const std::vector<RegionSpec>& regions, const Outlines& outlines,
+                 std::vector<std::string>& warnings) {
+  constexpr std::size_t most_listed = 3;
+  std::vector<std::vector<std::size_t>> within(regions.size());
+  const std::vector<int> around = regions_around(outlines);
+  for (std::size_t i = 0; i < around.size(); ++i)
+    if (around[i] >= 0) within[at(around[i])].push_back(i);
+  for (std::size_t j = 0; j < within.size(); ++j) {
+    if (within[j].empty()) continue;
+    const std::size_t listed = std::min(within[j].size(), most_listed);
+    std::string inner;
+    for (std::size_t k = 0; k < listed; ++k)
+      inner += (k == 0 ? "" : ", ") + indexed("regions", within[j][k]);
+    if (within[j].size() > listed)
+      inner += " and " + std::to_string(within[j].size() - listed) + " more";
+    const std::string outer = indexed("regions", j);
+    warnings.push_back(inner + (within[j].size() == 1 ? " lies" : " lie") + " inside " + outer +
+                       ", cut out of it: the tension and the loads of " + outer +
+                       " do not act there, so give each its own");
+  }
 }
 
 /// Warns in the plan of a tension that nobody gave.
@@ -245,6 +298,7 @@ Named name_subdomains(const Drawn& geometry, const Network& network, const Outli
     named.law[subdomain] = region.tension_law.value_or(TensionLaw());
     used.push_back(region.name);
   }
+  note_nested(geometry.regions, outlines, plan.warnings);
   for (std::size_t s = 0; s < count; ++s) {
     if (!named.name[s].empty()) continue;
     named.name[s] = unused_name("omega" + std::to_string(s + 1), used);

@@ -75,6 +75,13 @@ TEST(Expression, ComparisonsAreNoAssignments) {
   }
 }
 
+TEST(Expression, ThatIsANumberWithAUnitNamesTheNumber) {
+  for (const char* text : {"3 N/mm", " 3N / mm", "3kPa"})
+    EXPECT_THAT(error_of(load_of(Expression{text})).what(), HasSubstr("with a unit; write 3:"));
+  for (const char* text : {"3 x", "3 sin(x)", "z", "N/mm"})
+    EXPECT_THAT(error_of(load_of(Expression{text})).what(), HasSubstr("cannot be read")) << text;
+}
+
 TEST(Expression, LongerThanTheLimitIsRefused) {
   const errors::Error error = error_of(load_of(Expression{std::string(length_limit + 1, '1')}));
   EXPECT_EQ(error.reason(), Reason::expression_invalid);

@@ -104,7 +104,8 @@ TEST(Accuracy, SaysWhatWasReachedAndWhatStoppedIt) {
   const CaseRecord far = answer_between(-3, -2);
   const Verdict full = judge_one(far, spec, {}, 100);
   EXPECT_TRUE(full.over);
-  EXPECT_THAT(full.not_reached, HasSubstr("load case \"pull\" reached energy 50 % (asked 10 %) on 100"));
+  EXPECT_THAT(full.not_reached,
+              HasSubstr("load case \"pull\" reached energy 50 % (asked 10 %) on 100"));
   EXPECT_THAT(full.not_reached, HasSubstr("more than 100 triangles, mesh-triangles of the server"));
   spec.accuracy->max_triangles = 100;
   EXPECT_THAT(judge_one(far, spec, {}, 100).not_reached,

@@ -127,25 +127,25 @@ const Fault line_faults[] = {
        curve(g, Shape::arc, {{-0.5, 1}, {0, 1.5}, {0.5, 1}});
      },
      "interfaces[1].arc",
-     {"outside the polygon"}},
+     {"outside the boundary"}},
     {"ArcFarOutside",
      [](Geometry& g) {
        curve(g, Shape::arc, {{-0.5, 1}, {1e99, 1e99}, {0.5, 1}});
      },
      "interfaces[1].arc.through",
-     {"1e+99", "outside the polygon"}},
+     {"1e+99", "outside the boundary"}},
     {"SplineFarOutside",
      [](Geometry& g) {
        curve(g, Shape::spline, {{-0.5, 1}, {0, 0.5}, {-1e80, 1}});
      },
      "interfaces[1].spline.points[2]",
-     {"-1e+80", "outside the polygon"}},
+     {"-1e+80", "outside the boundary"}},
     {"PolylineFarOutside",
      [](Geometry& g) {
        add(g, "b", {{0, -1}, {1e60, 1}});
      },
      "interfaces[1].polyline.points[1]",
-     {"1e+60", "outside the polygon"}},
+     {"1e+60", "outside the boundary"}},
     {"SplineOfTwoPoints",
      [](Geometry& g) {
        curve(g, Shape::spline, {{-1, 0.5}, {1, 0.5}});

@@ -200,13 +200,13 @@ const Fault boundary_faults[] = {
        g.holes = {window("a", {3, 0}, 0.2)};
      },
      "holes[0].outline.circle",
-     {"outside the polygon"}},
+     {"outside the boundary"}},
     {"HoleAround",
      [](Geometry& g) {
        g.holes = {cut_out("a", {{-2, -2}, {2, -2}, {2, 2}, {-2, 2}})};
      },
      "holes[0].outline.polygon",
-     {"outside the polygon"}},
+     {"outside the boundary"}},
     {"HoleTouches",
      [](Geometry& g) {
        g.holes = {cut_out("a", {{1, 0.5}, {0.5, 0.75}, {0.5, 0.25}})};
@@ -224,7 +224,7 @@ const Fault boundary_faults[] = {
        g.holes = {window("a", {0, 0.5}, 0.4), window("b", {0, 0.5}, 0.2)};
      },
      "holes[1].outline.circle",
-     {"in a hole"}},
+     {R"(lies in hole "a")"}},
     {"HoleOnTheInterface",
      [](Geometry& g) {
        g.holes = {window("a", {0.75, 0}, 0.1)};
@@ -237,7 +237,7 @@ const Fault boundary_faults[] = {
        testing::add(g, "lost", {{0, 0.4}, {0, 0.6}});
      },
      "interfaces[1].polyline",
-     {"in a hole"}},
+     {R"(lies in hole "a")"}},
     {"HoleOfTwoPoints",
      [](Geometry& g) {
        g.holes = {cut_out("a", {{0, 0.5}, {0.5, 0.5}})};

@@ -190,7 +190,46 @@ TEST(OwnLines, ARegionMayBeCrossedByWhatLiesInIt) {
                               "regions[0].outline"));
 }
 
+TEST(OwnLines, ARegionInsideAnotherOneIsCutOutOfIt) {
+  Geometry geometry = square();
+  geometry.regions = {{"disc", {}, 1, circle({0, 0}, 0.2)},
+                      {"plate", {}, 1, circle({0, 0}, 0.8)},
+                      {"core", {}, 1, circle({0, 0}, 0.1)},
+                      {"apart", {}, 1, circle({0.85, 0.85}, 0.1)},
+                      {"around", {-0.9, -0.9}, 1}};
+  const auto notes = [](const Plan& plan) {
+    std::vector<std::string> found;
+    for (const std::string& warning : plan.warnings)
+      if (warning.find("cut out") != std::string::npos) found.push_back(warning);
+    return found;
+  };
+  EXPECT_THAT(
+      notes(plan_of(geometry)),
+      ElementsAre(R"(region "core" lies inside region "disc", cut out of it: the tension and the )"
+                  R"(loads of region "disc" do not act there, so give each its own)",
+                  ::testing::HasSubstr(R"(region "disc" lies inside region "plate")")));
+  for (int i = 0; i < 4; ++i)
+    geometry.regions.push_back(
+        {"dot-" + std::to_string(i), {}, 1, circle({0.1 * i - 0.2, 0.5}, 0.02)});
+  EXPECT_THAT(
+      notes(plan_of(geometry)).back(),
+      ::testing::HasSubstr(R"(region "disc", region "dot-0", region "dot-1" and 2 more lie inside)"));
+}
+
 const testing::Fault own_line_faults[] = {
+    {"OutlinesCross",
+     [](Geometry& g) {
+       g.regions = {{"r", {}, 1, circle({0, 0.5}, 0.2)}, {"s", {}, 1, circle({0.1, 0.5}, 0.2)}};
+     },
+     "regions[0].outline",
+     {R"(region "r", at)",
+      R"(is crossed by region "s"; draw them apart, or one inside the other)"}},
+    {"OutlineCrossedByGlue",
+     [](Geometry& g) {
+       g.regions = {{"r", {}, 1, circle({-0.8, 0}, 0.1)}};
+     },
+     "regions[0].outline",
+     {R"(is crossed by interface "interface", which divides it)"}},
     {"LengthZero",
      [](Geometry& g) {
        g.inclusions.push_back(alone("a", segment({0, 0.5}, 0, 0)));

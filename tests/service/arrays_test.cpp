@@ -126,7 +126,7 @@ TEST(Arrays, OneThatIsRefusedAmongManyNamesItsLoadAndNoneIsKept) {
   const Ended run = daemon.client({"run", case_of_arrays(daemon.folder(), "size = 0.1\n"), "-o",
                                    (daemon.folder() / "arrays.h5").string()});
   EXPECT_EQ(run.code, 2) << run.error;
-  EXPECT_THAT(run.error, AllOf(HasSubstr("load.17.f"), HasSubstr("80000 bytes")));
+  EXPECT_THAT(run.error, AllOf(HasSubstr("load.load-17.f"), HasSubstr("80000 bytes")));
   EXPECT_TRUE(eventually([&] { return files_in(fs::path(daemon.data()) / "uploads") == 0; }));
 }
 
@@ -145,7 +145,7 @@ TEST(Arrays, WhoseServerIsKilledWhileTheyArriveAreSentAgain) {
   daemon.kill();
   daemon.start();
   ASSERT_TRUE(run->wait().has_value());
-  EXPECT_THAT(run->error(), HasSubstr("load.0.f"));
+  EXPECT_THAT(run->error(), HasSubstr("load.load-0.f"));
   EXPECT_EQ(files_in(uploads), static_cast<std::size_t>(count)) << "all are kept in the end";
   EXPECT_EQ(daemon.stop(), 0);
   EXPECT_THAT(flaws_of(daemon.data()), IsEmpty());

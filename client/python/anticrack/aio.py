@@ -106,7 +106,7 @@ class AsyncClient:
                      traces: Sequence[int] = (), bounds: bool = False) -> AsyncJob:
         case = as_case(case)
         message = await self._session.submit(case, coefficients, nodal_forces, traces, bounds)
-        return AsyncJob(self._session, message, case.text, coefficients)
+        return AsyncJob(self._session, message, case, coefficients)
 
     async def run(self, case: Case | str | os.PathLike[str], coefficients: Any = None, nodal_forces: Any = None,
                   traces: Sequence[int] = (), progress: bool = False, bounds: bool = False) -> Result:

@@ -28,9 +28,10 @@ from .v1 import mesh_pb2, server_pb2, solve_pb2
 class JobState:
     """A job as it was last heard of: `message`, see Job in solve.proto."""
 
-    def __init__(self, session: Session, message: solve_pb2.Job, case_text: str = "", coefficients: Any = None) -> None:
+    def __init__(self, session: Session, message: solve_pb2.Job, case: Case | None = None,
+                 coefficients: Any = None) -> None:
         self.message = message
-        self._session, self._case_text, self._coefficients = session, case_text, coefficients
+        self._session, self._case, self._coefficients = session, case, coefficients
 
     @property
     def name(self) -> str:
@@ -49,7 +50,16 @@ class JobState:
     @property
     def error(self) -> ServerError | None:
         """Of one that failed."""
-        return in_terms_of("", of_status(self.message.error)) if self.message.HasField("error") else None
+        if not self.message.HasField("error"):
+            return None
+        if self._case:
+            return in_terms_of(self._case.source, self._case.tables, of_status(self.message.error))
+        loads = [{"name": load.name} for load in self.message.load_cases]
+        return in_terms_of("", {"load": loads}, of_status(self.message.error))
+
+    @property
+    def _case_text(self) -> str:
+        return self._case.text if self._case else ""
 
     def _raise_if_nothing_came(self) -> None:
         if self.message.result_state != solve_pb2.Job.RESULT_STATE_AVAILABLE:
@@ -132,7 +142,7 @@ class Client:
         bounds: of the energy and of every A in each row, which then takes as long as a load case."""
         case = as_case(case)
         message = finished(self._session.submit(case, coefficients, nodal_forces, traces, bounds))
-        return Job(self._session, message, case.text, coefficients)
+        return Job(self._session, message, case, coefficients)
 
     def run(self, case: Case | str | os.PathLike[str], coefficients: Any = None, nodal_forces: Any = None,
             traces: Sequence[int] = (), progress: bool = True, bounds: bool = False) -> Result:

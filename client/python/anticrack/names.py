@@ -2,21 +2,17 @@
 """What is found by name; a name that is not there is told with those that are."""
 from __future__ import annotations
 
-import difflib
 from collections.abc import Iterable
 from typing import Any, SupportsIndex, TypeVar, overload
 
 from .errors import UnknownIndex, UnknownName
-from .text import counted, lines, listed
+from .text import counted, lines, suggestion
 
 T = TypeVar("T")
 
 
 def unknown(what: str, name: object, known: Iterable[str]) -> UnknownName:
-    known = list(known)
-    near = difflib.get_close_matches(str(name), known, 1)
-    return UnknownName(f"there is no {what} {name!r}; " + (f"known are {listed(known)}" if known else "there are none")
-                       + (f"; did you mean {near[0]}?" if near else ""))
+    return UnknownName(f"there is no {what} {name!r}; {suggestion(str(name), known)}")
 
 
 def place(what: str, name: str, known: list[str]) -> int:

@@ -2,7 +2,6 @@
 """A table of a case, read by key; errors name the file, the key and the cure."""
 from __future__ import annotations
 
-import difflib
 import math
 import numbers
 import re
@@ -13,15 +12,9 @@ import numpy as np
 from google.protobuf.duration_pb2 import Duration
 
 from .errors import CaseError
-from .text import short
+from .text import short, suggestion
 
 _SECONDS = {"": 1, "s": 1, "ms": 1e-3, "min": 60, "h": 3600, "d": 86400}
-
-
-def suggestion(word: str, known: Iterable[str]) -> str:
-    known = list(known)
-    near = difflib.get_close_matches(word, known, 1)
-    return f"did you mean {near[0]}?" if near else "known are " + ", ".join(known)
 
 
 def shown(value: Any) -> str:
@@ -30,6 +23,12 @@ def shown(value: Any) -> str:
     if callable(value):
         return f"the Python function {getattr(value, '__name__', value)}"
     return short(f"'{value}'" if isinstance(value, str) else str(value))
+
+
+def name_or_index(table: Any, index: int) -> str:
+    """What tells an entry of a list in a key, as the command has it."""
+    name = table.get("name") if isinstance(table, Mapping) else None
+    return name if isinstance(name, str) and 0 < len(name) <= 64 else str(index)
 
 
 class Section:
@@ -165,7 +164,8 @@ class Section:
             return []
         cure = f"write [[{self._below(key)}]] above each of them"
         tables = self.list_of(self.get(key), key, "a list of tables", cure)
-        return [Section(table, f"{self._below(key)}.{i}", known, self.source) for i, table in enumerate(tables)]
+        return [Section(table, f"{self._below(key)}.{name_or_index(table, i)}", known, self.source)
+                for i, table in enumerate(tables)]
 
     def entries(self, key: str, cure: str) -> list[tuple[str, Any]]:
         """Of {name = value, ...}."""

@@ -152,7 +152,7 @@ class Session:
         try:
             return await self._create_mesh(case.requests(loads_needed=False))
         except ServerError as error:
-            raise in_terms_of(case.source, error) from None
+            raise in_terms_of(case.source, case.tables, error) from None
 
     async def submit(self, case: Case | str | os.PathLike[str], coefficients: Any = None, nodal_forces: Any = None,
                      traces: Sequence[int] = (), bounds: bool = False) -> solve_pb2.Job:
@@ -162,7 +162,7 @@ class Session:
             return await self._submit(case.requests(nodal_forces is None, sweep), coefficients, nodal_forces, traces,
                                       bounds)
         except ServerError as error:
-            raise in_terms_of(case.source, error) from None
+            raise in_terms_of(case.source, case.tables, error) from None
 
     async def _submit(self, requests: Requests, coefficients: Any, nodal_forces: Any,
                       traces: Sequence[int], bounds: bool) -> solve_pb2.Job:

@@ -2,6 +2,7 @@
 """Numbers and tables for people to read."""
 from __future__ import annotations
 
+import difflib
 import html
 import math
 from collections.abc import Iterable, Sequence
@@ -45,6 +46,15 @@ def listed(names: Iterable[object], most: int = 20) -> str:
     """Separated by commas; of many the first."""
     texts = [str(name) for name in names]
     return ", ".join(texts[:most]) + (f" and {len(texts) - most} more" if len(texts) > most else "")
+
+
+def suggestion(word: str, known: Iterable[str]) -> str:
+    """As the command's: the nearest word, or those that are known."""
+    known = list(known)
+    near = difflib.get_close_matches(word, known, 1)
+    if near:
+        return f"did you mean {near[0]}?"
+    return f"known are {listed(known)}" if known else "there are none"
 
 
 def lines(items: Sequence[object], most: int = 10) -> str:

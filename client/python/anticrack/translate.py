@@ -4,6 +4,7 @@ server."""
 from __future__ import annotations
 
 import numbers
+import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -176,6 +177,7 @@ def _geometry(section: Section, geometry: mesh_pb2.Geometry) -> None:
         _place(part, "the crack", crack)
         _set(crack, contact=part.boolean("contact"))
     _neumann(section, geometry)
+    without_tension: list[Section] = []
     for part in section.sections("region", ["name", "at", *_OUTLINE, "tension"]):
         region = geometry.regions.add(name=_name(part, "region"))
         if _shape(part, ["at", *_OUTLINE], "the region") in ("at", ""):
@@ -184,10 +186,16 @@ def _geometry(section: Section, geometry: mesh_pb2.Geometry) -> None:
         else:
             _outline(part, "the region", region.outline)
         given = _tension(part, "tension")
+        without_tension += [part] * (given is None)
         if isinstance(given, mesh_pb2.Tension):
             region.tension_law.CopyFrom(given)
         else:
             _set(region, tension=given)
+    if 0 < len(without_tension) < len(geometry.regions):
+        others = len(without_tension) - 1
+        warnings.warn(str(without_tension[0].error("", (f"it and {others} more give" if others else "it gives") +
+                                                   " no tension, as other regions do, which is then 1; write tension "
+                                                   "= 1 where that is meant")))
 
 
 def _tension(section: Section, key: str) -> float | mesh_pb2.Tension | None:

@@ -78,17 +78,16 @@ TEST(AccuracySection, NamesWhatIsWrong) {
 }
 
 TEST(AccuracySection, IsOfTheActiveSetAndOfExpressions) {
-  EXPECT_EQ(
-      complaint(sample_text + "[accuracy]\nA = 1e-3\n"),
-      "plate.toml:14: solver.method: the answers of \"uzawa\" have no bounds; with [accuracy] "
-      "write method = \"active-set\"");
+  EXPECT_EQ(complaint(sample_text + "[accuracy]\nA = 1e-3\n"),
+            "plate.toml:14: solver.method: the answers of \"uzawa\" have no bounds; with "
+            "[accuracy] write method = \"active-set\"");
   std::string text = sample_to("A = 1e-3\n");
   const std::string f = "f = 1\n";
   text.replace(text.find(f), f.size(),
                "f = { file = \"f.h5\", dataset = \"/f\", per = \"node\" }\n");
   EXPECT_EQ(complaint(text),
-            "plate.toml:15: load.0.f: values in a file belong to one mesh, and [accuracy] refines "
-            "it; write f as an expression");
+            "plate.toml:15: load.one.f: values in a file belong to one mesh, and [accuracy] "
+            "refines it; write f as an expression");
 }
 
 TEST(AccuracySection, BeginsOnACoarseMeshUnlessThatIsChosen) {

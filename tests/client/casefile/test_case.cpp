@@ -195,7 +195,7 @@ tension = "1 + x^2"
   EXPECT_EQ(geometry.regions(2).tension_law().along(), "1 + x^2");
   EXPECT_EQ(the_case.locate("geometry.regions[0].tension")->line, 17U);
   EXPECT_EQ(the_case.locate("geometry.regions[2].tension_law.along")->key,
-            "geometry.region.2.tension");
+            "geometry.region.inside.tension");
   EXPECT_EQ(the_case.locate("geometry.neumann[0].from")->key, "geometry.neumann");
 }
 
@@ -217,6 +217,26 @@ TEST(Case, TakesHowInclusionsMoveAndWhetherCracksTouch) {
   EXPECT_FALSE(tilting.mesh.geometry().cracks(1).contact());
 }
 
+TEST(Case, NotesARegionThatForgetsItsTension) {
+  const auto notes = [](const std::string& tension) {
+    return parse(sample_with("[solver]\n",
+                             "[[geometry.region]]\nname = \"a\"\nat = [0, 0.5]\n"
+                             "[[geometry.region]]\nname = \"b\"\nat = [0, -0.5]\n" +
+                                 tension + "[solver]\n"))
+        .notes;
+  };
+  EXPECT_THAT(notes(""), ::testing::IsEmpty()) << "none gives one";
+  const std::string more = "[[geometry.region]]\nname = \"c\"\nat = [0, 0.7]\n";
+  EXPECT_THAT(notes("tension = 2\n" + more),
+              ::testing::ElementsAre(::testing::HasSubstr("a: it and 1 more give no tension")));
+  for (const char* tension : {"tension = 1\n", "tension = \"1 + x\"\n"}) {
+    EXPECT_THAT(notes(tension),
+                ::testing::ElementsAre(
+                    "plate.toml:12: geometry.region.a: it gives no tension, as other regions do, "
+                    "which is then 1; write tension = 1 where that is meant"));
+  }
+}
+
 TEST(Case, NeedsNoInterface) {
   const Case the_case = parse_case(
       "geometry.boundary = [[0, 0], [1, 0], [0, 1]]\ngeometry.neumann = [[[0, 0], [1, 0]]]\n"
@@ -227,13 +247,14 @@ TEST(Case, NeedsNoInterface) {
 }
 
 TEST(Case, TakesEveryKindOfLoad) {
-  const Case the_case = parse(sample_with("f = 1\n", R"(traction = 0.5
+  const Case the_case =
+      parse(sample_with("f = 1\n", R"(traction = 0.5
 boundary_value = "-y"
 point_forces = [{at = [0.5, 0.25], value = -2}, {at = [0, 0.5], value = 1}]
 inclusion_forces = {fibre = 2}
 inclusion_moments = {fibre = [0.5, -0.25]}
 )"),
-                              {"geometry.neumann=[\"side-1\"]"});
+            {"geometry.neumann=[\"side-1\"]", "geometry.inclusion.fibre.tilt=true"});
   const v1::LoadCase& load = the_case.job.load_cases(0);
   EXPECT_FALSE(load.has_force());
   EXPECT_EQ(load.traction(), "0.5");
@@ -246,7 +267,7 @@ inclusion_moments = {fibre = [0.5, -0.25]}
   EXPECT_EQ(load.inclusion_moments().at("fibre").y(), -0.25);
   EXPECT_EQ(the_case.locate("job.load_cases[0].point_forces[1].at")->line, 19U);
   EXPECT_EQ(the_case.locate("job.load_cases[0].inclusion_forces[fibre]")->key,
-            "load.0.inclusion_forces.fibre");
+            "load.one.inclusion_forces.fibre");
   EXPECT_EQ(the_case.locate("job.load_cases[0].inclusion_moments[fibre]")->line, 21U);
   EXPECT_EQ(the_case.locate("job.load_cases[0].traction")->line, 17U);
 }
@@ -302,9 +323,9 @@ TEST(Locate, FindsTheLineOfAField) {
   const Case the_case = parse(sample_text);
   const auto spot = the_case.locate("job.load_cases[1].force.expression");
   ASSERT_TRUE(spot.has_value());
-  EXPECT_EQ(spot->key, "load.1.f");
+  EXPECT_EQ(spot->key, "load.two.f");
   EXPECT_EQ(spot->line, 20U);
-  EXPECT_EQ(prefix(*spot), "plate.toml:20: load.1.f: ");
+  EXPECT_EQ(prefix(*spot), "plate.toml:20: load.two.f: ");
   EXPECT_EQ(the_case.locate("job.solver.uzawa.theta")->key, "solver.theta");
   EXPECT_EQ(the_case.locate("geometry.inclusions[0].part.from")->line, 9U);
   EXPECT_EQ(the_case.locate("geometry.interfaces[0].polyline.points[1]")->key,

@@ -38,8 +38,8 @@ const Mistake mistakes[] = {
     {"unknown_table", "[solver]", "[slover]",
      "plate.toml:12: slover: unknown key; did you mean solver?"},
     {"unknown_key_in_list", "f = 1\n", "force = 1\n",
-     "plate.toml:17: load.0.force: unknown key; known are boundary_value, f, "
-     "inclusion_forces, inclusion_moments, name, point_forces, traction"},
+     "plate.toml:17: load.one.force: unknown key; known are boundary_value, f, inclusion_forces, "
+     "inclusion_moments, name, point_forces, traction"},
     {"theta_text", "theta = 1.5", "theta = \"fast\"",
      "plate.toml:13: solver.theta: 'fast' is not a finite number; write a number above 0, or "
      "\"auto\""},
@@ -80,56 +80,52 @@ const Mistake mistakes[] = {
     {"no_name", "name = \"fibre\"\n", "",
      "plate.toml:7: geometry.inclusion.0.name: missing; give the inclusion a name"},
     {"no_from", "from = [-0.5, 0]\n", "",
-     "plate.toml:7: geometry.inclusion.0.from: missing; write [x, y], a point of an interface, or "
-     "a line "
-     "of its own: points, arc, spline, or center, angle and length"},
+     "plate.toml:7: geometry.inclusion.fibre.from: missing; write [x, y], a point of an interface, "
+     "or a line of its own: points, arc, spline, or center, angle and length"},
     {"single_brackets", "[[geometry.inclusion]]", "[geometry.inclusion]",
      "plate.toml:7: geometry.inclusion: { from = [ -0.5, 0 ], name = 'fibre', to = [ 0.5, 0 ] } is "
      "not a list of tables; write [[geometry.inclusion]] above each of them"},
     {"traction_without_neumann", "name = \"one\"", "name = \"one\"\ntraction = \"1\"",
-     "plate.toml:17: load.0.traction: nothing has a traction, as no part of the boundary is in "
-     "geometry.neumann; "
-     "name its sides or holes there"},
+     "plate.toml:17: load.one.traction: nothing has a traction, as no part of the boundary is in "
+     "geometry.neumann; name its sides or holes there"},
     {"delaminated_text", "to   = [0.5, 0]", "to   = [0.5, 0]\ndelaminated = \"yes\"",
-     "plate.toml:11: geometry.inclusion.0.delaminated: 'yes' is not possible; write true, false, "
-     "\"left\", \"right\", [[from, to], ...] or [[0.5, 1.0], ...], stretches of its length"},
+     "plate.toml:11: geometry.inclusion.fibre.delaminated: 'yes' is not possible; write true, "
+     "false, \"left\", \"right\", [[from, to], ...] or [[0.5, 1.0], ...], stretches of its length"},
     {"delaminated_points", "to   = [0.5, 0]", "to   = [0.5, 0]\ndelaminated = [[[0, 0]]]",
-     "plate.toml:11: geometry.inclusion.0.delaminated.0: [ [ 0, 0 ] ] is not a part; a part is "
+     "plate.toml:11: geometry.inclusion.fibre.delaminated.0: [ [ 0, 0 ] ] is not a part; a part is "
      "[from, to], and a list of parts [[from, to]]"},
     {"delaminated_stretch", "to   = [0.5, 0]", "to   = [0.5, 0]\ndelaminated = [[0, 0.5, 1]]",
-     "plate.toml:11: geometry.inclusion.0.delaminated.0: [ 0, 0.5, 1 ] is not a stretch; write "
+     "plate.toml:11: geometry.inclusion.fibre.delaminated.0: [ 0, 0.5, 1 ] is not a stretch; write "
      "[0.5, 1.0], by arc length over the whole length"},
     {"side_unknown", "to   = [0.5, 0]", "to   = [0.5, 0]\nside = \"up\"",
-     "plate.toml:11: geometry.inclusion.0.side: 'up' is not possible; known are left, right"},
+     "plate.toml:11: geometry.inclusion.fibre.side: 'up' is not possible; known are left, right"},
     {"two_sides", "to   = [0.5, 0]", "to   = [0.5, 0]\ndelaminated = \"left\"\nside = \"left\"",
-     "plate.toml:12: geometry.inclusion.0.side: delaminated names a side too; remove one of the "
-     "two"},
+     "plate.toml:12: geometry.inclusion.fibre.side: delaminated names a side too; remove one of "
+     "the two"},
     {"part_and_line", "to   = [0.5, 0]", "to   = [0.5, 0]\ncenter = [0, 0.5]\nlength = 1",
-     "plate.toml:9: geometry.inclusion.0.from: belongs to a part of an interface, but the "
+     "plate.toml:9: geometry.inclusion.fibre.from: belongs to a part of an interface, but the "
      "inclusion has center, a line of its own; remove one of the two"},
     {"two_lines", "to   = [0.5, 0]", "points = [[0, 0], [1, 1]]\ncenter = [0, 0.5]",
-     "plate.toml:11: geometry.inclusion.0.center: the inclusion has points too; remove one of the "
-     "two"},
+     "plate.toml:11: geometry.inclusion.fibre.center: the inclusion has points too; remove one of "
+     "the two"},
     {"no_length", "from = [-0.5, 0]\nto   = [0.5, 0]", "center = [0, 0.5]",
-     "plate.toml:7: geometry.inclusion.0.length: missing; write its length, beside its center"},
+     "plate.toml:7: geometry.inclusion.fibre.length: missing; write its length, beside its center"},
     {"angle_text", "from = [-0.5, 0]\nto   = [0.5, 0]",
      "center = [0, 0.5]\nlength = 1\nangle = \"20\"",
-     "plate.toml:11: geometry.inclusion.0.angle: '20' is not a finite number; write a number "
+     "plate.toml:11: geometry.inclusion.fibre.angle: '20' is not a finite number; write a number "
      "without quotes"},
     {"angle_without_center", "to   = [0.5, 0]", "to   = [0.5, 0]\nangle = 20",
-     "plate.toml:11: geometry.inclusion.0.angle: belongs to center; write center = [x, y], angle "
-     "in "
-     "degrees and length"},
+     "plate.toml:11: geometry.inclusion.fibre.angle: belongs to center; write center = [x, y], "
+     "angle in degrees and length"},
     {"no_f", "f = 1\n", "",
-     "plate.toml:15: load.0.f: missing; write a number, an expression in x and y in quotes, "
+     "plate.toml:15: load.one.f: missing; write a number, an expression in x and y in quotes, "
      "{region = number} or {file = \"f.h5\", dataset = \"/f\", per = \"triangle\"}"},
     {"f_list", "f = 1\n", "f = [1]\n",
-     "plate.toml:17: load.0.f: [ 1 ] is not a finite number; write a number, an expression in x "
-     "and y "
-     "in quotes, "
-     "{region = number} or {file = \"f.h5\", dataset = \"/f\", per = \"triangle\"}"},
+     "plate.toml:17: load.one.f: [ 1 ] is not a finite number; write a number, an expression in x "
+     "and y in quotes, {region = number} or {file = \"f.h5\", dataset = \"/f\", per = "
+     "\"triangle\"}"},
     {"f_region_text", "f = 1\n", "f = {a = \"b\"}\n",
-     "plate.toml:17: load.0.f.a: 'b' is not a finite number; write one number for each region"},
+     "plate.toml:17: load.one.f.a: 'b' is not a finite number; write one number for each region"},
     {"title_number", "title = \"A plate\"", "title = 3",
      "plate.toml:1: title: 3 is not text; write it in quotes"},
     {"fields_text", "[solver]\ntheta = 1.5\nmethod = \"uzawa\"", "[output]\nfields = \"yes\"",
@@ -152,23 +148,22 @@ Mistake load(const char* what, const char* to, const char* complaint) {
 }
 
 const Mistake geometry_mistakes[] = {
-    interface("interface_number", "interface = 3\n",
-              "plate.toml:5: geometry.interface: 3 is not a list of points; write [[x, y], [x, y], "
-              "...]"),
+    interface(
+        "interface_number", "interface = 3\n",
+        "plate.toml:5: geometry.interface: 3 is not a list of points; write [[x, y], [x, y], ...]"),
     interface("interface_key", "[[geometry.interface]]\npoint = [[0, 0], [1, 0]]\n",
               "plate.toml:6: geometry.interface.0.point: unknown key; did you mean points?"),
     interface("interface_without_shape", "[[geometry.interface]]\nname = \"a\"\n",
-              "plate.toml:5: geometry.interface.0: an interface without a shape; write points = "
+              "plate.toml:5: geometry.interface.a: an interface without a shape; write points = "
               "[[x, y], ...], arc = [from, through, to] or spline = [[x, y], ...]"),
-    interface("interface_of_two_shapes",
-              "[[geometry.interface]]\npoints = [[-1, 0], [1, 0]]\narc = [[-1, 0], [0, 1], [1, "
-              "0]]\n",
-              "plate.toml:7: geometry.interface.0.arc: the interface has points too; remove one of "
-              "the two"),
     interface(
-        "arc_of_two", "[[geometry.interface]]\narc = [[-1, 0], [1, 0]]\n",
-        "plate.toml:6: geometry.interface.0.arc: [ [ -1, 0 ], [ 1, 0 ] ] is not an arc; write "
-        "[from, through, to], three points with the second between the others"),
+        "interface_of_two_shapes",
+        "[[geometry.interface]]\npoints = [[-1, 0], [1, 0]]\narc = [[-1, 0], [0, 1], [1, 0]]\n",
+        "plate.toml:7: geometry.interface.0.arc: the interface has points too; remove one of the "
+        "two"),
+    interface("arc_of_two", "[[geometry.interface]]\narc = [[-1, 0], [1, 0]]\n",
+              "plate.toml:6: geometry.interface.0.arc: [ [ -1, 0 ], [ 1, 0 ] ] is not an arc; "
+              "write [from, through, to], three points with the second between the others"),
     interface("closed_arc",
               "[[geometry.interface]]\narc = [[-1, 0], [0, 1], [1, 0]]\nclosed = true\n",
               "plate.toml:7: geometry.interface.0.closed: an arc has two ends; remove the key, or "
@@ -181,79 +176,73 @@ const Mistake geometry_mistakes[] = {
               "plate.toml:6: geometry.interface.0.spline.1: [ 1 ] is not a point; write [x, y]"),
     interface(
         "neumann_text", "neumann = \"left\"\n",
-        "plate.toml:5: geometry.neumann: 'left' is not possible; write a list of names of "
-        "sides and holes, or of [from, to], parts of the boundary walked counterclockwise, or "
-        "\"all\""),
+        "plate.toml:5: geometry.neumann: 'left' is not possible; write a list of names of sides "
+        "and holes, or of [from, to], parts of the boundary walked counterclockwise, or \"all\""),
     interface("neumann_number", "neumann = [\"left\", 2]\n",
               "plate.toml:5: geometry.neumann.1: 2 is not a part; a part is [from, to], and a list "
               "of parts [[from, to]]"),
     interface("hole_without_shape", "[[geometry.hole]]\nname = \"window\"\n",
-              "plate.toml:5: geometry.hole.0: the hole without a shape; write circle = { center = "
-              "[x, y], radius = r }, points = [[x, y], ...] or spline = [[x, y], ...]"),
+              "plate.toml:5: geometry.hole.window: the hole without a shape; write circle = { "
+              "center = [x, y], radius = r }, points = [[x, y], ...] or spline = [[x, y], ...]"),
     interface("hole_key", "[[geometry.hole]]\ncirlce = {}\n",
               "plate.toml:6: geometry.hole.0.cirlce: unknown key; did you mean circle?"),
-    interface("hole_of_two_shapes",
-              "[[geometry.hole]]\ncircle = { center = [0, 0], radius = 1 }\nspline = []\n",
-              "plate.toml:7: geometry.hole.0.spline: the hole has circle too; remove one of the "
-              "two"),
+    interface(
+        "hole_of_two_shapes",
+        "[[geometry.hole]]\ncircle = { center = [0, 0], radius = 1 }\nspline = []\n",
+        "plate.toml:7: geometry.hole.0.spline: the hole has circle too; remove one of the two"),
     interface("radius_zero", "[[geometry.hole]]\ncircle = { center = [0, 0], radius = 0 }\n",
               "plate.toml:6: geometry.hole.0.circle.radius: 0 is not above 0; write a number above "
               "0, or leave the key out for its default"),
     interface("circle_without_radius", "[[geometry.hole]]\ncircle = { center = [0, 0] }\n",
               "plate.toml:6: geometry.hole.0.circle.radius: missing; write its radius"),
-    interface("circle_number", "[[geometry.hole]]\ncircle = 3\n",
-              "plate.toml:6: geometry.hole.0.circle: 3 is not a table; write "
-              "[geometry.hole.0.circle]"),
-    interface("region_at_and_outline",
-              "[[geometry.region]]\nname = \"r\"\nat = [0, 0]\npoints = []\n",
-              "plate.toml:8: geometry.region.0.points: the region has at too; remove one of the "
-              "two"),
+    interface(
+        "circle_number", "[[geometry.hole]]\ncircle = 3\n",
+        "plate.toml:6: geometry.hole.0.circle: 3 is not a table; write [geometry.hole.0.circle]"),
+    interface(
+        "region_at_and_outline", "[[geometry.region]]\nname = \"r\"\nat = [0, 0]\npoints = []\n",
+        "plate.toml:8: geometry.region.r.points: the region has at too; remove one of the two"),
     {"side_without_shape", "boundary  = [[-1, -1], [1, -1], [1, 1], [-1, 1]]",
      "boundary = [{ name = \"left\" }]",
-     "plate.toml:4: geometry.boundary.0: a side without a shape; write points = [[x, y], ...], arc "
-     "= [from, through, to] or spline = [[x, y], ...]"},
+     "plate.toml:4: geometry.boundary.left: a side without a shape; write points = [[x, y], ...], "
+     "arc = [from, through, to] or spline = [[x, y], ...]"},
     {"side_key", "boundary  = [[-1, -1], [1, -1], [1, 1], [-1, 1]]", "boundary = [{ point = [] }]",
      "plate.toml:4: geometry.boundary.0.point: unknown key; did you mean points?"},
     {"side_of_a_crack", "[[geometry.inclusion]]\n", "[[geometry.crack]]\nside = \"left\"\n",
-     "plate.toml:8: geometry.crack.0.side: belongs to [[geometry.inclusion]]; the plus side of a "
-     "crack is on its left, so write it the other way round"},
+     "plate.toml:8: geometry.crack.fibre.side: belongs to [[geometry.inclusion]]; the plus side of "
+     "a crack is on its left, so write it the other way round"},
     interface("neumann_point", "neumann = [[1, -1], [1, 1]]\n",
               "plate.toml:5: geometry.neumann.0.0: 1 is not a point; write [x, y]"),
     interface("neumann_three", "neumann = [[[1, -1], [1, 1], [0, 0]]]\n",
               "plate.toml:5: geometry.neumann.0: [ [ 1, -1 ], [ 1, 1 ], [ 0, 0 ] ] is not a part; "
               "a part is [from, to], and a list of parts [[from, to]]"),
     {"contact_of_an_inclusion", "from = [-0.5, 0]\n", "from = [-0.5, 0]\ncontact = false\n",
-     "plate.toml:10: geometry.inclusion.0.contact: belongs to [[geometry.crack]]; an inclusion has "
-     "delaminated = true or false"},
+     "plate.toml:10: geometry.inclusion.fibre.contact: belongs to [[geometry.crack]]; an inclusion "
+     "has delaminated = true or false"},
     {"fixed_text", "from = [-0.5, 0]\n", "from = [-0.5, 0]\nfixed = \"yes\"\n",
-     "plate.toml:10: geometry.inclusion.0.fixed: 'yes' is not a finite number; write a number "
+     "plate.toml:10: geometry.inclusion.fibre.fixed: 'yes' is not a finite number; write a number "
      "without quotes"},
     {"fixed_and_tilt", "from = [-0.5, 0]\n", "from = [-0.5, 0]\nfixed = 1\ntilt = true\n",
-     "plate.toml:10: geometry.inclusion.0.fixed: the inclusion has tilt = true too, but one that "
-     "is "
-     "held does not tilt; remove one of the two"},
+     "plate.toml:10: geometry.inclusion.fibre.fixed: the inclusion has tilt = true too, but one "
+     "that is held does not tilt; remove one of the two"},
     {"tilt_number", "from = [-0.5, 0]\n", "from = [-0.5, 0]\ntilt = 1\n",
-     "plate.toml:10: geometry.inclusion.0.tilt: 1 is neither true nor false"},
+     "plate.toml:10: geometry.inclusion.fibre.tilt: 1 is neither true nor false"},
     {"tilt_of_a_crack", "[[geometry.inclusion]]\n", "[[geometry.crack]]\ntilt = false\n",
-     "plate.toml:8: geometry.crack.0.tilt: belongs to [[geometry.inclusion]]; nothing rigid lies "
-     "on "
-     "a crack, so remove it"},
+     "plate.toml:8: geometry.crack.fibre.tilt: belongs to [[geometry.inclusion]]; nothing rigid "
+     "lies on a crack, so remove it"},
     interface("region_without_name", "[[geometry.region]]\nat = [0, 1]\n",
               "plate.toml:5: geometry.region.0.name: missing; give the region a name"),
     interface("region_without_at", "[[geometry.region]]\nname = \"top\"\n",
-              "plate.toml:5: geometry.region.0.at: missing; write [x, y], a point inside the "
+              "plate.toml:5: geometry.region.top.at: missing; write [x, y], a point inside the "
               "region, or its outline: circle, points or spline"),
     interface("region_key", "[[geometry.region]]\nname = \"top\"\nat = [0, 1]\ntensoin = 2\n",
-              "plate.toml:8: geometry.region.0.tensoin: unknown key; did you mean tension?"),
-    interface(
-        "tension_zero", "[[geometry.region]]\nname = \"top\"\nat = [0, 1]\ntension = 0\n",
-        "plate.toml:8: geometry.region.0.tension: 0 is not above 0; write a number above 0, or "
-        "leave the key out for its default"),
+              "plate.toml:8: geometry.region.top.tensoin: unknown key; did you mean tension?"),
+    interface("tension_zero", "[[geometry.region]]\nname = \"top\"\nat = [0, 1]\ntension = 0\n",
+              "plate.toml:8: geometry.region.top.tension: 0 is not above 0; write a number above "
+              "0, or leave the key out for its default"),
     interface("tension_across_alone",
               "[[geometry.region]]\nname = \"top\"\nat = [0, 1]\ntension = { across = 2 }\n",
-              "plate.toml:8: geometry.region.0.tension.along: missing; write the tension in the "
-              "direction "
-              "of angle, a number or an expression"),
+              "plate.toml:8: geometry.region.top.tension.along: missing; write the tension in the "
+              "direction of angle, a number or an expression"),
 };
 
 const Mistake mesh_mistakes[] = {
@@ -265,10 +254,9 @@ const Mistake mesh_mistakes[] = {
     mesh("tip_size_of_uniform", "[mesh]\ntip_size = 3\npreset = \"uniform\"",
          "plate.toml:13: mesh.tip_size: means nothing with preset \"uniform\"; remove it, or write "
          "preset = \"graded\""),
-    mesh(
-        "size_negative", "[mesh]\nsize = -1",
-        "plate.toml:13: mesh.size: -1 is not above 0; write a number above 0, or leave the key out "
-        "for its default"),
+    mesh("size_negative", "[mesh]\nsize = -1",
+         "plate.toml:13: mesh.size: -1 is not above 0; write a number above 0, or leave the key "
+         "out for its default"),
     mesh("tip_size_text", "[mesh]\ntip_size = \"small\"",
          "plate.toml:13: mesh.tip_size: 'small' is not a finite number; write a number without "
          "quotes"),
@@ -305,16 +293,14 @@ const Mistake mesh_mistakes[] = {
     mesh(
         "group_tag", "[mesh]\nfile = \"a.msh\"\n[mesh.groups]\ncurve.seven = \"crack\"",
         "plate.toml:15: mesh.groups.curve.seven: 'seven' is not a tag; write the tag of a physical "
-        "group and its meaning in quotes, for example curve.7 = \"crack\" or surface.1 = "
-        "\"top\""),
+        "group and its meaning in quotes, for example curve.7 = \"crack\" or surface.1 = \"top\""),
     mesh("group_meaning", "[mesh]\nfile = \"a.msh\"\n[mesh.groups.surface]\n1 = 2",
          "plate.toml:15: mesh.groups.surface.1: 2 is not a meaning of a group; write the tag of a "
          "physical group and its meaning in quotes, for example curve.7 = \"crack\" or surface.1 = "
          "\"top\""),
-    mesh(
-        "group_list", "[mesh]\nfile = \"a.msh\"\ngroups.curve = [7]",
-        "plate.toml:14: mesh.groups.curve: [ 7 ] is not a table; write the tag of a physical group "
-        "and its meaning in quotes, for example curve.7 = \"crack\" or surface.1 = \"top\""),
+    mesh("group_list", "[mesh]\nfile = \"a.msh\"\ngroups.curve = [7]",
+         "plate.toml:14: mesh.groups.curve: [ 7 ] is not a table; write the tag of a physical "
+         "group and its meaning in quotes, for example curve.7 = \"crack\" or surface.1 = \"top\""),
     mesh("mesh_tension_list", "[mesh]\nfile = \"a.msh\"\ntension.top = [2]",
          "plate.toml:14: mesh.tension.top: [ 2 ] is not a finite number; write a finite number"),
     mesh("mesh_tension_number", "[mesh]\nfile = \"a.msh\"\ntension = 2",
@@ -335,55 +321,57 @@ const Mistake mesh_mistakes[] = {
 
 const Mistake load_mistakes[] = {
     load("file_without_dataset", "f = {file = \"f.h5\", per = \"node\"}\n",
-         "plate.toml:17: load.0.f.dataset: missing; name the dataset in the file, as \"/f\""),
+         "plate.toml:17: load.one.f.dataset: missing; name the dataset in the file, as \"/f\""),
     load("file_without_per", "f = {file = \"f.h5\", dataset = \"/f\"}\n",
-         "plate.toml:17: load.0.f.per: missing; write per = \"triangle\" or per = \"node\""),
+         "plate.toml:17: load.one.f.per: missing; write per = \"triangle\" or per = \"node\""),
     load("dataset_without_file", "f = {dataset = \"/f\", per = \"node\"}\n",
-         "plate.toml:17: load.0.f.file: missing; name an HDF5 file"),
+         "plate.toml:17: load.one.f.file: missing; name an HDF5 file"),
     load("per_unknown", "f = {file = \"f.h5\", dataset = \"/f\", per = \"nodes\"}\n",
-         "plate.toml:17: load.0.f.per: 'nodes' is not possible; did you mean node?"),
+         "plate.toml:17: load.one.f.per: 'nodes' is not possible; did you mean node?"),
     load("file_key", "f = {file = \"f.h5\", datset = \"/f\", per = \"node\"}\n",
-         "plate.toml:17: load.0.f.datset: unknown key; did you mean dataset?"),
+         "plate.toml:17: load.one.f.datset: unknown key; did you mean dataset?"),
     load("traction_list", "traction = [1]\n",
-         "plate.toml:17: load.0.traction: [ 1 ] is not a finite number; write a number, or an "
+         "plate.toml:17: load.one.traction: [ 1 ] is not a finite number; write a number, or an "
          "expression in x and y in quotes"),
     load("boundary_value_nan", "boundary_value = nan\n",
-         "plate.toml:17: load.0.boundary_value: nan is not a finite number; write a number, or an "
-         "expression in x and y in quotes"),
+         "plate.toml:17: load.one.boundary_value: nan is not a finite number; write a number, or "
+         "an expression in x and y in quotes"),
     load("point_force_key", "point_forces = [{at = [0, 0], valeu = 1}]\n",
-         "plate.toml:17: load.0.point_forces.0.valeu: unknown key; did you mean value?"),
+         "plate.toml:17: load.one.point_forces.0.valeu: unknown key; did you mean value?"),
     load("point_force_without_at", "point_forces = [{value = 1}]\n",
-         "plate.toml:17: load.0.point_forces.0.at: missing; write [x, y], where the force acts"),
+         "plate.toml:17: load.one.point_forces.0.at: missing; write [x, y], where the force acts"),
     load("point_force_without_value", "point_forces = [{at = [0, 0]}]\n",
-         "plate.toml:17: load.0.point_forces.0.value: missing; write the force, a number"),
+         "plate.toml:17: load.one.point_forces.0.value: missing; write the force, a number"),
     load("point_force_text", "point_forces = [{at = [0, 0], value = \"1\"}]\n",
-         "plate.toml:17: load.0.point_forces.0.value: '1' is not a finite number; write a number "
+         "plate.toml:17: load.one.point_forces.0.value: '1' is not a finite number; write a number "
          "without quotes"),
     load("inclusion_forces_number", "inclusion_forces = 2\n",
-         "plate.toml:17: load.0.inclusion_forces: 2 is not a table; write inclusion = number for "
-         "each "
-         "of them"),
+         "plate.toml:17: load.one.inclusion_forces: 2 is not a table; write inclusion = number for "
+         "each of them"),
     load("inclusion_force_text", "inclusion_forces = {fibre = \"2\"}\n",
-         "plate.toml:17: load.0.inclusion_forces.fibre: '2' is not a finite number; write "
-         "inclusion = "
-         "number for each of them"),
+         "plate.toml:17: load.one.inclusion_forces.fibre: '2' is not a finite number; write "
+         "inclusion = number for each of them"),
     load("unknown_inclusion", "inclusion_forces = {fibr = 2}\n",
-         "plate.toml:17: load.0.inclusion_forces.fibr: there is no inclusion of this name; did you "
-         "mean fibre?"),
+         "plate.toml:17: load.one.inclusion_forces.fibr: there is no inclusion of this name; did "
+         "you mean fibre?"),
     load("unknown_region", "f = {top = 1}\n",
-         "plate.toml:17: load.0.f.top: there is no region of this name; name one by "
+         "plate.toml:17: load.one.f.top: there is no region of this name; name one by "
          "[[geometry.region]]"),
     load("inclusion_moments_list", "inclusion_moments = [0, 1]\n",
-         "plate.toml:17: load.0.inclusion_moments: [ 0, 1 ] is not a table; write inclusion = "
+         "plate.toml:17: load.one.inclusion_moments: [ 0, 1 ] is not a table; write inclusion = "
          "[Mx, My] for each of them"),
     load("inclusion_moment_number", "inclusion_moments = {fibre = 2}\n",
-         "plate.toml:17: load.0.inclusion_moments.fibre: 2 is not a moment; write inclusion = "
+         "plate.toml:17: load.one.inclusion_moments.fibre: 2 is not a moment; write inclusion = "
          "[Mx, My] for each of them"),
     load("inclusion_moment_of_three", "inclusion_moments = {fibre = [0, 0, 2]}\n",
-         "plate.toml:17: load.0.inclusion_moments.fibre: [ 0, 0, 2 ] is not a moment; write "
+         "plate.toml:17: load.one.inclusion_moments.fibre: [ 0, 0, 2 ] is not a moment; write "
          "inclusion = [Mx, My] for each of them"),
+    load("inclusion_moment_without_tilt", "inclusion_moments = {fibre = [0, 1]}\n",
+         "plate.toml:17: load.one.inclusion_moments: the inclusion \"fibre\" does not tilt, so a "
+         "moment on it does nothing; write tilt = true in its [[geometry.inclusion]], or leave the "
+         "moment out"),
     load("inclusion_moment_nan", "inclusion_moments = {fibre = [0, nan]}\n",
-         "plate.toml:17: load.0.inclusion_moments.fibre: nan is not a finite number; write "
+         "plate.toml:17: load.one.inclusion_moments.fibre: nan is not a finite number; write "
          "inclusion = [Mx, My] for each of them"),
 };
 
@@ -416,8 +404,7 @@ TEST(CaseErrors, FileThatIsNotThere) {
   } catch (const Error& error) {
     EXPECT_STREQ(
         error.what(),
-        "no/such/case.toml: cannot be read: No such file or directory; name a case, a TOML "
-        "file");
+        "no/such/case.toml: cannot be read: No such file or directory; name a case, a TOML file");
   }
   EXPECT_THROW(read_case(std::filesystem::temp_directory_path()), Error);
 }

@@ -43,6 +43,15 @@ class PlainGolden(GoldenTest):
     def test_a_fresh_server(self):  # comes first
         self.said("server", "server")
 
+    def test_what_may_be_a_slip_is_noted_beside_the_output(self):
+        forgets = ["plate.toml", "--set", "geometry.region.1.name=below", "--set", "geometry.region.1.at=[0, -0.5]"]
+        created = self.anticrack("mesh", "create", *forgets)
+        self.assertEqual(created.returncode, 0, created.stderr)
+        note = "anticrack: note: --set geometry.region.1.at=[0, -0.5]: geometry.region.below: it gives no tension, "
+        self.assertTrue(created.stderr.startswith(note), created.stderr)
+        self.assertNotIn("note", created.stdout)
+        self.assertEqual(self.anticrack("--quiet", "mesh", "create", *forgets).stderr, "")
+
     def test_results_without_fields(self):
         bare = self.anticrack("run", "plate.toml", "--set", "output.fields=false", "-o", "bare.h5")
         self.assertEqual(bare.returncode, 0, bare.stderr)

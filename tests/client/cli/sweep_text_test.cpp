@@ -26,7 +26,7 @@ void set_status(results::Result& result, std::size_t row, Status status) {
 
 TEST(SweepTable, SumsUp) {
   EXPECT_EQ(answers_table(sample_sweep(5)),
-            "5 rows of ratio.csv: 4 converged, 1 did not converge\n"
+            "5 rows of ratio.csv: 4 converged, 1 did not converge (row 3)\n"
             "at most 4 steps, KKT residuals at most 1e-13\n"
             "\n"
             "                least  most\n"
@@ -34,6 +34,13 @@ TEST(SweepTable, SumsUp) {
             "contact length      0   0.9\n"
             "energy             -2    -1\n"
             "traces of 2 rows\n");
+}
+
+TEST(SweepTable, NamesTheFirstRowsThatWentWrong) {
+  results::Result result = sample_sweep(20);
+  for (const std::size_t row : {0, 1, 2, 3, 4, 5, 6, 7, 13})
+    set_status(result, row, Status::failed);
+  EXPECT_THAT(answers_table(result), HasSubstr(" (rows 0, 1, 2, 3, 4 and 5 more)\n"));
 }
 
 TEST(SweepTable, NamesUnits) {
@@ -59,7 +66,7 @@ TEST(SweepTable, SaysHowWideBoundsAre) {
   results::Result result = anticrack::testing::bounded_sweep(5);
   EXPECT_THAT(answers_table(result),
               HasSubstr("-1\nbounds of 3 rows: of the energy at most 0.5 % wide, of A at most +- "
-                        "0.01\ntraces of 2 rows\n"));
+                        "0.01; none of row 4\ntraces of 2 rows\n"));
   result.sweep->energy_lower.assign(5, results::unknown);
   EXPECT_THAT(answers_table(result), HasSubstr("no row has bounds\n"));
 }

@@ -58,7 +58,7 @@ CASES = [
     ([("[solver]", "[solvr]")], 2,
      "wrong.toml:17: solvr: unknown key; did you mean solver?"),
     ([("delaminated", "delaminatd")], 2,
-     "wrong.toml:11: geometry.inclusion.0.delaminatd: unknown key; did you mean delaminated?"),
+     "wrong.toml:11: geometry.inclusion.fibre.delaminatd: unknown key; did you mean delaminated?"),
     ([("theta = 1.5", "max_steps = 4")], 2,
      'wrong.toml:19: solver.max_steps: belongs to method "active-set"; remove it, or write method = '
      '"active-set"'),
@@ -139,7 +139,7 @@ CASES = [
      "boundary in between: the stretch from (-2, 0) to (1, 0) meets the edge (-1, 1)-(-1, -1) of boundary; "
      "only its two ends may lie on the boundary"),
     ([("from = [-0.5, 0]", "from = [-0.5, 0.1]")], 2,
-     'wrong.toml:9: geometry.inclusion.0.from: inclusion "fibre": from (-0.5, 0.1) lies 0.1 off the '
+     'wrong.toml:9: geometry.inclusion.fibre.from: inclusion "fibre": from (-0.5, 0.1) lies 0.1 off the '
      "interface; it must lie on it, to 2.8284271e-06; nearest is (-0.5, 0); or give it a line of "
      "its own in place of from and to: points, arc, spline, or center, angle and length"),
     ([("[1, 0]]\n", '[1, 0]]\nneumann = ["left"]\n')], 2,
@@ -150,30 +150,30 @@ CASES = [
      "boundary but the straight side between them; for that side write its name, \"side-4\", or [(-1, 1), (-1, -1)], "
      "for the others their names"),
     ([("to = [0.5, 0]", "to = [-0.5, 0]")], 2,
-     'wrong.toml:9: geometry.inclusion.0.from: inclusion "fibre" has no length: it runs from (-0.5, '
+     'wrong.toml:9: geometry.inclusion.fibre.from: inclusion "fibre" has no length: it runs from (-0.5, '
      "0) to (-0.5, 0)"),
     (more('[[geometry.inclusion]]\nname = "fibre"\nfrom = [0.6, 0]\nto = [0.7, 0]'), 2,
-     'wrong.toml:14: geometry.inclusion.1.name: inclusions[1].name "fibre" is already the name of '
+     'wrong.toml:14: geometry.inclusion.fibre.name: inclusions[1].name "fibre" is already the name of '
      "inclusions[0]; every inclusion and crack needs its own"),
     (more('[[geometry.crack]]\nname = "c"\nfrom = [0.4, 0]\nto = [0.7, 0]'), 2,
-     'wrong.toml:15: geometry.crack.0.from: crack "c" and inclusion "fibre" overlap from (0.4, 0) on; a '
+     'wrong.toml:15: geometry.crack.c.from: crack "c" and inclusion "fibre" overlap from (0.4, 0) on; a '
      "piece of the interface belongs to one inclusion or crack"),
     (more('[[geometry.region]]\nname = "top"\nat = [0, 0]'), 2,
-     'wrong.toml:15: geometry.region.0.at: region "top": at (0, 0) lies on the interface; it '
+     'wrong.toml:15: geometry.region.top.at: region "top": at (0, 0) lies on the interface; it '
      "must lie inside the subdomain it names"),
     (more('[[geometry.region]]\nname = "top"\nat = [0, 0.5]\ntension = -1'), 2,
-     "wrong.toml:16: geometry.region.0.tension: -1 is not above 0; write a number above 0, or leave "
+     "wrong.toml:16: geometry.region.top.tension: -1 is not above 0; write a number above 0, or leave "
      "the key out for its default"),
     ([("delaminated = true", "contact = false")], 2,
-     "wrong.toml:11: geometry.inclusion.0.contact: belongs to [[geometry.crack]]; an inclusion has delaminated "
+     "wrong.toml:11: geometry.inclusion.fibre.contact: belongs to [[geometry.crack]]; an inclusion has delaminated "
      "= true or false"),
     (more('[[geometry.crack]]\nname = "c"\nfrom = [0.6, 0]\nto = [0.7, 0]\ntilt = true'), 2,
-     "wrong.toml:17: geometry.crack.0.tilt: belongs to [[geometry.inclusion]]; nothing rigid lies on a crack, so "
+     "wrong.toml:17: geometry.crack.c.tilt: belongs to [[geometry.inclusion]]; nothing rigid lies on a crack, so "
      "remove it"),
     ([("delaminated = true", "fixed = nan")], 2,
-     "wrong.toml:11: geometry.inclusion.0.fixed: nan is not a finite number; write a finite number"),
+     "wrong.toml:11: geometry.inclusion.fibre.fixed: nan is not a finite number; write a finite number"),
     ([("delaminated = true", "tilt = true\nfixed = 0.1")], 2,
-     "wrong.toml:12: geometry.inclusion.0.fixed: the inclusion has tilt = true too, but one that is held does not "
+     "wrong.toml:12: geometry.inclusion.fibre.fixed: the inclusion has tilt = true too, but one that is held does not "
      "tilt; remove one of the two"),
     (more("[mesh.inclusions]\nfibre = { tilt = true }"), 2,
      "wrong.toml:13: mesh.inclusions: belongs to mesh.file; for a geometry write tilt or fixed in its "
@@ -193,50 +193,56 @@ CASES = [
      "wrong.toml:21: load: { f = 'y > 0 ? 1 : -1', name = 'opening' } is not a list of tables; write "
      "[[load]] above each of them"),
     ([(F + "\n", "")], 2,
-     "wrong.toml:21: load.0.f: missing; write a number, an expression in x and y in quotes, {region = "
+     "wrong.toml:21: load.opening.f: missing; write a number, an expression in x and y in quotes, {region = "
      'number} or {file = "f.h5", dataset = "/f", per = "triangle"}'),
     ([('name = "opening"\n', "")], 2,
      "wrong.toml:21: load.0.name: missing; give the load case a name"),
     ([('"opening"', '"a/b"')], 2,
-     "wrong.toml:22: load.0.name: \"a/b\" is not a name of a load case: use 1 to 64 letters, digits, '_', "
+     "wrong.toml:22: load.a/b.name: \"a/b\" is not a name of a load case: use 1 to 64 letters, digits, '_', "
      "'.', '-' and spaces, a letter or digit first"),
     (more('[[load]]\nname = "opening"\nf = 1'), 2,
-     'wrong.toml:26: load.1.name: two load cases are named "opening": give each its own name'),
+     'wrong.toml:26: load.opening.name: two load cases are named "opening": give each its own name'),
     ([("y > 0 ? 1 : -1", "y > 0 ? 1 :")], 2,
-     'wrong.toml:23: load.0.f: the expression "y > 0 ? 1 :" cannot be read: Unexpected end of '
+     'wrong.toml:23: load.opening.f: the expression "y > 0 ? 1 :" cannot be read: Unexpected end of '
      "expression at position 12 (symbols are x, y, _pi, _e)"),
     ([("y > 0 ? 1 : -1", "sine(x)")], 2,
-     'wrong.toml:23: load.0.f: the expression "sine(x)" cannot be read: Unexpected token "sine" found '
+     'wrong.toml:23: load.opening.f: the expression "sine(x)" cannot be read: Unexpected token "sine" found '
      "at position 0. (symbols are x, y, _pi, _e)"),
+    ([(F, 'f = "3 kPa"')], 2,
+     'wrong.toml:23: load.opening.f: "3 kPa" is a number with a unit; write 3: the units of all numbers are those of '
+     "[units]"),
     ([("y > 0 ? 1 : -1", "1 / (x - x)")], 1,
-     'jobs/ID failed: wrong.toml:23: load.0.f: load case "opening": the expression has the value inf '
+     'jobs/ID failed: wrong.toml:23: load.opening.f: load case "opening": the expression has the value inf '
      "at (x, y) = (X, Y); it must be finite wherever the "
      "membrane is"),
     ([(F, "f = { topp = 1 }"), *more('[[geometry.region]]\nname = "top"\nat = [0, 0.5]')], 2,
-     "wrong.toml:27: load.0.f.topp: there is no region of this name; did you mean top?"),
+     "wrong.toml:27: load.opening.f.topp: there is no region of this name; did you mean top?"),
     ([(F, "f = { omega7 = 1 }")], 1,
-     'jobs/ID failed: wrong.toml:23: load.0.f: load case "opening": the mesh has no subdomain "omega7"; '
+     'jobs/ID failed: wrong.toml:23: load.opening.f: load case "opening": the mesh has no subdomain "omega7"; '
      'it has "omega1", "omega2"'),
     ([(F, "inclusion_forces = { fibr = 1 }")], 2,
-     "wrong.toml:23: load.0.inclusion_forces.fibr: there is no inclusion of this name; did you mean fibre?"),
+     "wrong.toml:23: load.opening.inclusion_forces.fibr: there is no inclusion of this name; did you mean fibre?"),
     ([(F, "point_forces = [{ at = [3, 3], value = 1 }]")], 1,
-     'jobs/ID failed: wrong.toml:23: load.0.point_forces.0.at: load case "opening": the point (3, 3) '
+     'jobs/ID failed: wrong.toml:23: load.opening.point_forces.0.at: load case "opening": the point (3, 3) '
      "is outside the membrane: move it inside"),
+    ([("delaminated = true", "delaminated = true\ntilt = true"), (F, "inclusion_moments = { fibre = [inf, 0] }")], 2,
+     "wrong.toml:24: load.opening.inclusion_moments.fibre: inf is not a finite number; write inclusion = [Mx, My] for "
+     "each of them"),
     ([(F, "point_forces = [{ at = [0.2, 0.3] }]")], 2,
-     "wrong.toml:23: load.0.point_forces.0.value: missing; write the force, a number"),
+     "wrong.toml:23: load.opening.point_forces.0.value: missing; write the force, a number"),
     ([(F, 'f = { file = "no.h5", dataset = "/vector", per = "node" }')], 2,
-     "wrong.toml:23: load.0.f: no.h5: no such file; name a one-dimensional dataset of float64 in an "
+     "wrong.toml:23: load.opening.f: no.h5: no such file; name a one-dimensional dataset of float64 in an "
      "HDF5 file"),
     ([(F, 'f = { file = "plain.h5", dataset = "/vectr", per = "node" }')], 2,
-     'wrong.toml:23: load.0.f: plain.h5: "vectr" is missing, there is matrix, named, vector, wide; '
+     'wrong.toml:23: load.opening.f: plain.h5: "vectr" is missing, there is matrix, named, vector, wide; '
      "name a one-dimensional dataset of float64 in an HDF5 file"),
     ([(F, 'f = { file = "plain.h5", dataset = "/vector", per = "nodes" }')], 2,
-     "wrong.toml:23: load.0.f.per: 'nodes' is not possible; did you mean node?"),
+     "wrong.toml:23: load.opening.f.per: 'nodes' is not possible; did you mean node?"),
     ([(F, 'f = { file = "plain.h5", dataset = "/vector", per = "node" }')], 1,
-     'jobs/ID failed: wrong.toml:23: load.0.f: load case "opening": the array of the force has 3 '
+     'jobs/ID failed: wrong.toml:23: load.opening.f: load case "opening": the array of the force has 3 '
      "values, but the mesh has 31 nodes: give one value for each, in the order of ReadMesh"),
     ([(F, F + '\nboundary_value = "q"')], 2,
-     'wrong.toml:24: load.0.boundary_value: the expression "q" cannot be read: Unexpected token "q" '
+     'wrong.toml:24: load.opening.boundary_value: the expression "q" cannot be read: Unexpected token "q" '
      "found at position 0. (symbols are x, y, _pi, _e)"),
 ]
 

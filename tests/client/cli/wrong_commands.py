@@ -83,7 +83,7 @@ COMMANDS = [
     ("run case.toml --set load.7.f=1", 2,
      "--set load.7.f=1: load.7: there is no entry 7; write an index from 0 to 1, or a name"),
     ("run case.toml --set load.opening.f=sin(", 2,
-     '--set load.opening.f=sin(: load.0.f: the expression "sin(" cannot be read: Unexpected end of '
+     '--set load.opening.f=sin(: load.opening.f: the expression "sin(" cannot be read: Unexpected end of '
      "expression at position 5 (symbols are x, y, _pi, _e)"),
     ("run case.toml --set mesh.preset=grated", 2,
      "--set mesh.preset=grated: mesh.preset: 'grated' is not possible; did you mean graded?"),

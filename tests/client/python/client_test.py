@@ -97,12 +97,12 @@ class Jobs(unittest.TestCase):
         with self.assertRaises(anticrack.ServerError) as caught:
             self.client.submit(Case(GEOMETRY, [Load("a", "sin(z)")], COARSE))
         self.assertEqual(caught.exception.code, "INVALID_ARGUMENT")
-        self.assertTrue(str(caught.exception).startswith("load.0.f: "), caught.exception)
+        self.assertTrue(str(caught.exception).startswith("load.a.f: "), caught.exception)
         for text, said in (("[solver]\nmethod = 'uzawa'\ntheta = -1", "case: solver.theta: "),
                            ("[mesh]\nsize = 1e-9", "case: mesh.size: "),
-                           ("[[geometry.region]]\nname = 'a b'\nat = [0, 0.5]", "case: geometry.region.0.name: "),
+                           ("[[geometry.region]]\nname = 'a b'\nat = [0, 0.5]", "case: geometry.region.a b.name: "),
                            ("[[geometry.inclusion]]\nname = 'i'\nfrom = [0, 3]\nto = [0, 4]",
-                            "case: geometry.inclusion.0")):
+                            "case: geometry.inclusion.i")):
             case = "[geometry]\nboundary = [[-1,-1], [1,-1], [1,1], [-1,1]]\ninterface = [[-1,0], [1,0]]\n" + text
             with self.assertRaises(anticrack.ServerError, msg=text) as caught:
                 self.client.submit(Case.parse(case + "\n[[load]]\nname = 'a'\nf = 1"))
@@ -110,8 +110,14 @@ class Jobs(unittest.TestCase):
 
     def test_a_region_that_is_not_there_is_named(self):
         geometry = Geometry(GEOMETRY.boundary, regions=[anticrack.Region("sheet", (0, 0.5))])
-        with self.assertRaisesRegex(anticrack.ServerError, "^load.0.f.*shet.*sheet"):
+        with self.assertRaisesRegex(anticrack.ServerError, "^load.a.f.*shet.*sheet"):
             self.client.run(Case(geometry, [Load("a", {"shet": 1})]), progress=False)
+
+    def test_regions_that_forget_their_tension_are_told(self):
+        geometry = Geometry(GEOMETRY.boundary, GEOMETRY.interfaces, regions=[
+            anticrack.Region("top", (0, 0.5), tension=2), anticrack.Region("below", (0, -0.5))])
+        with self.assertWarnsRegex(UserWarning, "^geometry.region.below: it gives no tension, .* which is then 1;"):
+            self.client.mesh(Case(geometry))
 
     def test_a_mesh_that_fails_says_why(self):
         far = Geometry(GEOMETRY.boundary, [Interface([(3, 0), (4, 0)])], [Inclusion("fibre", (3, 0), (4, 0))])
@@ -225,7 +231,8 @@ class Jobs(unittest.TestCase):
         self.assertEqual(load.stages["energy"][-1], load.energy)
         width = (load.energy_upper - load.energy_lower) / abs(load.energy)
         said = (f"stage {len(job.message.stages)}: {len(result.mesh.triangles)} triangles, "
-                f"energy {100 * width:.3g} % (asked 2 %), A {100 * load.stages['displacement_error'][-1]:.3g} % (asked 5 %)")
+                f"energy {100 * width:.3g} % (asked 2 %), "
+                f"A {100 * load.stages['displacement_error'][-1]:.3g} % (asked 5 %)")
         self.assertIn(f"{job.name}: {said}\n", out.getvalue())
         self.assertEqual(out.getvalue().count("stage 1: "), 1)
         bar = Terminal()

@@ -55,7 +55,7 @@ class Figures(unittest.TestCase):
         self.assertEqual(other.get_xlabel(), f"arc length of upper from ({upper.x[0]:.4g}, {upper.y[0]:.4g})")
         with self.assertRaisesRegex(anticrack.Error, "no interface 'lower'; known are middle, upper"):
             draw.traces(self.several, "pulled", "lower")
-        with self.assertRaisesRegex(anticrack.Error, "no load 'pushed'; known are opening, pulled"):
+        with self.assertRaisesRegex(anticrack.Error, "no load 'pushed'; did you mean pulled"):
             draw.traces(self.several, "pushed")
         ax.figure.canvas.draw()
 
@@ -180,7 +180,7 @@ class Figures(unittest.TestCase):
         ends = band.get_paths()[0].vertices[:, 1]
         self.assertEqual((ends.min(), ends.max()), (self.sweep.sweep.displacement_lower.min(),
                                                     self.sweep.sweep.displacement_upper.max()))
-        with self.assertRaisesRegex(anticrack.Error, "no load 'openin'; known are .*; did you mean opening"):
+        with self.assertRaisesRegex(anticrack.Error, "no load 'openin'; did you mean opening"):
             draw.sweep(self.sweep, "openin")
         with self.assertRaisesRegex(anticrack.Error, "not the result of a sweep"):
             draw.sweep(self.skew)
