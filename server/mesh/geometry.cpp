@@ -6,7 +6,6 @@
 #include <iomanip>
 #include <numbers>
 #include <set>
-#include <span>
 #include <sstream>
 #include <unordered_map>
 
@@ -204,8 +203,7 @@ std::size_t check_size(const Network& network, double area, double size,
 }
 
 /// Says how far the chords lie from the curve that they miss most.
-void note_chords(const Geometry& geometry, const Network& network,
-                 std::span<const std::string> interfaces, std::vector<std::string>& warnings) {
+void note_chords(const Network& network, std::vector<std::string>& warnings) {
   std::vector<int> pieces(network.lines.size());
   double most = 0;
   std::size_t worst = 0;
@@ -221,15 +219,10 @@ void note_chords(const Geometry& geometry, const Network& network,
     most = std::max(most, off);
   }
   if (most == 0) return;
-  const std::vector<std::string> sides = side_names(geometry);
-  const std::size_t holes = sides.size() - geometry.holes.size();
-  const std::string& name = worst < network.outer      ? sides[worst]
-                            : worst < network.boundary ? sides[holes + worst - network.outer]
-                                                       : interfaces[worst - network.boundary];
   const auto curves = std::ranges::count_if(pieces, [](int count) { return count > 0; });
   std::ostringstream note;
   note << std::setprecision(2) << (curves == 1 ? "a curve counts" : "curves count")
-       << " as chords: " << name
+       << " as chords: " << network.lines[worst].field
        << (curves == 1 ? "" : ", the coarsest of " + std::to_string(curves) + ",") << " is "
        << pieces[worst] << " of them, up to " << most
        << " off the curve; bounds hold for the chords, and mesh.chord_angle = 1.25 (5 unless "
@@ -257,7 +250,7 @@ Plan lay_plan(const Geometry& given, const MeshOptions& options, std::size_t max
   cut(lines, rule, curve_limit);
   const Layout layout = lay_parts(geometry, network);
   cut(network, rule, curve_limit);
-  if (options.chord_angle == 0) note_chords(geometry, network, names, plan.warnings);
+  if (options.chord_angle == 0) note_chords(network, plan.warnings);
 
   plan.triangles = triangles;
   for (const InclusionSpec& inclusion : geometry.inclusions) {

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <mutex>
+#include <string_view>
 
 #include "errors/errors.hpp"
 #include "jobs/job_engine.hpp"
@@ -55,6 +56,12 @@ void set_arguments(grpc::ServerBuilder& builder) {
   builder.AddChannelArgument(GRPC_ARG_HTTP2_BDP_PROBE, 0);
   builder.AddChannelArgument(GRPC_ARG_HTTP2_STREAM_LOOKAHEAD_BYTES, receive_window_bytes);
   builder.SetMaxReceiveMessageSize(max_message_bytes);
+}
+
+/// localhost by its number: a machine need not have /etc/hosts, and no name is looked up.
+std::string to_bind(const std::string& listen) {
+  constexpr std::string_view name = "localhost:";
+  return listen.starts_with(name) ? "127.0.0.1:" + listen.substr(name.size()) : listen;
 }
 
 std::string bound_address(const std::string& listen, int port) {
@@ -107,7 +114,8 @@ Server::Server(const ServerOptions& options, const Backend& backend)
   grpc::ServerBuilder builder;
   set_arguments(builder);
   int port = 0;
-  builder.AddListeningPort(options.listen, _state->credentials(), &port);
+  const std::string listen = to_bind(options.listen);
+  builder.AddListeningPort(listen, _state->credentials(), &port);
   builder.RegisterService(&_state->uploads);
   builder.RegisterService(&_state->meshes);
   builder.RegisterService(&_state->solves);
@@ -121,7 +129,7 @@ Server::Server(const ServerOptions& options, const Backend& backend)
                             "(port 0 picks a free one)")
         .at("listen");
   }
-  _state->address = bound_address(options.listen, port);
+  _state->address = bound_address(listen, port);
   _state->set_serving(true);
 }
 

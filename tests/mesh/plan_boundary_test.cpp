@@ -99,7 +99,8 @@ TEST(Holes, CirclesHaveAsManyChordsAsTheAngleAsks) {
     ASSERT_EQ(plan.warnings.size(), angle == 0 ? 1U : 0U);
     if (angle > 0) continue;
     // 0.3 (1 - cos 2.5 degrees) = 0.000286
-    EXPECT_NE(plan.warnings[0].find("large, the coarsest of 2, is 72 of them, up to 0.00029 off"),
+    EXPECT_NE(plan.warnings[0].find(
+                  R"(hole "large", the coarsest of 2, is 72 of them, up to 0.00029 off)"),
               std::string::npos)
         << plan.warnings[0];
   }
