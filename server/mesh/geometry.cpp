@@ -96,9 +96,9 @@ void check_contacts(const Layout& layout, const Network& network, const Plan& pl
       const int point = end ? part.end.point : part.begin.point;
       if (held[at(point)] < 0) continue;
       const std::string which = end != part.reversed ? ".to" : ".from";
-      const std::string& line = network.lines[at(held[at(point)])].field;
+      const Field& line = network.lines[at(held[at(point)])].field;
       refuse(place_of(part) + (part.own ? "" : which), part.field, " ends at ",
-             show(plan.points[at(point)]), " on ", line == "boundary" ? "the " : "", line,
+             show(plan.points[at(point)]), " on ", line.path == "boundary" ? "the " : "", line,
              ", where u is held; end it inside the membrane, or name the hole or the sides that "
              "meet there in neumann, which lets them go");
     }
@@ -230,7 +230,9 @@ void note_chords(const Network& network, std::vector<std::string>& warnings) {
   warnings.push_back(note.str());
 }
 
-Plan lay_plan(const Geometry& given, const MeshOptions& options, std::size_t max_triangles) {
+}  // namespace
+
+Plan plan(const Geometry& given, const MeshOptions& options, std::size_t max_triangles) {
   check_for_geometry(options);
   Drawn geometry = draw(given);
   Network network = lay_lines(geometry, options);
@@ -272,21 +274,6 @@ Plan lay_plan(const Geometry& given, const MeshOptions& options, std::size_t max
   set_intervals(plan, size);
   if (graded(options.preset)) plan.grading = {size, options.grading, options.tip_size};
   return plan;
-}
-
-}  // namespace
-
-Plan plan(const Geometry& geometry, const MeshOptions& options, std::size_t max_triangles) {
-  try {
-    Plan plan = lay_plan(geometry, options, max_triangles);
-    for (std::string& warning : plan.warnings) warning = with_names(warning, geometry);
-    return plan;
-  } catch (const errors::Error& error) {
-    // a name at fault tells nothing apart
-    if (error.fields().empty() || error.fields()[0].field.ends_with(".name")) throw;
-    throw errors::Error(error.reason(), with_names(error.what(), geometry))
-        .at(error.fields()[0].field);
-  }
 }
 
 }  // namespace anticrack::mesh

@@ -9,16 +9,19 @@
 #include "mesh/geometry_curves.hpp"
 #include "mesh/geometry_own_lines.hpp"
 #include "mesh/geometry_primitives.hpp"
+#include "mesh/geometry_steps.hpp"
 
 namespace anticrack::mesh {
 namespace {
 
 struct Curve {
   InterfaceSpec spec;
-  std::string field;
+  Field field;
 };
 
-std::vector<Curve> curves_of(const std::vector<SideSpec>& sides) {
+std::vector<Curve> curves_of(const Geometry& geometry) {
+  const std::vector<SideSpec>& sides = geometry.sides;
+  const std::vector<std::string> names = side_names(geometry);
   check_count(sides.size(), "sides", "sides", max_interfaces);
   if (sides.size() < 2) {
     refuse("sides",
@@ -28,7 +31,7 @@ std::vector<Curve> curves_of(const std::vector<SideSpec>& sides) {
   std::vector<Curve> curves;
   std::size_t vertices = 0;
   for (std::size_t i = 0; i < sides.size(); ++i) {
-    std::string field = indexed("sides", i) + ".line";
+    Field field = Field("side", i, names[i]).at(".line", "");
     InterfaceSpec spec = curve_of(sides[i].line, field);
     vertices += spec.points.size();
     check_count(vertices, "sides", "vertices");
@@ -77,7 +80,7 @@ std::vector<NetworkLine> lines_of(const std::vector<Curve>& curves, const Outlin
 }
 
 Boundary lay_sides(const Geometry& geometry) {
-  std::vector<Curve> curves = curves_of(geometry.sides);
+  std::vector<Curve> curves = curves_of(geometry);
   std::vector<Point> points;
   for (const Curve& curve : curves)
     points.insert(points.end(), curve.spec.points.begin(), curve.spec.points.end());
@@ -107,7 +110,7 @@ Boundary lay_polygon(const Geometry& geometry) {
   return boundary;
 }
 
-NetworkLine hole_line(const HoleSpec& hole, std::string field, const Outline& outline) {
+NetworkLine hole_line(const HoleSpec& hole, Field field, const Outline& outline) {
   InterfaceSpec spec = curve_of(hole.outline, field);
   Line line = lay_curve(spec, field, outline);
   if (signed_area(polygon_of(line)) > 0) {
@@ -125,12 +128,15 @@ Boundary lay_boundary(const Geometry& geometry) {
   Boundary boundary = geometry.sides.empty() ? lay_polygon(geometry) : lay_sides(geometry);
   boundary.outer = boundary.lines.size();
   check_count(geometry.holes.size(), "holes", "holes", max_interfaces);
+  const std::vector<std::string> names = side_names(geometry);
   std::size_t vertices = 0;
   for (std::size_t i = 0; i < geometry.holes.size(); ++i) {
     vertices += geometry.holes[i].outline.points.size();
     check_count(vertices, "holes", "vertices");
-    boundary.lines.push_back(
-        hole_line(geometry.holes[i], indexed("holes", i) + ".outline", boundary.outline));
+    boundary.lines.push_back(hole_line(
+        geometry.holes[i],
+        Field("hole", i, names[names.size() - geometry.holes.size() + i]).at(".outline", ""),
+        boundary.outline));
   }
   return boundary;
 }

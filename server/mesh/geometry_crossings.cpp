@@ -65,7 +65,7 @@ class Meetings {
   }
 
   void same_line(const Chord& s, const Chord& t) const {
-    const std::string& field = line(s).field;
+    const Field& field = line(s).field;
     const int common = shared(s, t);
     const bool follow = s.b == t.a || t.b == s.a;
     if (common >= 0 && follow) {
@@ -86,7 +86,7 @@ class Meetings {
       if (distance(segment(s), segment(t)) <= _tolerance) cross(s, t);
       return;
     }
-    const std::string& field = line(t).field;
+    const Field& field = line(t).field;
     if (other(s, common) == other(t, common) || on_one_another(s, t, common)) {
       refuse(field, field, " and ", line(s).field, " run along each other from ",
              show(point(common)), " on; leave that stretch out of one of them");
@@ -99,7 +99,7 @@ class Meetings {
   }
   void check_angle(const Chord& s, const Chord& t, const Point& at, double between) const {
     if (between >= smallest_angle) return;
-    const std::string& field = line(t).field;
+    const Field& field = line(t).field;
     refuse(field, field, " and ", line(s).field, " meet at ", show(at), " at an angle of ",
            show(between * 180 / std::numbers::pi),
            " degrees, nearly along each other; let them meet at more than one degree");
@@ -117,7 +117,7 @@ class Meetings {
     const bool follow = sides && common >= 0 && (s.b == t.a || t.b == s.a);
     const bool meets = follow ? other(s, common) == other(t, common) || on_one_another(s, t, common)
                               : common >= 0 || distance(segment(s), segment(t)) <= _tolerance;
-    const std::string& field = line(t).field;
+    const Field& field = line(t).field;
     if (meets) {
       refuse(field, field, " and ", line(s).field, " touch or cross near ", show(segment(t).a),
              sides ? "; sides of the boundary meet at their ends only"
@@ -129,7 +129,7 @@ class Meetings {
   /// `s` is the boundary's.
   void against_boundary(const Chord& s, const Chord& t, int common) const {
     const NetworkLine& other_line = line(t);
-    const std::string& field = other_line.field;
+    const Field& field = other_line.field;
     const bool at_its_end =
         common >= 0 && !other_line.line.closed() &&
         (common == other_line.stations.front().point || common == other_line.stations.back().point);

@@ -10,16 +10,16 @@ namespace anticrack::mesh {
 namespace {
 
 /// Refuses points far outside the membrane first: products of such coordinates would overflow.
-void check_near(const Point& p, const std::string& field, const Outline& outline) {
+void check_near(const Point& p, const Field& field, const Outline& outline) {
   if (distance(p, outline.boundary.front()) > 10 * outline.tolerance / relative_tolerance)
     refuse(field, field, " ", show(p), " lies outside the boundary; it must lie in the membrane");
 }
 
 /// Of a polyline or spline.
-void check_vertices(const std::vector<Point>& points, const std::string& owner,
-                    const std::string& field, const Outline& outline) {
+void check_vertices(const std::vector<Point>& points, const Field& owner, const Field& field,
+                    const Outline& outline) {
   check_points(points, field);
-  for (std::size_t i = 0; i < points.size(); ++i) check_near(points[i], indexed(field, i), outline);
+  for (std::size_t i = 0; i < points.size(); ++i) check_near(points[i], field[i], outline);
   check_distinct(points, field, outline.tolerance);
   if (distance(points.front(), points.back()) <= outline.tolerance) {
     refuse(owner, owner, " starts and ends at the same point ", show(points.front()),
@@ -27,8 +27,8 @@ void check_vertices(const std::vector<Point>& points, const std::string& owner,
   }
 }
 
-Line polyline_of(const std::vector<Point>& points, bool closed, const std::string& owner,
-                 const std::string& field, const Outline& outline) {
+Line polyline_of(const std::vector<Point>& points, bool closed, const Field& owner,
+                 const Field& field, const Outline& outline) {
   const std::size_t least = closed ? 3 : 2;
   if (points.size() < least) {
     refuse(owner, owner, " has ", points.size(), " vertices; a ", (closed ? "closed " : ""),
@@ -39,14 +39,14 @@ Line polyline_of(const std::vector<Point>& points, bool closed, const std::strin
   return Line::polyline(points, closed);
 }
 
-Line spline_of(const InterfaceSpec& spec, const std::string& owner, const Outline& outline) {
+Line spline_of(const InterfaceSpec& spec, const Field& owner, const Outline& outline) {
   if (spec.points.size() < 3)
     refuse(owner, owner, " has ", spec.points.size(), " points; a spline takes at least 3");
   check_vertices(spec.points, owner, owner + ".points", outline);
   return Line::spline(spec.points, spec.closed);
 }
 
-Line arc_of(const InterfaceSpec& spec, const std::string& owner, const Outline& outline) {
+Line arc_of(const InterfaceSpec& spec, const Field& owner, const Outline& outline) {
   const double tolerance = outline.tolerance;
   if (spec.points.size() != 3) {
     refuse(owner, owner, " has ", spec.points.size(),
@@ -71,28 +71,28 @@ Line arc_of(const InterfaceSpec& spec, const std::string& owner, const Outline& 
   const bool flat = distance(b, Segment{a, c}) <= 1e3 * tolerance ||
                     !(ab * bc * ac <= 1e15 * tolerance * twice_area);
   if (flat || ab <= tolerance || bc <= tolerance) {
-    refuse(owner + ".through", owner, ".through ", show(b), " lies ", show(twice_area / ac),
+    refuse(owner + ".through", owner + ".through", " ", show(b), " lies ", show(twice_area / ac),
            " off the straight line through ", show(a), " and ", show(c),
            "; that is not an arc, give a polyline instead");
   }
   return Line::arc(a, b, c);
 }
 
-Line circle_of(const InterfaceSpec& spec, const std::string& owner, const Outline& outline) {
+Line circle_of(const InterfaceSpec& spec, const Field& owner, const Outline& outline) {
   const Point& centre = spec.points[0];
   const double radius = distance(centre, spec.points[1]);
   check_point(centre, owner + ".center");
   check_near(centre, owner + ".center", outline);
   if (radius > 1e3 * outline.tolerance && radius <= outline.tolerance / relative_tolerance)
     return Line::circle(centre, radius);
-  refuse(owner + ".radius", owner, ".radius is ", show(radius), "; a circle in this membrane is ",
-         show(1e3 * outline.tolerance), " to ", show(outline.tolerance / relative_tolerance),
-         " in radius");
+  refuse(owner + ".radius", owner + ".radius", " is ", show(radius),
+         "; a circle in this membrane is ", show(1e3 * outline.tolerance), " to ",
+         show(outline.tolerance / relative_tolerance), " in radius");
 }
 
 }  // namespace
 
-Line lay_curve(const InterfaceSpec& spec, const std::string& field, const Outline& outline) {
+Line lay_curve(const InterfaceSpec& spec, const Field& field, const Outline& outline) {
   switch (spec.shape) {
     case Shape::arc:
       return arc_of(spec, field, outline);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "mesh/geometry_field.hpp"
 #include "mesh/geometry_line.hpp"
 #include "mesh/geometry_outline.hpp"
 
@@ -15,7 +16,7 @@ namespace anticrack::mesh {
 /// (geometry_invalid, limit_exceeded) at `field` or below it: too few points, one far outside, two
 /// equal ones, a polyline that meets itself, a flat arc. O(v log v) and the pairs of edges over the
 /// same x.
-Line lay_curve(const InterfaceSpec& spec, const std::string& field, const Outline& outline);
+Line lay_curve(const InterfaceSpec& spec, const Field& field, const Outline& outline);
 
 /// The vertices of a line, and ends of chords of at most five degrees where it is curved.
 std::vector<Point> polygon_of(const Line& line);

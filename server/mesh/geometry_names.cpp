@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <map>
-#include <optional>
-#include <regex>
 
 #include "mesh/geometry_outline.hpp"
 #include "mesh/geometry_primitives.hpp"
@@ -76,54 +74,13 @@ std::vector<std::string> check_names(const Drawn& geometry) {
   std::vector<std::string> interfaces;
   interfaces.reserve(geometry.interfaces.size());
   for (std::size_t i = 0; i < geometry.interfaces.size(); ++i) {
-    const std::string& field = geometry.fields[i];
+    const std::string& field = geometry.fields[i].path;
     std::string name = geometry.interfaces[i].name;
     if (name.empty()) name = i == 0 ? "interface" : "interface-" + std::to_string(i + 1);
     lines.add(name, field.substr(0, field.find('.')), "interface");
     interfaces.push_back(std::move(name));
   }
   return interfaces;
-}
-
-std::string with_names(const std::string& message, const Geometry& geometry) {
-  constexpr std::size_t longest = 4000;
-  static const std::regex field(
-      R"(\b(inclusion|crack|interface|region|hole|side)s\[(\d{1,6})\](?:\.(?:line|part|outline)\b)?)"
-      R"((?:\.(?:polyline|polygon|segment|arc|spline|circle)\b)?((?:\.[a-z_]+|\[\d+\])*))");
-  static const std::regex api_word("_parts(\\.stretches)?|_law");  // the key is shorter
-  const std::vector<std::string> boundary = side_names(geometry);
-  const std::size_t outer = boundary.size() - geometry.holes.size();
-  // A message may quote what a user wrote: none where no such part exists.
-  const auto name_of = [&](const std::string& kind, std::size_t i) -> std::optional<std::string> {
-    const auto in = [i](const auto& parts) {
-      return i < parts.size() ? std::optional(parts[i].name) : std::nullopt;
-    };
-    if (kind == "inclusion") return in(geometry.inclusions);
-    if (kind == "crack") return in(geometry.cracks);
-    if (kind == "region") return in(geometry.regions);
-    if (kind == "interface") return in(geometry.interfaces);
-    const std::size_t k = kind == "hole" ? outer + i : i;
-    return k < (kind == "hole" ? boundary.size() : outer) ? std::optional(boundary[k])
-                                                          : std::nullopt;
-  };
-  if (message.size() > longest) return message;  // std::regex needs the stack for its length
-  std::string named;
-  auto rest = message.begin();
-  for (std::sregex_iterator found(message.begin(), message.end(), field), end; found != end;
-       ++found) {
-    const std::smatch& match = *found;
-    const std::size_t index = std::stoul(match[2]);
-    const std::optional<std::string> name = name_of(match[1], index);
-    if (!name) continue;
-    named.append(rest, match[0].first);
-    const bool only = name->empty() && geometry.interfaces.size() == 1;
-    named += (only ? "the " : "") + match[1].str();
-    if (!only) named += name->empty() ? " " + std::to_string(index + 1) : " \"" + *name + "\"";
-    const std::string key = match[3];
-    if (!key.empty()) named += ": " + std::regex_replace(key.substr(1), api_word, "");
-    rest = match[0].second;
-  }
-  return named.append(rest, message.end());
 }
 
 std::string unused_name(const std::string& name, std::vector<std::string>& used) {

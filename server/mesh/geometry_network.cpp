@@ -120,15 +120,16 @@ void check_inside(const Network& network) {
     for (std::size_t l = 0; l < edges.size(); ++l)
       if (l != at(chord.line) && ray_meets(middle, edges[l])) odd = !odd;
     if (odd) continue;
-    const std::string& field = network.lines[at(chord.line)].field;
+    const Field& field = network.lines[at(chord.line)].field;
     const auto around = [&](std::size_t l) {
       return l != at(chord.line) && ray_meets(middle, edges[l]);
     };
     std::size_t hole = network.outer;
     while (hole < network.boundary && !around(hole)) ++hole;
-    refuse(field, field, " lies ",
-           hole < network.boundary ? "in " + network.lines[hole].field : "outside the boundary",
-           ", at ", show(middle), "; it must lie in the membrane");
+    refuse(
+        field, field, " lies ",
+        hole < network.boundary ? "in " + network.lines[hole].field.shown : "outside the boundary",
+        ", at ", show(middle), "; it must lie in the membrane");
   }
 }
 
@@ -145,12 +146,12 @@ Network lay_lines(const Drawn& geometry, const MeshOptions& options) {
   network.lines = std::move(boundary.lines);
   network.lines.reserve(network.boundary + geometry.interfaces.size() + options.align.size());
   for (std::size_t i = 0; i < geometry.interfaces.size(); ++i) {
-    const std::string& field = geometry.fields[i];
+    const Field& field = geometry.fields[i];
     network.lines.push_back(
         {field, Role::interface, lay_curve(geometry.interfaces[i], field, boundary.outline), {}});
   }
   for (std::size_t i = 0; i < options.align.size(); ++i) {
-    const std::string field = indexed("options.align", i);
+    const Field field = indexed("options.align", i);
     network.lines.push_back(
         {field,
          Role::align,

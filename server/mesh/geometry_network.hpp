@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "mesh/geometry.hpp"
+#include "mesh/geometry_field.hpp"
 #include "mesh/geometry_line.hpp"
 #include "mesh/geometry_own_lines.hpp"
 
@@ -22,7 +23,7 @@ struct Station {
 };
 
 struct NetworkLine {
-  std::string field;  ///< "boundary", "sides[2].line.arc", "interfaces[0].arc", "options.align[0]"
+  Field field;  ///< "boundary", "sides[2].line.arc", "interfaces[0].arc", "options.align[0]"
   Role role = Role::interface;
   Line line;
   std::vector<Station> stations;  ///< in order; a closed line's first is not there again

@@ -17,7 +17,7 @@ constexpr std::size_t most_names = 20;  ///< in one message
 struct Placed {
   double begin = 0;
   double end = 0;
-  std::string field;
+  Field field;
 };
 
 class Neumann {
@@ -29,7 +29,7 @@ class Neumann {
   }
 
   void add_part(std::size_t i) {
-    const std::string field = indexed("neumann", i);
+    const Field field = indexed("neumann", i);
     const Part& part = _geometry.neumann[i];
     const double begin = place(mark(_network, part.from), part.from, field + ".from");
     double end = place(mark(_network, part.to), part.to, field + ".to");
@@ -39,7 +39,7 @@ class Neumann {
   }
 
   void add_name(std::size_t i) {
-    const std::string field = indexed("neumann_sides", i);
+    const Field field = indexed("neumann_sides", i);
     const std::string& name = _geometry.neumann_sides[i];
     const auto found = std::ranges::find(_names, name);
     if (found == _names.end()) refuse_name(name, field);
@@ -74,7 +74,7 @@ class Neumann {
   double total() const { return _first.back(); }
 
   /// The parameter of a point of the network that must be on the outer boundary.
-  double place(int point, const Point& p, const std::string& field) const {
+  double place(int point, const Point& p, const Field& field) const {
     double off = -1;
     for (std::size_t l = 0; l < _network.outer; ++l) {
       const Line& line = _network.lines[l].line;
@@ -121,7 +121,7 @@ class Neumann {
   }
 
   /// A side written clockwise would silently be all the others.
-  void check_direction(const Part& part, double begin, double end, const std::string& field) const {
+  void check_direction(const Part& part, double begin, double end, const Field& field) const {
     const bool vertices = begin == std::floor(begin) && end == std::floor(end);
     if (!vertices || straight(begin, end) || !straight(end, begin + total())) return;
     std::string name;
@@ -136,7 +136,7 @@ class Neumann {
            name, "[", show(part.to), ", ", show(part.from), "], for the others their names");
   }
 
-  [[noreturn]] void refuse_name(const std::string& name, const std::string& field) const {
+  [[noreturn]] void refuse_name(const std::string& name, const Field& field) const {
     std::string all;
     for (std::size_t i = 0; i < std::min(_names.size(), most_names); ++i)
       all += (i == 0 ? "" : ", ") + _names[i];

@@ -24,31 +24,30 @@ bool folds_back(const Point& before, const Point& middle, const Point& after, do
          distance(after, Segment{middle, before}) <= tolerance;
 }
 
-std::string edge_name(const std::string& field, std::size_t i, std::size_t vertices) {
-  return "the edge from " + indexed(field, i) + " to " + indexed(field, (i + 1) % vertices);
+std::string edge_name(const Field& field, std::size_t i, std::size_t vertices) {
+  return "the edge from " + field[i].shown + " to " + field[(i + 1) % vertices].shown;
 }
 
 }  // namespace
 
-void check_count(std::size_t count, const std::string& field, const char* items,
-                 std::size_t limit) {
+void check_count(std::size_t count, const Field& field, const char* items, std::size_t limit) {
   if (count <= limit) return;
-  throw errors::Error(errors::Reason::limit_exceeded, field + " has " + std::to_string(count) +
-                                                          " " + items + "; at most " +
-                                                          std::to_string(limit) + " are allowed")
-      .at(field);
+  throw errors::Error(errors::Reason::limit_exceeded,
+                      field.shown + " has " + std::to_string(count) + " " + items + "; at most " +
+                          std::to_string(limit) + " are allowed")
+      .at(field.path);
 }
 
-void check_points(const std::vector<Point>& points, const std::string& field) {
+void check_points(const std::vector<Point>& points, const Field& field) {
   check_count(points.size(), field, "vertices");
-  for (std::size_t i = 0; i < points.size(); ++i) check_point(points[i], indexed(field, i));
+  for (std::size_t i = 0; i < points.size(); ++i) check_point(points[i], field[i]);
 }
 
-void check_distinct(std::span<const Point> points, const std::string& field, double tolerance) {
+void check_distinct(std::span<const Point> points, const Field& field, double tolerance) {
   for (std::size_t i = 1; i < points.size(); ++i) {
     if (distance(points[i - 1], points[i]) <= tolerance) {
-      refuse(indexed(field, i), indexed(field, i), " ", show(points[i]), " repeats ",
-             indexed(field, i - 1), "; leave one of them out");
+      refuse(field[i], field[i], " ", show(points[i]), " repeats ", field[i - 1],
+             "; leave one of them out");
     }
   }
 }
@@ -81,8 +80,8 @@ std::pair<std::size_t, std::size_t> first_meeting(std::span<const Point> points,
 
 }  // namespace
 
-void check_simple(std::span<const Point> points, bool closed, const std::string& owner,
-                  const std::string& field, double tolerance) {
+void check_simple(std::span<const Point> points, bool closed, const Field& owner,
+                  const Field& field, double tolerance) {
   const std::size_t n = points.size();
   const std::size_t edges = closed ? n : n - 1;
   const auto [i, j] = first_meeting(points, closed, edges, tolerance);
@@ -132,7 +131,7 @@ double check_polygon(const std::vector<Point>& boundary) {
 
 }  // namespace
 
-void check_point(const Point& p, const std::string& field) {
+void check_point(const Point& p, const Field& field) {
   for (const double value : p) {
     if (!std::isfinite(value) || std::abs(value) > max_coordinate) {
       refuse(field, field, " is ", show(p), "; both coordinates must be finite and at most ",
@@ -141,7 +140,7 @@ void check_point(const Point& p, const std::string& field) {
   }
 }
 
-double check_extent(const std::vector<Point>& boundary, const std::string& owner) {
+double check_extent(const std::vector<Point>& boundary, const Field& owner) {
   const double extent = diagonal(boundary);
   double largest = 0;
   for (const Point& p : boundary) largest = std::max({largest, std::abs(p[0]), std::abs(p[1])});

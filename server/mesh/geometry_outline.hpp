@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mesh/geometry.hpp"
+#include "mesh/geometry_field.hpp"
 
 namespace anticrack::mesh {
 
@@ -31,25 +32,25 @@ Outline check_outline(const std::vector<Point>& boundary);
 
 /// The distance within which points of a boundary are one. Throws geometry_invalid at `owner` where
 /// it is too small or too far from the origin for double precision.
-double check_extent(const std::vector<Point>& boundary, const std::string& owner);
+double check_extent(const std::vector<Point>& boundary, const Field& owner);
 
 /// Throws geometry_invalid at `field` unless both coordinates are finite and at most 1e100 in size.
-void check_point(const Point& p, const std::string& field);
+void check_point(const Point& p, const Field& field);
 
 /// Throws limit_exceeded at `field` where it has more than `limit` `items` ("entries").
-void check_count(std::size_t count, const std::string& field, const char* items = "entries",
+void check_count(std::size_t count, const Field& field, const char* items = "entries",
                  std::size_t limit = max_vertices);
 
 /// check_point for each of at most `max_vertices` points.
-void check_points(const std::vector<Point>& points, const std::string& field);
+void check_points(const std::vector<Point>& points, const Field& field);
 
 /// No two consecutive ones are equal.
-void check_distinct(std::span<const Point> points, const std::string& field, double tolerance);
+void check_distinct(std::span<const Point> points, const Field& field, double tolerance);
 
 /// Refuses `owner` if the polyline through the points `field` crosses itself or folds back.
 /// `closed`: the last vertex is joined to the first. O(v log v) and
 /// the pairs of edges over the same x.
-void check_simple(std::span<const Point> points, bool closed, const std::string& owner,
-                  const std::string& field, double tolerance);
+void check_simple(std::span<const Point> points, bool closed, const Field& owner,
+                  const Field& field, double tolerance);
 
 }  // namespace anticrack::mesh

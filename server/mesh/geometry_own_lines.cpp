@@ -27,7 +27,7 @@ const char* name_of(Shape shape) {
   return "polyline";
 }
 
-void check_length(double value, const std::string& field, const char* what) {
+void check_length(double value, const Field& field, const char* what) {
   if (std::isfinite(value) && value > 0) return;
   refuse(field, field, " is ", show(value), "; a ", what, " is a number above 0");
 }
@@ -43,11 +43,11 @@ Point direction(double degrees) {
   return {std::cos(angle), std::sin(angle)};
 }
 
-std::vector<Point> segment_ends(const LineSpec& line, const std::string& field) {
+std::vector<Point> segment_ends(const LineSpec& line, const Field& field) {
   check_point(line.points.at(0), field + ".center");
   check_length(line.length, field + ".length", "length");
   if (!std::isfinite(line.angle))
-    refuse(field + ".angle", field, ".angle is ", show(line.angle), "; give it in degrees");
+    refuse(field + ".angle", field + ".angle", " is ", show(line.angle), "; give it in degrees");
   const Point d = direction(line.angle);
   const auto [x, y] = line.points[0];
   const double half = line.length / 2;
@@ -56,15 +56,15 @@ std::vector<Point> segment_ends(const LineSpec& line, const std::string& field) 
 
 }  // namespace
 
-InterfaceSpec curve_of(const LineSpec& line, std::string& field) {
-  field += std::string(".") + name_of(line.shape);
+InterfaceSpec curve_of(const LineSpec& line, Field& field) {
+  field = field.at(std::string(".") + name_of(line.shape), "");
   if (line.shape == Shape::segment) return {"", Shape::polyline, segment_ends(line, field), false};
   return {"", line.shape, line.points, false};
 }
 
-InterfaceSpec curve_of(const OutlineSpec& outline, std::string& field) {
+InterfaceSpec curve_of(const OutlineSpec& outline, Field& field) {
   const bool polygon = outline.shape == Shape::polyline;
-  field += std::string(".") + (polygon ? "polygon" : name_of(outline.shape));
+  field = field.at(std::string(".") + (polygon ? "polygon" : name_of(outline.shape)), "");
   if (outline.shape != Shape::circle) return {"", outline.shape, outline.points, true};
   check_length(outline.radius, field + ".radius", "radius");
   const Point centre = outline.points.at(0);
@@ -74,9 +74,13 @@ InterfaceSpec curve_of(const OutlineSpec& outline, std::string& field) {
 Drawn draw(const Geometry& given) {
   check_count(given.interfaces.size(), "interfaces", "entries", max_interfaces);
   Drawn drawn(given);
-  for (std::size_t i = 0; i < given.interfaces.size(); ++i)
-    drawn.fields.push_back(indexed("interfaces", i) + "." + name_of(given.interfaces[i].shape));
-  const auto add = [&](const auto& line, const std::string& name, std::string field) {
+  for (std::size_t i = 0; i < given.interfaces.size(); ++i) {
+    Field field("interface", i, given.interfaces[i].name);
+    if (given.interfaces.size() == 1 && given.interfaces[i].name.empty())
+      field.shown = "the interface";
+    drawn.fields.push_back(field.at(std::string(".") + name_of(given.interfaces[i].shape), ""));
+  }
+  const auto add = [&](const auto& line, const std::string& name, Field field) {
     if (!line) return -1;
     InterfaceSpec spec = curve_of(*line, field);
     spec.name = name;
@@ -84,8 +88,8 @@ Drawn draw(const Geometry& given) {
     drawn.fields.push_back(std::move(field));
     return static_cast<int>(drawn.interfaces.size()) - 1;
   };
-  const auto add_part = [&](auto& owner, const std::string& field) {
-    const int line = add(owner.line, owner.name, field + ".line");
+  const auto add_part = [&](auto& owner, const Field& field) {
+    const int line = add(owner.line, owner.name, field.at(".line", ""));
     if (line >= 0) {
       const std::vector<Point>& points = drawn.interfaces.back().points;
       if (!points.empty()) owner.part = {points.front(), points.back()};
@@ -93,13 +97,14 @@ Drawn draw(const Geometry& given) {
     return line;
   };
   for (std::size_t i = 0; i < drawn.inclusions.size(); ++i)
-    drawn.inclusion_lines.push_back(add_part(drawn.inclusions[i], indexed("inclusions", i)));
+    drawn.inclusion_lines.push_back(
+        add_part(drawn.inclusions[i], {"inclusion", i, drawn.inclusions[i].name}));
   for (std::size_t i = 0; i < drawn.cracks.size(); ++i)
-    drawn.crack_lines.push_back(add_part(drawn.cracks[i], indexed("cracks", i)));
+    drawn.crack_lines.push_back(add_part(drawn.cracks[i], {"crack", i, drawn.cracks[i].name}));
   for (std::size_t i = 0; i < drawn.regions.size(); ++i) {
     const RegionSpec& region = drawn.regions[i];
     drawn.region_lines.push_back(
-        add(region.outline, region.name, indexed("regions", i) + ".outline"));
+        add(region.outline, region.name, Field("region", i, region.name).at(".outline", "")));
   }
   return drawn;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mesh/geometry.hpp"
+#include "mesh/geometry_field.hpp"
 
 namespace anticrack::mesh {
 
@@ -14,7 +15,7 @@ namespace anticrack::mesh {
 struct Drawn : Geometry {
   explicit Drawn(const Geometry& given) : Geometry(given) {}
 
-  std::vector<std::string> fields;   ///< of each interface: "interfaces[0].polyline"
+  std::vector<Field> fields;         ///< of each interface: "interfaces[0].polyline"
   std::vector<int> inclusion_lines;  ///< of each inclusion its own interface; -1: it has a part
   std::vector<int> crack_lines;      ///< of each crack
   std::vector<int> region_lines;     ///< of each region; -1: it has a point inside
@@ -27,7 +28,7 @@ Drawn draw(const Geometry& given);
 
 /// A line or outline as an interface without a name; `field`: of the line, to which its shape is
 /// added. Throws as draw().
-InterfaceSpec curve_of(const LineSpec& line, std::string& field);
-InterfaceSpec curve_of(const OutlineSpec& outline, std::string& field);
+InterfaceSpec curve_of(const LineSpec& line, Field& field);
+InterfaceSpec curve_of(const OutlineSpec& outline, Field& field);
 
 }  // namespace anticrack::mesh

@@ -31,7 +31,7 @@ std::vector<int> lines_at(const Network& network, Role role, int point) {
   return lines;
 }
 
-[[noreturn]] void refuse_off(const Network& network, const Point& p, const std::string& field,
+[[noreturn]] void refuse_off(const Network& network, const Point& p, const Field& field,
                              const char* cure = "") {
   double off = std::numeric_limits<double>::infinity();
   const Line* nearest = nullptr;
@@ -54,7 +54,7 @@ Ends mark_ends(Network& network, const Part& part) {
 }
 
 /// The interface both ends of a part lie on.
-int line_of(const Network& network, const Part& part, const Ends& ends, const std::string& field) {
+int line_of(const Network& network, const Part& part, const Ends& ends, const Field& field) {
   const std::vector<int> from = lines_at(network, Role::interface, ends.from);
   const std::vector<int> to = lines_at(network, Role::interface, ends.to);
   if (from.empty()) refuse_off(network, part.from, field + ".from", own_line);
@@ -115,12 +115,12 @@ Station place_at(Network& network, const PlacedPart& whole, double part) {
 /// The stretches of an inclusion that are given by their lengths.
 std::vector<PlacedPart> place_stretches(Network& network, const InclusionSpec& inclusion,
                                         const PlacedPart& whole) {
-  const std::string list = whole.field + ".delaminated_parts.stretches";
+  const Field list = whole.field.at(".delaminated_parts.stretches", "delaminated");
   check_count(inclusion.stretches.size(), list);
   std::vector<PlacedPart> parts;
   parts.reserve(inclusion.stretches.size());
   for (std::size_t k = 0; k < inclusion.stretches.size(); ++k) {
-    const std::string field = indexed(list, k);
+    const Field field = list[k];
     const auto [from, to] = inclusion.stretches[k];
     if (!(from >= 0 && from < to && to <= 1)) {
       refuse(field, field, " runs from ", show(from), " to ", show(to),
@@ -139,13 +139,13 @@ std::vector<PlacedPart> place_stretches(Network& network, const InclusionSpec& i
 /// The delaminated parts of an inclusion, in order.
 std::vector<PlacedPart> place_delaminated(Network& network, const InclusionSpec& inclusion,
                                           const PlacedPart& whole) {
-  const std::string list = whole.field + ".delaminated_parts";
+  const Field list = whole.field.at(".delaminated_parts", "delaminated");
   check_count(inclusion.delaminated.size(), list);
   std::vector<PlacedPart> parts = place_stretches(network, inclusion, whole);
   const Point begin = network.points[at(whole.begin.point)];
   const Point end = network.points[at(whole.end.point)];
   for (std::size_t k = 0; k < inclusion.delaminated.size(); ++k) {
-    const std::string field = indexed(list, k);
+    const Field field = list[k];
     const Part& part = inclusion.delaminated[k];
     const Ends ends = mark_ends(network, part);
     const NetworkLine& line = network.lines[at(whole.line)];
@@ -154,7 +154,7 @@ std::vector<PlacedPart> place_delaminated(Network& network, const InclusionSpec&
       if (t < 0) refuse_off(network, p, field + which);
       if (t < whole.begin.t) t += line.line.closed() ? line.line.spans() : 0;
       if (t < whole.begin.t || t > whole.end.t)
-        refuse(field + which, field, which, " ", show(p),
+        refuse(field + which, field + which, " ", show(p),
                " lies outside its inclusion, which runs from ", show(begin), " to ", show(end));
       return Station{t, point};
     };
@@ -199,7 +199,7 @@ void check_pair(const Network& network, const PlacedPart& left, const PlacedPart
                 double shift) {
   const double begin = right.begin.t + shift;
   if (begin > left.end.t) return;
-  const std::string field = place_of(right);
+  const Field field = place_of(right);
   const std::string place = show(network.points[at(right.begin.point)]);
   if (begin == left.end.t) {
     refuse(field, right.field, " and ", left.field, " share the tip ", place,
@@ -230,13 +230,13 @@ void check_apart(const Network& network, std::vector<PlacedPart> parts) {
 
 }  // namespace
 
-std::string place_of(const PlacedPart& part) { return part.field + (part.own ? ".line" : ".part"); }
+Field place_of(const PlacedPart& part) { return part.field.at(part.own ? ".line" : ".part", ""); }
 
 Layout lay_parts(const Drawn& geometry, Network& network) {
   Layout layout;
   layout.parts.reserve(geometry.inclusions.size() + geometry.cracks.size());
-  const auto add = [&](const Part& part, int own, const std::string& owner, int inclusion) {
-    const std::string field = owner + ".part";
+  const auto add = [&](const Part& part, int own, const Field& owner, int inclusion) {
+    const Field field = owner.at(".part", "");
     PlacedPart placed;
     if (own >= 0) {
       placed = place_own(network, network.boundary + at(own));
@@ -250,7 +250,8 @@ Layout lay_parts(const Drawn& geometry, Network& network) {
   };
   for (std::size_t i = 0; i < geometry.inclusions.size(); ++i) {
     const InclusionSpec& inclusion = geometry.inclusions[i];
-    add(inclusion.part, geometry.inclusion_lines[i], indexed("inclusions", i), static_cast<int>(i));
+    add(inclusion.part, geometry.inclusion_lines[i], {"inclusion", i, inclusion.name},
+        static_cast<int>(i));
     const PlacedPart& whole = layout.parts.back();
     add_inclusion(whole, inclusion.delaminated_side, place_delaminated(network, inclusion, whole),
                   layout);
@@ -259,7 +260,7 @@ Layout lay_parts(const Drawn& geometry, Network& network) {
   }
   for (std::size_t i = 0; i < geometry.cracks.size(); ++i) {
     const CrackSpec& crack = geometry.cracks[i];
-    add(crack.part, geometry.crack_lines[i], indexed("cracks", i), -1);
+    add(crack.part, geometry.crack_lines[i], {"crack", i, crack.name}, -1);
     const PlacedPart& placed = layout.parts.back();
     const Kind kind = crack.contact ? Kind::crack : Kind::free;
     layout.stretches.push_back({placed.line, placed.begin.t, placed.end.t, kind, -1});

@@ -12,6 +12,7 @@
 
 #include "errors/errors.hpp"
 #include "mesh/geometry.hpp"
+#include "mesh/geometry_field.hpp"
 
 namespace anticrack::mesh {
 
@@ -60,10 +61,10 @@ std::string show(double value);
 
 /// Throws geometry_invalid with `field` at fault; the parts make up the message.
 template <class... Parts>
-[[noreturn]] void refuse(const std::string& field, const Parts&... parts) {
+[[noreturn]] void refuse(const Field& field, const Parts&... parts) {
   std::ostringstream text;
   (text << ... << parts);
-  throw errors::Error(errors::Reason::geometry_invalid, text.str()).at(field);
+  throw errors::Error(errors::Reason::geometry_invalid, text.str()).at(field.path);
 }
 
 /// "name[i]"

@@ -19,7 +19,7 @@ class Snap {
   /// Onto a line for which `holds` is true, unless one passes through the point already. Throws
   /// geometry_invalid for a point that is not finite.
   template <class Holds>
-  void move(Point& p, const std::string& field, const Holds& holds) {
+  void move(Point& p, const Field& field, const Holds& holds, const char* which = "") {
     check_point(p, field);
     double least = std::numeric_limits<double>::infinity();
     Point to{};
@@ -36,14 +36,14 @@ class Snap {
     }
     if (least > _reach) return;
     if (_moved < most_warnings) {
-      _warnings.push_back(field + " " + show(p) + " lies " + show(least) + " off its line; " +
-                          show(to) + " is taken");
+      _warnings.push_back(field.shown + which + " " + show(p) + " lies " + show(least) +
+                          " off its line; " + show(to) + " is taken");
     }
     ++_moved;
     p = to;
   }
 
-  void move_part(Part& part, const std::string& field) {
+  void move_part(Part& part, const Field& field) {
     const auto interface = [&](std::size_t l) { return _network.lines[l].role == Role::interface; };
     move(part.from, field + ".from", interface);
     move(part.to, field + ".to", interface);
@@ -77,20 +77,21 @@ bool snap_ends(const Network& network, Drawn& geometry, std::vector<std::string>
     const auto other = [&](std::size_t l) {
       return l != own && network.lines[l].role != Role::align;
     };
-    const std::string& field = network.lines[own].field;
-    snap.move(spec.points.front(), field + ", its first point", other);
-    snap.move(spec.points.back(), field + ", its last point", other);
+    const Field& field = network.lines[own].field;
+    snap.move(spec.points.front(), field, other, ", its first point");
+    snap.move(spec.points.back(), field, other, ", its last point");
   }
   for (std::size_t i = 0; i < geometry.inclusions.size(); ++i) {
     InclusionSpec& inclusion = geometry.inclusions[i];
-    const std::string field = indexed("inclusions", i);
-    if (!inclusion.line) snap.move_part(inclusion.part, field + ".part");
+    const Field field("inclusion", i, inclusion.name);
+    if (!inclusion.line) snap.move_part(inclusion.part, field.at(".part", ""));
     for (std::size_t k = 0; k < inclusion.delaminated.size() && k < max_vertices; ++k)
-      snap.move_part(inclusion.delaminated[k], indexed(field + ".delaminated_parts", k));
+      snap.move_part(inclusion.delaminated[k], field.at(".delaminated_parts", "delaminated")[k]);
   }
   for (std::size_t i = 0; i < geometry.cracks.size(); ++i)
     if (!geometry.cracks[i].line)
-      snap.move_part(geometry.cracks[i].part, indexed("cracks", i) + ".part");
+      snap.move_part(geometry.cracks[i].part,
+                     Field("crack", i, geometry.cracks[i].name).at(".part", ""));
   const auto boundary = [&](std::size_t l) { return l < network.outer; };
   for (std::size_t i = 0; i < geometry.neumann.size(); ++i) {
     snap.move(geometry.neumann[i].from, indexed("neumann", i) + ".from", boundary);

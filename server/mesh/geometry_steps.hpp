@@ -34,10 +34,6 @@ std::vector<std::string> check_names(const Drawn& geometry);
 /// the holes; empty ones filled in.
 std::vector<std::string> side_names(const Geometry& geometry);
 
-/// A message about a geometry with its parts by their names and the keys of a case: for
-/// "inclusions[0].line.polyline.points[1]" it says inclusion "stiffener": points[1].
-std::string with_names(const std::string& message, const Geometry& geometry);
-
 /// `name`, or the first of `name`-2, `name`-3, ... not in `used`; added to `used`.
 std::string unused_name(const std::string& name, std::vector<std::string>& used);
 
@@ -59,14 +55,14 @@ struct PlacedPart {
   int line = 0;
   Station begin;
   Station end;
-  std::string field{};    ///< of the inclusion or crack
+  Field field{""};        ///< of the inclusion or crack
   int inclusion = -1;     ///< -1: a crack
   bool reversed = false;  ///< `begin` is the part's `to`
   bool own = false;       ///< all of a line of its own
 };
 
 /// The field in which the part was given.
-std::string place_of(const PlacedPart& part);
+Field place_of(const PlacedPart& part);
 
 struct Layout {
   std::vector<PlacedPart> parts;

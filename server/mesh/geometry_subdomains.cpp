@@ -166,12 +166,12 @@ struct Named {
   std::vector<TensionLaw> law;
 };
 
-void check_given_tension(double tension, const std::string& field) {
+void check_given_tension(double tension, const Field& field) {
   if (std::isfinite(tension) && tension > 0) return;
   refuse(field, field, " is ", show(tension), "; a tension is a number above 0");
 }
 
-void check_law(const RegionSpec& region, const std::string& field) {
+void check_law(const RegionSpec& region, const Field& field) {
   if (!region.tension_law) return;
   const std::string fault = fault_of(*region.tension_law);
   if (!fault.empty()) refuse(field, field, ": ", fault);
@@ -180,7 +180,7 @@ void check_law(const RegionSpec& region, const std::string& field) {
 }
 
 /// The subdomain around the point of a region.
-int subdomain_at(const RegionSpec& region, const std::string& field, const Network& network,
+int subdomain_at(const RegionSpec& region, const Field& field, const Network& network,
                  const Plan& plan, const Edges& edges, const std::vector<bool>& kept,
                  const Arrangement& loops, const Order& order) {
   check_point(region.at, field);
@@ -198,7 +198,7 @@ int subdomain_at(const RegionSpec& region, const std::string& field, const Netwo
 }
 
 /// The one subdomain within the outline of a region.
-int subdomain_within(int region, const std::string& field, const Outlines& outlines,
+int subdomain_within(int region, const Field& field, const Outlines& outlines,
                      const Network& network, const Arrangement& loops, const Order& order) {
   int subdomain = -1;
   const auto side = [&](int face) { return face < 0 ? -1 : order.subdomain[at(face)]; };
@@ -220,6 +220,10 @@ int subdomain_within(int region, const std::string& field, const Outlines& outli
     }
   }
   return subdomain;
+}
+
+Field field_of(const std::vector<RegionSpec>& regions, std::size_t i) {
+  return {"region", i, regions[i].name};
 }
 
 /// Of each region the smallest one whose outline is around its own; -1: none.
@@ -255,10 +259,10 @@ void note_nested(const std::vector<RegionSpec>& regions, const Outlines& outline
     const std::size_t listed = std::min(within[j].size(), most_listed);
     std::string inner;
     for (std::size_t k = 0; k < listed; ++k)
-      inner += (k == 0 ? "" : ", ") + indexed("regions", within[j][k]);
+      inner += (k == 0 ? "" : ", ") + field_of(regions, within[j][k]).shown;
     if (within[j].size() > listed)
       inner += " and " + std::to_string(within[j].size() - listed) + " more";
-    const std::string outer = indexed("regions", j);
+    const std::string outer = field_of(regions, j).shown;
     warnings.push_back(inner + (within[j].size() == 1 ? " lies" : " lie") + " inside " + outer +
                        ", cut out of it: the tension and the loads of " + outer +
                        " do not act there, so give each its own");
@@ -280,16 +284,17 @@ Named name_subdomains(const Drawn& geometry, const Network& network, const Outli
   used.reserve(geometry.regions.size() + count);
   for (std::size_t i = 0; i < geometry.regions.size(); ++i) {
     const RegionSpec& region = geometry.regions[i];
-    const std::string field = indexed("regions", i) + (region.outline ? ".outline" : ".at");
-    check_given_tension(region.tension, indexed("regions", i) + ".tension");
-    check_law(region, indexed("regions", i) + ".tension_law");
+    const Field own = field_of(geometry.regions, i);
+    const Field field = region.outline ? own.at(".outline", "") : own + ".at";
+    check_given_tension(region.tension, own + ".tension");
+    check_law(region, own.at(".tension_law", "tension"));
     const auto subdomain =
         at(region.outline
                ? subdomain_within(static_cast<int>(i), field, outlines, network, loops, order)
                : subdomain_at(region, field, network, plan, edges, kept, loops, order));
     if (!named.name[subdomain].empty()) {
       refuse(field, field, region.outline ? " holds" : " " + show(region.at) + " lies in",
-             " the subdomain that ", indexed("regions", owner[subdomain]),
+             " the subdomain that ", field_of(geometry.regions, owner[subdomain]),
              " names already; leave one of them out");
     }
     owner[subdomain] = i;
