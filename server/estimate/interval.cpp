@@ -93,11 +93,10 @@ class Sum {
       sum.square += factor * dot(off, off);
       sum.mixed += factor * dot(off, of_sigma);
     };
-    if (!_tau.turned(t)) {  // constant: 2 area times both
+    if (!_tau.turned(t)) {  // constant: sqrt(area / T) times both
       const Vector &of_tau = _tau.mean(t), rise = sigma.rise_of(t, _rest);
       const double tension = shapes.tension[t];
-      add(shapes.compliance[t], {of_tau[0] - tension * rise[1], of_tau[1] + tension * rise[0]},
-          sigma.mean(t));
+      add(1, {of_tau[0] - tension * rise[1], of_tau[1] + tension * rise[0]}, sigma.mean(t));
       return sum;
     }
     const Vector shift = sigma.flux_of(t, _rest);
