@@ -145,10 +145,9 @@ Interval interval(const Aimed& aimed, const EquilibratedFlux& tau) {
 
   double above = 0, below = 0, work = 0;
   // Fluxes are sums of T grad z', whose rounding is of T |z'|.
-  const double tension = largest_of(cut.shapes.tension);
   const double of_jumps = 1e-12 * largest_of(dual.z),
                of_pressures = 1e-12 * largest_of(tau.through_faces()) +
-                              1e-13 * tension * largest_of(dual.reacting);
+                              1e-13 * cut.shapes.largest_tension * largest_of(dual.reacting);
   // Conjugate gradients leave more than rounding in z'; all of it widens the interval.
   Cone jumps{of_jumps, of_jumps}, pressures{of_pressures, 1000 * of_pressures};
   const auto limit = [&](Cone& cone, double of_dual, double of_primal) {

@@ -24,6 +24,7 @@ Shapes shapes(const Triangles& triangles, const Fans& fans) {
     for (auto t = first; t < at(triangles.first_triangle[s + 1]); ++t) {
       maps.push_back(tension.isotropic(t - first));
       shapes.tension.push_back(maps.back().tension);
+      shapes.largest_tension = std::max(shapes.largest_tension, maps.back().tension);
     }
     if (tension.variation.empty()) continue;
     shapes.variation.resize(count);

@@ -29,8 +29,9 @@ struct FanCorner {
 /// Of triangles after the map of their tension (fem::Isotropic): fluxes s become A s, what goes
 /// through an edge and all integrals stay.
 struct Shapes {
-  std::vector<double> area;               ///< (triangles)
-  std::vector<double> tension;            ///< (triangles) T after the map
+  std::vector<double> area;     ///< (triangles)
+  std::vector<double> tension;  ///< (triangles) T after the map
+  double largest_tension = 0;
   std::vector<fem::Variation> variation;  ///< (triangles) empty: T is constant on each
   /// (corners) e_i: the side opposite to the corner, counterclockwise, over 2 sqrt(area T), so that
   /// a flux a e_i / (2 area) on a triangle, e_i the side itself, has |a e_i|^2 in the norm of 1/T.
