@@ -12,10 +12,9 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using testing::paper;
+using testing::plenty;
 using testing::structured_mesh;
-
-constexpr std::size_t plenty = 1'000'000;
-const std::vector<testing::OnInterface> paper{{-0.5, 0.5, Kind::delaminated, 0}};
 
 errors::Error refusal(const Mesh& base, const Grading& grading, std::size_t limit = plenty) {
   try {

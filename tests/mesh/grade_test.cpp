@@ -17,10 +17,9 @@ namespace {
 
 using testing::expect_refines;
 using testing::OnInterface;
+using testing::paper;
+using testing::plenty;
 using testing::structured_mesh;
-
-constexpr std::size_t plenty = 1'000'000;
-const std::vector<OnInterface> paper{{-0.5, 0.5, Kind::delaminated, 0}};
 
 /// A sample of 16 points a side finds the distance to within h_T/32, and h_T is less than half the
 /// distance wherever the tip size does not decide.
