@@ -16,6 +16,7 @@ from anticrack.text import interval
 from processes import ANTICRACK, Daemon, FolderTest, run
 
 EXAMPLES = pathlib.Path(os.environ["EXAMPLES"])
+SAME = pathlib.Path(os.environ["SAME"])
 ACCURATE = """
 [geometry]
 boundary = [[-1,-1], [1,-1], [1,1], [-1,1]]
@@ -173,6 +174,14 @@ max_iterations = 3
             self.assertIsInstance(caught.exception, KeyError)
         with self.assertRaisesRegex(IndexError, "no interface 17; there are 2 interfaces, counted from 0"):
             load.traces[17]
+
+    def test_an_interval_is_the_text_that_the_command_writes(self):
+        cases = [line for line in (SAME / "intervals.txt").read_text().splitlines() if not line.startswith("#")]
+        self.assertGreater(len(cases), 10)
+        for case in cases:
+            numbers, text = case.split(" | ")
+            lower, upper = map(float, numbers.split())
+            self.assertEqual(interval(lower, upper, lower).rsplit(" (", 1)[0], text, case)
 
     def test_an_interval_contains_the_bounds(self):
         self.assertEqual(interval(0.44447, 0.45197, 0.4457, " mm"), "0.4482 +- 0.0038 mm (0.4457 on the mesh)")
