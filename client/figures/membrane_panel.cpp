@@ -188,10 +188,11 @@ std::string membrane_panel(const Surface& surface, const results::Load& load, do
   text += space_label(3, figures::quoted(results::labelled("x", length)), {middle_x, front, base});
   text += space_label(4, figures::quoted(results::labelled("y", length)), {side, middle_y, base});
   if (names.size() <= most_names) {
+    text += light_boxes;
     int tag = 10;
     for (const auto& [name, middle] : names)
       text += space_label(tag++, figures::quoted(name, 18), middle,
-                          " offset 0,0.6 font ',7' textcolor " + black + " front");
+                          " offset 0,0.6 font ',7' textcolor " + black + " front boxed");
   }
   text +=
       "splot $membrane using 1:2:3:4 with pm3d fillcolor rgb variable linewidth 0.3 notitle, "

@@ -136,8 +136,7 @@ std::string beyond(const Pointer& pointer) {
 }
 
 std::string labels(const MeshLayers& layers) {
-  std::string text =
-      "set style textbox opaque margins 0.3,0.3 fillcolor rgb '#44FFFFFF' noborder\n";
+  std::string text = light_boxes;
   for (const Pointer& side : layers.plus_sides) {
     text += "set arrow from " + number(side.from.x) + "," + number(side.from.y) + " to " +
             number(side.to.x) + "," + number(side.to.y) +

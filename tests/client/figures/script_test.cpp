@@ -97,8 +97,8 @@ TEST(Script, says_that_spikes_of_the_pressure_are_cut_off) {
   result.interfaces[0].s[static_cast<std::size_t>(closed)] =
       result.interfaces[0].s[static_cast<std::size_t>(closed) + 1] - 5e-7;
   trace.pressure[static_cast<std::size_t>(closed)] = 3.2e4;
-  EXPECT_THAT(drawn(), HasSubstr("'cut off at the tips, up to 3.2\xC3\x97"));
-  EXPECT_THAT(drawn(), HasSubstr("set yrange [0:0.795]"));
+  EXPECT_THAT(drawn(), HasSubstr("'cut off at the tips, up to 1.6\xC3\x97"));
+  EXPECT_THAT(drawn(), HasSubstr("set yrange [0:0.3975]"));
 }
 
 /// The first one again, with the load's traces on it.
