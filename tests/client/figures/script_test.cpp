@@ -148,6 +148,27 @@ TEST(Script, has_one_number_at_the_near_corner_of_the_membrane) {
   EXPECT_THAT(drawn(), HasSubstr("set ytics -1, 0.5, 0.8 nomirror"));
 }
 
+TEST(Script, keeps_a_far_side_that_rises_out_of_the_heading) {
+  auto result = sample_result(4);
+  const results::Load& load = result.loads[0];
+  const auto drawn = [&] {
+    return script(membrane_picture(result, load, surface(result, load, 1000)), both);
+  };
+  EXPECT_THAT(drawn(), HasSubstr("set view 52, 28, 1.5\n"));
+  for (auto& field : result.loads[0].fields)
+    for (std::size_t i = 0; i < field.u.size(); ++i)
+      field.u[i] = result.mesh.xy[2 * static_cast<std::size_t>(field.nodes[i]) + 1];
+  EXPECT_THAT(drawn(), HasSubstr("set view 52, 28, 1.3"));
+}
+
+TEST(Script, has_a_light_ground_below_names_on_the_membrane) {
+  const auto result = sample_result(4);
+  const std::string drawn = script(
+      membrane_picture(result, result.loads[0], surface(result, result.loads[0], 1000)), both);
+  EXPECT_THAT(drawn, HasSubstr("set style textbox opaque"));
+  EXPECT_THAT(drawn, ::testing::ContainsRegex("set label 10 'fibre' at [^\n]* boxed\n"));
+}
+
 TEST(Script, labels_contours_and_marks_the_side_that_came_off) {
   auto result = sample_result(20);
   const auto draw = [&] {
