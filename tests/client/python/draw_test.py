@@ -58,6 +58,11 @@ class Figures(unittest.TestCase):
             part.u[:] = 0
         self.assertEqual(draw.membrane(flat).get_title(), "example-2: u to scale")
 
+    def test_names_of_many_inclusions_are_left_out(self):
+        many = copy.deepcopy(self.several)
+        many.mesh.inclusions += [f"i{i}" for i in range(30)]
+        self.assertEqual([*draw.interfaces(many).texts, *draw.membrane(many, "opening").texts], [])
+
     def test_displacement(self):
         ax = draw.displacement(self.several, "opening")
         self.assertEqual({text.get_text() for text in ax.texts}, {"long", "short"})
@@ -215,6 +220,15 @@ class Figures(unittest.TestCase):
         ax = draw.error_band(self.accurate, "opening")
         band = ax.collections[0].get_paths()[0].vertices
         self.assertLess(band[:, 1].min(), self.accurate["opening"].energy)
+        result = copy.deepcopy(self.accurate)
+        stages = result["opening"].stages
+        for first, last in ((2000, 60000), (5870, 7870), (6100, 6800), (9, 7e6)):
+            stages["triangles"] = numpy.geomspace(first, last, len(stages["triangles"]))
+            ax = draw.error_band(result, "opening")
+            ax.figure.canvas.draw()
+            low, high = ax.get_xlim()
+            seen = [text.get_text() for text in ax.get_xticklabels() if low <= text.get_position()[0] <= high]
+            self.assertGreaterEqual(len(list(filter(None, seen))), 2, (first, last))
         with self.assertRaisesRegex(anticrack.Error, "accuracy"):
             draw.error_band(self.skew)
 

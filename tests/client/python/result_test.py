@@ -189,6 +189,14 @@ max_iterations = 3
         self.assertEqual(interval(float("nan"), 1, 0.25, " mm"), "0.25 mm")
         self.assertEqual(interval(0, 0, 0), "0 +- 0 (0 on the mesh)")
 
+    def test_a_traction_is_found_in_the_case_of_a_file(self):
+        result, _ = self.both(EXAMPLES / "slit.toml", "run")
+        self.assertIs(result.traction, False)
+        for case, traction in (('[[load]]\ntraction = "1"', True), ("", None)):
+            with h5py.File(self.folder / "result.h5", "a") as file:
+                file.attrs["case"] = case
+            self.assertIs(anticrack.read(self.folder / "result.h5").traction, traction)
+
     def test_a_package_that_is_missing_is_named(self):
         self.both(EXAMPLES / "slit.toml", "run")
         script = """

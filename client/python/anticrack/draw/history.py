@@ -38,6 +38,10 @@ def error_band(result: Result, load: str | Load | None = None, ax: Any = None) -
                     label=f"{load.name}: bounds of the membrane's energy")
     ax.plot(stages["triangles"], stages["energy"], ".-", label=f"{load.name}: energy of the stage")
     ax.set(xscale="log", xlabel="triangles", ylabel="energy" + result.units.label("F L"))
+    from matplotlib.ticker import LogLocator, NullFormatter
+    ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))  # of few decades, of which 1 alone is too few
+    ax.xaxis.set_major_formatter("{x:.0f}")
+    ax.xaxis.set_minor_formatter(NullFormatter())
     ax.legend()
     return ax
 

@@ -10,6 +10,8 @@ from ..arrays import Array
 from ..result import DELAMINATED, Load, Result, runs
 from .panel import BOX, LINES, axes, cut, fields, load_of
 
+_NAMES = 20  # of inclusions: more would cover each other
+
 
 def _levels(load: Load, levels: int) -> Array:
     """Of u: round numbers, about so many, from its lowest to its highest."""
@@ -39,8 +41,8 @@ def _boundary(result: Result) -> dict[str, Array]:
 
 
 def interfaces(result: Result, ax: Any = None, labels: bool = True) -> Any:
-    """The boundary, the inclusions, with dots on the side that came off, and the cracks; labels: names of inclusions,
-    and a legend of the lines."""
+    """The boundary, the inclusions, with dots on the side that came off, and the cracks; labels: names of
+    inclusions, unless they are many, and a legend of the lines."""
     ax = axes(ax)
     from matplotlib.collections import LineCollection
     drawn: dict[str, Any] = {}
@@ -62,7 +64,7 @@ def interfaces(result: Result, ax: Any = None, labels: bool = True) -> Any:
             if kind == DELAMINATED:
                 (drawn["the side that came off"],) = ax.plot(x - away * across[0], y - away * across[1], ":",
                                                              color="#D00000")
-            if labels and inclusion >= 0 and inclusion not in named:
+            if labels and inclusion >= 0 and inclusion not in named and len(result.mesh.inclusions) <= _NAMES:
                 named.add(inclusion)
                 middle = len(x) // 2
                 up, right = across[1, middle], across[0, middle]
