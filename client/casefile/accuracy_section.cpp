@@ -29,8 +29,8 @@ void refuse_arrays(const Case& result) {
 }  // namespace
 
 void read_accuracy(const Section& root, Case& result) {
-  const auto section =
-      root.section("accuracy", {"energy", "A", "max_triangles", "time", "keep_stages"});
+  const auto section = root.section(
+      "accuracy", {"energy", "A", "each_inclusion", "max_triangles", "time", "keep_stages"});
   if (!section) return;
   v1::Accuracy& accuracy = *result.job.mutable_accuracy();
   note(*section, "accuracy", result.spots);
@@ -42,6 +42,9 @@ void read_accuracy(const Section& root, Case& result) {
   if (const auto most = section->count("max_triangles"))
     accuracy.set_max_triangles(static_cast<std::uint64_t>(*most));
   if (const auto time = read_time(*section, "time")) *accuracy.mutable_time() = *time;
+  if (section->find("each_inclusion") && !accuracy.has_displacement())
+    throw Error(section->spot_of("each_inclusion"), "is about A; write A = 1e-2 with it");
+  accuracy.set_each_inclusion(section->boolean("each_inclusion").value_or(false));
   accuracy.set_keep_stages(section->boolean("keep_stages").value_or(false));
   if (result.job.solver().has_uzawa()) {
     throw Error(*result.locate("solver.uzawa"),

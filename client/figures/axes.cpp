@@ -8,6 +8,16 @@
 
 namespace anticrack::figures {
 
+std::string data_block(const std::string& name,
+                       const std::vector<const std::vector<double>*>& columns) {
+  std::string text = "$" + name + " << EOD\n";
+  for (std::size_t i = 0; i < columns.at(0)->size(); ++i) {
+    for (const std::vector<double>* column : columns) text += number((*column)[i]) + " ";
+    text += "\n";
+  }
+  return text + "EOD\n";
+}
+
 std::string margins(const Place& place, double left, double right, double bottom, double top) {
   return "set lmargin at screen " + number(place.x + left * place.width) +
          "\nset rmargin at screen " + number(place.x + right * place.width) +
@@ -101,24 +111,29 @@ std::string axis_range(char axis, const Range& range, int most, double step) {
 
 std::string log_axis(char axis, const Range& range, bool labelled) {
   const double size = range.high / range.low;
-  // A factor of 2.1 has a label at least.
-  const double room = std::max({1.15, std::pow(size, 0.05), std::sqrt(2.1 / size)});
+  const double room = std::max(1.15, std::pow(size, 0.05));
   const Range shown{range.low / room, range.high * room};
   const double decades = std::log10(shown.high / shown.low);
-  constexpr double fewest = 0.7, few = 2;  // decades, of which 1 to 9, or 1, 2 and 5 have labels
-  const int every = std::max(1, static_cast<int>(std::ceil(decades / 6)));
   std::string marks;
+  const auto mark = [&](double value, const std::string& label, bool major) {
+    if (value < shown.low || value > shown.high) return;
+    marks += (marks.empty() ? "'" : ", '") + (major && labelled ? label : "") + "' " +
+             number(value) + (major ? "" : " 1");
+  };
+  // Decades, of which labels stand at even distances as on a plain axis, or at 1, 2 and 5.
+  constexpr double fewest = 0.7, few = 2;
+  if (decades <= fewest) {
+    const double step = label_step(shown);
+    for (double index = std::ceil(shown.low / step); index * step <= shown.high; ++index)
+      mark(index * step, readable(index * step, 5), true);
+  }
+  const int every = std::max(1, static_cast<int>(std::ceil(decades / 6)));
   for (int power = static_cast<int>(std::floor(std::log10(shown.low)));
-       power <= std::log10(shown.high); ++power) {
-    for (int leading = 1; leading < 10; ++leading) {
+       decades > fewest && power <= std::log10(shown.high); ++power) {
+    for (int leading = 1; leading < (every > 1 ? 2 : 10); ++leading) {
       const double value = leading * std::pow(10.0, power);
-      if (value < shown.low || value > shown.high) continue;
-      if (every > 1 && leading != 1) continue;
-      const bool major = decades <= fewest || (leading == 1 && power % every == 0) ||
-                         (decades <= few && (leading == 2 || leading == 5));
-      const std::string label = decades > few ? power_of_ten(power) : readable(value);
-      marks += (marks.empty() ? "'" : ", '") + (major && labelled ? label : "") + "' " +
-               number(value) + (major ? "" : " 1");
+      mark(value, decades > few ? power_of_ten(power) : readable(value, 5),
+           leading == 1 ? power % every == 0 : decades <= few && (leading == 2 || leading == 5));
     }
   }
   return std::string("set logscale ") + axis + "\nset " + axis + "range [" + number(shown.low) +

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Shared by panels: colours, margins, labels, ranges. For the sources of this folder only.
+// Shared by panels: colours, data, margins, labels, ranges. For the sources of this folder only.
 #pragma once
 
 #include <array>
 #include <string>
+#include <vector>
 
 #include "figures/canvas.hpp"
 
@@ -38,6 +39,10 @@ inline constexpr std::array<CurveStyle, 8> curve_styles{{{"#0072B2", "solid"},
                                                          {"#56B4E9", "(8,4)"},
                                                          {"#8C6D31", "(2,3)"}}};
 
+/// Columns of one length as a block of data.
+std::string data_block(const std::string& name,
+                       const std::vector<const std::vector<double>*>& columns);
+
 /// Position of the axes, fractions of the place.
 std::string margins(const Place& place, double left, double right, double bottom, double top);
 
@@ -56,6 +61,10 @@ std::string beside(const std::string& quoted_text, const Place& place);
 
 /// Legend at the bottom of the place, in columns of `rows` entries.
 std::string legend(int rows, const Place& place);
+
+/// The ground of labels that are `boxed`: they are read on any colour, and it shines through.
+inline const std::string light_boxes =
+    "set style textbox opaque margins 0.3,0.3 fillcolor rgb '#44FFFFFF' noborder\n";
 
 /// Commands for axes, tics and grid in all figures.
 std::string axes();
@@ -99,8 +108,8 @@ class Scale {
 /// `most` labels. A range without extent is widened.
 std::string axis_range(char axis, const Range& range, int most = 6, double step = 0);
 
-/// The same with a log scale, for positive values, with some room around them; `labelled` or with
-/// marks alone.
+/// The same with a log scale, for positive values, with some room around them and at least two
+/// labels; `labelled` or with marks alone.
 std::string log_axis(char axis, const Range& range, bool labelled = true);
 
 }  // namespace anticrack::figures

@@ -70,6 +70,25 @@ double brightness(const Triangle& triangle, double factor, double view) {
   return std::isfinite(lit) ? 0.65 + 0.35 * std::clamp(lit, 0.0, 1.0) : 1;
 }
 
+/// Degrees from which it is looked down on: so steep that the underside is seldom seen below the
+/// near edge.
+constexpr double steep = 52;
+
+/// gnuplot's scale of the view: what rises far at the far side would reach into the heading.
+double view_scale(const Surface& surface, double factor, double view) {
+  constexpr double usual = 1.5, highest = 0.45;  // above the middle of the box, in widths
+  const double angle = view * std::numbers::pi / 180, down = steep * std::numbers::pi / 180;
+  const double x = (surface.x_min + surface.x_max) / 2, y = (surface.y_min + surface.y_max) / 2;
+  const double u = (surface.lowest + surface.highest) / 2;
+  double top = highest * surface.width();
+  for (const Triangle& triangle : surface.triangles)
+    for (const Vertex& v : triangle)
+      top = std::max(top,
+                     ((v.y - y) * std::cos(angle) - (v.x - x) * std::sin(angle)) * std::cos(down) +
+                         factor * (v.u - u) * std::sin(down));
+  return usual * highest * surface.width() / top;
+}
+
 std::string membrane_data(const Surface& surface, double view, bool mesh) {
   const double factor = amplification(surface);
   const Shades shades = shades_of(surface);
@@ -164,8 +183,8 @@ std::string membrane_panel(const Surface& surface, const results::Load& load, do
   text += "set zrange [" + number(std::min(low, 0.0)) + ":" +
           number(std::max(high, low + 0.1 * surface.width())) + "]\n";
   text += "set xyplane at " + number(base) + "\n";
-  // So steep that the underside is seldom seen below the near edge.
-  text += "set view 52, " + number(view) + ", 1.5\nset view equal xyz\n";
+  text += "set view " + number(steep) + ", " + number(view) + ", " +
+          number(view_scale(surface, factor, view), 3) + "\nset view equal xyz\n";
   const Scale scale({surface.lowest, surface.highest});
   const Shades shades = shades_of(surface);
   text += colour_bar(shades.palette, scale.drawn(shades.range));
@@ -188,10 +207,11 @@ std::string membrane_panel(const Surface& surface, const results::Load& load, do
   text += space_label(3, figures::quoted(results::labelled("x", length)), {middle_x, front, base});
   text += space_label(4, figures::quoted(results::labelled("y", length)), {side, middle_y, base});
   if (names.size() <= most_names) {
+    text += light_boxes;
     int tag = 10;
     for (const auto& [name, middle] : names)
       text += space_label(tag++, figures::quoted(name, 18), middle,
-                          " offset 0,0.6 font ',7' textcolor " + black + " front");
+                          " offset 0,0.6 font ',7' textcolor " + black + " front boxed");
   }
   text +=
       "splot $membrane using 1:2:3:4 with pm3d fillcolor rgb variable linewidth 0.3 notitle, "

@@ -103,18 +103,22 @@ std::vector<Style> shown_styles(const MeshLayers& layers) {
   return styles;
 }
 
+/// Of a place.
+struct Sides {
+  double left, right, bottom, top;
+};
+
 /// The largest box inside the place in which both axes have one scale; `height` of the picture, in
 /// widths of it.
-std::string margins(const Window& window, const Place& place, double height) {
-  constexpr double left = 0.2, right = 0.97, bottom = 0.145, top = 0.92;
-  const double room_x = (right - left) * place.width;
-  const double room_y = (top - bottom) * place.height * height;
+Sides sides_of(const Window& window, const Place& place, double height) {
+  constexpr Sides most{0.2, 0.97, 0.145, 0.92};
+  const double room_x = (most.right - most.left) * place.width;
+  const double room_y = (most.top - most.bottom) * place.height * height;
   const double scale = std::min(room_x / window.width(), room_y / window.height());
   const double half_x = 0.5 * scale * window.width() / place.width;
   const double half_y = 0.5 * scale * window.height() / (place.height * height);
-  constexpr double middle_x = 0.5 * (left + right), middle_y = 0.5 * (bottom + top);
-  return figures::margins(place, middle_x - half_x, middle_x + half_x, middle_y - half_y,
-                          middle_y + half_y);
+  constexpr double x = 0.5 * (most.left + most.right), y = 0.5 * (most.bottom + most.top);
+  return {x - half_x, x + half_x, y - half_y, y + half_y};
 }
 
 std::string drawn_data(const Style& style, const std::string& tag) {
@@ -136,8 +140,7 @@ std::string beyond(const Pointer& pointer) {
 }
 
 std::string labels(const MeshLayers& layers) {
-  std::string text =
-      "set style textbox opaque margins 0.3,0.3 fillcolor rgb '#44FFFFFF' noborder\n";
+  std::string text = light_boxes;
   for (const Pointer& side : layers.plus_sides) {
     text += "set arrow from " + number(side.from.x) + "," + number(side.from.y) + " to " +
             number(side.to.x) + "," + number(side.to.y) +
@@ -169,13 +172,14 @@ std::string mesh_panel(const MeshLayers& layers, const MeshPanel& panel, const P
                        double height) {
   const Window& window = panel.window;
   const std::string length = panel.units.label("L");
-  std::string text = margins(window, place, height) + axes();
+  const Sides box = sides_of(window, place, height);
+  std::string text = margins(place, box.left, box.right, box.bottom, box.top) + axes();
   text += "unset key\nset border 0\nunset grid\nset tics out\n";
   // A short side has no room for as many labels.
   const double step = label_step({0, std::max(window.width(), window.height())}, 5);
   text += axis_range('x', {window.x_min, window.x_max}, 5, step);
   text += axis_range('y', {window.y_min, window.y_max}, 5, step);
-  text += below(figures::quoted(results::labelled("x", length)), 0.02, place) +
+  text += below(figures::quoted(results::labelled("x", length)), box.bottom - 0.125, place) +
           beside(figures::quoted(results::labelled("y", length)), place) +
           caption(panel.caption, place);
   text += labels(layers);

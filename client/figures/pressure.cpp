@@ -2,6 +2,7 @@
 #include "figures/pressure.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "figures/axes.hpp"
@@ -10,18 +11,32 @@
 
 namespace anticrack::figures {
 
-Pressure pressure(const results::Interface& interface, const results::Trace& trace) {
+Pressure pressure(const results::Interface& interface, const results::Trace& trace,
+                  const std::vector<double>& position) {
   constexpr double part = 0.9, room = 1.5;
-  Pressure found{std::vector<double>(interface.node_count(), results::unknown), {}};
-  std::vector<std::pair<double, double>> closed;  // pressure and the length that has it
-  for (std::size_t i = 0; i < interface.node_count(); ++i) {
-    const results::Kind kind = interface.kind[i];
-    if (kind != results::Kind::crack && kind != results::Kind::delaminated) continue;
-    found.values[i] = trace.pressure[i];
-    if (trace.contact[i] == 0 || !(trace.pressure[i] > 0)) continue;
-    const std::size_t before = i == 0 ? i : i - 1;
-    const std::size_t after = std::min(i + 1, interface.node_count() - 1);
-    closed.emplace_back(trace.pressure[i], interface.s[after] - interface.s[before]);
+  const auto opens = [&](std::size_t i) {
+    return interface.kind[i] == results::Kind::crack ||
+           interface.kind[i] == results::Kind::delaminated;
+  };
+  Pressure found;
+  const auto add = [&found](double at, double value, double length) {
+    found.position.push_back(at);
+    found.values.push_back(value);
+    found.lengths.push_back(length);
+  };
+  std::vector<std::pair<double, double>> closed;
+  for (std::size_t a = 0, b = 1; b < interface.node_count(); a = b++) {
+    const bool from = opens(a), to = opens(b);
+    if (!from && !to) continue;
+    if (!from && !found.position.empty()) add(results::unknown, results::unknown, 0);
+    // A tip has a flux: half of the edge is its own.
+    const double along = !from ? 0.75 : !to ? 0.25 : 0.5;
+    const double count = from && to ? 2 : 1;
+    const double value = ((from ? trace.pressure[a] : 0) + (to ? trace.pressure[b] : 0)) / count;
+    const double length = (interface.s[b] - interface.s[a]) * count / 2;
+    add(std::lerp(position[a], position[b], along), value, length);
+    if (value > 0 && (trace.contact[a] != 0 || trace.contact[b] != 0))
+      closed.emplace_back(value, length);
   }
   found.peaks = peaks(std::move(closed), part, room);
   found.peaks.shown = std::min(found.peaks.shown, found.peaks.highest);

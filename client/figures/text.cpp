@@ -124,10 +124,15 @@ std::string number(double value, int digits) { return printed(value, digits); }
 
 std::string bounded(double lower, double upper) {
   std::string text = results::interval(lower, upper);
+  std::string power;
+  if (const std::size_t e = text.find(")e"); e != std::string::npos) {
+    power = "\xC3\x97" + power_of_ten(std::stoi(text.substr(e + 2)));
+    text.resize(e + 1);
+  }
   for (const auto& [plain, sign] : {std::pair{"+-", "\xC2\xB1"}, std::pair{"-", "\xE2\x88\x92"}})
     for (std::size_t at = 0; (at = text.find(plain, at)) != std::string::npos; at += 3)
       text.replace(at, std::string_view(plain).size(), sign);
-  return text;
+  return text + power;
 }
 
 std::string readable(double value, int digits) {

@@ -21,19 +21,6 @@ std::string dashed(std::size_t load) {
   return colour_of(load) + " dashtype " + curve_styles.at(load).dash;
 }
 
-/// Position, pressure, [u], u-, u+.
-std::string data_of(std::size_t load, const std::vector<double>& position,
-                    const results::Trace& trace, const Pressure& pressure) {
-  std::string text = "$" + block(load) + " << EOD\n";
-  for (std::size_t i = 0; i < position.size(); ++i) {
-    for (const double value :
-         {position[i], pressure.values[i], trace.jump[i], trace.u_minus[i], trace.u_plus[i]})
-      text += number(value) + " ";
-    text += "\n";
-  }
-  return text + "EOD\n";
-}
-
 std::string curve(std::size_t load, const Scale& scale, int column, const std::string& style) {
   return ", $" + block(load) + " using 1:" + scale.column(column) + " with lines linewidth 1.5 " +
          style + " notitle";
@@ -72,9 +59,12 @@ Picture together_picture(const results::Result& result, std::size_t interface) {
   for (std::size_t l = 0; l < result.loads.size(); ++l) {
     const Load& load = result.loads[l];
     traces.push_back(&load.traces.at(interface));
-    pressures.push_back(pressure(result.interfaces[interface], *traces.back()));
-    pressure_curves.push_back({block(l), dashed(l)});
-    data += data_of(l, along.position, *traces.back(), pressures.back());
+    pressures.push_back(pressure(result.interfaces[interface], *traces.back(), along.position));
+    pressure_curves.push_back({"pressure" + std::to_string(l), dashed(l)});
+    data += data_block(block(l), {&along.position, &traces.back()->jump, &traces.back()->u_minus,
+                                  &traces.back()->u_plus});
+    data += data_block(pressure_curves.back().block,
+                       {&pressures.back().position, &pressures.back().values});
     if (std::isfinite(load.energy)) energy = std::max(energy, std::abs(load.energy));
     in_contact = in_contact || pressures.back().peaks.highest > 0;
   }
@@ -97,9 +87,9 @@ Picture together_picture(const results::Result& result, std::size_t interface) {
     if (jumps.size() < 1e-9 * all.size()) jumps = all;
     jumps = {jumps.low - 0.06 * jumps.size(), jumps.high + 0.06 * jumps.size()};
     for (std::size_t l = 0; l < traces.size(); ++l) {
-      jump_curves += curve(l, Scale(jumps), 3, dashed(l));
-      u_curves += curve(l, Scale(all), 4, colour_of(l) + " dashtype solid");
-      u_curves += curve(l, Scale(all), 5, colour_of(l) + " dashtype (8,4)");
+      jump_curves += curve(l, Scale(jumps), 2, dashed(l));
+      u_curves += curve(l, Scale(all), 3, colour_of(l) + " dashtype solid");
+      u_curves += curve(l, Scale(all), 4, colour_of(l) + " dashtype (8,4)");
       keys += ", keyentry with lines linewidth 1.5 " + dashed(l) + " title " +
               figures::quoted(result.loads[l].name, 24);
     }

@@ -45,18 +45,6 @@ std::string traces_heading(const Profile& profile, const Load& load, const std::
   return length(bounds) <= most ? bounds : where + answers(profile, load, unit, false);
 }
 
-/// Columns over the position.
-std::string block(const std::string& name, const std::vector<double>& position,
-                  const std::vector<const std::vector<double>*>& columns) {
-  std::string text = "$" + name + " << EOD\n";
-  for (std::size_t i = 0; i < position.size(); ++i) {
-    text += number(position[i]);
-    for (const std::vector<double>* column : columns) text += " " + number((*column)[i]);
-    text += "\n";
-  }
-  return text + "EOD\n";
-}
-
 std::string curve(const std::string& column, const std::string& style, const char* title) {
   return " using 1:" + column + " with lines linewidth 1.5 " + style + " title '" + title + "'";
 }
@@ -101,12 +89,12 @@ Range heights(const std::vector<const results::Trace*>& traces, double energy) {
 TracesPanels traces_panels(const results::Result& result, const Load& load, std::size_t interface) {
   const results::Trace& trace = load.traces.at(interface);
   const Profile along = profile(result, interface, trace);
-  const Pressure pressed = pressure(result.interfaces[interface], trace);
+  const Pressure pressed = pressure(result.interfaces[interface], trace, along.position);
   const std::string axis = figures::quoted(along.axis);
   const results::Units units = result.units;
   const bool in_contact = pressed.peaks.highest > 0;
-  return {block("traces", along.position, {&trace.u_minus, &trace.u_plus, &trace.jump}),
-          in_contact ? block("pressure", along.position, {&pressed.values}) : "",
+  return {data_block("traces", {&along.position, &trace.u_minus, &trace.u_plus, &trace.jump}),
+          in_contact ? data_block("pressure", {&pressed.position, &pressed.values}) : "",
           [=, &trace, &load](const Place& place, const Box& box) {
             return displacements(along, trace, load, units, place, box);
           },

@@ -98,7 +98,7 @@ std::vector<Lift> lifts(const CutMesh& cut, std::span<const double> samples,
     if (!is_dirichlet(cut.faces[f])) continue;
     const auto corners = corners_of(cut.faces[f]);
     // From P_1 to P_2, and from P_3 to P_1.
-    const Vector &side = cut.shapes.edge[corners[2]], &back = cut.shapes.edge[corners[1]];
+    const Vector side = cut.shapes.side(corners[2]), back = cut.shapes.side(corners[1]);
     const double area = 0.5 * (side[1] * back[0] - side[0] * back[1]);
     // Gradients of l_2 and l_3.
     const Vector second{-back[1] / (2 * area), back[0] / (2 * area)};

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <memory>
 #include <new>
@@ -21,8 +22,6 @@ void add(Vector& to, double factor, const Vector& what) {
   to[0] += factor * what[0];
   to[1] += factor * what[1];
 }
-/// Outward normal of an edge of a counterclockwise triangle, as long as the edge.
-Vector normal(const Vector& edge) { return {edge[1], -edge[0]}; }
 
 constexpr std::size_t next(std::size_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
 constexpr std::size_t previous(std::size_t corner) {
@@ -66,13 +65,13 @@ FluxMesh flux_mesh(const CutMesh& cut) {
   for (std::size_t fan = 0; fan < cut.fan_count(); ++fan)
     largest = std::max(largest, cut.first_corner[fan + 1] - cut.first_corner[fan]);
   const Shapes& shapes = cut.shapes;
-  return {cut.triangle_count(),    cut.fan_count(),
-          cut.faces.size(),        at(largest),
-          cut.copy.data(),         cut.first_corner.data(),
-          cut.first_stop.data(),   shapes.edge.front().data(),
-          shapes.stiffness.data(), shapes.compliance.data(),
-          shapes.softness.data(),  shapes.around.data(),
-          cut.stops.data(),        cut.faces.data()};
+  return {cut.triangle_count(),  cut.fan_count(),
+          cut.faces.size(),      at(largest),
+          cut.copy.data(),       cut.first_corner.data(),
+          cut.first_stop.data(), shapes.edge.front().data(),
+          shapes.tension.data(), shapes.softness.data(),
+          shapes.around.data(),  cut.stops.data(),
+          cut.faces.data()};
 }
 
 }  // namespace
@@ -180,28 +179,29 @@ std::vector<EquilibratedFlux::Turn>::const_iterator EquilibratedFlux::first_turn
 }
 
 Vector EquilibratedFlux::mean_difference(std::size_t triangle) const {
-  const double scale = 0.5 / _area[triangle];
+  const double scale = std::sqrt(_tension[triangle] / _area[triangle]);
   return {scale * _mean[triangle][0], scale * _mean[triangle][1]};
 }
 
 Vector EquilibratedFlux::difference(std::size_t triangle,
                                     const std::array<double, 3>& place) const {
   Vector result = mean_difference(triangle);
+  const auto side = [this](std::size_t corner) { return _cut.shapes.side(corner); };
   for (std::size_t i = 3 * triangle; i < 3 * triangle + 3 && !_balance.force.empty(); ++i) {
     const std::size_t j = next(i), k = previous(i);
     const double rise = 4 * (_balance.force[k] - _balance.force[j]) / _area[triangle];
-    add(result, rise * (place[j % 3] * place[k % 3] - 1.0 / 12), _edge[i]);
+    add(result, rise * (place[j % 3] * place[k % 3] - 1.0 / 12), side(i));
     // x - centroid = sum of l_i (P_i - centroid)
     const double sum = _balance.force[i] + _balance.force[j] + _balance.force[k];
-    add(result, sum / _area[triangle] / 6 * place[i % 3], minus(_edge[k], _edge[j]));
+    add(result, sum / _area[triangle] / 6 * place[i % 3], minus(side(k), side(j)));
   }
   for (auto one = first_turn(triangle); one != _turns.end() && one->side < 3 * triangle + 3;
        ++one) {
     // curl l_j of a corner is half its opposite edge over the area.
     const std::size_t j = next(one->side), k = previous(one->side);
     const double scale = one->kappa / (2 * _area[triangle]);
-    add(result, scale * place[j % 3], _edge[k]);
-    add(result, scale * place[k % 3], _edge[j]);
+    add(result, scale * place[j % 3], side(k));
+    add(result, scale * place[k % 3], side(j));
   }
   return result;
 }
@@ -218,7 +218,7 @@ std::vector<double> EquilibratedFlux::work_of_pressure() const {
 }
 
 Vector EquilibratedFlux::flux_of(std::size_t triangle, std::span<const double> values) const {
-  const double scale = 2 * _cut.shapes.stiffness[triangle];
+  const double scale = _tension[triangle] * std::sqrt(_tension[triangle] / _area[triangle]);
   const Vector rise = rise_of(triangle, values);
   return {-scale * rise[1], scale * rise[0]};
 }
@@ -227,7 +227,10 @@ double EquilibratedFlux::flux_through(std::size_t side, std::span<const double> 
   return dot(flux_of(side / 3, values), normal_of(side));
 }
 
-Vector EquilibratedFlux::normal_of(std::size_t side) const { return normal(_edge[side]); }
+Vector EquilibratedFlux::normal_of(std::size_t side) const {
+  const Vector along = _cut.shapes.side(side);
+  return {along[1], -along[0]};
+}
 
 bool EquilibratedFlux::turned(std::size_t triangle) const {
   const auto first = first_turn(triangle);

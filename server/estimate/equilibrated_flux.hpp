@@ -52,12 +52,12 @@ class EquilibratedFlux {
   Vector difference(std::size_t triangle, const std::array<double, 3>& place) const;
   /// Its mean over a triangle; where `turned` is false and f is 0 it is constant.
   Vector mean_difference(std::size_t triangle) const;
-  /// The same times 2 area.
+  /// The same times sqrt(area / T): its square is its part of distance().
   const Vector& mean(std::size_t triangle) const { return _mean[triangle]; }
   bool turned(std::size_t triangle) const;
   /// [u] at an end of a minus face.
   double jump(std::size_t face, std::size_t end) const;
-  /// Sum of v_i e_i of a triangle; turned by 90 degrees, 2 area grad v.
+  /// Sum of v_i e_i of a triangle (Shapes); turned by 90 degrees, sqrt(area / T) grad v.
   Vector rise_of(std::size_t triangle, std::span<const double> values) const {
     const std::int32_t* copy = &_cut.copy[3 * triangle];
     const Vector* edge = &_edge[3 * triangle];
@@ -71,7 +71,7 @@ class EquilibratedFlux {
   /// int grad v.T grad v of a triangle, the square of a norm.
   double energy_of(std::size_t triangle, std::span<const double> values) const {
     const Vector rise = rise_of(triangle, values);
-    return _cut.shapes.stiffness[triangle] * dot(rise, rise);
+    return _tension[triangle] * _tension[triangle] * dot(rise, rise);
   }
   double tension(std::size_t triangle) const { return _tension[triangle]; }
   double area(std::size_t triangle) const { return _area[triangle]; }
@@ -91,8 +91,8 @@ class EquilibratedFlux {
   const CutMesh& _cut;
   Balance _balance;
   const std::vector<double>&_tension, &_area;  // (m)
-  const std::vector<Vector>& _edge;            // (corners) opposite to the corner, counterclockwise
-  std::vector<Vector> _mean;                   // (m) of sigma - T grad u, times 2 area
+  const std::vector<Vector>& _edge;            // (corners) e_i
+  std::vector<Vector> _mean;                   // (m)
   std::vector<double> _distance, _through;
   struct Turn {
     std::size_t side;

@@ -19,7 +19,7 @@ constexpr std::size_t flux_lanes = 4;
 struct FluxMesh {
   std::size_t triangles, fans, faces, largest_fan;
   const std::int32_t *copy, *first_corner, *first_stop;
-  const double *edge, *stiffness, *compliance, *softness;  // edge: (corners, 2)
+  const double *edge, *tension, *softness;  // edge: (corners, 2)
   const FanCorner* around;
   const Stop* stops;
   const Face* face;
@@ -31,7 +31,7 @@ struct FluxLane {
   const double* force;
   const double* traction;
   const double* bounds;  ///< none: the pressure
-  double* mean;          ///< (triangles, 2) of sigma - T grad u, times 2 area
+  double* mean;          ///< (triangles, 2) of sigma - T grad u, times sqrt(area / T)
   double* distance;      ///< (triangles) int |sigma - T grad u|^2 / T
   double* through;       ///< (faces, 2)
   double norm_squared;

@@ -8,21 +8,50 @@
 namespace anticrack::estimate {
 namespace {
 
-/// A number of each lane.
+/// A number of each lane, and a vector of each.
 template <std::size_t lanes>
 struct Numbers;
 template <>
 struct Numbers<1> {
-  using Type = double;
+  using Number = double;
+  using Vector = double __attribute__((vector_size(2 * sizeof(double))));
+  static Vector scaled(Number by, const double* edge) { return Vector{by, by} * loaded(edge); }
+  static Vector products(const Vector& a, const double* edge) { return a * loaded(edge); }
+  static Number sum(const Vector& of) { return of[0] + of[1]; }
+
+ private:
+  static Vector loaded(const double* edge) {
+    Vector to;
+    __builtin_memcpy(&to, edge, sizeof to);
+    return to;
+  }
 };
 template <>
 struct Numbers<flux_lanes> {
-  using Type = double __attribute__((vector_size(flux_lanes * sizeof(double))));
+  using Number = double __attribute__((vector_size(flux_lanes * sizeof(double))));
+  struct Vector {
+    Number of[2];
+    const Number& operator[](std::size_t i) const { return of[i]; }
+    Vector& operator+=(const Vector& by) {
+      of[0] += by.of[0];
+      of[1] += by.of[1];
+      return *this;
+    }
+  };
+  static Vector scaled(const Number& by, const double* edge) {
+    return {{by * edge[0], by * edge[1]}};
+  }
+  static Vector products(const Vector& a, const double* edge) {
+    return {{a[0] * edge[0], a[1] * edge[1]}};
+  }
+  static Number sum(const Vector& of) { return of[0] + of[1]; }
 };
 
 template <std::size_t lanes>
 class Flux {
-  using V = typename Numbers<lanes>::Type;
+  using Of = Numbers<lanes>;
+  using V = typename Of::Number;
+  using Pair = typename Of::Vector;
 
  public:
   Flux(const FluxMesh& mesh, FluxLane* lane, double* scratch)
@@ -32,8 +61,8 @@ class Flux {
       scratch += count * lanes;
       return taken;
     };
+    _mean = reinterpret_cast<Pair*>(take(2 * mesh.triangles));
     _spoke = take(6 * mesh.triangles);
-    _mean = take(2 * mesh.triangles);
     _rest = take(mesh.triangles);
     _through = take(2 * mesh.faces);
     _x = take(mesh.largest_fan + 1);
@@ -74,20 +103,19 @@ class Flux {
   }
 
   /// Minus half the outward flux of T grad u through each side: with G = sum of u_i e_i, that of
-  /// side i is -T G.e_i / (2 area). And what the load makes of sigma - T grad u besides: d/2 (x -
+  /// side i is -T^2 G.e_i / 2. And what the load makes of sigma - T grad u besides: d/2 (x -
   /// centroid) with the divergence d, and the bubble
   ///   b = 1/3 sum_(i<j) (f_j - f_i)(P_j - P_i) l_i l_j,  div b = -(f - mean f),
   /// which has no flux through the sides. With the loads f_i, their sum s and d_i = f_k - f_j this
-  /// is a part -(f_0 e_2 + f_1 e_0 + f_2 e_1) / (2 area) of the mean, and the square of what is
-  /// left
-  ///   1/area sum_i e_i.e_i (s^2 / 144 + (2 d_i^2 - d_j d_k - s (s - 3 f_i)) / 45).
+  /// is a part -(f_0 e_2 + f_1 e_0 + f_2 e_1) of the mean, and the square of what is left
+  ///   4 sum_i e_i.e_i (s^2 / 144 + (2 d_i^2 - d_j d_k - s (s - 3 f_i)) / 45).
   template <bool loaded>
   void measure() {
     V norm_squared{};
     for (std::size_t t = 0; t < _mesh.triangles; ++t) {
       const std::int32_t* const copy = _mesh.copy + 3 * t;
       const double* const edge = _mesh.edge + 6 * t;
-      const double q = _mesh.stiffness[t];
+      const double tension = _mesh.tension[t], q = tension * tension;
       const V first = u(copy[0]), second = u(copy[1]) - first, third = u(copy[2]) - first;
       const V gx = second * edge[2] + third * edge[4], gy = second * edge[3] + third * edge[5];
       norm_squared += q * (gx * gx + gy * gy);
@@ -109,8 +137,7 @@ class Flux {
         }
         _rest[t] = 4 * rest;
       }
-      _mean[2 * t] = mx;
-      _mean[2 * t + 1] = my;
+      _mean[t] = Pair{mx, my};
       for (std::size_t i = 0; i < 3; ++i) {
         const V out = half[i] - f[i];
         _spoke[2 * (3 * t + i)] = out;
@@ -122,25 +149,24 @@ class Flux {
 
   /// The fan of corner i adds to the flux through the sides j and k of its triangle x out and x'
   /// in, where fans to come stand for half of T grad u. With a = x less half of T grad u through
-  /// side j this adds a e_i / (2 area) to the mean of sigma - T grad u, the load apart.
+  /// side j this adds a e_i to the mean of sigma - T grad u, the load apart.
   void build() {
     V imbalance{};
     for (std::size_t place = 0; place < 2 * _mesh.faces; ++place) _through[place] = V{};
     for (std::size_t fan = 0; fan < _mesh.fans; ++fan) {
       const FanCorner* const end = _mesh.around + _mesh.first_corner[fan + 1];
-      V x{}, sx = slope_of_work(fan), sy{};
+      V x{};
+      Pair slope{};
       V* spoke = _x;
       *spoke = x;
       for (const FanCorner* one = _mesh.around + _mesh.first_corner[fan]; one != end; ++one) {
         const std::size_t t = static_cast<std::size_t>(one->triangle);
         const V* const own = _spoke + 2 * (3 * t + static_cast<std::size_t>(one->i));
-        V* const mean = _mean + 2 * t;
-        const V a = x + own[1], mx = mean[0] + a * one->edge[0], my = mean[1] + a * one->edge[1];
+        Pair mean = _mean[t];
+        mean += Of::scaled(x + own[1], one->edge);
+        _mean[t] = mean;
+        slope += Of::products(mean, one->edge);
         x += own[0];
-        mean[0] = mx;
-        mean[1] = my;
-        sx += mx * (one->compliance * one->edge[0]);
-        sy += my * (one->compliance * one->edge[1]);
         *++spoke = x;
       }
       const std::int32_t first_stop = _mesh.first_stop[fan], last_stop = _mesh.first_stop[fan + 1];
@@ -149,7 +175,7 @@ class Flux {
         const Stop& stop = _mesh.stops[s];
         _through[2 * stop.face + stop.end] = sign(stop) * _x[stop.spoke];
       }
-      rotate(fan, step(fan, sx + sy));
+      rotate(fan, step(fan, slope_of_work(fan) + Of::sum(slope)));
     }
     for (std::size_t l = 0; l < lanes; ++l) _lane[l].imbalance = of(imbalance, l);
   }
@@ -157,24 +183,18 @@ class Flux {
   void polish() {
     for (std::size_t fan = 0; fan < _mesh.fans; ++fan) {
       const FanCorner* const end = _mesh.around + _mesh.first_corner[fan + 1];
-      V sx = slope_of_work(fan), sy{};
-      for (const FanCorner* one = _mesh.around + _mesh.first_corner[fan]; one != end; ++one) {
-        const V* const mean = _mean + 2 * static_cast<std::size_t>(one->triangle);
-        sx += mean[0] * (one->compliance * one->edge[0]);
-        sy += mean[1] * (one->compliance * one->edge[1]);
-      }
-      rotate(fan, step(fan, sx + sy));
+      Pair slope{};
+      for (const FanCorner* one = _mesh.around + _mesh.first_corner[fan]; one != end; ++one)
+        slope += Of::products(_mean[one->triangle], one->edge);
+      rotate(fan, step(fan, slope_of_work(fan) + Of::sum(slope)));
     }
   }
 
   /// `flux` round the node.
   void rotate(std::size_t fan, const V& flux) {
     const FanCorner* const end = _mesh.around + _mesh.first_corner[fan + 1];
-    for (const FanCorner* one = _mesh.around + _mesh.first_corner[fan]; one != end; ++one) {
-      V* const mean = _mean + 2 * static_cast<std::size_t>(one->triangle);
-      mean[0] += flux * one->edge[0];
-      mean[1] += flux * one->edge[1];
-    }
+    for (const FanCorner* one = _mesh.around + _mesh.first_corner[fan]; one != end; ++one)
+      _mean[one->triangle] += Of::scaled(flux, one->edge);
   }
 
   static double sign(const Stop& stop) { return stop.end == 0 ? -1 : 1; }
@@ -254,9 +274,9 @@ class Flux {
   void finish() {
     const bool loaded = _lane->force != nullptr;
     for (std::size_t t = 0; t < _mesh.triangles; ++t) {
-      const V mx = _mean[2 * t], my = _mean[2 * t + 1];
+      const V mx = _mean[t][0], my = _mean[t][1];
       const V square = mx * mx + my * my;
-      const V distance = _mesh.compliance[t] * (loaded ? square + _rest[t] : square);
+      const V distance = loaded ? square + _rest[t] : square;
       for (std::size_t l = 0; l < lanes; ++l) {
         _lane[l].mean[2 * t] = of(mx, l);
         _lane[l].mean[2 * t + 1] = of(my, l);
@@ -273,8 +293,8 @@ class Flux {
   /// (corners, 2): less the load, half the flux out through the spoke after the corner, and with
   /// that of the one after the next.
   V* _spoke;
-  V* _mean;
-  V* _rest;  // (triangles) int |sigma - T grad u - its mean|^2 times 4 area
+  Pair* _mean;
+  V* _rest;  // (triangles) int |sigma - T grad u - its mean|^2 / T
   V* _through;
   V* _x;  // through the spokes of a fan
 };

@@ -93,11 +93,10 @@ class Sum {
       sum.square += factor * dot(off, off);
       sum.mixed += factor * dot(off, of_sigma);
     };
-    if (!_tau.turned(t)) {  // constant: 2 area times both
+    if (!_tau.turned(t)) {  // constant: sqrt(area / T) times both
       const Vector &of_tau = _tau.mean(t), rise = sigma.rise_of(t, _rest);
       const double tension = shapes.tension[t];
-      add(shapes.compliance[t], {of_tau[0] - tension * rise[1], of_tau[1] + tension * rise[0]},
-          sigma.mean(t));
+      add(1, {of_tau[0] - tension * rise[1], of_tau[1] + tension * rise[0]}, sigma.mean(t));
       return sum;
     }
     const Vector shift = sigma.flux_of(t, _rest);
@@ -146,10 +145,9 @@ Interval interval(const Aimed& aimed, const EquilibratedFlux& tau) {
 
   double above = 0, below = 0, work = 0;
   // Fluxes are sums of T grad z', whose rounding is of T |z'|.
-  const double tension = largest_of(cut.shapes.tension);
   const double of_jumps = 1e-12 * largest_of(dual.z),
                of_pressures = 1e-12 * largest_of(tau.through_faces()) +
-                              1e-13 * tension * largest_of(dual.reacting);
+                              1e-13 * cut.shapes.largest_tension * largest_of(dual.reacting);
   // Conjugate gradients leave more than rounding in z'; all of it widens the interval.
   Cone jumps{of_jumps, of_jumps}, pressures{of_pressures, 1000 * of_pressures};
   const auto limit = [&](Cone& cone, double of_dual, double of_primal) {

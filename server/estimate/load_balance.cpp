@@ -17,7 +17,7 @@ double size_of(const Shapes& shapes, std::size_t t) {
   double squared = 0;
   for (std::size_t i = 3 * t; i < 3 * t + 3; ++i)
     squared = std::max(squared, dot(shapes.edge[i], shapes.edge[i]));
-  return std::sqrt(squared / shapes.tension[t]) *
+  return 2 * std::sqrt(squared * shapes.area[t]) *
          (shapes.variation.empty() ? 1 : shapes.variation[t].below);
 }
 

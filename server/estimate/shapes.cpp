@@ -9,8 +9,7 @@ namespace anticrack::estimate {
 
 std::size_t Shapes::bytes() const noexcept {
   const auto of = [](const auto& list) { return list.capacity() * sizeof(list[0]); };
-  return of(area) + of(tension) + of(stiffness) + of(compliance) + of(edge) + of(around) +
-         of(softness) + of(variation);
+  return of(area) + of(tension) + of(edge) + of(around) + of(softness) + of(variation);
 }
 
 Shapes shapes(const Triangles& triangles, const Fans& fans) {
@@ -25,14 +24,13 @@ Shapes shapes(const Triangles& triangles, const Fans& fans) {
     for (auto t = first; t < at(triangles.first_triangle[s + 1]); ++t) {
       maps.push_back(tension.isotropic(t - first));
       shapes.tension.push_back(maps.back().tension);
+      shapes.largest_tension = std::max(shapes.largest_tension, maps.back().tension);
     }
     if (tension.variation.empty()) continue;
     shapes.variation.resize(count);
     std::ranges::copy(tension.variation, &shapes.variation[first]);
   }
   shapes.area.resize(count);
-  shapes.stiffness.resize(count);
-  shapes.compliance.resize(count);
   shapes.edge.resize(3 * count);
   for (std::size_t t = 0; t < count; ++t) {
     Vector* edge = &shapes.edge[3 * t];
@@ -42,8 +40,8 @@ Shapes shapes(const Triangles& triangles, const Fans& fans) {
       edge[i] = maps[t](to[0] - from[0], to[1] - from[1]);
     }
     shapes.area[t] = 0.5 * (edge[2][1] * edge[1][0] - edge[2][0] * edge[1][1]);
-    shapes.stiffness[t] = shapes.tension[t] / (4 * shapes.area[t]);
-    shapes.compliance[t] = 1 / (4 * shapes.area[t] * shapes.tension[t]);
+    const double length = shapes.length(t);
+    for (std::size_t i = 0; i < 3; ++i) edge[i] = {edge[i][0] / length, edge[i][1] / length};
   }
   shapes.around.reserve(fans.corners.size());
   shapes.softness.reserve(fans.first_corner.size());
@@ -52,9 +50,8 @@ Shapes shapes(const Triangles& triangles, const Fans& fans) {
     for (auto n = at(fans.first_corner[fan]); n < at(fans.first_corner[fan + 1]); ++n) {
       const std::int32_t corner = fans.corners[n], t = corner / 3, i = corner % 3;
       const Vector& edge = shapes.edge[at(corner)];
-      const double compliance = shapes.compliance[at(t)];
-      shapes.around.push_back({t, i, {edge[0], edge[1]}, compliance});
-      stiffness += compliance * dot(edge, edge);
+      shapes.around.push_back({t, i, {edge[0], edge[1]}});
+      stiffness += dot(edge, edge);
     }
     shapes.softness.push_back(1 / stiffness);
   }

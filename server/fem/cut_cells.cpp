@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "fem/switch_view.hpp"
 #include "fem/triangle_rules.hpp"
 
 namespace anticrack::fem {
@@ -14,62 +15,13 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-/// Cells whose switches are sampled at once, at the corners, the middles of the edges (i is
-/// opposite corner i) and the centroid.
-constexpr std::size_t width = Cutter::width, places = 7;
+/// Cells whose switches are sampled at once.
+constexpr std::size_t width = Cutter::width;
 static_assert(width * places <= expression::Evaluator::block);
-constexpr std::array<double, places> place_b{0, 1, 0, 0.5, 0, 0.5, 1.0 / 3};
-constexpr std::array<double, places> place_c{0, 0, 1, 0.5, 0.5, 0, 1.0 / 3};
 
-/// Samples are moved towards the centroid by this part, so that a cell with a jump along its edge
-/// sees its own side only. A line within `nothing` of an edge is taken to lie on it.
-constexpr double drawn_in = 1e-12, nothing = 4e-12;
 /// Cells below this part of their triangle are not cut.
 constexpr double sliver = 1e-11;
 constexpr std::int32_t deepest = 60;
-
-/// The argument of a switch on a cell.
-struct View {
-  std::array<double, places> g{};
-  std::array<double, 6> bernstein{};  ///< of the polynomial of degree 2
-  double low = 0, high = 0;           ///< bounds of g
-  double zero = 0;                    ///< smaller values are 0 to rounding
-  double bent = 0;                    ///< greatest distance from a linear function
-
-  /// `rounding`: of coordinates over the cell's size.
-  View(const std::array<double, places>& values, double rounding) : g(values) {
-    std::copy_n(g.begin(), 3, bernstein.begin());
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double mean = 0.5 * (g[(i + 1) % 3] + g[(i + 2) % 3]);
-      bernstein[3 + i] = 2 * g[3 + i] - mean;
-      bent = std::max(bent, std::abs(bernstein[3 + i] - mean));
-    }
-    const auto [least, greatest] = std::minmax_element(bernstein.begin(), bernstein.end());
-    zero = (nothing + 8 * rounding) * (*greatest - *least);
-    const double centre = (4 * (g[3] + g[4] + g[5]) - (g[0] + g[1] + g[2])) / 9;
-    const double noise = 16 * epsilon * std::max(std::abs(*least), std::abs(*greatest));
-    const double off = 2 * std::max(0.0, std::abs(g[6] - centre) - zero - noise);
-    bent += off;
-    low = *least - off;
-    high = *greatest + off;
-  }
-
-  bool straight() const { return bent <= 1e-10 * (high - low); }
-
-  /// A value where the switch changes inside the cell, if there is one.
-  std::optional<double> level(bool steps) const {
-    if (!std::isfinite(low) || !std::isfinite(high)) return std::nullopt;
-    if (!steps) return low < -zero && high > zero ? std::optional(0.0) : std::nullopt;
-    const double first = std::floor(low + zero) + 1, last = std::ceil(high - zero) - 1;
-    return first <= last ? std::optional(std::floor(0.5 * (first + last))) : std::nullopt;
-  }
-
-  /// -1, 0 or 1.
-  int side(std::size_t place, double level) const {
-    const double off = g[place] - level;
-    return std::abs(off) <= zero ? 0 : off > 0 ? 1 : -1;
-  }
-};
 
 /// From an apex inside or on a cell; t is where the switch changes.
 struct Ray {
@@ -172,7 +124,7 @@ class Cutter::Work {
       Lane low, high;
       extremes(_arguments.values(s), places, low, high);
       for (std::size_t i = 0; i < width; ++i) {
-        // A bound for the low and high of their View.
+        // A bound for the low and high of their SwitchView.
         const double beyond = 8 * (high[i] - low[i]);
         const double least = low[i] - beyond, greatest = high[i] + beyond;
         const bool far = _switches[s].steps ? std::floor(least) == std::floor(greatest)
@@ -239,7 +191,7 @@ class Cutter::Work {
     return 2 * frame.area * std::abs(cell.part()) / longest;
   }
 
-  View view(std::size_t i, std::size_t s) const {
+  SwitchView view(std::size_t i, std::size_t s) const {
     const double* values = _arguments.values(s);
     std::array<double, places> g{};
     for (std::size_t p = 0; p < places; ++p) g[p] = values[p * width + i];
@@ -258,7 +210,7 @@ class Cutter::Work {
       finish(cell);
       return;
     }
-    const View seen = view(i, s);
+    const SwitchView seen = view(i, s);
     std::array<int, 3> side{};
     for (std::size_t k = 0; k < 3; ++k) side[k] = seen.side(k, *level);
     const bool opposite = side[0] * side[1] < 0 || side[1] * side[2] < 0 || side[2] * side[0] < 0;
@@ -266,7 +218,7 @@ class Cutter::Work {
       finish_uncut(cell);
     else if (seen.straight() && opposite)
       cut_straight(cell, seen, *level, side);
-    else if (simple(seen, *level, side, _switches[s].steps) && !others(i, s))
+    else if (seen.simple(*level, side, _switches[s].steps) && !others(i, s))
       turn(cell, seen, *level, side, _curved[s].emplace_back());
     else
       quarter(cell);
@@ -280,34 +232,14 @@ class Cutter::Work {
 
   /// Turns the corners: first the one on the line if that passes between the two others, else the
   /// one alone on its side; last the one farther from the line.
-  static void turn(const Cell& cell, const View& seen, double level, const std::array<int, 3>& side,
-                   Curved& result) {
+  static void turn(const Cell& cell, const SwitchView& seen, double level,
+                   const std::array<int, 3>& side, Curved& result) {
     const std::size_t k = odd_corner(side);
     std::size_t l = (k + 1) % 3, m = (k + 2) % 3;
     if (std::abs(seen.g[l] - level) > std::abs(seen.g[m] - level)) std::swap(l, m);
     const auto& corners = cell.corners;
     result = {cell, level, {side[k], side[l], side[m]}};
     result.cell.corners = {corners[k], corners[l], corners[m]};
-  }
-
-  /// Whether there is one line that is not too bent and crosses no edge twice.
-  static bool simple(const View& seen, double level, const std::array<int, 3>& side, bool steps) {
-    if (steps && seen.high - seen.low > 2) return false;
-    if (seen.bent > 0.25 * (seen.high - seen.low)) return false;
-    const auto zeros = std::count(side.begin(), side.end(), 0);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const int p = side[(k + 1) % 3], q = side[(k + 2) % 3];
-      // No change along an edge whose ends are on the same side.
-      if (p == q && p != 0 && (seen.bernstein[3 + k] - level) * p < 0) return false;
-      if (zeros == 1 && (p == 0 || q == 0) && (seen.bernstein[3 + k] - level) * (p + q) < 0)
-        return false;
-    }
-    if (zeros == 2) {  // a lens at the edge between the zeros, or nothing
-      const std::size_t corner = odd_corner(side);
-      return seen.side(3 + corner, level) == -side[corner];
-    }
-    const int sum = side[0] + side[1] + side[2];
-    return zeros == 0 ? std::abs(sum) == 1 : zeros == 1 && sum == 0;
   }
 
   void finish(const Cell& cell) {
@@ -327,16 +259,6 @@ class Cutter::Work {
       for (const Cell& part : cell.quarters()) push(part);
   }
 
-  /// The corner on the line, if it passes between the two others; else the one on a side of its
-  /// own.
-  static std::size_t odd_corner(const std::array<int, 3>& side) {
-    for (std::size_t k = 0; k < 3; ++k)
-      if (side[k] == 0 && side[(k + 1) % 3] * side[(k + 2) % 3] < 0) return k;
-    for (std::size_t k = 0; k < 3; ++k)
-      if (side[k] != 0 && side[(k + 1) % 3] != side[k] && side[(k + 2) % 3] != side[k]) return k;
-    return 0;
-  }
-
   void push(const Cell& cell, const Place& p, const Place& q, const Place& r) {
     Cell part = cell.with(p, q, r, 0.5);
     ++part.depth;
@@ -353,7 +275,7 @@ class Cutter::Work {
            Integration::price(points_of_cell, _integration.f.cost());
   }
 
-  void cut_straight(const Cell& cell, const View& seen, double level,
+  void cut_straight(const Cell& cell, const SwitchView& seen, double level,
                     const std::array<int, 3>& side) {
     const std::size_t k = odd_corner(side), l = (k + 1) % 3, m = (k + 2) % 3;
     const auto& [p, q, r] = std::array{cell.corners[k], cell.corners[l], cell.corners[m]};

@@ -73,6 +73,10 @@ void check_accuracy(const store::JobSpec& spec) {
     throw Error(Reason::invalid_argument, "no accuracy is asked for: set energy or displacement")
         .at("accuracy");
   }
+  if (wanted.each_inclusion && !wanted.displacement) {
+    throw Error(Reason::invalid_argument, "is about displacement: set that as well")
+        .at("accuracy.each_inclusion");
+  }
   check_tolerance(wanted.energy, "accuracy.energy");
   check_tolerance(wanted.displacement, "accuracy.displacement");
   if (!std::holds_alternative<contact::ActiveSetOptions>(spec.solver)) {
@@ -126,18 +130,22 @@ void tighten(store::CaseRecord& answer, const store::CaseRecord& before) {
   }
 }
 
-store::StageAnswer stage_answer(const store::CaseRecord& ended_case) {
+store::StageAnswer stage_answer(const store::CaseRecord& ended_case, bool each_inclusion) {
   const contact::AnswerSummary& answer = ended_case.answer;
   store::StageAnswer result{answer.energy, answer.energy_lower, answer.energy_upper,
                             answer.error_bound_relative};
-  double half = 0;
   double largest = 0;
   for (const contact::InclusionAnswer& one : answer.inclusions) {
     if (!one.displacement_lower || !one.displacement_upper) return result;
-    half = std::max(half, (*one.displacement_upper - *one.displacement_lower) / 2);
     largest = std::max(largest, std::abs(one.displacement));
   }
-  if (!answer.inclusions.empty()) result.displacement_error = half > 0 ? half / largest : 0;
+  double error = 0;
+  for (const contact::InclusionAnswer& one : answer.inclusions) {
+    const double half = (*one.displacement_upper - *one.displacement_lower) / 2;
+    if (half > 0)
+      error = std::max(error, half / (each_inclusion ? std::abs(one.displacement) : largest));
+  }
+  if (!answer.inclusions.empty()) result.displacement_error = error;
   return result;
 }
 

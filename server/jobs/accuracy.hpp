@@ -20,8 +20,9 @@ void check_accuracy(const store::JobSpec& spec);
 void tighten(store::CaseRecord& answer, const store::CaseRecord& before);
 
 /// What is kept of an answer. Its displacement_error is half the width of the bounds of A over the
-/// largest |A| of the load case, the largest of all inclusions; unset where one has no bounds.
-store::StageAnswer stage_answer(const store::CaseRecord& ended_case);
+/// largest |A| of the load case, or over that of each, the largest of all inclusions; unset where
+/// one has no bounds.
+store::StageAnswer stage_answer(const store::CaseRecord& ended_case, bool each_inclusion = false);
 
 /// The largest of the errors over the accuracies asked for: at most 1 where they are reached,
 /// infinity without bounds.

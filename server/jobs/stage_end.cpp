@@ -90,7 +90,8 @@ void end_stage(EngineCore& core, EngineCore::Lock& lock, const JobPtr& job) {
   store::StageRecord& ended = records.back();
   ended.seconds =
       stages.seconds_before + std::chrono::duration<double>(now - *stages.begun).count();
-  for (const store::CaseRecord* one : cases) ended.answers.push_back(stage_answer(*one));
+  const bool each = job->spec->accuracy->each_inclusion;
+  for (const store::CaseRecord* one : cases) ended.answers.push_back(stage_answer(*one, each));
   const auto event = std::make_shared<const store::StageRecord>(ended);
   const std::uint64_t most = most_triangles(core, *job);
   Verdict verdict = judge(records, cases, *job->spec, most, ended.seconds);

@@ -89,7 +89,11 @@ const std::vector<double>& flux_norms(const MeshOperator::Parts& parts,
   constexpr std::size_t few = 8;        // another factor costs more than conjugate gradients
   return parts.flux_norms.get([&] {
     std::optional<contact::OpenMembrane> open;
-    if (parts.joined && goals.size() > few) open.emplace(parts.joined->membrane());
+    std::size_t bytes = together * sizeof(double) * cut.at.size();
+    const bool factors = parts.joined && goals.size() > few;
+    if (factors) bytes += parts.joined->membrane().bytes();  // as much as the first factor
+    const Working counted(parts.at_work, bytes);
+    if (factors) open.emplace(parts.joined->membrane());
     std::vector<double> norms;
     for (; !goals.empty(); goals = goals.subspan(std::min(together, goals.size()))) {
       const std::span<const Aim> some = goals.first(std::min(together, goals.size()));

@@ -11,6 +11,9 @@
 namespace anticrack::operators {
 namespace {
 
+/// Of fields, fluxes and scratch.
+constexpr std::size_t bytes_per_triangle_and_load = 450;
+
 std::string obstacle_of(const LoadOnTraces& load, const estimate::CutMesh& cut,
                         const contact::Answer& answer) {
   if (!cut.obstacle.empty()) return cut.obstacle;
@@ -75,8 +78,7 @@ std::vector<double> MeshOperator::estimate(const PreparedLoad& load, contact::An
 }
 
 std::size_t MeshOperator::estimated_together() const noexcept {
-  constexpr std::size_t most_together = 8;  // more are not faster
-  // Fields, fluxes and scratch take some 450 bytes a triangle and load.
+  constexpr std::size_t most_together = 8;         // more are not faster
   constexpr std::size_t most_triangles = 600'000;  // of all: 270 MB
   return std::clamp(most_triangles / _parts->mesh->triangle_count(), std::size_t{1}, most_together);
 }
@@ -85,6 +87,8 @@ void MeshOperator::estimate(std::span<Estimate> all) const {
   const std::size_t together = estimated_together();
   for (; all.size() > together; all = all.subspan(together)) estimate(all.first(together));
   if (all.empty()) return;
+  const Working counted(_parts->at_work,
+                        all.size() * _parts->mesh->triangle_count() * bytes_per_triangle_and_load);
   const estimate::CutMesh& cut = _parts->cut_mesh();
   std::vector<Material> materials;
   for (Estimate& one : all) {

@@ -127,8 +127,8 @@ double MeshOperator::known_theta_star() const noexcept {
 }
 
 std::size_t MeshOperator::bytes() const noexcept {
-  std::size_t bytes = sizeof(Parts) + bytes_of(*_parts->mesh) + bytes_of(_parts->decomposition) +
-                      _parts->neumann.bytes();
+  std::size_t bytes = sizeof(Parts) + _parts->at_work + bytes_of(*_parts->mesh) +
+                      bytes_of(_parts->decomposition) + _parts->neumann.bytes();
   for (const ddm::SubdomainOperator& subdomain : _parts->operators) bytes += subdomain.bytes();
   bytes += _parts->with_problem([](const auto& problem) { return problem.bytes(); });
   if (const estimate::CutMesh* cut = _parts->cut.known()) bytes += cut->bytes();

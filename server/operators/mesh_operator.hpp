@@ -124,7 +124,7 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
   const std::vector<std::int32_t>& field_nodes(std::size_t subdomain) const;
   /// Triangles of a subdomain, (m_i,3) row-major, as indices into field_nodes.
   const std::vector<std::int32_t>& field_triangles(std::size_t subdomain) const;
-  /// Memory held now, measured, bytes (the mesh included).
+  /// Memory held now, measured, bytes (the mesh, and what bounds under way take, included).
   std::size_t bytes() const noexcept;
   /// theta* for lumped mass, 0 where Algorithm 2 does not apply. Computed at the first use:
   /// O(n_G^3). Throws errors::Error (numerical) when it cannot be computed.

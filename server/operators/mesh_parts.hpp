@@ -3,6 +3,8 @@
 // What the types of mesh_operator.hpp hold; for this folder alone.
 #pragma once
 
+#include <atomic>
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <stop_token>
@@ -25,6 +27,21 @@
 
 namespace anticrack::operators {
 
+/// Counts memory that is taken for a while in MeshOperator::bytes(), before it is taken.
+class Working {
+ public:
+  Working(std::atomic<std::size_t>& sum, std::size_t bytes) : _sum(sum), _bytes(bytes) {
+    _sum += _bytes;
+  }
+  ~Working() { _sum -= _bytes; }
+  Working(const Working&) = delete;
+  Working& operator=(const Working&) = delete;
+
+ private:
+  std::atomic<std::size_t>& _sum;
+  const std::size_t _bytes;
+};
+
 struct MeshOperator::Parts {
   Parts(std::shared_ptr<const mesh::Mesh> cut_mesh, int threads, const std::stop_token& stop,
         std::size_t most_dense);
@@ -41,8 +58,9 @@ struct MeshOperator::Parts {
   contact::SweepGeometry sweep_geometry;
   std::vector<contact::TraceGeometry> geometry;
   mutable BasisCache bases;
-  ddm::Lazy<estimate::CutMesh> cut;           // made for the first bounds; see cut_mesh()
-  ddm::Lazy<std::vector<double>> flux_norms;  // see aims.hpp
+  ddm::Lazy<estimate::CutMesh> cut;             // made for the first bounds; see cut_mesh()
+  ddm::Lazy<std::vector<double>> flux_norms;    // see aims.hpp
+  mutable std::atomic<std::size_t> at_work{0};  // bytes of Working
 
   template <class Use>
   decltype(auto) with_problem(const Use& use) const;

@@ -180,8 +180,10 @@ struct AccuracySpec {
   std::uint64_t max_triangles = 0;       ///< 0: the server's
   std::chrono::milliseconds time{0};     ///< no stage begins later; 0: none is too late
   bool keep_stages = false;              ///< the meshes of all stages
+  bool each_inclusion = false;           ///< displacement: over each |A|, not over the largest
 };
-ANTICRACK_FIELDS(AccuracySpec, energy, displacement, max_triangles, time, keep_stages)
+ANTICRACK_FIELDS(AccuracySpec, energy, displacement, max_triangles, time, keep_stages,
+                 each_inclusion)
 
 /// A load case at the end of a stage; without bounds where it has none.
 struct StageAnswer {

@@ -66,6 +66,7 @@ TEST(Accuracy, OfADisplacementIsRelativeToTheLargestOfTheLoadCase) {
   record.answer.inclusions = {inclusion(2, 1.9, 2.1), inclusion(1e-9, -0.04, 0.04)};
   EXPECT_NEAR(*stage_answer(record).displacement_error, 0.05, 1e-12);
   EXPECT_NEAR(excess(stage_answer(record), *spec.accuracy), 5, 1e-12);
+  EXPECT_NEAR(*stage_answer(record, true).displacement_error, 0.04 / 1e-9, 1) << "its own";
   record.answer.inclusions[1].displacement_lower.reset();
   EXPECT_FALSE(stage_answer(record).displacement_error) << "one has no bounds";
   EXPECT_TRUE(std::isinf(excess(stage_answer(record), *spec.accuracy)));
@@ -158,6 +159,9 @@ TEST(Accuracy, RefusesWhatCannotBeSolvedInStages) {
   JobSpec spec = energy_to(0.1);
   spec.accuracy->energy.reset();
   EXPECT_EQ(field_at_fault(spec), "accuracy");
+  spec = energy_to(0.1);
+  spec.accuracy->each_inclusion = true;
+  EXPECT_EQ(field_at_fault(spec), "accuracy.each_inclusion");
   spec = energy_to(0.1);
   spec.solver = contact::UzawaOptions();
   EXPECT_EQ(field_at_fault(spec), "solver");

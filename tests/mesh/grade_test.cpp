@@ -6,7 +6,6 @@
 #include <numbers>
 #include <random>
 
-#include "errors/errors.hpp"
 #include "mesh/edges.hpp"
 #include "mesh/refine.hpp"
 #include "mesh/refinement_checks.hpp"
@@ -16,14 +15,11 @@
 namespace anticrack::mesh {
 namespace {
 
-using ::testing::AllOf;
 using testing::expect_refines;
-using ::testing::HasSubstr;
 using testing::OnInterface;
+using testing::paper;
+using testing::plenty;
 using testing::structured_mesh;
-
-constexpr std::size_t plenty = 1'000'000;
-const std::vector<OnInterface> paper{{-0.5, 0.5, Kind::delaminated, 0}};
 
 /// A sample of 16 points a side finds the distance to within h_T/32, and h_T is less than half the
 /// distance wherever the tip size does not decide.
@@ -64,16 +60,6 @@ Mesh moved(Mesh mesh, double angle, const Point& by) {
     mesh.xy[2 * n + 1] = std::sin(angle) * x + std::cos(angle) * y + by[1];
   }
   return mesh;
-}
-
-errors::Error refusal(const Mesh& base, const Grading& grading, std::size_t limit = plenty) {
-  try {
-    grade(base, grading, limit);
-  } catch (const errors::Error& error) {
-    return error;
-  }
-  ADD_FAILURE() << "not refused";
-  return {errors::Reason::internal, ""};
 }
 
 TEST(Grade, MeetsTheSizeRuleOnThePapersSquare) {
@@ -434,57 +420,6 @@ TEST(Grade, FindsTipsThatLieAboveOneAnother) {
   const Mesh fine = grade(base, {.h0 = 0.2}, plenty);
   EXPECT_LT(testing::worst_size_ratio(fine, points(base, tips(base)), 0.2, 0.2, 1e-13, 1.0),
             sampling);
-}
-
-TEST(Grade, KeepsToTheLimitAndSaysWhatToChange) {
-  const Mesh base = structured_mesh(16, 16, paper);
-  const std::size_t needed = grade(base, {.h0 = 0.1}, plenty).triangle_count();
-  EXPECT_EQ(grade(base, {.h0 = 0.1}, needed).triangle_count(), needed);
-  for (const std::size_t limit : {needed - 1, std::size_t{600}, std::size_t{100}}) {
-    const errors::Error error = refusal(base, {.h0 = 0.1}, limit);
-    EXPECT_EQ(error.reason(), errors::Reason::limit_exceeded);
-    EXPECT_THAT(error.what(), AllOf(HasSubstr(std::to_string(limit)), HasSubstr("h0 = 0.1"),
-                                    HasSubstr("m = 0.2"), HasSubstr("raise h0")));
-    ASSERT_EQ(error.fields().size(), 1U);
-    EXPECT_EQ(error.fields()[0].field, "h0");
-  }
-}
-
-TEST(Grade, RefusesABaseBeyondTheLimitThoughItIsFineEnough) {
-  const Mesh base = structured_mesh(16, 16, paper);
-  EXPECT_EQ(refusal(base, {.h0 = 1, .m = 1}, 511).reason(), errors::Reason::limit_exceeded);
-}
-
-TEST(Grade, RefusesNumbersThatAreNoSizes) {
-  const Mesh base = structured_mesh(16, 16, paper);
-  const double nan = std::nan("");
-  const struct {
-    Grading grading;
-    const char* field;
-  } cases[] = {{{.h0 = 0}, "h0"},
-               {{.h0 = -0.1}, "h0"},
-               {{.h0 = nan}, "h0"},
-               {{.h0 = INFINITY}, "h0"},
-               {{.h0 = 1e-14}, "h0"},
-               {{.h0 = 0.1, .m = 0}, "m"},
-               {{.h0 = 0.1, .m = 1.5}, "m"},
-               {{.h0 = 0.1, .m = nan}, "m"},
-               {{.h0 = 0.1, .tip_size = -1}, "tip_size"},
-               {{.h0 = 0.1, .tip_size = nan}, "tip_size"},
-               {{.h0 = 0.1, .tip_size = 1e-14}, "tip_size"}};
-  for (const auto& [grading, field] : cases) {
-    const errors::Error error = refusal(base, grading);
-    EXPECT_EQ(error.reason(), errors::Reason::invalid_argument) << error.what();
-    ASSERT_EQ(error.fields().size(), 1U);
-    EXPECT_EQ(error.fields()[0].field, field) << error.what();
-  }
-}
-
-TEST(Grade, RefusesAnEdgeOfThreeTriangles) {
-  Mesh base = structured_mesh(4, 4, {});
-  base.triangles.insert(base.triangles.end(), {0, 1, 7});
-  base.subdomain.push_back(0);
-  EXPECT_EQ(refusal(base, {.h0 = 0.1}).reason(), errors::Reason::mesh_invalid);
 }
 
 }  // namespace

@@ -21,6 +21,11 @@ struct OnInterface {
   std::int32_t inclusion = 0;
 };
 
+/// The paper's inclusion.
+inline const std::vector<OnInterface> paper{{-0.5, 0.5, mesh::Kind::delaminated, 0}};
+/// More triangles than any test asks for.
+inline constexpr std::size_t plenty = 1'000'000;
+
 struct Rectangle {
   double left = -1;
   double right = 1;

@@ -233,6 +233,23 @@ TEST(MeshOperator, EstimateIsAnUpperBoundOfWhatIsHeld) {
   }
 }
 
+TEST(MeshOperator, CountsWhatBoundsTakeWhileTheyAreMade) {
+  const auto op = MeshOperator::factorise(shared_membrane(160, 80), 1, {});
+  const fem::Load load{"load", 1.0, ""};
+  const auto prepared = std::get<PreparedLoad>(op->prepare(std::array{&load}).front());
+  contact::Answer answer = solve(*op, load, true, contact::ActiveSetOptions{});
+  op->estimate(prepared, answer);
+  const std::size_t between = op->bytes();
+  std::atomic<bool> seen{false};
+  std::jthread watcher([&](const std::stop_token& stop) {
+    while (!stop.stop_requested() && !seen)
+      seen = op->bytes() > between + 100 * op->mesh().triangle_count();
+  });
+  for (int i = 0; i < 10'000 && !seen; ++i) op->estimate(prepared, answer);
+  EXPECT_TRUE(seen);
+  EXPECT_EQ(op->bytes(), between);
+}
+
 TEST(Blas, IsTheThreadSafeBuild) { EXPECT_NO_THROW(require_threadsafe_blas()); }
 
 }  // namespace

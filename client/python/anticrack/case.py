@@ -258,6 +258,7 @@ class Accuracy(_Table):
     """Relative errors to reach, with proof: of the energy and of the displacements A. time: seconds, or "10min"."""
     energy: float | None = None
     A: float | None = None
+    each_inclusion: bool | None = None
     max_triangles: int | None = None
     time: float | str | None = None
     keep_stages: bool | None = None

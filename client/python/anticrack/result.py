@@ -4,6 +4,7 @@ displacements are in the units of the case; a number that is not known is NaN.""
 from __future__ import annotations
 
 import os
+import re
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
@@ -312,6 +313,7 @@ class Result:
     solve_seconds: float = NAN
     total_seconds: float = NAN
     units: Units = field(default_factory=Units)
+    traction: bool | None = None  # whether a load has one; None: not known
 
     @property
     def converged(self) -> bool:
@@ -387,6 +389,7 @@ class Result:
         """Of what the server streams."""
         result = _of_job(job, mesh, mesh_arrays, arrays, case)
         result.server_version, result.mesh_sha256 = server_version, mesh.sha256
+        result.traction = any(load.traction for load in job.load_cases)
         result.mesh_seconds, result.factorize_seconds = mesh.mesh_seconds, mesh.factorize_seconds
         result.solve_seconds = _seconds(job.sweep_answer.solve_time) if result.sweep is not None else sum(
             load.solve_seconds for load in result.loads.values())
@@ -571,6 +574,8 @@ def _of_file(file: Any) -> Result:
                     attributes.get("not_reached", ""), attributes["case"], attributes["server_version"],
                     attributes["mesh_sha256"],
                     units=Units(attributes.get("unit_length", ""), attributes.get("unit_force", "")))
+    if result.case:
+        result.traction = re.search("""traction[ \\t"']*=""", result.case) is not None
     for name in ("mesh_seconds", "factorize_seconds", "solve_seconds", "total_seconds"):
         setattr(result, name, float(attributes[name]))
     if "sweep" in file:

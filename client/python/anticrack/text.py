@@ -9,8 +9,8 @@ from collections.abc import Iterable, Sequence
 
 
 def interval(lower: float, upper: float, value: float, unit: str = "") -> str:
-    """The middle and half the width, as in the command's tables, and the mesh's own value: "0.4483 +- 0.0038 mm (0.4462
-    on the mesh)". The printed interval contains the given one. Without bounds the value alone."""
+    """The middle and half the width, in the words of the command's tables, and the mesh's own value: "0.4483 +- 0.0038
+    mm (0.4462 on the mesh)". The printed interval contains the given one. Without bounds the value alone."""
     if not math.isfinite(lower) or not math.isfinite(upper):
         return f"{value:.6g}{unit}"
     middle, half = lower + (upper - lower) / 2, (upper - lower) / 2
@@ -24,7 +24,7 @@ def interval(lower: float, upper: float, value: float, unit: str = "") -> str:
     exponent = decade(size) if decade(size) < -4 or decade(size) > 5 else 0
     behind = min(most - decade(size), 1 - decade(half) if half > 0 else most)
     step = 10.0 ** -behind
-    shown = round(middle / step) * step
+    shown = math.copysign(math.floor(abs(middle) / step + 0.5), middle) * step
     beside = math.ceil(max(upper - shown, shown - lower) / step - 1e-6) * step
     texts = [f"{number / 10.0 ** exponent + 0.0:.{max(0, behind + exponent)}f}" for number in (shown, beside, value)]
     if not exponent:

@@ -452,7 +452,7 @@ def _values(section: Section, folder: Path) -> Array:
 
 
 def _accuracy(root: Section, out: Requests) -> None:
-    section = root.section("accuracy", ["energy", "A", "max_triangles", "time", "keep_stages"])
+    section = root.section("accuracy", ["energy", "A", "each_inclusion", "max_triangles", "time", "keep_stages"])
     if section is None:
         return
     for key, name in (("energy", "energy"), ("A", "displacement")):
@@ -462,7 +462,10 @@ def _accuracy(root: Section, out: Requests) -> None:
         _set(out.job.accuracy, **{name: error})
     if "energy" not in section and "A" not in section:
         raise section.error("", "no accuracy; write energy = 1e-3, A = 1e-3, or both")
-    _set(out.job.accuracy, max_triangles=section.count("max_triangles"), keep_stages=section.boolean("keep_stages"))
+    if "each_inclusion" in section and "A" not in section:
+        raise section.error("each_inclusion", "is about A; write A = 1e-2 with it")
+    _set(out.job.accuracy, max_triangles=section.count("max_triangles"), keep_stages=section.boolean("keep_stages"),
+         each_inclusion=section.boolean("each_inclusion"))
     time = section.time("time")
     if time is not None:
         out.job.accuracy.time.CopyFrom(time)

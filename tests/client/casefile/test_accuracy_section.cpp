@@ -23,6 +23,7 @@ A = 0.01
 max_triangles = 200000
 time = "10min"
 keep_stages = true
+each_inclusion = true
 )"));
   const v1::Accuracy& accuracy = the_case.job.accuracy();
   EXPECT_EQ(accuracy.energy(), 1e-3);
@@ -30,6 +31,7 @@ keep_stages = true
   EXPECT_EQ(accuracy.max_triangles(), 200000U);
   EXPECT_EQ(accuracy.time().seconds(), 600);
   EXPECT_TRUE(accuracy.keep_stages());
+  EXPECT_TRUE(accuracy.each_inclusion());
   EXPECT_THAT(the_case.job.outputs(), ElementsAre(v1::OUTPUT_INDICATORS));
   EXPECT_EQ(the_case.locate("job.accuracy.energy")->line, 20U);
   EXPECT_EQ(the_case.locate("job.accuracy.displacement")->line, 21U);
@@ -50,6 +52,8 @@ TEST(AccuracySection, NeedsOneOfItsErrors) {
   EXPECT_EQ(one.displacement(), 1);
   EXPECT_EQ(complaint(sample_to("time = 5\n")),
             "plate.toml:19: accuracy: no accuracy; write energy = 1e-3, A = 1e-3, or both");
+  EXPECT_EQ(complaint(sample_to("energy = 1e-3\neach_inclusion = true\n")),
+            "plate.toml:21: accuracy.each_inclusion: is about A; write A = 1e-2 with it");
 }
 
 TEST(AccuracySection, NamesWhatIsWrong) {

@@ -34,8 +34,21 @@ TEST(Axes, with_a_log_scale_label_whole_decades_or_parts_of_few) {
   EXPECT_THAT(log_axis('y', {1e-5, 2e-2}), HasSubstr("'10\xE2\x81\xBB\xE2\x81\xB4' 0.0001"));
   EXPECT_THAT(log_axis('x', {100, 1500}, false), HasSubstr("('' 90 1, '' 100, "));
   EXPECT_THAT(log_axis('x', {1, 1e9}), HasSubstr("'10\xE2\x81\xB0' 1, '' 10 1, '10\xC2\xB2' 100"));
-  EXPECT_THAT(log_axis('x', {300, 900}), HasSubstr("'300' 300, '400' 400, "));
-  EXPECT_THAT(log_axis('x', {1300, 1300}), HasSubstr("tics ('900' 900, '1000' 1000)"));
+  EXPECT_THAT(log_axis('x', {300, 900}), HasSubstr("'400' 400, '600' 600, "));
+  EXPECT_THAT(log_axis('y', {0.0075, 0.014}), HasSubstr("'0.012' 0.012, '0.014' 0.014"));
+}
+
+TEST(Axes, with_a_log_scale_have_two_labels_at_least) {
+  for (double low = 1e-3; low < 1e-2; low *= 1.07) {
+    for (double size = 1; size < 1e15; size *= 1.3) {
+      const std::string axis = log_axis('y', {low, size * low});
+      int labels = 0;
+      for (std::size_t at = 0; (at = axis.find("' ", at)) != std::string::npos; ++at)
+        labels += axis[at - 1] != '\'' ? 1 : 0;
+      EXPECT_GE(labels, 2) << low << " " << size << "\n" << axis;
+      EXPECT_LE(labels, 8) << low << " " << size << "\n" << axis;
+    }
+  }
 }
 
 TEST(Range, takes_in_what_is_finite) {

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "figures/pressure.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <fstream>
+#include <numeric>
+#include <sstream>
 
 #include "support/sample_result.hpp"
 
@@ -29,21 +34,57 @@ TEST(Peaks, are_shown_where_they_are_little_above_the_end) {
   EXPECT_EQ(peaks({}, 0.9, 1.5).shown, 0);
 }
 
-TEST(Pressure, is_none_on_glue_and_on_free_cracks) {
+results::Kind kind(int number) { return static_cast<results::Kind>(number); }
+
+TEST(Pressure, is_what_python_draws) {
+  std::ifstream table(ANTICRACK_SAME "/pressure.txt");
+  results::Interface interface;
+  results::Trace trace;
+  std::vector<std::array<double, 3>> rows;
+  for (std::string line; std::getline(table, line);) {
+    std::istringstream words(line);
+    std::string what, at, second, third;
+    int contact = 0;
+    words >> what >> at >> second >> third >> contact;
+    if (what == "drawn") rows.push_back({std::stod(at), std::stod(second), std::stod(third)});
+    if (what != "node") continue;
+    interface.s.push_back(std::stod(at));
+    interface.kind.push_back(kind(std::stoi(second)));
+    trace.pressure.push_back(std::stod(third));
+    trace.contact.push_back(contact);
+  }
+  const Pressure seen = pressure(interface, trace, interface.s);
+  ASSERT_EQ(seen.values.size(), rows.size());
+  ASSERT_GT(rows.size(), 5U);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_THAT(seen.position[i], ::testing::NanSensitiveDoubleEq(rows[i][0])) << i;
+    EXPECT_THAT(seen.values[i], ::testing::NanSensitiveDoubleEq(rows[i][1])) << i;
+    EXPECT_EQ(seen.lengths[i], rows[i][2]) << i;
+  }
+}
+
+TEST(Pressure, keeps_the_force_and_has_no_teeth) {
   auto result = sample_result(10);
-  auto& trace = result.loads[1].traces[0];
+  const results::Interface& interface = result.interfaces[0];
+  results::Trace& trace = result.loads[1].traces[0];
   trace.pressure.front() = 7;  // the flux of glue
-  result.interfaces[0].kind[12] = results::Kind::free;
-  const Pressure seen = pressure(result.interfaces[0], trace);
-  EXPECT_TRUE(std::isnan(seen.values.front()));
-  EXPECT_TRUE(std::isnan(seen.values[12]));
-  EXPECT_EQ(seen.values[6], trace.pressure[6]);
-  EXPECT_EQ(seen.values[13], 0);  // open
+  double force = 0;
+  for (std::size_t i = 1; i + 1 < interface.node_count(); ++i) {
+    if (interface.kind[i] != results::Kind::delaminated) continue;
+    trace.pressure[i] = i % 2 == 0 ? 1.25 : 0.75;
+    force += trace.pressure[i] * (interface.s[i + 1] - interface.s[i - 1]) / 2;
+  }
+  const Pressure seen = pressure(interface, trace, interface.x);
+  EXPECT_NEAR(std::inner_product(seen.values.begin(), seen.values.end(), seen.lengths.begin(), 0.0),
+              force, 1e-12);
+  for (std::size_t i = 1; i + 1 < seen.values.size(); ++i) EXPECT_DOUBLE_EQ(seen.values[i], 1) << i;
+  EXPECT_DOUBLE_EQ(seen.position.front(), -0.425);
 }
 
 TEST(Pressure, has_no_axis_without_contact) {
   const auto result = sample_result(10);
-  EXPECT_EQ(pressure(result.interfaces[0], result.loads[0].traces[0]).peaks.highest, 0);
+  const results::Interface& interface = result.interfaces[0];
+  EXPECT_EQ(pressure(interface, result.loads[0].traces[0], interface.s).peaks.highest, 0);
 }
 
 }  // namespace

@@ -97,8 +97,8 @@ TEST(Script, says_that_spikes_of_the_pressure_are_cut_off) {
   result.interfaces[0].s[static_cast<std::size_t>(closed)] =
       result.interfaces[0].s[static_cast<std::size_t>(closed) + 1] - 5e-7;
   trace.pressure[static_cast<std::size_t>(closed)] = 3.2e4;
-  EXPECT_THAT(drawn(), HasSubstr("'cut off at the tips, up to 3.2\xC3\x97"));
-  EXPECT_THAT(drawn(), HasSubstr("set yrange [0:0.795]"));
+  EXPECT_THAT(drawn(), HasSubstr("'cut off at the tips, up to 1.6\xC3\x97"));
+  EXPECT_THAT(drawn(), HasSubstr("set yrange [0:0.3975]"));
 }
 
 /// The first one again, with the load's traces on it.
@@ -146,6 +146,27 @@ TEST(Script, has_one_number_at_the_near_corner_of_the_membrane) {
   EXPECT_THAT(drawn(), HasSubstr("set ytics -0.5, 0.5, 1 nomirror"));
   for (double& x : result.interfaces[0].x) x = -x;  // seen from the other side
   EXPECT_THAT(drawn(), HasSubstr("set ytics -1, 0.5, 0.8 nomirror"));
+}
+
+TEST(Script, keeps_a_far_side_that_rises_out_of_the_heading) {
+  auto result = sample_result(4);
+  const results::Load& load = result.loads[0];
+  const auto drawn = [&] {
+    return script(membrane_picture(result, load, surface(result, load, 1000)), both);
+  };
+  EXPECT_THAT(drawn(), HasSubstr("set view 52, 28, 1.5\n"));
+  for (auto& field : result.loads[0].fields)
+    for (std::size_t i = 0; i < field.u.size(); ++i)
+      field.u[i] = result.mesh.xy[2 * static_cast<std::size_t>(field.nodes[i]) + 1];
+  EXPECT_THAT(drawn(), HasSubstr("set view 52, 28, 1.3"));
+}
+
+TEST(Script, has_a_light_ground_below_names_on_the_membrane) {
+  const auto result = sample_result(4);
+  const std::string drawn = script(
+      membrane_picture(result, result.loads[0], surface(result, result.loads[0], 1000)), both);
+  EXPECT_THAT(drawn, HasSubstr("set style textbox opaque"));
+  EXPECT_THAT(drawn, ::testing::ContainsRegex("set label 10 'fibre' at [^\n]* boxed\n"));
 }
 
 TEST(Script, labels_contours_and_marks_the_side_that_came_off) {

@@ -66,6 +66,9 @@ TEST(Readable, is_written_as_in_print) {
   EXPECT_EQ(bounded(-0.1703715, -0.1695454),
             "\xE2\x88\x92"
             "0.16996 \xC2\xB1 0.00042");
+  EXPECT_EQ(bounded(1e-7, 1.2e-7),
+            "(1.10 \xC2\xB1 0.10)\xC3\x97"
+            "10\xE2\x81\xBB\xE2\x81\xB7");
   EXPECT_EQ(readable(-0.5),
             "\xE2\x88\x92"
             "0.5");

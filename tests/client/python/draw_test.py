@@ -14,9 +14,11 @@ from matplotlib import pyplot  # noqa: E402
 
 import anticrack  # noqa: E402
 from anticrack import draw  # noqa: E402
+from anticrack.draw.along import edge_pressure  # noqa: E402
 from processes import ANTICRACKD  # noqa: E402
 
 EXAMPLES = pathlib.Path(os.environ["EXAMPLES"])
+SAME = pathlib.Path(os.environ["SAME"])
 
 
 class Figures(unittest.TestCase):
@@ -35,12 +37,39 @@ class Figures(unittest.TestCase):
         self.addCleanup(warnings.resetwarnings)
         self.addCleanup(pyplot.close, "all")
 
-    def test_membrane(self):
+    def test_membrane_is_a_surface_with_open_cracks(self):
         ax = draw.membrane(self.several, "opening")
         self.assertEqual({text.get_text() for text in ax.texts}, {"long", "short"})
+        self.assertRegex(ax.get_title(), r"^opening: u amplified \u00d7[\d.]+$")
+        factor = float(ax.get_title().rpartition("\u00d7")[2])
+        fields = self.several["opening"].fields
+        heights = numpy.concatenate([part.u for part in fields])
+        self.assertAlmostEqual(numpy.ptp(ax.collections[0]._vec[2]), factor * numpy.ptp(heights))
+        self.assertEqual(len(ax.collections[0]._facecolors), sum(len(part.triangles) for part in fields))
+        self.assertLess(0.15, factor * numpy.ptp(heights) / 2)
+        self.assertLessEqual(factor * numpy.ptp(heights) / 2, 0.3)
         ax.figure.canvas.draw()
-        with self.assertRaisesRegex(anticrack.Error, "fields = true"):
-            draw.membrane(self.accurate.__class__(**{**vars(self.sweep), "loads": self.without_fields()}))
+        side_by_side = pyplot.subplots(subplot_kw={"projection": "3d"})[1]
+        self.assertIs(draw.membrane(self.skew, ax=side_by_side), side_by_side)
+        with self.assertRaisesRegex(anticrack.Error, "draw.displacement"):
+            draw.membrane(self.skew, ax=pyplot.subplots()[1])
+        flat = copy.deepcopy(self.skew)
+        for part in flat["example-2"].fields:
+            part.u[:] = 0
+        self.assertEqual(draw.membrane(flat).get_title(), "example-2: u to scale")
+
+    def test_names_of_many_inclusions_are_left_out(self):
+        many = copy.deepcopy(self.several)
+        many.mesh.inclusions += [f"i{i}" for i in range(30)]
+        self.assertEqual([*draw.interfaces(many).texts, *draw.membrane(many, "opening").texts], [])
+
+    def test_displacement(self):
+        ax = draw.displacement(self.several, "opening")
+        self.assertEqual({text.get_text() for text in ax.texts}, {"long", "short"})
+        ax.figure.canvas.draw()
+        for figure in (draw.membrane, draw.displacement, draw.plan):
+            with self.assertRaisesRegex(anticrack.Error, "fields = true"):
+                figure(self.several, self.without_fields()["a"])
 
     def without_fields(self):
         return {"a": anticrack.result.Load("a", "converged")}
@@ -62,6 +91,8 @@ class Figures(unittest.TestCase):
     def test_traces_of_loads_on_one_panel_are_told_apart(self):
         ax = draw.traces(self.several, "pulled", "middle")
         names = [text.get_text() for text in ax.texts]
+        bars = [patch.get_label() for patch in ax.patches if patch.get_alpha() is None]
+        self.assertEqual(bars[:2], ["delaminated inclusion", "bonded inclusion"])
         draw.traces(self.several, "opening", "middle", ax)
         self.assertEqual((ax.get_title(), [text.get_text() for text in ax.texts]), ("", names))
         said = [text.get_text() for text in ax.get_legend().get_texts()]
@@ -88,8 +119,6 @@ class Figures(unittest.TestCase):
         bar = ax.figure.axes[1]
         self.assertIn("peaks cut off, up to", bar.get_ylabel())
         self.assertLess(bar.get_ylim()[1], max(size.max() for size in draw.flux(self.several, "pulled")) / 10)
-        with self.assertRaisesRegex(anticrack.Error, "fields = true"):
-            draw.plan(self.several, self.without_fields()["a"])
 
     def test_flux_has_the_tension_of_its_subdomain(self):
         result = copy.deepcopy(self.several)
@@ -113,11 +142,26 @@ class Figures(unittest.TestCase):
         ax = draw.pressure(self.several, "pulled")
         self.assertRegex(ax.get_ylabel(), r"cut off at the tips, up to \d")
         (line,) = ax.lines
-        values = line.get_ydata()
-        self.assertLess(ax.get_ylim()[1], numpy.nanmax(values) / 1000)
-        glued = self.several.interfaces[0].kind == anticrack.result.GLUE
-        self.assertTrue(numpy.isnan(values[glued]).all())
+        self.assertLess(ax.get_ylim()[1], numpy.nanmax(line.get_ydata()) / 1000)
         self.assertNotIn("cut off", draw.pressure(self.skew).get_ylabel())
+
+    def test_pressure_is_what_the_command_draws(self):
+        table = [line.split() for line in (SAME / "pressure.txt").read_text().splitlines() if not line.startswith("#")]
+        s, kind, values, contact = numpy.array([line[1:] for line in table if line[0] == "node"], dtype=float).T
+        drawn = numpy.array([line[1:] for line in table if line[0] == "drawn"], dtype=float).T
+        self.assertGreater(drawn.shape[1], 5)
+        line = anticrack.result.Interface("line", s, s, 0 * s, kind.astype(int), kind[:-1].astype(int), 0 * kind[:-1])
+        trace = anticrack.result.Trace(0 * s, 0 * s, 0 * s, values, contact.astype(int))
+        numpy.testing.assert_array_equal(edge_pressure(line, trace)[:3], drawn)
+
+    def test_pressure_keeps_the_force(self):
+        for load in self.several.loads.values():
+            for line, trace in zip(self.several.interfaces, load.traces):
+                edges = numpy.diff(line.s, prepend=line.s[0], append=line.s[-1])
+                cracked = numpy.isin(line.kind, (anticrack.result.CRACK, anticrack.result.DELAMINATED))
+                force = ((edges[:-1] + edges[1:]) / 2 * trace.pressure)[cracked].sum()
+                _, means, lengths, _ = edge_pressure(line, trace)
+                self.assertAlmostEqual(numpy.nansum(means * lengths), force, delta=1e-12 * max(1, abs(force)))
 
     def test_where_nothing_is_open_the_longest_contact_counts(self):
         closed = copy.deepcopy(self.several)
@@ -143,15 +187,23 @@ class Figures(unittest.TestCase):
     def test_lines_have_a_legend_and_axes_units(self):
         result = copy.deepcopy(self.several)
         result.units.length, result.units.force = "mm", "N"
-        for ax in (draw.plan(result, "pulled"), draw.membrane(result, "pulled")):
+        for ax in (draw.plan(result, "pulled"), draw.displacement(result, "pulled")):
             said = [text.get_text() for text in ax.get_legend().get_texts()]
             self.assertEqual(said, ["u given", "delaminated inclusion", "the side that came off", "bonded inclusion",
                                     "crack, [u] \u2265 0"])
             self.assertEqual((ax.get_xlabel(), ax.get_ylabel()), ("x [mm]", "y [mm]"))
         self.assertEqual(draw.plan(result, "pulled").get_title(), "pulled: lines of u [mm]")
+        ax = draw.membrane(result, "pulled")
+        self.assertEqual((ax.get_xlabel(), ax.get_ylabel(), ax.figure.axes[1].get_ylabel()),
+                         ("x [mm]", "y [mm]", "u [mm]"))
+
+    def test_a_free_edge_has_no_traction(self):
+        result = copy.deepcopy(self.several)
+        self.assertIs(result.traction, False)
         result.mesh.boundary = result.mesh.boundary[:-3]
-        free = draw.interfaces(result).get_legend().get_texts()[1]
-        self.assertEqual(free.get_text(), "free or traction")
+        for traction, name in ((False, "free"), (True, "free or traction"), (None, "free or traction")):
+            result.traction = traction
+            self.assertEqual(draw.interfaces(result).get_legend().get_texts()[1].get_text(), name)
         edges = draw.interfaces(result).collections[1].get_segments()
         self.assertEqual(len(edges), 3)
 
@@ -168,6 +220,15 @@ class Figures(unittest.TestCase):
         ax = draw.error_band(self.accurate, "opening")
         band = ax.collections[0].get_paths()[0].vertices
         self.assertLess(band[:, 1].min(), self.accurate["opening"].energy)
+        result = copy.deepcopy(self.accurate)
+        stages = result["opening"].stages
+        for first, last in ((2000, 60000), (5870, 7870), (6100, 6800), (9, 7e6)):
+            stages["triangles"] = numpy.geomspace(first, last, len(stages["triangles"]))
+            ax = draw.error_band(result, "opening")
+            ax.figure.canvas.draw()
+            low, high = ax.get_xlim()
+            seen = [text.get_text() for text in ax.get_xticklabels() if low <= text.get_position()[0] <= high]
+            self.assertGreaterEqual(len(list(filter(None, seen))), 2, (first, last))
         with self.assertRaisesRegex(anticrack.Error, "accuracy"):
             draw.error_band(self.skew)
 

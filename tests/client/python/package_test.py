@@ -16,6 +16,7 @@ USED = """
 import anticrack, pathlib
 with anticrack.local(program={program!r}) as client:
     print(client.run({case!r}, progress=False)["opening"].status)
+anticrack.draw.membrane
 print(pathlib.Path(anticrack.__file__).parent)
 """
 

@@ -17,6 +17,7 @@ from anticrack.text import interval
 from processes import ANTICRACK, Daemon, FolderTest, run
 
 EXAMPLES = pathlib.Path(os.environ["EXAMPLES"])
+SAME = pathlib.Path(os.environ["SAME"])
 ACCURATE = """
 [geometry]
 boundary = [[-1,-1], [1,-1], [1,1], [-1,1]]
@@ -194,11 +195,27 @@ max_iterations = 3
         with self.assertRaisesRegex(IndexError, "no interface 17; there are 2 interfaces, counted from 0"):
             load.traces[17]
 
+    def test_an_interval_is_the_text_that_the_command_writes(self):
+        cases = [line for line in (SAME / "intervals.txt").read_text().splitlines() if not line.startswith("#")]
+        self.assertGreater(len(cases), 10)
+        for case in cases:
+            numbers, text = case.split(" | ")
+            lower, upper = map(float, numbers.split())
+            self.assertEqual(interval(lower, upper, lower).rsplit(" (", 1)[0], text, case)
+
     def test_an_interval_contains_the_bounds(self):
         self.assertEqual(interval(0.44447, 0.45197, 0.4457, " mm"), "0.4482 +- 0.0038 mm (0.4457 on the mesh)")
         self.assertEqual(interval(1e-7, 1.2e-7, 1.1e-7), "(1.10 +- 0.10)e-7 (1.10e-7 on the mesh)")
         self.assertEqual(interval(float("nan"), 1, 0.25, " mm"), "0.25 mm")
         self.assertEqual(interval(0, 0, 0), "0 +- 0 (0 on the mesh)")
+
+    def test_a_traction_is_found_in_the_case_of_a_file(self):
+        result, _ = self.both(EXAMPLES / "slit.toml", "run")
+        self.assertIs(result.traction, False)
+        for case, traction in (('[[load]]\ntraction = "1"', True), ("", None)):
+            with h5py.File(self.folder / "result.h5", "a") as file:
+                file.attrs["case"] = case
+            self.assertIs(anticrack.read(self.folder / "result.h5").traction, traction)
 
     def test_a_package_that_is_missing_is_named(self):
         self.both(EXAMPLES / "slit.toml", "run")

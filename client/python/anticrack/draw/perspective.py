@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The deformed membrane in perspective."""
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..arrays import Array
+from ..errors import Error
+from ..result import Load, Result, runs
+from .panel import BOX, LINES, axes, fields, load_of
+
+_NAMES = 6  # of inclusions: more would cover each other
+
+
+def _amplification(extent: float, width: float) -> float:
+    """A round factor by which u is up to 0.3 of the width; as in the command's figure."""
+    if not extent > 0:
+        return 1.0
+    wanted = 0.3 * width / extent
+    power = 10.0 ** np.floor(np.log10(wanted))
+    return float(power * max(step for step in (1, 1.5, 2, 3, 4, 5, 6, 8) if step * power <= wanted))
+
+
+def _azimuth(result: Result) -> float:
+    """Over the minus side of the first interface: its cracks open upwards on the far side."""
+    along = [(line.x[-1] - line.x[0], line.y[-1] - line.y[0]) for line in result.interfaces[:1]]
+    return -62 + float(np.degrees(np.arctan2(*reversed(along[0])))) if along else -62
+
+
+def _mark(result: Result, load: Load, factor: float, ax: Any) -> None:
+    """Inclusions and cracks on their plus faces, which inclusions hold, and the names of a few inclusions."""
+    named: set[int] = set()
+    for interface, trace in zip(result.interfaces, load.traces):
+        for first, last in runs(interface.edge_kind * 100_000 + interface.edge_inclusion):
+            kind, inclusion = int(interface.edge_kind[first]), int(interface.edge_inclusion[first])
+            if kind not in LINES:
+                continue
+            line = np.stack((interface.x, interface.y, factor * trace.u_plus))[:, first:last + 1]
+            ax.plot(*line, color=LINES[kind][1], linewidth=1.5, zorder=100)
+            if inclusion >= 0 and inclusion not in named and len(result.mesh.inclusions) <= _NAMES:
+                named.add(inclusion)
+                ax.text(*line[:, line.shape[1] // 2], result.mesh.inclusions[inclusion], ha="center", va="bottom",
+                        fontsize="small", bbox=BOX, zorder=101)
+
+
+def _corners(result: Result, load: Load) -> tuple[Array, Array, Array]:
+    """Nodes (n, 2), u (n) and triangles (m, 3) of all subdomains: both faces of an open crack have their own nodes."""
+    parts = fields(load)
+    firsts = np.cumsum([0, *(len(part.nodes) for part in parts)])
+    return (result.mesh.nodes[np.concatenate([part.nodes for part in parts])],
+            np.concatenate([part.u for part in parts]),
+            np.concatenate([part.triangles + first for part, first in zip(parts, firsts)]))
+
+
+def membrane(result: Result, load: str | Load | None = None, ax: Any = None, cmap: str = "viridis") -> Any:
+    """The deformed membrane in perspective, its cracks open, u amplified as the title says and in colours, with cracks
+    and inclusions; takes a case with fields. `ax` has three dimensions: subplots(subplot_kw={"projection": "3d"});
+    `displacement` draws u on an `ax` of two."""
+    load = load_of(result, load)
+    nodes, u, triangles = _corners(result, load)
+    ax = axes(ax, "3d")
+    if ax.name != "3d":
+        raise Error('the membrane is drawn in perspective; give ax of subplots(subplot_kw={"projection": "3d"}), or '
+                    "draw.displacement, which is from above")
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.colors import Normalize
+    width = np.ptp(nodes, axis=0).max()
+    factor = _amplification(np.ptp(u), width)
+    colours = Normalize(u.min(), u.max())
+    shades = ScalarMappable(colours, cmap)
+    faces = ax.plot_trisurf(*nodes.T, factor * u, triangles=triangles, linewidth=0.2, antialiased=False)
+    of_faces = shades.to_rgba(u[triangles].mean(axis=1))
+    faces.set(facecolors=of_faces, edgecolors=of_faces)
+    ax.figure.colorbar(shades, ax=ax, label="u" + result.units.label("L"), shrink=0.6, pad=0.1)
+    _mark(result, load, factor, ax)
+    length, low, high = result.units.label("L"), nodes.min(axis=0), nodes.max(axis=0)
+    scale = "to scale" if factor == 1 else f"amplified \u00d7{factor:.4g}"
+    ax.set(xlabel="x" + length, ylabel="y" + length, zticks=[], title=f"{load.name}: u {scale}")
+    ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
+    ax.locator_params(nbins=5)
+    ax.set_box_aspect([np.ptp(limits) for limits in (ax.get_xlim(), ax.get_ylim(), ax.get_zlim())])
+    ax.view_init(38, _azimuth(result))
+    return ax

@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""From above: the parts of a membrane, u, and its flux."""
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..arrays import Array
+from ..result import DELAMINATED, Load, Result, runs
+from .panel import BOX, LINES, axes, cut, fields, load_of
+
+_NAMES = 20  # of inclusions: more would cover each other
+
+
+def _levels(load: Load, levels: int) -> Array:
+    """Of u: round numbers, about so many, from its lowest to its highest."""
+    from matplotlib.ticker import MaxNLocator
+    low, high = min(f.u.min() for f in fields(load)), max(f.u.max() for f in load.fields)
+    return np.asarray(MaxNLocator(levels).tick_values(low, high if high > low else low + 1))
+
+
+def _lines(levels: Array, triangulation: Any, u: Array, width: float, ax: Any) -> Any:
+    """Lines of those levels that are there; None: none is."""
+    inner = levels[(levels > u.min()) & (levels < u.max())]
+    return ax.tricontour(triangulation, u, inner, colors="black", linewidths=width,
+                         linestyles="solid") if inner.size else None
+
+
+def _boundary(result: Result) -> dict[str, Array]:
+    """Edges (n, 2) of the boundary, by what is given on them."""
+    mesh = result.mesh
+
+    def keys(edges: Array) -> Array:
+        return np.asarray(edges.min(axis=1).astype(np.int64) * len(mesh.nodes) + edges.max(axis=1))
+    edges = np.concatenate([mesh.triangles[:, [i, (i + 1) % 3]] for i in range(3)])
+    _, first, count = np.unique(keys(edges), return_index=True, return_counts=True)
+    outer = edges[first[count == 1]]
+    held = np.isin(keys(outer), keys(mesh.boundary))
+    return {"u given": outer[held], "free" if result.traction is False else "free or traction": outer[~held]}
+
+
+def interfaces(result: Result, ax: Any = None, labels: bool = True) -> Any:
+    """The boundary, the inclusions, with dots on the side that came off, and the cracks; labels: names of
+    inclusions, unless they are many, and a legend of the lines."""
+    ax = axes(ax)
+    from matplotlib.collections import LineCollection
+    drawn: dict[str, Any] = {}
+    for (what, edges), color, width in zip(_boundary(result).items(), ("#444444", "#009E73"), (2.5, 1.2)):
+        if len(edges):
+            segments = LineCollection(list(result.mesh.nodes[edges]), linewidth=width, color=color, capstyle="round")
+            drawn[what] = ax.add_collection(segments)
+    named: set[int] = set()
+    away = 0.012 * np.ptp(result.mesh.nodes, axis=0).max()
+    for interface in result.interfaces:
+        for first, last in runs(interface.edge_kind * 100_000 + interface.edge_inclusion):
+            kind, inclusion = int(interface.edge_kind[first]), int(interface.edge_inclusion[first])
+            if kind not in LINES:
+                continue
+            x, y = interface.x[first:last + 1], interface.y[first:last + 1]
+            what, color = LINES[kind]
+            (drawn[what],) = ax.plot(x, y, color=color, linewidth=2)
+            across = np.stack((-np.gradient(y), np.gradient(x))) / np.hypot(np.gradient(x), np.gradient(y))
+            if kind == DELAMINATED:
+                (drawn["the side that came off"],) = ax.plot(x - away * across[0], y - away * across[1], ":",
+                                                             color="#D00000")
+            if labels and inclusion >= 0 and inclusion not in named and len(result.mesh.inclusions) <= _NAMES:
+                named.add(inclusion)
+                middle = len(x) // 2
+                up, right = across[1, middle], across[0, middle]
+                ax.annotate(result.mesh.inclusions[inclusion], (x[middle], y[middle]), xytext=(6 * right, 6 * up),
+                            textcoords="offset points", va="bottom" if up > 0.5 else "top" if up < -0.5 else "center",
+                            ha="center" if abs(up) > 0.9 else "left" if right > 0 else "right",
+                            bbox=BOX)
+    if labels and drawn:
+        ax.legend(list(drawn.values()), list(drawn), loc="upper center", bbox_to_anchor=(0.5, -0.14), ncol=2,
+                  fontsize="small", frameon=False)
+    length, low, high = result.units.label("L"), result.mesh.nodes.min(axis=0), result.mesh.nodes.max(axis=0)
+    margin = 0.03 * (high - low).max()
+    ax.set(aspect="equal", xlabel="x" + length, ylabel="y" + length, xlim=(low[0] - margin, high[0] + margin),
+           ylim=(low[1] - margin, high[1] + margin))
+    ax.locator_params(nbins=6)
+    return ax
+
+
+def displacement(result: Result, load: str | Load | None = None, ax: Any = None, levels: int = 12, lines: bool = True,
+                 cmap: str = "viridis") -> Any:
+    """u from above, in colours and contour lines, with cracks and inclusions; takes a case with fields."""
+    load = load_of(result, load)
+    steps, ax = _levels(load, levels), axes(ax)
+    from matplotlib.tri import Triangulation
+    for part in load.fields:
+        triangulation = Triangulation(*result.mesh.nodes[part.nodes].T, part.triangles)
+        shades = ax.tricontourf(triangulation, part.u, steps, cmap=cmap)
+        if lines:
+            _lines(steps, triangulation, part.u, 0.3, ax)
+    ax.figure.colorbar(shades, ax=ax, label="u" + result.units.label("L"))
+    interfaces(result, ax)
+    ax.set_title(load.name)
+    return ax
+
+
+def flux(result: Result, load: str | Load | None = None) -> list[Array]:
+    """|T grad u| in the triangles of each subdomain, as its field lists them; takes a case with fields. Where some T is
+    a law, of which a result has the mean alone, |grad u|."""
+    sizes = []
+    tensions = np.ones(len(result.mesh.tension)) if result.mesh.tension_law else result.mesh.tension
+    for tension, part in zip(tensions, fields(load_of(result, load))):
+        a, b, c = np.moveaxis(result.mesh.nodes[part.nodes][part.triangles], 1, 0)
+        u = part.u[part.triangles]
+        (bx, by), (cx, cy) = (b - a).T, (c - a).T
+        ub, uc = u[:, 1] - u[:, 0], u[:, 2] - u[:, 0]
+        sizes.append(tension * np.hypot(ub * cy - uc * by, uc * bx - ub * cx) / (bx * cy - cx * by))
+    return sizes
+
+
+def plan(result: Result, load: str | Load | None = None, ax: Any = None, levels: int = 10, cmap: str = "Blues") -> Any:
+    """From above: labelled lines of u over the flux (see `flux`) in colours, with cracks and inclusions; takes a case
+    with fields. The flux grows without bound at tips: its peaks are cut off, and the colour bar says so."""
+    ax, load = axes(ax), load_of(result, load)
+    from matplotlib.tri import Triangulation
+    sizes = flux(result, load)
+    parts = [Triangulation(*result.mesh.nodes[part.nodes].T, part.triangles) for part in load.fields]
+    corners = [np.stack((part.x, part.y), -1)[part.triangles] for part in parts]
+    areas = [np.abs(np.linalg.det(np.diff(each, axis=1))) for each in corners]
+    shown, highest = cut(np.concatenate(sizes), np.concatenate(areas), 0.98, 1.5)
+    steps = _levels(load, levels)
+    for part, field, size in zip(parts, load.fields, sizes):
+        shades = ax.tripcolor(part, size, vmin=0, vmax=shown if shown > 0 else 1, cmap=cmap, rasterized=True)
+        lines = _lines(steps, part, field.u, 0.6, ax)
+        if lines is not None:
+            ax.clabel(lines, lines.levels[::2], fmt="%.3g", fontsize="x-small")
+    said = f", peaks cut off, up to {highest:.2g}" if shown < highest else ""
+    name = r"$|\nabla u|$" if result.mesh.tension_law else r"$|T \nabla u|$" + result.units.label("F/L")
+    ax.figure.colorbar(shades, ax=ax, label=name + said,
+                       extend="max" if said else "neither")
+    interfaces(result, ax)
+    ax.set_title(f"{load.name}: lines of u{result.units.label('L')}")
+    return ax
