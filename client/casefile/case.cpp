@@ -64,6 +64,22 @@ toml::table parse(const std::string& text, const std::string& name) {
   }
 }
 
+void read_output(const Section& root, Case& result) {
+  if (const auto output = root.section("output", {"fields", "bounds"})) {
+    if (output->boolean("fields").value_or(false)) result.job.add_outputs(v1::OUTPUT_FIELDS);
+    result.job.set_without_bounds(!output->boolean("bounds").value_or(true));
+    note(*output, "", result.spots);
+    if (result.job.without_bounds() && result.job.has_accuracy())
+      throw Error(output->spot_of("bounds"),
+                  "an [accuracy] needs bounds; leave one of the two out");
+  }
+  // Fields are drawn with where their errors come from, if there are bounds.
+  if (result.job.has_accuracy() ||
+      (result.job.outputs_size() > 0 && result.job.solver().has_active_set() &&
+       !result.job.without_bounds()))
+    result.job.add_outputs(v1::OUTPUT_INDICATORS);
+}
+
 }  // namespace
 
 std::optional<Spot> Case::locate(const std::string& field) const {
@@ -115,14 +131,7 @@ Case parse_case(const std::string& text, const std::filesystem::path& path,
   read_accuracy(root, result);
   read_job(root, result.job, result.spots);
   read_units(root, result.job, result.spots);
-  if (const auto output = root.section("output", {"fields"})) {
-    if (output->boolean("fields").value_or(false)) result.job.add_outputs(v1::OUTPUT_FIELDS);
-    note(*output, "", result.spots);
-  }
-  // Fields are drawn with where their errors come from, if the method bounds them.
-  if (result.job.has_accuracy() ||
-      (result.job.outputs_size() > 0 && result.job.solver().has_active_set()))
-    result.job.add_outputs(v1::OUTPUT_INDICATORS);
+  read_output(root, result);
   return result;
 }
 

@@ -277,10 +277,11 @@ class Case:
 
     def __init__(self, geometry: Geometry | None = None, loads: Sequence[Load] = (), mesh: Mesh | None = None,
                  solver: ActiveSet | Uzawa | None = None, accuracy: Accuracy | None = None, title: str = "",
-                 units: Units | None = None, fields: bool = False, priority: str | None = None,
+                 units: Units | None = None, fields: bool = False, bounds: bool = True, priority: str | None = None,
                  queue_timeout: float | str | None = None,
                  run_timeout: float | str | None = None) -> None:
-        """fields: keep u on every node, to draw the membrane. Timeouts are seconds, or text such as "2h"."""
+        """fields: keep u on every node, to draw the membrane. bounds: of the error of each answer. Timeouts are
+        seconds, or text such as "2h"."""
         job = {"priority": priority, "queue_timeout": queue_timeout, "run_timeout": run_timeout}
         records = {"geometry": (geometry, (Geometry,), "Geometry(boundary), or Case.read(path) of a file"),
                    "mesh": (mesh, (Mesh,), "Mesh(size=0.1)"),
@@ -293,7 +294,7 @@ class Case:
         tables: dict[str, Any] = {
             "title": title or None, **{key: record and record.table() for key, (record, *_) in records.items()},
             "load": [load.table() for load in _list_of(loads, Load, "load", "Load(name, f)")] or None,
-            "output": {"fields": fields} if fields else None,
+            "output": {"fields": fields, "bounds": bounds} if fields or not bounds else None,
             "job": {key: value for key, value in job.items() if value is not None} or None}
         self.tables = {key: value for key, value in tables.items() if value is not None}
         self.text, self.source, self.folder = "", "", pathlib.Path()

@@ -63,11 +63,16 @@ def requests_of(tables: Mapping[str, Any], source: str, folder: Path, loads_need
     if units is not None:
         out.job.units.SetInParent()
         _set(out.job.units, length=units.text("length"), force=units.text("force"))
-    output = root.section("output", ["fields"])
+    output = root.section("output", ["fields", "bounds"])
     if output is not None and output.boolean("fields"):
         out.job.outputs.append(solve_pb2.OUTPUT_FIELDS)
-    # Fields are drawn with where their errors come from, if the method bounds them.
-    if out.job.HasField("accuracy") or (out.job.outputs and out.job.solver.HasField("active_set")):
+    if output is not None and output.boolean("bounds") is False:
+        out.job.without_bounds = True
+        if out.job.HasField("accuracy"):
+            raise output.error("bounds", "an [accuracy] needs bounds; leave one of the two out")
+    # Fields are drawn with where their errors come from, if there are bounds.
+    if out.job.HasField("accuracy") or (out.job.outputs and out.job.solver.HasField("active_set")
+                                        and not out.job.without_bounds):
         out.job.outputs.append(solve_pb2.OUTPUT_INDICATORS)
     return out
 

@@ -46,6 +46,16 @@ TEST(OutputSection, HasIndicatorsBesideFieldsThatAreBounded) {
               ElementsAre(v1::OUTPUT_FIELDS, v1::OUTPUT_INDICATORS));
 }
 
+TEST(OutputSection, LeavesBoundsOut) {
+  const std::string exact = sample_with("theta = 1.5\nmethod = \"uzawa\"\n", "");
+  const v1::Job job = parse(exact + "[output]\nfields = true\nbounds = false\n").job;
+  EXPECT_TRUE(job.without_bounds());
+  EXPECT_THAT(job.outputs(), ElementsAre(v1::OUTPUT_FIELDS));
+  EXPECT_FALSE(parse(exact + "[output]\nbounds = true\n").job.without_bounds());
+  EXPECT_EQ(complaint(sample_to("A = 1e-3\n[output]\nbounds = false\n")),
+            "plate.toml:22: output.bounds: an [accuracy] needs bounds; leave one of the two out");
+}
+
 TEST(AccuracySection, NeedsOneOfItsErrors) {
   const v1::Accuracy one = parse(sample_to("A = 1\n")).job.accuracy();
   EXPECT_FALSE(one.has_energy());
