@@ -185,6 +185,12 @@ class Cutting {
     }
   }
 
+  /// Inclusions that share nodes are one body, whose displacement is the first term of theirs.
+  std::int32_t body_of(std::int32_t inclusion) const {
+    if (inclusion < 0) return -1;
+    return _decomposition.skeleton.motions[at(inclusion)].displacement.front().index;
+  }
+
   /// Contact of two rigid bodies, or of one with the boundary, in a single node where the sides of
   /// the delaminated inclusion lie in two fans: the force between the bodies is then no part of
   /// either fan.
@@ -199,12 +205,12 @@ class Cutting {
       };
       std::int32_t pressed_by = -1;
       has([&](const Face& face) {
-        if (face.condition == Condition::pressed) pressed_by = face.inclusion;
+        if (face.condition == Condition::pressed) pressed_by = body_of(face.inclusion);
         return false;
       });
       const bool held_by_another =
           pressed_by >= 0 && has([&](const Face& face) {
-            return face.condition == Condition::free && face.inclusion != pressed_by;
+            return face.condition == Condition::free && body_of(face.inclusion) != pressed_by;
           });
       if (!held_by_another) continue;
       const std::int32_t corner = _cut.corners[at(_cut.first_corner[fan])];

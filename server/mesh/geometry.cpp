@@ -105,24 +105,6 @@ void check_contacts(const Layout& layout, const Network& network, const Plan& pl
   }
 }
 
-/// Refuses two inclusions that share a point where their interfaces meet.
-void check_inclusions_apart(const Layout& layout, const Plan& plan) {
-  std::unordered_map<int, int> holder;  // of a point
-  for (const PlannedCurve& curve : plan.curves) {
-    if (curve.inclusion < 0) continue;
-    for (const int point : {curve.a, curve.b}) {
-      const int other = holder.emplace(point, curve.inclusion).first->second;
-      if (other == curve.inclusion) continue;
-      const auto last = at(std::max(other, curve.inclusion));
-      const auto first = at(std::min(other, curve.inclusion));
-      const PlacedPart& part = layout.parts[last];  // inclusions come first
-      refuse(place_of(part), part.field, " and ", layout.parts[first].field, " share the point ",
-             show(plan.points[at(point)]),
-             "; the membrane is tied to both there, so leave glue between them");
-    }
-  }
-}
-
 /// The stretch that each chord of an interface lies on, or null.
 std::vector<const Stretch*> stretches_of(const Layout& layout, const Network& network) {
   std::vector<const Stretch*> stretches;
@@ -263,7 +245,6 @@ Plan plan(const Geometry& given, const MeshOptions& options, std::size_t max_tri
   add_curves(layout, network, stretches, plan);
   check_held(geometry, plan);
   check_contacts(layout, network, plan);
-  check_inclusions_apart(layout, plan);
   lay_subdomains(geometry, network, names, walks_of(stretches), plan);
   if (options.preset == Preset::paper) {
     check_for_paper(geometry, options, plan);

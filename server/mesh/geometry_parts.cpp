@@ -203,8 +203,7 @@ void check_pair(const Network& network, const PlacedPart& left, const PlacedPart
   const std::string place = show(network.points[at(right.begin.point)]);
   if (begin == left.end.t) {
     refuse(field, right.field, " and ", left.field, " share the tip ", place,
-           "; the membrane is tied to both at a common tip, so leave glue between them or make "
-           "them one");
+           "; make them one, which may come off in parts, or leave a gap between them");
   }
   refuse(field, right.field, " and ", left.field, " overlap from ", place,
          " on; a piece of the interface belongs to one inclusion or crack");

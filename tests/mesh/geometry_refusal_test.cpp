@@ -237,7 +237,7 @@ const Fault faults[] = {
     {"SharedTip",
      [](Geometry& g) { g.cracks = {crack("a", 0.5, 0.7)}; },
      "cracks[0].part",
-     {"share the tip (0.5, 0)", "tied to both"}},
+     {"share the tip (0.5, 0)", "leave a gap"}},
     {"DelaminatedOutside",
      [](Geometry& g) {
        g.inclusions[0].delaminated = {{{-0.5, 0}, {-0.4, 0}}, {{0, 0}, {0.6, 0}}};

@@ -208,21 +208,7 @@ const Fault line_faults[] = {
        g.inclusions.push_back({"b", {{0.5, 0}, {0.75, 0}}, {}});
      },
      "inclusions[1].part",
-     {"share the tip (0.5, 0)", "tied to both"}},
-    {"InclusionsMeetWhereInterfacesCross",
-     [](Geometry& g) {
-       add(g, "b", {{0, -1}, {0, 1}});
-       g.inclusions.push_back({"b", {{0, -0.5}, {0, 0.5}}, {}});
-     },
-     "inclusions[1].part",
-     {R"(inclusion "b" and inclusion "inclusion")", "(0, 0)", "tied to both"}},
-    {"InclusionsTouchAtAJunction",
-     [](Geometry& g) {
-       add(g, "b", {{0.25, 0}, {0.25, 1}});
-       g.inclusions.push_back({"b", {{0.25, 0}, {0.25, 0.5}}, {}});
-     },
-     "inclusions[1].part",
-     {"(0.25, 0)"}},
+     {"share the tip (0.5, 0)", "make them one"}},
     {"CrackAtTheDirichletBoundary",
      [](Geometry& g) { g.cracks = {crack("c", 0.75, 1)}; },
      "cracks[0].part.to",

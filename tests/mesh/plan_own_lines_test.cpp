@@ -211,9 +211,9 @@ TEST(OwnLines, ARegionInsideAnotherOneIsCutOutOfIt) {
   for (int i = 0; i < 4; ++i)
     geometry.regions.push_back(
         {"dot-" + std::to_string(i), {}, 1, circle({0.1 * i - 0.2, 0.5}, 0.02)});
-  EXPECT_THAT(
-      notes(plan_of(geometry)).back(),
-      ::testing::HasSubstr(R"(region "disc", region "dot-0", region "dot-1" and 2 more lie inside)"));
+  EXPECT_THAT(notes(plan_of(geometry)).back(),
+              ::testing::HasSubstr(
+                  R"(region "disc", region "dot-0", region "dot-1" and 2 more lie inside)"));
 }
 
 const testing::Fault own_line_faults[] = {

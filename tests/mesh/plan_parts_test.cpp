@@ -3,6 +3,7 @@
 // What a plan says of the parts of a membrane: align lines, regions, the boundary under traction.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -54,6 +55,26 @@ TEST(PlanParts, GlueBetweenFacesOfOneSubdomainIsNoInterface) {
   EXPECT_EQ(areas(plan).size(), 1U);
   EXPECT_EQ(count(plan, Kind::glue), 0);
   EXPECT_EQ(count(plan, Kind::crack), 1);
+}
+
+TEST(PlanParts, InclusionsMayMeet) {
+  for (const double end : {-0.5, 0.0}) {  // they cross, or one ends on the other
+    Geometry geometry = square();
+    geometry.interfaces = {polyline("a", {{-1, 0}, {1, 0}}), polyline("b", {{0, -1}, {0, 1}})};
+    geometry.inclusions = {{"a", {{-0.5, 0}, {0.5, 0}}, {}}, {"b", {{0, end}, {0, 0.5}}, {}}};
+    const Plan plan = mesh::plan(geometry, uniform(0.25), enough);
+    expect_consistent(plan, 4);
+    std::map<int, std::vector<int>> curves_at;  // of a point, their inclusions
+    for (const auto& curve : plan.curves)
+      if (curve.inclusion >= 0)
+        for (const int point : {curve.a, curve.b}) curves_at[point].push_back(curve.inclusion);
+    EXPECT_EQ(std::ranges::count_if(curves_at,
+                                    [](const auto& at) {
+                                      return std::ranges::count(at.second, 0) == 2 &&
+                                             std::ranges::count(at.second, 1) > 0;
+                                    }),
+              1);
+  }
 }
 
 TEST(PlanParts, NeumannPartsOfTheBoundary) {

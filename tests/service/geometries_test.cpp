@@ -61,7 +61,7 @@ TEST_P(Geometries, AreSolvedDrawnAndExported) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Examples, Geometries,
-                         ::testing::Values("several-inclusions", "slit", "arc", "floating"),
+                         ::testing::Values("several-inclusions", "crossing", "slit", "arc", "floating"),
                          [](const auto& tested) {
                            std::string name = tested.param;
                            std::replace(name.begin(), name.end(), '-', '_');
