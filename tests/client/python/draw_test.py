@@ -133,7 +133,7 @@ class Figures(unittest.TestCase):
         self.assertTrue(draw.plan(result, "pulled").figure.axes[1].get_ylabel().startswith(r"$|\nabla u|$"))
 
     def test_the_side_that_came_off_is_the_minus_side(self):
-        inclusion, *dots = draw.interfaces(self.skew).lines
+        inclusion, *dots = draw.interfaces(self.skew, "example-2").lines
         self.assertEqual(inclusion.get_color(), "#E69F00")  # as in the command's figures
         self.assertEqual(len(dots), 1)
         self.assertLess(dots[0].get_ydata().max(), 0)  # its interface runs along y = 0, the plus side above
@@ -262,3 +262,4 @@ class Figures(unittest.TestCase):
         columns.coefficients = None
         ax = draw.sweep(result)
         self.assertEqual((ax.get_xlabel(), ax.lines[0].get_linestyle()), ("row", "None"))
+        self.assertTrue((ax.get_xticks() % 1 == 0).all(), ax.get_xticks())

@@ -40,10 +40,12 @@ def _boundary(result: Result) -> dict[str, Array]:
     return {"u given": outer[held], "free" if result.traction is False else "free or traction": outer[~held]}
 
 
-def interfaces(result: Result, ax: Any = None, labels: bool = True) -> Any:
-    """The boundary, the inclusions, with dots on the side that came off, and the cracks; labels: names of
-    inclusions, unless they are many, and a legend of the lines."""
+def interfaces(result: Result, load: str | Load | None = None, ax: Any = None, labels: bool = True) -> Any:
+    """The boundary, the inclusions, with dots on the side that came off, and the cracks, the same for every load;
+    labels: names of inclusions, unless they are many, and a legend of the lines."""
     ax = axes(ax)
+    if load is not None:
+        load_of(result, load)
     from matplotlib.collections import LineCollection
     drawn: dict[str, Any] = {}
     for (what, edges), color, width in zip(_boundary(result).items(), ("#444444", "#009E73"), (2.5, 1.2)):
@@ -95,7 +97,7 @@ def displacement(result: Result, load: str | Load | None = None, ax: Any = None,
         if lines:
             _lines(steps, triangulation, part.u, 0.3, ax)
     ax.figure.colorbar(shades, ax=ax, label="u" + result.units.label("L"))
-    interfaces(result, ax)
+    interfaces(result, load, ax)
     ax.set_title(load.name)
     return ax
 
@@ -134,6 +136,6 @@ def plan(result: Result, load: str | Load | None = None, ax: Any = None, levels:
     name = r"$|\nabla u|$" if result.mesh.tension_law else r"$|T \nabla u|$" + result.units.label("F/L")
     ax.figure.colorbar(shades, ax=ax, label=name + said,
                        extend="max" if said else "neither")
-    interfaces(result, ax)
+    interfaces(result, load, ax)
     ax.set_title(f"{load.name}: lines of u{result.units.label('L')}")
     return ax
