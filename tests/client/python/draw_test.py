@@ -15,6 +15,7 @@ from matplotlib import pyplot  # noqa: E402
 import anticrack  # noqa: E402
 from anticrack import draw  # noqa: E402
 from anticrack.draw.along import edge_pressure  # noqa: E402
+from anticrack.draw.plane import flux_peaks  # noqa: E402
 from processes import ANTICRACKD  # noqa: E402
 
 EXAMPLES = pathlib.Path(os.environ["EXAMPLES"])
@@ -119,6 +120,17 @@ class Figures(unittest.TestCase):
         bar = ax.figure.axes[1]
         self.assertIn("peaks cut off, up to", bar.get_ylabel())
         self.assertLess(bar.get_ylim()[1], max(size.max() for size in draw.flux(self.several, "pulled")) / 10)
+
+    def test_peaks_of_the_flux_are_those_of_the_command(self):
+        lines = [line.split() for line in (SAME / "flux.txt").read_text().splitlines() if not line.startswith("#")]
+        nodes, triangles, drawn = (numpy.array([line[1:] for line in lines if line[0] == what], dtype=float)
+                                   for what in ("node", "triangle", "drawn"))
+        result = copy.copy(self.skew)
+        result.mesh = copy.copy(result.mesh)
+        result.mesh.nodes, result.mesh.tension, result.mesh.tension_law = nodes[:, :2], numpy.array([2.0]), []
+        load = anticrack.result.Load("a", "converged")
+        load.fields = [anticrack.result.Field("", numpy.arange(len(nodes)), triangles.astype(int), nodes[:, 2])]
+        numpy.testing.assert_allclose(flux_peaks(result, load, draw.flux(result, load)), drawn[0], rtol=1e-9)
 
     def test_flux_has_the_tension_of_its_subdomain(self):
         result = copy.deepcopy(self.several)

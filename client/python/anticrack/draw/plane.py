@@ -116,6 +116,13 @@ def flux(result: Result, load: str | Load | None = None) -> list[Array]:
     return sizes
 
 
+def flux_peaks(result: Result, load: Load, sizes: list[Array]) -> tuple[float, float]:
+    """Of what `flux` gives: the end of the axis, and the highest."""
+    corners = [result.mesh.nodes[part.nodes][part.triangles] for part in load.fields]
+    areas = [np.abs(np.linalg.det(np.diff(each, axis=1))) for each in corners]
+    return cut(np.concatenate(sizes), np.concatenate(areas), 0.98, 1.5)
+
+
 def plan(result: Result, load: str | Load | None = None, ax: Any = None, levels: int = 10, cmap: str = "Blues") -> Any:
     """From above: labelled lines of u over the flux (see `flux`) in colours, with cracks and inclusions; takes a case
     with fields. The flux grows without bound at tips: its peaks are cut off, and the colour bar says so."""
@@ -123,9 +130,7 @@ def plan(result: Result, load: str | Load | None = None, ax: Any = None, levels:
     from matplotlib.tri import Triangulation
     sizes = flux(result, load)
     parts = [Triangulation(*result.mesh.nodes[part.nodes].T, part.triangles) for part in load.fields]
-    corners = [np.stack((part.x, part.y), -1)[part.triangles] for part in parts]
-    areas = [np.abs(np.linalg.det(np.diff(each, axis=1))) for each in corners]
-    shown, highest = cut(np.concatenate(sizes), np.concatenate(areas), 0.98, 1.5)
+    shown, highest = flux_peaks(result, load, sizes)
     steps = _levels(load, levels)
     for part, field, size in zip(parts, load.fields, sizes):
         shades = ax.tripcolor(part, size, vmin=0, vmax=shown if shown > 0 else 1, cmap=cmap, rasterized=True)
