@@ -45,7 +45,8 @@ casefile::Case read_case(const SweepOptions& options, const Globals& globals) {
   if (leave_out_accuracy(the_case)) {
     say(globals,
         "[accuracy] is not used: a sweep has one mesh, of mesh.size; --bounds tells how far each "
-        "row is from the membrane");
+        "row is from the membrane. For closer bounds take a smaller mesh.size, or write few rows "
+        "as [[load]]s and use run");
   }
   return the_case;
 }

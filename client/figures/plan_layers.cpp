@@ -15,10 +15,6 @@ namespace {
 
 double mean_flux(const Triangle& t) { return (t[0].flux + t[1].flux + t[2].flux) / 3; }
 
-double twice_area(const Triangle& t) {
-  return (t[1].x - t[0].x) * (t[2].y - t[0].y) - (t[2].x - t[0].x) * (t[1].y - t[0].y);
-}
-
 double nearest(const Spot& spot, const std::vector<Spot>& others) {
   double least = HUGE_VAL;
   for (const Spot& other : others)
@@ -93,14 +89,7 @@ results::MeshPlan plan_of(const results::Result& result) {
 
 Peaks flux_peaks(const Surface& surface) {
   constexpr double part = 0.98, room = 1.5;
-  std::vector<std::pair<double, double>> sizes;
-  for (const Triangle& triangle : surface.triangles)
-    if (std::isfinite(mean_flux(triangle)))
-      sizes.emplace_back(mean_flux(triangle), twice_area(triangle));
-  Peaks found = peaks(std::move(sizes), part, room);
-  // Also in triangles that are too small to be drawn.
-  if (found.cut_off()) found.highest = std::max(found.highest, surface.largest_flux);
-  return found;
+  return peaks(surface.fluxes, part, room);
 }
 
 std::vector<std::vector<std::array<Spot, 3>>> flux_classes(const Surface& surface,

@@ -46,8 +46,9 @@ Cut cut_open(const Mesh& mesh, const Load& load) {
   return cut;
 }
 
-/// All vertices, with the means over their triangles.
-std::vector<Vertex> vertices(const Mesh& mesh, const Cut& cut) {
+/// All vertices, with the means over their triangles, whose own fluxes go to `fluxes`.
+std::vector<Vertex> vertices(const Mesh& mesh, const Cut& cut,
+                             std::vector<std::pair<double, double>>& fluxes) {
   std::vector<Vertex> all(cut.node.size());
   std::vector<double> area(cut.node.size(), 0);
   for (std::size_t i = 0; i < all.size(); ++i)
@@ -60,10 +61,12 @@ std::vector<Vertex> vertices(const Mesh& mesh, const Cut& cut) {
     // Times twice the area.
     const double x = (b.u - a.u) * (c.y - a.y) - (c.u - a.u) * (b.y - a.y);
     const double y = (c.u - a.u) * (b.x - a.x) - (b.u - a.u) * (c.x - a.x);
+    const double flux = cut.tension[t] * std::hypot(x, y);
+    if (std::isfinite(flux)) fluxes.emplace_back(flux / twice, twice);
     for (const std::size_t corner : corners) {
       all[corner].slope_x += x;
       all[corner].slope_y += y;
-      all[corner].flux += cut.tension[t] * std::hypot(x, y);
+      all[corner].flux += flux;
       area[corner] += twice;
     }
   }
@@ -191,10 +194,7 @@ Surface surface(const Result& result, const Load& load, std::size_t limit) {
   }
 
   const Cut cut = cut_open(mesh, load);
-  const std::vector<Vertex> all = vertices(mesh, cut);
-  for (const Vertex& vertex : all)
-    if (std::isfinite(vertex.flux))
-      surface.largest_flux = std::max(surface.largest_flux, vertex.flux);
+  const std::vector<Vertex> all = vertices(mesh, cut, surface.fluxes);
   for (const Corners& corners : coarsen(mesh, cut, surface, limit)) {
     Triangle triangle;
     bool finite = true;

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "results/result.hpp"
@@ -28,7 +29,8 @@ struct Surface {
   std::vector<Triangle> triangles;
   double lowest = 0;  ///< u over all vertices, zero included
   double highest = 0;
-  double largest_flux = 0;  ///< of all vertices, also of those that were merged
+  /// |T grad u| (or |grad u|) of every triangle of the mesh, merged or not, and twice its area.
+  std::vector<std::pair<double, double>> fluxes;
   double x_min = 0, x_max = 0, y_min = 0, y_max = 0;  ///< of the mesh
 
   double largest() const noexcept;  ///< |u|

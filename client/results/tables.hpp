@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // What a result file holds beside the arrays of arrays/result_arrays.hpp, in the order of the file.
-// README.md's table is made of these tables: see tests/client/results/readme_test.cpp.
+// The table of client/RESULT.md is made of these: see tests/client/results/result_table_test.cpp.
 #pragma once
 
 #include "arrays/result_arrays.hpp"

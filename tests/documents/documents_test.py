@@ -10,6 +10,7 @@ import pathlib
 import re
 import subprocess
 import sys
+import tomllib
 
 from processes import FolderTest
 
@@ -87,7 +88,7 @@ class Commands(FolderTest):
                 stages += re.findall(r"^stage \d+: .*$", block, re.M)
             elif kind == "python":
                 script.append(f"step 0 {quoted(sys.executable + ' -c ' + quoted(block))}")
-            elif kind == "toml" and "[geometry]" in block:
+            elif kind == "toml" and "[geometry]" in block and "[[load]]" in block:  # all of a case
                 (project / "case.toml").write_text(block, encoding="utf-8")
                 script.append("step 0 'anticrack --local run case.toml -o case.h5'")
         debian = self.folder / "debian"  # whose Python has the packages that the documents name
@@ -116,6 +117,12 @@ for each in DOCUMENTS:
 
 
 class Words(FolderTest):
+    def test_the_blocks_of_the_tutorial_are_its_case(self):
+        blocks = BLOCK.findall((PROJECT / "client/TUTORIAL.md").read_text(encoding="utf-8"))
+        typed = "".join(block for kind, block in blocks if kind == "toml")
+        self.assertEqual(tomllib.loads(typed),
+                         tomllib.loads((PROJECT / "client/examples/sheet.toml").read_text(encoding="utf-8")))
+
     def test_what_is_run_elsewhere_is_run_there(self):
         for command, place in ELSEWHERE.items():
             self.assertIn(command.removeprefix("./"), (PROJECT / place).read_text(encoding="utf-8"))

@@ -58,6 +58,7 @@ class AsyncTransport(Transport):
         await asyncio.sleep(seconds)
 
     async def close(self) -> None:
+        self._end()
         await self.channel.close()
 
 

@@ -341,7 +341,8 @@ class Case:
         tables = self.tables
         if sweep and "accuracy" in tables:
             warnings.warn("[accuracy] is not used: a sweep has one mesh, of mesh.size; bounds=True tells how far each "
-                          "row is from the membrane")
+                          "row is from the membrane. For closer bounds take a smaller mesh.size, or make few rows "
+                          "loads of a case")
             tables = {key: table for key, table in tables.items() if key != "accuracy"}
         return requests_of(tables, self.source, self.folder, loads_needed)
 

@@ -373,6 +373,8 @@ class Result:
             raise Error(f"there is no file {os.fspath(path)}; name a result file, as Result.save or the command's -o "
                         "writes it") from None
         except (OSError, KeyError) as error:
+            if str(path).endswith(".toml"):
+                raise Error(f"{os.fspath(path)}: this is a case and no result; solve it, as with client.run") from None
             raise Error(f"{os.fspath(path)}: cannot be read as a result file: {error}") from None
 
     def save(self, path: str | os.PathLike[str]) -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes the result file that the project's README describes."""
+"""Writes the result file that client/RESULT.md describes."""
 from __future__ import annotations
 
 import contextlib

@@ -66,7 +66,7 @@ class Section:
             raise self.error(key, f"missing; {cure}")
         return self.get(key)
 
-    def number_of(self, value: Any, key: str, cure: str = "write a finite number") -> float:
+    def number_of(self, value: Any, key: str, cure: str = "write one, such as 0.5") -> float:
         if isinstance(value, bool) or not isinstance(value, numbers.Real) or not math.isfinite(value):
             raise self.error(key, f"{shown(value)} is not a finite number; {cure}")
         return float(value)
@@ -123,7 +123,8 @@ class Section:
     def text(self, key: str) -> str | None:
         value = self.get(key)
         if key in self and not isinstance(value, str):
-            raise self.error(key, f"{shown(value)} is not text; write it in quotes")
+            cure = "write it in quotes" if self.source else "give a str"
+            raise self.error(key, f"{shown(value)} is not text; {cure}")
         return None if value is None else str(value)
 
     def expression(self, key: str) -> str:

@@ -10,11 +10,18 @@ from typing import Any, TypeVar
 import grpc
 
 from .credentials import CHANNEL, Credentials
-from .errors import of_call
+from .errors import Error, of_call
 from .v1 import mesh_pb2_grpc, server_pb2_grpc, solve_pb2_grpc, upload_pb2_grpc
 
 T = TypeVar("T")
 DEADLINE = 30.0  # of a try of a unary call [s]
+
+
+class _Closed:
+    """In place of the methods of a server."""
+
+    def __getattr__(self, method: str) -> Any:
+        raise Error("this client is closed, as at the end of its 'with'; use it before, or connect another")
 
 
 class Transport:
@@ -24,10 +31,10 @@ class Transport:
         secrets = credentials.of_channel(address)
         self.metadata = credentials.metadata()
         self.channel = self._open(address, secrets)
-        self.meshes = mesh_pb2_grpc.MeshServiceStub(self.channel)  # type: ignore[no-untyped-call]
-        self.jobs = solve_pb2_grpc.SolveServiceStub(self.channel)  # type: ignore[no-untyped-call]
-        self.server = server_pb2_grpc.ServerServiceStub(self.channel)  # type: ignore[no-untyped-call]
-        self.uploads = upload_pb2_grpc.UploadServiceStub(self.channel)  # type: ignore[no-untyped-call]
+        self.meshes: Any = mesh_pb2_grpc.MeshServiceStub(self.channel)  # type: ignore[no-untyped-call]
+        self.jobs: Any = solve_pb2_grpc.SolveServiceStub(self.channel)  # type: ignore[no-untyped-call]
+        self.server: Any = server_pb2_grpc.ServerServiceStub(self.channel)  # type: ignore[no-untyped-call]
+        self.uploads: Any = upload_pb2_grpc.UploadServiceStub(self.channel)  # type: ignore[no-untyped-call]
 
     def _open(self, address: str, secrets: Any) -> Any:
         if secrets is None:
@@ -59,7 +66,11 @@ class Transport:
     async def sleep(self, seconds: float) -> None:
         time.sleep(seconds)
 
+    def _end(self) -> None:
+        self.meshes = self.jobs = self.server = self.uploads = _Closed()
+
     async def close(self) -> None:
+        self._end()
         self.channel.close()
 
 

@@ -125,6 +125,8 @@ class JsonGolden(GoldenTest):
         self.assertEqual(bounded["sweep"]["bounded"], 1, "a point force is in the others")
         self.assertLess(bounded["answers"][0]["energy_lower"], bounded["answers"][0]["energy"])
         self.assertIsNone(answers["energy_width"])
+        told = self.anticrack(*rows, "--detach", "--set", "accuracy.energy=0.1").stdout
+        self.assertRegex(told, r"\[accuracy\] is not used: .* --bounds .* smaller mesh\.size, or .* \[\[load\]\]s")
         job = self.document("sweep-detach", *rows, "--detach")["name"]
         self.document("job-show-sweep", "job", "watch", job)
 

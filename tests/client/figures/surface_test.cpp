@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <limits>
+#include <sstream>
 
+#include "figures/plan_layers.hpp"
 #include "support/sample_result.hpp"
 
 namespace anticrack::figures {
@@ -38,6 +41,40 @@ TEST(Surface, has_every_triangle_with_the_u_of_its_side) {
     }
   }
   EXPECT_GT(opening, 0.05);  // both faces are there, apart
+}
+
+TEST(Surface, has_the_fluxes_that_python_has) {
+  std::ifstream table(ANTICRACK_SAME "/flux.txt");
+  results::Result result;
+  results::Field field;
+  double shown = 0, highest = 0;
+  for (std::string line; std::getline(table, line);) {
+    std::istringstream words(line);
+    std::string what;
+    double x = 0, y = 0, third = 0;
+    words >> what >> x >> y >> third;
+    if (what == "node") {
+      result.mesh.xy.insert(result.mesh.xy.end(), {x, y});
+      field.nodes.push_back(static_cast<std::int32_t>(field.nodes.size()));
+      field.u.push_back(third);
+    }
+    if (what == "triangle")
+      for (const double corner : {x, y, third})
+        field.triangles.push_back(static_cast<std::int32_t>(corner));
+    if (what == "drawn") {
+      shown = x;
+      highest = y;
+    }
+  }
+  result.mesh.tension = {2};
+  results::Load load;
+  load.fields = {field};
+  for (const std::size_t limit : {100, 2}) {  // also of triangles that are merged
+    const Peaks seen = flux_peaks(surface(result, load, limit));
+    EXPECT_NEAR(seen.shown, shown, 1e-9);
+    EXPECT_NEAR(seen.highest, highest, 1e-9);
+    EXPECT_TRUE(seen.cut_off());
+  }
 }
 
 TEST(Surface, knows_the_slope_and_the_flux_of_each_side) {

@@ -3,7 +3,7 @@
 import asyncio
 import unittest
 
-from anticrack import Case, Geometry, Inclusion, Interface, Load, Mesh, ServerError, Uzawa, aio
+from anticrack import Case, Error, Geometry, Inclusion, Interface, Load, Mesh, ServerError, Uzawa, aio
 from processes import ANTICRACKD, Daemon, FolderTest
 
 GEOMETRY = Geometry([(-1, -1), (1, -1), (1, 1), (-1, 1)], [Interface([(-1, 0), (1, 0)])],
@@ -37,6 +37,8 @@ class Async(unittest.IsolatedAsyncioTestCase):
             await job.delete()
             with self.assertRaisesRegex(ServerError, "(?i)no job"):
                 await client.job(job.name)
+        with self.assertRaisesRegex(Error, "this client is closed"):
+            await client.info()
 
 
 class Crash(FolderTest, unittest.IsolatedAsyncioTestCase):

@@ -210,6 +210,8 @@ boundary_value = "x"
                 (lambda: Case(square, [Load("a", numpy.array([numpy.nan]), per="node")]), "load.a.f.values: "),
                 (lambda: Case(square, [Load("a", 1, per="node")]), "load a: per goes with an array"),
                 (lambda: Case(square, [Load("a", True)]), "load.a.f: true is not a finite number"),
+                (lambda: Case(square, title=1), "title: 1 is not text; give a str"),
+                (lambda: Case(square, mesh=Mesh(size=True)), "mesh.size: true is not a finite number; write one, "),
                 (lambda: Case(square, [Load("a", [1, 2])]), "load.a.f.per: missing"),
                 (lambda: Case(square, [Load("a", [[1], [1, 2]], per="node")]), "load.a.f.values: "),
                 (lambda: Case(square, [Load("a", bump)]), "f: the Python function bump .*expression .*per=.node"),

@@ -183,7 +183,7 @@ class Jobs(unittest.TestCase):
         case = Case(GEOMETRY, [OPENING])
         plain = self.client.run(case, [[1.0]], progress=False)
         case.tables["accuracy"] = {"energy": 1e-6}
-        with self.assertWarnsRegex(UserWarning, r"^\[accuracy\] is not used: .* bounds=True"):
+        with self.assertWarnsRegex(UserWarning, r"^\[accuracy\] is not used: .* bounds=True.* smaller mesh\.size"):
             result = self.client.run(case, [[1.0]], progress=False)
         self.assertEqual(result.mesh_name, plain.mesh_name)  # graded, not the coarse one of an accuracy
         self.assertIn("accuracy", case.tables)
@@ -315,6 +315,9 @@ class Connections(FolderTest):
         with anticrack.connect(f"unix:{self.folder}/nobody", first_contact=0.2) as client:
             with self.assertRaisesRegex(anticrack.ServerError, "cannot reach the server at unix:.*nobody"):
                 client.info()
+        for call in (client.info, lambda: client.run(EXAMPLES / "slit.toml"), lambda: client.mesh_arrays("meshes/a")):
+            with self.assertRaisesRegex(anticrack.Error, "this client is closed, .* connect another"):
+                call()
         with self.assertRaisesRegex(anticrack.LocalServerError, "no anticrackd"):
             with anticrack.local(program="no-such-program"):
                 pass

@@ -15,6 +15,7 @@ from matplotlib import pyplot  # noqa: E402
 import anticrack  # noqa: E402
 from anticrack import draw  # noqa: E402
 from anticrack.draw.along import edge_pressure  # noqa: E402
+from anticrack.draw.plane import flux_peaks  # noqa: E402
 from processes import ANTICRACKD  # noqa: E402
 
 EXAMPLES = pathlib.Path(os.environ["EXAMPLES"])
@@ -120,6 +121,17 @@ class Figures(unittest.TestCase):
         self.assertIn("peaks cut off, up to", bar.get_ylabel())
         self.assertLess(bar.get_ylim()[1], max(size.max() for size in draw.flux(self.several, "pulled")) / 10)
 
+    def test_peaks_of_the_flux_are_those_of_the_command(self):
+        lines = [line.split() for line in (SAME / "flux.txt").read_text().splitlines() if not line.startswith("#")]
+        nodes, triangles, drawn = (numpy.array([line[1:] for line in lines if line[0] == what], dtype=float)
+                                   for what in ("node", "triangle", "drawn"))
+        result = copy.copy(self.skew)
+        result.mesh = copy.copy(result.mesh)
+        result.mesh.nodes, result.mesh.tension, result.mesh.tension_law = nodes[:, :2], numpy.array([2.0]), []
+        load = anticrack.result.Load("a", "converged")
+        load.fields = [anticrack.result.Field("", numpy.arange(len(nodes)), triangles.astype(int), nodes[:, 2])]
+        numpy.testing.assert_allclose(flux_peaks(result, load, draw.flux(result, load)), drawn[0], rtol=1e-9)
+
     def test_flux_has_the_tension_of_its_subdomain(self):
         result = copy.deepcopy(self.several)
         for part in result["pulled"].fields:
@@ -133,7 +145,7 @@ class Figures(unittest.TestCase):
         self.assertTrue(draw.plan(result, "pulled").figure.axes[1].get_ylabel().startswith(r"$|\nabla u|$"))
 
     def test_the_side_that_came_off_is_the_minus_side(self):
-        inclusion, *dots = draw.interfaces(self.skew).lines
+        inclusion, *dots = draw.interfaces(self.skew, "example-2").lines
         self.assertEqual(inclusion.get_color(), "#E69F00")  # as in the command's figures
         self.assertEqual(len(dots), 1)
         self.assertLess(dots[0].get_ydata().max(), 0)  # its interface runs along y = 0, the plus side above
@@ -262,3 +274,4 @@ class Figures(unittest.TestCase):
         columns.coefficients = None
         ax = draw.sweep(result)
         self.assertEqual((ax.get_xlabel(), ax.lines[0].get_linestyle()), ("row", "None"))
+        self.assertTrue((ax.get_xticks() % 1 == 0).all(), ax.get_xticks())

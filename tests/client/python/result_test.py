@@ -244,7 +244,8 @@ for name, use in (("pandas", result.frame), ("matplotlib", lambda: anticrack.dra
         with self.assertRaisesRegex(anticrack.Error, "other.h5: is no result file"):
             anticrack.read(other)
         for path, said in ((self.folder / "none.h5", "^there is no file .*none.h5; "),
-                           (EXAMPLES / "arc.toml", "arc.toml: cannot be read")):
+                           (EXAMPLES / "arc.toml", "arc.toml: this is a case and no result; solve it"),
+                           (EXAMPLES / "load-ratio.csv", "load-ratio.csv: cannot be read")):
             with self.assertRaisesRegex(anticrack.Error, said):
                 anticrack.read(path)
         with self.assertRaisesRegex(anticrack.Error, f"there is no folder {self.folder}/none; make it"):

@@ -99,6 +99,8 @@ def sweep(result: Result, x: str | int | Array | None = None, inclusion: str | i
         ax.plot(values[rows], columns.contact_length[rows], line, label="contact length")
     name = f"A of {columns.inclusions[chosen[0]]}" if len(chosen) == 1 else "A" if chosen else "contact length"
     ax.set(xlabel=label, ylabel=name + result.units.label("L"))
+    if label == "row":
+        ax.xaxis.get_major_locator().set_params(integer=True)
     if len(ax.get_lines()) > 1:
         more = len(chosen) - _CURVES
         ax.legend(loc="best", fontsize="small", title=f"and {more} more" if more > 0 else None)

@@ -40,10 +40,12 @@ def _boundary(result: Result) -> dict[str, Array]:
     return {"u given": outer[held], "free" if result.traction is False else "free or traction": outer[~held]}
 
 
-def interfaces(result: Result, ax: Any = None, labels: bool = True) -> Any:
-    """The boundary, the inclusions, with dots on the side that came off, and the cracks; labels: names of
-    inclusions, unless they are many, and a legend of the lines."""
+def interfaces(result: Result, load: str | Load | None = None, ax: Any = None, labels: bool = True) -> Any:
+    """The boundary, the inclusions, with dots on the side that came off, and the cracks, the same for every load;
+    labels: names of inclusions, unless they are many, and a legend of the lines."""
     ax = axes(ax)
+    if load is not None:
+        load_of(result, load)
     from matplotlib.collections import LineCollection
     drawn: dict[str, Any] = {}
     for (what, edges), color, width in zip(_boundary(result).items(), ("#444444", "#009E73"), (2.5, 1.2)):
@@ -95,7 +97,7 @@ def displacement(result: Result, load: str | Load | None = None, ax: Any = None,
         if lines:
             _lines(steps, triangulation, part.u, 0.3, ax)
     ax.figure.colorbar(shades, ax=ax, label="u" + result.units.label("L"))
-    interfaces(result, ax)
+    interfaces(result, load, ax)
     ax.set_title(load.name)
     return ax
 
@@ -114,6 +116,13 @@ def flux(result: Result, load: str | Load | None = None) -> list[Array]:
     return sizes
 
 
+def flux_peaks(result: Result, load: Load, sizes: list[Array]) -> tuple[float, float]:
+    """Of what `flux` gives: the end of the axis, and the highest."""
+    corners = [result.mesh.nodes[part.nodes][part.triangles] for part in load.fields]
+    areas = [np.abs(np.linalg.det(np.diff(each, axis=1))) for each in corners]
+    return cut(np.concatenate(sizes), np.concatenate(areas), 0.98, 1.5)
+
+
 def plan(result: Result, load: str | Load | None = None, ax: Any = None, levels: int = 10, cmap: str = "Blues") -> Any:
     """From above: labelled lines of u over the flux (see `flux`) in colours, with cracks and inclusions; takes a case
     with fields. The flux grows without bound at tips: its peaks are cut off, and the colour bar says so."""
@@ -121,9 +130,7 @@ def plan(result: Result, load: str | Load | None = None, ax: Any = None, levels:
     from matplotlib.tri import Triangulation
     sizes = flux(result, load)
     parts = [Triangulation(*result.mesh.nodes[part.nodes].T, part.triangles) for part in load.fields]
-    corners = [np.stack((part.x, part.y), -1)[part.triangles] for part in parts]
-    areas = [np.abs(np.linalg.det(np.diff(each, axis=1))) for each in corners]
-    shown, highest = cut(np.concatenate(sizes), np.concatenate(areas), 0.98, 1.5)
+    shown, highest = flux_peaks(result, load, sizes)
     steps = _levels(load, levels)
     for part, field, size in zip(parts, load.fields, sizes):
         shades = ax.tripcolor(part, size, vmin=0, vmax=shown if shown > 0 else 1, cmap=cmap, rasterized=True)
@@ -134,6 +141,6 @@ def plan(result: Result, load: str | Load | None = None, ax: Any = None, levels:
     name = r"$|\nabla u|$" if result.mesh.tension_law else r"$|T \nabla u|$" + result.units.label("F/L")
     ax.figure.colorbar(shades, ax=ax, label=name + said,
                        extend="max" if said else "neither")
-    interfaces(result, ax)
+    interfaces(result, load, ax)
     ax.set_title(f"{load.name}: lines of u{result.units.label('L')}")
     return ax

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// README.md's table of the result file is what the tables say, and a file holds what it lists.
+// The table of client/RESULT.md is what the tables say, and a file holds what it lists.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hdf5.h>
@@ -56,7 +56,7 @@ std::string line(const std::string& where, const std::string& what) {
   return "| `" + where + "` | " + what + " |\n";
 }
 
-std::string readme_table() {
+std::string result_table() {
   const std::string values = "attributes ";
   return "| where | what |\n|---|---|\n" +
          line("/", values + "`format`; " + entries<Result>(tables::result) + "; " +
@@ -85,12 +85,12 @@ std::string readme_table() {
          line("/sweep", entries<Sweep>(tables::sweep_arrays));
 }
 
-TEST(Readme, has_the_table_of_the_result_file) {
-  std::ifstream file(ANTICRACK_README);
+TEST(ResultTable, has_the_table_of_the_result_file) {
+  std::ifstream file(ANTICRACK_RESULT_TABLE);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
-  EXPECT_THAT(text, ::testing::HasSubstr("\n" + readme_table() + "\n"))
-      << "put this table into README.md:\n"
-      << readme_table();
+  EXPECT_THAT(text, ::testing::EndsWith("\n" + result_table()))
+      << "put this table into client/RESULT.md:\n"
+      << result_table();
 }
 
 /// Where in the table an object of a file is: "/loads/row-3/traces/0" is "/loads/LOAD/traces/I".
@@ -138,13 +138,13 @@ void add_names(const Result& result, Names& names) {
   H5Fclose(file);
 }
 
-TEST(Readme, lists_what_a_file_holds_and_nothing_else) {
+TEST(ResultTable, lists_what_a_file_holds_and_nothing_else) {
   Names held;
   add_names(anticrack::testing::with_stages(anticrack::testing::sample_result(2)), held);
   add_names(anticrack::testing::tilting_sweep(5), held);
   add_names(anticrack::testing::bounded_sweep(5), held);
   Names listed;
-  std::istringstream lines(readme_table());
+  std::istringstream lines(result_table());
   for (std::string text; std::getline(lines, text);) {
     const std::size_t end = text.find('`', 3);
     if (!text.starts_with("| `")) continue;
