@@ -403,6 +403,12 @@ def _load(section: Section, folder: Path, out: Requests) -> None:
         force.need("value", "write the force, a number")
         load.point_forces.add(at=at, value=force.number("value"))
     load.inclusion_forces.update(section.numbers("inclusion_forces", "write inclusion = number for each of them"))
+    held = [part.name for part in out.mesh.geometry.inclusions if part.HasField("fixed")]
+    held += [name for name, motion in out.mesh.options.inclusion_motions.items() if motion.HasField("fixed")]
+    for name in held:
+        if name in load.inclusion_forces:
+            raise section.error(f"inclusion_forces.{name}", "the inclusion is held by its key fixed, so a force on it "
+                                                            "moves nothing; leave one of the two out")
     cure = "write inclusion = [Mx, My] for each of them"
     for name, entry in section.entries("inclusion_moments", cure):
         moment = load.inclusion_moments[name]

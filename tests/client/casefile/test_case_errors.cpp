@@ -19,6 +19,7 @@ struct Mistake {
   const char* from;
   const char* to;
   const char* complaint;  ///< the whole message
+  std::vector<std::string> overrides = {};
 };
 
 class Mistakes : public ::testing::TestWithParam<Mistake> {};
@@ -26,7 +27,7 @@ class Mistakes : public ::testing::TestWithParam<Mistake> {};
 TEST_P(Mistakes, NameLineKeyValueAndCure) {
   const Mistake& mistake = GetParam();
   ASSERT_NE(sample_text.find(mistake.from), std::string::npos);
-  EXPECT_EQ(complaint(sample_with(mistake.from, mistake.to)), mistake.complaint);
+  EXPECT_EQ(complaint(sample_with(mistake.from, mistake.to), mistake.overrides), mistake.complaint);
 }
 
 const Mistake mistakes[] = {
@@ -357,6 +358,18 @@ const Mistake load_mistakes[] = {
     load("unknown_region", "f = {top = 1}\n",
          "plate.toml:17: load.one.f.top: there is no region of this name; name one by "
          "[[geometry.region]]"),
+    {"force_on_one_of_two_names",
+     "f = 1\n",
+     "f = 1\ninclusion_forces = {rod = 1}\n",
+     "plate.toml:18: load.one.inclusion_forces.rod: there is no inclusion of this name; two "
+     "inclusions are called \"fibre\": give each its own name",
+     {"geometry.inclusion.1={name='fibre', center=[0, 0.5], length=0.1}"}},
+    {"force_on_a_held_inclusion",
+     "f = 1\n",
+     "f = 1\ninclusion_forces = {fibre = 0}\n",
+     "plate.toml:18: load.one.inclusion_forces.fibre: the inclusion is held by its key fixed, so a "
+     "force on it moves nothing; leave one of the two out",
+     {"geometry.inclusion.fibre.fixed=0.1"}},
     load("inclusion_moments_list", "inclusion_moments = [0, 1]\n",
          "plate.toml:17: load.one.inclusion_moments: [ 0, 1 ] is not a table; write inclusion = "
          "[Mx, My] for each of them"),

@@ -52,6 +52,8 @@ WRONG = [
     ("[[load]]\nname = 'a'\nf = [1]", "case: load.a.f: [1] is not a finite number"),
     ("[[load]]\nname = 'a'\nf = {values = [1]}", "case: load.a.f.per: missing"),
     ("[[load]]\nname = 'a'\nf = {file = 'none.h5', dataset = '/f', per = 'node'}", "case: load.a.f.file: none.h5: "),
+    ("[[geometry.inclusion]]\nname = 'rod'\npoints = []\nfixed = 1\n[[load]]\nname = 'a'\ninclusion_forces = {rod = 1}",
+     "case: load.a.inclusion_forces.rod: the inclusion is held by its key fixed"),
     ("[[load]]\nname = 'a'\nf = inf", "case: load.a.f: inf is not a finite number"),
     ("[accuracy]\nenergy = 2", "case: accuracy.energy: 2 is out of range"),
     ("[accuracy]\ntime = 1", "case: accuracy: no accuracy"),
@@ -97,7 +99,8 @@ run_timeout = 1.5
 name = "a"
 inclusion_forces = { fibre = 1 }
 """
-        text = text.replace("delaminated = true", "delaminated = true\nfixed = 0.1")
+        text = text.replace("delaminated = true", "delaminated = true\n[[geometry.inclusion]]\nname = 'rod'\n"
+                                                  "center = [0, 0.75]\nlength = 0.25\nfixed = 0.1")
         (self.folder / "case.toml").write_text(text, encoding="utf-8")
         with Daemon(self.folder) as daemon, anticrack.connect(f"127.0.0.1:{daemon.port}") as client:
             ours = client.submit(self.folder / "case.toml").refresh().message
