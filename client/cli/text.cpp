@@ -93,6 +93,8 @@ std::string exact(double value) {
 
 std::string per_cent(double value) { return number(100 * value, value < 1 ? 2 : 3) + " %"; }
 
+std::string contact_text(double length) { return number(length, 3); }
+
 std::string csv_field(std::string_view text) {
   if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
   std::string quoted = "\"";

@@ -217,7 +217,7 @@ class Load:
             told += f" ({self.reason or self.error})"
         if not np.isnan(self.energy):
             told += (f", energy = {self._energy()}, contact length "
-                     f"{self.contact_length:.6g}{self.units.behind('L')}")
+                     f"{self.contact_length:.3g}{self.units.behind('L')}")
         if self.no_bracket:
             told += f"\nno bounds: {self.no_bracket}"
         if self.inclusions:
@@ -228,7 +228,7 @@ class Load:
         """For a notebook."""
         length, force = self.units.label("L"), self.units.label("F")
         rows = [[part.name, interval(part.A_lower, part.A_upper, part.A), f"{part.resultant:.6g}",
-                 f"{part.contact_length:.6g}"] for part in self.inclusions.values()]
+                 f"{part.contact_length:.3g}"] for part in self.inclusions.values()]
         return html_table(repr(self).partition("\n")[0], ["inclusion", "A" + length, "resultant" + force,
                                                           "contact length" + length], rows)
 
