@@ -30,7 +30,6 @@ void read_mesh(const Section& root, Case& result) {
   }
   root.need("geometry", "write [geometry] with boundary and interface, or mesh.file = \"x.msh\"");
   *result.mesh.mutable_geometry() = read_geometry(*geometry, result.spots);
-  note_missing_tension(result);
   if (root.find("accuracy") && !(mesh && mesh->find("preset")))
     result.mesh.mutable_options()->set_preset(v1::MESH_PRESET_COARSE);
 }
@@ -132,6 +131,7 @@ Case parse_case(const std::string& text, const std::filesystem::path& path,
   read_job(root, result.job, result.spots);
   read_units(root, result.job, result.spots);
   read_output(root, result);
+  note_missing_tension(result);
   return result;
 }
 

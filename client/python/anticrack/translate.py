@@ -74,7 +74,25 @@ def requests_of(tables: Mapping[str, Any], source: str, folder: Path, loads_need
     if out.job.HasField("accuracy") or (out.job.outputs and out.job.solver.HasField("active_set")
                                         and not out.job.without_bounds):
         out.job.outputs.append(solve_pb2.OUTPUT_INDICATORS)
+    _warn_of_tension(root, out)
     return out
+
+
+def _warn_of_tension(root: Section, out: Requests) -> None:
+    """Last: of a case with an error the error is told alone."""
+    without = [region for region in out.mesh.geometry.regions
+               if not (region.HasField("tension") or region.HasField("tension_law"))]
+    options, units = out.mesh.options, out.job.units
+    if 0 < len(without) < len(out.mesh.geometry.regions):
+        others = len(without) - 1
+        warnings.warn(str(root.error(f"geometry.region.{without[0].name}", (
+            f"it and {others} more give" if others else "it gives") + " no tension, though other regions do, so "
+            f"{'their' if others else 'its'} tension is 1; write tension = 1 where that is meant")))
+    elif (len(without) == len(out.mesh.geometry.regions) and units.length and units.force
+          and not options.tension and not options.tension_laws):
+        warnings.warn(str(root.error("units", f"nothing gives a tension, so T is 1 {units.force}/{units.length}; write "
+                                              + ("tension in [[geometry.region]]" if out.msh is None
+                                                 else "[mesh.tension]"))))
 
 
 def _set(message: Any, **values: Any) -> None:
@@ -182,7 +200,6 @@ def _geometry(section: Section, geometry: mesh_pb2.Geometry) -> None:
         _place(part, "the crack", crack)
         _set(crack, contact=part.boolean("contact"))
     _neumann(section, geometry)
-    without_tension: list[Section] = []
     for part in section.sections("region", ["name", "at", *_OUTLINE, "tension"]):
         region = geometry.regions.add(name=_name(part, "region"))
         if _shape(part, ["at", *_OUTLINE], "the region") in ("at", ""):
@@ -191,16 +208,10 @@ def _geometry(section: Section, geometry: mesh_pb2.Geometry) -> None:
         else:
             _outline(part, "the region", region.outline)
         given = _tension(part, "tension")
-        without_tension += [part] * (given is None)
         if isinstance(given, mesh_pb2.Tension):
             region.tension_law.CopyFrom(given)
         else:
             _set(region, tension=given)
-    if 0 < len(without_tension) < len(geometry.regions):
-        others = len(without_tension) - 1
-        warnings.warn(str(without_tension[0].error("", (f"it and {others} more give" if others else "it gives") +
-                                                   " no tension, as other regions do, which is then 1; write tension "
-                                                   "= 1 where that is meant")))
 
 
 def _tension(section: Section, key: str) -> float | mesh_pb2.Tension | None:
