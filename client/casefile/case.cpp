@@ -44,6 +44,18 @@ std::string line_of(const std::string& text, unsigned line) {
   return found.size() > longest ? found.substr(0, longest) + "..." : found;
 }
 
+// Of what is wrong behind the = of a key.
+std::string cure_of_value(const std::string& description, const std::string& line,
+                          unsigned column) {
+  const std::size_t equals = line.find('=');
+  if (equals == std::string::npos || column < equals + 2 ||
+      !description.starts_with("Error while parsing") ||
+      description.find("redefine") != std::string::npos)
+    return "";
+  return "; a value is a number as 3.5, true, false, a text in quotes or a list; units are "
+         "named in [units]";
+}
+
 std::string reason(int error) {
   return error == 0 ? std::string() : ": " + std::generic_category().message(error);
 }
@@ -57,9 +69,10 @@ toml::table parse(const std::string& text, const std::string& name) {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {
     const toml::source_position& place = error.source().begin;
+    const std::string line = line_of(text, place.line), problem(error.description());
     throw Error({"column " + std::to_string(place.column), name, place.line},
-                "this is not TOML: " + std::string(error.description()) +
-                    "; the line is: " + line_of(text, place.line));
+                "this is not TOML: " + problem + cure_of_value(problem, line, place.column) +
+                    "; the line is: " + line);
   }
 }
 

@@ -263,7 +263,7 @@ def _line(section: Section, shape: str, line: mesh_pb2.Line) -> None:
         return
     section.need("length", "write its length, beside its center")
     line.segment.CopyFrom(mesh_pb2.Segment(center=section.point_of(section.get("center"), "center"),
-                                           angle=section.number("angle"), length=section.positive("length")))
+                                           angle=section.number("angle"), length=section.positive("length", has_default=False)))
 
 
 def _outline(section: Section, what: str, outline: mesh_pb2.Outline) -> None:
@@ -276,7 +276,7 @@ def _outline(section: Section, what: str, outline: mesh_pb2.Outline) -> None:
         assert circle is not None
         center = circle.point_of(circle.need("center", "write [x, y]"), "center")
         circle.need("radius", "write its radius")
-        outline.circle.CopyFrom(mesh_pb2.Circle(center=center, radius=circle.positive("radius")))
+        outline.circle.CopyFrom(mesh_pb2.Circle(center=center, radius=circle.positive("radius", has_default=False)))
         return
     line = outline.polygon if shape == "points" else outline.spline
     line.points.extend(mesh_pb2.Point(**point) for point in section.points_of(section.get(shape), shape))
@@ -336,6 +336,8 @@ def _delamination(section: Section, inclusion: mesh_pb2.Inclusion) -> None:
             else:
                 parts.parts.add(**section.part_of(pair, key))
     elif isinstance(value, bool):
+        if not value:
+            section.refuse(["side"], "nothing comes off on it, as delaminated = false; remove one of the two")
         inclusion.delaminated = value
     elif value in _SIDES:
         section.refuse(["side"], "delaminated names a side too; remove one of the two")
