@@ -43,12 +43,10 @@ const std::vector<std::string> head_of_spans{"", "least", "of", "most", "of"};
 
 // To four digits, rounded out of the range (`sign`: below or above), which then lies inside.
 std::string end_of(double value, int sign) {
-  constexpr int digits = 4;
-  const std::string text = number(value, digits);
-  if (!std::isfinite(value) || value == 0) return text;
-  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - (digits - 1));
+  if (!std::isfinite(value) || value == 0) return number(value);
+  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 3);
   const double shown = std::round(value / unit) * unit;
-  return sign * (value - shown) > 1e-6 * unit ? number(shown + sign * unit, digits) : text;
+  return number(sign * (value - shown) > 1e-6 * unit ? shown + sign * unit : shown);
 }
 
 void add_span(const std::string& name, const std::string& unit, const SweepSummary::Range& range,

@@ -85,7 +85,9 @@ TEST(SweepTable, SpansTheMembranesOwnWhereThereAreBounds) {
                                                "contact length        0    20.3\n"));
   result.sweep->displacement_lower[0] = -1.23476e5;
   result.sweep->displacement_upper[2] = -1e-7 + 1;
-  EXPECT_THAT(answers_table(result), HasSubstr("A               -1.235e+05     1\n"));
+  result.sweep->contact_length[0] = 1234.5;
+  EXPECT_THAT(answers_table(result), HasSubstr("A               -123500     1\n"
+                                               "contact length        0  1230\n"));
 }
 
 TEST(SweepTable, TellsOfManyInclusionsWhoseTheEndsAre) {
