@@ -30,7 +30,6 @@ void read_mesh(const Section& root, Case& result) {
   }
   root.need("geometry", "write [geometry] with boundary and interface, or mesh.file = \"x.msh\"");
   *result.mesh.mutable_geometry() = read_geometry(*geometry, result.spots);
-  note_missing_tension(result);
   if (root.find("accuracy") && !(mesh && mesh->find("preset")))
     result.mesh.mutable_options()->set_preset(v1::MESH_PRESET_COARSE);
 }
@@ -43,6 +42,18 @@ std::string line_of(const std::string& text, unsigned line) {
   for (unsigned i = 0; i < line && std::getline(lines, found); ++i) {
   }
   return found.size() > longest ? found.substr(0, longest) + "..." : found;
+}
+
+// Of what is wrong behind the = of a key.
+std::string cure_of_value(const std::string& description, const std::string& line,
+                          unsigned column) {
+  const std::size_t equals = line.find('=');
+  if (equals == std::string::npos || column < equals + 2 ||
+      !description.starts_with("Error while parsing") ||
+      description.find("redefine") != std::string::npos)
+    return "";
+  return "; a value is a number as 3.5, true, false, a text in quotes or a list; units are "
+         "named in [units]";
 }
 
 std::string reason(int error) {
@@ -58,9 +69,10 @@ toml::table parse(const std::string& text, const std::string& name) {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {
     const toml::source_position& place = error.source().begin;
+    const std::string line = line_of(text, place.line), problem(error.description());
     throw Error({"column " + std::to_string(place.column), name, place.line},
-                "this is not TOML: " + std::string(error.description()) +
-                    "; the line is: " + line_of(text, place.line));
+                "this is not TOML: " + problem + cure_of_value(problem, line, place.column) +
+                    "; the line is: " + line);
   }
 }
 
@@ -132,6 +144,7 @@ Case parse_case(const std::string& text, const std::filesystem::path& path,
   read_job(root, result.job, result.spots);
   read_units(root, result.job, result.spots);
   read_output(root, result);
+  note_missing_tension(result);
   return result;
 }
 

@@ -116,6 +116,15 @@ void note_missing_tension(Case& result) {
     return region.has_tension() || region.has_tension_law();
   };
   const auto with = std::ranges::count_if(regions, given);
+  const v1::Units& units = result.job.units();
+  const v1::MeshOptions& options = result.mesh.options();
+  if (with == 0 && options.tension().empty() && options.tension_laws().empty() &&
+      !units.length().empty() && !units.force().empty()) {
+    result.notes.push_back(
+        prefix(result.spots.at("units")) + "nothing gives a tension, so T is 1 " + units.force() +
+        "/" + units.length() + "; write " +
+        (result.mesh_file ? "[mesh.tension]" : "tension in [[geometry.region]]"));
+  }
   const auto first = std::ranges::find_if_not(regions, given);
   if (with == 0 || first == regions.end()) return;
   const auto others = regions.size() - with - 1;
@@ -123,7 +132,8 @@ void note_missing_tension(Case& result) {
   result.notes.push_back(
       prefix(spot) +
       (others == 0 ? "it gives" : "it and " + std::to_string(others) + " more give") +
-      " no tension, as other regions do, which is then 1; write tension = 1 where that is meant");
+      " no tension, though other regions do, so " + (others == 0 ? "its" : "their") +
+      " tension is 1; write tension = 1 where that is meant");
 }
 
 v1::Geometry read_geometry(const Section& section, Spots& spots) {

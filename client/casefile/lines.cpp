@@ -38,7 +38,7 @@ void read_any(const Section& section, const std::string& key, const std::string&
 
 double need_positive(const Section& section, const char* key, const char* cure) {
   section.need(key, cure);
-  return *section.positive(key);
+  return *section.positive(key, false);
 }
 
 }  // namespace

@@ -80,10 +80,15 @@ void check_names(const Section& section, const char* key, const std::string& wha
                  const std::vector<std::string>& known) {
   for (const auto& [name, entry] : section.entries(key, "")) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    std::vector<std::string> sorted = known;
+    std::ranges::sort(sorted);
+    const auto twice = std::ranges::adjacent_find(sorted);
     throw Error(spot_of(*entry, section.path_of(key, name)),
                 "there is no " + what + " of this name; " +
                     (known.empty() ? "name one by [[geometry." + what + "]]"
-                                   : words::suggestion(name, known)));
+                     : twice != sorted.end()
+                         ? "two " + what + "s are called \"" + *twice + "\": give each its own name"
+                         : words::suggestion(name, known)));
   }
 }
 
@@ -113,6 +118,16 @@ void check_names(const Section& section, const v1::LoadCase& load, const v1::Geo
   }
 }
 
+// The server takes it, as its work belongs to the energy, but nothing moves by it.
+void refuse_force_on_held(const std::string& name, const v1::LoadCase& load,
+                          const std::string& field, const Spots& spots) {
+  if (!load.inclusion_forces().contains(name)) return;
+  throw Error(
+      spots.at(field + ".inclusion_forces." + name),
+      "the inclusion is held by its key fixed, so a force on it moves nothing; leave one of "
+      "the two out");
+}
+
 void read_load(const Section& section, std::size_t index, Case& result) {
   const std::string field = entry_field("load_cases", index);
   Spots& spots = result.spots;
@@ -139,6 +154,10 @@ void read_load(const Section& section, std::size_t index, Case& result) {
     }
   }
   if (result.mesh.has_geometry()) check_names(section, load, result.mesh.geometry());
+  for (const v1::Inclusion& inclusion : result.mesh.geometry().inclusions())
+    if (inclusion.has_fixed()) refuse_force_on_held(inclusion.name(), load, field, spots);
+  for (const auto& [name, motion] : result.mesh.options().inclusion_motions())
+    if (motion.has_fixed()) refuse_force_on_held(name, load, field, spots);
 }
 
 }  // namespace

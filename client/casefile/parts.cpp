@@ -84,6 +84,9 @@ void read_delamination(const Section& section, const std::string& field, v1::Inc
   if (const toml::array* list = node->as_array()) {
     read_delaminated_parts(*list, key, parts, *inclusion.mutable_delaminated_parts(), spots);
   } else if (const auto all = node->value_exact<bool>()) {
+    if (!*all && section.find("side"))
+      throw Error(section.spot_of("side"),
+                  "nothing comes off on it, as delaminated = false; remove one of the two");
     inclusion.set_delaminated(*all);
   } else if (side) {
     inclusion.set_delaminated(true);

@@ -2,6 +2,7 @@
 #include "casefile/section.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -86,11 +87,30 @@ std::string shown(const toml::node& node) {
   return text;
 }
 
+namespace {
+
+/// "100" of "100 mm"; empty of any other text, as "infinite".
+std::string before_unit(const std::string& text) {
+  double value = 0;
+  const char* const end = text.data() + text.size();
+  const char* const stop = std::from_chars(text.data(), end, value).ptr;
+  const char* const unit = std::find_if(stop, end, [](char c) { return c != ' '; });
+  const bool named =
+      unit != end && std::isfinite(value) && std::isalpha(static_cast<unsigned char>(*unit)) != 0;
+  return named ? std::string(text.data(), stop) : std::string();
+}
+
+}  // namespace
+
 double number_of(const toml::node& node, const std::string& key, std::string_view cure) {
   const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
-  if (!value || !std::isfinite(*value))
-    throw Error(spot_of(node, key), shown(node) + " is not a finite number; " + std::string(cure));
-  return *value;
+  if (value && std::isfinite(*value)) return *value;
+  const std::string plain = before_unit(node.value_exact<std::string>().value_or(""));
+  throw Error(
+      spot_of(node, key),
+      shown(node) + (plain.empty() ? " is not a finite number; " + std::string(cure)
+                                   : " is a number with a unit; write " + plain +
+                                         ": the units of all numbers are those of [units]"));
 }
 
 Point pair_of(const toml::node& node, const std::string& key, const std::string& what,
@@ -164,12 +184,11 @@ std::optional<double> Section::number(std::string_view key) const {
                    node->is_string() ? "write a number without quotes" : "write a finite number");
 }
 
-std::optional<double> Section::positive(std::string_view key) const {
+std::optional<double> Section::positive(std::string_view key, bool has_default) const {
   const std::optional<double> value = number(key);
   if (value && !(*value > 0)) {
-    throw Error(spot_of(key), shown(*find(key)) +
-                                  " is not above 0; write a number above 0, or leave the key out "
-                                  "for its default");
+    throw Error(spot_of(key), shown(*find(key)) + " is not above 0; write a number above 0" +
+                                  (has_default ? ", or leave the key out for its default" : ""));
   }
   return value;
 }

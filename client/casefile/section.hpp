@@ -59,7 +59,7 @@ class Section {
   std::optional<std::string> text(std::string_view key) const;
   std::optional<double> number(std::string_view key) const;
   /// A number above 0: in the API 0 stands for the default, which here is an absent key.
-  std::optional<double> positive(std::string_view key) const;
+  std::optional<double> positive(std::string_view key, bool has_default = true) const;
   /// An expression in quotes, or a number.
   std::optional<std::string> expression(std::string_view key) const;
   /// {name = value, ...}, in order of the names; empty where the key is absent.

@@ -29,7 +29,8 @@ inline const std::vector<std::string> mesh_keys{"preset",      "size",      "tip
 /// `section` is [geometry], read with geometry_keys.
 v1::Geometry read_geometry(const Section& section, Spots& spots);
 
-/// Notes regions that give no tension where others do. Once regions are read.
+/// Notes regions that give no tension where others do, or that none does though there are units.
+/// Once the case is read.
 void note_missing_tension(Case& result);
 
 /// `interface` of [geometry]: a list of points, or tables with points, arc or spline. Optional.

@@ -42,15 +42,26 @@ double fraction_of(const StageErrors& stage, const v1::Accuracy& asked) {
   return fraction;
 }
 
-std::string errors_text(const StageErrors& stage, const v1::Accuracy& asked) {
+std::string errors_text(const StageErrors& stage, const v1::Accuracy& asked,
+                        const std::string& scale = "") {
   std::string text = "energy " + unpadded(error_text(stage.energy, asked.energy()));
-  if (tells_displacement(stage, asked))
-    text += ", A " + unpadded(error_text(stage.displacement, asked.displacement()));
-  return text;
+  if (!tells_displacement(stage, asked)) return text;
+  std::string moved = unpadded(error_text(stage.displacement, asked.displacement()));
+  moved.insert(moved.find('%') + 1, scale);
+  return text + ", A " + moved;
 }
 
 std::string counted(std::size_t count, const std::string& one) {
   return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
+}
+
+// What the error of A is a part of, where there are several.
+std::string scale_of(const v1::Job& job) {
+  const auto several = [](const v1::LoadCaseAnswer& answer) {
+    return answer.inclusions_size() > 1;
+  };
+  if (std::ranges::none_of(job.answers(), several)) return "";
+  return job.accuracy().each_inclusion() ? " of each A" : " of the largest A";
 }
 
 }  // namespace
@@ -105,7 +116,7 @@ std::string accuracy_text(const v1::Job& job) {
   std::string text;
   if (const auto stages = stages_of(job); !stages.empty()) {
     const StageErrors& last = stages.back();
-    text = "accuracy: " + errors_text(last, job.accuracy()) + "; " +
+    text = "accuracy: " + errors_text(last, job.accuracy(), scale_of(job)) + "; " +
            counted(stages.size(), "stage") + ", " + std::to_string(last.triangles) +
            " triangles, " + seconds(last.seconds) + " s\n";
   }

@@ -178,7 +178,7 @@ std::vector<std::string> row_of(const results::Load& load, const Told& inclusion
   if (bounded)
     row.push_back(
         when_answered(100 * load.error_bound_relative, load.error_bound_relative < 1 ? 2 : 3));
-  row.push_back(when_answered(load.contact_length));
+  row.push_back(answered ? contact_text(load.contact_length) : "-");
   if (by_uzawa) {
     row.push_back(when_answered(load.theta, 4));
     row.push_back(when_answered(load.theta_star, 4));
@@ -288,7 +288,7 @@ std::string inclusions_table(const results::Result& result) {
     for (const results::Inclusion& inclusion : load.inclusions) {
       auto& row = rows.emplace_back(std::vector{sanitise(load.name), sanitise(inclusion.name)});
       for (const Column& column : columns) row.push_back(column.of(inclusion));
-      row.insert(row.end(), {number(inclusion.resultant), number(inclusion.contact_length)});
+      row.insert(row.end(), {number(inclusion.resultant), contact_text(inclusion.contact_length)});
     }
   }
   return rows.size() == 2 ? "no inclusions\n" : table(rows, {1});

@@ -153,6 +153,10 @@ void add_files(CLI::App& app, const Globals& globals, Command& chosen) {
                    "separated by commas (default: all that have something to show)")
       ->delimiter(',')
       ->allow_extra_args(false)
+      ->check([](const std::string& name) {
+        return name == "pressure" ? "the pressure is a panel of traces; write that, or overview"
+                                  : "";
+      })
       ->check(CLI::IsMember({"overview", "membrane", "plan", "traces", "convergence", "accuracy"}))
       ->excludes(together)
       ->type_name("LIST");

@@ -88,6 +88,9 @@ auto or_later(const Session& session, const v1::Job& job, const Action& action) 
 fs::path result_file(const std::string& case_file, const std::string& output) {
   fs::path file =
       output.empty() ? fs::path(case_file).filename().replace_extension(".h5") : fs::path(output);
+  std::error_code none;  // a file that is not there is no other file
+  if (fs::equivalent(file, case_file, none))
+    throw results::Error(file.string(), "is the case itself", "name another file for the results");
   results::check_writable(file);
   return file;
 }

@@ -17,7 +17,7 @@
 namespace anticrack::cli {
 
 /// The file the results go to: `output`, or CASE.h5 in this folder where that is empty. Throws
-/// results::Error where it cannot be written.
+/// results::Error where it cannot be written, or is the case.
 std::filesystem::path result_file(const std::string& case_file, const std::string& output);
 
 /// Submits a case and shows its progress. A server that comes back without its jobs is handed the

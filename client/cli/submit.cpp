@@ -124,10 +124,16 @@ client::Error in_terms_of(const casefile::Case& the_case, const client::Error& e
   return client::Error(error.code(), message.empty() ? error.what() : message, error.details());
 }
 
-v1::Mesh create_mesh(Session& session, const casefile::Case& the_case) {
+namespace {
+
+// Once nothing is refused: of a case with an error the error is told alone.
+void tell_notes(const Session& session, const casefile::Case& the_case) {
   // standard output may be for the name alone
   for (const std::string& note : the_case.notes)
     if (!session.globals().quiet) complain("note: " + note);
+}
+
+v1::Mesh send_mesh(Session& session, const casefile::Case& the_case) {
   if (the_case.mesh_file && !std::filesystem::is_regular_file(*the_case.mesh_file)) {
     const bool folder = std::filesystem::is_directory(*the_case.mesh_file);
     const casefile::Spot spot = *the_case.locate("upload");
@@ -144,16 +150,25 @@ v1::Mesh create_mesh(Session& session, const casefile::Case& the_case) {
   });
 }
 
+}  // namespace
+
+v1::Mesh create_mesh(Session& session, const casefile::Case& the_case) {
+  v1::Mesh mesh = send_mesh(session, the_case);
+  tell_notes(session, the_case);
+  return mesh;
+}
+
 v1::Job submit(Session& session, const casefile::Case& the_case, const std::string& request_id,
                const Prepare& prepare) {
   v1::Job job = the_case.job;
   upload_forces(session, the_case, job);  // first: a file that cannot be read starts nothing
   if (prepare) translated(the_case, [&] { prepare(job); });
-  const v1::Mesh mesh = create_mesh(session, the_case);
-  return translated(the_case, [&] {
-    job.set_mesh(mesh.name());
+  job.set_mesh(send_mesh(session, the_case).name());
+  const v1::Job submitted = translated(the_case, [&] {
     return client::create_job(session.connection(), job, request_id, session.stop());
   });
+  tell_notes(session, the_case);
+  return submitted;
 }
 
 void tell_submitted(const Session& session, const v1::Job& job) {

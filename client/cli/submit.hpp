@@ -46,7 +46,7 @@ auto translated(const casefile::Case& the_case, const Call& call) -> decltype(ca
 }
 
 /// Uploads the case's .msh if it has one, and creates its mesh. A refusal names the lines of the
-/// case it is about.
+/// case it is about; else what the case notes is told.
 v1::Mesh create_mesh(Session& session, const casefile::Case& the_case);
 
 /// Completes a job before it is submitted: what it needs besides the case has to be uploaded first,

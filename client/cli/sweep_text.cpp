@@ -41,16 +41,24 @@ using Rows = std::vector<std::vector<std::string>>;
 
 const std::vector<std::string> head_of_spans{"", "least", "of", "most", "of"};
 
+// To four digits, rounded out of the range (`sign`: below or above), which then lies inside.
+std::string end_of(double value, int sign) {
+  if (!std::isfinite(value) || value == 0) return number(value);
+  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 3);
+  const double shown = std::round(value / unit) * unit;
+  return number(sign * (value - shown) > 1e-6 * unit ? shown + sign * unit : shown);
+}
+
 void add_span(const std::string& name, const std::string& unit, const SweepSummary::Range& range,
               Rows& rows) {
-  rows.push_back(
-      {sanitise(results::labelled(name, unit)), number(range.low), "", number(range.high), ""});
+  rows.push_back({sanitise(results::labelled(name, unit)), end_of(range.low, -1), "",
+                  end_of(range.high, 1), ""});
 }
 
 void add_inclusions(const results::Sweep& sweep, const SweepSummary& counts,
                     const results::Units& units, Rows& rows) {
   for (std::size_t i = 0; i < sweep.inclusions.size(); ++i) {
-    add_span(name_of("A", sweep, i), units.label("L"), counts.displacement[i], rows);
+    add_span(name_of("A", sweep, i), units.label("L"), counts.displacement_bounds[i], rows);
     for (std::size_t part = 0; part < slope_parts.size() && counts.tilted(i); ++part)
       add_span(name_of(slope_parts[part], sweep, i), "", counts.slope[i][part], rows);
   }
@@ -75,10 +83,10 @@ void add_extremes(const results::Sweep& sweep, const SweepSummary& counts,
     }
     rows.push_back({sanitise(results::labelled(
                         name + (" of " + std::to_string(inclusions) + " inclusions"), unit)),
-                    number(range_of(least).low), sanitise(sweep.inclusions[least]),
-                    number(range_of(most).high), sanitise(sweep.inclusions[most])});
+                    end_of(range_of(least).low, -1), sanitise(sweep.inclusions[least]),
+                    end_of(range_of(most).high, 1), sanitise(sweep.inclusions[most])});
   };
-  add_one("A", units.label("L"), [&](std::size_t i) { return counts.displacement[i]; });
+  add_one("A", units.label("L"), [&](std::size_t i) { return counts.displacement_bounds[i]; });
   for (std::size_t part = 0; part < slope_parts.size() && counts.tilted(); ++part)
     add_one(slope_parts[part], "", [&](std::size_t i) { return counts.slope[i][part]; });
 }
@@ -158,8 +166,10 @@ std::string sweep_table(const results::Sweep& sweep, const results::Units& units
       add_extremes(sweep, counts, units, rows);
     else
       add_inclusions(sweep, counts, units, rows);
-    add_span("contact length", units.label("L"), counts.contact_length, rows);
-    add_span("energy", units.label("F L"), counts.energy, rows);
+    const auto& [shortest, longest] = counts.contact_length;
+    rows.push_back({sanitise(results::labelled("contact length", units.label("L"))),
+                    contact_text(shortest), "", contact_text(longest), ""});
+    add_span("energy", units.label("F L"), counts.energy_bounds, rows);
     text += table_of_spans(std::move(rows));
     if (sweep.inclusions.size() > few_inclusions)
       text += "all inclusions: anticrack show RESULT --inclusions, or --csv FILE\n";

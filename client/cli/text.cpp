@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <ctime>
 
 #include "figures/text.hpp"
@@ -92,6 +93,11 @@ std::string exact(double value) {
 }
 
 std::string per_cent(double value) { return number(100 * value, value < 1 ? 2 : 3) + " %"; }
+
+std::string contact_text(double length) {
+  const std::string three = number(length, 3);
+  return three == "-" ? three : number(std::strtod(three.c_str(), nullptr));  // 1230, not 1.23e+03
+}
 
 std::string csv_field(std::string_view text) {
   if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);

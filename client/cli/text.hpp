@@ -34,6 +34,9 @@ std::string exact(double value);
 /// Of a relative error: "0.8 %", "12 %", "110 %".
 std::string per_cent(double value);
 
+/// Without bounds, and the mesh's to about an edge: three digits.
+std::string contact_text(double length);
+
 /// A field of comma-separated text, in quotes where it needs them.
 std::string csv_field(std::string_view text);
 

@@ -15,6 +15,14 @@ void widen(SweepSummary::Range& range, double value) {
   range.high = std::fmax(range.high, value);
 }
 
+/// By the bounds of an entry, or its value where it has none.
+void widen(SweepSummary::Range& range, const std::vector<double>& values,
+           const std::vector<double>& lower, const std::vector<double>& upper, std::size_t place) {
+  const bool bounded = !lower.empty() && std::isfinite(lower[place]);
+  widen(range, bounded ? lower[place] : values[place]);
+  widen(range, bounded ? upper[place] : values[place]);
+}
+
 void add_bounds(const Sweep& sweep, std::size_t row, SweepSummary& result) {
   if (sweep.energy_lower.empty() || !std::isfinite(sweep.energy_lower[row])) return;
   ++result.bounded;
@@ -112,6 +120,7 @@ SweepSummary summary(const Sweep& sweep) {
   SweepSummary result;
   const std::size_t inclusions = sweep.inclusions.size();
   result.displacement.resize(inclusions);
+  result.displacement_bounds.resize(inclusions);
   result.slope.resize(inclusions);
   for (std::size_t row = 0; row < sweep.rows(); ++row) {
     const Status status = sweep.status[row];
@@ -122,10 +131,14 @@ SweepSummary summary(const Sweep& sweep) {
     result.most_steps = std::max(result.most_steps, sweep.steps[row]);
     result.worst_kkt = std::fmax(result.worst_kkt, sweep.kkt[row]);
     widen(result.energy, sweep.energy[row]);
+    widen(result.energy_bounds, sweep.energy, sweep.energy_lower, sweep.energy_upper, row);
     add_bounds(sweep, row, result);
     widen(result.contact_length, sweep.contact_length[row]);
     for (std::size_t i = 0; i < inclusions; ++i) {
-      widen(result.displacement[i], sweep.displacement[row * inclusions + i]);
+      const std::size_t place = row * inclusions + i;
+      widen(result.displacement[i], sweep.displacement[place]);
+      widen(result.displacement_bounds[i], sweep.displacement, sweep.displacement_lower,
+            sweep.displacement_upper, place);
       for (const std::size_t part : {0U, 1U})
         widen(result.slope[i][part], sweep.slope_at(row, i, part));
     }

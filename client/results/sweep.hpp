@@ -69,6 +69,9 @@ struct SweepSummary {
   std::vector<Range> displacement;          ///< one an inclusion
   std::vector<std::array<Range, 2>> slope;  ///< of Bx and By, one an inclusion
   Range contact_length, energy;
+  /// Of the membrane's own A and energy: by the bounds of a row, or its value where it has none.
+  std::vector<Range> displacement_bounds;
+  Range energy_bounds;
   std::size_t bounded = 0;  ///< converged rows whose energy has bounds
   /// Of these: the largest width of the bounds over the energy's size, and half the largest width
   /// of the bounds of A, of all inclusions; NaN: there are none.

@@ -88,6 +88,10 @@ void require_syntax(const std::string& text, const std::string& field) {
       throw invalid(field, "\"" + text + "\" is a number with a unit; write " + *number +
                                ": the units of all numbers are those of [units]");
     }
+    if (text.find("**") != std::string::npos) {
+      throw invalid(field,
+                    "the expression \"" + text + "\" has **; a power is ^, so write x^2 for x**2");
+    }
     throw invalid(field, "the expression \"" + text + "\" cannot be read: " + error.GetMsg() +
                              " (symbols are x, y, _pi, _e)");
   }

@@ -222,9 +222,16 @@ Plan plan(const Geometry& given, const MeshOptions& options, std::size_t max_tri
   if (snap_ends(network, geometry, plan.warnings)) network = lay_lines(geometry, options);
   const std::vector<std::string> names = check_names(geometry);
   const double area = area_of(network);
-  const double size = options.size > 0 ? options.size
-                                       : default_size(geometry, options.preset,
-                                                      diagonal(outer_polygon(network)), area);
+  const double across = diagonal(outer_polygon(network));
+  if (options.size > across) {
+    throw errors::Error(errors::Reason::invalid_argument,
+                        "an edge length of " + show(options.size) +
+                            " is more than the membrane, which is " + show(across) +
+                            " across; write a smaller one, or leave it out for its default")
+        .at("options.size");
+  }
+  const double size =
+      options.size > 0 ? options.size : default_size(geometry, options.preset, across, area);
   std::size_t triangles = 0;
   if (options.preset != Preset::paper) triangles = check_size(network, area, size, max_triangles);
   // The lines alone first, so that their faults are not reported as faults of the parts on them.

@@ -306,7 +306,10 @@ class Case:
         try:
             case.tables = tomllib.loads(text)
         except tomllib.TOMLDecodeError as error:
-            raise CaseError(f"{source}: this is not TOML: {error}") from None
+            of_value = str(error).startswith(("Invalid value", "Expected newline or end of document"))
+            cure = ("; a value is a number as 3.5, true, false, a text in quotes or a list; units are named in [units]"
+                    if of_value else "")
+            raise CaseError(f"{source}: this is not TOML: {error}{cure}") from None
         case.text, case.source, case.folder = text, source, pathlib.Path(folder)
         return case
 

@@ -15,7 +15,7 @@ import numpy as np
 from .arrays import Array
 from .errors import Error, package
 from .names import Named, Parts
-from .text import counted, html_table, interval, lines, listed
+from .text import counted, html_table, interval, lines, listed, short_length
 from .v1 import mesh_pb2, solve_pb2
 
 NAN = float("nan")
@@ -217,7 +217,7 @@ class Load:
             told += f" ({self.reason or self.error})"
         if not np.isnan(self.energy):
             told += (f", energy = {self._energy()}, contact length "
-                     f"{self.contact_length:.6g}{self.units.behind('L')}")
+                     f"{short_length(self.contact_length)}{self.units.behind('L')}")
         if self.no_bracket:
             told += f"\nno bounds: {self.no_bracket}"
         if self.inclusions:
@@ -228,7 +228,7 @@ class Load:
         """For a notebook."""
         length, force = self.units.label("L"), self.units.label("F")
         rows = [[part.name, interval(part.A_lower, part.A_upper, part.A), f"{part.resultant:.6g}",
-                 f"{part.contact_length:.6g}"] for part in self.inclusions.values()]
+                 short_length(part.contact_length)] for part in self.inclusions.values()]
         return html_table(repr(self).partition("\n")[0], ["inclusion", "A" + length, "resultant" + force,
                                                           "contact length" + length], rows)
 

@@ -68,6 +68,10 @@ class Section:
 
     def number_of(self, value: Any, key: str, cure: str = "write one, such as 0.5") -> float:
         if isinstance(value, bool) or not isinstance(value, numbers.Real) or not math.isfinite(value):
+            unit = re.fullmatch(r"([-+]?[0-9.]+(?:[eE][-+]?[0-9]+)?) *[A-Za-z].*", value) if isinstance(value, str) else None
+            if unit:
+                raise self.error(key, f"{shown(value)} is a number with a unit; write {unit[1]}: the units of all numbers "
+                                      "are those of [units]")
             raise self.error(key, f"{shown(value)} is not a finite number; {cure}")
         return float(value)
 
@@ -100,11 +104,11 @@ class Section:
     def number(self, key: str) -> float | None:
         return self.number_of(self.get(key), key) if key in self else None
 
-    def positive(self, key: str) -> float | None:
+    def positive(self, key: str, has_default: bool = True) -> float | None:
         value = self.number(key)
         if value is not None and value <= 0:
-            raise self.error(key, f"{shown(value)} is not above 0; write a number above 0, or leave the key out for "
-                                  "its default")
+            raise self.error(key, f"{shown(value)} is not above 0; write a number above 0"
+                                  + (", or leave the key out for its default" if has_default else ""))
         return value
 
     def count(self, key: str) -> int | None:

@@ -32,6 +32,11 @@ def interval(lower: float, upper: float, value: float, unit: str = "") -> str:
     return f"({texts[0]} +- {texts[1]})e{exponent}{unit} ({texts[2]}e{exponent} on the mesh)"
 
 
+def short_length(length: float) -> str:
+    """Of contact: without bounds, and the mesh's to about an edge, so three digits."""
+    return f"{float(f'{length:.3g}'):.6g}"
+
+
 def short(text: str, most: int = 60) -> str:
     """In one line, cut."""
     text = " ".join(text.split())

@@ -74,7 +74,25 @@ def requests_of(tables: Mapping[str, Any], source: str, folder: Path, loads_need
     if out.job.HasField("accuracy") or (out.job.outputs and out.job.solver.HasField("active_set")
                                         and not out.job.without_bounds):
         out.job.outputs.append(solve_pb2.OUTPUT_INDICATORS)
+    _warn_of_tension(root, out)
     return out
+
+
+def _warn_of_tension(root: Section, out: Requests) -> None:
+    """Last: of a case with an error the error is told alone."""
+    without = [region for region in out.mesh.geometry.regions
+               if not (region.HasField("tension") or region.HasField("tension_law"))]
+    options, units = out.mesh.options, out.job.units
+    if 0 < len(without) < len(out.mesh.geometry.regions):
+        others = len(without) - 1
+        warnings.warn(str(root.error(f"geometry.region.{without[0].name}", (
+            f"it and {others} more give" if others else "it gives") + " no tension, though other regions do, so "
+            f"{'their' if others else 'its'} tension is 1; write tension = 1 where that is meant")))
+    elif (len(without) == len(out.mesh.geometry.regions) and units.length and units.force
+          and not options.tension and not options.tension_laws):
+        warnings.warn(str(root.error("units", f"nothing gives a tension, so T is 1 {units.force}/{units.length}; write "
+                                              + ("tension in [[geometry.region]]" if out.msh is None
+                                                 else "[mesh.tension]"))))
 
 
 def _set(message: Any, **values: Any) -> None:
@@ -182,7 +200,6 @@ def _geometry(section: Section, geometry: mesh_pb2.Geometry) -> None:
         _place(part, "the crack", crack)
         _set(crack, contact=part.boolean("contact"))
     _neumann(section, geometry)
-    without_tension: list[Section] = []
     for part in section.sections("region", ["name", "at", *_OUTLINE, "tension"]):
         region = geometry.regions.add(name=_name(part, "region"))
         if _shape(part, ["at", *_OUTLINE], "the region") in ("at", ""):
@@ -191,16 +208,10 @@ def _geometry(section: Section, geometry: mesh_pb2.Geometry) -> None:
         else:
             _outline(part, "the region", region.outline)
         given = _tension(part, "tension")
-        without_tension += [part] * (given is None)
         if isinstance(given, mesh_pb2.Tension):
             region.tension_law.CopyFrom(given)
         else:
             _set(region, tension=given)
-    if 0 < len(without_tension) < len(geometry.regions):
-        others = len(without_tension) - 1
-        warnings.warn(str(without_tension[0].error("", (f"it and {others} more give" if others else "it gives") +
-                                                   " no tension, as other regions do, which is then 1; write tension "
-                                                   "= 1 where that is meant")))
 
 
 def _tension(section: Section, key: str) -> float | mesh_pb2.Tension | None:
@@ -252,7 +263,7 @@ def _line(section: Section, shape: str, line: mesh_pb2.Line) -> None:
         return
     section.need("length", "write its length, beside its center")
     line.segment.CopyFrom(mesh_pb2.Segment(center=section.point_of(section.get("center"), "center"),
-                                           angle=section.number("angle"), length=section.positive("length")))
+                                           angle=section.number("angle"), length=section.positive("length", has_default=False)))
 
 
 def _outline(section: Section, what: str, outline: mesh_pb2.Outline) -> None:
@@ -265,7 +276,7 @@ def _outline(section: Section, what: str, outline: mesh_pb2.Outline) -> None:
         assert circle is not None
         center = circle.point_of(circle.need("center", "write [x, y]"), "center")
         circle.need("radius", "write its radius")
-        outline.circle.CopyFrom(mesh_pb2.Circle(center=center, radius=circle.positive("radius")))
+        outline.circle.CopyFrom(mesh_pb2.Circle(center=center, radius=circle.positive("radius", has_default=False)))
         return
     line = outline.polygon if shape == "points" else outline.spline
     line.points.extend(mesh_pb2.Point(**point) for point in section.points_of(section.get(shape), shape))
@@ -325,6 +336,8 @@ def _delamination(section: Section, inclusion: mesh_pb2.Inclusion) -> None:
             else:
                 parts.parts.add(**section.part_of(pair, key))
     elif isinstance(value, bool):
+        if not value:
+            section.refuse(["side"], "nothing comes off on it, as delaminated = false; remove one of the two")
         inclusion.delaminated = value
     elif value in _SIDES:
         section.refuse(["side"], "delaminated names a side too; remove one of the two")
@@ -403,6 +416,12 @@ def _load(section: Section, folder: Path, out: Requests) -> None:
         force.need("value", "write the force, a number")
         load.point_forces.add(at=at, value=force.number("value"))
     load.inclusion_forces.update(section.numbers("inclusion_forces", "write inclusion = number for each of them"))
+    held = [part.name for part in out.mesh.geometry.inclusions if part.HasField("fixed")]
+    held += [name for name, motion in out.mesh.options.inclusion_motions.items() if motion.HasField("fixed")]
+    for name in held:
+        if name in load.inclusion_forces:
+            raise section.error(f"inclusion_forces.{name}", "the inclusion is held by its key fixed, so a force on it "
+                                                            "moves nothing; leave one of the two out")
     cure = "write inclusion = [Mx, My] for each of them"
     for name, entry in section.entries("inclusion_moments", cure):
         moment = load.inclusion_moments[name]

@@ -232,9 +232,30 @@ TEST(Case, NotesARegionThatForgetsItsTension) {
   for (const char* tension : {"tension = 1\n", "tension = \"1 + x\"\n"}) {
     EXPECT_THAT(notes(tension),
                 ::testing::ElementsAre(
-                    "plate.toml:12: geometry.region.a: it gives no tension, as other regions do, "
-                    "which is then 1; write tension = 1 where that is meant"));
+                    "plate.toml:12: geometry.region.a: it gives no tension, though other regions "
+                    "do, so its tension is 1; write tension = 1 where that is meant"));
   }
+}
+
+TEST(Case, NotesUnitsWithoutAnyTension) {
+  const std::string units = "[units]\nlength = \"mm\"\nforce = \"N\"\n";
+  const auto notes = [&](const std::string& more, const std::string& given) {
+    return parse(sample_with("[solver]\n", more + given + "[solver]\n")).notes;
+  };
+  const std::string region = "[[geometry.region]]\nname = \"a\"\nat = [0, 0.5]\n";
+  for (const std::string& more : {std::string(), region}) {
+    EXPECT_THAT(notes(more, units),
+                ::testing::ElementsAre(::testing::EndsWith(
+                    ": units: nothing gives a tension, so T is 1 N/mm; write tension in "
+                    "[[geometry.region]]")));
+    EXPECT_THAT(notes(more, "[units]\nlength = \"mm\"\n"), ::testing::IsEmpty());
+    EXPECT_THAT(notes(more, ""), ::testing::IsEmpty());
+  }
+  EXPECT_THAT(notes(region + "tension = 1\n", units), ::testing::IsEmpty());
+  const std::string file = "mesh.file = \"x.msh\"\n", load = "[[load]]\nname = \"a\"\nf = 1\n";
+  EXPECT_THAT(parse(file + units + load).notes,
+              ::testing::ElementsAre(::testing::EndsWith("write [mesh.tension]")));
+  EXPECT_THAT(parse(file + "mesh.tension = {a = 1}\n" + units + load).notes, ::testing::IsEmpty());
 }
 
 TEST(Case, NeedsNoInterface) {

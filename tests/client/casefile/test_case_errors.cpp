@@ -19,6 +19,7 @@ struct Mistake {
   const char* from;
   const char* to;
   const char* complaint;  ///< the whole message
+  std::vector<std::string> overrides = {};
 };
 
 class Mistakes : public ::testing::TestWithParam<Mistake> {};
@@ -26,7 +27,7 @@ class Mistakes : public ::testing::TestWithParam<Mistake> {};
 TEST_P(Mistakes, NameLineKeyValueAndCure) {
   const Mistake& mistake = GetParam();
   ASSERT_NE(sample_text.find(mistake.from), std::string::npos);
-  EXPECT_EQ(complaint(sample_with(mistake.from, mistake.to)), mistake.complaint);
+  EXPECT_EQ(complaint(sample_with(mistake.from, mistake.to), mistake.overrides), mistake.complaint);
 }
 
 const Mistake mistakes[] = {
@@ -102,6 +103,19 @@ const Mistake mistakes[] = {
     {"two_sides", "to   = [0.5, 0]", "to   = [0.5, 0]\ndelaminated = \"left\"\nside = \"left\"",
      "plate.toml:12: geometry.inclusion.fibre.side: delaminated names a side too; remove one of "
      "the two"},
+    {"side_of_none", "to   = [0.5, 0]", "to   = [0.5, 0]\ndelaminated = false\nside = \"left\"",
+     "plate.toml:12: geometry.inclusion.fibre.side: nothing comes off on it, as delaminated = "
+     "false; remove one of the two"},
+    {"length_0", "from = [-0.5, 0]\nto   = [0.5, 0]", "center = [0, 0.5]\nlength = 0",
+     "plate.toml:10: geometry.inclusion.fibre.length: 0 is not above 0; write a number above 0"},
+    {"length_of_no_number", "from = [-0.5, 0]\nto   = [0.5, 0]",
+     "center = [0, 0.5]\nlength = \"infinite\"",
+     "plate.toml:10: geometry.inclusion.fibre.length: 'infinite' is not a finite number; write a "
+     "number without quotes"},
+    {"length_with_a_unit", "from = [-0.5, 0]\nto   = [0.5, 0]",
+     "center = [0, 0.5]\nlength = \"-1.5e2 mm\"",
+     "plate.toml:10: geometry.inclusion.fibre.length: '-1.5e2 mm' is a number with a unit; write "
+     "-1.5e2: the units of all numbers are those of [units]"},
     {"part_and_line", "to   = [0.5, 0]", "to   = [0.5, 0]\ncenter = [0, 0.5]\nlength = 1",
      "plate.toml:9: geometry.inclusion.fibre.from: belongs to a part of an interface, but the "
      "inclusion has center, a line of its own; remove one of the two"},
@@ -192,7 +206,7 @@ const Mistake geometry_mistakes[] = {
         "plate.toml:7: geometry.hole.0.spline: the hole has circle too; remove one of the two"),
     interface("radius_zero", "[[geometry.hole]]\ncircle = { center = [0, 0], radius = 0 }\n",
               "plate.toml:6: geometry.hole.0.circle.radius: 0 is not above 0; write a number above "
-              "0, or leave the key out for its default"),
+              "0"),
     interface("circle_without_radius", "[[geometry.hole]]\ncircle = { center = [0, 0] }\n",
               "plate.toml:6: geometry.hole.0.circle.radius: missing; write its radius"),
     interface(
@@ -357,6 +371,18 @@ const Mistake load_mistakes[] = {
     load("unknown_region", "f = {top = 1}\n",
          "plate.toml:17: load.one.f.top: there is no region of this name; name one by "
          "[[geometry.region]]"),
+    {"force_on_one_of_two_names",
+     "f = 1\n",
+     "f = 1\ninclusion_forces = {rod = 1}\n",
+     "plate.toml:18: load.one.inclusion_forces.rod: there is no inclusion of this name; two "
+     "inclusions are called \"fibre\": give each its own name",
+     {"geometry.inclusion.1={name='fibre', center=[0, 0.5], length=0.1}"}},
+    {"force_on_a_held_inclusion",
+     "f = 1\n",
+     "f = 1\ninclusion_forces = {fibre = 0}\n",
+     "plate.toml:18: load.one.inclusion_forces.fibre: the inclusion is held by its key fixed, so a "
+     "force on it moves nothing; leave one of the two out",
+     {"geometry.inclusion.fibre.fixed=0.1"}},
     load("inclusion_moments_list", "inclusion_moments = [0, 1]\n",
          "plate.toml:17: load.one.inclusion_moments: [ 0, 1 ] is not a table; write inclusion = "
          "[Mx, My] for each of them"),
@@ -386,6 +412,14 @@ TEST(CaseErrors, SyntaxNamesTheLine) {
   EXPECT_THAT(complaint("title = \"A\"\n[geometry\n"),
               AllOf(StartsWith("plate.toml:2: column 10: this is not TOML: "),
                     EndsWith("; the line is: [geometry")));
+  const std::string cure =
+      "; a value is a number as 3.5, true, false, a text in quotes or a list; units are named in "
+      "[units]; the line is: ";
+  for (const std::string line :
+       {"length = 100 mm", "length = 3,5", "tilt = True", "side = right", "length ="})
+    EXPECT_THAT(complaint("title = \"A\"\n" + line + "\n"), EndsWith(cure + line));
+  for (const std::string line : {"[geometry", "leng th = 3", "title = \"B\""})
+    EXPECT_THAT(complaint("title = \"A\"\n" + line + "\n"), Not(HasSubstr("a value is")));
   EXPECT_EQ(complaint(std::string("title\0", 6)),
             "plate.toml: this is not text; name a case, a TOML file");
 }

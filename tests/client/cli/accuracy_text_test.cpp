@@ -89,6 +89,15 @@ TEST(AccuracyText, TellsWhatWasReachedAndWhatNot) {
   job.add_stages()->set_mesh("meshes/3");  // was stopped
   EXPECT_EQ(accuracy_text(job),
             "accuracy: energy 0.09 % (asked 0.1 %), A 0.9 %; 2 stages, 12345 triangles, 0.5 s\n");
+  for (int i = 0; i < 2; ++i) job.mutable_answers()->Add()->add_inclusions();
+  EXPECT_THAT(accuracy_text(job), HasSubstr(", A 0.9 %; ")) << "one inclusion, two load cases";
+  job.mutable_answers(1)->add_inclusions();
+  EXPECT_THAT(accuracy_text(job), HasSubstr(", A 0.9 % of the largest A; "));
+  job.mutable_accuracy()->set_displacement(0.01);
+  job.mutable_accuracy()->set_each_inclusion(true);
+  EXPECT_THAT(accuracy_text(job), HasSubstr(", A 0.9 % of each A (asked 1 %); "));
+  job.clear_answers();
+  *job.mutable_accuracy() = asked(1e-3);
   job.mutable_stages()->DeleteSubrange(1, 2);
   job.mutable_stages(0)->mutable_answers(0)->clear_displacement_error();
   job.set_not_reached("no\x1bmore");

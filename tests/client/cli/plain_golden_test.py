@@ -50,6 +50,10 @@ class PlainGolden(GoldenTest):
         note = "anticrack: note: --set geometry.region.1.at=[0, -0.5]: geometry.region.below: it gives no tension, "
         self.assertTrue(created.stderr.startswith(note), created.stderr)
         self.assertNotIn("note", created.stdout)
+        refused = self.anticrack("job", "submit", *forgets, "--set", "load.skew.point_forces.0.at=[3, 3]", "--set",
+                                 "load.opening.f=x +* 2")
+        self.assertEqual(refused.returncode, 2)
+        self.assertNotIn("note", refused.stderr, "the error alone")
         self.assertEqual(self.anticrack("--quiet", "mesh", "create", *forgets).stderr, "")
 
     def test_results_without_fields(self):

@@ -71,6 +71,25 @@ TEST(SweepTable, SaysHowWideBoundsAre) {
   EXPECT_THAT(answers_table(result), HasSubstr("no row has bounds\n"));
 }
 
+TEST(SweepTable, SpansTheMembranesOwnWhereThereAreBounds) {
+  results::Result result = anticrack::testing::bounded_sweep(5);
+  EXPECT_THAT(answers_table(result), HasSubstr("                least  most\n"
+                                               "A               -0.11   0.1\n"
+                                               "contact length      0   0.9\n"
+                                               "energy          -2.01    -1\n"))
+      << "of the last row, without bounds, A = 0.1 on the mesh";
+  result.sweep->displacement_lower[0] = -0.123412;
+  result.sweep->displacement_upper[2] = 0.123412;
+  result.sweep->contact_length[0] = 20.3125;
+  EXPECT_THAT(answers_table(result), HasSubstr("A               -0.1235  0.1235\n"
+                                               "contact length        0    20.3\n"));
+  result.sweep->displacement_lower[0] = -1.23476e5;
+  result.sweep->displacement_upper[2] = -1e-7 + 1;
+  result.sweep->contact_length[0] = 1234.5;
+  EXPECT_THAT(answers_table(result), HasSubstr("A               -123500     1\n"
+                                               "contact length        0  1230\n"));
+}
+
 TEST(SweepTable, TellsOfManyInclusionsWhoseTheEndsAre) {
   results::Result result = sample_sweep(3);
   results::Sweep& sweep = *result.sweep;

@@ -42,10 +42,12 @@ CASES = [
     # What TOML does not allow.
     ([("size = 0.5", "size = = 0.5")], 2,
      "wrong.toml:15: column 8: this is not TOML: Error while parsing value: could not determine value "
-     "type; the line is: size = = 0.5"),
+     "type; a value is a number as 3.5, true, false, a text in quotes or a list; units are named in [units]; the line "
+     "is: size = = 0.5"),
     ([('"Plate"', '"Plate')], 2,
      "wrong.toml:1: column 15: this is not TOML: Error while parsing string: unescaped control "
-     'characters other than TAB (U+0009) are explicitly prohibited; the line is: title = "Plate'),
+     'characters other than TAB (U+0009) are explicitly prohibited; a value is a number as 3.5, true, false, a text in quotes '
+     'or a list; units are named in [units]; the line is: title = "Plate'),
     ([("size = 0.5", "size = 0.5\nsize = 1")], 2,
      "wrong.toml:16: column 8: this is not TOML: Error while parsing key-value pair: cannot redefine "
      "existing floating-point 'size'; the line is: size = 1"),
@@ -208,6 +210,11 @@ CASES = [
     ([("y > 0 ? 1 : -1", "sine(x)")], 2,
      'wrong.toml:23: load.opening.f: the expression "sine(x)" cannot be read: Unexpected token "sine" found '
      "at position 0. (symbols are x, y, _pi, _e)"),
+    ([(F, 'f = "x**2"')], 2,
+     'wrong.toml:23: load.opening.f: the expression "x**2" has **; a power is ^, so write x^2 for x**2'),
+    ([("size = 0.5", "size = 3")], 2,
+     "wrong.toml:15: mesh.size: an edge length of 3 is more than the membrane, which is 2.8284271 across; write a "
+     "smaller one, or leave it out for its default"),
     ([(F, 'f = "3 kPa"')], 2,
      'wrong.toml:23: load.opening.f: "3 kPa" is a number with a unit; write 3: the units of all numbers are those of '
      "[units]"),

@@ -38,6 +38,12 @@ WRONG = [
     ("[[geometry.inclusion]]\nname = 'b'\nside = 'up'\nfrom = [0, 0]\nto = [1, 0]",
      "case: geometry.inclusion.b.side: 'up' is not possible; known are left, right"),
     ("[[geometry.inclusion]]\nname = 'b'\ncenter = [0, 0]", "case: geometry.inclusion.b.length: missing; write its"),
+    ("[[geometry.inclusion]]\nname = 'b'\ncenter = [0, 0]\nlength = 0",
+     "case: geometry.inclusion.b.length: 0.0 is not above 0; write a number above 0"),
+    ("[[geometry.inclusion]]\nname = 'b'\ncenter = [0, 0]\nlength = '100 mm'",
+     "case: geometry.inclusion.b.length: '100 mm' is a number with a unit; write 100: the units of "),
+    ("[[geometry.inclusion]]\nname = 'b'\npoints = []\ndelaminated = false\nside = 'left'",
+     "case: geometry.inclusion.b.side: nothing comes off on it"),
     ("[[geometry.inclusion]]\nname = 'b'\narc = [[0, 0]]", "case: geometry.inclusion.b.arc: "),
     ("[[geometry.inclusion]]\nname = 'b'\npoints = []\nto = [0, 0]",
      "case: geometry.inclusion.b.to: belongs to a part"),
@@ -52,6 +58,8 @@ WRONG = [
     ("[[load]]\nname = 'a'\nf = [1]", "case: load.a.f: [1] is not a finite number"),
     ("[[load]]\nname = 'a'\nf = {values = [1]}", "case: load.a.f.per: missing"),
     ("[[load]]\nname = 'a'\nf = {file = 'none.h5', dataset = '/f', per = 'node'}", "case: load.a.f.file: none.h5: "),
+    ("[[geometry.inclusion]]\nname = 'rod'\npoints = []\nfixed = 1\n[[load]]\nname = 'a'\ninclusion_forces = {rod = 1}",
+     "case: load.a.inclusion_forces.rod: the inclusion is held by its key fixed"),
     ("[[load]]\nname = 'a'\nf = inf", "case: load.a.f: inf is not a finite number"),
     ("[accuracy]\nenergy = 2", "case: accuracy.energy: 2 is out of range"),
     ("[accuracy]\ntime = 1", "case: accuracy: no accuracy"),
@@ -97,7 +105,8 @@ run_timeout = 1.5
 name = "a"
 inclusion_forces = { fibre = 1 }
 """
-        text = text.replace("delaminated = true", "delaminated = true\nfixed = 0.1")
+        text = text.replace("delaminated = true", "delaminated = true\n[[geometry.inclusion]]\nname = 'rod'\n"
+                                                  "center = [0, 0.75]\nlength = 0.25\nfixed = 0.1")
         (self.folder / "case.toml").write_text(text, encoding="utf-8")
         with Daemon(self.folder) as daemon, anticrack.connect(f"127.0.0.1:{daemon.port}") as client:
             ours = client.submit(self.folder / "case.toml").refresh().message
@@ -112,6 +121,14 @@ inclusion_forces = { fibre = 1 }
             with self.assertRaises(anticrack.CaseError, msg=text) as caught:
                 Case.parse(FIBRE + text).requests(loads_needed="load" in said)
             self.assertTrue(str(caught.exception).startswith(said), f"{caught.exception} / {said}")
+
+    def test_values_that_are_none_of_toml(self):
+        for value in ("100 mm", "3,5", "True", "right"):
+            with self.assertRaisesRegex(anticrack.CaseError, "not TOML: .*; a value is a number as 3.5, true, false, "):
+                Case.parse("[mesh]\nsize = " + value)
+        with self.assertRaises(anticrack.CaseError) as caught:
+            Case.parse("[mesh")
+        self.assertNotIn("a value is", str(caught.exception))
 
     def test_files_that_are_none(self):
         (self.folder / "broken.toml").write_text("[geometry", encoding="utf-8")

@@ -116,8 +116,11 @@ class Jobs(unittest.TestCase):
     def test_regions_that_forget_their_tension_are_told(self):
         geometry = Geometry(GEOMETRY.boundary, GEOMETRY.interfaces, regions=[
             anticrack.Region("top", (0, 0.5), tension=2), anticrack.Region("below", (0, -0.5))])
-        with self.assertWarnsRegex(UserWarning, "^geometry.region.below: it gives no tension, .* which is then 1;"):
+        with self.assertWarnsRegex(UserWarning, "^geometry.region.below: it gives no tension, .* its tension is 1;"):
             self.client.mesh(Case(geometry))
+        given = "[units]\nlength = 'mm'\nforce = 'N'\n[geometry]\nboundary = [[0, 0], [1, 0], [0, 1]]"
+        with self.assertWarnsRegex(UserWarning, "units: nothing gives a tension, so T is 1 N/mm; write tension in "):
+            self.client.mesh(Case.parse(given))
 
     def test_a_mesh_that_fails_says_why(self):
         far = Geometry(GEOMETRY.boundary, [Interface([(3, 0), (4, 0)])], [Inclusion("fibre", (3, 0), (4, 0))])

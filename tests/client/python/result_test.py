@@ -172,6 +172,8 @@ max_iterations = 3
             self.assertEqual(title, f"result: {len(result.mesh.triangles)} triangles, 1 load case")
             self.assertRegex(load, r"^skew: converged, energy = -[\d.]+ \+- [\d.]+ N mm \(-[\d.]+ on the mesh\)")
             self.assertRegex(part, r"^  fibre: A = .* mm \(.* on the mesh\)$")
+            result["skew"].contact_length = 1234.5
+            self.assertIn("contact length 1230 mm", repr(result["skew"]), "without bounds, so three digits")
             for line in (load, part):  # the words of the command
                 self.assertIn(re.search(r"= (\(.*?\)e-\d+|.*? \+- [\d.]+)", line)[1], shown)
             self.assertIn("<td>fibre</td>", result["skew"]._repr_html_())
