@@ -190,6 +190,19 @@ class Shapes(GalleryTest):
         self.assert_balanced(answers, "pressure")
         self.assert_figures("pressure", "pressure-plan")
 
+    def test_crossing(self):
+        answers = self.follow_one("crossing")
+        along, across = answers.loads["pressure"]["inclusions"]
+        self.assertEqual((along["A"], along["A_lower"], along["A_upper"]),
+                         (across["A"], across["A_lower"], across["A_upper"]), "one body")
+        self.assertLess(along["A_lower"], -0.233174)  # to 2e-4, on 697,039 triangles
+        self.assertGreater(along["A_upper"], -0.233174)
+        self.assertAlmostEqual(along["resultant"] + across["resultant"], 0, delta=1e-9)
+        self.assert_balanced(answers, "pressure")
+        opening = max(answers.opens("pressure", interface)[0] for interface in (0, 1))
+        self.assert_told(("-0.2331", answers.told("pressure")), ("0.022", opening))
+        self.assert_figures("pressure", "pressure-plan")
+
     def test_sheet(self):
         answers = self.follow_one("sheet")
         up = answers.loads["up"]
