@@ -68,10 +68,11 @@ class Section:
 
     def number_of(self, value: Any, key: str, cure: str = "write one, such as 0.5") -> float:
         if isinstance(value, bool) or not isinstance(value, numbers.Real) or not math.isfinite(value):
-            unit = re.fullmatch(r"([-+]?[0-9.]+(?:[eE][-+]?[0-9]+)?) *[A-Za-z].*", value) if isinstance(value, str) else None
+            text = value if isinstance(value, str) else ""
+            unit = re.fullmatch(r"([-+]?[0-9.]+(?:[eE][-+]?[0-9]+)?) *[A-Za-z].*", text)
             if unit:
-                raise self.error(key, f"{shown(value)} is a number with a unit; write {unit[1]}: the units of all numbers "
-                                      "are those of [units]")
+                raise self.error(key, f"{shown(value)} is a number with a unit; write {unit[1]}: the units of all "
+                                      "numbers are those of [units]")
             raise self.error(key, f"{shown(value)} is not a finite number; {cure}")
         return float(value)
 

@@ -263,7 +263,8 @@ def _line(section: Section, shape: str, line: mesh_pb2.Line) -> None:
         return
     section.need("length", "write its length, beside its center")
     line.segment.CopyFrom(mesh_pb2.Segment(center=section.point_of(section.get("center"), "center"),
-                                           angle=section.number("angle"), length=section.positive("length", has_default=False)))
+                                           angle=section.number("angle"),
+                                           length=section.positive("length", has_default=False)))
 
 
 def _outline(section: Section, what: str, outline: mesh_pb2.Outline) -> None:

@@ -431,6 +431,13 @@ TEST(CaseErrors, NoLoadsAndNoGeometry) {
   EXPECT_THAT(complaint("mesh.file = \"x.msh\"\n"), HasSubstr("load: missing; write [[load]]"));
 }
 
+TEST(CaseErrors, ForceOnAHeldInclusionOfAFile) {
+  EXPECT_EQ(complaint("mesh.file = \"x.msh\"\nmesh.inclusions = {rod = {fixed = 0}}\n"
+                      "[[load]]\nname = \"a\"\ninclusion_forces = {rod = 1}\n"),
+            "plate.toml:5: load.a.inclusion_forces.rod: the inclusion is held by its key fixed, so "
+            "a force on it moves nothing; leave one of the two out");
+}
+
 TEST(CaseErrors, FileThatIsNotThere) {
   try {
     read_case("no/such/case.toml");

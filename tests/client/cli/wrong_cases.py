@@ -46,8 +46,8 @@ CASES = [
      "is: size = = 0.5"),
     ([('"Plate"', '"Plate')], 2,
      "wrong.toml:1: column 15: this is not TOML: Error while parsing string: unescaped control "
-     'characters other than TAB (U+0009) are explicitly prohibited; a value is a number as 3.5, true, false, a text in quotes '
-     'or a list; units are named in [units]; the line is: title = "Plate'),
+     'characters other than TAB (U+0009) are explicitly prohibited; a value is a number as 3.5, true, false, '
+     'a text in quotes or a list; units are named in [units]; the line is: title = "Plate'),
     ([("size = 0.5", "size = 0.5\nsize = 1")], 2,
      "wrong.toml:16: column 8: this is not TOML: Error while parsing key-value pair: cannot redefine "
      "existing floating-point 'size'; the line is: size = 1"),
