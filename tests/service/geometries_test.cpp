@@ -112,7 +112,7 @@ TEST_F(ForceFile, OfAnotherLengthIsRefused) {
 TEST_F(ForceFile, ThatIsMissingNamesTheLine) {
   const Ended missing = run("{file = \"no.h5\", dataset = \"/f\", per = \"node\"}", "out.h5");
   EXPECT_EQ(missing.code, 2);
-  EXPECT_THAT(missing.error, AllOf(HasSubstr("plain.toml:7: load.0.f"), HasSubstr("no.h5")));
+  EXPECT_THAT(missing.error, AllOf(HasSubstr("plain.toml:7: load.one.f"), HasSubstr("no.h5")));
   EXPECT_EQ(server.info().metrics().meshings(), 0U) << "seen before anything was asked for";
 }
 
