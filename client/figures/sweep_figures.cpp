@@ -276,6 +276,10 @@ void draw_sweep(const Result& result, Drawing& drawing) {
     drawing.drawn.notes.push_back("no row of the sweep converged: nothing to draw of it");
     return;
   }
+  if (!axis.joined() && !result.sweep->displacement_lower.empty())
+    drawing.drawn.notes.push_back(
+        "the sweep is drawn row by row, without bounds: its coefficients are not of one parameter; "
+        "--csv has the bounds");
   drawing.draw("sweep", sweep_picture(result, axis));
   if (counts.tilted()) drawing.draw("sweep-slope", slope_picture(result, axis));
   for (std::size_t i = 0; i < result.interfaces.size(); ++i) {

@@ -16,6 +16,7 @@
 namespace anticrack::figures {
 namespace {
 
+using anticrack::testing::bounded_sweep;
 using anticrack::testing::sample_sweep;
 using anticrack::testing::TemporaryFolder;
 using ::testing::DoubleNear;
@@ -223,6 +224,16 @@ TEST(DrawSweep, DrawsSlopesWhereAnInclusionTilted) {
   const TemporaryFolder other;
   draw(result, other.path());
   EXPECT_FALSE(std::filesystem::exists(other / "sweep-slope.png"));
+}
+
+TEST(DrawSweep, SaysThatBoundsOfRowsAreNotDrawn) {
+  const TemporaryFolder folder;
+  results::Result result = bounded_sweep(4);
+  result.sweep->kept.clear();
+  result.loads.clear();
+  for (double& one : result.sweep->coefficients) one = one * one + 1;  // on no circle
+  result.sweep->coefficients[0] = 7;
+  EXPECT_THAT(draw(result, folder.path()).notes, ElementsAre(HasSubstr("--csv has the bounds")));
 }
 
 TEST(DrawSweep, SaysThatThereIsNothingToDraw) {
