@@ -116,13 +116,13 @@ void note_missing_tension(Case& result) {
     return region.has_tension() || region.has_tension_law();
   };
   const auto with = std::ranges::count_if(regions, given);
-  const v1::Units& units = result.job.units();
+  const v1::Units& names = result.job.units();
   const v1::MeshOptions& options = result.mesh.options();
   if (with == 0 && options.tension().empty() && options.tension_laws().empty() &&
-      !units.length().empty() && !units.force().empty()) {
+      !names.length().empty() && !names.force().empty()) {
     result.notes.push_back(
-        prefix(result.spots.at("units")) + "nothing gives a tension, so T is 1 " + units.force() +
-        "/" + units.length() + "; write " +
+        prefix(result.spots.at("units")) + "nothing gives a tension, so T is 1 " + names.force() +
+        "/" + names.length() + "; write " +
         (result.mesh_file ? "[mesh.tension]" : "tension in [[geometry.region]]"));
   }
   const auto first = std::ranges::find_if_not(regions, given);
