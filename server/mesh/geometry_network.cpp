@@ -116,14 +116,14 @@ void check_inside(const Network& network) {
     const Point& a = network.points[at(chord.a)];
     const Point& b = network.points[at(chord.b)];
     const Point middle{(a[0] + b[0]) / 2, (a[1] + b[1]) / 2};
-    bool odd = false;
-    for (std::size_t l = 0; l < edges.size(); ++l)
-      if (l != at(chord.line) && ray_meets(middle, edges[l])) odd = !odd;
-    if (odd) continue;
-    const Field& field = network.lines[at(chord.line)].field;
     const auto around = [&](std::size_t l) {
       return l != at(chord.line) && ray_meets(middle, edges[l]);
     };
+    bool odd = false;
+    for (std::size_t l = 0; l < edges.size(); ++l)
+      if (around(l)) odd = !odd;
+    if (odd) continue;
+    const Field& field = network.lines[at(chord.line)].field;
     std::size_t hole = network.outer;
     while (hole < network.boundary && !around(hole)) ++hole;
     refuse(
