@@ -152,7 +152,8 @@ void choose_options(std::vector<SizedCurve> curves, double growth) {
   gmsh::option::setNumber("Mesh.RandomSeed", 1);
   gmsh::option::setNumber("Mesh.RandomFactor", random_factor(curves));
   const SizeField size(std::move(curves), growth);
-  gmsh::model::mesh::setSizeCallback([size](int, int, double x, double y, double) {
+  // Newer versions of gmsh give one more argument, the size they would have chosen.
+  gmsh::model::mesh::setSizeCallback([size](int, int, double x, double y, auto...) {
     return size({x, y});
   });
 }
