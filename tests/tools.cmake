@@ -2,12 +2,15 @@
 # What single tests use besides what the product is built of (deploy/packages.txt, part [test]). Whoever lacks one can
 # configure all the same; what is left out for want of it is said.
 
-# The Debian package of a tool that is called otherwise. A tool with a dot before it is a module of Python.
+# The Debian package of a tool that is called otherwise. A tool with a dot before it is a module of Python, one
+# with a slash a file.
 set(package_promtool prometheus)
 set(package_man man-db)
 set(package_systemd-analyze systemd)
 set(package_FreeFem++ freefem++)
 set(package_nginx nginx-light)
+set(serial_openblas /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/openblas-serial/libopenblas.so.0)
+set(package_${serial_openblas} libopenblas0-serial)
 set(package_.clang python3-clang)
 set(package_.flake8 flake8)
 set(package_.mypy mypy)
@@ -25,6 +28,7 @@ set(needs_client.python.client openssl .pandas)
 set(needs_client.python.package .ensurepip .flake8 .mypy .pip .wheel)
 set(needs_client.python.result .pandas)
 set(needs_deploy.administration openssl)
+set(needs_deploy.blas ${serial_openblas})
 set(needs_deploy.certificates openssl)
 set(needs_deploy.observation promtool)
 set(needs_deploy.unit systemd-analyze)
@@ -45,6 +49,11 @@ function(anticrack_have result test)
         if(code EQUAL 0)
           set(ANTICRACK_TOOL_${tool} ON CACHE INTERNAL "")
         endif()
+      endif()
+    elseif(tool MATCHES "/")
+      set(ANTICRACK_TOOL_${tool} OFF)
+      if(EXISTS ${tool})
+        set(ANTICRACK_TOOL_${tool} ON)
       endif()
     else()
       find_program(ANTICRACK_TOOL_${tool} ${tool} PATHS /usr/sbin)
