@@ -208,7 +208,7 @@ void LocalServer::end() noexcept {
     kill(_process, SIGKILL);
     has_ended(stop_limit);
   }
-  if (_status && WIFSIGNALED(*_status)) remove_left(_address);
+  if (_status && *_status != 0) remove_left(_address);
   close_once(_output);
   close_once(_log);
 }

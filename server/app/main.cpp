@@ -6,12 +6,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <iostream>
 #include <iterator>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <thread>
 
 #include "app/backup.hpp"
@@ -49,12 +51,14 @@ int wait_for_end(const app::Signals& signals, app::Service& service) {
   }
 }
 
+std::atomic<bool> stopping = false;
+
 /// The end of a private server's client is as a signal; and its end takes no time that somebody who
 /// wants the folder gone would notice, whatever threads are at.
 void end_with_client() {
   std::thread([] {
     app::wait_for_end_of_input();
-    ::kill(::getpid(), SIGTERM);
+    if (!stopping) ::kill(::getpid(), SIGTERM);  // a second signal would not let it end in order
   }).detach();
 }
 
@@ -78,6 +82,7 @@ int serve(const app::Config& config, app::PrivatePlace* place) {
   app::notify_ready("listening on " + service->address());
   if (place != nullptr) end_with_client();
   const int number = wait_for_end(signals, *service);
+  stopping = true;
   log::info("stopping", {{"signal", number}, {"again", "stops at once"}});
   if (place != nullptr) end_soon(*place);
   app::notify_stopping("draining; jobs that do not end are queued again at the next start");
@@ -104,7 +109,8 @@ int start(const app::Config& config, app::PrivatePlace* place) {
 int run(int argc, char** argv) {
   const app::CommandLine line = app::parse_command_line(argc, argv, rpc::version());
   if (line.text) {
-    std::cout << *line.text;
+    std::cout << *line.text << std::flush;
+    if (!std::cout) throw std::runtime_error("standard output cannot be written");
     return 0;
   }
   std::optional<app::PrivatePlace> place;

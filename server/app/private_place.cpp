@@ -99,6 +99,9 @@ fs::path temporary_parent() {
   const char* named = variable("TMPDIR");
   std::error_code error;
   const fs::path parent = fs::absolute(named != nullptr ? named : "/tmp", error);
+  constexpr std::size_t longest = 400;  // SQLite's is 512, with what lies below
+  if (parent.native().size() > longest)
+    throw ConfigError(refusal(parent, "its path is too long for a database"));
   return error ? fs::path(named) : parent;
 }
 

@@ -75,7 +75,7 @@ class Server:
             except subprocess.TimeoutExpired:
                 self._process.kill()
                 self._process.wait()
-            if self._process.returncode < 0:
+            if self._process.returncode != 0:
                 self._remove_left()
             self._process.stdout.close()
             os.close(self._log)

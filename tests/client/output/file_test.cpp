@@ -120,7 +120,7 @@ TEST_F(Output, GoesIntoPipesAndDevicesAsAStream) {
   const std::string pipe = _folder / "pipe";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   fs::create_symlink(pipe, _folder / "to pipe");
-  for (const fs::path path : {fs::path(pipe), _folder / "to pipe"}) {
+  for (const fs::path& path : {fs::path(pipe), _folder / "to pipe"}) {
     check_writable(path);
     std::string read;
     std::thread reader([&] { read = content(pipe); });
@@ -131,7 +131,7 @@ TEST_F(Output, GoesIntoPipesAndDevicesAsAStream) {
     EXPECT_TRUE(fs::is_fifo(pipe));
   }
   fs::create_symlink("/dev/null", _folder / "null");
-  for (const fs::path path : {fs::path("/dev/null"), _folder / "null"}) {
+  for (const fs::path& path : {fs::path("/dev/null"), _folder / "null"}) {
     check_writable(path);
     write_file(path, std::as_bytes(std::span("new", 3)), true);
     EXPECT_TRUE(fs::is_character_file(path));
@@ -146,7 +146,7 @@ TEST_F(Output, GoesIntoWhatThisProcessHasOpenWhereItIs) {
   ASSERT_EQ(write(number, "before ", 7), 7);
   const std::string name = std::to_string(number);
   fs::create_symlink("/proc/self/fd/" + name, _folder / "link");
-  for (const fs::path path : {fs::path("/dev/fd/" + name), _folder / "link"}) {
+  for (const fs::path& path : {fs::path("/dev/fd/" + name), _folder / "link"}) {
     EXPECT_EQ(target_of(path).descriptor, number);
     check_writable(path);
     write_file(path, "x");
@@ -161,7 +161,7 @@ TEST_F(Output, IsStandardOutputByEachOfItsNames) {
   const int former = dup(STDOUT_FILENO);
   ASSERT_EQ(dup2(number, STDOUT_FILENO), STDOUT_FILENO);
   fs::create_symlink("/dev/stdout", _folder / "link");
-  for (const fs::path path : {fs::path("-"), fs::path("/dev/stdout"), fs::path("/proc/self/fd/1"),
+  for (const fs::path& path : {fs::path("-"), fs::path("/dev/stdout"), fs::path("/proc/self/fd/1"),
                               _folder / "link", file}) {
     check_writable(path);
     EXPECT_TRUE(target_of(path).is_standard_output()) << path;

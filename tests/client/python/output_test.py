@@ -117,9 +117,8 @@ class Save(FolderTest):
         self.assertEqual(anticrack.read(self.folder / "target.h5").job, result.job)
         result.save("/dev/null")
         os.mkfifo(self.folder / "pipe")
-        with subprocess.Popen(["cat", self.folder / "pipe"], stdout=subprocess.PIPE) as reader:
+        with open(self.folder / "read.h5", "wb") as read, subprocess.Popen(["cat", self.folder / "pipe"], stdout=read):
             result.save(self.folder / "pipe")
-            (self.folder / "read.h5").write_bytes(reader.communicate()[0])
         self.assertEqual(anticrack.read(self.folder / "read.h5").job, result.job)
 
     def test_a_load_from_what_is_no_dataset_is_named(self):
