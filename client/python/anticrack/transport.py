@@ -38,7 +38,9 @@ class Transport:
     def __init__(self, address: str, credentials: Credentials, server: Server | None = None) -> None:
         """server: a private one, which ends with this."""
         self.server_process, self._owner = server, os.getpid()
-        self.stop_server: Callable[[], Any] = weakref.finalize(self, server.stop) if server is not None else _nothing
+        self.stop_server: Callable[[], Any] = _nothing
+        if server is not None:
+            self.stop_server = weakref.finalize(self, server.stop)
         secrets = credentials.of_channel(address)
         self.proxy = proxy_for(address)
         self.options = [*CHANNEL, ("grpc.enable_http_proxy", int(self.proxy is not None))]

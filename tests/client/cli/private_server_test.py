@@ -170,16 +170,17 @@ class PrivateServer(FolderTest):
         (self.folder / "dangling").symlink_to("nowhere")
         deep = self.folder.joinpath(*["y" * 200] * 3)
         deep.mkdir(parents=True)
-        wrong = {deep: "its path is too long", self.folder / "missing": "No such file", self.folder / "file": "Not a directory",
-                 self.folder / "dangling": "No such file", "/proc": "", "relative/missing": "No such file"}
+        wrong = {deep: "its path is too long", self.folder / "missing": "No such file",
+                 self.folder / "file": "Not a directory", self.folder / "dangling": "No such file", "/proc": "",
+                 "relative/missing": "No such file"}
         if os.geteuid() != 0:
             (self.folder / "closed").mkdir(mode=0o500)
             wrong[self.folder / "closed"] = "Permission denied"
         for folder, cause in wrong.items():
             ended = self.run_in(folder)
             self.assertEqual(ended.returncode, 4, folder)
-            self.assertRegex(ended.stderr, f"TMPDIR is .*{folder}: .*{cause}.*; set it to a folder you may write in, or "
-                                           "unset it")
+            self.assertRegex(ended.stderr, f"TMPDIR is .*{folder}: .*{cause}.*; set it to a folder you may write in, "
+                                           "or unset it")
 
     def test_is_found_where_the_command_is_started_without_signals_of_children(self):
         ended = subprocess.run([ANTICRACK, "--local", "--quiet", "server"], env=self.environment(), check=False,

@@ -172,7 +172,8 @@ class Local(FolderTest):
                     "os.waitpid(child, 0)", "print(client.run(CASE, progress=False).converged, flush=True)"]))
                 output, error = program.communicate()
                 self.assertEqual(error, "")
-                self.assertRegex(output, "^this client belongs to the process that this one was forked from; .*\nTrue\n$")
+                self.assertRegex(output, "^this client belongs to the process that this one was forked from; .*\n"
+                                         "True\n$")
                 self.assertFalse(alive(server))
 
     def test_does_not_live_on_with_a_forked_child(self):
