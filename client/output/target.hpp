@@ -15,6 +15,7 @@ struct Target {
   std::filesystem::path path;  ///< behind all symbolic links: those are written through
   int descriptor = -1;  ///< of a stream that this process has open already, as standard output
 
+  /// By whichever name.
   bool is_standard_output() const noexcept { return kind == Kind::stream && descriptor == 1; }
 };
 

@@ -62,16 +62,16 @@ void end_with_client() {
   }).detach();
 }
 
-void end_soon(app::PrivatePlace& place) {
-  std::thread([&place] {
+void end_soon(const app::PrivatePlace& place) {
+  std::thread([remove = place.removal()] {
     constexpr std::chrono::seconds patience{2};
     std::this_thread::sleep_for(patience);
-    place.remove();
+    remove();
     std::_Exit(0);
   }).detach();
 }
 
-int serve(const app::Config& config, app::PrivatePlace* place) {
+int serve(const app::Config& config, const app::PrivatePlace* place) {
   ::umask(0077);
   const app::Signals signals;
   auto service = std::make_unique<app::Service>(config);
@@ -94,7 +94,7 @@ int serve(const app::Config& config, app::PrivatePlace* place) {
   return 0;
 }
 
-int start(const app::Config& config, app::PrivatePlace* place) {
+int start(const app::Config& config, const app::PrivatePlace* place) {
   const bool json = config.log_format == "json";
   log::start(config.log_level, json ? log::Format::json : log::Format::text);
   try {

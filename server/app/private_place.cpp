@@ -174,9 +174,11 @@ std::vector<Setting> PrivatePlace::settings() const {
           {"drain-time", "0s", where}};  // nobody would fetch the results
 }
 
-void PrivatePlace::remove() noexcept {
-  if (_socket) remove_folder(_socket->path);
-  remove_folder(_data->path);
+std::function<void()> PrivatePlace::removal() const {
+  return [data = _data->path, socket = _socket ? _socket->path : fs::path()] {
+    if (!socket.empty()) remove_folder(socket);
+    remove_folder(data);
+  };
 }
 
 void wait_for_end_of_input() {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -25,8 +26,8 @@ class PrivatePlace {
 
   /// Where the server lives, for make_config: what the user says otherwise goes before.
   std::vector<Setting> settings() const;
-  /// Removes all of it, also while threads still write to it.
-  void remove() noexcept;
+  /// What removes all of it, also while threads still write to it; may be called when this is gone.
+  std::function<void()> removal() const;
 
  private:
   class Folder;

@@ -60,8 +60,7 @@ class Transport:
         """gRPC's connections do not survive a fork: calls of the child would wait for ever."""
         if os.getpid() != self._owner:
             raise Error("this client belongs to the process that this one was forked from; make one here, with "
-                        "anticrack.local() or anticrack.connect(), in a process that multiprocessing spawns "
-                        '(get_context("spawn"))')
+                        "anticrack.local() or anticrack.connect()")
 
     def require_alive(self) -> None:
         """For who has lost the connection: raises LocalServerError if a private server has ended."""
