@@ -13,7 +13,7 @@ import unittest
 
 import h5py
 
-from processes import ANTICRACK, run
+from processes import ANTICRACK, Daemon, run
 
 CASE = """
 [geometry]
@@ -27,7 +27,6 @@ to = [0.5,0]
 name = "opening"
 f = "y > 0 ? 1 : -1"
 [mesh]
-preset = "uniform"
 size = 0.2
 [output]
 fields = true
@@ -182,6 +181,18 @@ class Outputs(unittest.TestCase):
                 with h5py.File(self.folder / "head.h5") as file:
                     self.assertIn("mesh", file)
                 (self.folder / "head.h5").unlink()
+
+    def test_a_watch_ends_with_its_reader(self):
+        (self.folder / "long.toml").write_text(
+            CASE + '[solver]\nmethod = "uzawa"\ntheta = 1e-9\nepsilon = 1e-30\nmax_iterations = 1000000\n',
+            encoding="utf-8")
+        with Daemon(self.folder) as daemon:
+            server = f"--server 127.0.0.1:{daemon.port}"
+            job = self.run_in_folder(f"{server} --quiet job submit long.toml").stdout.strip()
+            ended = self.shell(f"$A {server} job watch {job} | head -1; echo ${{PIPESTATUS[0]}}")
+            self.assertRegex(ended.stdout, f"^{job}: .*\n141\n$")
+            state = json.loads(self.run_in_folder(f"{server} --json job cancel {job}").stdout)["state"]
+            self.assertNotIn(state, ("STATE_SUCCEEDED", "STATE_NOT_CONVERGED", "STATE_FAILED"), "it had ended before")
 
     def test_a_full_disk_is_one_line_and_leaves_nothing_cut_off(self):
         before = sorted(path.name for path in self.folder.iterdir())
