@@ -138,6 +138,8 @@ void write_file(const fs::path& path, std::string_view text) {
 }
 
 void make_folder(const fs::path& folder) {
+  if (folder == "-")
+    throw Error("-", "is standard output, and several files are to be written", "name a folder");
   std::error_code error;
   fs::create_directories(folder, error);
   if (error || !fs::is_directory(folder)) {

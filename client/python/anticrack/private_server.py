@@ -116,4 +116,5 @@ def _in_child() -> None:
         server.leave()
 
 
-os.register_at_fork(after_in_child=_in_child)
+if hasattr(os, "register_at_fork"):  # not on Windows, where nothing is forked
+    os.register_at_fork(after_in_child=_in_child)

@@ -124,6 +124,13 @@ class Outputs(unittest.TestCase):
             self.assertEqual(ended.returncode, 2)
             self.assertRegex(ended.stderr, "standard output is already that of .*; name a file")
 
+    def test_a_folder_cannot_be_standard_output(self):
+        for words in ("plot r.h5 -o -", "export r.h5 -o -", "manual -", "--local mesh show case.toml -o -"):
+            ended = self.run_in_folder(words)
+            self.assertEqual(ended.returncode, 2, words)
+            self.assertRegex(ended.stderr, "-: is standard output, and several files .*; name a folder")
+        self.assertEqual(self.partial(), [])
+
     def test_a_result_is_a_stream_where_it_is_asked_for(self):
         with open(self.folder / "out.h5", "wb") as out:
             ended = self.run_in_folder("--local run case.toml -o -", stdout=out)
