@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <hdf5.h>
 
+#include <cstdint>
 #include <fstream>
 #include <limits>
 #include <utility>
@@ -59,6 +60,9 @@ void put_packed(hid_t parent, const char* name, H5Z_filter_t filter, const char*
 /// What is not float64 or no list, as other programs write it.
 void put_other_kinds(hid_t file) {
   const hid_t flags = H5Tenum_create(H5T_STD_I8LE);
+  const std::int8_t no = 0, yes = 1;
+  H5Tenum_insert(flags, "FALSE", &no);
+  H5Tenum_insert(flags, "TRUE", &yes);
   put(file, "flags", flags, {2}, {});
   H5Tcommit2(file, "type", flags, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
   H5Tclose(flags);
