@@ -214,10 +214,6 @@ class Outputs(unittest.TestCase):
         self.assertEqual(after, before)
         self.assertEqual(self.partial(), [])
 
-    def test_json_is_whole_or_absent(self):
-        ended = self.run_in_folder("--json show r.h5")
-        self.assertEqual(json.loads(ended.stdout)["loads"][0]["name"], "opening")
-
 
 if __name__ == "__main__":
     unittest.main()
