@@ -18,6 +18,7 @@
 #include "cli/stages_text.hpp"
 #include "cli/text.hpp"
 #include "figures/figures.hpp"
+#include "output/file.hpp"
 #include "results/error.hpp"
 #include "results/file.hpp"
 #include "vtk/export.hpp"
@@ -66,10 +67,11 @@ void add_file(CLI::App& command, FileOptions& options, const char* help) {
       ->type_name("NAME");
 }
 
-int show_file(const FileOptions& options, const Globals& globals) {
+int show_file(const FileOptions& options, const Globals& given) {
+  const Globals globals = with_outputs(given, {options.csv});
   const std::filesystem::path csv = csv_file(options.csv, options.file);
   const results::Result result = read_result(options);
-  if (!csv.empty()) write_csv(csv, answers_csv(result));
+  if (!csv.empty()) output::write_file(csv, answers_csv(result));
   if (globals.json) {
     print_document(answers_json(result, options.file));
     return exit_ok;
@@ -83,8 +85,9 @@ int show_file(const FileOptions& options, const Globals& globals) {
   if (!result.not_reached.empty()) foot = "not reached: " + sanitise(result.not_reached) + "\n";
   if (result.loads.size() == 1 || !options.loads.empty())
     for (const results::Load& load : result.loads) foot += stages_table(load);
-  print_document(head + (options.inclusions ? inclusions_table(result) : answers_table(result)) +
-                 foot);
+  print_answer(
+      globals,
+      head + (options.inclusions ? inclusions_table(result) : answers_table(result)) + foot);
   return exit_ok;
 }
 

@@ -3,16 +3,25 @@
 // anticrackd: reads the configuration and runs the service until a signal.
 #include <signal.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <optional>
+#include <stdexcept>
+#include <thread>
 
 #include "app/backup.hpp"
 #include "app/check_files.hpp"
 #include "app/command_line.hpp"
 #include "app/config_file.hpp"
 #include "app/notify.hpp"
+#include "app/private_place.hpp"
 #include "app/service.hpp"
 #include "app/signals.hpp"
 #include "app/store_check.hpp"
@@ -42,7 +51,27 @@ int wait_for_end(const app::Signals& signals, app::Service& service) {
   }
 }
 
-int serve(const app::Config& config) {
+std::atomic<bool> stopping = false;
+
+/// The end of a private server's client is as a signal; and its end takes no time that somebody who
+/// wants the folder gone would notice, whatever threads are at.
+void end_with_client() {
+  std::thread([] {
+    app::wait_for_end_of_input();
+    if (!stopping) ::kill(::getpid(), SIGTERM);  // a second signal would not let it end in order
+  }).detach();
+}
+
+void end_soon(const app::PrivatePlace& place) {
+  std::thread([remove = place.removal()] {
+    constexpr std::chrono::seconds patience{2};
+    std::this_thread::sleep_for(patience);
+    remove();
+    std::_Exit(0);
+  }).detach();
+}
+
+int serve(const app::Config& config, const app::PrivatePlace* place) {
   ::umask(0077);
   const app::Signals signals;
   auto service = std::make_unique<app::Service>(config);
@@ -51,8 +80,11 @@ int serve(const app::Config& config) {
                         {"address", service->address()},
                         {"data", config.store.folder}});
   app::notify_ready("listening on " + service->address());
+  if (place != nullptr) end_with_client();
   const int number = wait_for_end(signals, *service);
+  stopping = true;
   log::info("stopping", {{"signal", number}, {"again", "stops at once"}});
+  if (place != nullptr) end_soon(*place);
   app::notify_stopping("draining; jobs that do not end are queued again at the next start");
   signals.run_unless_interrupted([&] {
     service->drain();
@@ -62,11 +94,11 @@ int serve(const app::Config& config) {
   return 0;
 }
 
-int start(const app::Config& config) {
+int start(const app::Config& config, const app::PrivatePlace* place) {
   const bool json = config.log_format == "json";
   log::start(config.log_level, json ? log::Format::json : log::Format::text);
   try {
-    return serve(config);
+    return serve(config, place);
   } catch (const std::exception& error) {
     // In text format main() prints it.
     if (json) log::error("refused to start", {{"message", error.what()}});
@@ -77,12 +109,15 @@ int start(const app::Config& config) {
 int run(int argc, char** argv) {
   const app::CommandLine line = app::parse_command_line(argc, argv, rpc::version());
   if (line.text) {
-    std::cout << *line.text;
+    std::cout << *line.text << std::flush;
+    if (!std::cout) throw std::runtime_error("standard output cannot be written");
     return 0;
   }
-  const std::vector<app::Setting> file = line.config_file.empty()
-                                             ? std::vector<app::Setting>{}
-                                             : app::read_config_file(line.config_file);
+  std::optional<app::PrivatePlace> place;
+  std::vector<app::Setting> file;
+  if (line.is_private) file = place.emplace().settings();
+  if (!line.config_file.empty())
+    std::ranges::copy(app::read_config_file(line.config_file), std::back_inserter(file));
   const app::Config config = app::make_config(file, line.settings);
   if (line.check_config) {
     std::cout << app::to_toml(config) << std::flush;
@@ -92,7 +127,7 @@ int run(int argc, char** argv) {
   }
   if (!line.backup.empty()) return app::back_up(config, line.backup, std::cout);
   if (line.check_store) return app::check_store(config, line.repair, std::cout);
-  return start(config);
+  return start(config, place ? &*place : nullptr);
 }
 
 }  // namespace

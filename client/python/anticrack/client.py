@@ -2,7 +2,6 @@
 """The client that waits for each answer. anticrack.aio has the same with await."""
 from __future__ import annotations
 
-import contextlib
 import os
 import warnings
 from collections.abc import Iterator, Sequence
@@ -196,9 +195,8 @@ def connect(address: str | None = None, *, tls: bool = False, ca: Path | None = 
     return Client(Session(Transport(address, credentials), address, Backoff(patience, first_contact)))
 
 
-@contextlib.contextmanager
-def local(*flags: str, program: Path | None = None) -> Iterator[Client]:
-    """A client of a private server, which lives as long as the context. flags: of anticrackd, as "--threads", "2";
-    program: that on PATH unless named."""
-    with private_server.server(*flags, program=program) as address, connect(address) as client:
-        yield client
+def local(*flags: str, program: Path | None = None) -> Client:
+    """A client of a private server, which ends at the end of `with`, by close(), or when nobody has the client or a job
+    of it any more. flags: of anticrackd, as "--threads", "2"; program: that on PATH unless named."""
+    server = private_server.Server(*flags, program=program)
+    return Client(Session(Transport(server.address, Credentials(), server), server.address, Backoff(300.0, 3.0)))

@@ -67,6 +67,7 @@ class ServerError(Error):
     def lost(self) -> bool:
         """Whether the connection was lost rather than the call refused."""
         return (self.code == "UNAVAILABLE" or (self.code == "UNKNOWN" and "Stream removed" in str(self))
+                or (self.code == "CANCELLED" and not self.reason)  # by a server that stops, not by one asked to
                 or (self.code == "INTERNAL" and "RST_STREAM" in str(self)))
 
     @property

@@ -107,12 +107,21 @@ class Progress:
 
     def __init__(self, job: solve_pb2.Job, out: TextIO | None = None) -> None:
         self._state, self._name = State(job), job.name
-        self._out = out or sys.stderr
+        self._out: TextIO | None = out or sys.stderr  # which a program without a terminal may lack
         self._handle = _notebook_handle() if out is None else None
-        self._bar = self._handle is None and self._out.isatty()
+        self._bar = self._handle is None and _is_terminal(self._out)
         self._shown, self._next = 0, 0.0
 
     def take(self, message: solve_pb2.WatchJobResponse) -> None:
+        if self._out is None:
+            return
+        try:
+            self._show(message)
+        except (OSError, ValueError):  # closed, or full: no reason to lose the job
+            self._out = None
+
+    def _show(self, message: solve_pb2.WatchJobResponse) -> None:
+        assert self._out is not None
         before = len(self._state.stages)
         line = self._state.take(message)
         stages = list(self._state.stages.values())[before:]
@@ -138,6 +147,7 @@ class Progress:
 
     def _columns(self) -> int:
         """A longer text would go on in a second line, which stays."""
+        assert self._out is not None
         try:
             return os.get_terminal_size(self._out.fileno()).columns - 1
         except OSError:
@@ -145,6 +155,13 @@ class Progress:
 
     def _text(self) -> str:
         return f"{self._name} {self._state.bar()}"
+
+
+def _is_terminal(out: TextIO | None) -> bool:
+    try:
+        return out is not None and out.isatty()
+    except ValueError:  # closed
+        return False
 
 
 def _notebook_handle() -> Any:

@@ -16,6 +16,7 @@ from .blocks import BlockReceiver
 from .case import Case, as_case
 from .errors import CaseError, ServerError
 from .places import in_terms_of
+from .proxies import remark
 from .result import Result
 from .retry import Backoff
 from .sweeps import sweep_of
@@ -37,6 +38,8 @@ class Session:
 
     async def _wait(self, backoff: Backoff, error: ServerError) -> None:
         """Until the next try; raises `error`, if it is about a lost connection with the cure, to give up."""
+        if error.lost:
+            self.transport.require_alive()
         try:
             first = not backoff.failing
             delay = backoff.next(error)
@@ -45,8 +48,9 @@ class Session:
         except ServerError:
             if not error.lost or error.reason:
                 raise
-            raise ServerError(error.code, f"cannot reach the server at {self.address} ({error}); is it anticrackd, and "
-                              "does it want TLS (ca, cert, key)? anticrack.local() starts a private one") from None
+            cure = ("is it anticrackd, and does it want TLS (ca, cert, key)? anticrack.local() starts a private one"
+                    if self.transport.proxy is None else remark(self.transport.proxy))
+            raise ServerError(error.code, f"cannot reach the server at {self.address} ({error}); {cure}") from None
         await self.transport.sleep(delay)
 
     def _succeeded(self, backoff: Backoff) -> None:

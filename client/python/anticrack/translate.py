@@ -463,7 +463,12 @@ def _values(section: Section, folder: Path) -> Array:
         path, key = folder / (section.text("file") or ""), "dataset"
         try:
             with h5py.File(path) as file:
-                values = file[section.text("dataset")][()]
+                found = file[section.text("dataset")]
+                if not isinstance(found, h5py.Dataset):
+                    kind = "group" if isinstance(found, h5py.Group) else "named type"
+                    raise section.error("dataset", f"{section.text('dataset')} is a {kind}, not a dataset"
+                                        + (f"; it has {', '.join(found)}" if kind == "group" and len(found) else ""))
+                values = found[()]
         except (OSError, KeyError) as error:
             raise section.error("file", f"{path}: {error}") from None
     try:

@@ -181,8 +181,8 @@ COMMANDS = [
      'plain.h5: "matrx" is missing, there is matrix, named, vector, wide; name a two-dimensional '
      "dataset of float64 in an HDF5 file"),
     ("sweep two.toml --coefficients plain.h5:/vector", 2,
-     "plain.h5: dataset vector is not of shape (rows,columns); name a two-dimensional dataset of "
-     "float64 in an HDF5 file"),
+     "plain.h5: dataset vector is not of shape (rows,columns) but (3); name a two-dimensional dataset "
+     "of float64 in an HDF5 file"),
     ("sweep two.toml --coefficients plain.h5:/wide", 2,
      "plain.h5:/wide: it has 5 columns, the case 2 loads; write one column for each load, in their "
      "order, or name them in an attribute loads of the dataset"),
