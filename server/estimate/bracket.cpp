@@ -37,7 +37,8 @@ LiftIntegrals integrals_of(const CutMesh& cut, const EquilibratedFlux& flux,
 }
 
 Bracket bracket(const CutMesh& cut, const EquilibratedFlux& flux, const LoadBalance& load,
-                const std::vector<Lift>& lifts, std::span<const double> u, double energy) {
+                const std::vector<Lift>& lifts, std::span<const double> u, double energy,
+                double lack) {
   std::vector<OnTriangle> lifted;
   if (!lifts.empty()) lifted.resize(cut.triangle_count());
   for (const Lift& lift : lifts) {
@@ -83,17 +84,19 @@ Bracket bracket(const CutMesh& cut, const EquilibratedFlux& flux, const LoadBala
   }
   const std::vector<double> work_of_face = flux.work_of_pressure();
   for (std::size_t face = 0; face < work_of_face.size(); ++face) {
-    if (work_of_face[face] == 0) continue;
+    if (!(work_of_face[face] > 0)) continue;
     work += work_of_face[face];
-    result.indicator[at(cut.faces[face].side / 3)] += 2 * std::max(0.0, work_of_face[face]);
+    result.indicator[at(cut.faces[face].side / 3)] += 2 * work_of_face[face];
   }
-  work = std::max(0.0, work);
+  const double distance = std::sqrt(squared) + lack;
+  half_distance += lack * (std::sqrt(squared) + lack / 2);
   // No interval arithmetic: rounding is some 1e-14. Integrals of T are known less well.
   const double rounding = 1e-12 * (std::abs(energy) + flux.norm_squared()) +
                           (varies ? 10 * fem::tension_tolerance * flux.norm_squared() : 0);
   result.lower = energy + lift_energy - half_distance - work - rounding;
   result.upper += energy + lift_energy + rounding;
-  result.error = 0.5 * (std::sqrt(squared) + std::sqrt(squared + 4 * work)) + std::sqrt(lift_norm);
+  result.error =
+      0.5 * (distance + std::sqrt(distance * distance + 4 * work)) + std::sqrt(lift_norm);
   result.error_relative = result.error > 0 ? result.error / std::sqrt(flux.norm_squared()) : 0;
   return result;
 }

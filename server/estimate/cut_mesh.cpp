@@ -25,13 +25,18 @@ class Cutting {
 
   CutMesh operator()() {
     number();
-    for (const ddm::RigidMotion& motion : _decomposition.skeleton.motions)
+    for (const ddm::RigidMotion& motion : _decomposition.skeleton.motions) {
       _cut.tilts.push_back(motion.slope_x.empty() && motion.slope_y.empty() ? 0 : 1);
+      _cut.centre.push_back(motion.centre);
+    }
     find_faces();
     find_fans();
     find_obstacle();
     return std::move(_cut);
   }
+
+  /// Per side: the side of the neighbour, or negative.
+  const std::vector<std::int32_t>& across() const { return _across; }
 
  private:
   void number() {
@@ -240,15 +245,18 @@ std::size_t CutMesh::bytes() const noexcept {
 }
 
 CutMesh cut_mesh(const mesh::Mesh& mesh, const ddm::Decomposition& decomposition) {
-  CutMesh cut = Cutting(mesh, decomposition)();
+  Cutting cutting(mesh, decomposition);
+  CutMesh cut = cutting();
   std::vector<const fem::Tension*> tension;
   for (const ddm::Subdomain& subdomain : decomposition.subdomains) {
     tension.push_back(&subdomain.tension);
     if (cut.obstacle.empty()) cut.obstacle = subdomain.tension.obstacle;
   }
-  if (cut.obstacle.empty())
+  if (cut.obstacle.empty()) {
     cut.shapes =
         shapes({cut.copy, cut.at, cut.first_triangle, tension}, {cut.first_corner, cut.corners});
+    cut.ways = ways(cut, cutting.across(), decomposition.skeleton);
+  }
   return cut;
 }
 

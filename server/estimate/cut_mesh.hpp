@@ -11,6 +11,7 @@
 
 #include "ddm/decomposition.hpp"
 #include "estimate/shapes.hpp"
+#include "estimate/ways.hpp"
 #include "mesh/mesh.hpp"
 
 namespace anticrack::estimate {
@@ -68,6 +69,8 @@ struct CutMesh {
   std::vector<std::int32_t> first_stop;    ///< (fans + 1) index into stops
   std::vector<Stop> stops;
   Shapes shapes;
+  std::vector<Vector> centre;  ///< (inclusions) about which moments on them are
+  Ways ways;
 
   /// Why no flux can be equilibrated fan by fan, with the place, or no bounds be proved; empty: it
   /// can.

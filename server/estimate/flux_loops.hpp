@@ -170,7 +170,7 @@ class Flux {
         *++spoke = x;
       }
       const std::int32_t first_stop = _mesh.first_stop[fan], last_stop = _mesh.first_stop[fan + 1];
-      if (first_stop == last_stop) imbalance = larger(imbalance, larger(x, -x));
+      if (first_stop == last_stop) imbalance += larger(x, -x);
       for (std::int32_t s = first_stop; s < last_stop; ++s) {
         const Stop& stop = _mesh.stops[s];
         _through[2 * stop.face + stop.end] = sign(stop) * _x[stop.spoke];

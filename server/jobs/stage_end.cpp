@@ -108,7 +108,7 @@ void end_stage(EngineCore& core, EngineCore::Lock& lock, const JobPtr& job) {
       const Error error = error_of(std::current_exception());
       const std::string why =
           error.reason() == Reason::limit_exceeded ? limit_reached(*job->spec, most) : error.what();
-      verdict = {true, not_reached(*event, *job->spec, why)};
+      verdict = {true, not_reached(*event, cases, *job->spec, why)};
     }
   }
   job->log->append(StageEvent{event});

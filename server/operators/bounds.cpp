@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -18,8 +20,22 @@ std::string obstacle_of(const LoadOnTraces& load, const estimate::CutMesh& cut,
                         const contact::Answer& answer) {
   if (!cut.obstacle.empty()) return cut.obstacle;
   if (!load.parts.obstacle.empty()) return load.parts.obstacle;
-  if (!bounded(answer)) return "the discrete problem is not solved to 1e-10; see its KKT residuals";
+  if (!bounded(answer, cut))
+    return "contact alone holds a part of the membrane, and " + contact::residuals_of(answer) +
+           ", above 1e-10: hold that part by glue or a prescribed value";
   return "";
+}
+
+/// Energies are squares: of what is very small or very large nothing is left of them.
+std::string obstacle_of(std::span<const double> u, double tension) {
+  constexpr double least = 1e-250, most = 1e280;
+  double largest = 0;
+  for (const double one : u) largest = std::max(largest, std::abs(one));
+  const double square = tension * largest * largest;
+  if (largest == 0 || (square >= least && square <= most)) return "";
+  return fmt::format(
+      "the largest |u| is {:g}, and its square is beyond the range of numbers: scale the load {}",
+      largest, square < least ? "up" : "down");
 }
 
 /// What the bounds of an answer are made from.
@@ -52,8 +68,9 @@ void find_bounds(const MeshOperator::Parts& parts, const estimate::CutMesh& cut,
           "give their sum as a load of its own";
       continue;
     }
+    const estimate::Lack lack = lack_of(cut, fluxes[i], balance, load);
     const estimate::Bracket bracket =
-        estimate::bracket(cut, fluxes[i], balance, lifts, u, answer.energy);
+        estimate::bracket(cut, fluxes[i], balance, lifts, u, answer.energy, lack.flux);
     answer.energy_lower = bracket.lower;
     answer.energy_upper = bracket.upper;
     answer.error_bound = bracket.error;
@@ -62,7 +79,7 @@ void find_bounds(const MeshOperator::Parts& parts, const estimate::CutMesh& cut,
     for (std::size_t t = 0; t < bracket.indicator.size(); ++t)
       of.indicator[at(cut.triangle[t])] = bracket.indicator[t];
     bounded.push_back(
-        {load, primals.emplace_back(cut, fluxes[i], balance, lifts, u), answer, of.stop});
+        {load, primals.emplace_back(cut, fluxes[i], balance, lifts, u, lack), answer, of.stop});
   }
   bound_displacements(parts, bounded);
 }
@@ -105,6 +122,8 @@ void MeshOperator::estimate(std::span<Estimate> all) const {
       if (recovered) recover_fields({&one.load, 1}, {&one.answer, 1});
       Material material{one, load, of_copies(answer.fields), {}, {}};
       if (recovered) answer.fields.clear();
+      answer.no_bracket = obstacle_of(material.u, cut.shapes.largest_tension);
+      if (!answer.no_bracket.empty()) continue;
       BalancedLoad of_load =
           data.balanced ? *data.balanced
                         : balanced(load.parts, _parts->decomposition.subdomains, cut, one.stop);

@@ -27,7 +27,12 @@ class Search {
   /// `unloaded`: norm of the flux of a unit force with every contact open.
   Search(const Bounded& of, const contact::Adjoint& adjoint, const Aim& aim,
          contact::Adjoint::Goal goal, double unloaded)
-      : _of(of), _adjoint(adjoint), _aim(aim), _goal(std::move(goal)), _unloaded(unloaded) {
+      : _of(of),
+        _adjoint(adjoint),
+        _aim(aim),
+        _unit(aim.unit(of.answer.inclusions.size())),
+        _goal(std::move(goal)),
+        _unloaded(unloaded) {
     const double norm = std::sqrt(of.primal.flux.norm_squared());
     _c = 2 * (norm > 0 ? std::sqrt(_goal.compliance) / norm : 1);
   }
@@ -40,7 +45,7 @@ class Search {
   Eigen::VectorXd load() const { return _adjoint.load(_goal, _c); }
   Eigen::VectorXd jumps() const { return _adjoint.jumps(_goal, _c); }
   estimate::Aimed aimed(std::span<const double> z, std::span<const double> reacting) const {
-    return {&_of.primal, {z, reacting, _aim.value_in(_of.answer), _c}, _unloaded};
+    return {&_of.primal, {z, reacting, _aim.value_in(_of.answer), _c, _unit}, _unloaded};
   }
 
   void take(const estimate::Interval& one) {
@@ -72,6 +77,7 @@ class Search {
   const Bounded& _of;
   const contact::Adjoint& _adjoint;
   const Aim& _aim;
+  std::vector<estimate::ForceOn> _unit;
   contact::Adjoint::Goal _goal;
   double _c = 0, _unloaded;
   estimate::Interval _best;
@@ -169,11 +175,14 @@ class Slopes {
       add(sum.inclusion_forces[j].on_holders, unit.inclusion_forces[j].on_holders, forces);
     }
     const contact::Answer answer = solve({sum.subdomains, sum.inclusion_forces}, true);
-    if (!bounded(answer)) return std::nullopt;
+    const estimate::CutMesh& cut = _primal.cut;
+    if (!bounded(answer, cut)) return std::nullopt;
     const std::vector<double> u = of_copies(answer.fields);
-    const auto& [cut, of_load, load, lifts, of_answer] = _primal;
+    const estimate::LoadBalance& load = _primal.load;
     const estimate::EquilibratedFlux flux(cut, {u, load.force, load.traction});
-    return estimate::bracket(cut, flux, load, lifts, u, answer.energy).lower;
+    return estimate::bracket(cut, flux, load, _primal.lifts, u, answer.energy,
+                             lack_of(cut, flux, load, sum).flux)
+        .lower;
   }
 
   const MeshOperator::Parts& _parts;
@@ -251,10 +260,19 @@ void bound_by_adjoints(const MeshOperator::Parts& parts, const std::vector<Aim>&
 
 }  // namespace
 
-bool bounded(const contact::Answer& answer) {
+bool bounded(const contact::Answer& answer, const estimate::CutMesh& cut) {
   constexpr double most_kkt = 1e-10;
   return answer.status == contact::Status::converged &&
-         contact::within(answer.kkt_relative, most_kkt);
+         (std::isfinite(cut.ways.triangle) || contact::within(answer.kkt_relative, most_kkt));
+}
+
+estimate::Lack lack_of(const estimate::CutMesh& cut, const estimate::EquilibratedFlux& flux,
+                       const estimate::LoadBalance& balance, const LoadOnTraces& load) {
+  if (!std::isfinite(cut.ways.triangle)) return {};
+  std::vector<estimate::ForceOn> forces;
+  for (const auto& [on_nodes, on_holders] : load.inclusion_forces)
+    forces.push_back({on_nodes.force, {on_nodes.moment_x, on_nodes.moment_y}});
+  return estimate::lack_of(cut, flux, balance.traction, forces, estimate::pressing(cut, flux));
 }
 
 std::vector<double> of_copies(const std::vector<contact::Field>& fields) {

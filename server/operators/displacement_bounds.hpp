@@ -10,8 +10,13 @@
 
 namespace anticrack::operators {
 
-/// Whether u_h solves the discrete problem well enough for bounds, to 1e-10.
-bool bounded(const contact::Answer& answer);
+/// Whether u_h solves the discrete problem well enough for bounds: what is left widens them where
+/// estimate::Ways lead out of the membrane; elsewhere it has to be 1e-10 and is taken for rounding.
+bool bounded(const contact::Answer& answer, const estimate::CutMesh& cut);
+
+/// What is left; nothing is known of it, and 0 given, where Ways lead nowhere.
+estimate::Lack lack_of(const estimate::CutMesh& cut, const estimate::EquilibratedFlux& flux,
+                       const estimate::LoadBalance& balance, const LoadOnTraces& load);
 
 /// u in the copies of estimate::CutMesh.
 std::vector<double> of_copies(const std::vector<contact::Field>& fields);
