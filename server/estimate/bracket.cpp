@@ -53,13 +53,14 @@ Bracket bracket(const CutMesh& cut, const EquilibratedFlux& flux, const LoadBala
   result.indicator = flux.distance();
   const bool varies = !cut.shapes.variation.empty();
   double half_distance = 0;  // eta^2 / 2, less |w|^2 / 2, which Pi(v) has as well, if T is known
-  double squared = 0, work = 0, lift_energy = 0, lift_norm = 0;
+  double squared = 0, work = 0, lift_energy = 0, lift_norm = 0, unknown = 0;
   for (std::size_t t = 0; t < result.indicator.size(); ++t) {
     double& one = result.indicator[t];
     one = std::max(0.0, one);
     const double oscillation = load.oscillation.empty() ? 0 : load.oscillation[t];
     const fem::Variation of = varies ? cut.shapes.variation[t] : fem::Variation();
-    const double spread = varies ? of.spread * std::sqrt(flux.energy_of(t, u)) : 0;
+    const double own = varies ? flux.energy_of(t, u) : 0, spread = of.spread * std::sqrt(own);
+    unknown += of.unknown * own;
     if (lifted.empty()) {
       if (varies || oscillation > 0) {
         const double size = of.below * std::sqrt(one) + spread + oscillation;
@@ -90,9 +91,8 @@ Bracket bracket(const CutMesh& cut, const EquilibratedFlux& flux, const LoadBala
   }
   const double distance = std::sqrt(squared) + lack;
   half_distance += lack * (std::sqrt(squared) + lack / 2);
-  // No interval arithmetic: rounding is some 1e-14. Integrals of T are known less well.
-  const double rounding = 1e-12 * (std::abs(energy) + flux.norm_squared()) +
-                          (varies ? 10 * fem::tension_tolerance * flux.norm_squared() : 0);
+  // Without interval arithmetic: rounding is some 1e-14. Means of T are known less well.
+  const double rounding = 1e-12 * (std::abs(energy) + flux.norm_squared()) + unknown;
   result.lower = energy + lift_energy - half_distance - work - rounding;
   result.upper += energy + lift_energy + rounding;
   result.error =

@@ -30,6 +30,7 @@ class Cutting {
       _cut.centre.push_back(motion.centre);
     }
     find_faces();
+    find_ways_out();
     find_fans();
     find_obstacle();
     return std::move(_cut);
@@ -95,6 +96,23 @@ class Cutting {
     for (const std::vector<std::int32_t>& of_subdomain : neumann)
       for (const std::int32_t side : of_subdomain)
         _cut.faces[at(add_face(side, Condition::given))].traction = number++;
+  }
+
+  void find_ways_out() {
+    std::vector<bool> found(_cut.triangle.size(), false);
+    const auto lead = [&](std::int32_t side, std::int32_t into) {
+      if (found[at(side / 3)]) return;
+      found[at(side / 3)] = true;
+      _cut.ways_out.push_back({side, into});
+    };
+    _cut.ways_out.reserve(_cut.triangle.size());
+    for (const Face& face : _cut.faces)
+      if (face.condition == Condition::free && face.inclusion < 0) lead(face.side, -1);
+    for (std::size_t i = 0; i < _cut.ways_out.size(); ++i) {
+      const std::int32_t first = _cut.ways_out[i].side / 3 * 3;
+      for (std::int32_t side = first; side < first + 3; ++side)
+        if (_across[at(side)] >= 0) lead(_across[at(side)], side);
+    }
   }
 
   void cut_edge(const mesh::Interface& line, std::size_t i) {
@@ -241,17 +259,15 @@ class Cutting {
 std::size_t CutMesh::bytes() const noexcept {
   const auto of = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
   return shapes.bytes() + of(first_triangle) + of(first_copy) + of(copy) + of(at) + of(triangle) +
-         of(faces) + of(first_corner) + of(corners) + of(first_stop) + of(stops);
+         of(faces) + of(ways_out) + of(first_corner) + of(corners) + of(first_stop) + of(stops);
 }
 
 CutMesh cut_mesh(const mesh::Mesh& mesh, const ddm::Decomposition& decomposition) {
   Cutting cutting(mesh, decomposition);
   CutMesh cut = cutting();
   std::vector<const fem::Tension*> tension;
-  for (const ddm::Subdomain& subdomain : decomposition.subdomains) {
+  for (const ddm::Subdomain& subdomain : decomposition.subdomains)
     tension.push_back(&subdomain.tension);
-    if (cut.obstacle.empty()) cut.obstacle = subdomain.tension.obstacle;
-  }
   if (cut.obstacle.empty()) {
     cut.shapes =
         shapes({cut.copy, cut.at, cut.first_triangle, tension}, {cut.first_corner, cut.corners});

@@ -54,7 +54,7 @@ Products varied(const Products& by_mean, const fem::Variation& variation, double
       std::max(variation.below * variation.below - 1, 1 - 1 / (variation.above * variation.above));
   return {(a + b) * (a + b), by_mean.mixed, (c + d) * (c + d),
           change * std::sqrt(by_mean.square * by_mean.distance) + a * d + b * (c + d) +
-              20 * fem::tension_tolerance * norm_of_z * norm_of_u};
+              2 * variation.unknown * norm_of_z * norm_of_u};
 }
 
 class Sum {
