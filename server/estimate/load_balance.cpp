@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "mesh/at.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::estimate {
 namespace {
@@ -43,6 +44,7 @@ LoadBalance load_balance(const CutMesh& cut, const std::vector<fem::ForceParts>&
     const auto first = at(cut.first_triangle[s]);
     balance.force.insert(balance.force.end(), force[s].load.begin(), force[s].load.end());
     for (std::size_t k = 0; k < force[s].square.size(); ++k) {
+      stop::look_at_turn(k, "computing bounds");
       oscillation(first + k) += size_of(cut.shapes, first + k) / j_11 *
                                 std::sqrt(beyond_linear(force[s].square[k], &force[s].load[3 * k],
                                                         cut.shapes.area[first + k]));
