@@ -108,10 +108,10 @@ bool is_long(const ddm::Decomposition& decomposition, std::size_t most) {
          });
 }
 
-JoinedProblem::JoinedProblem(const TraceProblem& traces, int threads, const std::stop_token& stop)
+JoinedProblem::JoinedProblem(const TraceProblem& traces, int threads)
     : _traces(traces),
-      _membrane(traces.decomposition(), threads, stop),
-      _blocks(_membrane, traces.pair_forces(), threads, stop),
+      _membrane(traces.decomposition(), threads),
+      _blocks(_membrane, traces.pair_forces(), threads),
       _lcp(_membrane, _blocks) {}
 
 Answer solve_active_set(const JoinedProblem& problem, const mesh::Mesh& mesh,

@@ -7,6 +7,7 @@
 
 #include "mesh/at.hpp"
 #include "mesh/edges.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::estimate {
 namespace {
@@ -45,6 +46,7 @@ class Cutting {
     _cut.first_triangle.push_back(0);
     _cut.first_copy.push_back(0);
     for (const ddm::Subdomain& subdomain : _decomposition.subdomains) {
+      stop::look("computing bounds");
       const std::int32_t copies = _cut.first_copy.back();
       for (const std::int32_t triangle : subdomain.triangle) {
         _place[at(triangle)] = static_cast<std::int32_t>(_cut.triangle.size());
@@ -81,7 +83,9 @@ class Cutting {
       for (const mesh::EdgeUse& use : _edges.find(a, b)) add_face(side_of(use), Condition::free);
     // In the order of ddm::NeumannBoundary.
     std::vector<std::vector<std::int32_t>> neumann(_decomposition.subdomains.size());
+    std::size_t turn = 0;
     _edges.each([&](std::span<const mesh::EdgeUse> uses) {
+      stop::look_at_turn(turn++, "computing bounds");
       const std::int32_t side = side_of(uses[0]);
       if (_across[at(side)] != nothing) return;
       if (uses.size() == 1) {
@@ -184,6 +188,7 @@ class Cutting {
     _cut.first_corner.push_back(0);
     _cut.first_stop.push_back(0);
     for (std::size_t corner = 0; corner < seen.size(); ++corner) {
+      stop::look_at_turn(corner, "computing bounds");
       if (seen[corner]) continue;
       const std::int32_t begin = first_of(static_cast<std::int32_t>(corner));
       const std::size_t first = _cut.corners.size();
@@ -220,6 +225,7 @@ class Cutting {
   void find_obstacle() {
     std::vector<std::int32_t> ends(_mesh.node_count(), 0);
     for (std::size_t fan = 0; fan < _cut.fan_count() && _cut.obstacle.empty(); ++fan) {
+      stop::look_at_turn(fan, "computing bounds");
       const std::span<const Stop> stops(&_cut.stops[at(_cut.first_stop[fan])],
                                         at(_cut.first_stop[fan + 1] - _cut.first_stop[fan]));
       const auto has = [&](const auto& what) {

@@ -8,6 +8,7 @@
 #include "estimate/flux_kernels.hpp"
 #include "fem/triangle_rules.hpp"
 #include "mesh/at.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::estimate {
 namespace {
@@ -69,6 +70,7 @@ class Sum {
     const EquilibratedFlux& sigma = _primal.flux;
     const Shapes& shapes = _primal.cut.shapes;
     for (std::size_t t = 0; t < _primal.cut.triangle_count(); ++t) {
+      stop::look_at_turn(t, "computing bounds");
       const Products own = of_triangle(t);
       if (shapes.variation.empty())
         sum += own;

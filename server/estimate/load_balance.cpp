@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "mesh/at.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::estimate {
 namespace {
@@ -82,6 +83,7 @@ LoadBalance load_balance(const CutMesh& cut, const std::vector<fem::ForceParts>&
     const auto first = at(cut.first_triangle[s]);
     balance.force.insert(balance.force.end(), force[s].load.begin(), force[s].load.end());
     for (std::size_t k = 0; k < force[s].beyond.size(); ++k) {
+      stop::look_at_turn(k, "computing bounds");
       oscillation(first + k) += size_of(cut, first + k) / j_11 * force[s].beyond[k];
       unknown(first + k, force[s].unknown[k]);
     }

@@ -10,6 +10,7 @@
 #include "jobs/accuracy.hpp"
 #include "jobs/case_outcome.hpp"
 #include "jobs/result_block.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::jobs {
 
@@ -98,6 +99,7 @@ void end_stage(EngineCore& core, EngineCore::Lock& lock, const JobPtr& job) {
   LiveStages::Complete complete;
   std::shared_ptr<void> use;
   if (!verdict.over) {
+    const stop::Scope scope(job->stop.get_token());
     try {
       const store::MeshRecord mesh = next_mesh(core, *job, indicator, most);
       use = core.catalogue.use(mesh.id);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <mutex>
 #include <optional>
 #include <utility>
 
@@ -40,6 +41,24 @@ void check_title(const std::string& title) {
       .at("title");
 }
 
+/// Hears of the end of the last job on a mesh, which may come after that of the catalogue.
+class Ends {
+ public:
+  explicit Ends(Preparation& preparation) : _preparation(&preparation) {}
+  void of(const std::string& mesh) {
+    const std::lock_guard lock(_mutex);
+    if (_preparation != nullptr) _preparation->let_go(mesh);
+  }
+  void forget() {
+    const std::lock_guard lock(_mutex);
+    _preparation = nullptr;
+  }
+
+ private:
+  std::mutex _mutex;
+  Preparation* _preparation;
+};
+
 }  // namespace
 
 struct MeshCatalogue::State {
@@ -54,6 +73,7 @@ struct MeshCatalogue::State {
   store::Store& store;
   operators::OperatorCache& cache;
   Preparation preparation;
+  const std::shared_ptr<Ends> ends = std::make_shared<Ends>(preparation);
   std::size_t claims = 0;  ///< meshes on their way into the queue; guarded by the lock
 
   MeshIndex& index() { return preparation.index(); }
@@ -75,11 +95,13 @@ struct MeshCatalogue::State {
 
   /// For a mesh that is created again: resumes its preparation if that was interrupted. False: the
   /// mesh must be made.
-  bool resume(const LiveMesh* mesh, const std::string& id) {
+  bool resume(const LiveMesh* mesh, const std::string& id, bool for_job) {
     if (mesh == nullptr || mesh->stage == Stage::failed) return false;
-    if (mesh->stage == Stage::pending && !mesh->run) {
+    if (mesh->stage != Stage::pending) return true;
+    if (mesh->for_job && !for_job) return false;  // its record is to say so
+    if (!mesh->run) {
       require_room();
-      preparation.begin(id, true);
+      preparation.begin(id, !mesh->for_job);
     }
     return true;
   }
@@ -105,8 +127,9 @@ struct MeshCatalogue::State {
     if (record != nullptr) {
       mesh.stage = record->sha256.empty() ? Stage::pending : Stage::meshed;
       mesh.error.reset();
+      mesh.for_job = record->for_job;
       ++mesh.version;
-      if (begin) preparation.begin(id, true);
+      if (begin) preparation.begin(id, !mesh.for_job);
     } else if (mesh.stage == Stage::absent) {
       index().remove(id);
     }
@@ -118,17 +141,17 @@ MeshCatalogue::MeshCatalogue(CatalogueOptions options, store::Store& store,
                              operators::OperatorCache& cache)
     : _state(std::make_unique<State>(std::move(options), store, cache)) {}
 
-MeshCatalogue::~MeshCatalogue() = default;
+MeshCatalogue::~MeshCatalogue() { _state->ends->forget(); }
 
 MeshRecord MeshCatalogue::create(const store::MeshDefinition& definition, const std::string& title,
-                                 const std::string& owner) {
+                                 const std::string& owner, bool for_job) {
   check_title(title);
   const std::size_t triangles = check_definition(definition, owner, _state->options, _state->store);
   const std::string id = identity(definition, owner).substr(0, id_digits);
   Preparation& preparation = _state->preparation;
   {
     auto lock = preparation.lock();
-    if (_state->resume(preparation.settled(lock, id), id)) {
+    if (_state->resume(preparation.settled(lock, id), id, for_job)) {
       lock.unlock();
       return get(id);
     }
@@ -153,6 +176,7 @@ MeshRecord MeshCatalogue::create(const store::MeshDefinition& definition, const 
     }
     // A failed mesh with a triangulation needs only its operators again.
     record.state = record.sha256.empty() ? MeshState::pending : MeshState::evicted;
+    record.for_job = for_job;
     _state->store.put(record);
   } catch (...) {
     const auto lock = preparation.lock();
@@ -287,12 +311,14 @@ void MeshCatalogue::erase(const std::string& id) {
   auto lock = preparation.lock();
   preparation.settled(lock, id);
   LiveMesh& mesh = index.known(id);
-  if (mesh.run) throw in_use(id, "it is being prepared; wait until it is READY");
   if (!mesh.users.expired())
     throw in_use(id, "a job that has not ended needs it; wait for it or cancel it");
+  const std::shared_ptr<Run> run =
+      preparation.give_up(mesh, Error(Reason::not_found, "meshes/" + id + " was deleted"));
   const Stage stage = std::exchange(mesh.stage, Stage::absent);
   mesh.claimed = true;
   lock.unlock();
+  if (run) run->stop.request_stop();
   try {
     _state->store.erase_mesh(id);
   } catch (...) {
@@ -315,16 +341,20 @@ std::shared_ptr<void> MeshCatalogue::use(const std::string& id) {
   LiveMesh& mesh = _state->index().known(id);
   std::shared_ptr<void> user = mesh.users.lock();
   if (!user) {
-    user = std::make_shared<char>();
+    user = std::shared_ptr<void>(new char, [ends = _state->ends, id](void* one) {
+      delete static_cast<char*>(one);
+      ends->of(id);
+    });
     mesh.users = user;
+    mesh.used = true;
   }
   return user;
 }
 
-std::shared_ptr<const operators::MeshOperator> MeshCatalogue::prepare(const std::string& id,
-                                                                      const PhaseListener& listener,
-                                                                      std::stop_token stop) {
-  return _state->preparation.prepare(id, listener, stop);
+std::shared_ptr<const operators::MeshOperator> MeshCatalogue::prepare(
+    const std::string& id, const PhaseListener& listener, std::stop_token stop,
+    const ProgressListener& progress) {
+  return _state->preparation.prepare(id, listener, stop, progress);
 }
 
 std::shared_ptr<const operators::MeshOperator> MeshCatalogue::find(const std::string& id) const {

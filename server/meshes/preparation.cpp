@@ -12,6 +12,7 @@
 #include "meshes/mesh_index.hpp"
 #include "meshes/size_class.hpp"
 #include "meshes/triangulation.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::meshes {
 
@@ -70,7 +71,9 @@ void Preparation::recover() {
     if (records.size() < records_a_page) break;
     page.after = records.back().id;
   }
-  for (auto id = unmeshed.rbegin(); id != unmeshed.rend(); ++id) begin(*id, true);
+  // Those for jobs begin when their jobs ask for them.
+  for (auto id = unmeshed.rbegin(); id != unmeshed.rend(); ++id)
+    if (!_index.known(*id).for_job) begin(*id, true);
 }
 
 MeshRecord Preparation::stored(const std::string& id) const {
@@ -96,7 +99,8 @@ LiveMesh* Preparation::settled(Lock& lock, const std::string& id) {
   LiveMesh* mesh = nullptr;
   _changed.wait(lock, [&] {
     mesh = _index.find(id);
-    return mesh == nullptr || !(mesh->claimed || (mesh->run && mesh->run->ending));
+    return mesh == nullptr ||
+           !(mesh->claimed || (mesh->run && (mesh->run->ending || mesh->run->writing)));
   });
   return mesh;
 }
@@ -110,24 +114,55 @@ Preparation::RunPtr Preparation::begin(const std::string& id, bool background) {
     _queue.push_back(mesh.run);
     _changed.notify_all();
   }
-  mesh.run->background = mesh.run->background || background || pending;
+  mesh.run->background = mesh.run->background || background;
+  mesh.run->measures = mesh.run->measures || background || pending;
   return mesh.run;
 }
 
+Preparation::RunPtr Preparation::give_up(LiveMesh& mesh, const Error& why) {
+  const RunPtr run = std::exchange(mesh.run, nullptr);
+  if (!run) return nullptr;
+  _queue.remove(run);
+  run->error = why;
+  _changed.notify_all();
+  return run;
+}
+
+void Preparation::let_go(const std::string& id) {
+  RunPtr run;
+  {
+    const auto held = lock();
+    LiveMesh* mesh = _index.find(id);
+    if (mesh == nullptr || !mesh->run || !mesh->users.expired()) return;
+    const Run& its = *mesh->run;
+    if (its.background || its.waiters > 0 || its.result || its.ending || its.writing) return;
+    run = give_up(*mesh, Error(Reason::cancelled, "no job wants meshes/" + id + " any more"));
+  }
+  run->stop.request_stop();
+}
+
 std::size_t Preparation::queued() const {
-  return static_cast<std::size_t>(std::count_if(_queue.begin(), _queue.end(),
-                                                [](const RunPtr& run) { return run->background; }));
+  return static_cast<std::size_t>(
+      std::count_if(_queue.begin(), _queue.end(), [](const RunPtr& run) { return run->measures; }));
 }
 
 void Preparation::await(Lock& lock, Run& run, bool joins, const PhaseListener& listener,
-                        const std::stop_token& stop) {
+                        const std::stop_token& stop, const ProgressListener& progress) {
   const auto ended = [&] { return run.result || run.error; };
   std::optional<MeshState> reported;
+  std::optional<store::MeshProgress> told;
   while (reported != run.phase || !ended()) {
     const MeshState phase = run.phase;
     if (reported == phase) {
-      if (!_changed.wait(lock, stop, [&] { return run.phase != phase || ended(); }))
+      const auto farther = [&] { return phase == MeshState::meshing && run.progress != told; };
+      if (!_changed.wait(lock, stop, [&] { return run.phase != phase || ended() || farther(); }))
         throw Error(Reason::cancelled, "stopped while waiting for meshes/" + run.id);
+      if (run.phase == phase && !ended() && farther()) {
+        told = run.progress;
+        lock.unlock();
+        if (progress) progress(*told);
+        lock.lock();
+      }
       continue;
     }
     reported = phase;
@@ -139,7 +174,8 @@ void Preparation::await(Lock& lock, Run& run, bool joins, const PhaseListener& l
 }
 
 Preparation::Operator Preparation::prepare(const std::string& id, const PhaseListener& listener,
-                                           const std::stop_token& stop) {
+                                           const std::stop_token& stop,
+                                           const ProgressListener& progress) {
   Lock held = lock();
   settled(held, id);
   LiveMesh& mesh = _index.known(id);
@@ -151,7 +187,7 @@ Preparation::Operator Preparation::prepare(const std::string& id, const PhaseLis
   const RunPtr run = begin(id, false);
   ++run->waiters;
   try {
-    await(held, *run, joins, listener, stop);
+    await(held, *run, joins, listener, stop, progress);
   } catch (...) {
     if (!held) held.lock();
     const bool unwanted = leave(*run);
@@ -173,7 +209,7 @@ bool Preparation::leave(Run& run) {
     run.result.reset();  // the run is over; its result would pin the operators
     return false;
   }
-  if (run.background || run.result || run.ending) return false;
+  if (run.background || run.result || run.ending || run.writing) return false;
   _queue.remove(mesh->run);
   mesh->run.reset();
   _changed.notify_all();
@@ -191,7 +227,21 @@ void Preparation::work() {
   for (;;) {
     RunPtr run;
     ++_idle;
-    _changed.wait(held, stop, [&] { return stop.stop_requested() || (run = take()); });
+    while (!stop.stop_requested() && !(run = take())) {
+      const auto first_due = [&] {
+        return _later.empty() ? Steady::time_point::max() : _later.begin()->first;
+      };
+      const auto due = first_due();
+      const auto awake = [&] {
+        return stop.stop_requested() || (run = take()) || first_due() != due;
+      };
+      if (_later.empty())
+        _changed.wait(held, stop, awake);
+      else
+        _changed.wait_until(held, stop, due, awake);
+      if (run) break;
+      begin_due();
+    }
     --_idle;
     if (!run) return;
     if (_idle == 0) {
@@ -252,19 +302,40 @@ std::shared_ptr<const mesh::Mesh> Preparation::triangulate(Run& run) {
   const bool copied = made.has_value();
   if (!copied) {
     ++_meshings;
-    made = meshes::triangulate(record, _options, _store, run.stop.get_token());
+    made = meshes::triangulate(record, _options, _store, run.stop.get_token(),
+                               [&](const store::MeshProgress& progress) {
+                                 const auto held = lock();
+                                 run.progress = progress;
+                                 _changed.notify_all();
+                               });
   }
-  _store.put(made->record, *made->mesh);
+  {
+    auto held = lock();
+    const LiveMesh* mesh = begin_writing(held, run);
+    if (mesh == nullptr) throw Error(Reason::cancelled, "meshing was cancelled");
+    made->record.for_job = mesh->for_job;
+  }
+  try {
+    _store.put(made->record, *made->mesh);
+  } catch (...) {
+    end_writing(run);
+    throw;
+  }
   {
     const auto held = lock();
     LiveMesh& mesh = _index.known(run.id);
     mesh.stage = Stage::meshed;
     mesh.sha256 = made->record.sha256;
     mesh.size_class = size_class(made->record.triangle_count);
+    mesh.refusals = 0;
     ++mesh.version;
     run.phase = MeshState::factorizing;
+    run.progress.reset();
+    const bool wanted = run.background || run.waiters > 0 || !mesh.used || !mesh.users.expired();
+    if (!wanted) run.stop.request_stop();  // its last job ended while it was written
     _changed.notify_all();
   }
+  end_writing(run);
   if (!copied && _options.meshed) _options.meshed(made->record);
   return std::move(made->mesh);
 }
@@ -302,30 +373,68 @@ void Preparation::factorize(Run& run, std::shared_ptr<const mesh::Mesh> triangul
   run.result = result;
   if (run.waiters > 0) {
     run.visible = true;
-    run.ending = !run.background;
+    run.ending = !run.measures;
     _changed.notify_all();
-    record_outcome(held, *mesh, run.id);
+    record_outcome(held, run);
   }
-  if (run.background && !run.ending) {
+  if (run.measures && !run.ending) {
     held.unlock();
-    const double theta = theta_star(*result);
+    const double theta = [&] {
+      const stop::Scope scope(run.stop.get_token());
+      return theta_star(*result);
+    }();
     held.lock();
+    mesh = mesh_of(run);
+    if (mesh == nullptr) return;
     measure(theta);
     result.reset();  // first, so that the operators can be evicted once they are announced
     if (run.waiters == 0) run.result.reset();
     run.visible = true;
     run.ending = true;
-    record_outcome(held, *mesh, run.id);
+    record_outcome(held, run);
   }
   finish(run);
 }
 
+LiveMesh* Preparation::begin_writing(Lock& lock, Run& run) {
+  LiveMesh* mesh = nullptr;
+  _changed.wait(lock, [&] { return (mesh = mesh_of(run)) == nullptr || !mesh->claimed; });
+  run.writing = mesh != nullptr;
+  return mesh;
+}
+
+void Preparation::end_writing(Run& run) {
+  const auto held = lock();
+  run.writing = false;
+  _changed.notify_all();
+}
+
+void Preparation::begin_due() {
+  while (!_later.empty() && _later.begin()->first <= Steady::now()) {
+    const std::string id = _later.extract(_later.begin()).mapped();
+    const LiveMesh* mesh = _index.find(id);
+    const bool waits = mesh != nullptr && mesh->stage == Stage::pending && !mesh->claimed;
+    const bool wanted = waits && !(mesh->for_job && mesh->used && mesh->users.expired());
+    if (wanted) begin(id, !mesh->for_job);
+  }
+}
+
+/// Soon, and then more and more rarely, up to each half minute.
+void Preparation::begin_later(LiveMesh& mesh, const std::string& id) {
+  constexpr int most_doublings = 5;
+  constexpr std::chrono::seconds first{1}, longest{30};
+  const auto delay = std::min(first * (1 << std::min(mesh.refusals++, most_doublings)), longest);
+  _later.emplace(Steady::now() + delay, id);
+}
+
 /// The measured values are valid even if the disk has no room for them.
-void Preparation::record_outcome(Lock& lock, LiveMesh& mesh, const std::string& id) {
-  const Measured measured = mesh.operators;
+void Preparation::record_outcome(Lock& lock, Run& run) {
+  LiveMesh* const mesh = begin_writing(lock, run);
+  if (mesh == nullptr) return;
+  const Measured measured = mesh->operators;
   lock.unlock();
   try {
-    MeshRecord record = stored(id);
+    MeshRecord record = stored(run.id);
     record.operator_bytes = measured.bytes;
     record.theta_star = measured.theta_star;
     record.factorize_seconds = measured.seconds;
@@ -333,13 +442,16 @@ void Preparation::record_outcome(Lock& lock, LiveMesh& mesh, const std::string& 
   } catch (const Error&) {
   }
   lock.lock();
-  ++mesh.version;
+  run.writing = false;
+  ++mesh->version;
+  _changed.notify_all();
 }
 
 void Preparation::fail(Run& run, Error error) {
   Lock held = lock();
-  LiveMesh* mesh = mesh_of(run);
+  LiveMesh* mesh = begin_writing(held, run);
   if (mesh == nullptr) return;
+  run.writing = false;
   run.ending = true;
   const bool meshed = mesh->stage == Stage::meshed;
   held.unlock();
@@ -360,6 +472,8 @@ void Preparation::fail(Run& run, Error error) {
   if (failed) {
     mesh->stage = Stage::failed;
     mesh->error = error;
+  } else if (!meshed && error.reason() != Reason::cancelled) {
+    begin_later(*mesh, run.id);
   }
   run.error = std::move(error);
   finish(run);

@@ -4,9 +4,11 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <list>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <stop_token>
@@ -51,7 +53,10 @@ class Preparation {
   LiveMesh* settled(Lock& lock, const std::string& id);
   /// Starts or joins a run. The mesh must be known and settled.
   std::shared_ptr<Run> begin(const std::string& id, bool background);
-  /// Number of background runs that have not begun.
+  /// Takes the run off the mesh, which must be settled; its waiters get the error. Request its stop
+  /// without the lock. Null if there is none.
+  std::shared_ptr<Run> give_up(LiveMesh& mesh, const errors::Error& why);
+  /// Number of background runs, and of meshes to be meshed, that have not begun.
   std::size_t queued() const;
 
   // Without it:
@@ -59,7 +64,9 @@ class Preparation {
   store::MeshRecord record(const std::string& id);
   /// MeshCatalogue::prepare.
   Operator prepare(const std::string& id, const PhaseListener& listener,
-                   const std::stop_token& stop);
+                   const std::stop_token& stop, const ProgressListener& progress);
+  /// The last job that used the mesh has ended: stops its run if nobody else wants it.
+  void let_go(const std::string& id);
   std::uint64_t meshings() const noexcept { return _meshings; }
 
  private:
@@ -71,7 +78,7 @@ class Preparation {
   LiveMesh* mesh_of(const Run& run);
   /// Waits for the end of the run.
   void await(Lock& lock, Run& run, bool joins, const PhaseListener& listener,
-             const std::stop_token& stop);
+             const std::stop_token& stop, const ProgressListener& progress);
   /// Removes a waiter. True if the run has no other: stop it then.
   bool leave(Run& run);
 
@@ -81,8 +88,14 @@ class Preparation {
   RunPtr take();
   void perform(Run& run);
   std::shared_ptr<const mesh::Mesh> triangulate(Run& run);
+  /// The mesh of a run that is about to write its record; null if the run was given up.
+  LiveMesh* begin_writing(Lock& lock, Run& run);
+  void end_writing(Run& run);
+  /// Begins again what the disk refused, now that it is due.
+  void begin_due();
+  void begin_later(LiveMesh& mesh, const std::string& id);
   void factorize(Run& run, std::shared_ptr<const mesh::Mesh> triangulation);
-  void record_outcome(Lock& lock, LiveMesh& mesh, const std::string& id);
+  void record_outcome(Lock& lock, Run& run);
   void fail(Run& run, errors::Error error);
   void finish(Run& run);
 
@@ -96,6 +109,7 @@ class Preparation {
   MeshIndex _index;
   std::list<RunPtr> _queue;
   std::list<RunPtr> _under_way;
+  std::multimap<std::chrono::steady_clock::time_point, std::string> _later;  ///< meshes to retry
   std::stop_source _stopping;
   int _idle = 0;
   std::list<std::jthread> _threads;  ///< one more than the most active runs so far

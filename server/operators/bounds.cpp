@@ -9,12 +9,15 @@
 #include "mesh/at.hpp"
 #include "operators/displacement_bounds.hpp"
 #include "operators/load_bounds.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::operators {
 namespace {
 
 /// Of fields, fluxes and scratch.
 constexpr std::size_t bytes_per_triangle_and_load = 450;
+
+constexpr const char* bounding = "computing bounds";
 
 std::string obstacle_of(const LoadOnTraces& load, const estimate::CutMesh& cut,
                         const contact::Answer& answer) {
@@ -104,20 +107,23 @@ void MeshOperator::estimate(std::span<Estimate> all) const {
   const std::size_t together = estimated_together();
   for (; all.size() > together; all = all.subspan(together)) estimate(all.first(together));
   if (all.empty()) return;
+  const stop::Scope scope([all](const stop::Look&) {
+    return std::ranges::all_of(all, [](const Estimate& one) { return one.stop.stop_requested(); });
+  });
   const Working counted(_parts->at_work,
                         all.size() * _parts->mesh->triangle_count() * bytes_per_triangle_and_load);
   const estimate::CutMesh& cut = _parts->cut_mesh();
   std::vector<Material> materials;
   for (Estimate& one : all) {
+    const stop::Scope own(one.stop);
     try {
+      stop::look(bounding);
       require_prepared(*one.load, true);
       const PreparedLoad::Data& data = *one.load->_data;
       const LoadOnTraces& load = data.condensed;
       contact::Answer& answer = *one.answer;
       answer.no_bracket = obstacle_of(load, cut, answer);
       if (!answer.no_bracket.empty()) continue;
-      if (one.stop.stop_requested())
-        throw errors::Error(errors::Reason::cancelled, "stopped before the error was estimated");
       const bool recovered = answer.fields.empty();
       if (recovered) recover_fields({&one.load, 1}, {&one.answer, 1});
       Material material{one, load, of_copies(answer.fields), {}, {}};
@@ -140,6 +146,11 @@ void MeshOperator::estimate(std::span<Estimate> all) const {
   }
   try {
     find_bounds(*_parts, cut, materials);
+    for (const Material& one : materials) {
+      if (one.of.stop.stop_requested())
+        one.of.failure = std::make_exception_ptr(
+            errors::Error(errors::Reason::cancelled, std::string("stopped while ") + bounding));
+    }
   } catch (...) {
     for (const Material& one : materials) one.of.failure = std::current_exception();
   }

@@ -14,6 +14,7 @@
 #include "estimate/bracket.hpp"
 #include "estimate/interval.hpp"
 #include "operators/aims.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::operators {
 namespace {
@@ -40,7 +41,8 @@ class Search {
   const Bounded& of() const { return _of; }
   const Aim& aim() const { return _aim; }
   bool held() const { return !(_goal.compliance > 0); }
-  bool done() const { return held() || _tries == most_tries; }
+  bool done() const { return held() || _tries == most_tries || stopped(); }
+  bool stopped() const { return _of.stop.stop_requested(); }
 
   Eigen::VectorXd load() const { return _adjoint.load(_goal, _c); }
   Eigen::VectorXd jumps() const { return _adjoint.jumps(_goal, _c); }
@@ -229,6 +231,7 @@ void bound_by_adjoints(const MeshOperator::Parts& parts, const std::vector<Aim>&
   std::deque<Search> searches;
   std::vector<std::pair<const Bounded*, const Aim*>> by_energy;
   for (const Bounded& of : answers) {
+    if (of.stop.stop_requested()) continue;
     const contact::Adjoint& adjoint = adjoints.emplace_back(parts.problem, of.answer);
     const bool loaded_beyond = !of.primal.load.oscillation.empty();
     std::vector<contact::Opened> opened;
@@ -251,11 +254,18 @@ void bound_by_adjoints(const MeshOperator::Parts& parts, const std::vector<Aim>&
     advance(parts, cut, active);
   }
   for (const Search& search : searches)
-    if (!search.finish()) by_energy.emplace_back(&search.of(), &search.aim());
-  for (const auto& [of, aim] : by_energy)
-    Slopes(parts, of->load, of->primal, *of->answer.energy_lower, *of->answer.energy_upper,
-           of->stop)
-        .find(*aim, of->answer);
+    if (!search.stopped() && !search.finish()) by_energy.emplace_back(&search.of(), &search.aim());
+  for (const auto& [of, aim] : by_energy) {
+    if (of->stop.stop_requested()) continue;
+    const stop::Scope scope(of->stop);
+    try {
+      Slopes(parts, of->load, of->primal, *of->answer.energy_lower, *of->answer.energy_upper,
+             of->stop)
+          .find(*aim, of->answer);
+    } catch (const errors::Error& error) {
+      if (error.reason() != errors::Reason::cancelled || !of->stop.stop_requested()) throw;
+    }
+  }
 }
 
 }  // namespace

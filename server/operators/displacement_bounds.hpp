@@ -34,7 +34,7 @@ struct Bounded {
 /// or not in the cone, from bounds of the energy, O(h): three load cases each. Of more than 16
 /// inclusions from the error bound and a norm that the mesh keeps, O(h) as well; of very many on
 /// very many triangles none, and a warning.
-/// Several answers at once: bits are those of each alone.
+/// Several answers at once: bits are those of each alone. One that is stopped keeps what it has.
 void bound_displacements(const MeshOperator::Parts& parts, std::span<const Bounded> answers);
 
 }  // namespace anticrack::operators
