@@ -31,8 +31,9 @@ struct CatalogueOptions {
 /// Receives the phases of a mesh on its way to READY.
 using PhaseListener = std::function<void(store::MeshState)>;
 
-/// Meshes and factorises new meshes in the background in the order they came, two per size class
-/// (size_class.hpp) at a time, so that large meshes do not delay small ones. Thread-safe.
+/// Meshes and factorises new meshes in the background, owners in turn, two per size class
+/// (size_class.hpp) at a time, so that large meshes do not delay small ones, and one more for an
+/// owner who has none there, so that slow ones do not delay those of others. Thread-safe.
 ///
 /// On disk a mesh is PENDING, EVICTED (meshed) or FAILED. At start, meshes that are still PENDING
 /// are scheduled, oldest first. A mesh for which the disk has no room stays PENDING; its waiters
@@ -58,8 +59,9 @@ class MeshCatalogue {
   };
   /// A mesh whose triangles are bisected, levels (m) as mesh::refine() has them: made at once and
   /// written, its operators when they are prepared. The same parent and levels give the same mesh.
-  /// Throws errors::Error: not_found, not_ready (the parent), limit_exceeded, quota_exceeded,
-  /// disk_full, numerical (what is to be bisected is as small as mesh::refine() makes triangles).
+  /// Throws errors::Error: not_found, not_ready (the parent), limit_exceeded (the triangles, or at
+  /// "memory_budget" what its operators would take), quota_exceeded, disk_full, numerical (what is
+  /// to be bisected is as small as mesh::refine() makes triangles).
   store::MeshRecord refine(const Parent& parent, std::span<const std::uint8_t> levels,
                            std::size_t max_triangles);
   std::size_t max_triangles() const noexcept;  ///< of a mesh

@@ -39,6 +39,7 @@ LiveMesh& MeshIndex::add(const MeshRecord& record) {
                : record.sha256.empty()           ? Stage::pending
                                                  : Stage::meshed;
   mesh.definition = identity(record.definition);
+  mesh.owner = record.owner;
   mesh.sha256 = record.sha256;
   mesh.error = record.error;
   mesh.operators = {record.operator_bytes, record.theta_star, record.factorize_seconds};
