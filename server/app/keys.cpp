@@ -160,10 +160,15 @@ const std::vector<Key>& keys() {
       count("kept-meshes", "Meshes kept; to create more, delete some", &Meshes::max_meshes, 1,
             million),
       bytes("upload-limit", "Size of an uploaded .msh or array", &Limits::upload_bytes, 1),
-      bytes("memory-budget", "Memory for all factorised meshes, e.g. 2GiB; default: half of memory",
-            &Limits::memory_budget_bytes, 1 << 20),
+      bytes(
+          "memory-budget",
+          "Memory for all factorised meshes, e.g. 2GiB; default: half of what the machine, control "
+          "groups and ulimit -v allow",
+          &Limits::memory_budget_bytes, least_memory_budget),
 
-      count("threads", "Solver threads; default: number of processors", &Jobs::threads, 1, 1024),
+      count("threads",
+            "Solver threads; default: the processors that affinity and control groups allow",
+            &Jobs::threads, 1, 1024),
       count("columns", "Load cases of one mesh solved together", &Jobs::columns, 1, 4'096),
       // All of a job's answers, and the layout of its results, must fit in a message of 4 MiB.
       count("load-cases", "Load cases of one job", &Jobs::max_load_cases, 1, 4'000),

@@ -12,8 +12,10 @@
 #include <iostream>
 #include <iterator>
 #include <memory>
+#include <new>
 #include <optional>
 #include <stdexcept>
+#include <system_error>
 #include <thread>
 
 #include "app/backup.hpp"
@@ -34,6 +36,9 @@ namespace {
 using namespace anticrack;
 
 constexpr int usage_error = 2;
+constexpr const char* limits_on_memory =
+    "raise the limit that is too small: ulimit -v (address space), ulimit -u (threads), or memory "
+    "and pids of the control group";
 
 /// Waits for the first signal to stop. Meanwhile SIGHUP reads certificates and tokens again, and
 /// systemd's watchdog, if there is one, is kept informed.
@@ -138,6 +143,14 @@ int main(int argc, char** argv) {
   } catch (const app::ConfigError& error) {
     std::cerr << "anticrackd: " << error.what() << "\n";
     return usage_error;
+  } catch (const std::bad_alloc&) {
+    std::cerr << "anticrackd: not enough memory; " << limits_on_memory << "\n";
+    return 1;
+  } catch (const std::system_error& error) {
+    const bool thread = error.code() == std::errc::resource_unavailable_try_again;
+    std::cerr << "anticrackd: " << (thread ? "a thread cannot be started; " : "")
+              << (thread ? limits_on_memory : error.what()) << "\n";
+    return 1;
   } catch (const std::exception& error) {
     std::cerr << "anticrackd: " << error.what() << "\n";
     return 1;

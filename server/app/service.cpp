@@ -11,6 +11,7 @@
 #include "app/data_folder.hpp"
 #include "app/events.hpp"
 #include "app/listen_address.hpp"
+#include "app/machine.hpp"
 #include "app/options.hpp"
 #include "app/security.hpp"
 #include "log/log.hpp"
@@ -19,6 +20,20 @@
 #include "rpc/version.hpp"
 
 namespace anticrack::app {
+
+namespace {
+
+/// The kernel ends who takes more.
+void warn_of_memory(const Config& config) {
+  const Machine machine = this_machine();
+  if (config.limits.memory_budget_bytes <= machine.memory_bytes) return;
+  log::warn("memory", {{"warning", "memory-budget is more than there is; give less"},
+                       {"memory_budget_bytes", config.limits.memory_budget_bytes},
+                       {"bytes", machine.memory_bytes},
+                       {"limited_by", machine.memory_limit}});
+}
+
+}  // namespace
 
 struct Service::Parts {
   explicit Parts(const Config& config)
@@ -98,6 +113,7 @@ Service::Service(const Config& config) {
   operators::require_threadsafe_blas();
   LoadedSecurity access = load_security(config);
   for (const std::string& warning : access.warnings) log::warn("security", {{"warning", warning}});
+  warn_of_memory(config);
   _parts = std::make_unique<Parts>(config);
   _parts->listen(config, std::move(access.security));
 }

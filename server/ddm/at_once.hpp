@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -41,7 +42,11 @@ void at_once(std::size_t count, int threads, const MakeWorker& make_worker) {
   if (count > 0) {
     std::vector<std::jthread> helpers;
     const auto wanted = std::min(at(std::max(threads, 1)), count);
-    for (std::size_t t = 1; t < wanted; ++t) helpers.emplace_back(run);
+    try {
+      for (std::size_t t = 1; t < wanted; ++t) helpers.emplace_back(run);
+    } catch (const std::system_error&) {
+      // No more threads: those there are do the rest.
+    }
     run();
   }
   if (failure) std::rethrow_exception(failure);

@@ -51,7 +51,7 @@ std::string text_of(const store::MeshProgress& progress) {
 
 PreparationPool::PreparationPool(EngineCore& core) : _core(core) {
   const Lock lock(core.mutex);
-  _threads.emplace_back([this] { work(); });
+  _threads.push_back(core.start(lock, [this] { work(); }));
 }
 
 PreparationPool::~PreparationPool() {
@@ -171,7 +171,8 @@ void PreparationPool::prepare(Lock& lock, const Mesh& mesh) {
     } else {
       // Not at once, for jobs that come while the others are being failed.
       _core.schedule.again(mesh->id, EngineCore::Clock::now() + shortest_retry);
-      for (const auto& [number, job] : mesh->jobs) failed.push_back(job);
+      for (const auto& [number, job] : std::map(mesh->jobs))
+        if (!fall_back_a_stage(_core, lock, job, *failure)) failed.push_back(job);
     }
   }
   _core.release(mesh);

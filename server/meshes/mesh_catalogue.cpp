@@ -59,6 +59,19 @@ class Ends {
   Preparation* _preparation;
 };
 
+void require_memory(const mesh::Mesh& mesh, std::uint64_t budget) {
+  const std::uint64_t wanted = operators::estimate_bytes(mesh);
+  if (wanted <= budget) return;
+  constexpr std::uint64_t mebibyte = 1 << 20;
+  throw Error(
+      Reason::limit_exceeded,
+      fmt::format("the operators of a finer mesh ({} triangles) need about {} MiB, more "
+                  "than the memory-budget of {} MiB of the server; ask for a larger error, "
+                  "or start the server with more",
+                  mesh.triangle_count(), (wanted + mebibyte - 1) / mebibyte, budget / mebibyte))
+      .at("memory_budget");
+}
+
 }  // namespace
 
 struct MeshCatalogue::State {
@@ -78,11 +91,12 @@ struct MeshCatalogue::State {
 
   MeshIndex& index() { return preparation.index(); }
 
-  /// The cache's key for the operators of a mesh; empty if it is not meshed.
-  std::string key(const std::string& id) {
+  /// The cache's key for the operators of a mesh, empty if it is not meshed; and its owner.
+  std::pair<std::string, std::string> key(const std::string& id) {
     const auto lock = preparation.lock();
     const LiveMesh* mesh = index().find(id);
-    return mesh != nullptr && mesh->stage == Stage::meshed ? mesh->sha256 : std::string();
+    if (mesh == nullptr || mesh->stage != Stage::meshed) return {};
+    return {mesh->sha256, mesh->owner};
   }
 
   // With the lock held:
@@ -158,6 +172,7 @@ MeshRecord MeshCatalogue::create(const store::MeshDefinition& definition, const 
     _state->require_room();
     LiveMesh& mesh = _state->claim(id);
     mesh.definition = identity(definition);
+    mesh.owner = owner;
     mesh.size_class = meshes::size_class(triangles);
   }
   MeshRecord record;
@@ -202,7 +217,9 @@ MeshRecord MeshCatalogue::refine(const Parent& parent, std::span<const std::uint
       lock.unlock();
       return get(record.id);
     }
-    _state->claim(record.id).definition = identity(definition);
+    LiveMesh& claimed = _state->claim(record.id);
+    claimed.definition = identity(definition);
+    claimed.owner = parent.owner;
   }
   try {
     const auto start = std::chrono::steady_clock::now();
@@ -216,6 +233,7 @@ MeshRecord MeshCatalogue::refine(const Parent& parent, std::span<const std::uint
                   "the triangles that the error comes from are as small as rounding lets them be; "
                   "ask for a larger error, or put the origin near them");
     }
+    require_memory(fine, _state->cache.budget());
     record.owner = parent.owner;
     record.title = "a stage of jobs/" + parent.job;
     record.definition = definition;
@@ -358,17 +376,17 @@ std::shared_ptr<const operators::MeshOperator> MeshCatalogue::prepare(
 }
 
 std::shared_ptr<const operators::MeshOperator> MeshCatalogue::find(const std::string& id) const {
-  const std::string key = _state->key(id);
-  return key.empty() ? nullptr : _state->cache.find(key);
+  const auto [key, owner] = _state->key(id);
+  return key.empty() ? nullptr : _state->cache.find(key, owner);
 }
 
 bool MeshCatalogue::ready(const std::string& id) const {
-  const std::string key = _state->key(id);
+  const std::string key = _state->key(id).first;
   return !key.empty() && _state->cache.contains(key);
 }
 
 bool MeshCatalogue::pinned(const std::string& id) const {
-  const std::string key = _state->key(id);
+  const std::string key = _state->key(id).first;
   return !key.empty() && _state->cache.pinned(key);
 }
 

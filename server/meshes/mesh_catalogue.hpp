@@ -33,8 +33,9 @@ using PhaseListener = std::function<void(store::MeshState)>;
 /// Receives how far the mesher is, about every second.
 using ProgressListener = std::function<void(const store::MeshProgress&)>;
 
-/// Meshes and factorises new meshes in the background in the order they came, two per size class
-/// (size_class.hpp) at a time, so that large meshes do not delay small ones. Thread-safe.
+/// Meshes and factorises new meshes in the background, owners in turn, two per size class
+/// (size_class.hpp) at a time, so that large meshes do not delay small ones, and one more for an
+/// owner who has none there, so that slow ones do not delay those of others. Thread-safe.
 ///
 /// On disk a mesh is PENDING, EVICTED (meshed) or FAILED. At start, meshes that are still PENDING
 /// are scheduled, oldest first, but for those that are only there for jobs. A mesh for which the
@@ -61,9 +62,10 @@ class MeshCatalogue {
   };
   /// A mesh whose triangles are bisected, levels (m) as mesh::refine() has them: made at once and
   /// written, its operators when they are prepared. The same parent and levels give the same mesh.
-  /// Throws errors::Error: not_found, not_ready (the parent), limit_exceeded, quota_exceeded,
-  /// disk_full, numerical (what is to be bisected is as small as mesh::refine() makes triangles),
-  /// cancelled at a look (stop/stop.hpp).
+  /// Throws errors::Error: not_found, not_ready (the parent), limit_exceeded (the triangles, or at
+  /// "memory_budget" what its operators would take), quota_exceeded, disk_full, numerical (what is
+  /// to be bisected is as small as mesh::refine() makes triangles), cancelled at a look
+  /// (stop/stop.hpp).
   store::MeshRecord refine(const Parent& parent, std::span<const std::uint8_t> levels,
                            std::size_t max_triangles);
   std::size_t max_triangles() const noexcept;  ///< of a mesh

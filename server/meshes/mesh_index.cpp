@@ -40,6 +40,7 @@ LiveMesh& MeshIndex::add(const MeshRecord& record) {
                : record.sha256.empty()           ? Stage::pending
                                                  : Stage::meshed;
   mesh.definition = identity(record.definition);
+  mesh.owner = record.owner;
   mesh.sha256 = record.sha256;
   mesh.error = record.error;
   mesh.for_job = record.for_job;

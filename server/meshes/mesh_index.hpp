@@ -37,6 +37,7 @@ struct Measured {
 struct Run {
   const std::string id;
   const int size_class;
+  const std::string owner = {};
   std::stop_source stop = {};
 
   store::MeshState phase = store::MeshState::pending;  ///< or meshing, factorizing
@@ -54,9 +55,10 @@ struct Run {
 
 struct LiveMesh {
   Stage stage = Stage::absent;
-  bool claimed = false;                ///< its record is being made or erased
-  std::uint64_t version = 0;           ///< incremented with each change of the record
-  std::string definition;              ///< hash, without the owner
+  bool claimed = false;       ///< its record is being made or erased
+  std::uint64_t version = 0;  ///< incremented with each change of the record
+  std::string definition;     ///< hash, without the owner
+  std::string owner;
   std::string sha256;                  ///< of the triangulation; empty: not meshed
   std::optional<errors::Error> error;  ///< when failed
   Measured operators;

@@ -109,7 +109,7 @@ Preparation::RunPtr Preparation::begin(const std::string& id, bool background) {
   LiveMesh& mesh = _index.known(id);
   const bool pending = mesh.stage == Stage::pending;
   if (!mesh.run) {
-    mesh.run = std::make_shared<Run>(Run{id, mesh.size_class});
+    mesh.run = std::make_shared<Run>(Run{id, mesh.size_class, mesh.owner});
     mesh.run->phase = pending ? MeshState::pending : MeshState::factorizing;
     _queue.push_back(mesh.run);
     _changed.notify_all();
@@ -181,7 +181,7 @@ Preparation::Operator Preparation::prepare(const std::string& id, const PhaseLis
   LiveMesh& mesh = _index.known(id);
   if (mesh.stage == Stage::failed) throw Error(*mesh.error);
   if (mesh.stage == Stage::meshed && mesh.operators.bytes > 0 && (!mesh.run || mesh.run->visible)) {
-    if (Operator ready = _cache.find(mesh.sha256)) return ready;
+    if (Operator ready = _cache.find(mesh.sha256, mesh.owner)) return ready;
   }
   const bool joins = mesh.run != nullptr;
   const RunPtr run = begin(id, false);
@@ -259,17 +259,37 @@ void Preparation::work() {
   }
 }
 
+bool Preparation::may_begin(const Run& run) const {
+  int as_large = 0;
+  bool own = false;
+  for (const RunPtr& other : _under_way) {
+    if (other->size_class != run.size_class) continue;
+    ++as_large;
+    own = own || other->owner == run.owner;
+  }
+  const bool newcomer = !run.owner.empty() && !own;
+  return as_large < (newcomer ? 2 : 1) * runs_at_once;
+}
+
 Preparation::RunPtr Preparation::take() {
+  auto best = _queue.end();
+  std::pair<std::ptrdiff_t, std::uint64_t> best_rank;
   for (auto run = _queue.begin(); run != _queue.end(); ++run) {
-    const auto as_large = std::count_if(_under_way.begin(), _under_way.end(), [&](const RunPtr& r) {
-      return r->size_class == (*run)->size_class;
-    });
-    if (as_large < runs_at_once) {
-      _under_way.splice(_under_way.end(), _queue, run);
-      return _under_way.back();
+    if (!may_begin(**run)) continue;
+    const std::string& owner = (*run)->owner;
+    const auto own = std::count_if(_under_way.begin(), _under_way.end(),
+                                   [&](const RunPtr& other) { return other->owner == owner; });
+    const auto started = _started.find(owner);
+    const std::pair rank{own, started == _started.end() ? 0 : started->second};
+    if (best == _queue.end() || rank < best_rank) {
+      best = run;
+      best_rank = rank;
     }
   }
-  return nullptr;
+  if (best == _queue.end()) return nullptr;
+  _started[(*best)->owner] = ++_starts;
+  _under_way.splice(_under_way.end(), _queue, best);
+  return _under_way.back();
 }
 
 void Preparation::perform(Run& run) {
@@ -347,9 +367,9 @@ void Preparation::factorize(Run& run, std::shared_ptr<const mesh::Mesh> triangul
   Lock held = lock();
   LiveMesh* mesh = mesh_of(run);
   if (mesh == nullptr) return;
-  const std::string sha256 = mesh->sha256;
+  const std::string sha256 = mesh->sha256, owner = mesh->owner;
   held.unlock();
-  Operator result = _cache.find(sha256);
+  Operator result = _cache.find(sha256, owner);
   if (!result) {
     triangulation = triangulation ? std::move(triangulation) : _store.triangulation(sha256);
     if (!triangulation) {
@@ -357,7 +377,7 @@ void Preparation::factorize(Run& run, std::shared_ptr<const mesh::Mesh> triangul
                                                "folder: delete the mesh and create it again",
                                                run.id));
     }
-    result = _cache.acquire(sha256, std::move(triangulation), run.stop.get_token());
+    result = _cache.acquire(sha256, std::move(triangulation), run.stop.get_token(), owner);
   }
   held.lock();
   mesh = mesh_of(run);

@@ -14,6 +14,7 @@
 #include <stop_token>
 #include <string>
 #include <thread>
+#include <unordered_map>
 
 #include "errors/errors.hpp"
 #include "meshes/mesh_catalogue.hpp"
@@ -24,7 +25,9 @@
 namespace anticrack::meshes {
 
 /// Each requested mesh has a run (mesh_index.hpp) on one thread. Two runs per size class
-/// (size_class.hpp) are active at a time, the others wait in order of arrival.
+/// (size_class.hpp) are active at a time, and up to four if each of the others is the only one of
+/// an owner with a name. Of those that wait the next is of the owner who has the fewest under way,
+/// then of who had a start longest ago, then the one that came first.
 ///
 /// The mutex guards the index and the runs; it is never held during calls of the store. A record
 /// has one writer at a time: whoever claimed it (to make or erase it), else its run. The index
@@ -86,6 +89,7 @@ class Preparation {
   void work();
   /// Activates the next run that may begin; null if there is none.
   RunPtr take();
+  bool may_begin(const Run& run) const;
   void perform(Run& run);
   std::shared_ptr<const mesh::Mesh> triangulate(Run& run);
   /// The mesh of a run that is about to write its record; null if the run was given up.
@@ -110,6 +114,8 @@ class Preparation {
   std::list<RunPtr> _queue;
   std::list<RunPtr> _under_way;
   std::multimap<std::chrono::steady_clock::time_point, std::string> _later;  ///< meshes to retry
+  std::unordered_map<std::string, std::uint64_t> _started;  ///< by owner: when, in starts
+  std::uint64_t _starts = 0;
   std::stop_source _stopping;
   int _idle = 0;
   std::list<std::jthread> _threads;  ///< one more than the most active runs so far
