@@ -7,6 +7,7 @@
 #include "cli/json.hpp"
 #include "cli/terminal.hpp"
 #include "cli/text.hpp"
+#include "words/shown.hpp"
 
 namespace anticrack::cli {
 
@@ -34,7 +35,9 @@ void complain(std::string_view line) {
   std::fprintf(stderr, "anticrack: %s\n", sanitise(line).c_str());
 }
 
-void print_document(std::string_view text) {
+void print_document(std::string_view document) {
+  // Whatever part of it was not sanitised: a last line of defence, which leaves lines alone.
+  const std::string text = words::shown(document, "\n\t");
   std::fwrite(text.data(), 1, text.size(), stdout);
   if (text.empty() || text.back() != '\n') std::fputc('\n', stdout);
   if (std::fflush(stdout) != 0) throw std::runtime_error("standard output cannot be written");
