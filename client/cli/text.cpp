@@ -13,7 +13,7 @@
 #include <cstdlib>
 #include <ctime>
 
-#include "figures/text.hpp"
+#include "words/shown.hpp"
 
 namespace anticrack::cli {
 namespace {
@@ -34,16 +34,7 @@ Character first_character(std::string_view text) {
 
 }  // namespace
 
-std::string sanitise(std::string_view text) {
-  std::string clean;
-  clean.reserve(text.size());
-  for (std::size_t i = 0; i < text.size();) {
-    const std::size_t length = figures::character(text.substr(i));
-    clean += length > 0 ? text.substr(i, length) : std::string_view("?");
-    i += std::max<std::size_t>(length, 1);
-  }
-  return clean;
-}
+std::string sanitise(std::string_view text) { return words::shown(text); }
 
 std::size_t columns_of(std::string_view text) noexcept {
   std::size_t columns = 0;

@@ -38,7 +38,8 @@ struct Config {
   // Options of the layers; options.hpp completes them.
   store::StoreOptions store;        ///< no folder: default_data_dir()
   meshes::CatalogueOptions meshes;  ///< no executable of the helper: beside this one
-  rpc::Limits limits;               ///< memory budget 0: half of Machine::memory_bytes
+  /// Memory budget 0: half of Machine::memory_bytes. Connections 0: as fit_connections() sets them.
+  rpc::Limits limits{.connections = 0};
   /// 0 threads: Machine::processors.
   jobs::EngineOptions jobs{.threads = 0, .max_load_cases = 1'000, .event_log_bytes = 8u << 20};
 };

@@ -191,6 +191,11 @@ const std::vector<Key>& keys() {
       time("queue-time", "Longest wait of a job; then it fails", &Jobs::queue_time, seconds(1)),
       time("run-time", "Longest run of a job; then it fails", &Jobs::run_time, seconds(1)),
 
+      count("connections",
+            "Connections open at once; default: 4096, or what the limit of open files leaves",
+            &Limits::connections, 1, million),
+      count("connections-an-address", "Connections that one address may have",
+            &Limits::connections_an_address, 1, million),
       count("watchers", "Watches open at once", &Limits::watchers, 1, 100'000),
       count("transfers", "Uploads and downloads at once", &Limits::transfers, 1, 10'000),
       count("streams-a-client", "Watches and transfers that one client may have open",

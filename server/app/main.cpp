@@ -22,6 +22,7 @@
 #include "app/check_files.hpp"
 #include "app/command_line.hpp"
 #include "app/config_file.hpp"
+#include "app/descriptors.hpp"
 #include "app/notify.hpp"
 #include "app/private_place.hpp"
 #include "app/service.hpp"
@@ -123,7 +124,9 @@ int run(int argc, char** argv) {
   if (line.is_private) file = place.emplace().settings();
   if (!line.config_file.empty())
     std::ranges::copy(app::read_config_file(line.config_file), std::back_inserter(file));
-  const app::Config config = app::make_config(file, line.settings);
+  app::Config config = app::make_config(file, line.settings);
+  const bool serves = line.backup.empty() && !line.check_store;
+  if (serves) app::fit_connections(config, app::raise_descriptor_limit());
   if (line.check_config) {
     std::cout << app::to_toml(config) << std::flush;
     const std::vector<std::string> problems = app::problems_of_files(config);

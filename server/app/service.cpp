@@ -78,6 +78,10 @@ struct Service::Parts {
     now.disk = store->usage();
     now.meshings = catalogue.meshings();
     now.pending_meshes = catalogue.pending();
+    now.connections = calls.connections;
+    now.connections_limit = given.limits.connections;
+    now.connections_accepted = calls.connections_accepted;
+    now.connections_refused = calls.connections_refused;
     now.watchers = calls.watchers;
     now.transfers = calls.transfers;
     now.largest_lag = calls.largest_lag;

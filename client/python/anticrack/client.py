@@ -20,6 +20,7 @@ from .progress import Progress
 from .result import Result
 from .retry import Backoff
 from .session import ENDED, Session
+from .text import shown
 from .transport import Transport, each, finished
 from .v1 import mesh_pb2, server_pb2, solve_pb2
 
@@ -72,13 +73,13 @@ class JobState:
         return result
 
     def __repr__(self) -> str:
-        return f"<{self.name}: {self.state}>"
+        return f"<{shown(self.name)}: {self.state}>"
 
 
 def noted(result: Result) -> Result:
     """Warns of what is to be known, at the line that called run()."""
     for note in notes_on(result):
-        warnings.warn(note, stacklevel=3)
+        warnings.warn(shown(note), stacklevel=3)
     return result
 
 
