@@ -2,25 +2,25 @@
 """Over the arc length of an interface."""
 from __future__ import annotations
 
+import operator
 from typing import Any
 
 import numpy as np
 
 from ..arrays import Array
-from ..errors import Error
 from ..result import CRACK, DELAMINATED, Interface, Load, Result, Trace, runs
-from .panel import LINES, axes, cut, load_of
+from .panel import (LINES, axes, cut, legend_below, load_of, named_without, number_text, offset_of, point_text,
+                    traces_of)
 
 
 def _interface(result: Result, load: Load, interface: int | str | None, pressed: bool = False) -> int:
     """The one named, or the most eventful: whose jump is largest or, if nothing is open, whose contact is longest.
     pressed: whose contact is longest, but the same one where its contact is at least half as long; as the command."""
-    if isinstance(interface, int):
-        return interface
-    if interface is not None:
+    traces_of(result, load)
+    if isinstance(interface, str):
         return result.interfaces.place(interface)
-    if not load.traces:
-        raise Error(f"{load.name} has no traces")
+    if interface is not None:
+        return operator.index(interface)
     jumps = [np.abs(trace.jump).max(initial=0) for trace in load.traces]
     largest = max(np.abs(trace.u_plus).max(initial=0) for trace in load.traces)
     contact = [_lengths(line) @ (trace.contact != 0) for line, trace in zip(result.interfaces, load.traces)]
@@ -38,7 +38,19 @@ def _lengths(line: Interface) -> Array:
 
 def _arc_length(result: Result, line: Interface) -> str:
     """For an axis."""
-    return f"arc length of {line.name} from ({line.x[0]:.4g}, {line.y[0]:.4g}){result.units.label('L')}"
+    start = point_text(line.x[0], line.y[0], line.s[-1])
+    return f"arc length of {line.name} from {start}{result.units.label('L')}"
+
+
+def _show_zero(load: Load, trace: Trace, ax: Any) -> None:
+    """Where u is rounding against that of the membrane, estimated from its energy, zero looks like zero; as the
+    command's."""
+    typical = float(np.sqrt(abs(load.energy))) if np.isfinite(load.energy) else 0.0
+    largest = max(np.abs(values).max(initial=0) for values in (trace.u_plus, trace.u_minus, trace.jump))
+    if 0 < largest < 1e-9 * typical:
+        power = 10.0 ** np.floor(np.log10(typical))
+        ax.update_datalim([(0, -power), (0, power)], updatex=False)
+        ax.autoscale_view()
 
 
 def _shade_contact(line: Interface, trace: Trace, ax: Any, load: Load, curve: Any) -> None:
@@ -94,16 +106,18 @@ def traces(result: Result, load: str | Load | None = None, interface: int | str 
     index = _interface(result, load, interface)
     line, trace = result.interfaces[index], load.traces[index]
     first = not ax.lines
-    (curve,) = ax.plot(line.s, trace.u_minus, label=f"{load.name}: $u^-$")
-    ax.plot(line.s, trace.u_plus, "--", label=f"{load.name}: $u^+$")
+    values = np.concatenate((trace.u_minus, trace.u_plus))
+    offset = offset_of(values.min(), values.max(), np.ptp(trace.jump))  # else [u] would be 0 against a lifted sheet
+    (curve,) = ax.plot(line.s, trace.u_minus - offset, label=f"{load.name}: {named_without('$u^-$', offset)}")
+    ax.plot(line.s, trace.u_plus - offset, "--", label=f"{load.name}: {named_without('$u^+$', offset)}")
     ax.plot(line.s, trace.jump, ":", label=f"{load.name}: $[u]$")
+    _show_zero(load, trace, ax)
     _shade_contact(line, trace, ax, load, curve)
     if first:
         _bars(result, line, ax)
     ax.set(xlabel=_arc_length(result, line), ylabel="displacement" + result.units.label("L"),
            title=load.name if first else "")
-    # Several loads leave no room between their curves.
-    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncol=2, fontsize="small", frameon=False)
+    legend_below(ax)  # several loads leave no room between their curves
     return ax
 
 
@@ -126,7 +140,7 @@ def pressure(result: Result, load: str | Load | None = None, interface: int | st
         shown, highest = cut(values[closed], lengths[closed], 0.9, 1.5)
         ax.set_ylim(0, max(1.05 * shown, 0 if first else ax.get_ylim()[1]))
         if shown < highest:
-            label = f"contact pressure{unit}, cut off at the tips, up to {highest:.2g}"
+            label = f"contact pressure{unit}, cut off at the tips, up to {number_text(highest, 2)}"
     ax.set(xlabel=_arc_length(result, line), ylabel=label, title=name if first else "")
     if not first:
         ax.legend(loc="best", fontsize="small")

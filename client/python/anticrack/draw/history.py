@@ -2,11 +2,12 @@
 """Over iterations, stages and the rows of a sweep."""
 from __future__ import annotations
 
+from numbers import Integral
 from typing import Any
 
 import numpy as np
 
-from ..arrays import Array
+from ..arrays import Array, array_of
 from ..errors import Error
 from ..names import place
 from ..result import Load, Result, Sweep
@@ -18,14 +19,28 @@ _CURVES = 6  # of a sweep, at most
 def convergence(result: Result, load: str | Load | None = None, ax: Any = None) -> Any:
     """Over the iterations: the relative change, and the residuals of the optimality conditions."""
     ax, load = axes(ax), load_of(result, load)
+    if not load.history:
+        raise Error(f"{load.name} has no history of iterations")
     iterations = load.history["iteration"]
     ax.plot(iterations, load.history["criterion"], ".-", label=f"{load.name}: relative change per iteration")
     residuals = [load.history[name] for name in ("kkt_equilibrium", "kkt_gap", "kkt_sign", "kkt_complementarity")]
     ax.plot(iterations, np.max(residuals, axis=0), ".--", label=f"{load.name}: largest KKT residual")
-    ax.set(yscale="log", xlabel="iteration", ylabel="relative change, KKT residual")
+    ax.set(xlabel="iteration", ylabel="relative change, KKT residual")
+    _log_with_zero(ax)
     ax.xaxis.get_major_locator().set_params(integer=True, min_n_ticks=1)
     ax.legend()
     return ax
+
+
+def _log_with_zero(ax: Any) -> None:
+    """What is exactly 0 has a place at the foot."""
+    values = np.concatenate([np.asarray(line.get_ydata(), dtype=float) for line in ax.lines])
+    above = values[values > 0]
+    if len(above) and (values == 0).any():
+        ax.set_yscale("symlog", linthresh=10.0 ** np.floor(np.log10(above.min())))
+        ax.set_ylim(bottom=0)
+    elif len(above):
+        ax.set_yscale("log")
 
 
 def error_band(result: Result, load: str | Load | None = None, ax: Any = None) -> Any:
@@ -78,13 +93,13 @@ def sweep(result: Result, x: str | int | Array | None = None, inclusion: str | i
     line = ".-"
     if x is None:
         label, values, line = _sweep_axis(columns)
-    elif isinstance(x, (str, int)):
+    elif isinstance(x, (str, Integral)):
         if columns.coefficients is None:
             raise Error("the coefficients are not known; give x, a value for every row")
-        index = place("load", x, columns.loads) if isinstance(x, str) else x
+        index = place("load", x, columns.loads) if isinstance(x, str) else int(x)
         label, values = f"coefficient of {columns.loads[index]}", columns.coefficients[:, index]
     else:
-        label, values = "", np.asarray(x)
+        label, values = "", array_of(x, (len(columns.status),), lambda problem: Error(f"x: {problem}"))
     rows = np.flatnonzero(columns.converged)
     rows = rows[np.argsort(values[rows], kind="stable")]
     chosen = list(range(len(columns.inclusions)))
