@@ -75,7 +75,7 @@ def offset_of(low: float, high: float, extent: float = 0) -> float:
     size = max(high - low, extent)
     if not size > 0 or not max(abs(low), abs(high)) > 1e3 * size:
         return 0.0
-    rounded = 10.0 ** (math.floor(math.log10(size)) + 1)
+    rounded = 10.0 ** (math.floor(math.log10(size)) + 2)
     return float(round((low + high) / 2 / rounded) * rounded)
 
 
