@@ -71,15 +71,15 @@ std::string pad_left(std::string_view text, std::size_t width) {
 std::string number(double value, int digits, bool exponent) {
   if (!std::isfinite(value)) return "-";
   std::array<char, 64> buffer{};
-  const int length =
-      std::snprintf(buffer.data(), buffer.size(), exponent ? "%.*e" : "%.*g", digits, value);
+  const int length = std::snprintf(buffer.data(), buffer.size(), exponent ? "%.*e" : "%.*g", digits,
+                                   value + 0.0);  // no "-0"
   return std::string(buffer.data(), static_cast<std::size_t>(length));
 }
 
 std::string exact(double value) {
   if (!std::isfinite(value)) return "";
   std::array<char, 32> buffer{};
-  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value + 0.0);
   return {buffer.data(), result.ptr};
 }
 

@@ -21,7 +21,7 @@ bool is_alphanumeric(char c) {
 std::string printed(double value, int digits) {
   if (!std::isfinite(value)) return "NaN";
   std::array<char, 40> buffer{};
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value + 0.0,
                                  std::chars_format::general, digits);
   return {buffer.data(), end.ptr};
 }

@@ -40,10 +40,16 @@ def interval(lower: float, upper: float, value: float, unit: str = "") -> str:
     step = 10.0 ** -behind
     shown = math.copysign(math.floor(abs(middle) / step + 0.5), middle) * step
     beside = math.ceil(max(upper - shown, shown - lower) / step - 1e-6) * step
-    texts = [f"{number / 10.0 ** exponent + 0.0:.{max(0, behind + exponent)}f}" for number in (shown, beside, value)]
+    texts = [f"{_unsigned(number / 10.0 ** exponent, max(0, behind + exponent)):.{max(0, behind + exponent)}f}"
+             for number in (shown, beside, value)]
     if not exponent:
         return f"{texts[0]} +- {texts[1]}{unit} ({texts[2]} on the mesh)"
     return f"({texts[0]} +- {texts[1]})e{exponent}{unit} ({texts[2]}e{exponent} on the mesh)"
+
+
+def _unsigned(number: float, decimals: int) -> float:
+    """0 where no other digit would be printed than 0: no "-0.00"."""
+    return 0.0 if abs(number) < 0.5 * 10.0 ** -decimals else number
 
 
 def short_length(length: float) -> str:

@@ -100,6 +100,8 @@ TEST(Number, IsShortAndSaysWhenThereIsNone) {
   EXPECT_EQ(number(2.0, 4), "2");
   EXPECT_EQ(number(1.74321, 4), "1.743");
   EXPECT_EQ(number(9.56e-13, 2, true), "9.56e-13");
+  EXPECT_EQ(number(-0.0), "0");
+  EXPECT_EQ(exact(-0.0), "0");
   EXPECT_EQ(number(std::numeric_limits<double>::quiet_NaN()), "-");
   EXPECT_EQ(number(std::numeric_limits<double>::infinity()), "-");
 }
