@@ -16,12 +16,12 @@ namespace anticrack::expression {
 
 /// Intervals that hold the coefficients d^(i+j) f / dx^i dy^j / (i! j!) in every point of a box, i
 /// + j
-/// <= order <= 3. By ascending degree, of x first: 1, x, y, x^2, x y, y^2, x^3, ..., y^3. Where f
+/// <= order <= 4. By ascending degree, of x first: 1, x, y, x^2, x y, y^2, x^3, ..., y^4. Where f
 /// has a kink, the first derivatives hold those of all its sides, so that the mean value theorem
 /// holds.
 struct Jet {
-  static constexpr int most = 3;
-  static constexpr std::size_t size = 10;
+  static constexpr int most = 4;
+  static constexpr std::size_t size = 15;
 
   std::array<Interval, size> of{};
   int order = most;  ///< those of higher degree are unknown; 0: only the values are known
@@ -59,7 +59,7 @@ class Enclosure {
   const Jet& argument() const noexcept { return _argument; }
 
   /// Time of a box, roughly, ns.
-  double cost() const noexcept { return 60 * static_cast<double>(_needed.size()); }
+  double cost() const noexcept { return 120 * static_cast<double>(_needed.size()); }
 
  private:
   Jet apply(Ref number, const Operation& operation);

@@ -15,37 +15,27 @@ constexpr std::size_t end_of(int degree) { return first_of(degree + 1); }
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// f, f', f''/2, f'''/6 over an interval.
-using Series = std::array<Interval, 4>;
+/// Derivatives over an interval, the k-th over k!.
+using Series = std::array<Interval, Jet::most + 1>;
 
-/// f(a) from the series of f over the values of a.
+/// f(a) from the series of f over the values of a, by Horner's rule in what a varies.
 Jet compose(const Jet& a, const Series& f, int order) {
+  Jet vary = a;
+  vary.of[0] = {};
+  const int wanted = std::min(a.order, order);
+  int known = 0;
+  while (known < wanted && f[static_cast<std::size_t>(known + 1)].finite()) ++known;
+  vary.order = known;
   Jet result;
+  if (a.degree > 0) {
+    result = constant_jet(f[static_cast<std::size_t>(known)]);
+    for (int k = known; k-- > 0;)
+      result = constant_jet(f[static_cast<std::size_t>(k)]) + vary * result;
+    result.degree = Jet::most;
+  }
   result.of[0] = f[0];
-  result.order = std::min(a.order, order);
+  result.order = known;
   result.defined = a.defined;
-  for (int k = 0; k < result.order; ++k)
-    if (!f[static_cast<std::size_t>(k + 1)].finite()) result.order = k;
-  result.degree = a.degree == 0 ? 0 : Jet::most;
-  if (a.degree == 0) return result;
-  const auto& u = a.of;
-  if (result.order >= 1) {
-    result.of[1] = f[1] * u[1];
-    result.of[2] = f[1] * u[2];
-  }
-  if (result.order >= 2) {
-    result.of[3] = f[1] * u[3] + f[2] * square(u[1]);
-    result.of[4] = f[1] * u[4] + 2 * (f[2] * (u[1] * u[2]));
-    result.of[5] = f[1] * u[5] + f[2] * square(u[2]);
-  }
-  if (result.order >= 3) {
-    result.of[6] = f[1] * u[6] + 2 * (f[2] * (u[1] * u[3])) + f[3] * (u[1] * square(u[1]));
-    result.of[7] =
-        f[1] * u[7] + 2 * (f[2] * (u[1] * u[4] + u[2] * u[3])) + 3 * (f[3] * (square(u[1]) * u[2]));
-    result.of[8] =
-        f[1] * u[8] + 2 * (f[2] * (u[1] * u[5] + u[2] * u[4])) + 3 * (f[3] * (u[1] * square(u[2])));
-    result.of[9] = f[1] * u[9] + 2 * (f[2] * (u[2] * u[5])) + f[3] * (u[2] * square(u[2]));
-  }
   return result;
 }
 
@@ -103,6 +93,10 @@ Interval constant_power(const Interval& a, double e) {
   return even ? hull(negative, positive) : Interval{-negative.high, positive.high};
 }
 
+constexpr Interval unity{1, 1};
+const Interval third = outward(1.0 / 3, 1.0 / 3), sixth = outward(1.0 / 6, 1.0 / 6),
+               of_24 = outward(1.0 / 24, 1.0 / 24);
+
 Series power_series(const Interval& a, double e) {
   Series result;
   double factor = 1;
@@ -117,35 +111,37 @@ Series logarithm_series(const Interval& a, double scale) {
   const Interval positive{std::max(0.0, a.low), std::max(0.0, a.high)}, r = reciprocal(positive);
   const Interval value = increasing(positive, [](double v) { return std::log(v); });
   const Interval by = outward(scale, scale);
-  return {by * value, by * r, by * (-0.5 * square(r)),
-          by * (outward(1.0 / 3, 1.0 / 3) * (r * square(r)))};
+  return {by * value, by * r, by * (-0.5 * square(r)), by * (third * (r * square(r))),
+          by * (-0.25 * square(square(r)))};
 }
-
-constexpr Interval unity{1, 1};
 
 Interval root(const Interval& a) {
   return outward(std::sqrt(std::max(0.0, a.low)), std::sqrt(std::max(0.0, a.high)));
 }
 
 Series arc_series(const Interval& u, const Interval& value, double sign) {
-  // q = (1 - u^2)^(-1/2): q, u q^3 / 2, (1 + 2 u^2) q^5 / 6.
+  // q = (1 - u^2)^(-1/2): q, u q^3 / 2, (1 + 2 u^2) q^5 / 6, u (3 + 2 u^2) q^7 / 8.
   const Interval q = reciprocal(root(unity - square(u))), q3 = q * square(q);
   return {value, sign * q, sign * 0.5 * (u * q3),
-          (sign * outward(1.0 / 6, 1.0 / 6)) * ((unity + 2 * square(u)) * (q3 * square(q)))};
+          sign * (sixth * ((unity + 2 * square(u)) * (q3 * square(q)))),
+          sign * 0.125 * ((u * (Interval{3, 3} + 2 * square(u))) * (q * square(q3)))};
 }
 
-/// Of 1 / (1 - s u^2) = w as the derivative: w, s u w^2, (s + 3 u^2) w^3 / 3 with s = 1 or -1.
+/// Of 1 / (1 - s u^2) = w as the derivative: w, s u w^2, (s + 3 u^2) w^3 / 3, u (1 + s u^2) w^4
+/// with s = 1 or -1.
 Series rational_series(const Interval& u, const Interval& value, double s) {
   const Interval w = reciprocal(unity - s * square(u));
   return {value, w, s * (u * square(w)),
-          outward(1.0 / 3, 1.0 / 3) * ((Interval{s, s} + 3 * square(u)) * (w * square(w)))};
+          third * ((Interval{s, s} + 3 * square(u)) * (w * square(w))),
+          (u * (unity + s * square(u))) * square(square(w))};
 }
 
-/// q = (u^2 + s)^(-1/2): q, -u q^3 / 2, (2 u^2 - s) q^5 / 6 with s = 1 (asinh) or -1 (acosh).
+/// q = (u^2 + s)^(-1/2): q, -u q^3 / 2, (2 u^2 - s) q^5 / 6, u (3 s - 2 u^2) q^7 / 8 with s = 1
+/// (asinh) or -1 (acosh).
 Series area_series(const Interval& u, const Interval& value, double s) {
   const Interval q = reciprocal(root(square(u) + Interval{s, s})), q3 = q * square(q);
-  return {value, q, -0.5 * (u * q3),
-          outward(1.0 / 6, 1.0 / 6) * ((2 * square(u) - Interval{s, s}) * (q3 * square(q)))};
+  return {value, q, -0.5 * (u * q3), sixth * ((2 * square(u) - Interval{s, s}) * (q3 * square(q))),
+          0.125 * ((u * (Interval{3 * s, 3 * s} - 2 * square(u))) * (q * square(q3)))};
 }
 
 Interval clipped(const Interval& a, double low, double high) {
@@ -153,13 +149,12 @@ Interval clipped(const Interval& a, double low, double high) {
 }
 
 Series series(Code code, const Interval& a) {
-  const Interval sixth = outward(1.0 / 6, 1.0 / 6);
   switch (code) {
     case Code::square_root:
       return power_series({std::max(0.0, a.low), std::max(0.0, a.high)}, 0.5);
     case Code::exponential: {
       const Interval e = exp_of(a);
-      return {e, e, 0.5 * e, sixth * e};
+      return {e, e, 0.5 * e, sixth * e, of_24 * e};
     }
     case Code::logarithm:
       return logarithm_series(a, 1);
@@ -170,15 +165,16 @@ Series series(Code code, const Interval& a) {
     case Code::sine:
     case Code::cosine: {
       const Interval s = sine(a), c = cosine(a);
-      if (code == Code::sine) return {s, c, -0.5 * s, -(sixth * c)};
-      return {c, -s, -0.5 * c, sixth * s};
+      if (code == Code::sine) return {s, c, -0.5 * s, -(sixth * c), of_24 * s};
+      return {c, -s, -0.5 * c, sixth * s, of_24 * c};
     }
     case Code::tangent: {
-      // t, 1 + t^2, t (1 + t^2), (1 + t^2) (1 + 3 t^2) / 3
-      if (cosine(a).holds(0)) return {everything, everything, everything, everything};
+      // t, 1 + t^2 = d, t d, d (1 + 3 t^2) / 3, t d (2 + 3 t^2) / 3
+      if (cosine(a).holds(0)) return {everything, everything, everything, everything, everything};
       const Interval t = increasing(a, [](double v) { return std::tan(v); });
       const Interval d = unity + square(t);
-      return {t, d, t * d, outward(1.0 / 3, 1.0 / 3) * (d * (unity + 3 * square(t)))};
+      return {t, d, t * d, third * (d * (unity + 3 * square(t))),
+              third * ((t * d) * (Interval{2, 2} + 3 * square(t)))};
     }
     case Code::arc_sine: {
       const Interval u = clipped(a, -1, 1);
@@ -195,14 +191,15 @@ Series series(Code code, const Interval& a) {
       const Interval s = increasing(a, [](double v) { return std::sinh(v); });
       const double least = a.holds(0) ? 0 : std::min(std::abs(a.low), std::abs(a.high));
       const Interval c = outward(std::cosh(least), std::cosh(a.magnitude()), ulps);
-      if (code == Code::hyperbolic_sine) return {s, c, 0.5 * s, sixth * c};
-      return {c, s, 0.5 * c, sixth * s};
+      if (code == Code::hyperbolic_sine) return {s, c, 0.5 * s, sixth * c, of_24 * s};
+      return {c, s, 0.5 * c, sixth * s, of_24 * c};
     }
     case Code::hyperbolic_tangent: {
-      // t, 1 - t^2 = d, -t d, d (3 t^2 - 1) / 3
+      // t, 1 - t^2 = d, -t d, d (3 t^2 - 1) / 3, t d (2 - 3 t^2) / 3
       const Interval t = clipped(increasing(a, [](double v) { return std::tanh(v); }), -1, 1);
       const Interval d = unity - square(t);
-      return {t, d, -(t * d), outward(1.0 / 3, 1.0 / 3) * (d * (3 * square(t) - unity))};
+      return {t, d, -(t * d), third * (d * (3 * square(t) - unity)),
+              third * ((t * d) * (Interval{2, 2} - 3 * square(t)))};
     }
     case Code::area_sine:
       return area_series(a, increasing(a, [](double v) { return std::asinh(v); }), 1);
@@ -215,7 +212,7 @@ Series series(Code code, const Interval& a) {
       return rational_series(u, increasing(u, [](double v) { return std::atanh(v); }), 1);
     }
     default:
-      return {everything, everything, everything, everything};
+      return {everything, everything, everything, everything, everything};
   }
 }
 

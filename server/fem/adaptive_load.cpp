@@ -138,6 +138,8 @@ class LoadIntegrator {
                                                _at_nodes[i]);
     }
     _integration.interpolated = true;
+    for (std::size_t t = 0; t < _count; ++t)
+      _integration.area += std::max(0.0, _integration.frame(static_cast<std::int32_t>(t)).area);
     const bool exact = std::exchange(_exact, false);  // gather() is to read the corners
     double error = 0, absolute = 0;
     for (std::size_t first = 0; first < _count; first += width) {
@@ -331,6 +333,7 @@ IntegrationReport integrate_load(std::span<const double> xy,
   options.tolerance = limits.proof_tolerance;
   options.work = limits.proof_work;
   options.absolute = absolute;
+  options.area = integration.area;
   options.exact = integration.exact && tape.switches().empty();
   options.interpolated = integration.interpolated;
   options.curved = integration.curved;

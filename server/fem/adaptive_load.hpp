@@ -29,7 +29,7 @@ struct IntegrationLimits {
 /// What is unknown of a force, relative to int |f|, matters little beside the error of linear
 /// elements, about 1 / sqrt(triangles).
 inline double proof_tolerance(std::size_t triangles) {
-  return 5e-3 / std::sqrt(static_cast<double>(triangles) + 1);
+  return 3e-2 / std::sqrt(static_cast<double>(triangles) + 1);
 }
 
 /// Work so that integrating never takes more than a few times what solving does, some 40 ns a

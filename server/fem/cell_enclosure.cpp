@@ -245,7 +245,7 @@ class Sides {
 }  // namespace
 
 Enclosed enclose(Enclosure& f, const Centred& triangle) {
-  const Jet jet = f(box_x(triangle), box_y(triangle), Jet::most);
+  const Jet jet = f(box_x(triangle), box_y(triangle), 3);
   const std::optional<Enclosure::Choice> choice = f.choice();
   Enclosed result{0, infinite, jet.value()};
   if (jet.value().finite())

@@ -36,7 +36,7 @@ struct Half {
 
 EnclosedPiece enclose(Enclosure& g, const Piece& piece) {
   const auto& [x, y, dx, dy] = piece;
-  const Jet jet = g(along(x, dx), along(y, dy), Jet::most);
+  const Jet jet = g(along(x, dx), along(y, dy), 3);
   EnclosedPiece result;
   result.values = jet.value();
   result.middle = result.mean = jet.value().middle();

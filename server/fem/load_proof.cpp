@@ -80,8 +80,7 @@ class Prover {
     if (_options.spread != nullptr) _options.spread->assign(count, {});
     std::iota(_order.begin(), _order.end(), 0);
     _proof.absolute = _options.absolute;
-    for (std::size_t t = 0; t < count; ++t)
-      _area += std::max(0.0, frame_of(_xy, _triangles, t).area);
+    _area = _options.area;
     if (_area > 0) enclose_boxes();
     quarter();
     for (std::size_t t = 0; t < count; ++t) {
@@ -148,14 +147,24 @@ class Prover {
       box.add(f.x, f.y);
       box.add(f.x + f.bx, f.y + f.by);
       box.add(f.x + f.cx, f.y + f.cy);
-      box.length_x = std::max(box.length_x, f.bx * f.bx + f.cx * f.cx - f.bx * f.cx);
-      box.length_y = std::max(box.length_y, f.by * f.by + f.cy * f.cy - f.by * f.cy);
+      box.length_x = std::max(box.length_x, squared_x(f));
+      box.length_y = std::max(box.length_y, squared_y(f));
     }
-    // The sum of dx^2 about the centroid is 2/3 of that.
-    constexpr double two_thirds_over_root_of_60 = 0.08606629658238704;
-    box.length_x = std::sqrt(box.length_x * two_thirds_over_root_of_60);
-    box.length_y = std::sqrt(box.length_y * two_thirds_over_root_of_60);
+    box.length_x = std::sqrt(box.length_x);
+    box.length_y = std::sqrt(box.length_y);
     return box;
+  }
+
+  // The sum of dx^2 about the centroid over the root of 60: the square of Centred::length_x.
+  static constexpr double two_thirds_over_root_of_60 = 0.08606629658238704;
+  static double squared_x(const Frame& f) {
+    return two_thirds_over_root_of_60 * (f.bx * f.bx + f.cx * f.cx - f.bx * f.cx);
+  }
+  static double squared_y(const Frame& f) {
+    return two_thirds_over_root_of_60 * (f.by * f.by + f.cy * f.cy - f.by * f.cy);
+  }
+  static std::array<double, 2> lengths(const Frame& f) {
+    return {std::sqrt(squared_x(f)), std::sqrt(squared_y(f))};
   }
 
   /// Separates what is on both sides of the middle of the box; returns how many are on the first.
@@ -174,7 +183,7 @@ class Prover {
   double mean() const { return _proof.absolute / _area; }
 
   /// Greatest error of the integral over a triangle of these lengths, by its area. Rules integrate
-  /// the cubic function with the middles of the third derivatives exactly, and have positive
+  /// the function of degree 4 with the middles of the fourth derivatives exactly, and have positive
   /// weights.
   double miss(const Jet& jet, double u, double v) const {
     const auto& c = jet.of;
@@ -183,8 +192,9 @@ class Prover {
       return 2 * 2.3 * 2.3 *
              (c[3].magnitude() * u * u + c[4].magnitude() * u * v + c[5].magnitude() * v * v);
     }
-    return 2 * (c[6].radius() * u * u * u + c[7].radius() * u * u * v + c[8].radius() * u * v * v +
-                c[9].radius() * v * v * v);
+    return 2 * (c[10].radius() * u * u * u * u + c[11].radius() * u * u * u * v +
+                c[12].radius() * u * u * v * v + c[13].radius() * u * v * v * v +
+                c[14].radius() * v * v * v * v);
   }
   static double bend(const Jet& jet, double u, double v) {
     return jet.of[3].magnitude() * u * u + jet.of[4].magnitude() * u * v +
@@ -216,16 +226,21 @@ class Prover {
   }
 
   void settle(std::size_t t, const Jet& jet) {
-    const Centred own = whole(t);
-    const double u = own.length_x, v = own.length_y;
-    const double missed = miss(jet, u, v), all = bend(jet, u, v);
+    const Frame frame = frame_of(_xy, _triangles, t);
+    if (!(frame.area > 0)) return;
+    const auto [u, v] = lengths(frame);
+    const double missed = miss(jet, u, v), all = bend(jet, u, v),
+                 size = rounding * jet.value().magnitude();
     // f is within `all` of its tangent plane in the mean square; the plane is integrated exactly.
     // The moments of f are wrong by `missed` in all, those of a linear function of that norm 7
     // times as large at most.
-    _parts.unknown[t] = own.area * (missed + rounding * jet.value().magnitude());
-    _parts.beyond[t] =
-        std::sqrt(own.area) * (all + 3.5 * missed + rounding * jet.value().magnitude());
-    if (_options.spread == nullptr) return;
+    _parts.unknown[t] = frame.area * (missed + size);
+    _parts.beyond[t] = std::sqrt(frame.area) * (all + 3.5 * missed + size);
+    if (_options.spread != nullptr) spread_smooth(t, jet, all, missed);
+  }
+
+  void spread_smooth(std::size_t t, const Jet& jet, double all, double missed) {
+    const Centred own = whole(t);
     Spread& spread = (*_options.spread)[t];
     const double average = sum_of(t) / own.area;
     const double off = slope(jet, own.reach_x, own.reach_y) +

@@ -27,6 +27,7 @@ struct ProofOptions {
   double tolerance = 1e-4;
   double work = 1e9;          ///< ns, roughly; counted, so that results are reproducible
   double absolute = 0;        ///< int |f| by the samples
+  double area = 0;            ///< of all triangles
   bool exact = false;         ///< rules of degree 5 integrate f phi_i exactly
   bool interpolated = false;  ///< L are those of the interpolant; else of rules of degree 5 or more
   std::span<const char> curved = {};  ///< (m) 1: L are of no such rule; empty: none

@@ -238,7 +238,7 @@ class Block {
                                                  _parts ? &result.parts.integrated[s] : nullptr});
     const std::size_t triangles = subdomain.part.triangle_count();
     judge({"the force", subdomain.name, report.relative_error_estimate,
-           fem::force_tolerance(triangles), report.proof, 10 * fem::proof_tolerance(triangles)},
+           fem::force_tolerance(triangles), report.proof, 3 * fem::proof_tolerance(triangles)},
           result);
     return of_nodes;
   }
