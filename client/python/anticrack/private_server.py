@@ -91,10 +91,11 @@ class Server:
         code = self._process.returncode
         if code >= 0:
             return f"ended with exit code {code}"
-        known = {signal.SIGKILL: ", perhaps because memory ran out: a coarser mesh takes less",
-                 signal.SIGXFSZ: ", the limit of a file's size: raise it with ulimit -f",
-                 signal.SIGXCPU: ", the limit of processor time: raise it with ulimit -t"}
-        return f"died of signal {-code} ({signal.strsignal(-code)}){known.get(signal.Signals(-code), '')}"
+        known: dict[int, str] = {
+            signal.SIGKILL: ", perhaps because memory ran out: a coarser mesh takes less",
+            signal.SIGXFSZ: ", the limit of a file's size: raise it with ulimit -f",
+            signal.SIGXCPU: ", the limit of processor time: raise it with ulimit -t"}
+        return f"died of signal {-code} ({signal.strsignal(-code)}){known.get(-code, '')}"
 
     def _last_words(self) -> str:
         size = os.fstat(self._log).st_size
