@@ -105,8 +105,9 @@ int tell_made(const std::vector<std::filesystem::path>& files,
   return exit_ok;
 }
 
-int plot(const FileOptions& options, const Globals& globals) {
+int plot(FileOptions options, const Globals& globals) {
   results::Result result = read_result(options);
+  if (!options.loads.empty()) options.figures.all_loads = true;
   const std::string folder = options.folder.empty() ? "figures" : options.folder;
   const figures::Drawn drawn =
       options.together ? figures::draw_together(std::move(result), folder, options.figures)
@@ -169,6 +170,10 @@ void add_files(CLI::App& app, const Globals& globals, Command& chosen) {
                    "(default: of all that can open; in the overview of the one that opens most, "
                    "and the pressure of one in contact)")
       ->type_name("NAME");
+  plot_command->add_flag_callback(
+      "--all", [options] { options->figures.all_loads = options->figures.all_interfaces = true; },
+      "However many there are: without it, of more than 12 loads the first 12 are drawn, and of "
+      "more than 12 interfaces the traces of the most eventful");
   plot_command->footer(
       "Of every load: LOAD-membrane, LOAD-plan (from above, u and the flux), LOAD-traces (u-, u+\n"
       "and [u] on the interface, and the contact pressure), LOAD-convergence and, of a job with "

@@ -9,6 +9,7 @@
 #include "cli/text.hpp"
 #include "output/standard.hpp"
 #include "output/target.hpp"
+#include "words/shown.hpp"
 
 namespace anticrack::cli {
 namespace {
@@ -62,10 +63,14 @@ void complain(std::string_view line) {
   std::fprintf(stderr, "anticrack: %s\n", sanitise(line).c_str());
 }
 
-void print_document(std::string_view text) { output::print(with_newline(text)); }
+// Whatever part of it was not sanitised: a last line of defence, which leaves lines alone.
+void print_document(std::string_view text) {
+  output::print(with_newline(words::shown(text, "\n\t")));
+}
 
 void print_answer(const Globals& globals, std::string_view text) {
-  if (!globals.output_taken || !globals.quiet) print_to(people(globals), with_newline(text));
+  if (!globals.output_taken || !globals.quiet)
+    print_to(people(globals), with_newline(words::shown(text, "\n\t")));
 }
 
 void tell_deleted(const Globals& globals, const std::string& name) {

@@ -45,7 +45,8 @@ std::vector<Setting> parse_config(const std::string& text, const std::string& pa
   std::vector<Setting> settings;
   for (const auto& [name, node] : table) {
     const std::string where = path + ":" + std::to_string(node.source().begin.line);
-    const Key& key = find_key(std::string(name.str()), where);
+    const std::string given(name.str());
+    const Key& key = find_key(given, where);
     settings.push_back({key.name, value_text(key, node, where), where});
   }
   return settings;

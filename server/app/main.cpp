@@ -12,14 +12,17 @@
 #include <iostream>
 #include <iterator>
 #include <memory>
+#include <new>
 #include <optional>
 #include <stdexcept>
+#include <system_error>
 #include <thread>
 
 #include "app/backup.hpp"
 #include "app/check_files.hpp"
 #include "app/command_line.hpp"
 #include "app/config_file.hpp"
+#include "app/descriptors.hpp"
 #include "app/notify.hpp"
 #include "app/private_place.hpp"
 #include "app/service.hpp"
@@ -34,6 +37,9 @@ namespace {
 using namespace anticrack;
 
 constexpr int usage_error = 2;
+constexpr const char* limits_on_memory =
+    "raise the limit that is too small: ulimit -v (address space), ulimit -u (threads), or memory "
+    "and pids of the control group";
 
 /// Waits for the first signal to stop. Meanwhile SIGHUP reads certificates and tokens again, and
 /// systemd's watchdog, if there is one, is kept informed.
@@ -118,7 +124,9 @@ int run(int argc, char** argv) {
   if (line.is_private) file = place.emplace().settings();
   if (!line.config_file.empty())
     std::ranges::copy(app::read_config_file(line.config_file), std::back_inserter(file));
-  const app::Config config = app::make_config(file, line.settings);
+  app::Config config = app::make_config(file, line.settings);
+  const bool serves = line.backup.empty() && !line.check_store;
+  if (serves) app::fit_connections(config, app::raise_descriptor_limit());
   if (line.check_config) {
     std::cout << app::to_toml(config) << std::flush;
     const std::vector<std::string> problems = app::problems_of_files(config);
@@ -138,6 +146,14 @@ int main(int argc, char** argv) {
   } catch (const app::ConfigError& error) {
     std::cerr << "anticrackd: " << error.what() << "\n";
     return usage_error;
+  } catch (const std::bad_alloc&) {
+    std::cerr << "anticrackd: not enough memory; " << limits_on_memory << "\n";
+    return 1;
+  } catch (const std::system_error& error) {
+    const bool thread = error.code() == std::errc::resource_unavailable_try_again;
+    std::cerr << "anticrackd: " << (thread ? "a thread cannot be started; " : "")
+              << (thread ? limits_on_memory : error.what()) << "\n";
+    return 1;
   } catch (const std::exception& error) {
     std::cerr << "anticrackd: " << error.what() << "\n";
     return 1;

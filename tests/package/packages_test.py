@@ -126,9 +126,11 @@ class Packages(FolderTest):
     def test_depend_on_what_they_use(self):
         def needs(package):
             return set(re.findall(r"([a-z0-9.+-]+)[^,]*(?:, |$)", self.field(package, "Depends")))
-        for library in ("libgrpc++1.51", "libgmsh4.8", "libcholmod3", "libopenblas0", "libsqlite3-0", "libseccomp2", "libsystemd0"):
-            self.assertIn(library, needs("anticrack-server"))
-        self.assertIn("libhdf5-103-1", needs("anticrack-client"))
+        for package, libraries in (  # with the version in the name, and t64 since times have 64 bits everywhere
+                ("anticrack-server", r"libgrpc\+\+1\.\d+ libgmsh4\.\d+ libcholmod\d libopenblas0 libsqlite3-0 libseccomp2 libsystemd0"),
+                ("anticrack-client", r"libhdf5-\d+(-\d)?")):
+            for library in libraries.split():
+                self.assertTrue(any(re.fullmatch(f"{library}(t64)?", name) for name in needs(package)), library)
         for library in needs("anticrack-client"):  # a thin client: nothing numerical
             self.assertNotRegex(library, "gmsh|cholmod|blas|lapack|muparser")
         self.assertEqual(needs("libanticrack-dev"), {"libgrpc++-dev", "libprotobuf-dev", "libisal-dev", "libssl-dev",

@@ -180,6 +180,7 @@ class Session:
         if matrix is not None:
             target = job.sweep.coefficients if coefficients is not None else job.sweep.nodal_forces
             target.upload = (await self.upload([matrix], upload_pb2.Upload.KIND_ARRAY))[0]
+        requests.mesh.for_job = True
         job.mesh = (await self._create_mesh(requests)).name
         request = solve_pb2.CreateJobRequest(job=job, request_id=str(uuid.uuid4()))
         return await self.call(self.transport.jobs.CreateJob, request)  # type: ignore[no-any-return]
