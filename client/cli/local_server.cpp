@@ -72,11 +72,13 @@ pid_t spawn(const fs::path& program, int in, int out, int err) {
   return process;
 }
 
-std::string how_it_ended(int status) {
-  if (WIFEXITED(status)) return "ended with exit code " + std::to_string(WEXITSTATUS(status));
+/// `when`: "", or " before ...".
+std::string how_it_ended(int status, const std::string& when = "") {
+  if (WIFEXITED(status))
+    return "ended with exit code " + std::to_string(WEXITSTATUS(status)) + when;
   const int number = WTERMSIG(status);
   const std::string signal =
-      "died of signal " + std::to_string(number) + " (" + strsignal(number) + ")";
+      "died of signal " + std::to_string(number) + " (" + strsignal(number) + ")" + when;
   switch (number) {
     case SIGKILL:
       return signal + ", perhaps because memory ran out: a coarser mesh takes less";
@@ -171,9 +173,10 @@ void LocalServer::wait_until_ready(const std::stop_token& stop) {
     const ssize_t count = read(_output, buffer.data(), buffer.size());
     if (count <= 0) {
       const bool ended = has_ended(dying_time);
+      const std::string when = " before it was ready";
       throw LocalServerError("anticrackd " +
-                             (ended ? how_it_ended(*_status) : std::string("closed its output")) +
-                             " before it was ready" + last_words());
+                             (ended ? how_it_ended(*_status, when) : "closed its output" + when) +
+                             last_words());
     }
     said.append(buffer.data(), static_cast<std::size_t>(count));
   }

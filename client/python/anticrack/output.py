@@ -17,7 +17,7 @@ _numbers = itertools.count()  # of temporary names
 def target_of(path: str | os.PathLike[str]) -> tuple[str, bool]:
     """Where a path leads, behind all symbolic links, and whether that is a device or a pipe, to be written from here to
     its end."""
-    found = os.fspath(path)
+    found = os.fsdecode(path)
     for _ in range(40):  # as the kernel
         parent = os.path.dirname(found) or "."
         if re.fullmatch("[0-9]+", os.path.basename(found)) and _same(parent, "/proc/self/fd"):
@@ -34,7 +34,7 @@ def target_of(path: str | os.PathLike[str]) -> tuple[str, bool]:
         raise _unwritable(path, error) from None
     if stat.S_ISDIR(mode) or stat.S_ISBLK(mode) or stat.S_ISSOCK(mode):
         what = "folder" if stat.S_ISDIR(mode) else "disk" if stat.S_ISBLK(mode) else "socket"
-        raise Error(f"{os.fspath(path)} is a {what}; name a file")
+        raise Error(f"{os.fsdecode(path)} is a {what}; name a file")
     return found, not stat.S_ISREG(mode)
 
 
@@ -59,10 +59,10 @@ def _same(one: str, other: str) -> bool:
 
 
 def _unwritable(path: str | os.PathLike[str], error: OSError) -> Error:
-    folder = os.path.dirname(os.path.abspath(path))
+    folder = os.path.dirname(os.path.abspath(os.fsdecode(path)))
     if isinstance(error, FileNotFoundError) and not os.path.isdir(folder):
-        return Error(f"{os.fspath(path)}: there is no folder {folder}; make it, or name another")
-    return Error(f"{os.fspath(path)} cannot be written: {error.strerror}; free space there, or name another file")
+        return Error(f"{os.fsdecode(path)}: there is no folder {folder}; make it, or name another")
+    return Error(f"{os.fsdecode(path)} cannot be written: {error.strerror}; free space there, or name another file")
 
 
 def _write_stream(target: str, content: bytes | memoryview) -> None:

@@ -51,7 +51,7 @@ class Server:
         self.address = line.partition("listening on ")[2].strip()
         if not self.address:
             self._process.wait()
-            raise LocalServerError(f"anticrackd {self._ending()} before it was ready{self._last_words()}")
+            raise LocalServerError(f"anticrackd {self._ending(' before it was ready')}{self._last_words()}")
 
     def require_alive(self) -> None:
         """For who has lost the connection: raises LocalServerError if the server has ended, with how it did."""
@@ -87,14 +87,15 @@ class Server:
             self._process.stdin.close()
         self._process.returncode = 0  # not this process's child
 
-    def _ending(self) -> str:
+    def _ending(self, when: str = "") -> str:
         code = self._process.returncode
         if code >= 0:
-            return f"ended with exit code {code}"
-        known = {signal.SIGKILL: ", perhaps because memory ran out: a coarser mesh takes less",
-                 signal.SIGXFSZ: ", the limit of a file's size: raise it with ulimit -f",
-                 signal.SIGXCPU: ", the limit of processor time: raise it with ulimit -t"}
-        return f"died of signal {-code} ({signal.strsignal(-code)}){known.get(signal.Signals(-code), '')}"
+            return f"ended with exit code {code}{when}"
+        known: dict[int, str] = {
+            signal.SIGKILL: ", perhaps because memory ran out: a coarser mesh takes less",
+            signal.SIGXFSZ: ", the limit of a file's size: raise it with ulimit -f",
+            signal.SIGXCPU: ", the limit of processor time: raise it with ulimit -t"}
+        return f"died of signal {-code} ({signal.strsignal(-code)}){when}{known.get(-code, '')}"
 
     def _last_words(self) -> str:
         size = os.fstat(self._log).st_size

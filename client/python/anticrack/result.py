@@ -97,8 +97,9 @@ class Trace:
     name, units = "", Units()  # of the interface
 
     def __repr__(self) -> str:
-        return (f"{shown(self.name or 'interface')}: {counted(len(self.jump), 'node')}, {int((self.contact != 0).sum())} "
-                f"in contact, [u] up to {self.jump.max(initial=0):.4g}{self.units.behind('L')}")
+        return (f"{shown(self.name or 'interface')}: {counted(len(self.jump), 'node')}, "
+                f"{int((self.contact != 0).sum())} in contact, "
+                f"[u] up to {self.jump.max(initial=0):.4g}{self.units.behind('L')}")
 
 
 @dataclass(repr=False)
@@ -115,8 +116,9 @@ class Field:
         return self.subdomain
 
     def __repr__(self) -> str:
-        return (f"{shown(self.name)}: {counted(len(self.nodes), 'node')}, {counted(len(self.triangles), 'triangle')}, u "
-                f"from {self.u.min():.4g} to {self.u.max():.4g}{self.units.behind('L')}")
+        return (f"{shown(self.name)}: {counted(len(self.nodes), 'node')}, "
+                f"{counted(len(self.triangles), 'triangle')}, "
+                f"u from {self.u.min():.4g} to {self.u.max():.4g}{self.units.behind('L')}")
 
 
 @dataclass(repr=False)

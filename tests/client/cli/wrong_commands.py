@@ -124,7 +124,8 @@ COMMANDS = [
     ("run case.toml -o case.toml/a.h5", 2,
      "case.toml/a.h5: cannot be written: Not a directory; choose another path with -o"),
     ("run case.toml -o /dev/full", 2,
-     "/dev/full: is not a regular file; choose another path with -o"),
+     "/dev/full: cannot be written: No space left on device; free space there, or choose another "
+     "path with -o"),
     ("plot result.h5 -o case.toml", 2,
      "case.toml: cannot be made a folder: Not a directory; choose another folder"),
     ("manual case.toml", 2,

@@ -115,7 +115,8 @@ def sweep(result: Result, x: str | int | Array | None = None, inclusion: str | i
                             color=curve.get_color(), alpha=0.3, linewidth=0)
     if not chosen:
         ax.plot(values[rows], columns.contact_length[rows], line, label="contact length")
-    name = f"A of {printable(columns.inclusions[chosen[0]])}" if len(chosen) == 1 else "A" if chosen else "contact length"
+    one = len(chosen) == 1
+    name = f"A of {printable(columns.inclusions[chosen[0]])}" if one else "A" if chosen else "contact length"
     ax.set(xlabel=label, ylabel=name + result.units.label("L"))
     if label == "row":
         ax.xaxis.get_major_locator().set_params(integer=True)
