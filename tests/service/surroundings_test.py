@@ -179,7 +179,7 @@ class Surroundings(FolderTest):
     def test_file_systems(self):
         point = self.folder / "mounted"
         point.mkdir()
-        for options, said in (("size=64k", "data-dir: "), ("ro", "Read-only")):
+        for options, said in (("size=64k", "there is space"), ("ro", "Read-only")):
             mounted = run("mount", "-t", "tmpfs", "-o", f"mode=700,{options}", "none", point)
             if mounted.returncode != 0:
                 self.skipTest(mounted.stderr)
