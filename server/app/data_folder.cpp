@@ -40,16 +40,8 @@ fs::path absolute(const std::string& path) {
   return whole.lexically_normal();
 }
 
-/// What another user can change could be made to read and remove anything.
-void require_private(const std::string& path) {
-  struct stat found {};
-  if (::stat(path.c_str(), &found) != 0 || (found.st_mode & S_IWOTH) == 0) return;
-  refuse(path, "every user of this machine may write in it; run chmod o-w on it");
-}
-
 int open_lock(const std::string& path) {
   make_private(absolute(path));
-  require_private(path);
   const int lock =
       ::open((path + "/lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600);
   if (lock < 0) refuse(path, "cannot be written: " + std::generic_category().message(errno));

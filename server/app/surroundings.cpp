@@ -127,9 +127,15 @@ std::string unfit(const std::string& folder) {
 
 void add_folder(const std::string& folder, std::vector<std::string>& odd) {
   struct stat found {};
-  if (::stat(folder.c_str(), &found) == 0 && found.st_uid != ::geteuid()) {
+  if (::stat(folder.c_str(), &found) != 0) return;
+  if (found.st_uid != ::geteuid()) {
     odd.push_back(fmt::format("data-dir: {} belongs to user {}, and the server runs as user {}",
                               folder, found.st_uid, ::geteuid()));
+  }
+  // Not refused: so are the volumes of some containers.
+  if ((found.st_mode & S_IWOTH) != 0) {
+    odd.push_back("data-dir: every user of this machine may write in " + folder +
+                  "; run chmod o-w on it");
   }
   if (const std::string why = unfit(folder); !why.empty())
     odd.push_back("data-dir: " + folder + why);
