@@ -2,7 +2,6 @@
 //
 // anticrackd: reads the configuration and runs the service until a signal.
 #include <signal.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -24,10 +23,12 @@
 #include "app/config_file.hpp"
 #include "app/descriptors.hpp"
 #include "app/notify.hpp"
+#include "app/orphans.hpp"
 #include "app/private_place.hpp"
 #include "app/service.hpp"
 #include "app/signals.hpp"
 #include "app/store_check.hpp"
+#include "app/surroundings.hpp"
 #include "errors/errors.hpp"
 #include "log/log.hpp"
 #include "rpc/version.hpp"
@@ -44,8 +45,12 @@ constexpr const char* limits_on_memory =
 /// Waits for the first signal to stop. Meanwhile SIGHUP reads certificates and tokens again, and
 /// systemd's watchdog, if there is one, is kept informed.
 int wait_for_end(const app::Signals& signals, app::Service& service) {
-  const std::optional<std::chrono::milliseconds> interval = app::watchdog_interval();
+  std::optional<std::chrono::milliseconds> interval = app::watchdog_interval();
+  app::Orphans orphans;
+  const bool first = app::Orphans::may_come();
+  if (first && !interval) interval = std::chrono::seconds(1);
   for (;;) {
+    if (first) orphans.reap();
     const std::optional<int> number = interval ? signals.wait_for(*interval) : signals.wait();
     if (number && *number != SIGHUP) return *number;
     if (number) {
@@ -78,14 +83,19 @@ void end_soon(const app::PrivatePlace& place) {
 }
 
 int serve(const app::Config& config, const app::PrivatePlace* place) {
-  ::umask(0077);
+  app::require_usable_surroundings(config);
   const app::Signals signals;
   auto service = std::make_unique<app::Service>(config);
+  for (const std::string& odd : app::odd_surroundings(config))
+    log::warn("surroundings", {{"odd", odd}});
   std::cout << "anticrackd listening on " << service->address() << std::endl;
   log::info("started", {{"version", rpc::version()},
                         {"address", service->address()},
                         {"data", config.store.folder}});
-  app::notify_ready("listening on " + service->address());
+  if (!app::notify_ready("listening on " + service->address()))
+    log::warn("surroundings", {{"odd",
+                                "NOTIFY_SOCKET is set, but nothing listens there: systemd "
+                                "does not learn that the server is ready"}});
   if (place != nullptr) end_with_client();
   const int number = wait_for_end(signals, *service);
   stopping = true;
@@ -141,6 +151,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  app::settle();
   try {
     return run(argc, argv);
   } catch (const app::ConfigError& error) {

@@ -15,6 +15,8 @@
 #include <csignal>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -269,6 +271,14 @@ mesh::Mesh run(const HelperOptions& options, const mesh::MesherRequest& request,
 }
 
 void require_msh(const std::string& path) { open_msh(path); }
+
+const char* mark() noexcept { return "anticrack-mesher of anticrack " ANTICRACK_VERSION; }
+
+bool is_helper(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  return bytes.starts_with("#!") || bytes.find(mark()) != std::string::npos;
+}
 
 std::string default_executable() {
   namespace fs = std::filesystem;

@@ -37,6 +37,12 @@ mesh::Mesh run(const HelperOptions& options, const mesh::MesherRequest& request,
 /// Throws errors::Error (mesh_invalid) unless the first word of the file is $MeshFormat.
 void require_msh(const std::string& path);
 
+/// What the program anticrack-mesher of this version has in it.
+const char* mark() noexcept;
+
+/// Whether a file is that program, or a script, which may start it. False where it cannot be read.
+bool is_helper(const std::string& path);
+
 /// Path of anticrack-mesher beside the running executable, or in ../libexec/anticrack.
 std::string default_executable();
 

@@ -22,6 +22,7 @@
 #include "mesher/child.hpp"
 #include "mesher/generate.hpp"
 #include "mesher/grading.hpp"
+#include "mesher/helper.hpp"
 #include "mesher/import.hpp"
 #include "mesher/progress.hpp"
 #include "mesher/restrict.hpp"
@@ -128,7 +129,8 @@ int main(int argc, char** argv) {
   const auto memory = argc == 4 ? parse_number(argv[1]) : std::nullopt;
   const auto seconds = argc == 4 ? parse_number(argv[2]) : std::nullopt;
   if (!memory || !seconds || (!import && kind != "generate")) {
-    std::cerr << "usage: anticrack-mesher MEMORY_BYTES CPU_SECONDS generate|import\n"
+    std::cerr << mesher::mark()
+              << "\nusage: anticrack-mesher MEMORY_BYTES CPU_SECONDS generate|import\n"
                  "Meshes the one request on its standard input; the server starts it.\n";
     return 2;
   }

@@ -133,13 +133,14 @@ void Acceptor::run() {
 bool Acceptor::accept_one(int listener) {
   sockaddr_storage peer{};
   socklen_t size = sizeof(peer);
-  const int connection =
-      ::accept4(listener, reinterpret_cast<sockaddr*>(&peer), &size, SOCK_CLOEXEC | SOCK_NONBLOCK);
+  const int connection = ::accept4(listener, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
   if (connection < 0) {
     if (errno == EAGAIN || concerns_one_connection(errno)) return true;
     return (errno == EMFILE || errno == ENFILE) && refuse_one(listener);
   }
   store::Descriptor owned(connection);
+  // Gone already, which gRPC would tell the log, once for each.
+  if (::getpeername(connection, reinterpret_cast<sockaddr*>(&peer), &size) != 0) return true;
   try {
     const std::string owner = owner_of(connection, peer);
     const std::uint64_t socket = socket_number(connection);

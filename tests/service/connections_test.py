@@ -10,6 +10,7 @@ import re
 import resource
 import selectors
 import socket
+import struct
 import subprocess
 import time
 import unittest
@@ -145,6 +146,14 @@ class Connections(FolderTest):
         with Server(self.folder, listen=f"unix:{path}") as server:
             self.survives(server)
         self.assertFalse(path.exists())
+
+    def test_connections_that_are_reset_do_not_fill_the_log(self):
+        with Server(self.folder) as server:
+            for _ in range(1000):
+                with contextlib.closing(server.connect()) as connection:
+                    connection.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+            self.assert_lets_in(server)
+            self.assertLess(server.log().count("\n"), 20)
 
     def test_with_tls(self):
         made = run(pathlib.Path(os.environ["DEPLOY"]) / "make-certificates", self.folder / "tls")
