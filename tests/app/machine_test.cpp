@@ -270,16 +270,16 @@ TEST(Machine, GivesTheServerHalfOfWhatARealGroupAllows) {
   std::error_code error;
   std::filesystem::create_directories(group, error);
   const std::string outer = std::filesystem::path(group).parent_path();
-  if (!error) std::ofstream(outer + "/memory.limit_in_bytes") << 512'000'000;
+  if (!error) std::ofstream(outer + "/memory.limit_in_bytes") << (512 << 20);
   std::string limit;
   std::ifstream(outer + "/memory.limit_in_bytes") >> limit;
-  const bool made = limit == "512000000";
+  const bool made = limit == "536870912";
   const std::string output =
       made ? checked_config("echo $$ > " + group + "/cgroup.procs") : std::string();
   ::rmdir(group.c_str());
   ::rmdir(outer.c_str());
   if (!made) GTEST_SKIP() << "no group can be made under /sys/fs/cgroup/memory";
-  EXPECT_THAT(output, HasSubstr("memory-budget = \"256MB\"\n"));
+  EXPECT_THAT(output, HasSubstr("memory-budget = \"256MiB\"\n"));
 }
 
 }  // namespace
