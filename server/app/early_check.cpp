@@ -7,11 +7,16 @@
 
 #include "app/address_space.hpp"
 
-#ifndef __has_feature
-#define __has_feature(name) 0
+// Sanitizers set themselves up before, and reserve more than any limit.
+#ifdef __has_feature  // clang
+#define ANTICRACK_SANITIZED (__has_feature(address_sanitizer) || __has_feature(thread_sanitizer))
+#elif defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define ANTICRACK_SANITIZED 1
+#else
+#define ANTICRACK_SANITIZED 0
 #endif
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && \
-    !__has_feature(address_sanitizer) && !__has_feature(thread_sanitizer)
+
+#if !ANTICRACK_SANITIZED
 
 namespace anticrack::app {
 namespace {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // anticrackd: reads the configuration and runs the service until a signal.
+#include <malloc.h>
 #include <signal.h>
 #include <unistd.h>
 
@@ -17,6 +18,7 @@
 #include <system_error>
 #include <thread>
 
+#include "app/address_space.hpp"
 #include "app/backup.hpp"
 #include "app/check_files.hpp"
 #include "app/command_line.hpp"
@@ -123,6 +125,8 @@ int start(const app::Config& config, const app::PrivatePlace* place) {
 }
 
 int run(int argc, char** argv) {
+  // A heap for each thread reserves 64 MiB, and ulimit -v counts them.
+  if (app::address_space_limit() > 0) ::mallopt(M_ARENA_MAX, 2);
   const app::CommandLine line = app::parse_command_line(argc, argv, rpc::version());
   if (line.text) {
     std::cout << *line.text << std::flush;

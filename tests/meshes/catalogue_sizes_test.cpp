@@ -109,16 +109,16 @@ TEST_F(Sizes, AMeshIsReadyWhileThoseOfAnotherOwnerAreMade) {
     return backend.catalogue.create(Backend::definition(size), "", owner).id;
   };
   backend.door.shut();
-  for (const double size : {0.2, 0.21, 0.22, 0.23, 0.24}) create(size, "greedy");
+  for (const double size : {0.1, 0.11, 0.125, 0.14, 0.16}) create(size, "greedy");
   ASSERT_TRUE(eventually([&] { return backend.door.waiting() == 2; }));
-  const std::string modest = create(0.25, "modest");
+  const std::string modest = create(0.2, "modest");
   // Its place does not depend on theirs.
   ASSERT_TRUE(eventually([&] { return backend.door.waiting() == 3; }));
-  create(0.26, "modest");
-  const std::string third = create(0.27, "third");
+  create(0.25, "modest");
+  const std::string third = create(0.3, "third");
   ASSERT_TRUE(eventually([&] { return backend.door.waiting() == 4; }));
   EXPECT_EQ(state(third), MeshState::factorizing) << "before the second one of the modest owner";
-  const std::string last = create(0.28, "fourth");
+  const std::string last = create(0.4, "fourth");
   backend.door.open();
   for (const std::string& id : {modest, third, last})
     EXPECT_TRUE(eventually([&] { return state(id) == MeshState::ready; }));
@@ -138,9 +138,9 @@ TEST_F(Sizes, OwnersTakeTurnsInTheQueue) {
     return one.catalogue.create(Backend::definition(size), "", owner).id;
   };
   std::string last;
-  for (const double size : {0.2, 0.21, 0.22, 0.23, 0.24}) last = create(size, "greedy");
+  for (const double size : {0.1, 0.11, 0.125, 0.14, 0.16}) last = create(size, "greedy");
   ASSERT_TRUE(eventually([&] { return one.door.waiting() == 2; }));
-  for (const double size : {0.25, 0.26}) create(size, "modest");
+  for (const double size : {0.2, 0.25}) create(size, "modest");
   ASSERT_TRUE(eventually([&] { return one.door.waiting() == 3; }));
   one.door.open();
   EXPECT_TRUE(eventually([&] { return one.catalogue.get(last).state == MeshState::ready; }));
