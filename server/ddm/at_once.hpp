@@ -25,7 +25,6 @@ void at_once(std::size_t count, int threads, const MakeWorker& make_worker) {
   std::exception_ptr failure;
   const stop::Asked asked = stop::asked();
   const auto run = [&] {
-    const stop::Scope scope(asked);
     try {
       auto worker = make_worker();
       for (std::size_t i = next++; i < count; i = next++) {
@@ -41,7 +40,11 @@ void at_once(std::size_t count, int threads, const MakeWorker& make_worker) {
   if (count > 0) {
     std::vector<std::jthread> helpers;
     const auto wanted = std::min(at(std::max(threads, 1)), count);
-    for (std::size_t t = 1; t < wanted; ++t) helpers.emplace_back(run);
+    for (std::size_t t = 1; t < wanted; ++t)
+      helpers.emplace_back([&] {
+        const stop::Scope scope(asked);
+        run();
+      });
     run();
   }
   if (failure) std::rethrow_exception(failure);
