@@ -26,7 +26,6 @@ void at_once(std::size_t count, int threads, const MakeWorker& make_worker) {
   std::exception_ptr failure;
   const stop::Asked asked = stop::asked();
   const auto run = [&] {
-    const stop::Scope scope(asked);
     try {
       auto worker = make_worker();
       for (std::size_t i = next++; i < count; i = next++) {
@@ -43,7 +42,11 @@ void at_once(std::size_t count, int threads, const MakeWorker& make_worker) {
     std::vector<std::jthread> helpers;
     const auto wanted = std::min(at(std::max(threads, 1)), count);
     try {
-      for (std::size_t t = 1; t < wanted; ++t) helpers.emplace_back(run);
+      for (std::size_t t = 1; t < wanted; ++t)
+        helpers.emplace_back([&] {
+          const stop::Scope scope(asked);
+          run();
+        });
     } catch (const std::system_error&) {
       // No more threads: those there are do the rest.
     }

@@ -12,6 +12,7 @@
 #include "jobs/case_outcome.hpp"
 #include "jobs/sweep_result.hpp"
 #include "jobs/trace_arrays.hpp"
+#include "stop/stop.hpp"
 #include "store/array_upload.hpp"
 
 namespace anticrack::jobs {
@@ -224,6 +225,7 @@ std::shared_ptr<const operators::LoadBasis> condense_basis(
 
 EndedChunk solve_chunk(const Task& task, std::atomic<std::uint64_t>& iterations) {
   EndedChunk ended{task, {}, {}, {}, {}};
+  const stop::Scope scope(task.job->stop.get_token());
   try {
     ChunkRows rows(task);
     ended.solved = task.job->sweep->basis ? rows.combinations() : rows.nodal_forces();

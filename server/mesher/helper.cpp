@@ -263,7 +263,8 @@ mesh::Mesh run(const HelperOptions& options, const mesh::MesherRequest& request,
     mesh::validate(mesh);
   } catch (const Error& error) {
     // the triangles are not the user's, so no field of the request is at fault
-    if (std::holds_alternative<mesh::ImportRequest>(request)) throw;
+    if (std::holds_alternative<mesh::ImportRequest>(request) || error.reason() == Reason::cancelled)
+      throw;
     throw failed(std::string("the mesh made of this geometry is not usable: ") + error.what() +
                  "; choose preset uniform, or remove details far smaller than the rest");
   }

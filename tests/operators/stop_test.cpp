@@ -62,9 +62,9 @@ void expect_stops(const Stage& stage) {
   }
   std::printf("%s: %zu looks, %.1f ms, at most %.2f ms without (before \"%s\")\n", stage.name,
               all.count(), 1e3 * all.seconds(), 1e3 * all.longest, all.longest_before.c_str());
-  EXPECT_GT(all.count(), 10U);
+  ASSERT_GT(all.count(), 3U);
   // What is left between two looks is a fixed number of triangles, or one call of BLAS.
-  constexpr double most = 0.25, short_time = 0.02;
+  constexpr double most = 0.4, short_time = 0.02;
   EXPECT_LE(all.longest, std::max(most * all.seconds(), short_time)) << all.longest_before;
 
   constexpr std::size_t places = 12;
@@ -127,7 +127,7 @@ TEST(Stops, OneOfSeveralThatAreBoundedTogetherLeavesTheOthers) {
   contact::Answer first = op->solve(prepared, {}, false, observer), second = first, alone = first;
   op->estimate(prepared, alone);
   // Stopped while both are bounded: at each of the looks in turn.
-  for (std::size_t look = 1;; ++look) {
+  for (std::size_t look = 1;; look += 1 + look / 8) {
     contact::Answer one = first, other = second;
     std::stop_source stopped;
     MeshOperator::Estimate both[] = {{&prepared, &one, stopped.get_token()},

@@ -75,8 +75,9 @@ TEST(RecordCodec, SaysSomethingInEveryFieldOfTheMessages) {
   std::vector<std::string> silent;
   std::set_difference(all.begin(), all.end(), said.begin(), said.end(), std::back_inserter(silent));
   EXPECT_THAT(silent, ::testing::UnorderedElementsAre(
-                          "anticrack.v1.CreateMeshRequest.title",  // Mesh has it
-                          "anticrack.v1.Job.load_case_count",      // follow from the others
+                          "anticrack.v1.CreateMeshRequest.title",    // Mesh has it
+                          "anticrack.v1.CreateMeshRequest.for_job",  // MeshRecord has it
+                          "anticrack.v1.Job.load_case_count",        // follow from the others
                           "anticrack.v1.Job.load_cases_ended",
                           "anticrack.v1.Mesh.geometry",  // CreateMeshRequest has the definition
                           "anticrack.v1.Mesh.upload", "anticrack.v1.Mesh.options",
