@@ -19,8 +19,16 @@ using Eigen::VectorXd;
 constexpr double first_tolerance = 0.1, last_tolerance = 1e-13, rounding_tolerance = 1e-15;
 /// Below this part of the load, in scaled numbers, d and lambda are rounding of the solves.
 constexpr double solve_rounding = 4 * lcp_rounding;
+/// Loads whose products with themselves are numbers; others are scaled by a power of two.
+constexpr double least_load = 1e-100, most_load = 1e100;
 /// Steps of the blocks before single contacts decide; iterations of one run of conjugate gradients.
 constexpr int block_steps = 25, most_iterations = 400;
+
+/// 1, or what brings a load of this size among them.
+double factor_for(double size) {
+  const bool fits = size == 0 || !std::isfinite(size) || (size >= least_load && size <= most_load);
+  return fits ? 1 : std::ldexp(1.0, -std::ilogb(size));
+}
 
 }  // namespace
 
@@ -262,6 +270,15 @@ class BlockLcp::Run {
 };
 
 BlockLcp::Opened BlockLcp::solve_open(const VectorXd& r, const std::vector<char>& closed) const {
+  const double factor =
+      r.size() == 0 ? 1
+                    : factor_for(_scale.head(r.size()).cwiseProduct(r).lpNorm<Eigen::Infinity>());
+  if (factor != 1) {
+    Opened opened = solve_open(factor * r, closed);
+    opened.d /= factor;
+    opened.residual /= factor;
+    return opened;
+  }
   Run run(*this, r);
   const double size = run.size_of(r);
   if (closed.empty())
@@ -283,7 +300,16 @@ BlockLcp::Answer BlockLcp::solve(const VectorXd& r, const VectorXd& magnitude,
   const auto scale = _scale.head(r.size());
   const VectorXd& terms = magnitude.size() == 0 ? r : magnitude;
   const double largest = r.size() == 0 ? 0 : scale.cwiseProduct(terms).lpNorm<Eigen::Infinity>();
-  const double unit = largest > 0 ? largest : 1;
+  const double unit = largest > 0 ? largest : 1, factor = factor_for(largest);
+  if (factor != 1) {
+    answer = solve(factor * r, factor * terms, options, start, [&](const LcpStep& step) {
+      const VectorXd d = step.d / factor, lambda = step.lambda / factor;
+      return on_step({step.number, step.closed, d, lambda});
+    });
+    answer.d /= factor;
+    answer.lambda /= factor;
+    return answer;
+  }
   Run run(*this, r);
   const double size = run.size_of(r);
   if (start.empty())

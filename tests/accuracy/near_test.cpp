@@ -36,7 +36,7 @@ std::vector<Near> at_distance(double d) {
       {"end to end", {{{-0.6, 0}, {-d / 2, 0}}, {{d / 2, 0}, {0.6, 0}}}}};
 }
 
-mesh::Mesh mesh_of(const Near& near) {
+mesh::Mesh near_mesh(const Near& near) {
   mesh::Geometry geometry;
   geometry.boundary = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
   for (const std::vector<Point>& points : near.lines) {
@@ -51,11 +51,11 @@ mesh::Mesh mesh_of(const Near& near) {
   return generated(geometry, options);
 }
 
-TEST(Near, AreSolvedToRoundingAndHaveBoundsThatHold) {
+TEST(NearlyTouching, AreSolvedToRoundingAndHaveBoundsThatHold) {
   for (const double d : {1e-2, 3e-3, 2e-3, 1e-3}) {
     for (const Near& near : at_distance(d)) {
       SCOPED_TRACE(fmt::format("{} at {:g}", near.what, d));
-      mesh::Mesh mesh = mesh_of(near);
+      mesh::Mesh mesh = near_mesh(near);
       const std::vector<std::uint8_t> twice(mesh.triangle_count(), 2);
       const auto fine = factorise(mesh::refine(mesh, twice, 2'000'000));
       fem::Load load;

@@ -26,7 +26,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-struct Tally {
+struct LackTally {
   int energies = 0, broken_without = 0, displacements = 0, wrong_without = 0, nowhere = 0;
 };
 
@@ -51,8 +51,8 @@ std::vector<double> moved(const Solved& in, double by, std::mt19937& random) {
 }
 
 /// Pi(v), from the fields alone and the motions of inclusions.
-double energy_of(const Solved& in, const std::vector<double>& v, const EquilibratedFlux& flux,
-                 std::span<const contact::InclusionAnswer> motions) {
+double energy_with(const Solved& in, const std::vector<double>& v, const EquilibratedFlux& flux,
+                   std::span<const contact::InclusionAnswer> motions) {
   double energy = flux.norm_squared() / 2;
   for (std::size_t corner = 0; corner < in.force.size(); ++corner)
     energy -= in.force[corner] * v[at(in.cut.copy[corner])];
@@ -75,14 +75,15 @@ struct Trial {
   std::vector<contact::InclusionAnswer> motions;
 };
 
-void check(const Nested& nested, const Trial& trial, double dual_off, unsigned seed, Tally& tally) {
+void check_lack(const Nested& nested, const Trial& trial, double dual_off, unsigned seed,
+                LackTally& tally) {
   const Solved &coarse = *nested.coarse, &fine = *nested.fine;
   const auto& [near, v, motions] = trial;
   std::mt19937 random(seed);
   const EquilibratedFlux of_answer(coarse.cut, coarse.balance()),
       sigma(coarse.cut, {v, coarse.force, coarse.traction});
-  const double energy = coarse.answer.energy + energy_of(coarse, v, sigma, motions) -
-                        energy_of(coarse, coarse.u, of_answer, coarse.answer.inclusions);
+  const double energy = coarse.answer.energy + energy_with(coarse, v, sigma, motions) -
+                        energy_with(coarse, coarse.u, of_answer, coarse.answer.inclusions);
   std::vector<ForceOn> forces;
   for (const auto& [on, on_holders] : coarse.load.inclusion_forces)
     forces.push_back({on.force, {on.moment_x, on.moment_y}});
@@ -137,7 +138,7 @@ void check(const Nested& nested, const Trial& trial, double dual_off, unsigned s
 }
 
 /// With a v of noise, and the solution of another load.
-void check(unsigned seed, bool rich, Tally& tally) {
+void check_lack(unsigned seed, bool rich, LackTally& tally) {
   SCOPED_TRACE("seed " + std::to_string(seed));
   const Nested nested(seed, rich);
   if (!nested.solved() || !nested.coarse->cut.obstacle.empty()) return;
@@ -155,7 +156,7 @@ void check(unsigned seed, bool rich, Tally& tally) {
       for (const Face& face : coarse.cut.faces)
         if (face.inclusion == static_cast<std::int32_t>(j) && face.condition == Condition::free)
           trial.motions[j].displacement = trial.v[at(coarse.cut.ends(face)[0])];
-    check(nested, trial, by, seed, tally);
+    check_lack(nested, trial, by, seed, tally);
   }
   std::uniform_real_distribution<double> uniform(-1, 1);
   for (const double by : {1e-6, 1.0, 10.0}) {
@@ -172,7 +173,7 @@ void check(unsigned seed, bool rich, Tally& tally) {
       continue;
     }
     if (other->converged())
-      check(nested, {other->answer, other->u, other->answer.inclusions}, 0, seed, tally);
+      check_lack(nested, {other->answer, other->u, other->answer.inclusions}, 0, seed, tally);
   }
 }
 
@@ -181,8 +182,8 @@ class WhatIsLacking : public ::testing::TestWithParam<bool> {};
 TEST_P(WhatIsLacking, WidensTheBounds) {
   const auto given = static_cast<unsigned>(::testing::GTEST_FLAG(random_seed));
   const unsigned first = given > 0 ? given : std::random_device{}() % 99'000 + 1;
-  Tally tally;
-  for (unsigned k = 0; k < 100; ++k) check(first + k, GetParam(), tally);
+  LackTally tally;
+  for (unsigned k = 0; k < 100; ++k) check_lack(first + k, GetParam(), tally);
   std::printf(
       "[ figures  ] seeds from %u: %d energies, %d out of bounds without it; %d displacements, %d "
       "out of theirs; %d with a part that contact holds\n",
