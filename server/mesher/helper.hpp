@@ -29,7 +29,8 @@ struct HelperOptions {
 mesh::Mesh run(const HelperOptions& options, const mesh::MesherRequest& request,
                std::stop_token stop);
 
-/// Throws errors::Error (mesh_invalid) unless the first word of the file is $MeshFormat.
+/// Throws errors::Error (mesh_invalid) unless the file begins as one that is read does
+/// (mesh_start.hpp).
 void require_msh(const std::string& path);
 
 /// Path of anticrack-mesher beside the running executable, or in ../libexec/anticrack.
