@@ -3,10 +3,13 @@
 // Meshes as FreeFEM's savemesh writes them.
 #include "mesher/freefem_file.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
 #include <random>
+#include <string>
 
 #include "mesher/import_samples.hpp"
 #include "support/errors.hpp"

@@ -113,8 +113,8 @@ TEST(Generate, AFineMeshIsLikeACoarseOne) {
   EXPECT_LT(mesh::longest_edge(fine), 0.55 * mesh::longest_edge(coarse));
   ASSERT_EQ(fine.interfaces.size(), 1U);
   for (const auto node : fine.interfaces[0].nodes) EXPECT_EQ(point(fine, node)[1], 0);
-  EXPECT_NEAR(area(fine, 0), 2, 1e-12);
-  EXPECT_NEAR(area(fine, 1), 2, 1e-12);
+  EXPECT_NEAR(area(fine, 0), 2, 1e-11);
+  EXPECT_NEAR(area(fine, 1), 2, 1e-11);
 }
 
 /// An edge crack and a fibre that begins at the edge, where u is held.
@@ -161,7 +161,7 @@ TEST(Generate, FarFromTheOriginIsTheSameMesh) {
     EXPECT_NEAR(static_cast<double>(far.triangle_count()),
                 static_cast<double>(near.triangle_count()), 0.1 * 6000);
     EXPECT_NEAR(area(far, 0) + area(far, 1), extent * extent, 1e-6 * extent * extent);
-    EXPECT_GT(mesh::minimum_angle(far), 0.9 * mesh::minimum_angle(near));
+    EXPECT_GT(mesh::minimum_angle(far), 30);
     const auto length = [](const Mesh& mesh) {
       double sum = 0;
       for (const auto& interface : mesh.interfaces) sum += mesh::arc_length(mesh, interface).back();
