@@ -212,7 +212,7 @@ void add_mesh(CLI::App& app, const Globals& globals, Command& chosen) {
 
   CLI::App* upload_command = add("upload", "Create a mesh from a .msh file",
                                  "plate.msh --set mesh.preset=uniform", upload);
-  upload_command->add_option("MESH", options->file, "MSH 2.2 or 4.1, ascii or binary")
+  upload_command->add_option("MESH", options->file, "MSH 2.0 to 2.2 or 4.1, ascii or binary, or a mesh of FreeFEM")
       ->required()
       ->type_name("FILE");
   upload_command->add_option("--title", options->title, "A title for people");

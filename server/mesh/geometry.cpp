@@ -85,26 +85,6 @@ void check_held(const Geometry& geometry, const Plan& plan) {
          "whole; leave a side or a hole out of neumann, or hold an inclusion, as by fixed = 0");
 }
 
-/// Refuses inclusions and cracks that touch the Dirichlet boundary.
-void check_contacts(const Layout& layout, const Network& network, const Plan& plan) {
-  std::vector<int> held(plan.points.size(), -1);  // the line of the boundary that holds a point
-  for (std::size_t e = 0; e < plan.curves.size(); ++e)
-    if (const PlannedCurve& curve = plan.curves[e]; curve.role == Role::dirichlet)
-      held[at(curve.a)] = held[at(curve.b)] = network.chords[e].line;
-  for (const PlacedPart& part : layout.parts) {
-    for (const bool end : {false, true}) {
-      const int point = end ? part.end.point : part.begin.point;
-      if (held[at(point)] < 0) continue;
-      const std::string which = end != part.reversed ? ".to" : ".from";
-      const Field& line = network.lines[at(held[at(point)])].field;
-      refuse(place_of(part) + (part.own ? "" : which), part.field, " ends at ",
-             show(plan.points[at(point)]), " on ", line.path == "boundary" ? "the " : "", line,
-             ", where u is held; end it inside the membrane, or name the hole or the sides that "
-             "meet there in neumann, which lets them go");
-    }
-  }
-}
-
 /// The stretch that each chord of an interface lies on, or null.
 std::vector<const Stretch*> stretches_of(const Layout& layout, const Network& network) {
   std::vector<const Stretch*> stretches;
@@ -251,7 +231,6 @@ Plan plan(const Geometry& given, const MeshOptions& options, std::size_t max_tri
   const std::vector<const Stretch*> stretches = stretches_of(layout, network);
   add_curves(layout, network, stretches, plan);
   check_held(geometry, plan);
-  check_contacts(layout, network, plan);
   lay_subdomains(geometry, network, names, walks_of(stretches), plan);
   if (options.preset == Preset::paper) {
     check_for_paper(geometry, options, plan);

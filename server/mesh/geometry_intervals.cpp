@@ -154,6 +154,19 @@ class Cutter {
   std::vector<double> _cuts;
 };
 
+/// gmsh takes as long for a curve as for a few hundred triangles, so that many equal pieces in a
+/// row are the intervals of one.
+constexpr std::size_t least_row = 32;
+
+/// How many pieces from cut `i` on, the first of which begins at `from`, are one curve. The lengths
+/// are powers of two.
+std::size_t equal_pieces(const std::vector<double>& cuts, std::size_t i, double from) {
+  const double length = cuts[i] - from;
+  std::size_t count = 1;
+  while (i + count < cuts.size() && cuts[i + count] - cuts[i + count - 1] == length) ++count;
+  return count < least_row ? 1 : count;
+}
+
 }  // namespace
 
 double length_of(const Plan& plan, const PlannedCurve& curve) noexcept {
@@ -177,8 +190,8 @@ void set_paper_intervals(Plan& plan) {
 void set_intervals(Plan& plan, double size) {
   for (PlannedCurve& curve : plan.curves) {
     // a length that is a whole number of sizes but for rounding is cut into just as many
-    curve.intervals =
-        static_cast<int>(std::max(1.0, std::ceil(length_of(plan, curve) / size - 1e-9)));
+    const double piece = length_of(plan, curve) / curve.intervals;
+    curve.intervals *= static_cast<int>(std::max(1.0, std::ceil(piece / size - 1e-9)));
   }
 }
 
@@ -227,17 +240,23 @@ void cut_near(Plan& plan, double size, double growth, std::size_t max_curves) {
     PlannedCurve piece = plan.curves[e];
     const Segment whole = segment_of(plan, piece);
     const int last = piece.b;
-    const auto add = [&](int b) {
+    const auto add = [&](int b, int intervals) {
       piece.b = b;
+      piece.intervals = intervals;
       pieces[e].push_back(static_cast<int>(curves.size()));
       curves.push_back(piece);
       piece.a = b;
     };
-    for (const double t : cuts[e]) {
-      plan.points.push_back(point_on(whole, t));
-      add(static_cast<int>(plan.points.size()) - 1);
+    cuts[e].push_back(1);
+    double from = 0;
+    for (std::size_t i = 0; i < cuts[e].size();) {
+      const std::size_t count = equal_pieces(cuts[e], i, from);
+      i += count;
+      from = cuts[e][i - 1];
+      if (i < cuts[e].size()) plan.points.push_back(point_on(whole, from));
+      add(i < cuts[e].size() ? static_cast<int>(plan.points.size()) - 1 : last,
+          static_cast<int>(count));
     }
-    add(last);
   }
   replace_curves(plan, std::move(curves), pieces);
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "mesh/geometry_primitives.hpp"
+#include "mesh/precision.hpp"
 
 namespace anticrack::mesh {
 namespace {
@@ -144,7 +145,7 @@ double check_extent(const std::vector<Point>& boundary, const Field& owner) {
   const double extent = diagonal(boundary);
   double largest = 0;
   for (const Point& p : boundary) largest = std::max({largest, std::abs(p[0]), std::abs(p[1])});
-  if (extent > 0 && extent < 1e-6 * largest) {
+  if (extent > 0 && extent < least_extent * largest) {
     refuse(owner, "boundary is ", show(extent), " across, but lies ", show(largest),
            " from the origin: too far for double precision; move it to the origin");
   }
@@ -152,7 +153,7 @@ double check_extent(const std::vector<Point>& boundary, const Field& owner) {
     refuse(owner, "boundary is ", show(extent), " across; at least ", show(min_extent),
            " is required; choose a smaller unit of length");
   }
-  return relative_tolerance * extent;
+  return std::max(relative_tolerance * extent, coordinate_rounding * largest);
 }
 
 Outline check_outline(const std::vector<Point>& boundary) {

@@ -128,7 +128,8 @@ void set_paper_intervals(Plan& plan);
 /// Cuts curves that are too long for what is near them: an edge is at most twice as long as the
 /// distance to a curve it shares no point with, or as the shortest curve at its end, and may grow
 /// by `growth` per unit length away from there. Curves that `size` makes short enough stay whole.
-/// Throws errors::Error (limit_exceeded) beyond `max_curves`. O(c^2).
+/// A curve becomes several, whose `intervals` are those pieces. Throws errors::Error
+/// (limit_exceeded) beyond `max_curves` pieces. O(c^2).
 void cut_near(Plan& plan, double size, double growth, std::size_t max_curves);
 
 /// Replaces the plan's curves. `pieces`: for each old curve, the new ones it became, in its own
@@ -136,7 +137,7 @@ void cut_near(Plan& plan, double size, double growth, std::size_t max_curves);
 void replace_curves(Plan& plan, std::vector<PlannedCurve> curves,
                     const std::vector<std::vector<int>>& pieces);
 
-/// Sets the intervals of each curve to pieces of at most `size`.
+/// Cuts the intervals of each curve into equal ones of at most `size`.
 void set_intervals(Plan& plan, double size);
 
 /// Distance of its end points.

@@ -94,6 +94,18 @@ CurveMeaning given_meaning(std::int32_t tag, const std::string& text) {
                                          : fmt::format("its {}s are {}", what, list_of(tags))));
 }
 
+/// Names without elements: gmsh leaves the groups out of MSH 2 where it saves all elements.
+void refuse_lost_groups(const MshFile& file) {
+  for (const auto& [tag, name] : file.curve_names) {
+    const CurveGroup group = named_by_file(tag, true, name);
+    if (!group.meaning) continue;
+    refuse(
+        "the file names {}, but none of its lines is in a group; save it as MSH 4.1, or with "
+        "Mesh.SaveAll = 0, or give its curves a meaning in the groups of the mesh options",
+        group.title);
+  }
+}
+
 }  // namespace
 
 ReadMeaning read_meaning(const std::string& text) {
@@ -123,6 +135,8 @@ CurveGroups read_curve_groups(const MshFile& file,
   result.physical =
       file.lines.empty() || std::any_of(file.lines.begin(), file.lines.end(),
                                         [](const auto& line) { return line.group != 0; });
+  // who says what the elementary curves are need not save them in groups
+  if (!result.physical && given.empty()) refuse_lost_groups(file);
   for (const auto& [tag, name] : file.curve_names)
     if (result.physical) result.groups.emplace(tag, named_by_file(tag, true, name));
   for (const auto& line : file.lines) {

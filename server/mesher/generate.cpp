@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <new>
 #include <numeric>
@@ -14,6 +15,8 @@
 #include <vector>
 
 #include "mesh/edges.hpp"
+#include "mesh/refine_uniform.hpp"
+#include "mesher/coarsening.hpp"
 #include "mesher/messages.hpp"
 #include "mesher/restrict.hpp"
 #include "mesher/size_field.hpp"
@@ -27,7 +30,12 @@ using mesh::PlannedCurve;
 using mesh::Point;
 
 constexpr int triangle_type = 2;
+constexpr int delaunay = 5;
 constexpr int frontal_delaunay = 6;
+
+/// With so many intervals most triangles are small and near lines, where Delaunay makes as good
+/// ones in two thirds of the time.
+constexpr int many_intervals = 8'000;
 
 template <class... Values>
 [[noreturn]] void fail(fmt::format_string<Values...> message, Values&&... values) {
@@ -146,8 +154,14 @@ double random_factor(const std::vector<SizedCurve>& curves) {
   return std::clamp(1e-6 * shortest, 1e-13, gmsh_default);
 }
 
-void choose_options(std::vector<SizedCurve> curves, double growth) {
-  gmsh::option::setNumber("Mesh.Algorithm", frontal_delaunay);
+int algorithm_of(const Plan& plan) {
+  std::int64_t intervals = 0;
+  for (const PlannedCurve& curve : plan.curves) intervals += curve.intervals;
+  return intervals < many_intervals ? frontal_delaunay : delaunay;
+}
+
+void choose_options(int algorithm, std::vector<SizedCurve> curves, double growth) {
+  gmsh::option::setNumber("Mesh.Algorithm", algorithm);
   gmsh::option::setNumber("Mesh.MeshSizeFromPoints", 0);
   gmsh::option::setNumber("Mesh.MeshSizeExtendFromBoundary", 0);
   gmsh::option::setNumber("Mesh.RandomSeed", 1);
@@ -336,10 +350,12 @@ Gmsh::~Gmsh() {
 }
 
 mesh::Mesh generate(const Gmsh& /*its presence is needed*/, const mesh::GenerateRequest& request) {
-  const Frame frame(request.plan.points);
+  const int halvings = mesher::halvings(request.plan);
+  const Plan plan = coarsened(request.plan, halvings);
+  const Frame frame(plan.points);
   try {
-    build_model(request.plan, frame);
-    choose_options(sized_curves(request.plan, frame), request.plan.growth);
+    build_model(plan, frame);
+    choose_options(algorithm_of(plan), sized_curves(plan, frame), plan.growth);
     gmsh::model::mesh::generate(2);
   } catch (const std::bad_alloc&) {
     throw;
@@ -348,14 +364,16 @@ mesh::Mesh generate(const Gmsh& /*its presence is needed*/, const mesh::Generate
   } catch (const std::exception& error) {
     gave_up(error.what());
   }
-  mesh::Mesh mesh = read_mesh(request.plan, frame);
-  if (mesh.triangle_count() > request.max_triangles) {
+  mesh::Mesh mesh = read_mesh(plan, frame);
+  const std::size_t triangles = mesh.triangle_count() << (2 * halvings);
+  if (triangles > request.max_triangles) {
     throw errors::Error(errors::Reason::limit_exceeded,
                         fmt::format("the mesh has {} triangles, at most {} are allowed; choose a "
                                     "coarser one",
-                                    mesh.triangle_count(), request.max_triangles))
+                                    triangles, request.max_triangles))
         .at("options.size");
   }
+  for (int i = 0; i < halvings; ++i) mesh = mesh::refine_uniform(mesh);
   return mesh;
 }
 

@@ -19,9 +19,11 @@ class Gmsh {
   Gmsh& operator=(const Gmsh&) = delete;
 };
 
-/// Meshes every face of the plan, ungraded; faces with the same name are one subdomain. The nodes
-/// of every planned curve lie exactly at a + (b-a) k/n. Deterministic. One call per process. Throws
-/// errors::Error: limit_exceeded (too many triangles), mesher_failed (gmsh failed).
+/// Meshes every face of the plan, ungraded, a fine one by halving a coarse mesh (coarsening.hpp);
+/// faces with the same name are one subdomain. The nodes of every planned curve lie at
+/// a + (b-a) k/n, n at least its intervals, and just as many without halving. Deterministic. One
+/// call per process. Throws errors::Error: limit_exceeded (too many triangles), mesher_failed (gmsh
+/// failed).
 mesh::Mesh generate(const Gmsh& gmsh, const mesh::GenerateRequest& request);
 
 }  // namespace anticrack::mesher

@@ -22,6 +22,7 @@
 #include <utility>
 
 #include "mesher/child.hpp"
+#include "mesher/mesh_start.hpp"
 #include "stop/stop.hpp"
 
 namespace anticrack::mesher {
@@ -31,7 +32,6 @@ using Clock = std::chrono::steady_clock;
 using errors::Error;
 using errors::Reason;
 
-constexpr std::string_view msh_token = "$MeshFormat";
 /// Processor time beyond the wall time: the wall clock, with its better message, comes first.
 constexpr std::chrono::seconds cpu_slack{10};
 /// More than a triangle with its nodes and edges takes; names and warnings come on top.
@@ -214,27 +214,18 @@ mesh::Bytes converse(const HelperOptions& options, const mesh::MesherRequest& re
   }
 }
 
-/// Opens a file that begins as a .msh does. The check and the child use the same descriptor, so the
-/// file cannot be exchanged in between.
+/// Opens a file that begins as one that is read does. The check and the child use the same
+/// descriptor, so the file cannot be exchanged in between.
 Descriptor open_msh(const std::string& path) {
   Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-  char start[msh_token.size() + 1] = {};
+  char start[start_bytes] = {};
   // pread leaves the offset, which the child shares, at 0
   const ssize_t n = file.empty() ? -1 : pread(file.get(), start, sizeof start, 0);
   if (n < 0) {
     throw Error(Reason::mesh_invalid,
                 "the mesh file cannot be read: " + std::generic_category().message(errno));
   }
-  if (n == 0)
-    throw Error(Reason::mesh_invalid, "the mesh file is empty; save the mesh as MSH 4.1 or 2.2");
-  const std::string_view first(start, static_cast<std::size_t>(n));
-  const bool ends = first.size() > msh_token.size() &&
-                    (first.back() == '\n' || first.back() == '\r' || first.back() == ' ');
-  if (!first.starts_with(msh_token) || !ends) {
-    throw Error(Reason::mesh_invalid,
-                "the file does not begin with $MeshFormat, so it is not a .msh file; save the mesh "
-                "as MSH 4.1 or 2.2 (gmsh case.geo -2 -o case.msh)");
-  }
+  format_of(std::string_view(start, static_cast<std::size_t>(n)));
   return file;
 }
 

@@ -34,7 +34,8 @@ using ProgressListener = std::function<void(const Progress&)>;
 mesh::Mesh run(const HelperOptions& options, const mesh::MesherRequest& request,
                std::stop_token stop, const ProgressListener& listener = {});
 
-/// Throws errors::Error (mesh_invalid) unless the first word of the file is $MeshFormat.
+/// Throws errors::Error (mesh_invalid) unless the file begins as one that is read does
+/// (mesh_start.hpp).
 void require_msh(const std::string& path);
 
 /// What the program anticrack-mesher of this version has in it.

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "mesher/import_steps.hpp"
 #include "mesher/messages.hpp"
+#include "mesher/msh_scanner.hpp"
 
 namespace anticrack::mesher {
 namespace {
@@ -106,6 +108,17 @@ std::vector<CurveEdge> take_lines(const MshFile& file, const PlaneMesh& plane,
   return lines;
 }
 
+/// An inclusion of which the file has the name alone would be missing without a word.
+void note_empty_groups(const MshFile& file, const CurveGroups& groups, Mesh& mesh) {
+  std::set<const CurveGroup*> met;
+  for (const auto& line : file.lines) met.insert(groups.of(line));
+  for (const auto& [tag, group] : groups.groups) {
+    if (!group.meaning || met.contains(&group)) continue;
+    mesh.warnings.push_back(fmt::format(
+        "{} has no line in the file: left out; save its curve with the surfaces", group.title));
+  }
+}
+
 /// Edges at which lines and doubled nodes may divide a surface.
 std::vector<std::pair<std::int32_t, std::int32_t>> cuts_of(const std::vector<CurveEdge>& lines,
                                                            const Welding& welding) {
@@ -186,6 +199,7 @@ Mesh to_mesh(const MshFile& file, const mesh::MeshOptions& options) {
   const Welding welding = weld(plane.xy, plane.triangles, plane.tags);
   Mesh mesh = welded_mesh(plane, welding);
   const std::vector<CurveEdge> lines = take_lines(file, plane, welding, groups, mesh);
+  note_empty_groups(file, groups, mesh);
   const mesh::EdgeTable edges(mesh.triangles);
   read_surfaces(file, options, edges, cuts_of(lines, welding), mesh);
   EdgeRoles roles = read_edges(edges, lines, groups, welding, mesh);
@@ -201,7 +215,7 @@ Mesh to_mesh(const MshFile& file, const mesh::MeshOptions& options) {
 
 Mesh import_msh(std::string_view bytes, const mesh::MeshOptions& options,
                 std::size_t max_triangles) {
-  return to_mesh(read_msh(bytes, max_triangles), options);
+  return to_mesh(read_mesh_file(bytes, max_triangles), options);
 }
 
 }  // namespace anticrack::mesher

@@ -78,7 +78,8 @@ struct CurveGroups {
 
 /// `given` (physical tag -> meaning) overrides the names of the file. Throws errors::Error:
 /// invalid_argument at "options.curve_groups[TAG]" for a tag that the file lacks or a text that is
-/// not a keyword; mesh_invalid for a bad NAME, or one shared by a crack and an inclusion.
+/// not a keyword; mesh_invalid for a bad NAME, one shared by a crack and an inclusion, or names of
+/// groups that no line is in.
 CurveGroups read_curve_groups(const MshFile& file,
                               const std::map<std::int32_t, std::string>& given);
 
@@ -103,7 +104,8 @@ struct Welding {
   const DoubledEdge* find(std::int32_t a, std::int32_t b) const noexcept;
 };
 
-/// Unites nodes of the rim (edges of one triangle) within 1e-9 of the mesh's extent and a
+/// Unites nodes of the rim (edges of one triangle) within 1e-9 of the mesh's extent (or as far as
+/// their coordinates are rounded) and a
 /// thousandth of their shortest rim edge. `xy` (n,2), `triangles` (m,3) counterclockwise, both
 /// row-major; `tags` (n) for messages. Throws errors::Error (mesh_invalid): hanging nodes, nodes at
 /// the same place without a common edge, overlapping triangles. O(m log m).

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The content of a .msh file, not yet a membrane.
+// The content of a mesh file, not yet a membrane.
 #pragma once
 
 #include <array>
@@ -32,10 +32,19 @@ struct MshFile {
   std::vector<MshElement<3>> triangles;
 };
 
-/// Reads MSH 2.2 and 4.1, ascii and binary, without gmsh: its reader tolerates damaged files and
-/// may take a file for a script. Skips points. Throws errors::Error: mesh_invalid (damaged, another
-/// version, elements other than 2-node lines and 3-node triangles, names used twice),
-/// limit_exceeded (more than `max_triangles`). Linear in the size of the file.
+/// Reads MSH 2.0 to 2.2 and 4.1, ascii and binary, without gmsh: its reader tolerates damaged files
+/// and may take a file for a script. Skips points and what else is no mesh (results, periodicity).
+/// The parts of a partitioned mesh are in the groups of the whole. Throws errors::Error:
+/// mesh_invalid (damaged, another version, geometry without a mesh, one part of a mesh saved in
+/// parts, elements other than 2-node lines and 3-node triangles, names used twice), limit_exceeded
+/// (more than `max_triangles`). Linear in the size of the file.
 MshFile read_msh(std::string_view bytes, std::size_t max_triangles);
+
+/// The same for a file of any format that is read: a .msh, or what FreeFEM's savemesh writes
+/// (freefem_file.hpp).
+MshFile read_mesh_file(std::string_view bytes, std::size_t max_triangles);
+
+/// Throws errors::Error (limit_exceeded) for more triangles.
+void check_triangle_limit(const MshFile& file, std::size_t max_triangles);
 
 }  // namespace anticrack::mesher

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "mesher/mesh_start.hpp"
+
 namespace anticrack::mesher {
 namespace {
 
@@ -22,9 +24,18 @@ void MshScanner::skip_space() noexcept {
   while (_at < _bytes.size() && is_space(_bytes[_at])) ++_at;
 }
 
+void MshScanner::skip_mark() noexcept {
+  if (_at == 0 && _bytes.starts_with(byte_order_mark)) _at = byte_order_mark.size();
+}
+
 bool MshScanner::at_end() noexcept {
   skip_space();
   return _at == _bytes.size();
+}
+
+char MshScanner::next() {
+  if (at_end()) truncated();
+  return _bytes[_at];
 }
 
 std::string_view MshScanner::word() {
@@ -77,7 +88,7 @@ std::string MshScanner::place() const {
   const std::string where =
       _binary ? fmt::format("byte {}", _at)
               : fmt::format("line {}", std::count(_bytes.begin(), _bytes.begin() + at, '\n') + 1);
-  return fmt::format(".msh file, {}{}{}", where, _section.empty() ? "" : ", in ", _section);
+  return fmt::format("{}, {}{}{}", _file, where, _section.empty() ? "" : ", in ", _section);
 }
 
 void MshScanner::truncated() const {

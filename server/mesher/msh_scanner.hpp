@@ -13,6 +13,9 @@
 
 namespace anticrack::mesher {
 
+/// Least bytes of so many numbers as text: a digit and a separator each.
+constexpr std::size_t text_bytes(std::size_t numbers) noexcept { return 2 * numbers; }
+
 /// For messages: at most 32 characters, '?' for those that cannot be printed.
 std::string printable(std::string_view text);
 
@@ -20,7 +23,9 @@ std::string printable(std::string_view text);
 /// where.
 class MshScanner {
  public:
-  explicit MshScanner(std::string_view bytes) noexcept : _bytes(bytes) {}
+  /// `file`: what it is, for messages.
+  explicit MshScanner(std::string_view bytes, const char* file = ".msh file") noexcept
+      : _bytes(bytes), _file(file) {}
 
   /// The format of the numbers that follow; at first text.
   void set_binary(bool binary) noexcept { _binary = binary; }
@@ -28,8 +33,12 @@ class MshScanner {
   /// The section for messages, "$Nodes".
   void enter(std::string section) { _section = std::move(section); }
 
+  /// Moves past the mark of UTF-8 (BOM) with which some editors begin a file.
+  void skip_mark() noexcept;
   /// True when only white space is left.
   bool at_end() noexcept;
+  /// The first character of the next word; fails at the end of the file.
+  char next();
   /// The next word between white space; fails at the end of the file.
   std::string_view word();
   /// The rest of the line, without its end.
@@ -43,9 +52,12 @@ class MshScanner {
   template <class T>
   T text_number() {
     const std::string_view token = word();
+    // C's printf writes a plus where it is asked to, which from_chars does not take
+    const std::string_view digits = token.substr(token.starts_with('+') ? 1 : 0);
     T value{};
-    const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), value);
-    if (error != std::errc{} || end != token.data() + token.size())
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (error == std::errc::result_out_of_range) fail("{} is out of range", printable(token));
+    if (error != std::errc{} || end != digits.data() + digits.size())
       fail("expected a number, found \"{}\"", printable(token));
     return value;
   }
@@ -80,6 +92,7 @@ class MshScanner {
   void skip_space() noexcept;
 
   std::string_view _bytes;
+  const char* _file;
   std::size_t _at = 0;
   bool _binary = false;
   std::string _section;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/precision.hpp"
 #include "mesher/import_steps.hpp"
 #include "mesher/messages.hpp"
 
@@ -61,6 +62,14 @@ double plane_of(const MshFile& file, const PlaneMesh& mesh) {
     }
   }
   const double extent = std::max(high[0] - low[0], high[1] - low[1]);
+  const double largest = std::max({-low[0], -low[1], high[0], high[1]});
+  if (extent < mesh::least_extent * largest) {
+    refuse(
+        "the mesh is {:g} across, but lies {:g} from the origin: too far for double precision; "
+        "move "
+        "it to the origin",
+        extent, largest);
+  }
   if (high[2] - low[2] > plane_tolerance * extent) {
     refuse("node {} lies at z = {:g}, node {} at z = {:g}; a membrane lies in a plane of one z",
            lowest_highest[0], low[2], lowest_highest[1], high[2]);

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "mesh/edges.hpp"
+#include "mesh/precision.hpp"
 #include "mesh/union_find.hpp"
 #include "mesher/messages.hpp"
 
@@ -41,7 +42,9 @@ class Places {
       high[i % 2] = std::max(high[i % 2], xy[i]);
     }
     _corner = {low[0], low[1]};
-    _extent = std::max(high[0] - low[0], high[1] - low[1]);
+    const double extent = std::max(high[0] - low[0], high[1] - low[1]);
+    const double largest = std::max({-low[0], -low[1], high[0], high[1]});
+    _tolerance = std::max(same_place * extent, mesh::coordinate_rounding * largest);
   }
 
   double x(std::int32_t node) const { return _xy[2 * at(node)]; }
@@ -52,11 +55,12 @@ class Places {
   double angle(std::int32_t a, std::int32_t b) const {
     return std::atan2(y(b) - y(a), x(b) - x(a));
   }
-  double extent() const { return _extent; }
+  /// Nodes within this distance may lie at the same place.
+  double tolerance() const { return _tolerance; }
 
-  /// Cell of a grid whose neighbouring cells hold everything within `same_place`.
+  /// Cell of a grid whose neighbouring cells hold everything within `tolerance`.
   std::array<std::int64_t, 2> cell(std::int32_t node) const {
-    const double width = 2 * same_place * _extent;
+    const double width = 2 * _tolerance;
     return {static_cast<std::int64_t>((x(node) - _corner[0]) / width),
             static_cast<std::int64_t>((y(node) - _corner[1]) / width)};
   }
@@ -69,7 +73,7 @@ class Places {
   std::span<const double> _xy;
   std::span<const std::uint64_t> _tags;
   std::array<double, 2> _corner{};
-  double _extent = 0;
+  double _tolerance = 0;
 };
 
 /// An edge of one triangle; `low` and `high` represent all nodes at their places.
@@ -128,7 +132,7 @@ void find_coincident(const Places& places, const std::vector<RimEdge>& rim,
                          [](const Entry& e, const auto& wanted) { return e.cell < wanted; });
     for (; other != entries.end() && other->cell == cell; ++other) {
       const double bound = std::min(
-          same_place * places.extent(),
+          places.tolerance(),
           same_place_of_edge * std::min(shortest[at(entry.node)], shortest[at(other->node)]));
       if (places.distance(entry.node, other->node) <= bound) same.unite(entry.node, other->node);
     }
@@ -189,7 +193,7 @@ void refuse_hanging(const Places& places, mesh::UnionFind& same, const std::vect
     return std::tie(a.place, a.angle, a.to) < std::tie(b.place, b.angle, b.to);
   });
   const auto check = [&](const Ray& a, const Ray& b, double turn) {
-    const double rounding = same_place * places.extent() / std::min(a.length, b.length);
+    const double rounding = places.tolerance() / std::min(a.length, b.length);
     if (turn > std::min(same_direction + rounding, widest_same_direction)) return;
     const auto& [shorter, longer] = a.length < b.length ? std::tie(a, b) : std::tie(b, a);
     refuse(

@@ -139,7 +139,7 @@ void UploadReceiver::begin(const v1::CreateUploadsRequest::Header& header) {
   const bool array = is_array(header.kind());
   if (header.size() == 0) {
     throw array ? Error(Reason::invalid_argument, "the array has no value").at("header.size")
-                : Error(Reason::mesh_invalid, "the file is empty; a .msh begins with $MeshFormat")
+                : Error(Reason::mesh_invalid, "the file is empty; save the mesh as MSH 4.1 or 2.2")
                       .at("header.size");
   }
   if (array && header.size() % sizeof(double) != 0) {

@@ -34,7 +34,7 @@ class UploadReceiver {
   void accept(const v1::CreateUploadsRequest& request);
 
   /// Keeps all files and returns them, in order, when each is all there and is what was announced:
-  /// a .msh begins with $MeshFormat, an array is finite values of 8 bytes.
+  /// a mesh begins as one that is read does, an array is finite values of 8 bytes.
   /// Throws errors::Error: invalid_argument, mesh_invalid, disk_full, storage.
   std::vector<store::UploadRecord> complete();
 

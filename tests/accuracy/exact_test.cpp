@@ -11,7 +11,7 @@
 #include "accuracy/error_norms.hpp"
 #include "accuracy/sequence.hpp"
 #include "mesh/refine.hpp"
-#include "support/mesh_quality.hpp"
+#include "mesh/refine_uniform.hpp"
 
 namespace anticrack::accuracy {
 namespace {

@@ -16,12 +16,12 @@
 #include <type_traits>
 #include <vector>
 
+#include "mesh/refine_uniform.hpp"
 #include "operators/mesh_operator.hpp"
 #include "reference/random_fibres.hpp"
 #include "reference/random_laws.hpp"
 #include "reference/random_membrane.hpp"
 #include "support/grid_mesh.hpp"
-#include "support/mesh_quality.hpp"
 #include "support/silent_observer.hpp"
 #include "support/solve.hpp"
 

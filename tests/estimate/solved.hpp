@@ -14,10 +14,10 @@
 #include "estimate/equilibrated_flux.hpp"
 #include "fem/triangle_rules.hpp"
 #include "mesh/at.hpp"
+#include "mesh/refine_uniform.hpp"
 #include "operators/mesh_parts.hpp"
 #include "reference/random_laws.hpp"
 #include "reference/random_membrane.hpp"
-#include "support/mesh_quality.hpp"
 #include "support/silent_observer.hpp"
 
 namespace anticrack::estimate {

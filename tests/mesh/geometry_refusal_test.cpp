@@ -200,24 +200,6 @@ const Fault faults[] = {
      },
      "inclusions[0].part.from",
      {"nan"}},
-    {"InclusionAtTheStart",
-     [](Geometry& g) {
-       g.inclusions[0] = {"a", {{-1, 0}, {0, 0}}, {}};
-     },
-     "inclusions[0].part.from",
-     {"(-1, 0) on the boundary, where u is held"}},
-    {"InclusionAtTheEnd",
-     [](Geometry& g) {
-       g.inclusions[0] = {"a", {{0, 0}, {1, 0}}, {}};
-     },
-     "inclusions[0].part.to",
-     {"(1, 0) on the boundary, where u is held"}},
-    {"InclusionAtTheEndBackwards",
-     [](Geometry& g) {
-       g.inclusions[0] = {"a", {{1, 0}, {0, 0}}, {}};
-     },
-     "inclusions[0].part.from",
-     {"(1, 0) on the boundary, where u is held"}},
     {"InclusionWithoutLength",
      [](Geometry& g) {
        g.inclusions[0] = {"a", {{0.25, 0}, {0.25, 0}}, {}};

@@ -249,13 +249,6 @@ const Fault boundary_faults[] = {
      [](Geometry& g) { g.neumann_sides = {"inclusions[99].line"}; },
      "neumann_sides[0]",
      {"inclusions[99].line"}},
-    {"CrackToAHeldHole",
-     [](Geometry& g) {
-       g.holes = {window("", {0, 0.5}, 0.2)};
-       g.cracks = {{"cut", {}, true, LineSpec{Shape::polyline, {{0.2, 0.5}, {0.6, 0.5}}}}};
-     },
-     "cracks[0].line",
-     {R"(crack "cut" ends at (0.2, 0.5) on hole "hole-1", where u is held)", "in neumann"}},
     {"NamesTwice",
      [](Geometry& g) {
        g.holes = {window("side-1", {0, 0.5}, 0.2)};

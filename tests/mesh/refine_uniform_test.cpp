@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "mesh/refine.hpp"
+#include "mesh/refine_uniform.hpp"
 #include "mesh/refinement_checks.hpp"
 #include "mesh/refinement_mesh.hpp"
 #include "support/mesh_quality.hpp"

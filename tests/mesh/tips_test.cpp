@@ -2,9 +2,9 @@
 #include <gmock/gmock.h>
 
 #include "mesh/refine.hpp"
+#include "mesh/refine_uniform.hpp"
 #include "mesh/refinement_checks.hpp"
 #include "mesh/refinement_mesh.hpp"
-#include "support/mesh_quality.hpp"
 
 namespace anticrack::mesh {
 namespace {

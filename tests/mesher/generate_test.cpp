@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "mesh/quality.hpp"
+#include "mesh/refine.hpp"
 #include "mesher/real_helper.hpp"
 #include "support/errors.hpp"
 #include "support/paper_geometry.hpp"
@@ -100,6 +101,76 @@ TEST(Generate, UniformPresetHasElementsOfItsSize) {
   EXPECT_NEAR(static_cast<double>(mesh.triangle_count()), 4 / (std::sqrt(3.0) / 4 * 0.05 * 0.05),
               0.1 * 3695);
   EXPECT_GT(mesh::minimum_angle(mesh), 25);
+}
+
+/// By halving a coarse mesh: as many triangles, of no worse shape, and the interface where it was.
+TEST(Generate, AFineMeshIsLikeACoarseOne) {
+  const Mesh coarse = make(paper_geometry(), {mesh::Preset::uniform, 0.016});
+  const Mesh fine = make(paper_geometry(), {mesh::Preset::uniform, 0.008});
+  EXPECT_NEAR(static_cast<double>(fine.triangle_count()), 4 / (std::sqrt(3.0) / 4 * 0.008 * 0.008),
+              0.1 * 144'000);
+  EXPECT_GT(mesh::minimum_angle(fine), 0.95 * mesh::minimum_angle(coarse));
+  EXPECT_LT(mesh::longest_edge(fine), 0.55 * mesh::longest_edge(coarse));
+  ASSERT_EQ(fine.interfaces.size(), 1U);
+  for (const auto node : fine.interfaces[0].nodes) EXPECT_EQ(point(fine, node)[1], 0);
+  EXPECT_NEAR(area(fine, 0), 2, 1e-11);
+  EXPECT_NEAR(area(fine, 1), 2, 1e-11);
+}
+
+/// An edge crack and a fibre that begins at the edge, where u is held.
+TEST(Generate, PartsMayReachTheHeldBoundary) {
+  Geometry geometry;
+  geometry.boundary = {{0, -5}, {30, -5}, {30, 5}, {0, 5}};
+  geometry.cracks = {{"c", {}, true, mesh::LineSpec{mesh::Shape::polyline, {{0, 0}, {5, 0}}}}};
+  mesh::InclusionSpec fibre{"fibre", {}, {}};
+  fibre.line = mesh::LineSpec{mesh::Shape::polyline, {{20, 0}, {30, 0}}};
+  fibre.stretches = {{0, 0.5}};
+  geometry.inclusions = {fibre};
+  const Mesh mesh = make(geometry, {});
+  EXPECT_NO_THROW(mesh::validate(mesh));
+  std::set<Point> held;
+  for (const auto& edge : mesh.dirichlet)
+    for (const auto node : edge) held.insert(point(mesh, node));
+  EXPECT_TRUE(held.contains(Point{0, 0}));
+  EXPECT_TRUE(held.contains(Point{30, 0}));
+  // the mouth of the crack is no tip, its end is one, and so is where the fibre comes off
+  std::set<Point> tips;
+  for (const auto node : mesh::tips(mesh)) tips.insert(point(mesh, node));
+  EXPECT_FALSE(tips.contains(Point{0, 0}));
+  EXPECT_TRUE(tips.contains(Point{5, 0}));
+  EXPECT_TRUE(tips.contains(Point{20, 0}));
+}
+
+/// Map coordinates: a mesh far from the origin is that at the origin, moved.
+TEST(Generate, FarFromTheOriginIsTheSameMesh) {
+  constexpr Point corner{441'870.603, 6'329'699.7};
+  const auto slit_in = [](const Point& at, double extent) {
+    Geometry geometry;
+    const auto p = [&](double x, double y) {
+      return Point{at[0] + x * extent, at[1] + y * extent};
+    };
+    geometry.boundary = {p(0, 0), p(1, 0), p(1, 1), p(0, 1)};
+    geometry.interfaces = {{"cut", mesh::Shape::polyline, {p(0, 0.25), p(0.5, 0.5), p(1, 0.5)}}};
+    geometry.cracks = {{"slit", {p(0.25, 0.375), p(0.75, 0.5)}}};
+    return geometry;
+  };
+  const MeshOptions uniform{mesh::Preset::uniform};
+  for (const double extent : {2000.0, 2.0, 0.1}) {
+    const Mesh near = make(slit_in({0, 0}, extent), uniform);
+    const Mesh far = make(slit_in(corner, extent), uniform);
+    EXPECT_NEAR(static_cast<double>(far.triangle_count()),
+                static_cast<double>(near.triangle_count()), 0.1 * 6000);
+    EXPECT_NEAR(area(far, 0) + area(far, 1), extent * extent, 1e-6 * extent * extent);
+    EXPECT_GT(mesh::minimum_angle(far), 30);
+    const auto length = [](const Mesh& mesh) {
+      double sum = 0;
+      for (const auto& interface : mesh.interfaces) sum += mesh::arc_length(mesh, interface).back();
+      return sum;
+    };
+    EXPECT_NEAR(length(far), length(near), 1e-6 * extent);
+  }
+  EXPECT_TRUE(testing::throws([&] { make(slit_in(corner, 0.01), uniform); },
+                              errors::Reason::geometry_invalid));
 }
 
 TEST(Generate, UnitOfLengthDoesNotMatter) {

@@ -7,6 +7,7 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <string>
 
@@ -72,7 +73,9 @@ class Gmsh : public ::testing::Test {
 /// The paper's square and its groups, meshed coarsely.
 class GmshFiles : public Gmsh {
  protected:
-  GmshFiles() {
+  GmshFiles() { build(); }
+
+  static void build() {
     const double x[] = {-1, 1, 1, -1, -1, -0.5, 0.5, 1};
     const double y[] = {-1, -1, 1, 1, 0, 0, 0, 0};
     for (int i = 0; i < 8; ++i) geo::addPoint(x[i], y[i], 0, 0.2, i + 1);
@@ -157,6 +160,127 @@ TEST_F(GmshFiles, SecondOrderIsRefused) {
   }
 }
 
+/// All interfaces together; 2 means 2 to rounding.
+void expect_lengths(const mesh::Mesh& mesh, const std::map<Kind, double>& expected) {
+  const auto found = testing::lengths(mesh);
+  ASSERT_EQ(found.size(), expected.size());
+  for (const auto& [kind, length] : expected) EXPECT_NEAR(found.at(kind), length, 1e-12);
+}
+
+/// Sets options and changes the model after it was meshed.
+struct Written {
+  const char* name;
+  std::function<void()> change;
+};
+
+void set(const std::string& option, double value) { gmsh::option::setNumber(option, value); }
+
+const Written written[] = {
+    {"SaveAll", [] { set("Mesh.SaveAll", 1); }},
+    {"SaveParametric", [] { set("Mesh.SaveParametric", 1); }},
+    {"SaveParametricAll", [] { set("Mesh.SaveParametric", 1), set("Mesh.SaveAll", 1); }},
+    {"SaveGroupsOfNodes", [] { set("Mesh.SaveGroupsOfNodes", 1); }},
+    {"ElementTagType", [] { set("Mesh.SaveElementTagType", 3); }},
+    {"Parts", [] { gmsh::model::mesh::partition(3); }},
+    {"PartsAll", [] { gmsh::model::mesh::partition(3), set("Mesh.SaveAll", 1); }},
+    {"PartsWithParameters", [] { gmsh::model::mesh::partition(2), set("Mesh.SaveParametric", 1); }},
+    {"PartsWithoutTopology",
+     [] { set("Mesh.PartitionCreateTopology", 0), gmsh::model::mesh::partition(3); }},
+    {"PartsWithoutGroups",
+     [] { set("Mesh.PartitionCreatePhysicals", 0), gmsh::model::mesh::partition(3); }},
+    {"PartsWithGhosts",
+     [] { set("Mesh.PartitionCreateGhostCells", 1), gmsh::model::mesh::partition(4); }},
+    {"GroupOfPoints",
+     [] {
+       gmsh::model::addPhysicalGroup(0, {1, 2}, 13);
+     }},
+    {"Backwards",
+     [] {
+       gmsh::model::addPhysicalGroup(1, {-1, -3}, 7), gmsh::model::setPhysicalName(1, 7, "glue");
+     }},
+    {"Overlapping",
+     [] {
+       gmsh::model::addPhysicalGroup(1, {2}, 8),
+           gmsh::model::setPhysicalName(1, 8, "inclusion:stiffener");
+     }},
+};
+
+TEST_F(GmshFiles, WhatOptionsChangeIsTheSameMembrane) {
+  for (const Written& of : written) {
+    SCOPED_TRACE(of.name);
+    gmsh::clear();
+    build();
+    gmsh::model::mesh::generate(2);
+    const mesh::Mesh plain = through(4.1, false);
+    of.change();
+    for (const double version : {2.0, 2.1, 2.2, 4.1}) {
+      for (const bool binary : {false, true}) {
+        SCOPED_TRACE(version);
+        SCOPED_TRACE(binary);
+        if (version < 4 && std::string(of.name).ends_with("All")) {
+          // gmsh leaves the groups out
+          const auto error = testing::error_of([&] { through(version, binary); });
+          ASSERT_TRUE(error);
+          EXPECT_THAT(error->what(), HasSubstr("but none of its lines is in a group; save it as"));
+          continue;
+        }
+        const mesh::Mesh mesh = through(version, binary);
+        EXPECT_EQ(mesh.triangle_count(), plain.triangle_count());
+        EXPECT_EQ(mesh.subdomains, plain.subdomains);
+        EXPECT_EQ(mesh.inclusions, plain.inclusions);
+        EXPECT_EQ(mesh.dirichlet.size(), plain.dirichlet.size());
+        EXPECT_EQ(mesh.interfaces.size(), 1U);
+        EXPECT_THAT(mesh.warnings, IsEmpty());
+        expect_lengths(mesh, {{Kind::glue, 1}, {Kind::delaminated, 1}});
+        for (const std::size_t s : {0U, 1U}) EXPECT_NEAR(testing::area_of(mesh, s), 2, 1e-9);
+      }
+    }
+    for (const char* option : {"Mesh.SaveAll", "Mesh.SaveParametric", "Mesh.SaveGroupsOfNodes",
+                               "Mesh.SaveElementTagType", "Mesh.PartitionCreateGhostCells"})
+      set(option, 0);
+    set("Mesh.PartitionCreateTopology", 1);
+    set("Mesh.PartitionCreatePhysicals", 1);
+  }
+}
+
+TEST_F(GmshFiles, GroupsOfPartsAreRefused) {
+  gmsh::model::mesh::generate(2);
+  set("Mesh.PartitionOldStyleMsh2", 0);
+  gmsh::model::mesh::partition(3);
+  const auto error = testing::error_of([&] { through(2.2, false); });
+  set("Mesh.PartitionOldStyleMsh2", 1);
+  ASSERT_TRUE(error);
+  EXPECT_THAT(error->what(), HasSubstr("groups of its own"));
+}
+
+TEST_F(GmshFiles, GeometryWithoutAMeshIsNamed) {
+  for (const bool binary : {false, true}) {
+    const auto error = testing::error_of([&] { through(4.1, binary); });
+    ASSERT_TRUE(error);
+    EXPECT_THAT(error->what(), HasSubstr("geometry but no mesh; mesh it before saving (gmsh"));
+    EXPECT_THAT(testing::error_of([&] { through(2.2, binary); })->what(),
+                HasSubstr("the mesh has no triangle; mesh in two dimensions (gmsh -2)"));
+  }
+}
+
+TEST_F(GmshFiles, AnInclusionWithoutItsLinesIsMissed) {
+  gmsh::model::mesh::generate(2);
+  gmsh::model::removePhysicalGroups({{1, 4}});
+  gmsh::model::setPhysicalName(1, 4, "delaminated:stiffener");
+  each_format([&](const mesh::Mesh& mesh) {
+    EXPECT_THAT(mesh.warnings,
+                ElementsAre("curve group 4 \"delaminated:stiffener\" has no line in the file: left "
+                            "out; save its curve with the surfaces"));
+  });
+}
+
+TEST_F(GmshFiles, Version1IsRefused) {
+  gmsh::model::mesh::generate(2);
+  const auto error = testing::error_of([&] { through(1, false); });
+  ASSERT_TRUE(error);
+  EXPECT_THAT(error->what(), HasSubstr("MSH 1, which is not read; convert it: gmsh old.msh -save"));
+}
+
 TEST_F(GmshFiles, OtherVersionsAreRefused) {
   gmsh::model::mesh::generate(2);
   const auto error = testing::error_of([&] { through(4.0, false); });
@@ -176,13 +300,6 @@ std::size_t gmsh_nodes() {
   std::vector<double> xyz, parameters;
   gmsh::model::mesh::getNodes(tags, xyz, parameters);
   return tags.size();
-}
-
-/// All interfaces together; 2 means 2 to rounding.
-void expect_lengths(const mesh::Mesh& mesh, const std::map<Kind, double>& expected) {
-  const auto found = testing::lengths(mesh);
-  ASSERT_EQ(found.size(), expected.size());
-  for (const auto& [kind, length] : expected) EXPECT_NEAR(found.at(kind), length, 1e-12);
 }
 
 TEST_F(GmshFiles, LipsOfTheCrackPluginAreMadeOne) {
@@ -216,9 +333,29 @@ TEST_F(GmshFiles, OneLipWithLinesIsEnough) {
   });
 }
 
-TEST_F(GmshFiles, WithoutPhysicalGroupsAdjacencyDecides) {
+/// gmsh keeps their names.
+void remove_groups() {
+  gmsh::model::removePhysicalGroups();
+  for (const char* name : {"dirichlet", "delaminated:stiffener"})
+    gmsh::model::removePhysicalName(name);
+}
+
+TEST_F(GmshFiles, NamesOfGroupsThatAreNotThereAreRefusedUnlessCurvesAreGiven) {
   gmsh::model::mesh::generate(2);
   gmsh::model::removePhysicalGroups();
+  for (const double version : {2.2, 4.1}) {
+    const auto error = testing::error_of([&] { through(version, false); });
+    ASSERT_TRUE(error);
+    EXPECT_THAT(error->what(), HasSubstr("but none of its lines is in a group"));
+    mesh::MeshOptions options;
+    options.curve_groups = {{2, "delaminated:stiffener"}};
+    expect_lengths(through(version, false, options), {{Kind::glue, 1}, {Kind::delaminated, 1}});
+  }
+}
+
+TEST_F(GmshFiles, WithoutPhysicalGroupsAdjacencyDecides) {
+  gmsh::model::mesh::generate(2);
+  remove_groups();
   each_format([&](const mesh::Mesh& mesh) {
     EXPECT_THAT(mesh.subdomains, ElementsAre("1", "2"));
     expect_lengths(mesh, {{Kind::glue, 2}});
@@ -234,7 +371,7 @@ TEST_F(GmshFiles, WithoutPhysicalGroupsAdjacencyDecides) {
 TEST_F(GmshFiles, ACrackWithoutPhysicalGroupsIsOne) {
   gmsh::model::mesh::generate(2);
   crack(4);
-  gmsh::model::removePhysicalGroups();
+  remove_groups();
   each_format([&](const mesh::Mesh& mesh) {
     expect_lengths(mesh, {{Kind::glue, 1}, {Kind::crack, 1}});
   });

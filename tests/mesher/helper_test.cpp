@@ -242,11 +242,17 @@ TEST(RequireMsh, TakesOnlyTheToken) {
     return error ? std::string(error->what()) : std::string();
   };
   EXPECT_EQ(refusal("$MeshFormat\n2.2 0 8\n"), "");
-  EXPECT_EQ(refusal("$MeshFormat\r\n2.2 0 8\r\n"), "");
-  EXPECT_THAT(refusal(""), HasSubstr("is empty"));
   for (const char* content :
-       {"$MeshFormat", "$MeshForma", "$MeshFormatX\n", "$meshformat\n", " $MeshFormat\n",
-        "\n$MeshFormat\n", "Point(1) = {0, 0, 0};\n", "\xef\xbb\xbf$MeshFormat\n"}) {
+       {"$MeshFormat\r\n2.2 0 8\r\n", "\n$MeshFormat\n", "\xef\xbb\xbf$MeshFormat\n",
+        "$Comments\nby hand\n$EndComments\n$MeshFormat\n", "4 2 4\n0 0 1\n", " 4  2 4 \r\n",
+        "MeshVersionFormatted 2\n"}) {
+    EXPECT_EQ(refusal(content), "") << content;
+  }
+  EXPECT_THAT(refusal(""), HasSubstr("is empty"));
+  EXPECT_THAT(refusal("$NOD\n4\n"), HasSubstr("MSH 1, which is not read; convert it: gmsh"));
+  for (const char* content :
+       {"$MeshFormat", "$MeshForma", "$MeshFormatX\n", "$meshformat\n", "Point(1) = {0, 0, 0};\n",
+        "1 2 3 4\n", "1 2\n", "1 2 x\n", "1 -2 3\n", "1 2 3", "*Heading\n"}) {
     EXPECT_THAT(refusal(content), HasSubstr("does not begin with $MeshFormat")) << content;
   }
   EXPECT_TRUE(

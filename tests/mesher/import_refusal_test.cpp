@@ -56,6 +56,11 @@ const Fault faults[] = {
        s.names.erase(s.names.begin() + 1);
      },
      "the same name"},
+    {"TooFarAway",
+     [](MshSample& s) {
+       for (auto& p : s.points) p[0] += 1e9;
+     },
+     "2 across, but lies 1e+09 from the origin"},
     {"OutOfPlane", [](MshSample& s) { s.points[12][2] = 0.25; },
      "node 10 lies at z = 0, node 130 at z = 0.25"},
     {"NodeTwice", [](MshSample& s) { s.tags[1] = 10; }, "node 10 is defined twice"},

@@ -142,7 +142,19 @@ const Text texts[] = {
     {"Geo", "SystemCall \"true\";\n", "expected $MeshFormat"},
     {"BinaryGarbage", std::string("\x7f\x00\xff\x01garbage", 11), "expected $MeshFormat"},
     {"Format1", "$NOD\n1\n", "expected $MeshFormat"},
-    {"Format40", "$MeshFormat\n4 0 8\n$EndMeshFormat\n", "format 4 is not read; save the mesh as"},
+    {"Format40", "$MeshFormat\n4 0 8\n$EndMeshFormat\n", "format 4 is not read; convert it"},
+    {"NoMesh41", head41 + "$Entities\n1 0 0 0\n1 0 0 0 0\n$EndEntities\n",
+     "geometry but no mesh; mesh it before saving (gmsh"},
+    {"EntitiesLate",
+     head41 + "$Elements\n0 0 0 0\n$EndElements\n$Entities\n0 0 0 0\n$EndEntities\n",
+     "must stand before $Elements"},
+    {"NodesTwice", head22 + nodes22 + "$ParametricNodes\n0\n$EndParametricNodes\n", "twice"},
+    {"PartOfAFile22", with_element("1 2 4 1 1 1 2 1 2 3"), "is part 2 of a mesh that was saved in"},
+    {"PartWithGhosts22", with_element("1 2 5 1 1 2 1 -2 1 2 3"), "is part 1 of a mesh"},
+    {"GroupsOfParts22",
+     head22 + "$PhysicalNames\n1\n1 7 \"_part{1}_physical{4}_dim{1}\"\n$EndPhysicalNames\n",
+     "without partitions"},
+    {"HugeGroup", with_element("1 2 2 99999999999 1 1 2 3"), "99999999999 is out of range"},
     {"FileType", "$MeshFormat\n2.2 3 8\n$EndMeshFormat\n", "file type 3"},
     {"NumberSize", "$MeshFormat\n2.2 0 4\n$EndMeshFormat\n", "numbers of 4 bytes"},
     {"BigEndian", std::string("$MeshFormat\n2.2 1 8\n\0\0\0\1\n$EndMeshFormat\n", 40),
@@ -182,6 +194,80 @@ TEST(MshFile, NegativeGroupTakesTheCurveBackwards) {
   ASSERT_EQ(file.lines.size(), 1U);
   EXPECT_EQ(file.lines[0].group, 7);
   EXPECT_EQ(file.lines[0].nodes, (std::array<std::uint64_t, 2>{4, 3}));
+}
+
+TEST(MshFile, OlderVersionsAreWrittenAs22) {
+  const std::string file = write_msh(square_sample(), MshFormat::ascii22);
+  const auto newer = mesher::read_msh(file, enough);
+  for (const std::string version : {"2", "2.0", "2.1"}) {
+    std::string old = file;
+    old.replace(old.find("2.2"), 3, version);
+    const auto read = mesher::read_msh(old, enough);
+    EXPECT_EQ(read.xyz, newer.xyz);
+    EXPECT_EQ(read.triangles.size(), newer.triangles.size());
+    EXPECT_EQ(read.curve_names, newer.curve_names);
+  }
+}
+
+/// 2.0 gives no dimension with a name.
+TEST(MshFile, ANameWithoutDimensionIsThatOfWhatHasItsTag) {
+  std::string file = with_element("1 2 3 7 1 0 1 2 3");
+  file.insert(file.find("$Nodes"),
+              "$PhysicalNames\n2\n7 \"inclusion\"\n9 \"glue\"\n$EndPhysicalNames\n");
+  const auto read = mesher::read_msh(file, enough);
+  EXPECT_EQ(read.surface_names.at(7), "inclusion");
+  EXPECT_TRUE(read.curve_names.empty());
+}
+
+TEST(MshFile, ParametricNodesAreNodes) {
+  const std::string nodes =
+      "$ParametricNodes\n4\n1 0 0 0 0 1\n2 1 0 0 1 3 0.5\n3 1 1 0 2 1 0.5 0.5\n4 0 1 0\n"
+      "$EndParametricNodes\n";
+  const auto file =
+      mesher::read_msh(head22 + nodes + "$Elements\n1\n1 2 2 1 1 1 2 3\n$EndElements\n", enough);
+  EXPECT_EQ(file.xyz, (std::vector<double>{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}));
+}
+
+TEST(MshFile, NumbersOfNodesAboveFourBytesAreRead) {
+  const std::string file = head22 +
+                           "$Nodes\n3\n1099511000001 0 0 +0\n1099511000002 +1.0e0 0 0\n"
+                           "1099511000003 1 1 0\n$EndNodes\n$Elements\n1\n9999999999 2 2 1 1 "
+                           "1099511000001 1099511000002 1099511000003\n$EndElements\n";
+  EXPECT_EQ(mesher::read_msh(file, enough).triangles[0].nodes,
+            (std::array<std::uint64_t, 3>{1099511000001, 1099511000002, 1099511000003}));
+}
+
+TEST_P(EachFormat, AMarkAndCommentsMayComeFirst) {
+  const std::string start = "\xef\xbb\xbf\n$Comments\nby hand\n$EndComments\n";
+  EXPECT_EQ(mesher::read_msh(start + bytes(), enough).triangles.size(), 32U);
+}
+
+/// What gmsh makes of a square cut in two parts: a crack with the tag of the surface's group is no
+/// crack, a curve is in the group of the whole.
+TEST(MshFile, PartsAreInTheGroupsOfTheWhole) {
+  const auto file = mesher::read_msh(
+      head41 +
+          "$Entities\n0 2 1 0\n5 0 0 0 1 1 0 1 13 0\n6 0 0 0 1 1 0 0 0\n"
+          "9 0 0 0 1 1 0 1 21 0\n$EndEntities\n"
+          "$PartitionedEntities\n2\n1\n77 1\n0 3 2 0\n"
+          "30 1 5 1 1 0 0 0 1 1 0 0 0\n31 2 9 2 1 2 0 0 0 1 1 0 1 21 0\n"
+          "32 1 6 1 2 0 0 0 1 1 0 0 0\n"
+          "40 2 9 1 1 0 0 0 1 1 0 1 99 0\n41 2 9 1 2 0 0 0 1 1 0 1 21 0\n"
+          "$EndPartitionedEntities\n"
+          "$Nodes\n1 4 1 4\n2 40 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n$EndNodes\n"
+          "$Elements\n5 5 1 5\n1 30 1 1\n1 1 2\n1 31 1 1\n2 1 3\n1 32 1 1\n3 3 4\n"
+          "2 40 2 1\n4 1 2 3\n2 41 2 1\n5 1 3 4\n$EndElements\n",
+      enough);
+  ASSERT_EQ(file.lines.size(), 2U);
+  EXPECT_EQ(file.lines[0].group, 13);
+  EXPECT_EQ(file.lines[0].entity, 5);
+  EXPECT_EQ(file.lines[1].group, 0);
+  EXPECT_EQ(file.lines[1].entity, 6);
+  ASSERT_EQ(file.triangles.size(), 2U);
+  for (const auto& triangle : file.triangles) {
+    EXPECT_EQ(triangle.group, 21);
+    EXPECT_EQ(triangle.entity, 9);
+  }
 }
 
 TEST(MshFile, WindowsLineEndsAreRead) {

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesher/coarsening.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "mesh/at.hpp"
+
+namespace anticrack::mesher {
+namespace {
+
+/// The triangles of a coarse mesh: the shapes of so many are those of a finer one.
+constexpr double coarse_triangles = 10'000;
+
+/// How many more triangles may come of halving than of meshing at once.
+constexpr double most_in_excess = 0.05;
+
+double interval(const mesh::Plan& plan, const mesh::PlannedCurve& curve) {
+  const mesh::Point& a = plan.points[at(curve.a)];
+  const mesh::Point& b = plan.points[at(curve.b)];
+  return std::hypot(b[0] - a[0], b[1] - a[1]) / curve.intervals;
+}
+
+double longest_interval(const mesh::Plan& plan) {
+  double longest = 0;
+  for (const mesh::PlannedCurve& curve : plan.curves)
+    longest = std::max(longest, interval(plan, curve));
+  return longest;
+}
+
+/// One interval in place of `parts`. Those much shorter than others, `longest`, are so short for
+/// what is near them, and stay.
+int coarse_intervals(const mesh::Plan& plan, const mesh::PlannedCurve& curve, double longest,
+                     int parts) {
+  if (interval(plan, curve) < longest / 2) return curve.intervals;
+  return (curve.intervals + parts - 1) / parts;
+}
+
+/// About as many more triangles as halving makes along all curves and around them. Where edges are
+/// shorter by a factor r, they grow away from the curve by `growth` a length: on both sides of it a
+/// band has more triangles, and around it a disc.
+double excess(const mesh::Plan& plan, int halvings) {
+  const int parts = 1 << halvings;
+  const double triangle = std::sqrt(3.0) / 4;  // area of one of edge length 1
+  const double longest = longest_interval(plan);
+  double coarse = 0;
+  for (const mesh::PlannedCurve& curve : plan.curves) {
+    const int intervals = coarse_intervals(plan, curve, longest, parts);
+    const double r = static_cast<double>(intervals) * parts / curve.intervals;
+    if (r == 1) continue;
+    coarse += intervals * 2 * (1 - 1 / r) / (triangle * plan.growth) +
+              2 * std::numbers::pi * std::log(r) / (triangle * plan.growth * plan.growth);
+  }
+  return coarse * parts * parts;
+}
+
+}  // namespace
+
+int halvings(const mesh::Plan& plan) {
+  const auto expected = static_cast<double>(plan.triangles);
+  int most = 0;
+  while (expected >= std::pow(4, most + 1) * coarse_triangles) ++most;
+  while (most > 0 && excess(plan, most) > most_in_excess * expected) --most;
+  return most;
+}
+
+mesh::Plan coarsened(mesh::Plan plan, int halvings) {
+  const double longest = longest_interval(plan);
+  for (mesh::PlannedCurve& curve : plan.curves)
+    curve.intervals = coarse_intervals(plan, curve, longest, 1 << halvings);
+  return plan;
+}
+
+}  // namespace anticrack::mesher
