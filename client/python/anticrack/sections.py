@@ -12,7 +12,7 @@ import numpy as np
 from google.protobuf.duration_pb2 import Duration
 
 from .errors import CaseError
-from .text import short, suggestion
+from .text import plain, short, suggestion
 
 _SECONDS = {"": 1, "s": 1, "ms": 1e-3, "min": 60, "h": 3600, "d": 86400}
 
@@ -22,7 +22,7 @@ def shown(value: Any) -> str:
         return str(value).lower()
     if callable(value):
         return f"the Python function {getattr(value, '__name__', value)}"
-    return short(f"'{value}'" if isinstance(value, str) else str(value))
+    return short(f"'{value}'" if isinstance(value, str) else str(plain(value)))
 
 
 def name_or_index(table: Any, index: int) -> str:

@@ -6,6 +6,9 @@ import difflib
 import html
 import math
 from collections.abc import Iterable, Sequence
+from typing import Any
+
+import numpy as np
 
 
 def interval(lower: float, upper: float, value: float, unit: str = "") -> str:
@@ -35,6 +38,13 @@ def interval(lower: float, upper: float, value: float, unit: str = "") -> str:
 def short_length(length: float) -> str:
     """Of contact: without bounds, and the mesh's to about an edge, so three digits."""
     return f"{float(f'{length:.3g}'):.6g}"
+
+
+def plain(value: Any) -> Any:
+    """With Python's numbers for numpy's, of which numpy 2 writes np.float64(0.5)."""
+    if isinstance(value, np.generic):
+        return value.item()
+    return type(value)(map(plain, value)) if type(value) in (list, tuple) else value
 
 
 def short(text: str, most: int = 60) -> str:
