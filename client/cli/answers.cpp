@@ -202,8 +202,12 @@ std::vector<std::string> remarks_on(const results::Load& load) {
   if (!load.no_bracket.empty()) remarks.push_back("no bounds of the error: " + load.no_bracket);
   constexpr double small_error = 0.01;
   const bool in_stages = load.stages.size() > 0;  // the accuracy was chosen
-  if (is_bounded(load) && load.error_bound_relative > small_error && !in_stages)
-    remarks.push_back("u is within " + per_cent(load.error_bound_relative) +
+  const double error = load.error_bound_relative;
+  if (is_bounded(load) && load.error_bound > 0 && !std::isfinite(error) && !in_stages)
+    remarks.push_back(
+        "u is 0 on this mesh, but need not be on the membrane; take a smaller mesh.size");
+  if (is_bounded(load) && std::isfinite(error) && error > small_error && !in_stages)
+    remarks.push_back("u is within " + per_cent(error) +
                       " of the membrane's in the energy norm; for less write "
                       "[accuracy] energy = 1e-3, or smaller");
   return remarks;

@@ -2,8 +2,11 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cerrno>
+#include <sstream>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "cli/commands.hpp"
@@ -12,6 +15,7 @@
 #include "cli/json.hpp"
 #include "cli/report.hpp"
 #include "guide/completion.hpp"
+#include "output/standard.hpp"
 
 namespace anticrack::cli {
 namespace {
@@ -20,17 +24,25 @@ constexpr const char* footer =
     "Exit codes:\n"
     "  0    all load cases converged\n"
     "  1    a job failed\n"
-    "  2    usage or case file wrong\n"
+    "  2    usage or case file wrong, or output that cannot be written\n"
     "  3    some load case did not converge; its results are saved all the same\n"
     "  4    server unreachable or refusing\n"
-    "  130  interrupted: detached from the job, or cancelled it\n\n"
+    "  130  interrupted: detached from the job, or cancelled it\n"
+    "  141  standard output was closed, as by | head; results are saved all the same\n\n"
     "Cases to begin with:\n"
     "  client/examples in the sources, /usr/share/anticrack/examples in the Debian package\n\n"
     "Example:\n  anticrack --local run paper.toml";
 
-}  // namespace
+// The code of a command that is over, unless standard output did not take what it had to say.
+int checked_output(int code) {
+  const int error = output::print_failure();
+  if (error == 0) return code;
+  if (error == EPIPE) return code == exit_ok ? exit_closed : code;
+  complain("standard output cannot be written: " + std::generic_category().message(error));
+  return code == exit_ok ? exit_usage : code;
+}
 
-int run_command_line(int argc, char** argv) {
+int parse_and_run(int argc, char** argv) {
   Globals globals;
   Command chosen;
   CLI::App app("Solves elastic membranes with cracks and delaminated thin rigid inclusions.",
@@ -61,7 +73,10 @@ int run_command_line(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {
-    return app.exit(success);
+    std::ostringstream text;
+    const int code = app.exit(success, text, text);
+    print_document(text.str());
+    return code;
   } catch (const CLI::ParseError& error) {
     const std::vector<std::string> words(argv + 1, argv + argc);
     // Whether it was read before the error is a matter of chance.
@@ -72,5 +87,9 @@ int run_command_line(int argc, char** argv) {
   if (globals.local) globals.connection = {};  // what the environment names is not meant
   return guarded(globals, chosen);
 }
+
+}  // namespace
+
+int run_command_line(int argc, char** argv) { return checked_output(parse_and_run(argc, argv)); }
 
 }  // namespace anticrack::cli

@@ -12,7 +12,4 @@ namespace anticrack::cli {
 /// `result_file`.
 std::filesystem::path csv_file(const std::string& csv, const std::filesystem::path& result_file);
 
-/// Replaces the file.
-void write_csv(const std::filesystem::path& file, const std::string& text);
-
 }  // namespace anticrack::cli

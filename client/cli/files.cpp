@@ -18,6 +18,7 @@
 #include "cli/stages_text.hpp"
 #include "cli/text.hpp"
 #include "figures/figures.hpp"
+#include "output/file.hpp"
 #include "results/error.hpp"
 #include "results/file.hpp"
 #include "vtk/export.hpp"
@@ -66,10 +67,11 @@ void add_file(CLI::App& command, FileOptions& options, const char* help) {
       ->type_name("NAME");
 }
 
-int show_file(const FileOptions& options, const Globals& globals) {
+int show_file(const FileOptions& options, const Globals& given) {
+  const Globals globals = with_outputs(given, {options.csv});
   const std::filesystem::path csv = csv_file(options.csv, options.file);
   const results::Result result = read_result(options);
-  if (!csv.empty()) write_csv(csv, answers_csv(result));
+  if (!csv.empty()) output::write_file(csv, answers_csv(result));
   if (globals.json) {
     print_document(answers_json(result, options.file));
     return exit_ok;
@@ -83,8 +85,9 @@ int show_file(const FileOptions& options, const Globals& globals) {
   if (!result.not_reached.empty()) foot = "not reached: " + sanitise(result.not_reached) + "\n";
   if (result.loads.size() == 1 || !options.loads.empty())
     for (const results::Load& load : result.loads) foot += stages_table(load);
-  print_document(head + (options.inclusions ? inclusions_table(result) : answers_table(result)) +
-                 foot);
+  print_answer(
+      globals,
+      head + (options.inclusions ? inclusions_table(result) : answers_table(result)) + foot);
   return exit_ok;
 }
 
@@ -102,8 +105,9 @@ int tell_made(const std::vector<std::filesystem::path>& files,
   return exit_ok;
 }
 
-int plot(const FileOptions& options, const Globals& globals) {
+int plot(FileOptions options, const Globals& globals) {
   results::Result result = read_result(options);
+  if (!options.loads.empty()) options.figures.all_loads = true;
   const std::string folder = options.folder.empty() ? "figures" : options.folder;
   const figures::Drawn drawn =
       options.together ? figures::draw_together(std::move(result), folder, options.figures)
@@ -166,6 +170,10 @@ void add_files(CLI::App& app, const Globals& globals, Command& chosen) {
                    "(default: of all that can open; in the overview of the one that opens most, "
                    "and the pressure of one in contact)")
       ->type_name("NAME");
+  plot_command->add_flag_callback(
+      "--all", [options] { options->figures.all_loads = options->figures.all_interfaces = true; },
+      "However many there are: without it, of more than 12 loads the first 12 are drawn, and of "
+      "more than 12 interfaces the traces of the most eventful");
   plot_command->footer(
       "Of every load: LOAD-membrane, LOAD-plan (from above, u and the flux), LOAD-traces (u-, u+\n"
       "and [u] on the interface, and the contact pressure), LOAD-convergence and, of a job with "

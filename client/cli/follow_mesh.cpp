@@ -33,9 +33,8 @@ class MeshView {
   MeshView& operator=(const MeshView&) = delete;
 
   void show(const v1::Mesh& mesh) {
-    const std::string text = client::settled(mesh.state())
-                                 ? ""
-                                 : sanitise(mesh.name()) + ": " + std::string(word(mesh.state()));
+    const std::string text =
+        client::settled(mesh.state()) ? "" : sanitise(mesh.name()) + ": " + state_text(mesh);
     if (_frames) {
       const std::lock_guard lock(_mutex);
       _text = text;

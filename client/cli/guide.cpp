@@ -5,9 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include <filesystem>
-#include <fstream>
 #include <memory>
-#include <stdexcept>
 #include <string>
 
 #include "cli/commands.hpp"
@@ -16,22 +14,16 @@
 #include "cli/session.hpp"
 #include "guide/completion.hpp"
 #include "guide/manual.hpp"
-#include "results/replace_file.hpp"
+#include "output/file.hpp"
 
 namespace anticrack::cli {
 namespace {
 
 int write_manual(const CLI::App& app, const std::filesystem::path& folder, const Globals& globals) {
-  results::make_folder(folder);
+  output::make_folder(folder);
   const std::vector<guide::Page> pages = guide::manual(app, 1, "anticrack " ANTICRACK_VERSION);
   for (const guide::Page& page : pages) {
-    std::ofstream file(folder / page.file);
-    file << page.text << std::flush;
-    if (!file) {
-      throw std::runtime_error(
-          (folder / page.file).string() +
-          ": cannot be written; make the folder writable, or name another one");
-    }
+    output::write_file(folder / page.file, page.text);
   }
   if (globals.json) {
     Json files = Json::array();

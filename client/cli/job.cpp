@@ -22,6 +22,7 @@
 #include "cli/to_result.hpp"
 #include "client/jobs.hpp"
 #include "client/uuid.hpp"
+#include "output/file.hpp"
 #include "results/file.hpp"
 
 namespace anticrack::cli {
@@ -141,6 +142,7 @@ int remove(const JobOptions& options, const Globals& globals) {
 int watch_job(const JobOptions& options, const Globals& globals) {
   const std::string name = options.full();
   Session session(globals);
+  session.signals().end_on_closed_output();
   const v1::Job job = get_job(session, name);
   const Followed followed = follow(session, job);
   if (followed.how == Followed::How::detached) {
@@ -185,11 +187,12 @@ Followed solve_with_fields(Session& session, const v1::Job& job) {
   return follow(session, again);
 }
 
-int fetch_result(const JobOptions& options, const Globals& globals) {
+int fetch_result(const JobOptions& options, const Globals& given) {
+  const Globals globals = with_outputs(given, {options.output});
   const std::string name = options.full();
   const std::string output =
       options.output.empty() ? name.substr(std::string("jobs/").size()) + ".h5" : options.output;
-  results::check_writable(output);
+  output::check_writable(output);
   Session session(globals);
   v1::Job job = get_job(session, name);
   if (options.fields && client::ended(job.state()) && !has_fields(job)) {
@@ -207,7 +210,8 @@ int fetch_result(const JobOptions& options, const Globals& globals) {
   else if (globals.quiet)
     complain_of(job);
   else
-    print_document(answers_table(result) + accuracy_text(job) + "\nResults: " + sanitise(output));
+    print_answer(globals,
+                 answers_table(result) + accuracy_text(job) + "\nResults: " + sanitise(output));
   return exit_code_of(job);
 }
 

@@ -13,6 +13,7 @@
 #include "client/jobs.hpp"
 #include "client/meshes.hpp"
 #include "client/uuid.hpp"
+#include "output/file.hpp"
 #include "results/file.hpp"
 
 namespace anticrack::cli {
@@ -91,7 +92,7 @@ fs::path result_file(const std::string& case_file, const std::string& output) {
   std::error_code none;  // a file that is not there is no other file
   if (fs::equivalent(file, case_file, none))
     throw results::Error(file.string(), "is the case itself", "name another file for the results");
-  results::check_writable(file);
+  output::check_writable(file);
   return file;
 }
 
@@ -168,8 +169,8 @@ void print_answers(const Globals& globals, const v1::Job& job, const results::Re
   if (globals.json)
     print_document(answers_json(result, file));
   else
-    print_document("\n" + answers_table(result) + accuracy_text(job) + "\n" +
-                   sanitise(summary(result, file)));
+    print_answer(globals, "\n" + answers_table(result) + accuracy_text(job) + "\n" +
+                              sanitise(summary(result, file)));
 }
 
 }  // namespace anticrack::cli

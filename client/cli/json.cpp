@@ -9,6 +9,8 @@
 #include <memory>
 #include <stdexcept>
 
+#include "words/shown.hpp"
+
 namespace anticrack::cli {
 namespace {
 
@@ -65,7 +67,7 @@ std::string to_json(const google::protobuf::Message& message) {
                              " as JSON: " + std::string(status.message()));
   }
   while (!text.empty() && text.back() == '\n') text.pop_back();
-  return text;
+  return words::escaped_in_json(text);
 }
 
 }  // namespace anticrack::cli

@@ -17,7 +17,8 @@ std::string attempt_of(const JobProgress& progress) {
 
 std::string rows_of(const SweepProgress& sweep) {
   return std::to_string(sweep.done()) +
-         (sweep.total > 0 ? " of " + std::to_string(sweep.total) : std::string()) + " rows";
+         (sweep.total > 0 ? " of " + std::to_string(sweep.total) : std::string()) +
+         (sweep.total == 1 ? " row" : " rows");
 }
 
 // "  10300 rows/s  5 s left  3 not converged", without the unknown parts.

@@ -4,18 +4,16 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
-#include <stdlib.h>
-#include <sys/prctl.h>
+#include <spawn.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
-#include <deque>
-#include <fstream>
-#include <numeric>
 #include <sstream>
 #include <thread>
 #include <vector>
@@ -32,32 +30,74 @@ using std::chrono::steady_clock;
 
 constexpr milliseconds start_limit{30'000};
 constexpr milliseconds stop_limit{10'000};
+/// From the end of a connection to that of the process, which closes its files first.
+constexpr milliseconds dying_time{1'000};
 
-fs::path make_folder() {
-  std::error_code error;
-  const fs::path parent = fs::temp_directory_path(error);
-  std::string pattern = (parent / "anticrack-XXXXXX").string();
-  if (error || mkdtemp(pattern.data()) == nullptr) {
-    throw LocalServerError("cannot make a temporary folder in " + parent.string() +
-                           "; set TMPDIR to a folder you may write in");
-  }
-  return pattern;
+[[noreturn]] void fail(const std::string& what, int error) {
+  throw LocalServerError(what + ": " + std::strerror(error));
 }
 
-// Between fork and exec: async-signal-safe calls only.
-[[noreturn]] void become(const char* const* arguments, int output, int log, pid_t parent) {
-  sigset_t none;
+void close_once(int& descriptor) noexcept {
+  if (descriptor >= 0) close(descriptor);
+  descriptor = -1;
+}
+
+/// Starts it with default signals, in a session of its own: Ctrl-C and the end of the terminal are
+/// for the client, with which it ends.
+pid_t spawn(const fs::path& program, int in, int out, int err) {
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, in, STDIN_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, out, STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, err, STDERR_FILENO);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  sigset_t none, all;
   sigemptyset(&none);
-  sigprocmask(SIG_SETMASK, &none, nullptr);
-  signal(SIGPIPE, SIG_DFL);
-  // Ctrl-C goes to the client only, which then stops the server.
-  setpgid(0, 0);
-  prctl(PR_SET_PDEATHSIG, SIGTERM);
-  const int null = open("/dev/null", O_RDONLY);
-  const bool ready = getppid() == parent && null >= 0 && dup2(null, 0) == 0 &&
-                     dup2(output, 1) == 1 && dup2(log, 2) == 2;
-  if (ready) execv(arguments[0], const_cast<char* const*>(arguments));
-  _exit(127);
+  sigfillset(&all);
+  posix_spawnattr_setsigmask(&attributes, &none);
+  posix_spawnattr_setsigdefault(&attributes, &all);
+  posix_spawnattr_setflags(&attributes,
+                           POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSID);
+  std::string name = program;
+  std::array<std::string, 3> flags{"--private", "--log-level", "warn"};
+  const std::array<char*, 5> arguments{name.data(), flags[0].data(), flags[1].data(),
+                                       flags[2].data(), nullptr};
+  pid_t process = -1;
+  const int error =
+      posix_spawn(&process, name.c_str(), &actions, &attributes, arguments.data(), environ);
+  posix_spawnattr_destroy(&attributes);
+  posix_spawn_file_actions_destroy(&actions);
+  if (error != 0) fail("cannot start " + name, error);
+  return process;
+}
+
+/// `when`: "", or " before ...".
+std::string how_it_ended(int status, const std::string& when = "") {
+  if (WIFEXITED(status))
+    return "ended with exit code " + std::to_string(WEXITSTATUS(status)) + when;
+  const int number = WTERMSIG(status);
+  const std::string signal =
+      "died of signal " + std::to_string(number) + " (" + strsignal(number) + ")" + when;
+  switch (number) {
+    case SIGKILL:
+      return signal + ", perhaps because memory ran out: a coarser mesh takes less";
+    case SIGXFSZ:
+      return signal + ", the limit of a file's size: raise it with ulimit -f";
+    case SIGXCPU:
+      return signal + ", the limit of processor time: raise it with ulimit -t";
+    default:
+      return signal;
+  }
+}
+
+/// What a server that died without a chance to has left.
+void remove_left(const std::string& address) noexcept {
+  constexpr std::string_view scheme = "unix:";
+  if (!address.starts_with(scheme)) return;
+  const fs::path folder = fs::path(address.substr(scheme.size())).parent_path();
+  std::error_code error;
+  if (folder.filename().string().starts_with("anticrack-private-")) fs::remove_all(folder, error);
 }
 
 }  // namespace
@@ -85,42 +125,36 @@ LocalServer::LocalServer(const std::stop_token& stop) {
     throw LocalServerError(
         "--local needs anticrackd beside this program or on PATH, and it is in neither place");
   }
-  _folder = make_folder();
-  _address = "unix:" + (_folder / "socket").string();
   try {
     start(program);
     wait_until_ready(stop);
   } catch (...) {
-    stop_process();
-    fs::remove_all(_folder, error);
+    end();
     throw;
   }
 }
 
-LocalServer::~LocalServer() {
-  stop_process();
-  std::error_code error;
-  fs::remove_all(_folder, error);
-}
+LocalServer::~LocalServer() { end(); }
 
 void LocalServer::start(const fs::path& program) {
-  const std::string data = (_folder / "data").string();
-  const std::array<const char*, 8> arguments{program.c_str(), "--listen",   _address.c_str(),
-                                             "--data-dir",    data.c_str(), "--log-level",
-                                             "warn",          nullptr};
-  std::array<int, 2> pipe_ends{};
-  if (pipe2(pipe_ends.data(), O_CLOEXEC) != 0)
-    throw LocalServerError(std::string("cannot make a pipe: ") + std::strerror(errno));
-  _output = pipe_ends[0];
-  const int log = open((_folder / "log").c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
-  const pid_t parent = getpid();
-  _process = log < 0 ? -1 : fork();
-  if (_process == 0) become(arguments.data(), pipe_ends[1], log, parent);
+  std::array<int, 2> in{-1, -1}, out{-1, -1};
+  const bool made = pipe2(in.data(), O_CLOEXEC) == 0 && pipe2(out.data(), O_CLOEXEC) == 0;
   const int cause = errno;
-  close(pipe_ends[1]);
-  if (log >= 0) close(log);
-  if (_process < 0)
-    throw LocalServerError("cannot start " + program.string() + ": " + std::strerror(cause));
+  _lifeline = in[1];
+  _output = out[0];
+  try {
+    if (!made) fail("cannot make a pipe", cause);
+    _log = memfd_create("anticrackd-log", MFD_CLOEXEC);
+    if (_log < 0) fail("cannot make a file in memory", errno);
+    fcntl(_log, F_SETFL, O_APPEND);
+    _process = spawn(program, in[0], out[1], _log);
+  } catch (...) {
+    close_once(in[0]);
+    close_once(out[1]);
+    throw;
+  }
+  close_once(in[0]);
+  close_once(out[1]);
 }
 
 void LocalServer::wait_until_ready(const std::stop_token& stop) {
@@ -137,40 +171,66 @@ void LocalServer::wait_until_ready(const std::stop_token& stop) {
     if (poll(&waiting, 1, poll_milliseconds) <= 0) continue;
     std::array<char, 512> buffer{};
     const ssize_t count = read(_output, buffer.data(), buffer.size());
-    if (count <= 0) throw LocalServerError("anticrackd ended before it was ready" + last_words());
+    if (count <= 0) {
+      const bool ended = has_ended(dying_time);
+      const std::string when = " before it was ready";
+      throw LocalServerError("anticrackd " +
+                             (ended ? how_it_ended(*_status, when) : "closed its output" + when) +
+                             last_words());
+    }
     said.append(buffer.data(), static_cast<std::size_t>(count));
   }
+  const std::string_view words = "listening on ";
+  const std::size_t at = said.find(words);
+  if (at == std::string::npos)
+    throw LocalServerError("anticrackd said no address: " + sanitise(said));
+  _address = said.substr(at + words.size(), said.find('\n') - at - words.size());
 }
 
-void LocalServer::stop_process() noexcept {
-  if (_process > 0) {
-    kill(_process, SIGTERM);
-    const auto limit = steady_clock::now() + stop_limit;
-    while (waitpid(_process, nullptr, WNOHANG) == 0) {
-      if (steady_clock::now() > limit) {
-        kill(_process, SIGKILL);
-        waitpid(_process, nullptr, 0);
-        break;
-      }
-      std::this_thread::sleep_for(milliseconds(5));
-    }
-    _process = -1;
+bool LocalServer::has_ended(milliseconds patience) noexcept {
+  const std::lock_guard lock(_mutex);
+  const auto limit = steady_clock::now() + patience;
+  while (!_status) {
+    int status = 0;
+    const pid_t got = waitpid(_process, &status, WNOHANG);
+    if (got == _process) _status = status;
+    if (got != 0 || steady_clock::now() > limit) break;
+    std::this_thread::sleep_for(milliseconds(5));
   }
-  if (_output >= 0) {
-    close(_output);
-    _output = -1;
+  return _status.has_value();
+}
+
+void LocalServer::require_alive() {
+  if (has_ended(dying_time))
+    throw LocalServerError("the server of --local " + how_it_ended(*_status) + last_words());
+}
+
+void LocalServer::end() noexcept {
+  close_once(_lifeline);  // which asks it to
+  if (_process > 0 && !has_ended(stop_limit)) {
+    kill(_process, SIGKILL);
+    has_ended(stop_limit);
   }
+  if (_status && *_status != 0) remove_left(_address);
+  close_once(_output);
+  close_once(_log);
 }
 
 std::string LocalServer::last_words() const {
-  constexpr std::size_t kept_lines = 5;
-  std::ifstream log(_folder / "log");
-  std::deque<std::string> lines;
-  for (std::string line; std::getline(log, line);) {
-    lines.push_back("\n  " + sanitise(line));
-    if (lines.size() > kept_lines) lines.pop_front();
-  }
-  return std::accumulate(lines.begin(), lines.end(), std::string(lines.empty() ? "" : ":"));
+  constexpr std::size_t kept_lines = 5, kept_bytes = 4'000;
+  const off_t size = lseek(_log, 0, SEEK_END);
+  std::string text(
+      std::min<std::size_t>(kept_bytes, static_cast<std::size_t>(std::max<off_t>(size, 0))), '\0');
+  const ssize_t count = pread(_log, text.data(), text.size(),
+                              std::max<off_t>(size - static_cast<off_t>(text.size()), 0));
+  text.resize(static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+  std::vector<std::string> lines;
+  std::istringstream log(text);
+  for (std::string line; std::getline(log, line);) lines.push_back("\n  " + sanitise(line));
+  std::string last = lines.empty() ? "" : ":";
+  for (std::size_t i = lines.size() - std::min(lines.size(), kept_lines); i < lines.size(); ++i)
+    last += lines[i];
+  return last;
 }
 
 }  // namespace anticrack::cli

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/commands.hpp"
+#include "output/standard.hpp"
 
-int main(int argc, char** argv) { return anticrack::cli::run_command_line(argc, argv); }
+int main(int argc, char** argv) {
+  anticrack::output::prepare_process();
+  return anticrack::cli::run_command_line(argc, argv);
+}

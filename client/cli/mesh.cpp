@@ -138,7 +138,7 @@ int list_meshes(const MeshOptions& options, const Globals& globals) {
       {"mesh", "created", "state", "triangles", "nodes", "owner", "title"}};
   for (const v1::Mesh& mesh : response.meshes()) {
     rows.push_back({sanitise(mesh.name()), clock_text(mesh.create_time().seconds()),
-                    std::string(word(mesh.state())), std::to_string(mesh.triangle_count()),
+                    state_text(mesh), std::to_string(mesh.triangle_count()),
                     std::to_string(mesh.node_count()), sanitise(mesh.owner()),
                     sanitise(mesh.title())});
   }
@@ -240,7 +240,8 @@ void add_mesh(CLI::App& app, const Globals& globals, Command& chosen) {
                          "Keep it in memory until it is evicted (administrators)");
   add_no_wait(warm_command);
   add_named("evict", "Free the memory of a mesh; the next job factorises it again", "", evict);
-  add_named("delete", "Delete a mesh that no unfinished job uses", "", delete_mesh);
+  add_named("delete", "Delete a mesh that no unfinished job uses; stops its preparation", "",
+            delete_mesh);
 }
 
 }  // namespace anticrack::cli

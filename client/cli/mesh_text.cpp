@@ -46,7 +46,7 @@ std::map<std::string, std::string> motions_of(const v1::Mesh& mesh) {
 }
 
 std::string head(const v1::Mesh& mesh) {
-  std::string text = sanitise(mesh.name()) + ": " + std::string(word(mesh.state())) + "\n";
+  std::string text = sanitise(mesh.name()) + ": " + state_text(mesh) + "\n";
   if (!mesh.title().empty()) text += sanitise(mesh.title()) + "\n";
   if (!mesh.owner().empty() || mesh.pinned()) {
     text += mesh.owner().empty() ? "" : "of " + sanitise(mesh.owner());

@@ -157,6 +157,17 @@ std::string_view word(v1::Mesh::State state) noexcept {
   return word_of(words, state);
 }
 
+std::string state_text(const v1::Mesh& mesh) {
+  std::string text(word(mesh.state()));
+  if (!mesh.has_progress()) return text;
+  const v1::MeshProgress& progress = mesh.progress();
+  if (!progress.doing().empty()) text += ": " + sanitise(progress.doing());
+  if (progress.triangles() > 0) text += ", " + std::to_string(progress.triangles()) + " triangles";
+  if (progress.expected_triangles() > 0)
+    text += " of about " + std::to_string(progress.expected_triangles());
+  return text;
+}
+
 double seconds_between(const google::protobuf::Timestamp& from,
                        const google::protobuf::Timestamp& to) {
   constexpr double milliseconds = 1000;

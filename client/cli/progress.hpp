@@ -65,6 +65,8 @@ std::string_view word(results::Status status) noexcept;
 /// "queued", "waiting for the mesh", ... for people.
 std::string_view word(v1::Job::State state) noexcept;
 std::string_view word(v1::Mesh::State state) noexcept;
+/// The same, and how far the mesher is: "meshing: bisecting a mesh, 120000 triangles".
+std::string state_text(const v1::Mesh& mesh);
 
 /// The status of the API; a later server may send unknown values.
 inline results::Status status_of(const v1::LoadCaseAnswer& answer) {

@@ -21,7 +21,8 @@ struct RunOptions {
   std::vector<std::string> loads;
 };
 
-int run(const RunOptions& options, const Globals& globals) {
+int run(const RunOptions& options, const Globals& given) {
+  const Globals globals = with_outputs(given, {options.output});
   const auto begin = std::chrono::steady_clock::now();
   casefile::Case the_case = casefile::read_case(options.case_file, options.overrides,
                                                 casefile::Loads::needed, options.loads);

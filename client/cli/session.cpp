@@ -1,16 +1,47 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/session.hpp"
 
-#include <stdexcept>
 #include <utility>
 
 #include "cli/json.hpp"
+#include "cli/report.hpp"
 #include "cli/terminal.hpp"
 #include "cli/text.hpp"
+#include "output/standard.hpp"
+#include "output/target.hpp"
+#include "words/shown.hpp"
 
 namespace anticrack::cli {
+namespace {
 
-std::FILE* people(const Globals& globals) { return globals.json ? stderr : stdout; }
+std::string with_newline(std::string_view text) {
+  return std::string(text) + (text.empty() || text.back() != '\n' ? "\n" : "");
+}
+
+void print_to(std::FILE* stream, std::string_view text) {
+  if (stream == stdout) return output::print(text);
+  std::fwrite(text.data(), 1, text.size(), stream);
+  std::fflush(stream);
+}
+
+}  // namespace
+
+Globals with_outputs(const Globals& globals, std::initializer_list<std::string> paths) {
+  Globals own = globals;
+  for (const std::string& path : paths) {
+    if (path.empty() || !output::target_of(path).is_standard_output()) continue;
+    if (own.output_taken || own.json) {
+      throw UsageError(path + ": standard output is already that of " +
+                       (own.json ? "--json" : "another file") + "; name a file");
+    }
+    own.output_taken = true;
+  }
+  return own;
+}
+
+std::FILE* people(const Globals& globals) {
+  return globals.json || globals.output_taken ? stderr : stdout;
+}
 
 bool shows_frames(const Globals& globals) {
   return !globals.quiet && takes_frames(people(globals));
@@ -18,9 +49,7 @@ bool shows_frames(const Globals& globals) {
 
 void say(const Globals& globals, std::string_view line) {
   if (globals.quiet) return;
-  const std::string text = sanitise(line) + "\n";
-  std::fwrite(text.data(), 1, text.size(), people(globals));
-  std::fflush(people(globals));
+  print_to(people(globals), sanitise(line) + "\n");
 }
 
 void say_always(const Globals& globals, std::string_view line) {
@@ -34,10 +63,14 @@ void complain(std::string_view line) {
   std::fprintf(stderr, "anticrack: %s\n", sanitise(line).c_str());
 }
 
+// Whatever part of it was not sanitised: a last line of defence, which leaves lines alone.
 void print_document(std::string_view text) {
-  std::fwrite(text.data(), 1, text.size(), stdout);
-  if (text.empty() || text.back() != '\n') std::fputc('\n', stdout);
-  if (std::fflush(stdout) != 0) throw std::runtime_error("standard output cannot be written");
+  output::print(with_newline(words::shown(text, "\n\t")));
+}
+
+void print_answer(const Globals& globals, std::string_view text) {
+  if (!globals.output_taken || !globals.quiet)
+    print_to(people(globals), with_newline(words::shown(text, "\n\t")));
 }
 
 void tell_deleted(const Globals& globals, const std::string& name) {
@@ -53,6 +86,7 @@ Session::Session(const Globals& globals) : _globals(globals) {
     _local.emplace(_signals.first());
     client::ConnectionOptions options;
     options.address = _local->address();
+    options.lost = [this] { _local->require_alive(); };
     options.notice = tell;
     _connection.emplace(std::move(options));
   } else {

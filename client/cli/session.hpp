@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <functional>
+#include <initializer_list>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -23,9 +24,15 @@ struct Globals {
   bool local = false;
   bool json = false;
   bool quiet = false;  ///< errors, and what was asked for as output
+  /// Standard output is a file of the command, as of -o -: what people read goes to standard error.
+  bool output_taken = false;
 };
 
-/// Stream for messages: standard output, with --json standard error.
+/// `globals` of a command that writes to these paths; empty ones are none. Throws UsageError where
+/// standard output would get two things.
+Globals with_outputs(const Globals& globals, std::initializer_list<std::string> paths);
+
+/// Stream for messages: standard output, or where that is for programs standard error.
 std::FILE* people(const Globals& globals);
 /// Whether messages are frames drawn over each other and not lines.
 bool shows_frames(const Globals& globals);
@@ -35,8 +42,11 @@ void say(const Globals& globals, std::string_view line);
 void say_always(const Globals& globals, std::string_view line);
 /// An error, on standard error.
 void complain(std::string_view line);
-/// Prints the document of --json, or the answer of a command.
+/// Prints the document of --json, or the answer of a command. As of `say`, what standard output
+/// does not take is told at the end of the command, by output::print_failure.
 void print_document(std::string_view text);
+/// Prints the answer of a command that also writes files, for people.
+void print_answer(const Globals& globals, std::string_view text);
 
 /// Says that a resource was deleted.
 void tell_deleted(const Globals& globals, const std::string& name);
@@ -65,7 +75,7 @@ class Session {
 
   Globals _globals;
   Signals _signals;                   // first: all threads inherit its mask
-  std::optional<LocalServer> _local;  // second: it forks, and gRPC starts threads
+  std::optional<LocalServer> _local;
   std::optional<client::Connection> _connection;
   std::mutex _mutex;  ///< of the two below: calls are made on several threads
   std::function<void(const std::string&)> _listener;

@@ -43,6 +43,8 @@ Signals::~Signals() {
   signal(SIGPIPE, SIG_DFL);
 }
 
+void Signals::end_on_closed_output() noexcept { signal(SIGPIPE, SIG_DFL); }
+
 bool Signals::wait_for_first(const std::stop_token& stop) {
   std::unique_lock lock(_mutex);
   return _came.wait(lock, stop, [this] { return _count > 0; });

@@ -32,6 +32,10 @@ class Signals {
   Signals(const Signals&) = delete;
   Signals& operator=(const Signals&) = delete;
 
+  /// From here on a closed pipe ends the process, as it does other programs: for a command that has
+  /// nothing to save.
+  void end_on_closed_output() noexcept;
+
   /// Requested by the first Ctrl-C, SIGTERM or SIGHUP.
   std::stop_token first() const noexcept { return _first.get_token(); }
   /// Waits for the first signal, or for `stop`; whether the signal came.

@@ -133,7 +133,7 @@ void tell_notes(const Session& session, const casefile::Case& the_case) {
     if (!session.globals().quiet) complain("note: " + note);
 }
 
-v1::Mesh send_mesh(Session& session, const casefile::Case& the_case) {
+v1::Mesh send_mesh(Session& session, const casefile::Case& the_case, bool for_job) {
   if (the_case.mesh_file && !std::filesystem::is_regular_file(*the_case.mesh_file)) {
     const bool folder = std::filesystem::is_directory(*the_case.mesh_file);
     const casefile::Spot spot = *the_case.locate("upload");
@@ -143,6 +143,7 @@ v1::Mesh send_mesh(Session& session, const casefile::Case& the_case) {
   }
   return translated(the_case, [&] {
     v1::CreateMeshRequest request = the_case.mesh;
+    request.set_for_job(for_job);
     if (the_case.mesh_file)
       request.set_upload(
           client::upload_mesh(session.connection(), *the_case.mesh_file, session.stop()));
@@ -153,7 +154,7 @@ v1::Mesh send_mesh(Session& session, const casefile::Case& the_case) {
 }  // namespace
 
 v1::Mesh create_mesh(Session& session, const casefile::Case& the_case) {
-  v1::Mesh mesh = send_mesh(session, the_case);
+  v1::Mesh mesh = send_mesh(session, the_case, false);
   tell_notes(session, the_case);
   return mesh;
 }
@@ -163,7 +164,7 @@ v1::Job submit(Session& session, const casefile::Case& the_case, const std::stri
   v1::Job job = the_case.job;
   upload_forces(session, the_case, job);  // first: a file that cannot be read starts nothing
   if (prepare) translated(the_case, [&] { prepare(job); });
-  job.set_mesh(send_mesh(session, the_case).name());
+  job.set_mesh(send_mesh(session, the_case, true).name());
   const v1::Job submitted = translated(the_case, [&] {
     return client::create_job(session.connection(), job, request_id, session.stop());
   });

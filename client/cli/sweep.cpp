@@ -18,6 +18,7 @@
 #include "client/jobs.hpp"
 #include "client/meshes.hpp"
 #include "client/uuid.hpp"
+#include "output/file.hpp"
 
 namespace anticrack::cli {
 namespace {
@@ -71,7 +72,7 @@ void add_matrix(Session& session, const SweepInput& input, v1::Job& job) {
 
 void save_csv(const fs::path& csv, const results::Sweep& sweep, const Globals& globals) {
   if (csv.empty()) return;
-  write_csv(csv, sweep_csv(sweep));
+  output::write_file(csv, sweep_csv(sweep));
   say(globals, "Rows: " + csv.string());
 }
 
@@ -107,7 +108,8 @@ int follow_sweep(Session& session, const Targets& targets, const casefile::Case&
   return job_code;
 }
 
-int sweep(const SweepOptions& options, const Globals& globals) {
+int sweep(const SweepOptions& options, const Globals& given) {
+  const Globals globals = with_outputs(given, {options.output, options.csv});
   const auto begin = std::chrono::steady_clock::now();
   casefile::Case the_case = read_case(options, globals);
   SweepInput input = read_sweep_input(options.files, the_case);

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <utility>
 
+#include "words/shown.hpp"
+
 namespace anticrack::cli {
 namespace {
 
@@ -25,7 +27,7 @@ std::string joined(const std::vector<std::string>& lines) {
   for (std::size_t i = 0; i < lines.size(); ++i) {
     text += i > 0 ? "\n" : "";
     text += wipe_line;
-    text += lines[i];
+    text += words::shown(lines[i]);
   }
   text += wipe_below;
   return text;

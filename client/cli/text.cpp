@@ -13,7 +13,7 @@
 #include <cstdlib>
 #include <ctime>
 
-#include "figures/text.hpp"
+#include "words/shown.hpp"
 
 namespace anticrack::cli {
 namespace {
@@ -34,16 +34,7 @@ Character first_character(std::string_view text) {
 
 }  // namespace
 
-std::string sanitise(std::string_view text) {
-  std::string clean;
-  clean.reserve(text.size());
-  for (std::size_t i = 0; i < text.size();) {
-    const std::size_t length = figures::character(text.substr(i));
-    clean += length > 0 ? text.substr(i, length) : std::string_view("?");
-    i += std::max<std::size_t>(length, 1);
-  }
-  return clean;
-}
+std::string sanitise(std::string_view text) { return words::shown(text); }
 
 std::size_t columns_of(std::string_view text) noexcept {
   std::size_t columns = 0;
@@ -80,15 +71,15 @@ std::string pad_left(std::string_view text, std::size_t width) {
 std::string number(double value, int digits, bool exponent) {
   if (!std::isfinite(value)) return "-";
   std::array<char, 64> buffer{};
-  const int length =
-      std::snprintf(buffer.data(), buffer.size(), exponent ? "%.*e" : "%.*g", digits, value);
+  const int length = std::snprintf(buffer.data(), buffer.size(), exponent ? "%.*e" : "%.*g", digits,
+                                   value + 0.0);  // no "-0"
   return std::string(buffer.data(), static_cast<std::size_t>(length));
 }
 
 std::string exact(double value) {
   if (!std::isfinite(value)) return "";
   std::array<char, 32> buffer{};
-  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value + 0.0);
   return {buffer.data(), result.ptr};
 }
 

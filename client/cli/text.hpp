@@ -12,7 +12,7 @@
 
 namespace anticrack::cli {
 
-/// Control characters and invalid UTF-8 become '?': text of a server must not control the terminal.
+/// words::shown(): text of a server must not control the terminal, nor add a line.
 std::string sanitise(std::string_view text);
 
 /// Terminal columns of valid UTF-8: two for wide characters, none for combining ones.

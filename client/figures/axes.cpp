@@ -12,7 +12,7 @@ std::string data_block(const std::string& name,
                        const std::vector<const std::vector<double>*>& columns) {
   std::string text = "$" + name + " << EOD\n";
   for (std::size_t i = 0; i < columns.at(0)->size(); ++i) {
-    for (const std::vector<double>* column : columns) text += number((*column)[i]) + " ";
+    for (const std::vector<double>* column : columns) text += number((*column)[i], 12) + " ";
     text += "\n";
   }
   return text + "EOD\n";
@@ -75,28 +75,83 @@ double label_step(const Range& range, int most) {
   return 10 * power;
 }
 
-Scale::Scale(const Range& range) {
-  const double largest = std::max(std::abs(range.low), std::abs(range.high));
+double offset_of(const Range& range, double extent) {
+  constexpr double far = 1e3;  // labels of two digits more than those of the range
+  const double size = std::max(range.size(), extent);
+  if (!(size > 0) || !(std::max(std::abs(range.low), std::abs(range.high)) > far * size)) return 0;
+  const double round = std::pow(10.0, std::floor(std::log10(size)) + 2);
+  return std::round((range.low + range.high) / 2 / round) * round;
+}
+
+std::string named_without(const std::string& name, double offset) {
+  if (offset == 0) return name;
+  return name + (offset > 0 ? " \xE2\x88\x92 " : " + ") + readable(std::abs(offset), 15);
+}
+
+std::string point_text(double x, double y, double size, int digits) {
+  const auto text = [&](double value) {
+    const double decades = std::log10(std::abs(value) / size);
+    const int more = std::isfinite(decades) ? static_cast<int>(std::ceil(decades)) : 0;
+    return readable(value, std::clamp(digits + more, digits, 15));
+  };
+  return "(" + text(x) + ", " + text(y) + ")";
+}
+
+Scale::Scale(const Range& range, double extent) {
+  _offset = offset_of(range, extent);
+  const double largest = std::max(std::abs(range.low - _offset), std::abs(range.high - _offset));
   if (!std::isfinite(largest) || largest == 0 || (largest >= 2e-3 && largest < 1e5)) return;
   _exponent = 3 * static_cast<int>(std::floor(std::log10(largest) / 3));
 }
 
 Range Scale::drawn(const Range& range) const noexcept {
   const double factor = std::pow(10.0, -_exponent);
-  return {range.low * factor, range.high * factor};
+  return {(range.low - _offset) * factor, (range.high - _offset) * factor};
+}
+
+std::string Scale::text(double value) const {
+  const double shown = (value - _offset) * std::pow(10.0, -_exponent);
+  return readable(std::abs(shown) < 1e-9 ? 0 : shown, 6);
 }
 
 std::string Scale::column(int number) const {
   const std::string name = std::to_string(number);
-  return _exponent == 0 ? name : "($" + name + "*1e" + std::to_string(-_exponent) + ")";
+  if (_exponent == 0 && _offset == 0) return name;
+  const std::string value =
+      _offset == 0 ? "$" + name : "($" + name + "-" + figures::number(_offset, 15) + ")";
+  return "(" + value + "*1e" + std::to_string(-_exponent) + ")";
 }
 
 std::string Scale::label(const std::string& name, const std::string& unit) const {
-  const std::string power = _exponent == 0 ? "" : power_of_ten(_exponent);
-  return results::labelled(name, power + (power.empty() || unit.empty() ? "" : " ") + unit);
+  const std::string text = named_without(name, _offset);
+  if (_exponent == 0) return results::labelled(text, unit);
+  const std::string behind = unit.empty() ? "" : " " + unit;
+  return results::labelled(text + (_offset == 0 ? "" : behind), power_of_ten(_exponent) + behind);
 }
 
-std::string axis_range(char axis, const Range& range, int most, double step) {
+std::string tics(char axis, const Range& range, double step, const Scale& drawn) {
+  const double low = range.low - 1e-9 * range.size(), high = range.high + 1e-9 * range.size();
+  const std::string command = std::string("set ") + axis + "tics ";
+  const auto first = [&] { return std::ceil(low / step); };
+  if (first() * step <= high && drawn.plain())
+    return command + number(first() * step) + ", " + number(step) + ", " + number(range.high);
+  std::string marks;
+  const auto mark = [&](double index) {
+    marks +=
+        (marks.empty() ? "('" : ", '") + drawn.text(index * step) + "' " + number(index * step, 15);
+  };
+  // Bounded, as there may be no number between those of a file.
+  constexpr int most = 50;
+  for (int k = 0; k < most && (first() + k) * step <= high; ++k) mark(first() + k);
+  if (marks.empty() && high > low) {
+    for (int k = 0; k < most && first() * step > high; ++k) step /= 10;
+    mark(std::clamp(std::round((low + high) / 2 / step), first(),
+                    std::max(first(), std::floor(high / step))));
+  }
+  return command + (marks.empty() ? "(" : marks) + ")";
+}
+
+std::string axis_range(char axis, const Range& range, int most, double step, const Scale& labels) {
   Range shown = range;
   if (!(shown.low <= shown.high)) shown = {0, 0};
   const double rounding = 1e-9 * std::max(std::abs(shown.low), std::abs(shown.high));
@@ -105,8 +160,13 @@ std::string axis_range(char axis, const Range& range, int most, double step) {
     const double half = middle == 0 ? 1 : 0.5 * std::abs(middle);
     shown = {middle - half, middle + half};
   }
-  return std::string("set ") + axis + "range [" + number(shown.low) + ":" + number(shown.high) +
-         "]\nset " + axis + "tics " + number(step > 0 ? step : label_step(shown, most)) + "\n";
+  const double apart = step > 0 ? step : label_step(shown, most);
+  return std::string("set ") + axis + "range [" + number(shown.low, 15) + ":" +
+         number(shown.high, 15) + "]\n" +
+         (labels.plain() && std::ceil(shown.low / apart) * apart <= shown.high
+              ? std::string("set ") + axis + "tics " + number(apart)
+              : tics(axis, shown, apart, labels)) +
+         "\n";
 }
 
 std::string log_axis(char axis, const Range& range, bool labelled) {

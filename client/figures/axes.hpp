@@ -85,13 +85,30 @@ Range empty_range() noexcept;
 /// A round distance for at most about `most` labels.
 double label_step(const Range& range, int most = 6);
 
-/// Draws values too small or too large for an axis as multiples of a power of ten, which the label
-/// names.
+/// What labels of an axis leave out, so that they are short: a round number where the values are
+/// far from 0 against their range or, where it is longer, the `extent` of all that is drawn to one
+/// scale; else 0.
+double offset_of(const Range& range, double extent = 0);
+
+/// "x − 6000000", the name of an axis whose labels leave the offset out.
+std::string named_without(const std::string& name, double offset);
+
+/// "(0.5, 1)", a point with the digits that tell it from others of a line or sheet of this size.
+std::string point_text(double x, double y, double size, int digits);
+
+/// Draws values too small or too large for an axis as multiples of a power of ten, and those far
+/// from 0 against their range without their offset; the label names both.
 class Scale {
  public:
   Scale() = default;
-  /// For data in this range; the factor is 1 where possible.
-  explicit Scale(const Range& range);
+  /// For data in this range, of an axis that is drawn to one scale with others up to this extent;
+  /// the factor is 1 and the offset 0 where possible.
+  explicit Scale(const Range& range, double extent = 0);
+
+  /// Whether values are drawn as they are.
+  bool plain() const noexcept { return _exponent == 0 && _offset == 0; }
+  /// Of a label.
+  std::string text(double value) const;
 
   /// The range as drawn.
   Range drawn(const Range& range) const noexcept;
@@ -102,11 +119,18 @@ class Scale {
 
  private:
   int _exponent = 0;
+  double _offset = 0;
 };
 
+/// `set xtics` or `set ytics` at the multiples of `step` in the range, or at the roundest number
+/// where none is; the labels are as drawn.
+std::string tics(char axis, const Range& range, double step, const Scale& drawn);
+
 /// `set xrange` or `set yrange` with labels `step` apart, 0: a round distance for at most about
-/// `most` labels. A range without extent is widened.
-std::string axis_range(char axis, const Range& range, int most = 6, double step = 0);
+/// `most` labels; data that is not drawn to the scale itself has its labels. A range without extent
+/// is widened.
+std::string axis_range(char axis, const Range& range, int most = 6, double step = 0,
+                       const Scale& labels = Scale());
 
 /// The same with a log scale, for positive values, with some room around them and at least two
 /// labels; `labelled` or with marks alone.

@@ -46,9 +46,14 @@ std::string driver(const Output& output, const Canvas& size) {
          number(size.width / 10) + "cm," + number(size.height / 10) + "cm";
 }
 
+std::string behind(const std::string& text, std::string_view prefix) {
+  return text.starts_with(prefix) ? text.substr(prefix.size()) : text;
+}
+
 std::string terminal(const Output& output, const Canvas& size) {
-  if (!is_bare_name(output.file))
-    throw std::invalid_argument("\"" + output.file + "\" is not a bare file name");
+  if (!is_bare_name(behind(output.file, "/dev/fd/")))
+    throw std::invalid_argument("\"" + output.file +
+                                "\" is no bare name of a file and no descriptor");
   return "set terminal " + driver(output, size) + " font 'DejaVu Sans,8'\nset output '" +
          output.file + "'\n";
 }

@@ -13,7 +13,7 @@
 namespace anticrack::figures {
 
 /// Output of one run of gnuplot. `file` is a bare name in its working folder, of the characters
-/// [A-Za-z0-9_.-] and not beginning with "-"; anything else throws.
+/// [A-Za-z0-9_.-] and not beginning with "-", or /dev/fd/N; anything else throws.
 struct Output {
   Format format;
   std::string file;

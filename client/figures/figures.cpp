@@ -24,6 +24,9 @@ using results::Result;
 /// Most triangles drawn: more are too small to see, and each adds 200 bytes to an SVG.
 constexpr std::size_t surface_triangles = 24000;
 
+/// More loads, rows and interfaces than this are drawn where they are asked for.
+constexpr std::size_t many = 12;
+
 std::string traces_suffix(std::size_t interface) {
   return interface == 0 ? "-traces" : "-traces-" + std::to_string(interface + 1);
 }
@@ -53,13 +56,51 @@ Eventful eventful(const Result& result, const std::vector<Load>& loads, const Op
   return asked ? Eventful{*asked, *asked} : most_eventful(result, loads);
 }
 
+std::vector<std::size_t> opening(const Result& result) {
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < result.interfaces.size(); ++i)
+    if (can_open(result.interfaces[i])) found.push_back(i);
+  return found;
+}
+
+/// Whether of the interfaces that can open only the most eventful is drawn.
+bool chooses(const Result& result, const Options& options) {
+  return !options.all_interfaces && options.interface.empty() && !named(options, "traces") &&
+         opening(result).size() > many;
+}
+
+/// Those whose traces are drawn.
+std::vector<std::size_t> drawn_interfaces(const Result& result, const Load& load,
+                                          const Options& options) {
+  if (const auto asked = asked_for(result, options)) return {*asked};
+  if (!chooses(result, options)) return opening(result);
+  const Eventful most = most_eventful(result, {load});
+  if (most.open == most.pressed) return {most.open};
+  return {std::min(most.open, most.pressed), std::max(most.open, most.pressed)};
+}
+
 void draw_traces(const Result& result, const Load& load, const std::string& stem,
                  const Options& options, Drawing& drawing) {
-  if (!wanted(options, "traces")) return;
-  const auto asked = asked_for(result, options);
-  for (std::size_t i = 0; i < load.traces.size(); ++i)
-    if (asked ? i == *asked : can_open(result.interfaces[i]))
-      drawing.draw(stem + traces_suffix(i), traces_picture(result, load, i));
+  if (!wanted(options, "traces") || load.traces.empty()) return;
+  for (const std::size_t i : drawn_interfaces(result, load, options))
+    drawing.draw(stem + traces_suffix(i), traces_picture(result, load, i));
+}
+
+void note_interfaces_left_out(const Result& result, const Options& options, Drawing& drawing) {
+  if (!wanted(options, "traces") || !chooses(result, options)) return;
+  drawing.drawn.notes.push_back("of " + std::to_string(opening(result).size()) +
+                                " interfaces that can open the most eventful is drawn; --all draws "
+                                "the traces of each, --interface NAME those of one");
+}
+
+/// How many of them are drawn; a note where not all are.
+std::size_t first_of(std::size_t count, const char* what, const char* other, const Options& options,
+                     Drawing& drawing) {
+  if (options.all_loads || count <= many) return count;
+  drawing.drawn.notes.push_back("the first " + std::to_string(many) + " of " +
+                                std::to_string(count) + " " + what + " drawn; --load " + other +
+                                " chooses others, --all draws all");
+  return many;
 }
 
 void note_interfaces_that_cannot_open(const Result& result, const Options& options,
@@ -79,13 +120,10 @@ void note_interfaces_that_cannot_open(const Result& result, const Options& optio
 
 /// A sweep may have kept thousands of rows.
 void draw_kept_rows(const Result& result, const Options& options, Drawing& drawing) {
-  constexpr std::size_t most = 12;
-  for (std::size_t i = 0; i < std::min(most, result.loads.size()); ++i)
+  const std::size_t count =
+      first_of(result.loads.size(), "rows with traces", "row-K", options, drawing);
+  for (std::size_t i = 0; i < count; ++i)
     draw_traces(result, result.loads[i], result.loads[i].name, options, drawing);
-  if (result.loads.size() > most) {
-    drawing.drawn.notes.push_back("traces drawn of the first " + std::to_string(most) + " of " +
-                                  std::to_string(result.loads.size()) + " rows");
-  }
 }
 
 /// Of fewer no convergence is drawn.
@@ -143,6 +181,20 @@ void note_few_steps(const Result& result, const Options& options, Drawing& drawi
                                                "convergence draws that of two"));
 }
 
+/// The interfaces of a sweep on which it is drawn where they are closed.
+std::vector<std::size_t> drawn_maps(const Result& result, const Options& options,
+                                    Drawing& drawing) {
+  if (const auto asked = asked_for(result, options)) return {*asked};
+  std::vector<std::size_t> chosen = opening(result);
+  if (options.all_interfaces || chosen.size() <= many) return chosen;
+  drawing.drawn.notes.push_back("contact is drawn on the first " + std::to_string(many) + " of " +
+                                std::to_string(chosen.size()) +
+                                " interfaces that can open; --interface NAME chooses another, "
+                                "--all draws all");
+  chosen.resize(many);
+  return chosen;
+}
+
 void require_consistent(const Result& result) {
   const std::string fault = results::first_fault(result);
   if (!fault.empty()) throw Error("the result is inconsistent: " + fault);
@@ -162,12 +214,19 @@ Drawn draw(const Result& result, const fs::path& folder, const Options& options)
   Drawing drawing(folder, options);
   if (result.sweep) {
     if (options.only.empty()) draw_sweep(result, drawing);
+    if (options.only.empty() && summary(*result.sweep).converged != 0)
+      draw_contacts(result, drawn_maps(result, options, drawing), drawing);
     draw_kept_rows(result, options, drawing);
-    if (!result.loads.empty()) note_interfaces_that_cannot_open(result, options, drawing);
+    if (!result.loads.empty()) {
+      note_interfaces_left_out(result, options, drawing);
+      note_interfaces_that_cannot_open(result, options, drawing);
+    }
     return std::move(drawing.drawn);
   }
-  for (std::size_t i = 0; i < result.loads.size(); ++i)
+  const std::size_t count = first_of(result.loads.size(), "loads", "NAME", options, drawing);
+  for (std::size_t i = 0; i < count; ++i)
     draw_load(result, result.loads[i], stems[i], options, drawing);
+  note_interfaces_left_out(result, options, drawing);
   note_interfaces_that_cannot_open(result, options, drawing);
   note_few_steps(result, options, drawing);
   return std::move(drawing.drawn);

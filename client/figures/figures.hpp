@@ -32,6 +32,10 @@ struct Options {
   /// The only one of the traces, and that of overview and together; empty: the most eventful there,
   /// and traces of all that can open.
   std::string interface {};
+  bool all_loads = false;  ///< and rows with traces; else of more than twelve the first
+  /// However many can open; else of more than twelve the most eventful alone, unless `only` names
+  /// the traces.
+  bool all_interfaces = false;
 };
 
 struct Drawn {
@@ -42,8 +46,8 @@ struct Drawn {
 /// Draws for every load with traces, in each format, in `folder` (created if missing):
 ///   LOAD-membrane     the deformed membrane with its slit open; needs fields
 ///   LOAD-plan         from above: lines of u over the flux; needs fields
-///   LOAD-traces       u-, u+ and [u] along each interface that can open, contact shaded, its
-///                     pressure below
+///   LOAD-traces       u-, u+ and [u] along each interface that can open, of more than twelve the
+///                     most eventful, contact shaded, its pressure below
 ///   LOAD-convergence  the relative change of every iteration, or the KKT residuals of every step,
 ///                     log; of at least three, of two where it is asked for
 ///   LOAD-accuracy     the bounds of the energy and of A over the triangles of the stages
@@ -54,6 +58,7 @@ struct Drawn {
 ///   sweep             A and the contact length over the rows, or over the coefficient that varies
 ///   sweep-contact     where the cracks are closed, row by row (-2, ... of further interfaces)
 ///   row-K-traces      of the first rows whose traces were kept
+/// The notes say what is left out of many loads and interfaces, and what draws it.
 /// LOAD is the load's name made safe for a file name, and unique; further interfaces are
 /// LOAD-traces-2 and so on. Each file is written under a temporary name and renamed. Throws Error,
 /// also for a name that no interface has, for the folder results::Error; files already drawn stay.

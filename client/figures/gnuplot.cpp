@@ -3,19 +3,16 @@
 
 #include <fcntl.h>
 #include <spawn.h>
-#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <csignal>
-#include <string_view>
 #include <system_error>
-#include <utility>
 #include <vector>
 
 #include "figures/figures.hpp"
+#include "figures/memory_file.hpp"
 #include "figures/text.hpp"
 
 namespace anticrack::figures {
@@ -26,44 +23,6 @@ constexpr off_t kept_output = 4000;
 
 [[noreturn]] void fail(const std::string& what, int error) {
   throw Error("gnuplot: " + what + ": " + std::generic_category().message(error));
-}
-
-/// A file descriptor, closed once.
-class Descriptor {
- public:
-  explicit Descriptor(int number) : _number(number) {}
-  Descriptor(Descriptor&& other) noexcept : _number(std::exchange(other._number, -1)) {}
-  Descriptor& operator=(Descriptor&&) = delete;
-  ~Descriptor() {
-    if (_number >= 0) close(_number);
-  }
-
-  int get() const noexcept { return _number; }
-
- private:
-  int _number;
-};
-
-/// A file in memory that holds `content`.
-Descriptor memory_file(std::string_view content) {
-  Descriptor file(memfd_create("anticrack-gnuplot", MFD_CLOEXEC));
-  if (file.get() < 0) fail("memfd_create", errno);
-  while (!content.empty()) {
-    const ssize_t written = ::write(file.get(), content.data(), content.size());
-    if (written < 0 && errno != EINTR) fail("write", errno);
-    content.remove_prefix(static_cast<std::size_t>(std::max<ssize_t>(written, 0)));
-  }
-  return file;
-}
-
-/// The last `most` bytes of a file.
-std::string tail_of(const Descriptor& file, off_t most) {
-  const off_t size = lseek(file.get(), 0, SEEK_END);
-  const off_t begin = std::max<off_t>(size - most, 0);
-  std::string text(static_cast<std::size_t>(std::max<off_t>(size - begin, 0)), '\0');
-  const ssize_t count = pread(file.get(), text.data(), text.size(), begin);
-  text.resize(static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
-  return text;
 }
 
 /// `env` sets a locale in which numbers have a point and text is UTF-8; `timeout` kills gnuplot at
@@ -79,13 +38,15 @@ std::vector<std::string> command(std::chrono::milliseconds limit) {
 // Exit codes of `timeout`: the program is not installed; killed at the limit.
 constexpr int not_found = 127, killed = 128 + SIGKILL;
 
-/// Starts the command in the folder with default signals.
-pid_t spawn(std::vector<std::string> words, const std::filesystem::path& folder, int in, int err) {
+/// Starts the command in the folder with default signals; it inherits `kept`.
+pid_t spawn(std::vector<std::string> words, const std::filesystem::path& folder, int in, int err,
+            std::span<const int> kept) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, in, STDIN_FILENO);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_adddup2(&actions, err, STDERR_FILENO);
+  for (const int number : kept) posix_spawn_file_actions_adddup2(&actions, number, number);
   posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
 
   posix_spawnattr_t attributes;
@@ -112,10 +73,10 @@ pid_t spawn(std::vector<std::string> words, const std::filesystem::path& folder,
 }  // namespace
 
 void run_gnuplot(const std::string& script, const std::filesystem::path& folder,
-                 std::chrono::milliseconds limit) {
-  const Descriptor in = memory_file(script);
-  const Descriptor err = memory_file({});
-  const pid_t pid = spawn(command(limit), folder, in.get(), err.get());
+                 std::chrono::milliseconds limit, std::span<const int> kept) {
+  const MemoryFile in(script);
+  const MemoryFile err;
+  const pid_t pid = spawn(command(limit), folder, in.descriptor(), err.descriptor(), kept);
   int status = 0;
   while (waitpid(pid, &status, 0) < 0)
     if (errno != EINTR) fail("cannot be waited for", errno);
@@ -130,7 +91,7 @@ void run_gnuplot(const std::string& script, const std::filesystem::path& folder,
     throw Error("gnuplot failed (" +
                 (code > 0 ? "exit code " + std::to_string(code)
                           : "signal " + std::to_string(WTERMSIG(status))) +
-                "): " + tail_of(err, kept_output));
+                "): " + err.tail(kept_output));
   }
 }
 

@@ -29,8 +29,8 @@ std::string strips(const std::vector<Band>& bands, const std::string& top, const
                    const std::string& colour) {
   std::string text;
   for (const Band& band : bands) {
-    text += "set object rectangle from first " + number(band.begin) + ", graph 0 to first " +
-            number(band.end) + ", graph " + top + " " + layer + " fillcolor " + colour +
+    text += "set object rectangle from first " + number(band.begin, 12) + ", graph 0 to first " +
+            number(band.end, 12) + ", graph " + top + " " + layer + " fillcolor " + colour +
             " fillstyle solid 1 noborder\n";
   }
   return text;

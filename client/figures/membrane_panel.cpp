@@ -33,8 +33,9 @@ std::string membrane_heading(double factor, const results::Load& load) {
 
 std::string space_label(int tag, const std::string& quoted_text, const Vertex& at,
                         const std::string& more = {}) {
-  return "set label " + std::to_string(tag) + " " + quoted_text + " at first " + number(at.x) +
-         ", first " + number(at.y) + ", first " + number(at.u) + " center noenhanced" + more + "\n";
+  return "set label " + std::to_string(tag) + " " + quoted_text + " at first " + number(at.x, 12) +
+         ", first " + number(at.y, 12) + ", first " + number(at.u) + " center noenhanced" + more +
+         "\n";
 }
 
 /// Whether the side of the lowest y is near the viewer, as gnuplot's x axis is.
@@ -49,9 +50,11 @@ std::string label_steps(const Surface& surface, double view) {
   const double y_step = step(surface.y_min, surface.y_max);
   const double low = surface.y_min + (sees_low_y(view) ? 0.4 * y_step : 0);
   const double high = surface.y_max - (sees_low_y(view) ? 0 : 0.4 * y_step);
-  return "set xtics " + number(step(surface.x_min, surface.x_max)) +
-         " nomirror offset 0,-0.3\nset ytics " + number(std::ceil(low / y_step) * y_step) + ", " +
-         number(y_step) + ", " + number(high) + " nomirror offset 0.3,-0.2\n";
+  const Range x{surface.x_min, surface.x_max}, y{surface.y_min, surface.y_max};
+  return tics('x', x, step(x.low, x.high), Scale(x, surface.width())) +
+         " nomirror offset 0,-0.3\n" +
+         tics('y', low < high ? Range{low, high} : y, y_step, Scale(y, surface.width())) +
+         " nomirror offset 0.3,-0.2\n";
 }
 
 /// Of a triangle, by the mean slope around its corners: by its own, neighbours would differ and the
@@ -103,7 +106,7 @@ std::string membrane_data(const Surface& surface, double view, bool mesh) {
                                      brightness(triangle, factor, view)) +
                               "\n";
     const auto line = [&](const Vertex& v) {
-      text += number(v.x) + " " + number(v.y) + " " + number(factor * v.u, 6) + shade;
+      text += number(v.x, 12) + " " + number(v.y, 12) + " " + number(factor * v.u, 6) + shade;
     };
     line(triangle[0]);
     line(triangle[1]);
@@ -178,8 +181,8 @@ std::string membrane_panel(const Surface& surface, const results::Load& load, do
   text += "unset key\nset border 15 linewidth 0.7 linecolor rgb '#888888'\n";
   text += "unset xlabel\nunset ylabel\n";
   text += "set tics font ',7' textcolor rgb '#333333'\nunset ztics\n" + label_steps(surface, view);
-  text += "set xrange [" + number(surface.x_min) + ":" + number(surface.x_max) + "]\n";
-  text += "set yrange [" + number(surface.y_min) + ":" + number(surface.y_max) + "]\n";
+  text += "set xrange [" + number(surface.x_min, 15) + ":" + number(surface.x_max, 15) + "]\n";
+  text += "set yrange [" + number(surface.y_min, 15) + ":" + number(surface.y_max, 15) + "]\n";
   text += "set zrange [" + number(std::min(low, 0.0)) + ":" +
           number(std::max(high, low + 0.1 * surface.width())) + "]\n";
   text += "set xyplane at " + number(base) + "\n";
@@ -204,8 +207,11 @@ std::string membrane_panel(const Surface& surface, const results::Load& load, do
   // As gnuplot's axes, on the near sides.
   const double front = sees_low_y(view) ? surface.y_min - below_x : surface.y_max + below_x;
   const double side = view < 180 ? surface.x_max + beside_y : surface.x_min - beside_y;
-  text += space_label(3, figures::quoted(results::labelled("x", length)), {middle_x, front, base});
-  text += space_label(4, figures::quoted(results::labelled("y", length)), {side, middle_y, base});
+  const auto axis_name = [&](const char* axis, double low_end, double high_end) {
+    return figures::quoted(Scale({low_end, high_end}, surface.width()).label(axis, length));
+  };
+  text += space_label(3, axis_name("x", surface.x_min, surface.x_max), {middle_x, front, base});
+  text += space_label(4, axis_name("y", surface.y_min, surface.y_max), {side, middle_y, base});
   if (names.size() <= most_names) {
     text += light_boxes;
     int tag = 10;

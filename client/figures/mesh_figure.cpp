@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "figures/mesh_figure.hpp"
 
+#include <algorithm>
 #include <utility>
 
+#include "figures/axes.hpp"
 #include "figures/drawing.hpp"
 #include "figures/mesh_layers.hpp"
 #include "figures/text.hpp"
@@ -23,7 +25,8 @@ std::string counts(const results::Mesh& mesh) {
 
 std::string caption_of(const results::Tip& tip, const Window& window, const Window& whole,
                        const std::string& unit) {
-  return "at the tip (" + readable(tip.x, 3) + ", " + readable(tip.y, 3) + "), \xC3\x97" +
+  const double size = std::max(whole.width(), whole.height());
+  return "at the tip " + point_text(tip.x, tip.y, size, 3) + ", \xC3\x97" +
          readable(whole.width() / window.width(), 2) + ", edges from " +
          readable(tip.smallest_edge, 2) + (unit.empty() ? "" : " " + unit);
 }

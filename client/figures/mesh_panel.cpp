@@ -47,7 +47,7 @@ const Style starts{"starts", "points pointtype 4 pointsize 0.6 linewidth 1 linec
 const Style tips{"tips", "points pointtype 6 pointsize 0.5 linewidth 1 linecolor rgb '#000000'",
                  "tip"};
 
-std::string at(const Spot& spot) { return number(spot.x) + " " + number(spot.y) + "\n"; }
+std::string at(const Spot& spot) { return number(spot.x, 12) + " " + number(spot.y, 12) + "\n"; }
 
 std::string mesh_block(const std::string& name, const std::string& content) {
   return "$" + name + " << EOD\n" + content + "EOD\n";
@@ -127,8 +127,9 @@ std::string drawn_data(const Style& style, const std::string& tag) {
 
 std::string label(const std::string& name, const Spot& spot, const std::string& where,
                   const std::string& colour) {
-  return "set label " + figures::quoted(name, 24) + " at " + number(spot.x) + "," + number(spot.y) +
-         " " + where + " noenhanced font ',7' textcolor rgb '" + colour + "' front boxed\n";
+  return "set label " + figures::quoted(name, 24) + " at " + number(spot.x, 12) + "," +
+         number(spot.y, 12) + " " + where + " noenhanced font ',7' textcolor rgb '" + colour +
+         "' front boxed\n";
 }
 
 /// At the end of an arrow, on its far side.
@@ -142,8 +143,8 @@ std::string beyond(const Pointer& pointer) {
 std::string labels(const MeshLayers& layers) {
   std::string text = light_boxes;
   for (const Pointer& side : layers.plus_sides) {
-    text += "set arrow from " + number(side.from.x) + "," + number(side.from.y) + " to " +
-            number(side.to.x) + "," + number(side.to.y) +
+    text += "set arrow from " + number(side.from.x, 12) + "," + number(side.from.y, 12) + " to " +
+            number(side.to.x, 12) + "," + number(side.to.y, 12) +
             " head filled size screen 0.008,22 linewidth 1.2 linecolor rgb '#000000' front\n";
     text += label(side.name, side.to, beyond(side), "#000000");
   }
@@ -176,11 +177,14 @@ std::string mesh_panel(const MeshLayers& layers, const MeshPanel& panel, const P
   std::string text = margins(place, box.left, box.right, box.bottom, box.top) + axes();
   text += "unset key\nset border 0\nunset grid\nset tics out\n";
   // A short side has no room for as many labels.
-  const double step = label_step({0, std::max(window.width(), window.height())}, 5);
-  text += axis_range('x', {window.x_min, window.x_max}, 5, step);
-  text += axis_range('y', {window.y_min, window.y_max}, 5, step);
-  text += below(figures::quoted(results::labelled("x", length)), box.bottom - 0.125, place) +
-          beside(figures::quoted(results::labelled("y", length)), place) +
+  const Range x{window.x_min, window.x_max}, y{window.y_min, window.y_max};
+  const double extent = std::max(x.size(), y.size()), step = label_step({0, extent}, 5);
+  text +=
+      axis_range('x', x, 5, step, Scale(x, extent)) + axis_range('y', y, 5, step, Scale(y, extent));
+  const auto name = [&](const char* axis, const Range& range) {
+    return figures::quoted(Scale(range, extent).label(axis, length));
+  };
+  text += below(name("x", x), box.bottom - 0.125, place) + beside(name("y", y), place) +
           caption(panel.caption, place);
   text += labels(layers);
   std::string plots = "plot NaN notitle";

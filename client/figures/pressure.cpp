@@ -60,7 +60,8 @@ std::string pressure_panel(const Profile& profile, const std::vector<Pressure>& 
   }
   const Range heights{0, 1.06 * all.shown};
   const Scale scale(heights);
-  text += axis_range('x', extent(profile)) + axis_range('y', scale.drawn(heights), 4);
+  text += axis_range('x', extent(profile), 6, 0, profile.labels) +
+          axis_range('y', scale.drawn(heights), 4);
   text += beside(figures::quoted(scale.label("pressure", unit)), place);
   std::string plots;
   for (const PressureCurve& curve : curves) {

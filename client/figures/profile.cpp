@@ -6,8 +6,6 @@
 #include <functional>
 #include <utility>
 
-#include "figures/text.hpp"
-
 namespace anticrack::figures {
 namespace {
 
@@ -55,11 +53,13 @@ Profile profile(const results::Result& result, std::size_t index, const results:
     profile.position = interface.y;
   } else {
     axis = "arc length s";
-    if (k > 0)
-      axis += " from (" + readable(interface.x[0], 4) + ", " + readable(interface.y[0], 4) + ")";
+    if (k > 0) axis += " from " + point_text(interface.x[0], interface.y[0], interface.s.back(), 4);
     profile.position = interface.s;
   }
-  profile.axis = results::labelled(axis, result.units.label("L"));
+  Range along = empty_range();
+  for (const double position : profile.position) along.include(position);
+  profile.labels = Scale(along);
+  profile.axis = profile.labels.label(axis, result.units.label("L"));
 
   const auto band = [&](double a, double b) { return Band{std::min(a, b), std::max(a, b)}; };
   const auto& at = profile.position;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "figures/axes.hpp"
 #include "results/result.hpp"
 
 namespace anticrack::figures {
@@ -26,6 +27,7 @@ struct Fibre {
 struct Profile {
   std::string name;              ///< of the interface, if there are several
   std::string axis;              ///< label, e.g. "x [mm]"
+  Scale labels;                  ///< of the axis
   std::vector<double> position;  ///< (k) along the axis, increasing or decreasing
   std::vector<Band> delaminated;
   std::vector<Band> crack;

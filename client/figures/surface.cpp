@@ -240,7 +240,9 @@ std::vector<Triangle> refined(std::vector<Triangle> triangles, double longest, s
 }
 
 double amplification(const Surface& surface) {
-  const double wanted = 0.3 * surface.width() / (surface.highest - surface.lowest);
+  // Of a long sheet neither its length, or it would stand like a curtain, nor its width.
+  const double size = std::sqrt((surface.x_max - surface.x_min) * (surface.y_max - surface.y_min));
+  const double wanted = 0.3 * size / (surface.highest - surface.lowest);
   if (!std::isfinite(wanted) || wanted <= 0) return 1;
   const double power = std::pow(10.0, std::floor(std::log10(wanted)));
   const double leading = wanted / power;

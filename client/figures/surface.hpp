@@ -46,7 +46,8 @@ Surface surface(const results::Result& result, const results::Load& load, std::s
 /// takes, as long as there are at most `limit`.
 std::vector<Triangle> refined(std::vector<Triangle> triangles, double longest, std::size_t limit);
 
-/// A round factor that scales u to at most three tenths of the membrane's width; 1 for u = 0.
+/// A round factor that scales u to at most three tenths of the mean of the membrane's sides; 1 for
+/// u = 0.
 double amplification(const Surface& surface);
 
 }  // namespace anticrack::figures

@@ -81,11 +81,13 @@ Range with_room(Range heights) {
   return {heights.low - room, heights.high + room};
 }
 
-std::string axis_label(const SweepAxis& axis) { return figures::quoted(axis.label); }
+std::string axis_label(const SweepAxis& axis) {
+  return figures::quoted(Scale(extent(axis)).label(axis.label, ""));
+}
 
 std::string panel(const SweepAxis& axis, const std::string& label, const Range& heights,
                   const std::string& plots, const Place& place) {
-  return axis_range('x', extent(axis), 6, step_of(axis)) +
+  return axis_range('x', extent(axis), 6, step_of(axis), Scale(extent(axis))) +
          axis_range('y', Scale(heights).drawn(heights), 8) + beside(figures::quoted(label), place) +
          "plot " + plots + "\nunset label\n";
 }
@@ -249,7 +251,8 @@ Picture contact_picture(const Result& result, const SweepAxis& axis, const Conta
       [=, &result, &axis, &map](Format, const Place& place) {
         std::string text = margins(place, 0.25, 0.905) + axes();
         text += caption("where " + where + " is closed,  " + counted_rows(*result.sweep), place);
-        text += axis_range('x', along) + axis_range('y', rows, 6, step_of(axis));
+        text += axis_range('x', along, 6, 0, map.labels) +
+                axis_range('y', rows, 6, step_of(axis), Scale(extent(axis)));
         text += below(figures::quoted(map.position_label), 0.115, place);
         text += beside(axis_label(axis), place);
         text += "unset grid\nset tics out\nunset colorbox\n";
@@ -282,7 +285,12 @@ void draw_sweep(const Result& result, Drawing& drawing) {
         "--csv has the bounds");
   drawing.draw("sweep", sweep_picture(result, axis));
   if (counts.tilted()) drawing.draw("sweep-slope", slope_picture(result, axis));
-  for (std::size_t i = 0; i < result.interfaces.size(); ++i) {
+}
+
+void draw_contacts(const Result& result, const std::vector<std::size_t>& interfaces,
+                   Drawing& drawing) {
+  const SweepAxis axis = sweep_axis(*result.sweep);
+  for (const std::size_t i : interfaces) {
     const ContactMap map = contact_map(result, axis, i, strip_limit);
     if (map.boxes.empty()) continue;
     const std::string stem =

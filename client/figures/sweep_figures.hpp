@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "figures/axes.hpp"
 #include "figures/drawing.hpp"
 #include "results/result.hpp"
 
@@ -50,6 +51,7 @@ struct ContactBox {
 
 struct ContactMap {
   std::string position_label;  ///< "x [mm]"
+  Scale labels;                ///< of that axis
   std::string interface;       ///< its name, if there are several
   std::vector<ContactBox> boxes;
   bool shades = false;  ///< a box stands for several rows
@@ -70,8 +72,12 @@ Picture slope_picture(const results::Result& result, const SweepAxis& axis);
 Picture contact_picture(const results::Result& result, const SweepAxis& axis,
                         const ContactMap& map);
 
-/// Draws "sweep", where an inclusion tilted "sweep-slope" and, for each interface with cracks,
-/// "sweep-contact"; notes what is left out.
+/// Draws "sweep" and, where an inclusion tilted, "sweep-slope"; notes what is left out.
 void draw_sweep(const results::Result& result, Drawing& drawing);
+
+/// Draws "sweep-contact" of each of these interfaces that has cracks; of a sweep with rows that
+/// converged.
+void draw_contacts(const results::Result& result, const std::vector<std::size_t>& interfaces,
+                   Drawing& drawing);
 
 }  // namespace anticrack::figures

@@ -183,6 +183,7 @@ ContactMap contact_map(const results::Result& result, const SweepAxis& axis, std
   const Profile along = profile(result, interface, open);
   ContactMap map;
   map.position_label = along.axis;
+  map.labels = along.labels;
   map.interface = along.name;
   const std::vector<Cell> cells = cells_of(sweep, along.position, interface);
   if (cells.empty()) return map;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "figures/text.hpp"
 
-#include <unistr.h>
-
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -11,6 +9,7 @@
 #include <utility>
 
 #include "results/interval.hpp"
+#include "words/shown.hpp"
 
 namespace anticrack::figures {
 namespace {
@@ -22,7 +21,7 @@ bool is_alphanumeric(char c) {
 std::string printed(double value, int digits) {
   if (!std::isfinite(value)) return "NaN";
   std::array<char, 40> buffer{};
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value + 0.0,
                                  std::chars_format::general, digits);
   return {buffer.data(), end.ptr};
 }
@@ -46,14 +45,8 @@ std::string lower(std::string text) {
 }  // namespace
 
 std::size_t character(std::string_view text) {
-  ucs4_t code = 0;
-  const int length =
-      u8_mbtoucr(&code, reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
-  // Marks of the direction of writing and line separators can disguise a text as another one.
-  const bool format = (code >= 0x2028 && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069) ||
-                      code == 0x200E || code == 0x200F;
-  const bool control = code < 0x20 || (code >= 0x7F && code < 0xA0);
-  return length < 0 || format || control ? 0 : static_cast<std::size_t>(length);
+  const words::Character first = words::first_character(text);
+  return first.valid && !words::is_hidden(first.code) ? first.bytes : 0;
 }
 
 std::string quoted(std::string_view text, std::size_t limit) {

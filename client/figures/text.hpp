@@ -12,8 +12,8 @@
 
 namespace anticrack::figures {
 
-/// Bytes of the first character of a text that is not empty; 0 if it is not UTF-8, not printable or
-/// a mark of the direction of writing.
+/// Bytes of the first character of a text that is not empty; 0 if it is not UTF-8 or is hidden
+/// (words/shown.hpp).
 std::size_t character(std::string_view text);
 
 /// `text` as a single-quoted string of gnuplot on one line: quotes doubled; backquotes, control

@@ -74,7 +74,8 @@ Picture together_picture(const results::Result& result, std::size_t interface) {
     const auto panel = [&](const Range& range, const std::string& name, double bottom) {
       const Scale scale(range);
       const Box box = sizes.box(bottom, Heights::panel);
-      return margins(place, box.bottom, box.top) + axes() + axis_range('x', extent(along)) +
+      return margins(place, box.bottom, box.top) + axes() +
+             axis_range('x', extent(along), 6, 0, along.labels) +
              axis_range('y', scale.drawn(range), 6) +
              beside(figures::quoted(scale.label(name, units.label("L"))), place);
     };

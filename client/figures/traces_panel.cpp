@@ -57,7 +57,8 @@ std::string displacements(const Profile& profile, const results::Trace& trace, c
   const Keys keys = part_keys(profile);
   std::string text = margins(place, box.bottom, box.top) + axes();
   text += contact_strips(profile) + part_bars(profile);
-  text += axis_range('x', extent(profile)) + axis_range('y', scale.drawn(high), 9);
+  text += axis_range('x', extent(profile), 6, 0, profile.labels) +
+          axis_range('y', scale.drawn(high), 9);
   text += caption(traces_heading(profile, load, units.label("L")), place);
   text += beside(figures::quoted(scale.label("displacement", units.label("L"))), place);
   text += legend((keys.count + 4) / 2, place);

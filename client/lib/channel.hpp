@@ -18,6 +18,7 @@
 #include "anticrack/v1/upload.grpc.pb.h"
 #include "client/connection.hpp"
 #include "client/error.hpp"
+#include "client/proxy.hpp"
 
 namespace anticrack::client {
 
@@ -26,6 +27,7 @@ struct Connection::State {
   explicit State(ConnectionOptions chosen);
 
   ConnectionOptions options;
+  std::optional<Proxy> proxy;  ///< between here and the server
   std::shared_ptr<grpc::Channel> channel;
   std::shared_ptr<grpc::Channel> bulk;  ///< of bulk reads
   std::unique_ptr<v1::UploadService::Stub> uploads;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <condition_variable>
+#include <cstdlib>
 #include <mutex>
 #include <string_view>
 #include <utility>
@@ -20,8 +21,10 @@ std::shared_ptr<grpc::ChannelCredentials> credentials_of(const Credentials& cred
   return grpc::SslCredentials({credentials.roots, credentials.key, credentials.certificate});
 }
 
-std::shared_ptr<grpc::Channel> make_channel(const ConnectionOptions& options, bool bulk) {
+std::shared_ptr<grpc::Channel> make_channel(const ConnectionOptions& options, bool proxy,
+                                            bool bulk) {
   grpc::ChannelArguments arguments;
+  arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, proxy ? 1 : 0);
   // Heartbeats come every 10 s; a stream silent for longer may hang on a dead connection. The
   // server refuses shorter periods as abuse ("too many pings").
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, 30'000);
@@ -92,15 +95,22 @@ std::string tls_cure(const std::string& address, const Credentials& credentials,
   return "";
 }
 
+std::string proxy_remark(const Proxy& proxy) {
+  return proxy.variable + " sends what goes there through the proxy " + proxy.server +
+         ": for a server that is reached without it add its host to no_proxy";
+}
+
 /// Why the server cannot be reached and what to check. `story`: gRPC's own message, cause last.
-std::string unreachable_text(const std::string& address, const Credentials& credentials,
-                             std::string_view story) {
+std::string unreachable_text(const Connection::State& state, std::string_view story) {
+  const std::string& address = state.options.address;
+  const Credentials& credentials = state.options.credentials;
   const std::string head =
       "cannot reach the server at " + address + " (" + std::string(cause_of(story)) + "); ";
   if (credentials.tls) {
     const std::string cure = tls_cure(address, credentials, story);
     if (!cure.empty()) return head + cure;
   }
+  if (state.proxy) return head + proxy_remark(*state.proxy);
   // A server with TLS closes connections without TLS.
   const bool hung_up = has(story, "ocket closed") || has(story, "onnection reset") ||
                        has(story, "HTTP2") || has(story, "HTTP/2");
@@ -126,12 +136,13 @@ std::string refused_text(Code code, const std::string& message, const Credential
 }  // namespace
 
 Connection::State::State(ConnectionOptions chosen) : options(std::move(chosen)) {
-  channel = make_channel(options, false);
+  proxy = proxy_for(options.address, [](const char* name) { return std::getenv(name); });
+  channel = make_channel(options, proxy.has_value(), false);
   uploads = v1::UploadService::NewStub(channel);
   meshes = v1::MeshService::NewStub(channel);
   jobs = v1::SolveService::NewStub(channel);
   server = v1::ServerService::NewStub(channel);
-  bulk = make_channel(options, true);
+  bulk = make_channel(options, proxy.has_value(), true);
   bulk_uploads = v1::UploadService::NewStub(bulk);
   bulk_meshes = v1::MeshService::NewStub(bulk);
   bulk_jobs = v1::SolveService::NewStub(bulk);
@@ -156,8 +167,7 @@ Error error_of(const Connection::State& state, const grpc::Status& status) {
   Error error = decode_error(code, status.error_message(), status.error_details());
   const ConnectionOptions& options = state.options;
   if (error.code() == Code::unavailable && error.details().reason.empty()) {
-    return Error(error.code(),
-                 unreachable_text(options.address, options.credentials, status.error_message()));
+    return Error(error.code(), unreachable_text(state, status.error_message()));
   }
   if (error.code() == Code::unauthenticated || error.code() == Code::permission_denied) {
     return Error(error.code(), refused_text(error.code(), error.what(), options.credentials),
@@ -166,7 +176,8 @@ Error error_of(const Connection::State& state, const grpc::Status& status) {
   if (error.code() == Code::deadline_exceeded) {
     return Error(error.code(),
                  "the server at " + options.address + " did not answer in time (" +
-                     status.error_message() + ")",
+                     status.error_message() + ")" +
+                     (state.proxy ? "; " + proxy_remark(*state.proxy) : ""),
                  error.details());
   }
   return error;
@@ -177,6 +188,7 @@ Retries::Retries(Connection::State& state, grpc::Channel& channel)
 
 void Retries::wait(const Error& error, const std::stop_token& stop) {
   if (stop.stop_requested()) throw Interrupted();
+  if (_state.options.lost && is_lost_connection(error)) _state.options.lost();
   const auto now = steady_clock::now();
   if (!_failing_since) {
     _failing_since = now;

@@ -25,6 +25,9 @@ struct ConnectionOptions {
   std::chrono::milliseconds first_contact{3'000};
   /// Called with a message for the user before a call is retried or a watch restarts. May be empty.
   std::function<void(const std::string&)> notice;
+  /// Called when the connection is lost, before a call is retried: what it throws ends the call, as
+  /// where the server is known to be gone for good. May be empty; called on several threads.
+  std::function<void()> lost;
 };
 
 /// Thread-safe, as far as `notice` is; must outlive the calls made with it. Bulk reads have a

@@ -7,6 +7,7 @@
 #include <openssl/x509.h>
 
 #include <algorithm>
+#include <cctype>
 #include <fstream>
 #include <iterator>
 #include <memory>
@@ -96,7 +97,11 @@ std::string read_token(const CredentialFiles& files) {
 
 }  // namespace
 
-bool is_loopback(std::string_view address) {
+bool is_loopback(std::string_view any_case) {
+  std::string lower(any_case);
+  std::ranges::transform(lower, lower.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::string_view address = lower;
   for (const std::string_view scheme : {"unix:", "unix-abstract:"})
     if (address.starts_with(scheme)) return true;
   for (const std::string_view scheme : {"dns:///", "dns:", "ipv4:", "ipv6:"}) {
@@ -109,7 +114,7 @@ bool is_loopback(std::string_view address) {
   const std::string_view host = address.substr(0, address.find(':'));
   // Digits and dots only: "127.evil.example" is an ordinary host name.
   const bool digits = host.find_first_not_of("0123456789.") == std::string_view::npos;
-  return host == "localhost" || (host.starts_with("127.") && digits);
+  return host == "localhost" || host == "localhost." || (host.starts_with("127.") && digits);
 }
 
 Credentials read_credentials(const CredentialFiles& files, std::string_view address) {

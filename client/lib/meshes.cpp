@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <chrono>
 #include <optional>
+#include <string>
+#include <utility>
 
 #include "client/channel.hpp"
 #include "client/read_block.hpp"
@@ -65,10 +67,13 @@ v1::Mesh wait_for_mesh(Connection& connection, const std::string& name,
                        const std::stop_token& stop) {
   std::chrono::milliseconds delay = shortest_poll;
   std::optional<v1::Mesh::State> last;
+  std::string progress;
   while (true) {
     v1::Mesh mesh = get_mesh(connection, name, stop);
-    if (seen && last != mesh.state()) seen(mesh);
+    std::string farther = mesh.progress().SerializeAsString();
+    if (seen && (last != mesh.state() || progress != farther)) seen(mesh);
     last = mesh.state();
+    progress = std::move(farther);
     if (settled(mesh.state())) return mesh;
     sleep(delay, stop);
     delay = std::min(2 * delay, longest_poll);

@@ -11,6 +11,8 @@ bool is_lost_connection(const Error& error) {
   switch (error.code()) {
     case Code::unavailable:
       return true;
+    case Code::cancelled:  // by a server that stops, not by one that was asked to
+      return error.details().reason.empty();
     case Code::unknown:
       return message.find("Stream removed") != std::string_view::npos;
     case Code::internal:

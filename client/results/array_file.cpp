@@ -17,14 +17,9 @@ using hdf5::Handle;
 
 // Lists what is there: the name may be mistyped.
 std::string missing_text(const Handle& group, const std::string& name) {
-  constexpr std::size_t most = 10;
   const std::vector<std::string> names = hdf5::names_in(group);
-  std::string list;
-  for (std::size_t i = 0; i < std::min(names.size(), most); ++i)
-    list += (i == 0 ? "" : ", ") + names[i];
   return "\"" + name + "\" is missing" +
-         (names.empty() ? " and nothing else is there" : ", there is " + list) +
-         (names.size() > most ? ", ..." : "");
+         (names.empty() ? " and nothing else is there" : ", there is " + hdf5::listed(names));
 }
 
 /// The dataset at a path below a group.

@@ -26,20 +26,15 @@ using CompressedMesh = std::map<std::string, hdf5::FilteredChunks>;
 /// computed: does not call HDF5 and may run beside it on any thread. About 30 MB/s.
 CompressedMesh compress(const Mesh& mesh);
 
-/// Replaces the file completely or not at all: temporary file in the same folder, fsync, rename.
-/// Needs memory for a copy of the file. Not for two threads at once unless HDF5 is thread-safe.
-/// `compressed`: what compress(result.mesh) gave, or nothing; the file is the same. A file that is
-/// there and no result of the same job, or of the same case without a sweep, is kept as FILE~.
-/// Returns a sentence that says so; empty: none was.
+/// As output::write_file, completely or not at all. Needs memory for a copy of the file. Not for
+/// two threads at once unless HDF5 is thread-safe. `compressed`: what compress(result.mesh) gave,
+/// or nothing; the file is the same. A file that is there and no result of the same job, or of the
+/// same case without a sweep, is kept as FILE~. Returns a sentence that says so; empty: none was.
 std::string write(const std::filesystem::path& path, const Result& result,
                   const CompressedMesh& compressed = {});
 
 /// Reads a file of `format`. Throws Error for a file that is not HDF5, truncated, not a result, of
 /// another format version or inconsistent. Sizes are checked before memory is allocated.
 Result read(const std::filesystem::path& path);
-
-/// Throws Error if `write` would fail now: folder missing or read-only, path a folder, existing
-/// file write-protected. For use before a long computation.
-void check_writable(const std::filesystem::path& path);
 
 }  // namespace anticrack::results

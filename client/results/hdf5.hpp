@@ -123,6 +123,8 @@ bool has(const Handle& group, const std::string& name);
 bool has_attribute(const Handle& object, const std::string& name);
 Handle open_group(const Handle& parent, const std::string& name);
 std::vector<std::string> names_in(const Handle& group);
+/// The first ten names, separated by commas.
+std::string listed(const std::vector<std::string>& names);
 
 /// An attribute of one value: double, int32 or std::string.
 void get_attribute(const Handle& object, const std::string& name, ValueType type, void* value);

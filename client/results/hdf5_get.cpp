@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <array>
+#include <map>
 
 #include "results/error.hpp"
 #include "results/hdf5.hpp"
@@ -75,6 +77,81 @@ void read_attribute(const Attribute& attribute, const std::string& name, ValueTy
                });
 }
 
+Handle open_dataset(const Handle& group, const std::string& name) {
+  const Handle object(H5Oopen(group.get(), name.c_str(), H5P_DEFAULT), H5Oclose,
+                      "dataset " + name + " is damaged");
+  const H5I_type_t kind = H5Iget_type(object.get());
+  if (kind == H5I_GROUP) {
+    const std::vector<std::string> names = names_in(object);
+    throw Fault("\"" + name + "\" is a group, not a dataset" +
+                (names.empty() ? ", and has nothing in it" : "; it has " + listed(names)));
+  }
+  if (kind == H5I_DATATYPE) throw Fault("\"" + name + "\" is a named type, not a dataset");
+  return {H5Dopen2(group.get(), name.c_str(), H5P_DEFAULT), H5Dclose,
+          "dataset " + name + " is damaged"};
+}
+
+/// Of a type that is not the one wanted, for people.
+std::string description(const Handle& type) {
+  const std::string bits = std::to_string(8 * H5Tget_size(type.get()));
+  switch (H5Tget_class(type.get())) {
+    case H5T_FLOAT:
+      return "float" + bits;
+    case H5T_INTEGER:
+      return (H5Tget_sign(type.get()) == H5T_SGN_NONE ? "uint" : "int") + bits;
+    case H5T_STRING:
+      return "text";
+    case H5T_COMPOUND:
+      return "a compound of several, such as complex numbers or a table";
+    case H5T_ENUM:
+      return "an enumeration, such as booleans";
+    case H5T_ARRAY:
+    case H5T_VLEN:
+      return "lists of values";
+    default:
+      return "of another type";
+  }
+}
+
+std::string shape_text(const Handle& space) {
+  const int rank = H5Sget_simple_extent_ndims(space.get());
+  if (H5Sget_simple_extent_type(space.get()) == H5S_NULL || rank < 0) return " but empty";
+  std::vector<hsize_t> shape(static_cast<std::size_t>(rank));
+  H5Sget_simple_extent_dims(space.get(), shape.data(), nullptr);
+  std::string text = " but (";
+  for (std::size_t i = 0; i < shape.size(); ++i)
+    text += (i == 0 ? "" : ",") + std::to_string(shape[i]);
+  return text + ")";
+}
+
+/// "lzf (filter 32000)": its registered name where we know it, else what the file calls it.
+std::string filter_text(H5Z_filter_t filter, const char* name) {
+  static const std::map<H5Z_filter_t, const char*> known{
+      {H5Z_FILTER_SZIP, "szip"}, {305, "lzo"},   {307, "bzip2"},        {32000, "lzf"},
+      {32001, "blosc"},          {32004, "lz4"}, {32008, "bitshuffle"}, {32013, "zfp"},
+      {32015, "zstandard"},      {32017, "sz"},  {32026, "blosc2"}};
+  const auto found = known.find(filter);
+  const std::string text = found == known.end() ? name : found->second;
+  return (text.empty() ? "" : text + " (") + "filter " + std::to_string(filter) +
+         (text.empty() ? "" : ")");
+}
+
+/// A dataset that this library cannot unpack is not damaged.
+void require_filters(const Handle& properties, const std::string& what) {
+  const int count = H5Pget_nfilters(properties.get());
+  for (int i = 0; i < count; ++i) {
+    unsigned flags = 0, config = 0;
+    std::size_t values = 0;
+    std::array<char, 80> name{};
+    const H5Z_filter_t filter =
+        H5Pget_filter2(properties.get(), static_cast<unsigned>(i), &flags, &values, nullptr,
+                       name.size() - 1, name.data(), &config);
+    if (filter < 0 || H5Zfilter_avail(filter) > 0) continue;
+    throw Fault(what + " is packed with " + filter_text(filter, name.data()) +
+                ", which this HDF5 library does not have; pack it with gzip, or not at all");
+  }
+}
+
 }  // namespace
 
 Handle open_root(const std::filesystem::path& path, const std::string& cure) {
@@ -129,6 +206,14 @@ std::vector<std::string> names_in(const Handle& group) {
   return names;
 }
 
+std::string listed(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 10;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(names.size(), most); ++i)
+    list += (i == 0 ? "" : ", ") + names[i];
+  return list + (names.size() > most ? ", ..." : "");
+}
+
 void get_attribute(const Handle& object, const std::string& name, ValueType type, void* value) {
   const Attribute attribute = open_attribute(object, name);
   if (attribute.count != 1 || !is(attribute.type, type))
@@ -150,14 +235,17 @@ Dataset open_array(const Handle& group, const std::string& name, ValueType wante
                    std::uint64_t budget, const Row& row) {
   const std::string what = "dataset " + name;
   require_hard_link(group, name);
-  Handle id(H5Dopen2(group.get(), name.c_str(), H5P_DEFAULT), H5Dclose, what + " is damaged");
+  Handle id = open_dataset(group, name);
   const Handle type(H5Dget_type(id.get()), H5Tclose, what + " is damaged");
-  if (!is(type, wanted)) throw Fault(what + " is not " + name_of(wanted));
+  if (!is(type, wanted))
+    throw Fault(what + " is not " + name_of(wanted) + " but " + description(type));
 
   const Handle properties(H5Dget_create_plist(id.get()), H5Pclose, what + " is damaged");
   if (H5Pget_external_count(properties.get()) != 0 ||
       H5Pget_layout(properties.get()) == H5D_VIRTUAL)
     throw Fault(what + " lies in another file");
+
+  require_filters(properties, what);
 
   const Handle space(H5Dget_space(id.get()), H5Sclose, what + " is damaged");
   const int rank = row.rank();
@@ -172,7 +260,8 @@ Dataset open_array(const Handle& group, const std::string& name, ValueType wante
                  : row.columns == any_columns
                      ? std::string("(rows,columns)")
                      : "(n," + std::to_string(row.columns) +
-                           (rank == 2 ? "" : "," + std::to_string(row.depth)) + ")"));
+                           (rank == 2 ? "" : "," + std::to_string(row.depth)) + ")") +
+                shape_text(space));
   }
   const hsize_t width = shape[1] * shape[2];
   const std::uint64_t entries = budget / bytes_of(wanted);

@@ -7,9 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "output/file.hpp"
+#include "output/target.hpp"
 #include "results/file.hpp"
 #include "results/file_tables.hpp"
-#include "results/replace_file.hpp"
 #include "results/tables.hpp"
 
 namespace anticrack::results {
@@ -139,10 +140,13 @@ std::string write(const std::filesystem::path& path, const Result& result,
   } catch (const hdf5::Fault& error) {
     throw Error(path.string(), error.what(), "");
   }
-  const bool former = std::filesystem::is_regular_file(path) && !holds_the_same(path, result);
-  replace_file(path, bytes, former);
-  return former ? "Kept: " + backup_of(path).string() + ", what " + path.filename().string() +
-                      " was before"
+  const output::Target target = output::target_of(path);
+  const bool former = target.kind == output::Target::Kind::file &&
+                      std::filesystem::is_regular_file(target.path) &&
+                      !holds_the_same(target.path, result);
+  output::write_file(path, bytes, former);
+  return former ? "Kept: " + output::backup_of(target.path).string() + ", what " +
+                      target.path.filename().string() + " was before"
                 : "";
 }
 

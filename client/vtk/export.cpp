@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <span>
 #include <utility>
 
 #include "figures/text.hpp"
-#include "results/replace_file.hpp"
+#include "output/file.hpp"
 
 namespace anticrack::vtk {
 namespace {
@@ -22,7 +21,7 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
 }
 
 void write(const fs::path& path, const std::string& bytes, Exported& exported) {
-  results::replace_file(path, std::as_bytes(std::span(bytes)));
+  output::write_file(path, bytes);
   exported.files.push_back(path);
 }
 
@@ -161,7 +160,7 @@ Exported export_result(const Result& result, const std::string& source, const fs
         source, "no load has an answer to export",
         result.sweep ? "keep the traces of some rows, with --traces" : "solve the case first");
   }
-  results::make_folder(folder);
+  output::make_folder(folder);
   std::vector<Member> members;
   for (const std::size_t i : answered) {
     const Load& load = result.loads[i];

@@ -298,7 +298,7 @@ store::MeshDefinition read_definition(const v1::CreateMeshRequest& from) {
 }
 
 void Translation<store::MeshRecord>::write(const store::MeshRecord& value, v1::Mesh& to) {
-  write_fields(value, to, {"id", "definition", "created"});
+  write_fields(value, to, {"id", "definition", "created", "for_job"});
   if (value.theta_star == 0) to.clear_theta_star();
   if (value.bisection_bound == 0) to.clear_bisection_bound();
   to.set_name(mesh_name(value.id));
@@ -307,7 +307,7 @@ void Translation<store::MeshRecord>::write(const store::MeshRecord& value, v1::M
 
 store::MeshRecord Translation<store::MeshRecord>::read(const v1::Mesh& from) {
   store::MeshRecord value;
-  read_fields(from, value, {"id", "definition", "created"});
+  read_fields(from, value, {"id", "definition", "created", "for_job"});
   value.id = after_slash(from.name(), "name");
   read_field(from, "create_time", value.created);
   return value;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "api/text.hpp"
 
-#include "log/escape.hpp"
+#include "words/shown.hpp"
 
 namespace anticrack::api {
 
@@ -10,8 +10,8 @@ std::string printable(std::string_view text, std::size_t max_bytes) {
   std::string result;
   std::size_t room_for_ellipsis = 0;  // longest prefix that leaves room for it
   while (!text.empty()) {
-    const log::Character next = log::first_character(text);
-    const bool shown = next.valid && next.code >= 0x20 && next.code != 0x7F;
+    const words::Character next = words::first_character(text);
+    const bool shown = next.valid && !words::is_hidden(next.code);
     const std::string_view piece = shown ? text.substr(0, next.bytes) : "?";
     if (result.size() + piece.size() > max_bytes) {
       result.resize(room_for_ellipsis);
@@ -26,7 +26,7 @@ std::string printable(std::string_view text, std::size_t max_bytes) {
 
 bool is_utf8(std::string_view text) {
   while (!text.empty()) {
-    const log::Character next = log::first_character(text);
+    const words::Character next = words::first_character(text);
     if (!next.valid) return false;
     text.remove_prefix(next.bytes);
   }

@@ -9,8 +9,8 @@
 
 namespace anticrack::api {
 
-/// `text` as valid UTF-8 of at most `max_bytes` (>= 3). Control characters and invalid bytes become
-/// '?'; longer text is cut between characters and ends in "...". O(n).
+/// `text` as valid UTF-8 of at most `max_bytes` (>= 3). What is hidden (words/shown.hpp) and
+/// invalid bytes become '?'; longer text is cut between characters and ends in "...". O(n).
 std::string printable(std::string_view text, std::size_t max_bytes);
 
 /// Whether `text` is valid UTF-8. O(n).

@@ -35,7 +35,7 @@ void require_writable(const std::string& data) {
 std::vector<std::string> problems_of_files(const Config& config) {
   std::vector<std::string> problems = problems_of_security(config);
   note_problem(problems, [&] { require_writable(config.store.folder); });
-  note_problem(problems, [&] { catalogue_options(config); });
+  note_problem(problems, [&] { require_mesher(config); });
   return problems;
 }
 

@@ -16,6 +16,11 @@ void describe(CLI::App& parser, CommandLine& result, const std::string& version)
   parser.set_version_flag("--version", "anticrackd " + version);
   parser.add_option("--config", result.config_file, "TOML file with any of the keys below")
       ->type_name("FILE");
+  CLI::Option* own =
+      parser.add_flag("--private", result.is_private,
+                      "For one client, which starts it: lives in a temporary folder (TMPDIR) "
+                      "unless told otherwise, "
+                      "and ends, and removes the folder, when its standard input ends");
   parser.add_flag("--check-config", result.check_config,
                   "Print the configuration in effect, check the files it names and stop; "
                   "exit code 2 if something is wrong");
@@ -23,6 +28,7 @@ void describe(CLI::App& parser, CommandLine& result, const std::string& version)
                                        "Check every record and file of the data folder and stop; "
                                        "the server must not be running; exit code 3 "
                                        "if something is wrong");
+  check->excludes(own);
   parser
       .add_flag("--repair", result.repair,
                 "Move what --check-store finds wrong to a folder set-aside-N in the data folder")
@@ -32,7 +38,8 @@ void describe(CLI::App& parser, CommandLine& result, const std::string& version)
                   "Copy the data folder, of which a server may be running, to this new folder and "
                   "stop; files are hard links where the file system allows it")
       ->type_name("DIR")
-      ->excludes(check);
+      ->excludes(check)
+      ->excludes(own);
   for (const Key& key : keys()) {
     const std::string flag = "--" + key.name;
     const auto set = [&result, name = key.name, flag](const std::string& value) {

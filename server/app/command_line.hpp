@@ -17,6 +17,7 @@ struct CommandLine {
   std::vector<Setting> settings;
   std::string config_file;  ///< empty: none
   bool check_config = false;
+  bool is_private = false;  ///< see PrivatePlace
   bool check_store = false;
   bool repair = false;  ///< what check_store finds
   std::string backup;   ///< the folder to make; empty: no backup

@@ -2,13 +2,14 @@
 #include "app/config.hpp"
 
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
-#include <thread>
 
+#include "app/address_space.hpp"
 #include "app/listen_address.hpp"
+#include "app/machine.hpp"
+#include "app/values.hpp"
 
 namespace anticrack::app {
 namespace {
@@ -60,6 +61,32 @@ void check_together(const Config& config) {
                 has_tls(config) || config.allow_insecure_remote);
 }
 
+/// Defaults that depend on the machine. Throws ConfigError where ulimit -v (0: none) leaves too
+/// little room.
+void fit_machine(const Machine& machine, std::uint64_t address_space, Config& config) {
+  if (config.jobs.threads == 0) config.jobs.threads = machine.processors;
+  const auto count = [](int number) { return static_cast<std::uint64_t>(number); };
+  const std::uint64_t other =
+      address_space_to_serve(count(machine.processors), count(config.jobs.threads));
+  const std::uint64_t room = address_space - std::min(address_space, other);
+  std::uint64_t& budget = config.limits.memory_budget_bytes;
+  constexpr std::uint64_t least_useful = 64 << 20;
+  const std::uint64_t wanted = budget == 0 ? least_useful : budget;
+  if (address_space > 0 && room < wanted + least_useful) {
+    constexpr std::uint64_t kibibyte = 1024;
+    throw ConfigError(fmt::format(
+        "ulimit -v (address space) of {} KiB is too small: with {} threads and a memory-budget of "
+        "{} the server takes {} KiB; raise it, or start with fewer threads or a smaller "
+        "memory-budget",
+        address_space / kibibyte, config.jobs.threads, from_bytes(wanted),
+        (other + wanted + least_useful) / kibibyte));
+  }
+  if (budget > 0) return;
+  const std::uint64_t memory =
+      address_space > 0 ? std::min(machine.memory_bytes, room) : machine.memory_bytes;
+  budget = std::max(least_memory_budget, memory / 2);
+}
+
 }  // namespace
 
 bool has_tls(const Config& config) { return !config.tls_certificate.empty(); }
@@ -69,10 +96,7 @@ Config make_config(const std::vector<Setting>& file, const std::vector<Setting>&
   apply(file, config);
   apply(command_line, config);
   if (config.store.folder.empty()) config.store.folder = default_data_dir();
-  if (config.limits.memory_budget_bytes == 0)
-    config.limits.memory_budget_bytes = default_memory_budget();
-  if (config.jobs.threads == 0)
-    config.jobs.threads = std::max(1u, std::thread::hardware_concurrency());
+  fit_machine(this_machine(), address_space_limit(), config);
   check_together(config);
   return config;
 }
@@ -94,13 +118,6 @@ std::string default_data_dir() {
   if (const char* home = std::getenv("HOME"); home != nullptr && *home == '/')
     return std::string(home) + "/.local/state/anticrack";
   throw ConfigError("neither XDG_STATE_HOME nor HOME is set: choose a folder with --data-dir DIR");
-}
-
-std::uint64_t default_memory_budget() {
-  const long pages = ::sysconf(_SC_PHYS_PAGES);
-  const long page = ::sysconf(_SC_PAGESIZE);
-  if (pages <= 0 || page <= 0) return 1ULL << 30;
-  return static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page) / 2;
 }
 
 }  // namespace anticrack::app

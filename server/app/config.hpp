@@ -38,10 +38,13 @@ struct Config {
   // Options of the layers; options.hpp completes them.
   store::StoreOptions store;        ///< no folder: default_data_dir()
   meshes::CatalogueOptions meshes;  ///< no executable of the helper: beside this one
-  rpc::Limits limits;               ///< memory budget 0: default_memory_budget()
-  /// 0 threads: the number of processors.
+  /// Memory budget 0: half of Machine::memory_bytes. Connections 0: as fit_connections() sets them.
+  rpc::Limits limits{.connections = 0};
+  /// 0 threads: Machine::processors.
   jobs::EngineOptions jobs{.threads = 0, .max_load_cases = 1'000, .event_log_bytes = 8u << 20};
 };
+
+constexpr std::uint64_t least_memory_budget = 1 << 20;
 
 /// One line: where (file and line, or flag), the bad value and the cure.
 class ConfigError : public std::runtime_error {
@@ -88,8 +91,5 @@ std::string to_toml(const Config& config);
 
 /// $XDG_STATE_HOME/anticrack or ~/.local/state/anticrack. Throws ConfigError if neither is set.
 std::string default_data_dir();
-
-/// Half of the machine's memory, bytes.
-std::uint64_t default_memory_budget();
 
 }  // namespace anticrack::app

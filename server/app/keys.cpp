@@ -160,10 +160,15 @@ const std::vector<Key>& keys() {
       count("kept-meshes", "Meshes kept; to create more, delete some", &Meshes::max_meshes, 1,
             million),
       bytes("upload-limit", "Size of an uploaded .msh or array", &Limits::upload_bytes, 1),
-      bytes("memory-budget", "Memory for all factorised meshes, e.g. 2GiB; default: half of memory",
-            &Limits::memory_budget_bytes, 1 << 20),
+      bytes(
+          "memory-budget",
+          "Memory for all factorised meshes, e.g. 2GiB; default: half of what the machine, control "
+          "groups and ulimit -v allow",
+          &Limits::memory_budget_bytes, least_memory_budget),
 
-      count("threads", "Solver threads; default: number of processors", &Jobs::threads, 1, 1024),
+      count("threads",
+            "Solver threads; default: the processors that affinity and control groups allow",
+            &Jobs::threads, 1, 1024),
       count("columns", "Load cases of one mesh solved together", &Jobs::columns, 1, 4'096),
       // All of a job's answers, and the layout of its results, must fit in a message of 4 MiB.
       count("load-cases", "Load cases of one job", &Jobs::max_load_cases, 1, 4'000),
@@ -186,6 +191,11 @@ const std::vector<Key>& keys() {
       time("queue-time", "Longest wait of a job; then it fails", &Jobs::queue_time, seconds(1)),
       time("run-time", "Longest run of a job; then it fails", &Jobs::run_time, seconds(1)),
 
+      count("connections",
+            "Connections open at once; default: 4096, or what the limit of open files leaves",
+            &Limits::connections, 1, million),
+      count("connections-an-address", "Connections that one address may have",
+            &Limits::connections_an_address, 1, million),
       count("watchers", "Watches open at once", &Limits::watchers, 1, 100'000),
       count("transfers", "Uploads and downloads at once", &Limits::transfers, 1, 10'000),
       count("streams-a-client", "Watches and transfers that one client may have open",

@@ -8,8 +8,8 @@
 
 namespace anticrack::app {
 
-void notify_ready(const std::string& status) {
-  sd_notify(0, ("READY=1\nSTATUS=" + status).c_str());
+bool notify_ready(const std::string& status) {
+  return sd_notify(0, ("READY=1\nSTATUS=" + status).c_str()) >= 0;
 }
 
 void notify_stopping(const std::string& status) {

@@ -10,7 +10,8 @@
 namespace anticrack::app {
 
 /// The server accepts calls; accepts no more; is not stuck. `status`: a line for systemctl status.
-void notify_ready(const std::string& status);
+/// False where nothing listens at NOTIFY_SOCKET.
+bool notify_ready(const std::string& status);
 void notify_stopping(const std::string& status);
 void notify_alive();
 

@@ -23,6 +23,14 @@ meshes::CatalogueOptions catalogue_options(const Config& config) {
   return options;
 }
 
+void require_mesher(const Config& config) {
+  const std::string path = catalogue_options(config).helper.executable;
+  if (mesher::is_helper(path)) return;
+  throw ConfigError("mesher: " + path +
+                    " is not the anticrack-mesher of this version; install it with the server, or "
+                    "give its path with --mesher PATH");
+}
+
 rpc::ServerOptions server_options(const Config& config) {
   rpc::ServerOptions options;
   options.listen = config.listen;

@@ -14,6 +14,8 @@ namespace anticrack::app {
 
 /// Throws ConfigError if the helper is not a program.
 meshes::CatalogueOptions catalogue_options(const Config& config);
+/// Throws ConfigError if it is another program, too.
+void require_mesher(const Config& config);
 rpc::ServerOptions server_options(const Config& config);
 operators::OperatorCache::Factorise factorise_function(const Config& config);
 

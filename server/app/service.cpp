@@ -11,6 +11,7 @@
 #include "app/data_folder.hpp"
 #include "app/events.hpp"
 #include "app/listen_address.hpp"
+#include "app/machine.hpp"
 #include "app/options.hpp"
 #include "app/security.hpp"
 #include "log/log.hpp"
@@ -19,6 +20,20 @@
 #include "rpc/version.hpp"
 
 namespace anticrack::app {
+
+namespace {
+
+/// The kernel ends who takes more.
+void warn_of_memory(const Config& config) {
+  const Machine machine = this_machine();
+  if (config.limits.memory_budget_bytes <= machine.memory_bytes) return;
+  log::warn("memory", {{"warning", "memory-budget is more than there is; give less"},
+                       {"memory_budget_bytes", config.limits.memory_budget_bytes},
+                       {"bytes", machine.memory_bytes},
+                       {"limited_by", machine.memory_limit}});
+}
+
+}  // namespace
 
 struct Service::Parts {
   explicit Parts(const Config& config)
@@ -63,6 +78,10 @@ struct Service::Parts {
     now.disk = store->usage();
     now.meshings = catalogue.meshings();
     now.pending_meshes = catalogue.pending();
+    now.connections = calls.connections;
+    now.connections_limit = given.limits.connections;
+    now.connections_accepted = calls.connections_accepted;
+    now.connections_refused = calls.connections_refused;
     now.watchers = calls.watchers;
     now.transfers = calls.transfers;
     now.largest_lag = calls.largest_lag;
@@ -98,6 +117,7 @@ Service::Service(const Config& config) {
   operators::require_threadsafe_blas();
   LoadedSecurity access = load_security(config);
   for (const std::string& warning : access.warnings) log::warn("security", {{"warning", warning}});
+  warn_of_memory(config);
   _parts = std::make_unique<Parts>(config);
   _parts->listen(config, std::move(access.security));
 }

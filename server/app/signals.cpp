@@ -81,10 +81,17 @@ std::optional<int> Signals::wait_for(std::chrono::milliseconds time) const {
 void Signals::run_unless_interrupted(const std::function<void()>& work) const {
   const int done = ::eventfd(0, EFD_CLOEXEC);
   if (done < 0) fail("cannot make an event");
-  std::thread thread([&] {
+  std::thread thread;
+  try {
+    thread = std::thread([&] {
+      work();
+      ::eventfd_write(done, 1);
+    });
+  } catch (const std::system_error&) {  // no more threads: nothing can interrupt it
     work();
-    ::eventfd_write(done, 1);
-  });
+    ::close(done);
+    return;
+  }
   std::array<pollfd, 2> descriptors{pollfd{done, POLLIN, 0}, pollfd{_reader, POLLIN, 0}};
   while ((descriptors[0].revents & POLLIN) == 0) {
     ::poll(descriptors.data(), descriptors.size(), -1);

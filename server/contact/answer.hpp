@@ -51,8 +51,8 @@ using SolverOptions = std::variant<ActiveSetOptions, UzawaOptions>;
 void check(const SolverOptions& options, int iteration_limit);
 
 /// Residuals of the optimality conditions at an iterate. Relative ones are over the largest force
-/// (condensed load or M mu), the largest trace |u|, the largest |mu|, and the product of the last
-/// two; a residual of 0 is 0.
+/// (condensed load, M mu, or of held values), the largest trace |u|, the largest |mu|, and the
+/// product of the last two; a residual of 0 is 0.
 struct KktResiduals {
   double equilibrium = 0;  ///< max |(S t - g +- M mu)_i|, force; zero to rounding in Algorithm 2
   double gap = 0;          ///< max violation of [u] = 0 (glue, tips) and [u] >= 0 (cracks)

@@ -6,6 +6,7 @@
 
 #include "contact/dense.hpp"
 #include "mesh/at.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::contact {
 namespace {
@@ -95,6 +96,7 @@ class BlockLcp::Run {
   void propose(double unit) {
     VectorXd next(d.size());
     for (const ContactBlock& block : _blocks) {
+      stop::look("solving for contact");
       const auto& scale = block.lcp.scale();
       const VectorXd load = residual(block.contacts) + block.lcp.apply(d(block.contacts));
       const VectorXd size =
@@ -128,9 +130,11 @@ class BlockLcp::Run {
   }
 
   void factorise() {
-    for (std::size_t b = 0; b < _blocks.size(); ++b)
+    for (std::size_t b = 0; b < _blocks.size(); ++b) {
+      stop::look("solving for contact");
       _factors[b].factorise(_blocks[b].lcp.scaled_matrix(), _blocks[b].lcp.scaled_rows(),
                             of_block(_blocks[b], closed));
+    }
     factorise_hats();
   }
 
@@ -162,6 +166,7 @@ class BlockLcp::Run {
     VectorXd left = open_residual(), z = precondition(left), direction = z;
     double product = z.dot(left);
     for (int k = 0; k < most_iterations; ++k) {
+      stop::look("solving for contact");
       if (!(product > tolerance * tolerance * size)) return;
       const VectorXd image = _lcp._membrane.apply(direction);
       ++solves;

@@ -10,7 +10,6 @@
 #include "ddm/at_once.hpp"
 #include "ddm/elimination_order.hpp"
 #include "ddm/subdomain_factor.hpp"
-#include "errors/errors.hpp"
 #include "mesh/at.hpp"
 #include "mesh/union_find.hpp"
 
@@ -248,20 +247,15 @@ std::vector<ddm::Terms> rows_of(const Indices& contacts, const ddm::Skeleton& sk
 
 }  // namespace
 
-ContactBlocks::ContactBlocks(const JoinedMembrane& membrane, const PairForces& forces, int threads,
-                             const std::stop_token& stop) {
+ContactBlocks::ContactBlocks(const JoinedMembrane& membrane, const PairForces& forces,
+                             int threads) {
   const ddm::Skeleton& skeleton = membrane.decomposition().skeleton;
   const Partition partition = part(membrane.decomposition());
   const Places places(membrane);
   const Indices motion = mark_motions(membrane);
   std::vector<std::optional<ContactBlock>> done(partition.blocks.size());
-  const auto require_running = [&stop] {
-    if (stop.stop_requested())
-      throw errors::Error(errors::Reason::cancelled, "stopped while factorising a mesh");
-  };
   ddm::at_once(done.size(), threads, [&] {
     return [&, patch = Patch(membrane, places, motion)](std::size_t b) mutable {
-      require_running();
       const Indices& contacts = partition.blocks[b];
       Indices conditions = contacts;
       std::vector<ddm::Terms> rows = rows_of(contacts, skeleton, conditions);
@@ -278,7 +272,6 @@ ContactBlocks::ContactBlocks(const JoinedMembrane& membrane, const PairForces& f
   MatrixXd of_hats(membrane.contacts(), partition.hat_count);
   ddm::at_once(at(partition.hat_count), threads, [&] {
     return [&](std::size_t k) {
-      require_running();
       const auto column = static_cast<Index>(k);
       of_hats.col(column) = membrane.apply(VectorXd(_hats.col(column)));
     };

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <stop_token>
 #include <vector>
 
 #include "contact/dense_lcp.hpp"
@@ -30,8 +29,7 @@ struct ContactBlock {
 class ContactBlocks {
  public:
   /// O(c m^2) with blocks of m contacts, and a solve for each hat.
-  ContactBlocks(const JoinedMembrane& membrane, const PairForces& forces, int threads,
-                const std::stop_token& stop = {});
+  ContactBlocks(const JoinedMembrane& membrane, const PairForces& forces, int threads);
 
   const std::vector<ContactBlock>& blocks() const noexcept { return _blocks; }
   /// Hats as columns, shape (d, hats), and P'S^ P; no columns without long cracks.

@@ -7,6 +7,7 @@
 
 #include "contact/dense_lcp.hpp"
 #include "mesh/at.hpp"
+#include "stop/stop.hpp"
 
 extern "C" void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
 
@@ -23,6 +24,41 @@ int stride(const Matrix& matrix) {
   return static_cast<int>(matrix.outerStride());
 }
 
+/// Columns at a time between two looks: about 1e9 operations, on `each` for one of them.
+int columns_between_looks(double each) {
+  constexpr double most = 1e9, fewest = 32, largest = 1 << 20;
+  return static_cast<int>(std::clamp(most / std::max(each, 1.0), fewest, largest));
+}
+
+void look() { stop::look("working on dense matrices"); }
+
+/// The same in blocks of columns, each ready before the next: what is right of it is reduced.
+bool cholesky_in_blocks(Ref<MatrixXd> matrix) {
+  constexpr int block = 256;
+  const int size = static_cast<int>(matrix.rows()), leading = stride(matrix);
+  for (int first = 0; first < size; first += block) {
+    const int width = std::min(block, size - first), next = first + width, rest = size - next;
+    double* const corner = &matrix(first, first);
+    int info = 0;
+    dpotrf_("L", &width, corner, &leading, &info);
+    if (info != 0) return false;
+    if (rest == 0) return true;
+    double* const below = corner + width;
+    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, rest, width, 1,
+                corner, leading, below, leading);
+    for (int j = 0; j < rest; j += block) {
+      look();
+      const int own = std::min(block, rest - j), under = rest - j - own;
+      cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, own, width, -1, below + j, leading, 1,
+                  &matrix(next + j, next + j), leading);
+      if (under == 0) continue;
+      cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, under, own, width, -1, below + j + own,
+                  leading, below + j, leading, 1, &matrix(next + j + own, next + j), leading);
+    }
+  }
+  return true;
+}
+
 void solve(const Ref<const MatrixXd>& factor, CBLAS_TRANSPOSE transposed, Ref<MatrixXd> b) {
   const int rows = static_cast<int>(b.rows()), columns = static_cast<int>(b.cols());
   if (rows == 0 || columns == 0) return;
@@ -31,8 +67,13 @@ void solve(const Ref<const MatrixXd>& factor, CBLAS_TRANSPOSE transposed, Ref<Ma
                 stride(factor), b.data(), 1);
     return;
   }
-  cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, transposed, CblasNonUnit, rows, columns, 1,
-              factor.data(), stride(factor), b.data(), stride(b));
+  const int most = columns_between_looks(double(rows) * rows);
+  for (int first = 0; first < columns; first += most) {
+    look();
+    cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, transposed, CblasNonUnit, rows,
+                std::min(most, columns - first), 1, factor.data(), stride(factor), &b(0, first),
+                stride(b));
+  }
 }
 
 }  // namespace
@@ -55,6 +96,8 @@ void multiply_transposed(const Ref<const MatrixXd>& a, const Ref<const VectorXd>
 bool cholesky(Ref<MatrixXd> matrix) {
   const int size = static_cast<int>(matrix.rows()), leading = stride(matrix);
   if (size == 0) return true;
+  constexpr int large = 1500;
+  if (size >= large) return cholesky_in_blocks(matrix);
   int info = 0;
   dpotrf_("L", &size, matrix.data(), &leading, &info);
   return info == 0;
@@ -70,9 +113,16 @@ void solve_lower_transposed(const Ref<const MatrixXd>& factor, Ref<MatrixXd> b) 
 
 void subtract_square(const MatrixXd& x, Ref<MatrixXd> s) {
   const int rows = static_cast<int>(x.rows()), columns = static_cast<int>(x.cols());
-  if (rows > 0 && columns > 0) {
-    cblas_dsyrk(CblasColMajor, CblasLower, CblasTrans, columns, rows, -1, x.data(), stride(x), 1,
-                s.data(), stride(s));
+  if (rows == 0) return;
+  const int most = columns_between_looks(double(rows) * columns);
+  for (int first = 0; first < columns; first += most) {
+    look();
+    const int own = std::min(most, columns - first), below = columns - first - own;
+    cblas_dsyrk(CblasColMajor, CblasLower, CblasTrans, own, rows, -1, &x(0, first), stride(x), 1,
+                &s(first, first), stride(s));
+    if (below == 0) continue;
+    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, below, own, rows, -1, &x(0, first + own),
+                stride(x), &x(0, first), stride(x), 1, &s(first + own, first), stride(s));
   }
 }
 

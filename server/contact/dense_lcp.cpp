@@ -10,6 +10,7 @@
 
 #include "contact/dense.hpp"
 #include "mesh/at.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::contact {
 namespace {
@@ -121,6 +122,7 @@ class Run {
 
   /// Factor for the nodes that are open now.
   const OpenFactor& factor() {
+    stop::look("solving for contact");
     _factor.factorise(_problem.matrix, _problem.rows, closed);
     return _factor;
   }

@@ -6,8 +6,8 @@
 
 #include "ddm/at_once.hpp"
 #include "ddm/elimination_order.hpp"
-#include "errors/errors.hpp"
 #include "mesh/at.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::contact {
 namespace {
@@ -28,15 +28,9 @@ void add_product(const Sparse& lower, const VectorXd& x, VectorXd& y) {
   y += lower.selfadjointView<Eigen::Lower>() * x;
 }
 
-void require_running(const std::stop_token& stop) {
-  if (stop.stop_requested())
-    throw errors::Error(errors::Reason::cancelled, "stopped while factorising a mesh");
-}
-
 }  // namespace
 
-JoinedMembrane::JoinedMembrane(const ddm::Decomposition& decomposition, int threads,
-                               const std::stop_token& stop)
+JoinedMembrane::JoinedMembrane(const ddm::Decomposition& decomposition, int threads)
     : _decomposition(decomposition),
       _stiffness(decomposition.subdomains.size()),
       _matrix(assemble()),
@@ -44,8 +38,7 @@ JoinedMembrane::JoinedMembrane(const ddm::Decomposition& decomposition, int thre
                                _interior + index(decomposition.skeleton.free))),
       _b(_matrix.block(_a.rows(), 0, index(decomposition.skeleton.independent), _a.rows())),
       _d(_matrix.block(_a.rows(), _a.rows(), _b.rows(), _b.rows())),
-      _factor((require_running(stop), _a), _a.rows(),
-              ddm::elimination_order(_a, _a.rows(), _places), threads) {
+      _factor(_a, _a.rows(), ddm::elimination_order(_a, _a.rows(), _places), threads) {
   const Index held = index(decomposition.skeleton.held.size()), last = _a.rows() + _b.rows();
   _xp = Sparse(_matrix.block(last, 0, held, _a.rows()).transpose());
   _dp = Sparse(_matrix.block(last, _a.rows(), held, _b.rows()).transpose());
@@ -56,6 +49,7 @@ JoinedMembrane::JoinedMembrane(const ddm::Decomposition& decomposition, int thre
 Sparse JoinedMembrane::assemble() {
   const ddm::Skeleton& skeleton = _decomposition.skeleton;
   for (std::size_t s = 0; s < _stiffness.size(); ++s) {
+    stop::look("factorising a mesh");
     const ddm::Subdomain& subdomain = _decomposition.subdomains[s];
     _stiffness[s] = fem::stiffness(subdomain.part, subdomain.tension, index(subdomain.free()));
     _first.push_back(_interior);
@@ -98,6 +92,7 @@ Sparse JoinedMembrane::assemble() {
     };
     const Sparse& lower = _stiffness[s].free;
     for (Index column = 0; column < lower.outerSize(); ++column) {
+      stop::look_at_turn<std::size_t{1} << 16>(at(column), "factorising a mesh");
       ddm::Term own_column, own_row;
       const auto columns = terms_of(static_cast<std::int32_t>(column), own_column);
       for (Sparse::InnerIterator entry(lower, column); entry; ++entry) {
@@ -124,6 +119,7 @@ Sparse JoinedMembrane::assemble() {
             _places[2 * at(of.index) + 1] = motion.centre[1];
           }
   Sparse result(all, all);
+  stop::look("factorising a mesh");
   result.setFromTriplets(entries.begin(), entries.end());
   return result;
 }

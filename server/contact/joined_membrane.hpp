@@ -5,7 +5,6 @@
 #include <Eigen/SparseCore>
 #include <cstddef>
 #include <span>
-#include <stop_token>
 #include <vector>
 
 #include "contact/solve.hpp"
@@ -31,8 +30,7 @@ class JoinedMembrane {
  public:
   /// Throws errors::Error (numerical) when A is not positive definite; cancelled. O(N log N)
   /// memory.
-  JoinedMembrane(const ddm::Decomposition& decomposition, int threads,
-                 const std::stop_token& stop = {});
+  JoinedMembrane(const ddm::Decomposition& decomposition, int threads);
 
   const ddm::Decomposition& decomposition() const noexcept { return _decomposition; }
   Eigen::Index size() const noexcept { return _a.rows(); }      ///< of x

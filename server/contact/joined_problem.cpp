@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "contact/case_state.hpp"
 #include "mesh/at.hpp"
@@ -50,24 +51,32 @@ class JoinedCase {
     _d = d;
   }
 
-  /// Traces, fluxes and multipliers. Where rounding of S^ d shows, a step of iterative refinement.
+  /// Traces, fluxes and multipliers. Where rounding of S^ d shows, iterative refinement.
   void finish(const BlockLcp::Answer& solution) {
     constexpr double most_left = 1e-12;
+    constexpr int most_steps = 3;
     VectorXd d = solution.d, x = _membrane.solve(_reduced, d);
     move_to(x, d, solution);
-    const double size = scales_of(_loads, _solved.state()).force;
-    if (ratio(_solved.sample().kkt.equilibrium, size) <= most_left) return;
-    const VectorXd w = _membrane.values(_reduced, x, d), no_p = VectorXd::Zero(_reduced.p.size());
-    const JoinedMembrane::Reduced left = _membrane.reduce(_membrane.residual(_loads, x, w), no_p);
-    const VectorXd step = _problem.lcp().solve_open(left.r, solution.closed).d;
-    x += _membrane.solve(left, step);
-    d = (d + step).cwiseMax(0.0);
-    move_to(x, d, solution);
+    double left = unbalanced(), before = std::numeric_limits<double>::infinity();
+    for (int step = 0; left > most_left && left < before / 2 && step < most_steps; ++step) {
+      const VectorXd w = _membrane.values(_reduced, x, d), no_p = VectorXd::Zero(_reduced.p.size());
+      const JoinedMembrane::Reduced of_left =
+          _membrane.reduce(_membrane.residual(_loads, x, w), no_p);
+      const VectorXd change = _problem.lcp().solve_open(of_left.r, solution.closed).d;
+      x += _membrane.solve(of_left, change);
+      d = (d + change).cwiseMax(0.0);
+      move_to(x, d, solution);
+      before = left;
+      left = unbalanced();
+    }
   }
 
  private:
   /// |u|_V^2 with every contact closed.
   double size() const { return _membrane.work(_reduced, _reduced); }
+  double unbalanced() const {
+    return ratio(_solved.sample().kkt.equilibrium, scales_of(_loads, _solved.state()).force);
+  }
 
   /// Multipliers from the forces themselves.
   void move_to(const VectorXd& x, const VectorXd& d, const BlockLcp::Answer& solution) {
@@ -99,10 +108,10 @@ bool is_long(const ddm::Decomposition& decomposition, std::size_t most) {
          });
 }
 
-JoinedProblem::JoinedProblem(const TraceProblem& traces, int threads, const std::stop_token& stop)
+JoinedProblem::JoinedProblem(const TraceProblem& traces, int threads)
     : _traces(traces),
-      _membrane(traces.decomposition(), threads, stop),
-      _blocks(_membrane, traces.pair_forces(), threads, stop),
+      _membrane(traces.decomposition(), threads),
+      _blocks(_membrane, traces.pair_forces(), threads),
       _lcp(_membrane, _blocks) {}
 
 Answer solve_active_set(const JoinedProblem& problem, const mesh::Mesh& mesh,

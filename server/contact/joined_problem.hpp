@@ -2,7 +2,6 @@
 #pragma once
 
 #include <span>
-#include <stop_token>
 #include <vector>
 
 #include "contact/block_lcp.hpp"
@@ -22,7 +21,7 @@ bool is_long(const ddm::Decomposition& decomposition, std::size_t most);
 class JoinedProblem {
  public:
   /// As JoinedMembrane and ContactBlocks.
-  JoinedProblem(const TraceProblem& traces, int threads, const std::stop_token& stop);
+  JoinedProblem(const TraceProblem& traces, int threads);
 
   const JoinedMembrane& membrane() const noexcept { return _membrane; }
   const BlockLcp& lcp() const noexcept { return _lcp; }

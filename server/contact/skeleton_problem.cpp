@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "contact/dense.hpp"
+#include "contact/trace_state.hpp"
 #include "errors/errors.hpp"
 #include "mesh/at.hpp"
 
@@ -98,14 +99,15 @@ void SkeletonProblem::solve_free(VectorXd& q) const {
 
 SkeletonProblem::Reduced SkeletonProblem::reduce(const VectorXd& h, const VectorXd& p) const {
   VectorXd load = h, size = h.cwiseAbs();
+  Reduced result;
   if (p.size() > 0) {
     const VectorXd of_held = apply(maps().held() * p);
     load -= of_held;
     size += of_held.cwiseAbs();
+    result.held_size = largest(of_held);
   }
   const VectorXd on_free = maps().free().transpose() * load;
   const VectorXd size_on_free = maps().free().cwiseAbs().transpose() * size;
-  Reduced result;
   result.p = p;
   result.q = on_free;
   solve_free(result.q);

@@ -32,6 +32,7 @@ class SkeletonProblem {
     Eigen::VectorXd p;          ///< held values; empty: none
     Eigen::VectorXd r;          ///< per contact
     Eigen::VectorXd magnitude;  ///< sums of the absolute values r is made of
+    double held_size = 0;       ///< largest force K O p of the held values
   };
   /// `h`: sum_i g_i; `p`: held values. O(n^2).
   Reduced reduce(const Eigen::VectorXd& h, const Eigen::VectorXd& p = {}) const;

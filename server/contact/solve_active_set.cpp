@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "contact/case_state.hpp"
@@ -24,6 +25,7 @@ class Case {
     g.reserve(_loads.size());
     for (const ddm::CondensedLoad& load : _loads) g.push_back(load.g);
     _reduced = problem.reduce(problem.gather(g), held_values(_traces.decomposition(), _loads));
+    _solved.state().load_size = _reduced.held_size;
   }
 
   const SkeletonProblem::Reduced& reduced() const noexcept { return _reduced; }
@@ -37,21 +39,30 @@ class Case {
     _solved.fill(jumps, lambda);
   }
 
-  /// One step of iterative refinement, and multipliers from the forces themselves.
+  /// Iterative refinement, and multipliers from the forces themselves. One step is enough but where
+  /// terms far larger than the load cancel, as between inclusions that nearly touch.
   void refine(const LcpAnswer& solution) {
+    constexpr double enough = 1e-11;
+    constexpr int most_steps = 5;
     const double criterion = _solved.sample().criterion;  // of the steps
     VectorXd d = solution.d.head(_d.size());
     if (d != _d)  // after the last sample, nodes open by rounding were closed
       move_to(_problem.unknowns(_reduced, d));
-    _problem.refine(-_problem.gather(state().flux), solution.factor, _reduced, d);
-    d = d.cwiseMax(0.0);
-    move_to(_problem.unknowns(_reduced, d));
-    const VectorXd lambda =
-        _problem.lcp()
-            .split(_problem.multipliers(-_problem.gather(state().flux)), solution.closed)
-            .cwiseMax(0.0);
-    _solved.fill(_problem.lcp().jumps(d, solution.closed), lambda);
-    _solved.settle_contact(solution.pressed, lambda);
+    double left = std::numeric_limits<double>::infinity(), before = 0;
+    int step = 0;
+    do {
+      _problem.refine(-_problem.gather(state().flux), solution.factor, _reduced, d);
+      d = d.cwiseMax(0.0);
+      move_to(_problem.unknowns(_reduced, d));
+      const VectorXd lambda =
+          _problem.lcp()
+              .split(_problem.multipliers(-_problem.gather(state().flux)), solution.closed)
+              .cwiseMax(0.0);
+      _solved.fill(_problem.lcp().jumps(d, solution.closed), lambda);
+      _solved.settle_contact(solution.pressed, lambda);
+      before = left;
+      left = ratio(_solved.sample().kkt.equilibrium, scales_of(_loads, state()).force);
+    } while (left > enough && left < before / 2 && ++step < most_steps);
     _solved.sample().criterion = criterion;
   }
 

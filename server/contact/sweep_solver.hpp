@@ -101,9 +101,10 @@ void take_from_holders(std::span<const CaseLoads> loads, SweepLoads& reduced);
 ///   Pi = Pi(closed) - r'd/2                          (from d'lambda = 0)
 ///   A  = A(closed) + what the jumps do, and so the slopes
 ///   kkt: WarmLcp::residual, the largest |lambda - (S^ d - r)| relative to the largest force on the
-///        contacts, with d and lambda clipped at 0 and one of them 0 in each: what is wrong with
-///        equilibrium, gap, sign or complementarity of the contacts is in it. The nodes between are
-///        in equilibrium by elimination, to rounding; it is not measured row by row.
+///        contacts, of all the loads that are summed, with d and lambda clipped at 0 and one of
+///        them 0 in each: what is wrong with equilibrium, gap, sign or complementarity of the
+///        contacts is in it. The nodes between are in equilibrium by elimination, to rounding; it
+///        is not measured row by row.
 class SweepSolver {
  public:
   SweepSolver(const TraceProblem& traces, const SweepGeometry& geometry,

@@ -10,6 +10,7 @@
 #include "errors/errors.hpp"
 #include "fem/interface_mass.hpp"
 #include "mesh/at.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::contact {
 namespace {
@@ -28,6 +29,7 @@ class Product {
   Eigen::Index cols() const { return _root.cols(); }
 
   void perform_op(const double* x_in, double* y_out) const {
+    stop::look("computing theta*");
     const Eigen::VectorXd force = _root * Eigen::Map<const Eigen::VectorXd>(x_in, rows());
     std::vector<Eigen::VectorXd> traces;
     for (std::size_t s = 0; s < _operators.size(); ++s)

@@ -15,9 +15,10 @@ namespace anticrack::contact {
 struct TraceState {
   std::vector<Eigen::VectorXd> trace;  ///< t_i, per subdomain
   std::vector<Eigen::VectorXd> flux;   ///< S t - g: int T du/dn phi_i, n outward
-  // Where loads are not condensed: energy of the interiors, and the largest force on them or on a
-  // contact.
-  double of_interiors = 0, load_size = 0;
+  double of_interiors = 0;             ///< where loads are not condensed: their energy
+  /// Largest force that condensed loads do not show: of held values; where loads are not condensed
+  /// also of those on interiors and contacts.
+  double load_size = 0;
   Eigen::MatrixXd motion;     ///< (3, inclusions): A, and B in x and y
   Eigen::VectorXd mu;         ///< per pair
   Eigen::VectorXd force;      ///< M mu, per pair
@@ -55,7 +56,7 @@ double largest_unbalanced(const ddm::Decomposition& decomposition,
 
 /// What residuals are relative to.
 struct Scales {
-  double force = 0;  ///< largest condensed load or pair force: |g|, |M mu|
+  double force = 0;  ///< largest of what acts: |g|, |M mu|, TraceState::load_size
   double trace = 0;  ///< largest |t|
   double mu = 0;     ///< largest |mu|
 };

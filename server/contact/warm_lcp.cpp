@@ -5,6 +5,7 @@
 #include <bit>
 #include <utility>
 
+#include "contact/trace_state.hpp"
 #include "mesh/at.hpp"
 
 namespace anticrack::contact {
@@ -51,7 +52,7 @@ LcpStatus WarmLcp::solve_with_rows(const VectorXd& r, const VectorXd& magnitude)
   const auto scale = _lcp.scale().head(_lcp.size());
   _d = _jump.cwiseQuotient(scale);
   const VectorXd force = (_lcp.scaled_matrix() * _d).cwiseQuotient(scale) - r;
-  const double size = std::max(r.lpNorm<Eigen::Infinity>(), _pressure.lpNorm<Eigen::Infinity>());
+  const double size = std::max(largest(magnitude), largest(_pressure));
   const double error =
       (_lcp.split(force, _closed).cwiseMax(0.0) - _pressure).lpNorm<Eigen::Infinity>();
   _residual = error == 0 ? 0 : error / size;
@@ -66,7 +67,7 @@ LcpStatus WarmLcp::solve(const VectorXd& r, const VectorXd& magnitude) {
   _r = _lcp.scale().cwiseProduct(r) / unit;
   _steps = 0;
   const LcpStatus status = find_set(r, magnitude);
-  if (status == LcpStatus::solved) finish(r, unit);
+  if (status == LcpStatus::solved) finish(magnitude, unit);
   return status;
 }
 
@@ -147,7 +148,7 @@ void WarmLcp::close_undecided() {
   }
 }
 
-void WarmLcp::finish(const VectorXd& r, double unit) {
+void WarmLcp::finish(const VectorXd& magnitude, double unit) {
   if (_d.size() > 0 && _d.minCoeff() < 0) {
     _d = _d.cwiseMax(0.0);
     _force.noalias() = _lcp.scaled_matrix() * _d;
@@ -161,7 +162,7 @@ void WarmLcp::finish(const VectorXd& r, double unit) {
     _jump[i] = _lcp.scale()[i] * _d[i] * unit;
     _pressure[i] = lambda * to_force;
     error = std::max(error, std::abs(lambda - _force[i]) * to_force);
-    size = std::max({size, std::abs(r[i]), _pressure[i]});
+    size = std::max({size, magnitude[i], _pressure[i]});
   }
   _residual = error == 0 ? 0 : error / size;
 }

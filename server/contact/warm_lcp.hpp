@@ -32,8 +32,8 @@ class WarmLcp {
   const Eigen::VectorXd& d() const noexcept { return _jump; }             ///< (c) >= 0
   const Eigen::VectorXd& lambda() const noexcept { return _pressure; }    ///< (conditions) >= 0
   const std::vector<char>& pressed() const noexcept { return _pressed; }  ///< LcpAnswer::pressed
-  /// max_i |lambda - (S d - r)|_i over the largest of |r| and lambda, with d and lambda clipped at
-  /// 0.
+  /// max_i |lambda - (S d - r)|_i over the largest of magnitude and lambda, with d and lambda
+  /// clipped at 0.
   double residual() const noexcept { return _residual; }
   int steps() const noexcept { return _steps; }
   const std::vector<char>& closed() const noexcept { return _closed; }
@@ -46,7 +46,7 @@ class WarmLcp {
   Eigen::Index step();
   LcpStatus start_over(const Eigen::VectorXd& r, const Eigen::VectorXd& magnitude);
   void close_undecided();
-  void finish(const Eigen::VectorXd& r, double unit);
+  void finish(const Eigen::VectorXd& magnitude, double unit);
   LcpStatus solve_with_rows(const Eigen::VectorXd& r, const Eigen::VectorXd& magnitude);
 
   const DenseLcp& _lcp;

@@ -6,25 +6,33 @@
 #include <cstddef>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
 #include "mesh/at.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::ddm {
 
 /// Calls worker(i) for i = 0, ..., count - 1 from a shared counter on at most `threads` threads,
 /// the caller's among them, each with its own `make_worker()`. Rethrows the first exception when
-/// all threads have stopped; no index is begun after it.
+/// all threads have stopped; no index is begun after it. Looks (stop/stop.hpp) ask on all threads
+/// what they ask on the caller's, and there is one before each index.
 template <class MakeWorker>
 void at_once(std::size_t count, int threads, const MakeWorker& make_worker) {
   std::atomic<std::size_t> next{0};
   std::mutex mutex;
   std::exception_ptr failure;
+  const stop::Asked asked = stop::asked();
   const auto run = [&] {
+    const stop::Scope scope(asked);
     try {
       auto worker = make_worker();
-      for (std::size_t i = next++; i < count; i = next++) worker(i);
+      for (std::size_t i = next++; i < count; i = next++) {
+        stop::look("working on parts of a mesh");
+        worker(i);
+      }
     } catch (...) {
       const std::lock_guard lock(mutex);
       failure = failure ? failure : std::current_exception();
@@ -34,7 +42,11 @@ void at_once(std::size_t count, int threads, const MakeWorker& make_worker) {
   if (count > 0) {
     std::vector<std::jthread> helpers;
     const auto wanted = std::min(at(std::max(threads, 1)), count);
-    for (std::size_t t = 1; t < wanted; ++t) helpers.emplace_back(run);
+    try {
+      for (std::size_t t = 1; t < wanted; ++t) helpers.emplace_back(run);
+    } catch (const std::system_error&) {
+      // No more threads: those there are do the rest.
+    }
     run();
   }
   if (failure) std::rethrow_exception(failure);

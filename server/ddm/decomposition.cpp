@@ -9,6 +9,7 @@
 #include "ddm/cut_steps.hpp"
 #include "errors/errors.hpp"
 #include "mesh/at.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::ddm {
 namespace {
@@ -96,6 +97,7 @@ class Numbering {
   void number(Subdomain& subdomain, const std::vector<std::int32_t>& trace) {
     std::vector<std::int32_t> dirichlet;
     for (const std::int32_t t : subdomain.triangle) {
+      stop::look_at_turn<std::size_t{1} << 16>(at(t), "factorising a mesh");
       for (std::size_t c = 3 * at(t); c < 3 * at(t) + 3; ++c) {
         const std::int32_t node = _mesh.triangles[c];
         if (_sides.corner[c] < 0 && _local[at(node)] < 0) {
@@ -126,12 +128,14 @@ class Numbering {
     const auto first_trace = static_cast<std::int32_t>(subdomain.interior);
     subdomain.part.triangles.reserve(3 * subdomain.triangle.size());
     for (const std::int32_t t : subdomain.triangle) {
+      stop::look_at_turn<std::size_t{1} << 16>(at(t), "factorising a mesh");
       for (std::size_t c = 3 * at(t); c < 3 * at(t) + 3; ++c) {
         const std::int32_t side = _sides.corner[c];
         subdomain.part.triangles.push_back(side >= 0 ? first_trace + _side_trace[at(side)]
                                                      : _local[at(_mesh.triangles[c])]);
       }
     }
+    stop::look("factorising a mesh");
     sort_by_first_node(subdomain);
     for (const std::int32_t node : subdomain.node)
       _local[at(node)] = -1;  // a Dirichlet node may be in the next subdomain as well

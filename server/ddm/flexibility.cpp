@@ -8,6 +8,7 @@
 
 #include "errors/errors.hpp"
 #include "mesh/at.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::ddm {
 namespace {
@@ -57,7 +58,13 @@ Flexibility::Flexibility(const Eigen::MatrixXd& schur, std::span<const std::int3
                         "the Schur complement of a subdomain is not positive definite to rounding; "
                         "the mesh has triangles that are degenerate, or is badly scaled");
   }
-  _inverse = cholesky.solve(Eigen::MatrixXd::Identity(size, size));
+  _inverse.setIdentity(size, size);
+  constexpr Eigen::Index at_once = 64;
+  for (Eigen::Index first = 0; first < size; first += at_once) {
+    stop::look("inverting a dense matrix");
+    auto columns = _inverse.middleCols(first, std::min(at_once, size - first));
+    cholesky.solveInPlace(columns);
+  }
   // dsymv reads a triangle, dgemm the whole matrix: make it symmetric to the bit.
   _inverse.triangularView<Eigen::StrictlyUpper>() = _inverse.transpose();
 }

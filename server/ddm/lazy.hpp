@@ -2,20 +2,29 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <mutex>
 #include <optional>
+#include <thread>
+
+#include "stop/stop.hpp"
 
 namespace anticrack::ddm {
 
-/// A value computed once, at the first get(); concurrent callers wait. Thread-safe; not movable.
+/// A value computed once, at the first get(); concurrent callers wait, looking (stop/stop.hpp).
+/// Thread-safe; not movable.
 template <class Value>
 class Lazy {
  public:
-  /// If compute() throws, the next call tries again.
+  /// If compute() throws, as it does when its caller's work is stopped, the next call tries again.
   template <class Compute>
   const Value& get(const Compute& compute) const {
     if (const Value* value = known()) return *value;
-    const std::lock_guard lock(_mutex);
+    std::unique_lock lock(_mutex, std::try_to_lock);
+    for (; !lock.owns_lock(); lock.try_lock()) {
+      stop::look("waiting for what another needs as well");
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
     if (!_value) {
       _value.emplace(compute());
       _known.store(&*_value, std::memory_order_release);

@@ -13,6 +13,7 @@
 #include "ddm/at_once.hpp"
 #include "errors/errors.hpp"
 #include "mesh/at.hpp"
+#include "stop/stop.hpp"
 
 extern "C" void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
 
@@ -189,6 +190,7 @@ class Elimination {
 
   /// Leaves in _update what is left of it. On one thread with its children, or after them.
   bool eliminate(int s, Front& front) {
+    stop::look_at_turn<16>(at(s), "factorising a mesh");
     const int first = _pattern.super[s], columns = own(s);
     front.rows = _pattern.rows + _pattern.row_begin[s];
     front.height = height(s);
@@ -256,17 +258,67 @@ class Elimination {
 
 }  // namespace
 
+namespace {
+
+bool positive_diagonal(int columns, const double* panel, int height) {
+  for (int k = 0; k < columns; ++k)  // OpenBLAS does not stop at NaN
+    if (!(panel[std::ptrdiff_t{k} * (height + 1)] > 0)) return false;
+  return true;
+}
+
+/// C -= A A' below and on the diagonal of C, for A of `depth` columns; looks now and then. C begins
+/// at a row of A, and has at most as many columns as rows.
+void subtract_products(const double* a, int leading, int depth, int rows, int columns, double* c,
+                       int leading_c) {
+  constexpr int block = 256;
+  for (int j = 0; j < columns; j += block) {
+    stop::look("factorising a mesh");
+    const int own = std::min(block, columns - j), below = rows - j - own;
+    double* const corner = c + std::ptrdiff_t{j} * leading_c + j;
+    cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, own, depth, -1, a + j, leading, 1, corner,
+                leading_c);
+    if (below == 0) continue;
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, below, own, depth, -1, a + j + own,
+                leading, a + j, leading, 1, corner + own, leading_c);
+  }
+}
+
+/// As eliminate_front, in blocks of columns.
+bool eliminate_large_front(int columns, int height, double* panel, double* update, bool add) {
+  constexpr int block = 256;
+  for (int first = 0; first < columns; first += block) {
+    stop::look("factorising a mesh");
+    const int width = std::min(block, columns - first), next = first + width;
+    double* const corner = panel + std::ptrdiff_t{first} * (height + 1);
+    int info = 0;
+    dpotrf_("L", &width, corner, &height, &info);
+    if (info != 0 || !positive_diagonal(width, corner, height)) return false;
+    if (next == height) return true;
+    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, height - next,
+                width, 1, corner, height, corner + width, height);
+    subtract_products(corner + width, height, width, height - next, columns - next,
+                      panel + std::ptrdiff_t{next} * (height + 1), height);
+  }
+  const int rest = height - columns;
+  if (!add) std::fill_n(update, std::ptrdiff_t{rest} * rest, 0.0);
+  subtract_products(panel + columns, height, columns, rest, rest, update, rest);
+  return true;
+}
+
+}  // namespace
+
 bool eliminate_front(int columns, int height, double* panel, double* update, bool add) {
   const int rest = height - columns;
   // A call of BLAS costs as much as thousands of operations.
   constexpr double few = 40'000;
   if (static_cast<double>(columns) * height * height < few)
     return best_kernels().eliminate_small_front(columns, height, panel, update, add);
+  constexpr double many = 1e9;  // a tenth of a second
+  if (static_cast<double>(columns) * height * height > many)
+    return eliminate_large_front(columns, height, panel, update, add);
   int info = 0;
   dpotrf_("L", &columns, panel, &height, &info);
-  if (info != 0) return false;
-  for (int k = 0; k < columns; ++k)  // OpenBLAS does not stop at NaN
-    if (!(panel[std::ptrdiff_t{k} * (height + 1)] > 0)) return false;
+  if (info != 0 || !positive_diagonal(columns, panel, height)) return false;
   if (rest == 0) return true;
   double* below = panel + columns;
   cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, rest, columns, 1,

@@ -10,6 +10,7 @@
 
 #include "ddm/vertex_separator.hpp"
 #include "mesh/at.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::ddm {
 namespace {
@@ -85,6 +86,7 @@ class Dissection {
       : _graph(graph), _part(graph.size(), 0), _local(graph.size(), -1) {
     _nodes.reserve(graph.size());
     for (std::size_t v = 0; v < graph.size(); ++v) {
+      stop::look_at_turn<std::size_t{1} << 16>(v, "factorising a mesh");
       double square = 0, reach_x = 0, reach_y = 0;
       for (std::int32_t e = graph.begin[v]; e < graph.begin[v + 1]; ++e) {
         const std::size_t u = at(graph.neighbour[at(e)]);
@@ -101,7 +103,9 @@ class Dissection {
 
   std::vector<std::int32_t> order() {
     std::vector<Set> open = {{0, _nodes.size(), 0, finest(_nodes)}};
+    std::size_t turn = 0;
     while (!open.empty()) {
+      stop::look_at_turn<16>(turn++, "factorising a mesh");
       const Set set = open.back();
       open.pop_back();
       if (set.size() <= SmallGraph::most) {

@@ -13,6 +13,7 @@
 #include "ddm/multifrontal.hpp"
 #include "errors/errors.hpp"
 #include "mesh/at.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::ddm {
 namespace {
@@ -92,6 +93,7 @@ void in_blocks(int rows, int columns, const Put& put, const Solve& solve, const 
   const int widest = whole(std::min(columns, most));
   const Values y = make_values(at(rows) * at(widest));
   for (int first = 0; first < columns; first += most) {
+    stop::look("solving on a mesh");
     const int count = std::min(most, columns - first);
     const std::ptrdiff_t width = whole(count);
     for_tiles(rows, count,
@@ -123,6 +125,7 @@ SubdomainFactor::SubdomainFactor(const Sparse& stiffness, Eigen::Index interior,
   std::iota(std::copy(order.begin(), order.end(), permutation.begin()), permutation.end(),
             static_cast<int>(interior));
   auto factor = std::make_unique<Factor>();
+  stop::look("factorising a mesh");
   factor->analysis = analyse(stiffness, permutation, interior);
   factor->l = pattern(*factor->analysis, interior);
   const int* unknown = static_cast<const int*>(factor->analysis->Perm);

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "mesh/at.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::estimate {
 namespace {
@@ -37,7 +38,8 @@ LiftIntegrals integrals_of(const CutMesh& cut, const EquilibratedFlux& flux,
 }
 
 Bracket bracket(const CutMesh& cut, const EquilibratedFlux& flux, const LoadBalance& load,
-                const std::vector<Lift>& lifts, std::span<const double> u, double energy) {
+                const std::vector<Lift>& lifts, std::span<const double> u, double energy,
+                double lack) {
   std::vector<OnTriangle> lifted;
   if (!lifts.empty()) lifted.resize(cut.triangle_count());
   for (const Lift& lift : lifts) {
@@ -52,13 +54,15 @@ Bracket bracket(const CutMesh& cut, const EquilibratedFlux& flux, const LoadBala
   result.indicator = flux.distance();
   const bool varies = !cut.shapes.variation.empty();
   double half_distance = 0;  // eta^2 / 2, less |w|^2 / 2, which Pi(v) has as well, if T is known
-  double squared = 0, work = 0, lift_energy = 0, lift_norm = 0;
+  double squared = 0, work = 0, lift_energy = 0, lift_norm = 0, unknown = 0;
   for (std::size_t t = 0; t < result.indicator.size(); ++t) {
+    stop::look_at_turn(t, "computing bounds");
     double& one = result.indicator[t];
     one = std::max(0.0, one);
     const double oscillation = load.oscillation.empty() ? 0 : load.oscillation[t];
     const fem::Variation of = varies ? cut.shapes.variation[t] : fem::Variation();
-    const double spread = varies ? of.spread * std::sqrt(flux.energy_of(t, u)) : 0;
+    const double own = varies ? flux.energy_of(t, u) : 0, spread = of.spread * std::sqrt(own);
+    unknown += of.unknown * own;
     if (lifted.empty()) {
       if (varies || oscillation > 0) {
         const double size = of.below * std::sqrt(one) + spread + oscillation;
@@ -83,17 +87,18 @@ Bracket bracket(const CutMesh& cut, const EquilibratedFlux& flux, const LoadBala
   }
   const std::vector<double> work_of_face = flux.work_of_pressure();
   for (std::size_t face = 0; face < work_of_face.size(); ++face) {
-    if (work_of_face[face] == 0) continue;
+    if (!(work_of_face[face] > 0)) continue;
     work += work_of_face[face];
-    result.indicator[at(cut.faces[face].side / 3)] += 2 * std::max(0.0, work_of_face[face]);
+    result.indicator[at(cut.faces[face].side / 3)] += 2 * work_of_face[face];
   }
-  work = std::max(0.0, work);
-  // No interval arithmetic: rounding is some 1e-14. Integrals of T are known less well.
-  const double rounding = 1e-12 * (std::abs(energy) + flux.norm_squared()) +
-                          (varies ? 10 * fem::tension_tolerance * flux.norm_squared() : 0);
+  const double distance = std::sqrt(squared) + lack;
+  half_distance += lack * (std::sqrt(squared) + lack / 2);
+  // Without interval arithmetic: rounding is some 1e-14. Means of T are known less well.
+  const double rounding = 1e-12 * (std::abs(energy) + flux.norm_squared()) + unknown;
   result.lower = energy + lift_energy - half_distance - work - rounding;
   result.upper += energy + lift_energy + rounding;
-  result.error = 0.5 * (std::sqrt(squared) + std::sqrt(squared + 4 * work)) + std::sqrt(lift_norm);
+  result.error =
+      0.5 * (distance + std::sqrt(distance * distance + 4 * work)) + std::sqrt(lift_norm);
   result.error_relative = result.error > 0 ? result.error / std::sqrt(flux.norm_squared()) : 0;
   return result;
 }

@@ -13,6 +13,9 @@
 //   |sigma - T grad u_h| <= max sqrt(T_h/T) |sigma - T_h grad u_h|_h + spread |grad u_h|_h
 //
 // in the norms of 1/T, and with index h of 1/T_h and T_h; spread^2 = mean of (T - T_h)^2 / (T T_h).
+//
+// Where the discrete problem is not solved exactly sigma is not quite in equilibrium: Lack::flux is
+// added to eta, and of the pressure only p >= 0 counts.
 #pragma once
 
 #include <span>
@@ -45,9 +48,10 @@ struct Bracket {
   std::vector<double> indicator;
 };
 
-/// `u`: u_h in the copies, `energy`: Pi(u_h). The flux balances `load` and is near T grad u_h.
-/// O(m).
+/// `u`: u_h in the copies, `energy`: Pi(u_h). The flux balances `load` but for `lack`
+/// (Lack::flux), and is near T grad u_h. O(m).
 Bracket bracket(const CutMesh& cut, const EquilibratedFlux& flux, const LoadBalance& load,
-                const std::vector<Lift>& lifts, std::span<const double> u, double energy);
+                const std::vector<Lift>& lifts, std::span<const double> u, double energy,
+                double lack = 0);
 
 }  // namespace anticrack::estimate

@@ -7,6 +7,7 @@
 
 #include "mesh/at.hpp"
 #include "mesh/edges.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::estimate {
 namespace {
@@ -25,13 +26,19 @@ class Cutting {
 
   CutMesh operator()() {
     number();
-    for (const ddm::RigidMotion& motion : _decomposition.skeleton.motions)
+    for (const ddm::RigidMotion& motion : _decomposition.skeleton.motions) {
       _cut.tilts.push_back(motion.slope_x.empty() && motion.slope_y.empty() ? 0 : 1);
+      _cut.centre.push_back(motion.centre);
+    }
     find_faces();
+    find_ways_out();
     find_fans();
     find_obstacle();
     return std::move(_cut);
   }
+
+  /// Per side: the side of the neighbour, or negative.
+  const std::vector<std::int32_t>& across() const { return _across; }
 
  private:
   void number() {
@@ -39,6 +46,7 @@ class Cutting {
     _cut.first_triangle.push_back(0);
     _cut.first_copy.push_back(0);
     for (const ddm::Subdomain& subdomain : _decomposition.subdomains) {
+      stop::look("computing bounds");
       const std::int32_t copies = _cut.first_copy.back();
       for (const std::int32_t triangle : subdomain.triangle) {
         _place[at(triangle)] = static_cast<std::int32_t>(_cut.triangle.size());
@@ -75,7 +83,9 @@ class Cutting {
       for (const mesh::EdgeUse& use : _edges.find(a, b)) add_face(side_of(use), Condition::free);
     // In the order of ddm::NeumannBoundary.
     std::vector<std::vector<std::int32_t>> neumann(_decomposition.subdomains.size());
+    std::size_t turn = 0;
     _edges.each([&](std::span<const mesh::EdgeUse> uses) {
+      stop::look_at_turn(turn++, "computing bounds");
       const std::int32_t side = side_of(uses[0]);
       if (_across[at(side)] != nothing) return;
       if (uses.size() == 1) {
@@ -90,6 +100,23 @@ class Cutting {
     for (const std::vector<std::int32_t>& of_subdomain : neumann)
       for (const std::int32_t side : of_subdomain)
         _cut.faces[at(add_face(side, Condition::given))].traction = number++;
+  }
+
+  void find_ways_out() {
+    std::vector<bool> found(_cut.triangle.size(), false);
+    const auto lead = [&](std::int32_t side, std::int32_t into) {
+      if (found[at(side / 3)]) return;
+      found[at(side / 3)] = true;
+      _cut.ways_out.push_back({side, into});
+    };
+    _cut.ways_out.reserve(_cut.triangle.size());
+    for (const Face& face : _cut.faces)
+      if (face.condition == Condition::free && face.inclusion < 0) lead(face.side, -1);
+    for (std::size_t i = 0; i < _cut.ways_out.size(); ++i) {
+      const std::int32_t first = _cut.ways_out[i].side / 3 * 3;
+      for (std::int32_t side = first; side < first + 3; ++side)
+        if (_across[at(side)] >= 0) lead(_across[at(side)], side);
+    }
   }
 
   void cut_edge(const mesh::Interface& line, std::size_t i) {
@@ -161,6 +188,7 @@ class Cutting {
     _cut.first_corner.push_back(0);
     _cut.first_stop.push_back(0);
     for (std::size_t corner = 0; corner < seen.size(); ++corner) {
+      stop::look_at_turn(corner, "computing bounds");
       if (seen[corner]) continue;
       const std::int32_t begin = first_of(static_cast<std::int32_t>(corner));
       const std::size_t first = _cut.corners.size();
@@ -197,6 +225,7 @@ class Cutting {
   void find_obstacle() {
     std::vector<std::int32_t> ends(_mesh.node_count(), 0);
     for (std::size_t fan = 0; fan < _cut.fan_count() && _cut.obstacle.empty(); ++fan) {
+      stop::look_at_turn(fan, "computing bounds");
       const std::span<const Stop> stops(&_cut.stops[at(_cut.first_stop[fan])],
                                         at(_cut.first_stop[fan + 1] - _cut.first_stop[fan]));
       const auto has = [&](const auto& what) {
@@ -236,19 +265,20 @@ class Cutting {
 std::size_t CutMesh::bytes() const noexcept {
   const auto of = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
   return shapes.bytes() + of(first_triangle) + of(first_copy) + of(copy) + of(at) + of(triangle) +
-         of(faces) + of(first_corner) + of(corners) + of(first_stop) + of(stops);
+         of(faces) + of(ways_out) + of(first_corner) + of(corners) + of(first_stop) + of(stops);
 }
 
 CutMesh cut_mesh(const mesh::Mesh& mesh, const ddm::Decomposition& decomposition) {
-  CutMesh cut = Cutting(mesh, decomposition)();
+  Cutting cutting(mesh, decomposition);
+  CutMesh cut = cutting();
   std::vector<const fem::Tension*> tension;
-  for (const ddm::Subdomain& subdomain : decomposition.subdomains) {
+  for (const ddm::Subdomain& subdomain : decomposition.subdomains)
     tension.push_back(&subdomain.tension);
-    if (cut.obstacle.empty()) cut.obstacle = subdomain.tension.obstacle;
-  }
-  if (cut.obstacle.empty())
+  if (cut.obstacle.empty()) {
     cut.shapes =
         shapes({cut.copy, cut.at, cut.first_triangle, tension}, {cut.first_corner, cut.corners});
+    cut.ways = ways(cut, cutting.across(), decomposition.skeleton);
+  }
   return cut;
 }
 

@@ -11,6 +11,7 @@
 
 #include "ddm/decomposition.hpp"
 #include "estimate/shapes.hpp"
+#include "estimate/ways.hpp"
 #include "mesh/mesh.hpp"
 
 namespace anticrack::estimate {
@@ -47,6 +48,12 @@ struct Stop {
   double sign() const noexcept { return end == 0 ? -1 : 1; }
 };
 
+/// Where a triangle of a tree sends what flows into it.
+struct WayOut {
+  std::int32_t side = 0;   ///< its own, 3 T + i
+  std::int32_t into = -1;  ///< the same edge of its neighbour; -1: the Dirichlet boundary
+};
+
 /// Triangles T are numbered subdomain after subdomain in the order of ddm::Subdomain::triangle,
 /// nodes likewise ("copies": a node of a crack has one on each side, a node of glue one in each
 /// subdomain). Corners are 3 T + i, and so are sides: the edge opposite to corner i.
@@ -67,7 +74,12 @@ struct CutMesh {
   std::vector<std::int32_t> corners;       ///< of all fans
   std::vector<std::int32_t> first_stop;    ///< (fans + 1) index into stops
   std::vector<Stop> stops;
+  /// Ways from all triangles to the Dirichlet boundary that cross no crack and no inclusion, a
+  /// triangle after those that it leads to; what has no such way is missing.
+  std::vector<WayOut> ways_out;
   Shapes shapes;
+  std::vector<Vector> centre;  ///< (inclusions) about which moments on them are
+  Ways ways;
 
   /// Why no flux can be equilibrated fan by fan, with the place, or no bounds be proved; empty: it
   /// can.

@@ -13,6 +13,7 @@
 #include "estimate/flux_kernels.hpp"
 #include "fem/triangle_rules.hpp"
 #include "mesh/at.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::estimate {
 namespace {
@@ -71,7 +72,7 @@ FluxMesh flux_mesh(const CutMesh& cut) {
           cut.first_stop.data(), shapes.edge.front().data(),
           shapes.tension.data(), shapes.softness.data(),
           shapes.around.data(),  cut.stops.data(),
-          cut.faces.data()};
+          cut.faces.data(),      [] { stop::look("computing bounds"); }};
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ class EquilibratedFlux {
   Vector normal_of(std::size_t side) const;
   /// int |T grad u|^2 / T.
   double norm_squared() const noexcept { return _norm_squared; }
-  /// Largest imbalance of a closed fan: rounding, where u solves the discrete problem.
+  /// Sum of the imbalances of closed fans: rounding, where u solves the discrete problem.
   double imbalance() const noexcept { return _imbalance; }
 
  private:

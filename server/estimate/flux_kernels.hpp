@@ -23,7 +23,11 @@ struct FluxMesh {
   const FanCorner* around;
   const Stop* stops;
   const Face* face;
+  /// Called each `flux_turn` triangles or fans; throws where the work is to end.
+  void (*look)();
 };
+
+constexpr std::size_t flux_turn = 8192;
 
 /// A load; no traction and no force: 0.
 struct FluxLane {

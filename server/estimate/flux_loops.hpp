@@ -113,6 +113,7 @@ class Flux {
   void measure() {
     V norm_squared{};
     for (std::size_t t = 0; t < _mesh.triangles; ++t) {
+      look(t);
       const std::int32_t* const copy = _mesh.copy + 3 * t;
       const double* const edge = _mesh.edge + 6 * t;
       const double tension = _mesh.tension[t], q = tension * tension;
@@ -154,6 +155,7 @@ class Flux {
     V imbalance{};
     for (std::size_t place = 0; place < 2 * _mesh.faces; ++place) _through[place] = V{};
     for (std::size_t fan = 0; fan < _mesh.fans; ++fan) {
+      look(fan);
       const FanCorner* const end = _mesh.around + _mesh.first_corner[fan + 1];
       V x{};
       Pair slope{};
@@ -170,7 +172,7 @@ class Flux {
         *++spoke = x;
       }
       const std::int32_t first_stop = _mesh.first_stop[fan], last_stop = _mesh.first_stop[fan + 1];
-      if (first_stop == last_stop) imbalance = larger(imbalance, larger(x, -x));
+      if (first_stop == last_stop) imbalance += larger(x, -x);
       for (std::int32_t s = first_stop; s < last_stop; ++s) {
         const Stop& stop = _mesh.stops[s];
         _through[2 * stop.face + stop.end] = sign(stop) * _x[stop.spoke];
@@ -182,12 +184,17 @@ class Flux {
 
   void polish() {
     for (std::size_t fan = 0; fan < _mesh.fans; ++fan) {
+      look(fan);
       const FanCorner* const end = _mesh.around + _mesh.first_corner[fan + 1];
       Pair slope{};
       for (const FanCorner* one = _mesh.around + _mesh.first_corner[fan]; one != end; ++one)
         slope += Of::products(_mean[one->triangle], one->edge);
       rotate(fan, step(fan, slope_of_work(fan) + Of::sum(slope)));
     }
+  }
+
+  void look(std::size_t turn) const {
+    if (turn % flux_turn == 0) _mesh.look();
   }
 
   /// `flux` round the node.
@@ -274,6 +281,7 @@ class Flux {
   void finish() {
     const bool loaded = _lane->force != nullptr;
     for (std::size_t t = 0; t < _mesh.triangles; ++t) {
+      look(t);
       const V mx = _mean[t][0], my = _mean[t][1];
       const V square = mx * mx + my * my;
       const V distance = loaded ? square + _rest[t] : square;

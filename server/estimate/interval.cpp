@@ -8,6 +8,7 @@
 #include "estimate/flux_kernels.hpp"
 #include "fem/triangle_rules.hpp"
 #include "mesh/at.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::estimate {
 namespace {
@@ -23,6 +24,10 @@ struct Cone {
   double rounding = 0, most = 0, beyond = 0;
   double all_beyond = 0;  ///< sum
   bool left() const { return beyond > most; }
+  /// What is in it of a number that may be `bound`.
+  double kept(double of, double bound) const {
+    return std::abs(of) <= rounding ? 0 : std::clamp(of, -bound, bound);
+  }
 };
 
 /// Integrals of tau - T grad z with itself and with sigma - T grad u_h, and of that with itself,
@@ -50,7 +55,7 @@ Products varied(const Products& by_mean, const fem::Variation& variation, double
       std::max(variation.below * variation.below - 1, 1 - 1 / (variation.above * variation.above));
   return {(a + b) * (a + b), by_mean.mixed, (c + d) * (c + d),
           change * std::sqrt(by_mean.square * by_mean.distance) + a * d + b * (c + d) +
-              20 * fem::tension_tolerance * norm_of_z * norm_of_u};
+              2 * variation.unknown * norm_of_z * norm_of_u};
 }
 
 class Sum {
@@ -65,6 +70,7 @@ class Sum {
     const EquilibratedFlux& sigma = _primal.flux;
     const Shapes& shapes = _primal.cut.shapes;
     for (std::size_t t = 0; t < _primal.cut.triangle_count(); ++t) {
+      stop::look_at_turn(t, "computing bounds");
       const Products own = of_triangle(t);
       if (shapes.variation.empty())
         sum += own;
@@ -148,7 +154,9 @@ Interval interval(const Aimed& aimed, const EquilibratedFlux& tau) {
   const double of_jumps = 1e-12 * largest_of(dual.z),
                of_pressures = 1e-12 * largest_of(tau.through_faces()) +
                               1e-13 * cut.shapes.largest_tension * largest_of(dual.reacting);
-  // Conjugate gradients leave more than rounding in z'; all of it widens the interval.
+  // Conjugate gradients leave more than rounding in z', which Ways bring out of the membrane.
+  const bool bridged = std::isfinite(cut.ways.triangle);
+  std::vector<double> kept(cut.faces.size(), 0);
   Cone jumps{of_jumps, of_jumps}, pressures{of_pressures, 1000 * of_pressures};
   const auto limit = [&](Cone& cone, double of_dual, double of_primal) {
     const double most = dual.c * std::max(0.0, of_primal), size = std::abs(of_dual);
@@ -175,17 +183,24 @@ Interval interval(const Aimed& aimed, const EquilibratedFlux& tau) {
     const auto through = [&](const EquilibratedFlux& flux) {
       return flux.through_faces()[2 * f] + flux.through_faces()[2 * f + 1];
     };
-    work -= 0.5 * through(tau) * (sigma.jump(f, 0) + sigma.jump(f, 1));
-    limit(pressures, through(tau), -through(sigma));  // -q, p
+    const double outward = through(tau), pressure_of = std::max(0.0, -through(sigma));  // -q, p
+    kept[f] = bridged ? pressures.kept(outward, dual.c * pressure_of) : outward;
+    work -= 0.5 * kept[f] * (sigma.jump(f, 0) + sigma.jump(f, 1));
+    limit(pressures, outward, pressure_of);
   }
-  if (jumps.left() || pressures.left()) return {};
+  if (jumps.left() || (pressures.left() && !bridged)) return {};
   double beyond = 0;
   for (const double one : primal.load.oscillation) beyond += one * one;
-  const double rho = std::sqrt(std::max(0.0, distance) / 4 + pressure);
-  const double eta = std::sqrt(products.square), middle = dual.value + work + residual + mixed;
+  const double off = std::sqrt(std::max(0.0, distance)), of_dual = std::sqrt(products.square);
+  const double s = bridged ? primal.lack.flux : 0;
+  const double t = bridged ? lack_of(cut, tau, {}, dual.unit, kept).flux : 0;
+  const double rho = std::sqrt((off + s) * (off + s) / 4 + pressure), eta = of_dual + t;
+  const double middle = dual.value + work + residual + mixed;
+  const double lacking =
+      bridged ? primal.lack.work * largest_of(dual.z) + 0.5 * (of_dual * s + t * off + s * t)
+              : 2 * largest_of(primal.u) * pressures.all_beyond;
   const double extra = aimed.unloaded * std::sqrt(beyond) + 0.5 * products.slack +
-                       1e-12 * (std::abs(dual.value) + std::abs(middle)) +
-                       2 * largest_of(primal.u) * pressures.all_beyond;
+                       1e-12 * (std::abs(dual.value) + std::abs(middle)) + lacking;
   return {middle - half_width(below, eta, rho) - extra,
           middle + half_width(above, eta, rho) + extra,
           mixed,
@@ -197,12 +212,15 @@ Interval interval(const Aimed& aimed, const EquilibratedFlux& tau) {
           above};
 }
 
-double norm(const CutMesh& cut, const EquilibratedFlux& tau) {
+double norm(const CutMesh& cut, const EquilibratedFlux& tau, std::span<const ForceOn> unit) {
+  const std::vector<double> nothing(cut.faces.size(), 0);
+  const double lack = lack_of(cut, tau, {}, unit, nothing).flux;
   double distance = 0;
   for (const double one : tau.distance()) distance += std::max(0.0, one);
   double below = 1;
   for (const fem::Variation& one : cut.shapes.variation) below = std::max(below, one.below);
-  return below * (std::sqrt(tau.norm_squared()) + std::sqrt(distance));
+  return below * (std::sqrt(tau.norm_squared()) + std::sqrt(distance)) +
+         (std::isfinite(lack) ? lack : 0);
 }
 
 }  // namespace
@@ -235,7 +253,8 @@ Interval interval(const Primal& primal, const Dual& dual, double unloaded) {
 }
 
 std::vector<double> norms_of_fluxes(const CutMesh& cut,
-                                    std::span<const std::vector<double>> reacting) {
+                                    std::span<const std::vector<double>> reacting,
+                                    std::span<const std::vector<ForceOn>> units) {
   const std::vector<double> none(2 * cut.faces.size(), 0.0);
   const std::vector<FaceBounds> bounds(flux_lanes, none);
   std::vector<double> norms;
@@ -246,9 +265,11 @@ std::vector<double> norms_of_fluxes(const CutMesh& cut,
       if (!one.empty()) balances.push_back({one, {}, {}});
     const std::vector<EquilibratedFlux> taus = EquilibratedFlux::of_all(cut, balances, bounds);
     auto tau = taus.begin();
-    for (const std::vector<double>& one : some)
-      norms.push_back(one.empty() ? std::numeric_limits<double>::infinity() : norm(cut, *tau++));
+    for (std::size_t i = 0; i < some.size(); ++i)
+      norms.push_back(some[i].empty() ? std::numeric_limits<double>::infinity()
+                                      : norm(cut, *tau++, units[i]));
     reacting = reacting.subspan(some.size());
+    units = units.subspan(some.size());
   }
   return norms;
 }

@@ -16,6 +16,10 @@
 // and R has its error; not where w is not 0.
 //
 // Guaranteed for the load that sigma balances; a load beyond (LoadBalance::oscillation) widens it.
+// So does what sigma and tau lack of equilibrium (lack.hpp), s and t: eta + |t| and
+// |sigma - T grad v| + |s| take the place of eta and |sigma - T grad v|, and mid is that of sigma
+// and tau alone with l(z) - a(u_h, z) = 0, which is wrong by at most
+//   work max |z| + (eta |s| + |t| |sigma - T grad v| + |s| |t|) / 2.
 #pragma once
 
 #include <limits>
@@ -24,6 +28,7 @@
 
 #include "estimate/boundary_lift.hpp"
 #include "estimate/equilibrated_flux.hpp"
+#include "estimate/lack.hpp"
 #include "estimate/load_balance.hpp"
 
 namespace anticrack::estimate {
@@ -35,6 +40,7 @@ struct Primal {
   const LoadBalance& load;
   const std::vector<Lift>& lifts;
   std::span<const double> u;  ///< (copies)
+  Lack lack{};                ///< of the flux
 };
 
 /// Where u_h is closed, [z] = 0: it takes no part in l(z) - a(u_h, z), which is 0 then.
@@ -43,6 +49,7 @@ struct Dual {
   std::span<const double> reacting;  ///< (copies) what tau is made for
   double value = 0;                  ///< A(u_h)
   double c = 0;                      ///< bound of c_l and c_u
+  std::span<const ForceOn> unit;     ///< (inclusions) what tau balances
 };
 
 struct Interval {
@@ -75,8 +82,9 @@ std::vector<Interval> intervals(const CutMesh& cut, std::span<const Aimed> of);
 Interval interval(const Primal& primal, const Dual& dual, double unloaded);
 
 /// |tau| of a tau for a unit force with all cracks free; infinite where `reacting` is empty. Of
-/// several at once, with the bits of each alone. O(m) each.
+/// several at once, with the bits of each alone. `units`: as Dual::unit, of each. O(m) each.
 std::vector<double> norms_of_fluxes(const CutMesh& cut,
-                                    std::span<const std::vector<double>> reacting);
+                                    std::span<const std::vector<double>> reacting,
+                                    std::span<const std::vector<ForceOn>> units);
 
 }  // namespace anticrack::estimate

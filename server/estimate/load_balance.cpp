@@ -3,30 +3,64 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "mesh/at.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::estimate {
 namespace {
 
 constexpr double trace_constant = 0.329;
 
-/// The diameter of a triangle after the map of its tension over the root of that tension, by which
-/// Poincare's and the trace inequality hold in the energy norm.
-double size_of(const Shapes& shapes, std::size_t t) {
-  double squared = 0;
-  for (std::size_t i = 3 * t; i < 3 * t + 3; ++i)
-    squared = std::max(squared, dot(shapes.edge[i], shapes.edge[i]));
-  return 2 * std::sqrt(squared * shapes.area[t]) *
-         (shapes.variation.empty() ? 1 : shapes.variation[t].below);
+/// The diameter of a triangle over the root of its least tension, by which Poincare's and the trace
+/// inequality hold in the energy norm.
+double size_of(const CutMesh& cut, std::size_t t) {
+  const auto corner = [&](std::size_t i) { return cut.at[at(cut.copy[3 * t + i])]; };
+  const Vector p = corner(0), q = corner(1), r = corner(2);
+  const Vector before[] = {
+      {r[0] - q[0], r[1] - q[1]}, {p[0] - r[0], p[1] - r[1]}, {q[0] - p[0], q[1] - p[1]}};
+  const Vector b = cut.shapes.side(3 * t), c = cut.shapes.side(3 * t + 1);
+  const double squared =
+      std::max({dot(before[0], before[0]), dot(before[1], before[1]), dot(before[2], before[2])});
+  // The map has the determinant 1; its greatest stretch follows from its trace.
+  const double twice = before[0][0] * before[1][1] - before[0][1] * before[1][0];
+  const double trace =
+      (b[0] * before[1][1] - c[0] * before[0][1] + c[1] * before[0][0] - b[1] * before[1][0]) /
+      twice;
+  const double stretch = 0.5 * (trace + std::sqrt(std::max(0.0, trace * trace - 4)));
+  return std::sqrt(squared / cut.shapes.tension[t]) * std::max(1.0, stretch) *
+         (cut.shapes.variation.empty() ? 1 : cut.shapes.variation[t].below);
 }
 
-/// int (f - P_1 f)^2, from int f^2 and int f phi_i.
-double beyond_linear(double square, const double* load, double area) {
-  const double sum = load[0] + load[1] + load[2];
-  double linear = 0;
-  for (std::size_t i = 0; i < 3; ++i) linear += 12 / area * (load[i] - sum / 4) * load[i];
-  return std::max(0.0, square - linear);
+/// Adds |tau| for the sources of all triangles, and what they do to a w that is 0 on the sides of
+/// its triangle alone (bracket).
+void carry_out(const CutMesh& cut, std::vector<double>& source, std::vector<double>& oscillation) {
+  const Shapes& shapes = cut.shapes;
+  std::vector<double> through(source.size(), 0);  // in and out
+  std::vector<char> led(source.size(), 0);
+  for (auto way = cut.ways_out.rbegin(); way != cut.ways_out.rend(); ++way) {
+    const std::size_t t = at(way->side / 3);
+    led[t] = 1;
+    through[t] += source[t];
+    if (way->into < 0) continue;
+    const std::size_t next = at(way->into / 3);
+    through[next] += source[t];
+    source[next] += source[t];
+  }
+  for (std::size_t t = 0; t < source.size(); ++t) {
+    if (source[t] == 0 && through[t] == 0) continue;
+    if (led[t] == 0) {
+      oscillation[t] = std::numeric_limits<double>::infinity();
+      continue;
+    }
+    // A flux of 1 through a side, (x - P) / (2 area), is at most |e| long.
+    double longest = 0;
+    for (std::size_t i = 3 * t; i < 3 * t + 3; ++i)
+      longest = std::max(longest, dot(shapes.edge[i], shapes.edge[i]));
+    const double below = shapes.variation.empty() ? 1 : shapes.variation[t].below;
+    oscillation[t] += below * std::sqrt(longest) * (through[t] + 2 / j_11 * source[t]);
+  }
 }
 
 }  // namespace
@@ -39,32 +73,40 @@ LoadBalance load_balance(const CutMesh& cut, const std::vector<fem::ForceParts>&
     balance.oscillation.resize(cut.triangle_count(), 0);
     return balance.oscillation[t];
   };
+  std::vector<double> source;
+  const auto unknown = [&](std::size_t t, double amount) {
+    if (amount == 0) return;
+    source.resize(cut.triangle_count(), 0);
+    source[t] += amount;
+  };
   for (std::size_t s = 0; s < force.size(); ++s) {
     const auto first = at(cut.first_triangle[s]);
     balance.force.insert(balance.force.end(), force[s].load.begin(), force[s].load.end());
-    for (std::size_t k = 0; k < force[s].square.size(); ++k) {
-      oscillation(first + k) += size_of(cut.shapes, first + k) / j_11 *
-                                std::sqrt(beyond_linear(force[s].square[k], &force[s].load[3 * k],
-                                                        cut.shapes.area[first + k]));
+    for (std::size_t k = 0; k < force[s].beyond.size(); ++k) {
+      stop::look_at_turn(k, "computing bounds");
+      oscillation(first + k) += size_of(cut, first + k) / j_11 * force[s].beyond[k];
+      unknown(first + k, force[s].unknown[k]);
     }
   }
-  std::vector<double> square;
+  std::vector<double> beyond, of_edges;
   for (const fem::TractionParts& parts : traction) {
     balance.traction.insert(balance.traction.end(), parts.load.begin(), parts.load.end());
-    square.insert(square.end(), parts.square.begin(), parts.square.end());
+    beyond.insert(beyond.end(), parts.beyond.begin(), parts.beyond.end());
+    of_edges.insert(of_edges.end(), parts.unknown.begin(), parts.unknown.end());
   }
-  if (square.empty()) return balance;
   for (const Face& face : cut.faces) {
-    if (face.traction < 0) continue;
+    if (beyond.empty() || face.traction < 0) continue;
     const std::size_t t = at(face.side / 3), i = at(face.side % 3);
     const Vector &p = cut.at[at(cut.copy[3 * t + (i + 1) % 3])],
                  &q = cut.at[at(cut.copy[3 * t + (i + 2) % 3])];
     const double length = std::hypot(q[0] - p[0], q[1] - p[1]);
-    const double* load = &balance.traction[2 * at(face.traction)];
-    const double sum = load[0] + load[1];
-    const double beyond = std::max(0.0, square[at(face.traction)] - sum * sum / length);
-    oscillation(t) +=
-        size_of(cut.shapes, t) * std::sqrt(trace_constant * length / cut.shapes.area[t] * beyond);
+    oscillation(t) += size_of(cut, t) * std::sqrt(trace_constant * length / cut.shapes.area[t]) *
+                      beyond[at(face.traction)];
+    unknown(t, of_edges[at(face.traction)]);
+  }
+  if (!source.empty()) {
+    balance.oscillation.resize(cut.triangle_count(), 0);
+    carry_out(cut, source, balance.oscillation);
   }
   return balance;
 }

@@ -18,15 +18,19 @@ inline constexpr double j_11 = 3.8317059702075123;
 struct LoadBalance {
   std::vector<double> force;     ///< as Balance::force
   std::vector<double> traction;  ///< as Balance::traction; empty: 0
-  /// (triangles) bound of the effect of what is not balanced,
-  ///   h/(j_11 sqrt(T)) |f - P_1 f| + sqrt(0.329 |e| h^2/(|K| T)) |g - mean g|_e ;  empty: 0.
-  /// h and T after the map of the tension; where that varies, times Variation::below.
-  /// P_1: projection on linear functions; j_11 from the Poincare constant of triangles, Laugesen &
-  /// Siudeja (2009).
+  /// (triangles) o with |int (f - f_h) v + int (g - g_h) v| <= sum of o |grad v| for all v that are
+  /// 0 on the Dirichlet boundary, f_h and g_h what is balanced:
+  ///   h/(j_11 sqrt(T)) |f - f_h| + sqrt(0.329 |e| h^2/(|K| T)) |g - g_h|_e + |tau|;  empty: 0.
+  /// h is the diameter, T the least tension in any direction; where that varies, times
+  /// Variation::below. j_11 from the
+  /// Poincare constant of triangles, Laugesen & Siudeja (2009). The flux tau carries what is
+  /// unknown of int_K f and int_e g to the boundary, along CutMesh::ways_out: as |v| is as smooth
+  /// as v and 0 there, too, int |v| s = int tau.grad |v| for the sources s of tau.
   std::vector<double> oscillation;
 };
 
 /// `traction`: per subdomain, or none. O(m).
+/// Infinite where an unknown part has no way to the boundary.
 LoadBalance load_balance(const CutMesh& cut, const std::vector<fem::ForceParts>& force,
                          const std::vector<fem::TractionParts>& traction);
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "stop/stop.hpp"
+
 namespace anticrack::estimate {
 namespace {
 
@@ -18,6 +20,7 @@ constexpr double doerfler = 0.5;
 /// which triangles stay whole decides the rest.
 double root_of_tau(std::span<const double> indicator, double target) {
   for (double root = 0;;) {
+    stop::look("choosing which triangles to bisect");
     double whole = 0;
     double roots = 0;
     for (const double one : indicator) {
@@ -44,6 +47,7 @@ std::vector<std::uint8_t> levels(std::span<const double> indicator, double reduc
   }
   std::vector<std::int32_t> order(indicator.size());
   std::iota(order.begin(), order.end(), 0);
+  stop::look("choosing which triangles to bisect");
   const auto of = [&](std::int32_t t) { return indicator[static_cast<std::size_t>(t)]; };
   std::ranges::sort(order, [&](std::int32_t a, std::int32_t b) {
     return of(a) > of(b) || (of(a) == of(b) && a < b);

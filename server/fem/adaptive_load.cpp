@@ -11,6 +11,7 @@
 
 #include "fem/cut_cells.hpp"
 #include "fem/integration.hpp"
+#include "fem/load_proof.hpp"
 #include "fem/triangle_rules.hpp"
 
 namespace anticrack::fem {
@@ -136,6 +137,9 @@ class LoadIntegrator {
       _integration.f.function().require_finite(_integration.xy[2 * i], _integration.xy[2 * i + 1],
                                                _at_nodes[i]);
     }
+    _integration.interpolated = true;
+    for (std::size_t t = 0; t < _count; ++t)
+      _integration.area += std::max(0.0, _integration.frame(static_cast<std::int32_t>(t)).area);
     const bool exact = std::exchange(_exact, false);  // gather() is to read the corners
     double error = 0, absolute = 0;
     for (std::size_t first = 0; first < _count; first += width) {
@@ -148,8 +152,7 @@ class LoadIntegrator {
         const double p = _corner[0][t], q = _corner[1][t], r = _corner[2][t];
         const double part = _area[t] / 12, sum = p + q + r;
         const Moments linear{{4 * part * sum, part * (sum + q), part * (sum + r)},
-                             4 * part * (std::abs(p) + std::abs(q) + std::abs(r)),
-                             part * (sum * sum + p * p + q * q + r * r)};
+                             4 * part * (std::abs(p) + std::abs(q) + std::abs(r))};
         _integration.add(static_cast<std::int32_t>(first + t), linear, 0);
         if (looked_at) {
           Moments sampled;
@@ -180,7 +183,6 @@ class LoadIntegrator {
         _of_b[t] = (p == 0 ? 0 : _of_b[t]) + part * b;
         _of_c[t] = (p == 0 ? 0 : _of_c[t]) + part * c;
         _absolute[t] = (p == 0 ? 0 : _absolute[t]) + std::abs(part);
-        _square[t] = (p == 0 ? 0 : _square[t]) + part * v[t];
       }
     }
     if (!_exact) {
@@ -275,9 +277,7 @@ class LoadIntegrator {
         _integration.f.function().require_finite(_x[i], _y[i], values[i]);
       }
     }
-    const Moments found{{area * _whole[t], area * _of_b[t], area * _of_c[t]},
-                        area * _absolute[t],
-                        area * _square[t]};
+    const Moments found{{area * _whole[t], area * _of_b[t], area * _of_c[t]}, area * _absolute[t]};
     _integration.absolute += found.absolute;
     const double error = area * _error[t];
     if (error <= 0.5 * _integration.tolerance * found.absolute && _trust[t] == Trust::sound) {
@@ -300,7 +300,7 @@ class LoadIntegrator {
   Cutter::Frames _frames{};
   Lane _area{};
   std::array<Trust, width> _trust{};
-  Lane _whole{}, _of_b{}, _of_c{}, _absolute{}, _square{}, _error{};
+  Lane _whole{}, _of_b{}, _of_c{}, _absolute{}, _error{};
   std::array<Lane, 3> _corner{};
 };
 
@@ -310,27 +310,36 @@ IntegrationReport integrate_load(std::span<const double> xy,
                                  std::span<const std::int32_t> triangles,
                                  const expression::Function& f, std::span<double> load,
                                  const IntegrationLimits& limits, std::stop_token stop,
-                                 ForceParts* parts) {
+                                 ForceParts* parts, std::vector<Spread>* spread) {
   std::fill(load.begin(), load.end(), 0.0);
   Sampler sampler(f, stop);
+  ForceParts own;
+  if (parts == nullptr) parts = &own;
+  parts->load.assign(triangles.size(), 0);
   Integration integration{xy, triangles, sampler, load, limits.relative_tolerance, limits.work};
-  if (parts != nullptr) {
-    parts->load.assign(triangles.size(), 0);
-    parts->square.assign(triangles.size() / 3, 0);
-    integration.parts = parts;
-  }
+  integration.parts = parts;
   const expression::Tape& tape = f.tape();
   integration.exact = tape.degree_between_switches(tape.result()) <= 4;
   LoadIntegrator integrator(integration, stop);
   integrator(limits.first_work);
   IntegrationReport report;
-  report.evaluations = sampler.count();
   report.cut_triangles = integration.cut;
   // Samples may have missed most of f.
   double whole = 0;
   for (const double value : load) whole += value;
   const double absolute = std::max(integration.settled, std::abs(whole));
   report.relative_error_estimate = integration.error > 0 ? integration.error / absolute : 0;
+  ProofOptions options;
+  options.tolerance = limits.proof_tolerance;
+  options.work = limits.proof_work;
+  options.absolute = absolute;
+  options.area = integration.area;
+  options.exact = integration.exact && tape.switches().empty();
+  options.interpolated = integration.interpolated;
+  options.curved = integration.curved;
+  options.spread = spread;
+  report.proof = prove_load(xy, triangles, f, *parts, load, options, stop);
+  report.evaluations = sampler.count();
   return report;
 }
 

@@ -3,16 +3,16 @@
 // The load vector of an expression.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <stop_token>
 
 #include "expression/function.hpp"
+#include "fem/load_proof.hpp"
 
 namespace anticrack::fem {
-
-struct ForceParts;
 
 struct IntegrationLimits {
   double relative_tolerance = 1e-10;  ///< of int |f|
@@ -22,13 +22,22 @@ struct IntegrationLimits {
   /// Work of the first samples, ns, roughly. An expression that takes longer is interpolated
   /// linearly between the nodes; some of the triangles give the estimate of the error.
   double first_work = 1e12;
+  double proof_tolerance = 1e-6;  ///< of what is unknown (ProofOptions)
+  double proof_work = 1e9;        ///< of the proof, ns, roughly
 };
+
+/// What is unknown of a force, relative to int |f|, matters little beside the error of linear
+/// elements, about 1 / sqrt(triangles).
+inline double proof_tolerance(std::size_t triangles) {
+  return 3e-2 / std::sqrt(static_cast<double>(triangles) + 1);
+}
 
 /// Work so that integrating never takes more than a few times what solving does, some 40 ns a
 /// triangle.
-constexpr IntegrationLimits limits_of(double tolerance, std::size_t triangles) {
+inline IntegrationLimits limits_of(double tolerance, std::size_t triangles) {
   const auto count = static_cast<double>(triangles);
-  return {tolerance, 8e6 + 250 * count, 2e7 + 1000 * count};
+  return {tolerance, 8e6 + 250 * count, 2e7 + 1000 * count, proof_tolerance(triangles),
+          3e7 + 1000 * count};
 }
 
 struct IntegrationReport {
@@ -36,6 +45,7 @@ struct IntegrationReport {
   /// tolerance only if the work was limited. Infinite: no estimate is possible, int f may not
   /// exist.
   double relative_error_estimate = 0;
+  Proof proof;  ///< of f - f_h
   std::size_t evaluations = 0;
   std::size_t cut_triangles = 0;  ///< triangles in which a jump or a kink was found
 };
@@ -54,11 +64,13 @@ struct IntegrationReport {
 /// Reproducible on one kind of processor. Memory O(m). About n + 7 m evaluations if f is smooth.
 /// Triangles with zero area to rounding have no load. Throws errors::Error (expression_invalid if f
 /// is not finite inside a triangle; cancelled at most 10 ms of work after `stop` is requested).
-/// `parts`, if given, receives the load by triangles.
+/// What samples missed is added (load_proof.hpp). `parts`, if given, receives the load by triangles
+/// and what is proved of the rest; `spread` the values of f.
 IntegrationReport integrate_load(std::span<const double> xy,
                                  std::span<const std::int32_t> triangles,
                                  const expression::Function& f, std::span<double> load,
                                  const IntegrationLimits& limits = {}, std::stop_token stop = {},
-                                 ForceParts* parts = nullptr);
+                                 ForceParts* parts = nullptr,
+                                 std::vector<Spread>* spread = nullptr);
 
 }  // namespace anticrack::fem

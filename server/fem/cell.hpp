@@ -75,11 +75,10 @@ inline Frame frame_of(std::span<const double> xy, std::span<const std::int32_t> 
   return frame;
 }
 
-/// int f, int f phi_1 and int f phi_2 over a cell (phi_0 is the rest), int |f| and int f^2.
+/// int f, int f phi_1 and int f phi_2 over a cell (phi_0 is the rest), and int |f|.
 struct Moments {
   std::array<double, 3> value{};
   double absolute = 0;
-  double square = 0;
 
   void add(double weight, const Place& p, double f) {
     const double part = weight * f;
@@ -87,12 +86,10 @@ struct Moments {
     value[1] += part * p.b;
     value[2] += part * p.c;
     absolute += std::abs(part);
-    square += part * f;
   }
   void operator+=(const Moments& other) {
     for (std::size_t i = 0; i < 3; ++i) value[i] += other.value[i];
     absolute += other.absolute;
-    square += other.square;
   }
 };
 

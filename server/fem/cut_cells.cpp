@@ -452,6 +452,8 @@ class Cutter::Work {
     if (error > _integration.allowed(frame.area, one.cell.share, found.absolute) &&
         std::abs(one.cell.part()) * frame.area > _negligible && _integration.work > 0)
       return false;
+    _integration.curved.resize(_integration.triangles.size() / 3);
+    _integration.curved[static_cast<std::size_t>(one.cell.triangle)] = 1;
     _integration.add(one.cell.triangle, found, error);
     if (one.side[0] != 0 && !sectors[0].beyond)  // the rest of the cell
       push(one.cell, sectors[0].u, one.cell.corners[1], one.cell.corners[2]);

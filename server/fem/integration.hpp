@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "fem/cell.hpp"
 #include "fem/load_parts.hpp"
@@ -27,7 +28,9 @@ struct Integration {
   double error = 0;     ///< estimated, of the parts added to the load
   bool exact = false;   ///< between switches f is a polynomial that rule_5 integrates exactly
   std::size_t cut = 0;  ///< triangles in which f jumps or bends
-  ForceParts* parts = nullptr;  ///< if wanted, of the size of the triangles
+  ForceParts* parts = nullptr;  ///< of the size of the triangles
+  bool interpolated = false;    ///< the expression takes too long for samples
+  std::vector<char> curved{};   ///< (m) 1: integrated along a curve; empty: none
 
   Frame frame(std::int32_t t) const { return frame_of(xy, triangles, static_cast<std::size_t>(t)); }
 
@@ -46,12 +49,10 @@ struct Integration {
     corner(2) += found.value[2];
     settled += found.absolute;
     error += found_error;
-    if (parts == nullptr) return;
     const auto triangle = static_cast<std::size_t>(t);
     parts->load[3 * triangle] += found.value[0] - found.value[1] - found.value[2];
     parts->load[3 * triangle + 1] += found.value[1];
     parts->load[3 * triangle + 2] += found.value[2];
-    parts->square[triangle] += found.square;
   }
 
   /// The work of so many points; `each`: of one, ns.

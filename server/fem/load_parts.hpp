@@ -16,14 +16,19 @@ namespace anticrack::fem {
 
 /// f on the triangles K of a subdomain.
 struct ForceParts {
-  std::vector<double> load;    ///< (m,3) int_K f phi_i for the corners i, as they are in the load
-  std::vector<double> square;  ///< (m) int_K f^2; empty: f is linear on every triangle
+  std::vector<double> load;  ///< (m,3) int_K f phi_i for the corners i, as they are in the load
+  /// (m) >= |f - f_h|, the norm of the square; f_h is the linear function of that load. Or what has
+  /// the effect of such a norm at most (fem/load_proof.cpp). Empty: f is linear on every triangle.
+  std::vector<double> beyond;
+  std::vector<double> unknown;  ///< (m) >= |int_K (f - f_h)|; empty: 0
 };
 
 /// g_N on the edges of the Neumann boundary of a subdomain.
 struct TractionParts {
-  std::vector<double> load;    ///< (edges,2) int g phi_i for both ends
-  std::vector<double> square;  ///< (edges) int g^2
+  std::vector<double> load;  ///< (edges,2) int g phi_i for both ends
+  std::vector<double>
+      beyond;  ///< (edges) >= |g - g_h|, the norm of the square, g_h the mean of that load
+  std::vector<double> unknown;  ///< (edges) >= |int (g - g_h)|
 };
 
 /// The parts of a force that is linear on every triangle: a constant, an array, an expression of

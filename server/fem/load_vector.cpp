@@ -151,7 +151,7 @@ struct AssembleForce {
         integrate_load(part.xy, part.triangles, force, {load.data(), part.node_count()},
                        limits_of(force_tolerance(part.triangle_count()), part.triangle_count()),
                        context.stop, context.parts);
-    if (context.relative_error != nullptr) *context.relative_error = report.relative_error_estimate;
+    if (context.report != nullptr) *context.report = report;
     return load;
   }
 };

@@ -14,6 +14,7 @@
 namespace anticrack::fem {
 
 struct ForceParts;
+struct IntegrationReport;
 
 /// Inputs and results of integration besides the values.
 struct LoadContext {
@@ -21,9 +22,8 @@ struct LoadContext {
   std::span<const std::int32_t> node = {};
   std::span<const std::int32_t> triangle = {};
   std::stop_token stop = {};
-  /// Receives the estimated error of an expression's integral, relative to int |f|: above
-  /// force_tolerance() only if the work was limited, infinite if no estimate is possible.
-  double* relative_error = nullptr;
+  /// Receives how well an expression was integrated.
+  IntegrationReport* report = nullptr;
   /// Receives the parts of an expression that is integrated (load_parts.hpp); of a force that is
   /// linear on every triangle nothing.
   ForceParts* parts = nullptr;

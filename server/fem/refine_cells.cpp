@@ -81,7 +81,6 @@ class Batch {
 struct Means {
   std::array<double, 3> nodal;  ///< of f phi_i, for the cell's own phi_i
   double absolute;              ///< of |f|
-  double square;                ///< of f^2
 };
 
 template <std::size_t N>
@@ -96,7 +95,7 @@ Means means(const TriangleRule<N>& rule, const double* values) {
   const PerPoint<N> part = per_point<N>(rule.weight.data()) * per_point<N>(values);
   const double whole = part.sum(), b = (part * per_point<N>(rule.b.data())).sum(),
                c = (part * per_point<N>(rule.c.data())).sum();
-  return {{whole - b - c, b, c}, part.abs().sum(), (part * per_point<N>(values)).sum()};
+  return {{whole - b - c, b, c}, part.abs().sum()};
 }
 
 /// Mean of |f - its linear part|.
@@ -118,7 +117,6 @@ Moments to_triangle(const Cell& cell, double area, const Means& means) {
     result.value[2] += area * means.nodal[k] * cell.corners[k].c;
   }
   result.absolute = area * means.absolute;
-  result.square = area * means.square;
   return result;
 }
 

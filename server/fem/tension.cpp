@@ -10,8 +10,6 @@
 #include "fem/cell.hpp"
 #include "fem/load.hpp"
 #include "fem/load_parts.hpp"
-#include "fem/sampler.hpp"
-#include "fem/triangle_rules.hpp"
 
 namespace anticrack::fem {
 namespace {
@@ -35,37 +33,12 @@ void require_positive(const std::string& field, const std::string& region, doubl
   refuse(field, message.str());
 }
 
-/// The points of rule_8 and, just inside, the corners: there linear functions are extreme, and of
-/// two sides of a line that meshes follow each has its own value.
-struct TensionSamples {
-  static constexpr std::size_t size = rule_8.size + 3;
-  std::array<double, size> b{}, c{};
-  constexpr TensionSamples() {
-    constexpr double inside = 1e-6;
-    for (std::size_t p = 0; p < rule_8.size; ++p) {
-      b[p] = rule_8.b[p];
-      c[p] = rule_8.c[p];
-    }
-    for (std::size_t i = 0; i < 3; ++i) {
-      b[rule_8.size + i] = i == 1 ? 1 - 2 * inside : inside;
-      c[rule_8.size + i] = i == 2 ? 1 - 2 * inside : inside;
-    }
-  }
-};
-constexpr TensionSamples tension_samples;
-
-Variation variation(const double* values, double mean, bool switches) {
-  const auto [low, high] = std::minmax_element(values, values + TensionSamples::size);
-  // Between samples it may go a little further.
-  const double room = 0.1 * (*high - *low);
-  const double least = std::max(*low - room, 0.5 * *low), most = *high + room;
+/// From what is proved of T on a triangle of mean `mean`.
+Variation variation(const Spread& spread, double mean, double unknown) {
+  const auto& [least, most] = spread.values;
   Variation result{std::max(1.0, std::sqrt(mean / least)), std::max(1.0, std::sqrt(most / mean))};
-  double square = 0;
-  for (std::size_t p = 0; p < rule_8.size; ++p) {
-    const double off = values[p] - mean;
-    square += rule_8.weight[p] * off * off / (values[p] * mean);
-  }
-  result.spread = switches ? result.most() : std::min(result.most(), 1.1 * std::sqrt(square));
+  result.spread = std::min(result.most(), spread.deviation / std::sqrt(least * mean));
+  result.unknown = unknown;
   return result;
 }
 
@@ -74,6 +47,7 @@ void widen(Variation& to, const Variation& by) {
   to.below = std::max(to.below, by.below);
   to.above = std::max(to.above, by.above);
   to.spread = std::max(to.spread, by.spread);
+  to.unknown = std::max(to.unknown, by.unknown);
 }
 
 /// One expression of a law.
@@ -97,57 +71,60 @@ class Direction {
     }
   }
 
-  /// Of each triangle, widened by this expression's; throws where it is not above 0.
+  /// Of each triangle, widened by this expression's.
   void add_variation(std::vector<Variation>& to) const {
-    const expression::Tape& tape = _function.tape();
-    if (tape.degree(tape.result()) == 0) return;
+    if (_spread.empty()) return;
     to.resize(_part.triangle_count());
-    constexpr std::size_t at_once = Evaluator::block / TensionSamples::size;
-    const expression::Ref root = tape.result();
-    Evaluator evaluator(tape, {&root, 1});
-    std::array<double, Evaluator::block> x{}, y{};
-    for (std::size_t first = 0; first < to.size(); first += at_once) {
-      look_at(_stop);
-      const std::size_t count = std::min(at_once, to.size() - first);
-      for (std::size_t k = 0; k < count; ++k) {
-        const Frame frame = frame_of(_part.xy, _part.triangles, first + k);
-        for (std::size_t p = 0; p < TensionSamples::size; ++p) {
-          const double b = tension_samples.b[p], c = tension_samples.c[p];
-          x[k * TensionSamples::size + p] = frame.x + b * frame.bx + c * frame.cx;
-          y[k * TensionSamples::size + p] = frame.y + b * frame.by + c * frame.cy;
-        }
-      }
-      evaluator(x.data(), y.data(), count * TensionSamples::size);
-      const double* values = evaluator.values(0);
-      for (std::size_t i = 0; i < count * TensionSamples::size; ++i)
-        require_positive(_field, _region, x[i], y[i], values[i]);
-      for (std::size_t k = 0; k < count; ++k) {
-        const double own = mean[first + k];
-        require_positive(_field, _region, x[k * TensionSamples::size], y[k * TensionSamples::size],
-                         own);
-        widen(to[first + k],
-              variation(values + k * TensionSamples::size, own, !tape.switches().empty()));
-      }
-    }
+    for (std::size_t t = 0; t < to.size(); ++t)
+      if (_spread[t].values.low > 0) widen(to[t], variation(_spread[t], mean[t], _unknown[t]));
   }
 
   std::vector<double> mean;  ///< (m)
-  double error = 0;          ///< estimated, relative
 
  private:
   void integrate() {
     ForceParts parts;
     std::vector<double> load(_part.node_count());
-    error = integrate_load(_part.xy, _part.triangles, _function, load,
-                           limits_of(tension_tolerance, _part.triangle_count()), _stop, &parts)
-                .relative_error_estimate;
+    IntegrationLimits limits = limits_of(tension_tolerance, _part.triangle_count());
+    // The energy is as wrong as T, and the error of linear elements about 1 / triangles of it.
+    limits.proof_tolerance = 1e-2 / static_cast<double>(_part.triangle_count() + 100);
+    const IntegrationReport report =
+        integrate_load(_part.xy, _part.triangles, _function, load, limits, _stop, &parts, &_spread);
     mean.resize(_part.triangle_count());
+    _unknown.resize(mean.size(), 0);
     for (std::size_t t = 0; t < mean.size(); ++t) {
       const Frame frame = frame_of(_part.xy, _part.triangles, t);
+      if (!(frame.area > 0)) {  // to rounding: nothing is integrated
+        mean[t] = _function(frame.x, frame.y);
+        require_positive(_field, _region, frame.x, frame.y, mean[t]);
+        continue;
+      }
       const double* of = &parts.load[3 * t];
-      // Of a triangle without an area, to rounding, nothing is integrated.
-      mean[t] = frame.area > 0 ? (of[0] + of[1] + of[2]) / frame.area : _function(frame.x, frame.y);
+      mean[t] = (of[0] + of[1] + of[2]) / frame.area;
+      if (!(_spread[t].values.low > 0) || !std::isfinite(_spread[t].values.high))
+        refuse_near(t, report.proof);
+      _unknown[t] = parts.unknown[t] / (frame.area * mean[t]);
     }
+  }
+
+  /// Where T is proved not to be above 0, or is not proved to be.
+  [[noreturn]] void refuse_near(std::size_t t, const Proof& proof) const {
+    const Spread& spread = _spread[t];
+    const double x = proof.lowest_x, y = proof.lowest_y;
+    const expression::Ref root = _function.tape().result();
+    std::array<double, expression::kernel_width> at_x{}, at_y{};
+    at_x.fill(x);
+    at_y.fill(y);
+    Evaluator evaluator(_function.tape(), {&root, 1});
+    evaluator(at_x.data(), at_y.data(), 1);
+    require_positive(_field, _region, x, y, *evaluator.values(0));
+    std::ostringstream message;
+    message.precision(errors::shown_digits);
+    message << "the tension " << _field << " of \"" << _region
+            << "\" is not proved to be finite and above 0 near (x, y) = (" << x << ", " << y
+            << "), where it lies between " << spread.values.low << " and " << spread.values.high
+            << "; keep it away from 0 there";
+    refuse(_field, message.str());
   }
 
   const Triangulation& _part;
@@ -155,6 +132,8 @@ class Direction {
   std::string _field;
   const std::string& _region;
   const std::stop_token& _stop;
+  std::vector<Spread> _spread;   ///< (m) empty: T is constant
+  std::vector<double> _unknown;  ///< (m) of the means, relative
 };
 
 /// T of two eigenvalues.
@@ -184,12 +163,10 @@ Tension tension(const Triangulation& part, const mesh::TensionLaw& law, const st
   const Direction along(part, law.along, "along", region, stop);
   Tension result;
   along.add_variation(result.variation);
-  double error = along.error;
   std::vector<double> second;
   if (!law.across.empty()) {
     Direction across(part, law.across, "across", region, stop);
     across.add_variation(result.variation);
-    error = std::max(error, across.error);
     second = std::move(across.mean);
   }
   const std::vector<double>& across = law.across.empty() ? along.mean : second;
@@ -204,11 +181,6 @@ Tension tension(const Triangulation& part, const mesh::TensionLaw& law, const st
     area += own;
   }
   result.mean = sum / area;
-  if (!(error <= 100 * tension_tolerance)) {
-    result.obstacle = "the tension of \"" + region +
-                      "\" jumps or varies too sharply to be integrated: let it vary less, make the "
-                      "mesh finer, or let it jump along an interface";
-  }
   return result;
 }
 

@@ -27,11 +27,13 @@ struct Isotropic {
   }
 };
 
-/// How T varies on a triangle about its mean T_h: of the direction where it varies most.
+/// How T varies on a triangle about its mean T_h, as integrated: of the direction where it varies
+/// most.
 struct Variation {
-  double below = 1;   ///< >= sqrt(T_h / T)
-  double above = 1;   ///< >= sqrt(T / T_h)
-  double spread = 0;  ///< >= sqrt(mean of (T - T_h)^2 / (T T_h))
+  double below = 1;    ///< >= sqrt(T_h / T)
+  double above = 1;    ///< >= sqrt(T / T_h)
+  double spread = 0;   ///< >= sqrt(mean of (T - T_h)^2 / (T T_h))
+  double unknown = 0;  ///< >= |mean of T - T_h| / T_h
   /// >= |T - T_h| / sqrt(T T_h)
   double most() const { return std::max(below - 1 / below, above - 1 / above); }
 };
@@ -43,20 +45,17 @@ struct Tension {
   /// (m) Txx, Txy, Tyy of a law: the mean of each over the triangle. Empty: `mean` everywhere.
   std::vector<std::array<double, 3>> of_triangle{};
   std::vector<Variation> variation{};  ///< (m) empty: T is constant on every triangle
-  /// Why no bounds can be proved: the integrals of T are not known well enough. Empty: they can.
-  std::string obstacle{};
 
   Isotropic isotropic(std::size_t triangle) const;
   std::size_t bytes() const noexcept;
 };
 
-/// Of the integral of T over a subdomain; what is less is little against the bounds of the error.
+/// Of the integral of T over a subdomain, by samples.
 constexpr double tension_tolerance = 1e-10;
 
 /// `region`: the subdomain's name, for errors. Throws errors::Error (expression_invalid at
-/// "along" or "across" where T is not finite or not above 0 in a sample, with the point;
-/// cancelled). O(m), some 30 evaluations of each expression a triangle, two thirds of them for the
-/// signs and the variation.
+/// "along" or "across" where T is not finite and above 0, or not proved to be, with the point;
+/// cancelled). O(m), some 10 evaluations of each expression a triangle.
 Tension tension(const Triangulation& part, const mesh::TensionLaw& law, const std::string& region,
                 const std::stop_token& stop = {});
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "fem/edge_proof.hpp"
 #include "fem/load_vector.hpp"
 #include "fem/sampler.hpp"
 #include "fem/triangle_rules.hpp"
@@ -41,8 +42,8 @@ struct Segment {
   std::size_t edge;
   double from, to;
   int depth = 0;
-  /// int g, int g phi_1, int |g|, int g^2 over the edge, by its length
-  double whole = 0, at_second = 0, absolute = 0, square = 0;
+  /// int g, int g phi_1, int |g| over the edge, by its length
+  double whole = 0, at_second = 0, absolute = 0;
   double before = 0, first = 0;  ///< change when it was made, and its edge's first
   Trust trust = Trust::sound;
 };
@@ -56,12 +57,9 @@ class EdgeIntegrator {
     for (const auto& nodes : edges) _edges.emplace_back(part, nodes);
   }
 
-  double operator()(Eigen::Ref<Eigen::VectorXd> load, TractionParts* parts) {
-    if (parts != nullptr) {
-      parts->load.assign(2 * _edges.size(), 0);
-      parts->square.assign(_edges.size(), 0);
-    }
-    _parts = parts;
+  double operator()(Eigen::Ref<Eigen::VectorXd> load, TractionParts& parts) {
+    parts.load.assign(2 * _edges.size(), 0);
+    _parts = &parts;
     std::vector<Segment> segments;
     for (std::size_t e = 0; e < _edges.size(); ++e) {
       _length += _edges[e].length;
@@ -96,7 +94,7 @@ class EdgeIntegrator {
       _sampler.note_peaks(n);
       for (std::size_t i = 0; i < count; ++i) {
         Segment& one = segments[first + i];
-        one.whole = one.at_second = one.absolute = one.square = 0;
+        one.whole = one.at_second = one.absolute = 0;
         for (std::size_t k = 0; k < line_5.size; ++k) {
           const std::size_t m = i * line_5.size + k;
           _sampler.function().require_finite(_x[m], _y[m], g[m]);
@@ -104,7 +102,6 @@ class EdgeIntegrator {
           one.whole += part;
           one.at_second += part * between(one, line_5.at[k]);
           one.absolute += std::abs(part);
-          one.square += part * g[m];
         }
         one.trust = _sampler.trust(i * line_5.size, line_5.size, 1);
       }
@@ -147,11 +144,8 @@ class EdgeIntegrator {
                    (exact || left <= 0.5 * traction_tolerance * (mean * share + absolute)))) {
         load[edge.nodes[0]] += edge.length * (whole - at_second);
         load[edge.nodes[1]] += edge.length * at_second;
-        if (_parts != nullptr) {
-          _parts->load[2 * low.edge] += edge.length * (whole - at_second);
-          _parts->load[2 * low.edge + 1] += edge.length * at_second;
-          _parts->square[low.edge] += edge.length * (low.square + high.square);
-        }
+        _parts->load[2 * low.edge] += edge.length * (whole - at_second);
+        _parts->load[2 * low.edge + 1] += edge.length * at_second;
         _settled += edge.length * absolute;
         _error += trust == Trust::sound        ? edge.length * left
                   : trust == Trust::unresolved ? edge.length * absolute
@@ -176,11 +170,19 @@ class EdgeIntegrator {
 
 }  // namespace
 
-double add_traction(const Triangulation& part, std::span<const std::array<std::int32_t, 2>> edges,
-                    const std::string& traction, Eigen::Ref<Eigen::VectorXd> load,
-                    const std::stop_token& stop, TractionParts* parts) {
+TractionReport add_traction(const Triangulation& part,
+                            std::span<const std::array<std::int32_t, 2>> edges,
+                            const std::string& traction, Eigen::Ref<Eigen::VectorXd> load,
+                            const std::stop_token& stop, TractionParts* parts) {
   const expression::Function function(traction, "traction");
-  return EdgeIntegrator(part, edges, function, stop)(load, parts);
+  TractionParts own;
+  if (parts == nullptr) parts = &own;
+  TractionReport report;
+  report.relative_error_estimate = EdgeIntegrator(part, edges, function, stop)(load, *parts);
+  report.proof =
+      prove_traction(part, edges, function, *parts,
+                     {load.data(), static_cast<std::size_t>(load.size())}, most_work, stop);
+  return report;
 }
 
 }  // namespace anticrack::fem

@@ -30,6 +30,9 @@ constexpr std::size_t patience = 3;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// Of an error relative to a value that is 0 but for its rounding: no stage makes it smaller.
+constexpr double of_zero = 1e6;
+
 void check_tolerance(const std::optional<double>& value, const char* field) {
   if (!value || (*value >= finest && *value <= coarsest)) return;
   throw Error(Reason::invalid_argument,
@@ -49,6 +52,18 @@ Worst worst_of(const store::StageRecord& stage, const store::AccuracySpec& wante
   return worst;
 }
 
+/// Whether a load case that has not reached it comes nearer still: than in all stages long past.
+bool improves(const std::vector<store::StageRecord>& stages, const store::AccuracySpec& wanted) {
+  for (std::size_t i = 0; i < stages.back().answers.size(); ++i) {
+    const double now = excess(stages.back().answers[i], wanted);
+    double before = infinity;
+    for (std::size_t k = 0; k + patience < stages.size(); ++k)
+      before = std::min(before, excess(stages[k].answers[i], wanted));
+    if (now > 1 && now <= 0.9 * before) return true;
+  }
+  return false;
+}
+
 /// Empty: it has bounds.
 std::string why_unbounded(const store::CaseRecord& one) {
   if (one.error) return one.error->what();
@@ -63,6 +78,68 @@ double relative_width(const store::StageAnswer& answer) {
 /// As the client tells the errors of a stage.
 std::string in_per_cent(double error, double asked) {
   return fmt::format("{:.3g} % (asked {:g} %)", 100 * error, 100 * asked);
+}
+
+/// Bounds with 0 between them: of a value that an error relative to it says nothing of.
+struct AroundZero {
+  std::string name;      ///< as users ask for it
+  double within = -1;    ///< the largest amount it may have
+  std::string others{};  ///< how to leave it out
+
+  explicit operator bool() const { return within >= 0; }
+  void add(const std::optional<double>& lower, const std::optional<double>& upper) {
+    if (lower && upper && *lower <= 0 && *upper >= 0) within = std::max({within, -*lower, *upper});
+  }
+};
+
+AroundZero energy_around_zero(const store::StageAnswer& answer, const store::AccuracySpec& wanted) {
+  AroundZero found{"energy"};
+  if (wanted.energy && relative_width(answer) > *wanted.energy)
+    found.add(answer.energy_lower, answer.energy_upper);
+  return found;
+}
+
+/// Of the inclusion that the error is relative to, of a load case that has bounds of A.
+AroundZero displacement_around_zero(const contact::AnswerSummary& answer,
+                                    const store::AccuracySpec& wanted) {
+  AroundZero found{"A"};
+  if (!wanted.displacement) return found;
+  const auto amount = [](const contact::InclusionAnswer& one) {
+    return std::abs(one.displacement);
+  };
+  double largest = 0;
+  for (const contact::InclusionAnswer& one : answer.inclusions)
+    largest = std::max(largest, amount(one));
+  for (const contact::InclusionAnswer& one : answer.inclusions) {
+    if (!one.displacement_lower || !one.displacement_upper) continue;
+    const double half = (*one.displacement_upper - *one.displacement_lower) / 2;
+    const double size = wanted.each_inclusion ? amount(one) : largest;
+    if (!(half > *wanted.displacement * size)) continue;
+    if (!wanted.each_inclusion && amount(one) < largest) continue;  // not what it is relative to
+    const double before = found.within;
+    found.add(one.displacement_lower, one.displacement_upper);
+    if (wanted.each_inclusion && answer.inclusions.size() > 1 && found.within > before) {
+      found.name = "A of \"" + one.name + "\"";
+      found.others = "leave each_inclusion out, or ";
+    }
+  }
+  return found;
+}
+
+std::string within(const AroundZero& value) {
+  return fmt::format("{} is 0 within {:.2g}", value.name, value.within);
+}
+
+/// Why no stage helps.
+std::string no_hope(const store::StageAnswer& answer, const contact::AnswerSummary& summary,
+                    const store::AccuracySpec& wanted) {
+  if (const AroundZero of_a = displacement_around_zero(summary, wanted))
+    return fmt::format("an error relative to 0 cannot be reached; {}ask for accuracy.energy",
+                       of_a.others);
+  if (energy_around_zero(answer, wanted))
+    return "an error relative to 0 cannot be reached; ask for accuracy.A";
+  return "finer meshes no longer help: rounding, a tip_size too large for it, or, of A, cracks "
+         "that cross or more than 16 inclusions";
 }
 
 }  // namespace
@@ -151,30 +228,38 @@ store::StageAnswer stage_answer(const store::CaseRecord& ended_case, bool each_i
 
 double excess(const store::StageAnswer& answer, const store::AccuracySpec& wanted) {
   double result = 0;
+  const auto add = [&](double error, double asked) {
+    result = std::max(result, std::min(error, of_zero) / asked);
+  };
   if (wanted.energy) {
-    result = answer.energy_lower && answer.energy_upper
-                 ? std::max(result, relative_width(answer) / *wanted.energy)
-                 : infinity;
+    if (!answer.energy_lower || !answer.energy_upper) return infinity;
+    add(relative_width(answer), *wanted.energy);
   }
   if (wanted.displacement) {
-    result = answer.displacement_error
-                 ? std::max(result, *answer.displacement_error / *wanted.displacement)
-                 : infinity;
+    if (!answer.displacement_error) return infinity;
+    add(*answer.displacement_error, *wanted.displacement);
   }
   return result;
 }
 
-std::string not_reached(const store::StageRecord& last, const store::JobSpec& spec,
+std::string not_reached(const store::StageRecord& last,
+                        std::span<const store::CaseRecord* const> cases, const store::JobSpec& spec,
                         const std::string& why) {
   const store::AccuracySpec& wanted = *spec.accuracy;
   const std::size_t load = worst_of(last, wanted).load;
   const store::StageAnswer& answer = last.answers[load];
   std::string reached;
-  if (wanted.energy && answer.energy_lower)
-    reached = "energy " + in_per_cent(relative_width(answer), *wanted.energy);
+  const auto add = [&](const std::string& text) {
+    reached += (reached.empty() ? "" : ", ") + text;
+  };
+  if (wanted.energy && answer.energy_lower) {
+    const AroundZero zero = energy_around_zero(answer, wanted);
+    add(zero ? within(zero) : "energy " + in_per_cent(relative_width(answer), *wanted.energy));
+  }
   if (wanted.displacement && answer.displacement_error) {
-    reached += (reached.empty() ? "A " : ", A ") +
-               in_per_cent(*answer.displacement_error, *wanted.displacement);
+    const AroundZero zero =
+        cases.empty() ? AroundZero{} : displacement_around_zero(cases[load]->answer, wanted);
+    add(zero ? within(zero) : "A " + in_per_cent(*answer.displacement_error, *wanted.displacement));
   }
   return fmt::format("load case \"{}\" reached {} on {} triangles: {}", spec.loads[load].name,
                      reached.empty() ? "no bounds" : reached, last.triangles, why);
@@ -194,14 +279,14 @@ Verdict judge(const std::vector<store::StageRecord>& stages,
   const store::AccuracySpec& wanted = *spec.accuracy;
   const store::StageRecord& last = stages.back();
   const auto stop = [&](const std::string& why) {
-    return Verdict{true, not_reached(last, spec, why)};
+    return Verdict{true, not_reached(last, cases, spec, why)};
   };
   for (const store::CaseRecord* one : cases) {
     const std::string why = why_unbounded(*one);
     if (why.empty()) continue;
     if (stages.size() > 1) {
       return {true,
-              not_reached(stages[stages.size() - 2], spec,
+              not_reached(stages[stages.size() - 2], {}, spec,
                           fmt::format("on {} there are no bounds: {}", last.triangles, why)),
               true};
     }
@@ -221,14 +306,8 @@ Verdict judge(const std::vector<store::StageRecord>& stages,
     return stop("the time for it is over; raise accuracy.time");
   if (stages.size() >= most_stages)
     return stop("a job has at most 40 stages; start from a finer mesh");
-  if (stages.size() > patience) {
-    const Worst before = worst_of(stages[stages.size() - 1 - patience], wanted);
-    if (worst.excess > 0.9 * before.excess)
-      return stop(
-          "finer meshes no longer help: rounding, a tip_size too large for it, or, of A, cracks "
-          "that "
-          "cross or more than 16 inclusions");
-  }
+  if (!improves(stages, wanted))
+    return stop(no_hope(last.answers[worst.load], cases[worst.load]->answer, wanted));
   return {};
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,7 @@ void tighten(store::CaseRecord& answer, const store::CaseRecord& before);
 store::StageAnswer stage_answer(const store::CaseRecord& ended_case, bool each_inclusion = false);
 
 /// The largest of the errors over the accuracies asked for: at most 1 where they are reached,
-/// infinity without bounds.
+/// infinity without bounds. Errors above 1e6 are those of a value that is 0, and count as 1e6.
 double excess(const store::StageAnswer& answer, const store::AccuracySpec& wanted);
 
 /// After a stage: whether it was the last, and what was not reached, why, with the cure.
@@ -39,8 +40,10 @@ Verdict judge(const std::vector<store::StageRecord>& stages,
               const std::vector<const store::CaseRecord*>& cases, const store::JobSpec& spec,
               std::uint64_t max_triangles, double seconds);
 
-/// "not reached" with the accuracy that is farthest from it, for another reason to stop.
-std::string not_reached(const store::StageRecord& last, const store::JobSpec& spec,
+/// "not reached" with the accuracy that is farthest from it, for another reason to stop. `cases`:
+/// of that stage, which say what is 0 within its bounds; empty: not known.
+std::string not_reached(const store::StageRecord& last,
+                        std::span<const store::CaseRecord* const> cases, const store::JobSpec& spec,
                         const std::string& why);
 
 /// Which limit on the triangles of a mesh it is, with the cure.

@@ -47,7 +47,8 @@ void set_state(store::JobRecord& record, JobState state, const std::optional<Err
 
 }  // namespace
 
-EndingThread::EndingThread(EngineCore& core) : _core(core), _thread([this] { work(); }) {}
+EndingThread::EndingThread(EngineCore& core)
+    : _core(core), _thread(core.start(EngineCore::Lock(core.mutex), [this] { work(); })) {}
 
 EndingThread::~EndingThread() { _thread.join(); }
 

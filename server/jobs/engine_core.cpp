@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <system_error>
 #include <utility>
 
 #include "fields/walk.hpp"
@@ -56,6 +57,20 @@ EngineCore::EngineCore(EngineOptions engine_options, store::Store& records,
       memory(std::make_shared<MemoryBudget>(options.max_job_memory)),
       logs(memory) {}
 
+void EngineCore::quit(const Lock& /*held*/) {
+  quitting = true;
+  for (auto* changed : {&solvers, &preparers, &ending, &sweeping, &limits}) changed->notify_all();
+}
+
+std::thread EngineCore::start(const Lock& held, std::function<void()> work) {
+  try {
+    return std::thread(std::move(work));
+  } catch (const std::system_error&) {
+    quit(held);
+    throw;
+  }
+}
+
 void EngineCore::add(const JobPtr& job) {
   jobs.emplace(job->id(), job);
   numbers.emplace(job->number, job);
@@ -94,6 +109,19 @@ void EngineCore::move_on(const JobPtr& job) {
   job->result_bytes = 0;
   job->answer_bytes = 0;
   enter_mesh(job);
+}
+
+void EngineCore::move_back(const JobPtr& job) {
+  leave_mesh(job);
+  job->mesh = job->stages->records.back().mesh;
+  job->next_unit = 0;
+  enter_mesh(job);
+}
+
+void EngineCore::withdraw(const JobPtr& job) {
+  schedule.remove(job->number);
+  meshes.at(job->mesh)->waiting[index(job->lane)] -= job->units - job->next_unit;
+  job->next_unit = job->units;
 }
 
 void EngineCore::offer(const JobPtr& job) {
@@ -252,10 +280,8 @@ void EngineCore::stop(const JobPtr& job, Stop why, const std::optional<Error>& f
   if (job->why != Stop::none) return;
   job->why = why;
   job->failure = failure;
-  schedule.remove(job->number);
+  withdraw(job);
   const std::shared_ptr<MeshWork> mesh = meshes.at(job->mesh);
-  mesh->waiting[index(job->lane)] -= job->units - job->next_unit;
-  job->next_unit = job->units;
   stopped = take_stopped(*mesh);
   settle(job);
   if (mesh->preparing && mesh->jobs.empty()) preparation = mesh->preparing;

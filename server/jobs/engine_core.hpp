@@ -14,12 +14,14 @@
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <thread>
 #include <unordered_map>
 #include <vector>
 
@@ -85,7 +87,6 @@ class EngineCore {
   bool stop_noted = false;    ///< noted in the store
   bool quitting = false;
   bool ended_since_sweep = true;
-  int idle_solvers = 0;
 
   Schedule schedule;
   Admission admission;
@@ -111,12 +112,22 @@ class EngineCore {
 
   // With the lock held:
 
+  /// Tells all threads to end.
+  void quit(const Lock& held);
+  /// A thread that does `work`. Where there can be none (std::system_error) the others are told to
+  /// end, so that whoever owns them can join them.
+  std::thread start(const Lock& held, std::function<void()> work);
+
   /// Takes in a new job that is in the store and counted by `admission`.
   void add(const JobPtr& job);
   /// Puts a job's waiting units into the schedule.
   void offer(const JobPtr& job);
   /// The job's next stage begins: it waits for the last of its meshes.
   void move_on(const JobPtr& job);
+  /// The job waits for the stage before instead.
+  void move_back(const JobPtr& job);
+  /// Takes a job's waiting units out of the schedule.
+  void withdraw(const JobPtr& job);
   /// The chunks of a sweep that starts are known: they are its units from now on.
   void begin_sweep(const JobPtr& job, SweepPlan plan);
   /// Call it when a case of the job ended or the job must stop: passes on a job that has nothing

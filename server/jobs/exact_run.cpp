@@ -5,6 +5,8 @@
 #include <exception>
 #include <utility>
 
+#include "stop/stop.hpp"
+
 namespace anticrack::jobs {
 
 namespace {
@@ -21,6 +23,7 @@ const store::JobSpec& spec_of(const PreparedCase& prepared) { return *prepared.t
 
 Solved solve(const PreparedCase& prepared, std::atomic<std::uint64_t>& iterations) {
   Solved solved;
+  const stop::Scope scope(prepared.task.job->stop.get_token());
   try {
     Recorder recorder(prepared.task, iterations);
     solved.answer = prepared.task.job->mesh_operator->solve(
@@ -31,6 +34,11 @@ Solved solve(const PreparedCase& prepared, std::atomic<std::uint64_t>& iteration
     solved.failure = std::current_exception();
   }
   return solved;
+}
+
+bool all_stopped(const std::vector<PreparedCase>& cases) {
+  return std::ranges::all_of(
+      cases, [](const PreparedCase& one) { return one.task.job->stop.stop_requested(); });
 }
 
 bool wants_fields(const PreparedCase& prepared) {
@@ -50,6 +58,7 @@ void recover_fields(const std::vector<PreparedCase>& cases, std::vector<Solved>&
     }
   }
   if (loads.empty()) return;
+  const stop::Scope scope([&cases](const stop::Look&) { return all_stopped(cases); });
   try {
     cases.front().task.job->mesh_operator->recover_fields(loads, answers);
   } catch (...) {  // out of memory fails every load case of the block

@@ -63,12 +63,7 @@ JobEngine::JobEngine(EngineOptions options, store::Store& store, meshes::MeshCat
 JobEngine::~JobEngine() {
   stop(std::chrono::milliseconds(0));
   EngineCore& core = _state->core;
-  {
-    const std::lock_guard lock(core.mutex);
-    core.quitting = true;
-  }
-  for (auto* changed : {&core.solvers, &core.preparers, &core.ending, &core.sweeping, &core.limits})
-    changed->notify_all();
+  core.quit(EngineCore::Lock(core.mutex));
   _state->pools.reset();
 }
 

@@ -37,8 +37,9 @@ struct LiveStages {
   /// Answers of the stage before, whose bounds hold still; none in the first.
   std::vector<std::shared_ptr<const store::CaseRecord>> before;
   std::string not_reached;
-  bool over = false;          ///< no stage comes after the one that has ended
-  double seconds_before = 0;  ///< until this server had it
+  std::string no_finer;  ///< why there can be no finer mesh than that of the last one; empty: yes
+  bool over = false;     ///< no stage comes after the one that has ended
+  double seconds_before = 0;                                   ///< until this server had it
   std::optional<std::chrono::steady_clock::time_point> begun;  ///< here
   /// (triangles) of the load cases that are not accurate enough, each over its sum and times its
   /// excess (accuracy.hpp), the largest; empty: none.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/preparation_pool.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <exception>
 #include <optional>
@@ -20,6 +22,8 @@ using store::JobState;
 using store::MeshState;
 
 constexpr std::chrono::milliseconds shortest_retry{100};
+/// Each is an event in the logs of jobs.
+constexpr std::chrono::seconds between_reports{2};
 constexpr const char* waiting_for_memory = "waiting for memory to factorise";
 
 std::string phase_of(MeshState state) {
@@ -33,11 +37,21 @@ std::string phase_of(MeshState state) {
   }
 }
 
+/// "meshing: bisecting a mesh, 120000 triangles".
+std::string text_of(const store::MeshProgress& progress) {
+  std::string text = phase_of(MeshState::meshing);
+  if (!progress.doing.empty()) text += ": " + progress.doing;
+  if (progress.triangles > 0) text += fmt::format(", {} triangles", progress.triangles);
+  if (progress.expected_triangles > 0)
+    text += fmt::format(" of about {}", progress.expected_triangles);
+  return text;
+}
+
 }  // namespace
 
 PreparationPool::PreparationPool(EngineCore& core) : _core(core) {
   const Lock lock(core.mutex);
-  _threads.emplace_back([this] { work(); });
+  _threads.push_back(core.start(lock, [this] { work(); }));
 }
 
 PreparationPool::~PreparationPool() {
@@ -98,6 +112,18 @@ void PreparationPool::tell(MeshWork& mesh, const std::string& phase) {
   for (auto& [log, event] : events) log->append(std::move(event));
 }
 
+void PreparationPool::tell(MeshWork& mesh, const store::MeshProgress& progress) {
+  const std::string text = text_of(progress);
+  std::vector<std::pair<std::shared_ptr<EventLog>, PhaseEvent>> events;
+  {
+    const std::lock_guard lock(_core.mutex);
+    for (const auto& [number, job] : mesh.jobs)
+      if (job->state == JobState::waiting_for_mesh)
+        events.push_back({job->log, {job->state, text}});
+  }
+  for (auto& [log, event] : events) log->append(std::move(event));
+}
+
 void PreparationPool::prepare(Lock& lock, const Mesh& mesh) {
   mesh->preparing.emplace();
   const std::stop_token stop = mesh->preparing->get_token();
@@ -112,7 +138,13 @@ void PreparationPool::prepare(Lock& lock, const Mesh& mesh) {
         [&](MeshState state) {
           if (!retry) tell(*mesh, phase_of(state));
         },
-        stop);
+        stop,
+        [&, told = EngineCore::Clock::time_point()](const store::MeshProgress& progress) mutable {
+          const auto now = EngineCore::Clock::now();
+          if (now - told < between_reports) return;
+          told = now;
+          tell(*mesh, progress);
+        });
   } catch (const Error& error) {
     failure = error;
   } catch (const std::exception& error) {
@@ -139,7 +171,8 @@ void PreparationPool::prepare(Lock& lock, const Mesh& mesh) {
     } else {
       // Not at once, for jobs that come while the others are being failed.
       _core.schedule.again(mesh->id, EngineCore::Clock::now() + shortest_retry);
-      for (const auto& [number, job] : mesh->jobs) failed.push_back(job);
+      for (const auto& [number, job] : std::map(mesh->jobs))
+        if (!fall_back_a_stage(_core, lock, job, *failure)) failed.push_back(job);
     }
   }
   _core.release(mesh);

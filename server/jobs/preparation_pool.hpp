@@ -34,6 +34,8 @@ class PreparationPool {
   void prepare(Lock& lock, const Mesh& mesh);
   /// A phase of the mesh, to all the jobs that wait for it. Without the lock.
   void tell(MeshWork& mesh, const std::string& phase);
+  /// How far the mesher is, to those who watch them.
+  void tell(MeshWork& mesh, const store::MeshProgress& progress);
 
   EngineCore& _core;
   int _idle = 0;

@@ -17,7 +17,8 @@ constexpr std::chrono::minutes sweep_every{1};
 
 }  // namespace
 
-RetentionThread::RetentionThread(EngineCore& core) : _core(core), _thread([this] { work(); }) {}
+RetentionThread::RetentionThread(EngineCore& core)
+    : _core(core), _thread(core.start(EngineCore::Lock(core.mutex), [this] { work(); })) {}
 
 RetentionThread::~RetentionThread() { _thread.join(); }
 

@@ -120,22 +120,32 @@ void Schedule::unpark(const std::string& mesh, Lane lane, store::Priority priori
   --_meshes.at(mesh).lanes[index(lane)].parked[class_of(priority)];
 }
 
-std::map<int, std::size_t> Schedule::prepared_ahead() const {
-  std::map<int, std::size_t> count;
-  for (const auto& [id, mesh] : _meshes)
-    if (mesh.stage == Stage::preparing || (mesh.stage == Stage::ready && mesh.unused))
-      ++count[mesh.size_class];
+std::map<int, Schedule::Ahead> Schedule::prepared_ahead() const {
+  std::map<int, Ahead> count;
+  for (const auto& [id, mesh] : _meshes) {
+    if (mesh.stage == Stage::preparing || (mesh.stage == Stage::ready && mesh.unused)) {
+      Ahead& ahead = count[mesh.size_class];
+      ++ahead.all;
+      ++ahead.of_owner[mesh.owner];
+    }
+  }
   return count;
 }
 
+bool Schedule::may_prepare(const Ahead& ahead, const std::string& owner) const {
+  const bool newcomer = !owner.empty() && !ahead.of_owner.contains(owner);
+  return ahead.all < (newcomer ? 2 : 1) * _prepared_limit;
+}
+
 std::optional<std::string> Schedule::next_to_prepare(Time now) {
-  std::map<int, std::size_t> ahead = prepared_ahead();
+  std::map<int, Ahead> ahead = prepared_ahead();
   Mesh* best = nullptr;
   const std::string* name = nullptr;
   std::optional<Place> best_place;
   for (auto& [id, mesh] : _meshes) {
     const bool waits = mesh.stage == Stage::unknown || mesh.stage == Stage::absent;
-    if (!waits || mesh.not_before > now || ahead[mesh.size_class] >= _prepared_limit) continue;
+    if (!waits || mesh.not_before > now || !may_prepare(ahead[mesh.size_class], mesh.owner))
+      continue;
     for (const Work& work : mesh.lanes) {
       const std::optional<Place> place = first(work, _prepared, now);
       if (place && (!best_place || *place < *best_place)) {
@@ -189,11 +199,15 @@ std::optional<Schedule::Time> Schedule::next_retry(Time now) const {
   return earliest;
 }
 
-std::optional<std::string> Schedule::next_owner(Time now) const {
+bool Schedule::has_turns(const std::string& id, const Mesh& mesh, const Excluded& excluded) {
+  return mesh.has_turns() && !(excluded && excluded(id, mesh.owner));
+}
+
+std::optional<std::string> Schedule::next_owner(Time now, const Excluded& excluded) const {
   std::pair<int, std::uint64_t> best_key;
   std::optional<std::string> best;
   for (const auto& [id, mesh] : _meshes) {
-    if (!mesh.has_turns()) continue;
+    if (!has_turns(id, mesh, excluded)) continue;
     const Last last = last_of(_served, mesh.owner);
     for (const Work& work : mesh.lanes) {
       const int urgent = urgency(work, std::max(mesh.served, last.time), now);
@@ -207,19 +221,19 @@ std::optional<std::string> Schedule::next_owner(Time now) const {
   return best;
 }
 
-std::optional<Turn> Schedule::next_turn(Time now) {
-  const std::optional<std::string> owner = next_owner(now);
+std::optional<Turn> Schedule::next_turn(Time now, const Excluded& excluded) {
+  const std::optional<std::string> owner = next_owner(now, excluded);
   if (!owner) return std::nullopt;
   std::tuple<int, std::uint64_t, std::uint64_t> best_key;
   std::optional<Turn> best;
   for (const auto& [id, mesh] : _meshes) {
-    if (!mesh.has_turns() || mesh.owner != *owner) continue;
+    if (mesh.owner != *owner || !has_turns(id, mesh, excluded)) continue;
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
       const Work& work = mesh.lanes[lane];
       const int urgent = urgency(work, mesh.served, now);
       const std::tuple key{urgent, mesh.last_turn, work.last_turn};
       if (urgent != nothing && (!best || key < best_key)) {
-        best = Turn{id, static_cast<Lane>(lane), mesh.stage == Stage::unknown};
+        best = Turn{id, static_cast<Lane>(lane), mesh.stage == Stage::unknown, mesh.owner};
         best_key = key;
       }
     }

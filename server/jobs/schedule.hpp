@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -40,6 +41,7 @@ struct Turn {
   /// Nobody has checked whether the operator is in memory. Answered by
   /// `prepared` or `absent`.
   bool probe = false;
+  std::string owner{};  ///< of the mesh
 };
 
 /// Contract:
@@ -57,7 +59,8 @@ struct Turn {
 ///    nobody has looked for, have turns.
 /// 5. One preparation at a time per mesh, owners and then their meshes as in 2; of a class of sizes
 ///    at most `prepared_limit` meshes are being prepared or are prepared and had no turn: each pins
-///    memory, and large ones are to hold up no small one.
+///    memory, and large ones are to hold up no small one. Beyond it, up to twice as many, an owner
+///    with a name who has none of them there may have one: those of others are to hold up nobody.
 /// Not thread-safe. Choosing is O(meshes), the rest O(log jobs).
 class Schedule {
  public:
@@ -90,10 +93,14 @@ class Schedule {
   /// When the next mesh that was put back may be tried; empty when none is held back at `now`.
   std::optional<Time> next_retry(Time now) const;
 
-  /// Takes a turn; empty when no mesh has any.
-  std::optional<Turn> next_turn(Time now);
+  /// Of a mesh and its owner.
+  using Excluded = std::function<bool(const std::string& mesh, const std::string& owner)>;
+  /// Takes a turn; empty when no mesh has any that is not excluded.
+  std::optional<Turn> next_turn(Time now, const Excluded& excluded = {});
   /// The turn ended now.
   void served(const std::string& mesh, Time now);
+  /// There is a turn for any mesh.
+  bool any() const { return others({}, Lane::active_set); }
   /// There is a turn for another mesh or lane, or work of this lane that was put down.
   bool others(const std::string& mesh, Lane lane) const;
 
@@ -144,10 +151,16 @@ class Schedule {
   std::optional<Place> first(const Work& work, const Lasts& lasts, Time now) const;
   static Last last_of(const Lasts& lasts, const std::string& owner);
   /// Who has the next turn.
-  std::optional<std::string> next_owner(Time now) const;
+  std::optional<std::string> next_owner(Time now, const Excluded& excluded) const;
+  static bool has_turns(const std::string& id, const Mesh& mesh, const Excluded& excluded);
   void forget_if_empty(const std::string& mesh);
   /// Meshes that are prepared ahead, by the class of their size.
-  std::map<int, std::size_t> prepared_ahead() const;
+  struct Ahead {
+    std::size_t all = 0;
+    std::map<std::string, std::size_t> of_owner;
+  };
+  std::map<int, Ahead> prepared_ahead() const;  ///< by class of sizes
+  bool may_prepare(const Ahead& ahead, const std::string& owner) const;
 
   std::chrono::milliseconds _ageing;
   std::size_t _prepared_limit;

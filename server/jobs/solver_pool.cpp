@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <exception>
 #include <limits>
+#include <system_error>
 #include <utility>
 
 #include "jobs/condensing.hpp"
@@ -16,6 +17,9 @@ namespace {
 
 using Clock = EngineCore::Clock;
 
+/// Beyond EngineOptions::threads.
+constexpr std::size_t most_spare_threads = 8;
+
 contact::Mass mass_of(Lane lane) {
   return lane == Lane::consistent ? contact::Mass::consistent : contact::Mass::lumped;
 }
@@ -23,22 +27,77 @@ contact::Mass mass_of(Lane lane) {
 }  // namespace
 
 SolverPool::SolverPool(EngineCore& core) : _core(core) {
-  for (int i = 0; i < std::max(1, core.options.threads); ++i)
-    _threads.emplace_back([this] { work(); });
+  Lock lock(core.mutex);
+  try {
+    for (std::size_t i = 0; i < threads(); ++i)
+      _threads.push_back(core.start(lock, [this] { work(); }));
+  } catch (...) {
+    lock.unlock();
+    join();
+    throw;
+  }
 }
 
-SolverPool::~SolverPool() {
+SolverPool::~SolverPool() { join(); }
+
+void SolverPool::join() {
   for (std::thread& thread : _threads) thread.join();
+}
+
+std::size_t SolverPool::threads() const noexcept {
+  return static_cast<std::size_t>(std::max(1, _core.options.threads));
+}
+
+std::size_t SolverPool::idle() const noexcept {
+  return threads() - std::min(threads(), _working.size());
+}
+
+std::optional<Turn> SolverPool::next_turn() {
+  const auto now = Clock::now();
+  if (_working.size() < threads()) return _core.schedule.next_turn(now);
+  const bool all_long = std::all_of(_working.begin(), _working.end(), [&](const Working& other) {
+    return now - other.step >= _core.options.long_step;
+  });
+  if (!all_long) return std::nullopt;
+  return _core.schedule.next_turn(now, [&](const std::string& mesh, const std::string& owner) {
+    return std::any_of(_working.begin(), _working.end(), [&](const Working& other) {
+      return owner.empty() ? other.mesh == mesh : other.owner == owner;
+    });
+  });
+}
+
+void SolverPool::keep_a_spare() {
+  if (_resting > 0) {
+    _core.solvers.notify_one();
+    return;
+  }
+  if (_threads.size() >= threads() + most_spare_threads) return;
+  try {
+    _threads.emplace_back([this] { work(); });
+  } catch (const std::system_error&) {
+    // Long steps then hold up the others, as they do when there are too many of them.
+  }
+}
+
+void SolverPool::rest(Lock& lock) {
+  constexpr std::chrono::milliseconds least(5);
+  ++_resting;
+  if (!_watched && _working.size() >= threads() && _core.schedule.any()) {
+    _watched = true;
+    _core.solvers.wait_for(lock, std::max(least, _core.options.long_step / 2));
+    _watched = false;
+  } else {
+    _core.solvers.wait(lock);
+  }
+  --_resting;
 }
 
 void SolverPool::work() {
   Lock lock(_core.mutex);
   while (!_core.quitting) {
-    const std::optional<Turn> turn = _core.schedule.next_turn(Clock::now());
+    const std::optional<Turn> turn = next_turn();
     if (!turn) {
-      ++_core.idle_solvers;
-      _core.solvers.wait(lock);
-      --_core.idle_solvers;
+      rest(lock);
       continue;
     }
     const Mesh mesh = _core.meshes.at(turn->mesh);
@@ -47,17 +106,26 @@ void SolverPool::work() {
       continue;
     }
     _core.preparers.notify_one();  // one mesh fewer is prepared ahead
+    const auto now = Clock::now();
+    const auto working =
+        _working.insert(_working.end(), Working{turn->mesh, turn->owner, now, now});
+    keep_a_spare();
     ++mesh->threads;
-    if (turn->lane == Lane::active_set)
-      solve_exactly(lock, mesh);
-    else if (turn->lane == Lane::sweep)
-      sweep(lock, mesh);
-    else
-      iterate(lock, mesh, turn->lane);
+    take_turn(lock, mesh, turn->lane, *working);
     --mesh->threads;
+    _working.erase(working);
     _core.schedule.served(mesh->id, Clock::now());
     _core.release(mesh);
   }
+}
+
+void SolverPool::take_turn(Lock& lock, const Mesh& mesh, Lane lane, Working& working) {
+  if (lane == Lane::active_set)
+    solve_exactly(lock, mesh, working);
+  else if (lane == Lane::sweep)
+    sweep(lock, mesh, working);
+  else
+    iterate(lock, mesh, lane, working);
 }
 
 void SolverPool::look_for(Lock& lock, const Mesh& mesh) {
@@ -82,8 +150,9 @@ void SolverPool::look_for(Lock& lock, const Mesh& mesh) {
   _core.release(mesh);
 }
 
-bool SolverPool::turn_is_over(const MeshWork& mesh, Lane lane, Clock::time_point begin) const {
-  return Clock::now() - begin >= _core.options.turn && _core.schedule.others(mesh.id, lane);
+bool SolverPool::turn_is_over(const MeshWork& mesh, Lane lane, const Working& working) const {
+  return Clock::now() - working.begin >= _core.options.turn &&
+         (_working.size() > threads() || _core.schedule.others(mesh.id, lane));
 }
 
 bool SolverPool::overtaken(const MeshWork& mesh, Lane lane, const BlockRun& block) const {
@@ -91,8 +160,7 @@ bool SolverPool::overtaken(const MeshWork& mesh, Lane lane, const BlockRun& bloc
   return waiting && block.free() == 0 && *waiting < block.priority();
 }
 
-void SolverPool::iterate(Lock& lock, const Mesh& mesh, Lane lane) {
-  const auto begin = Clock::now();
+void SolverPool::iterate(Lock& lock, const Mesh& mesh, Lane lane, Working& working) {
   std::shared_ptr<BlockRun> block;
   auto& parked = mesh->parked[index(lane)];
   const bool all_overtaken = std::all_of(
@@ -104,12 +172,14 @@ void SolverPool::iterate(Lock& lock, const Mesh& mesh, Lane lane) {
     _core.schedule.unpark(mesh->id, lane, block->parked_as);
   }
   for (;;) {
+    working.step = Clock::now();
     admit(lock, mesh, lane, block);
     if (!block || block->columns() == 0) break;
+    working.step = Clock::now();
     _core.deliver(lock, step(lock, *block));
     const bool leave =
-        turn_is_over(*mesh, lane, begin) ||
-        (Clock::now() - begin >= _core.options.turn && overtaken(*mesh, lane, *block));
+        turn_is_over(*mesh, lane, working) ||
+        (Clock::now() - working.begin >= _core.options.turn && overtaken(*mesh, lane, *block));
     if (leave) {
       block->parked_as = block->priority();
       _core.schedule.park(mesh->id, lane, block->parked_as);
@@ -123,7 +193,7 @@ void SolverPool::iterate(Lock& lock, const Mesh& mesh, Lane lane) {
 
 void SolverPool::admit(Lock& lock, const Mesh& mesh, Lane lane, std::shared_ptr<BlockRun>& block) {
   const bool under_way = block && block->columns() > 0;
-  if (under_way && _core.idle_solvers > 0) {
+  if (under_way && idle() > 0) {
     if (mesh->waiting[index(lane)] > 0)
       _core.solvers.notify_one();  // for another thread, which has nothing else to do
     return;
@@ -181,9 +251,9 @@ std::vector<EndedCase> SolverPool::step(Lock& lock, BlockRun& block) {
   return ended;
 }
 
-void SolverPool::solve_exactly(Lock& lock, const Mesh& mesh) {
-  const auto begin = Clock::now();
+void SolverPool::solve_exactly(Lock& lock, const Mesh& mesh, Working& working) {
   do {
+    working.step = Clock::now();
     if (mesh->prepared.empty()) {
       const std::vector<Task> tasks =
           take(lock, mesh, Lane::active_set, std::max(1, _core.options.columns),
@@ -206,7 +276,8 @@ void SolverPool::solve_exactly(Lock& lock, const Mesh& mesh) {
       _core.deliver(lock, std::move(condensed.ended));
       continue;
     }
-    const std::vector<PreparedCase> cases = take_together(mesh->prepared, _core.idle_solvers + 1);
+    const std::vector<PreparedCase> cases =
+        take_together(mesh->prepared, static_cast<int>(idle()) + 1);
     for (const PreparedCase& prepared : cases)
       _core.schedule.unpark(mesh->id, Lane::active_set, prepared.task.job->spec->priority);
     _core.columns += static_cast<int>(cases.size());
@@ -215,12 +286,12 @@ void SolverPool::solve_exactly(Lock& lock, const Mesh& mesh) {
     lock.lock();
     _core.columns -= static_cast<int>(cases.size());
     _core.deliver(lock, std::move(ended));
-  } while (!turn_is_over(*mesh, Lane::active_set, begin));
+  } while (!turn_is_over(*mesh, Lane::active_set, working));
 }
 
-void SolverPool::sweep(Lock& lock, const Mesh& mesh) {
-  const auto begin = Clock::now();
+void SolverPool::sweep(Lock& lock, const Mesh& mesh, Working& working) {
   do {
+    working.step = Clock::now();
     const std::vector<Task> tasks =
         take(lock, mesh, Lane::sweep, 1, std::numeric_limits<int>::max());
     if (tasks.empty()) return;
@@ -230,7 +301,7 @@ void SolverPool::sweep(Lock& lock, const Mesh& mesh) {
     lock.lock();
     --_core.columns;
     _core.deliver(lock, std::move(chunk));
-  } while (!turn_is_over(*mesh, Lane::sweep, begin));
+  } while (!turn_is_over(*mesh, Lane::sweep, working));
 }
 
 std::vector<Task> SolverPool::take(Lock& lock, const Mesh& mesh, Lane lane, int room,
@@ -238,7 +309,7 @@ std::vector<Task> SolverPool::take(Lock& lock, const Mesh& mesh, Lane lane, int 
   std::vector<Task> tasks;
   std::vector<EndedCase> refused;
   const std::uint64_t waiting = mesh->waiting[index(lane)];
-  const std::uint64_t shares = static_cast<std::uint64_t>(_core.idle_solvers) + 1;
+  const std::uint64_t shares = static_cast<std::uint64_t>(idle()) + 1;
   const std::uint64_t wanted =
       std::min(static_cast<std::uint64_t>(std::max(0, room)), (waiting + shares - 1) / shares);
   while (tasks.size() < wanted) {

@@ -4,7 +4,10 @@
 #pragma once
 
 #include <cstddef>
+#include <list>
 #include <memory>
+#include <optional>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -18,6 +21,10 @@ namespace anticrack::jobs {
 /// up. A load case more urgent than those of a full block has a block of its own, in turn with
 /// that. Of the load cases that wait on a lane a thread takes no more than its share: the other
 /// shares are those of the threads that are idle.
+///
+/// A step cannot be put down. Where all threads have been at one for EngineOptions::long_step, a
+/// spare thread takes a turn for an owner, without names a mesh, that has no thread; the system
+/// divides the processors. The first turn that ends then gives its thread up.
 class SolverPool {
  public:
   /// Starts the threads; the core must outlive them.
@@ -31,23 +38,42 @@ class SolverPool {
   using Lock = EngineCore::Lock;
   using Mesh = std::shared_ptr<MeshWork>;
 
+  /// A thread's turn.
+  struct Working {
+    std::string mesh, owner;
+    EngineCore::Clock::time_point begin, step;  ///< of the turn, of what it is at now
+  };
+
+  void join();
   void work();
+  std::optional<Turn> next_turn();
+  /// There is always a thread that waits, to see that all others are at long steps.
+  void keep_a_spare();
+  void rest(Lock& lock);
+  void take_turn(Lock& lock, const Mesh& mesh, Lane lane, Working& working);
+
   void look_for(Lock& lock, const Mesh& mesh);
-  void iterate(Lock& lock, const Mesh& mesh, Lane lane);
-  void solve_exactly(Lock& lock, const Mesh& mesh);
-  void sweep(Lock& lock, const Mesh& mesh);
+  void iterate(Lock& lock, const Mesh& mesh, Lane lane, Working& working);
+  void solve_exactly(Lock& lock, const Mesh& mesh, Working& working);
+  void sweep(Lock& lock, const Mesh& mesh, Working& working);
 
   void admit(Lock& lock, const Mesh& mesh, Lane lane, std::shared_ptr<BlockRun>& block);
   std::vector<EndedCase> step(Lock& lock, BlockRun& block);
 
   /// Units of the most urgent jobs, which are started where they were not.
   std::vector<Task> take(Lock& lock, const Mesh& mesh, Lane lane, int room, int max_starts);
-  bool turn_is_over(const MeshWork& mesh, Lane lane, EngineCore::Clock::time_point begin) const;
+  bool turn_is_over(const MeshWork& mesh, Lane lane, const Working& working) const;
   /// A load case waits that is more urgent than all of a block that has no place for it.
   bool overtaken(const MeshWork& mesh, Lane lane, const BlockRun& block) const;
 
+  std::size_t threads() const noexcept;  ///< that solve, spare ones apart
+  std::size_t idle() const noexcept;     ///< of them, those without a turn
+
   EngineCore& _core;
-  std::vector<std::thread> _threads;
+  std::list<Working> _working;
+  int _resting = 0;
+  bool _watched = false;  ///< one of those that rest wakes up by itself
+  std::list<std::thread> _threads;
 };
 
 }  // namespace anticrack::jobs

@@ -10,6 +10,7 @@
 #include "jobs/accuracy.hpp"
 #include "jobs/case_outcome.hpp"
 #include "jobs/result_block.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::jobs {
 
@@ -97,7 +98,10 @@ void end_stage(EngineCore& core, EngineCore::Lock& lock, const JobPtr& job) {
   Verdict verdict = judge(records, cases, *job->spec, most, ended.seconds);
   LiveStages::Complete complete;
   std::shared_ptr<void> use;
+  if (!verdict.over && !stages.no_finer.empty())
+    verdict = {true, not_reached(*event, cases, *job->spec, stages.no_finer)};
   if (!verdict.over) {
+    const stop::Scope scope(job->stop.get_token());
     try {
       const store::MeshRecord mesh = next_mesh(core, *job, indicator, most);
       use = core.catalogue.use(mesh.id);
@@ -106,9 +110,9 @@ void end_stage(EngineCore& core, EngineCore::Lock& lock, const JobPtr& job) {
       store_progress(core, snapshot, records);
     } catch (...) {
       const Error error = error_of(std::current_exception());
-      const std::string why =
-          error.reason() == Reason::limit_exceeded ? limit_reached(*job->spec, most) : error.what();
-      verdict = {true, not_reached(*event, *job->spec, why)};
+      const bool triangles = error.reason() == Reason::limit_exceeded && error.fields().empty();
+      const std::string why = triangles ? limit_reached(*job->spec, most) : error.what();
+      verdict = {true, not_reached(*event, cases, *job->spec, why)};
     }
   }
   job->log->append(StageEvent{event});
@@ -138,6 +142,27 @@ void end_stage(EngineCore& core, EngineCore::Lock& lock, const JobPtr& job) {
   lock.unlock();
   if (before != job->spec->mesh) evict(core, before);
   lock.lock();
+}
+
+bool fall_back_a_stage(EngineCore& core, const EngineCore::Lock& /*held*/, const JobPtr& job,
+                       const Error& error) {
+  if (!job->stages || job->stages->records.size() < 2 || job->why != Stop::none || job->ending ||
+      error.reason() != Reason::limit_exceeded)
+    return false;
+  LiveStages& stages = *job->stages;
+  core.withdraw(job);
+  stages.records.pop_back();
+  if (stages.last.cases.empty()) {
+    stages.no_finer = error.what();
+    stages.records.back() = {stages.records.back().mesh, stages.records.back().triangles};
+    core.move_back(job);
+    return true;
+  }
+  stages.over = true;
+  stages.not_reached = not_reached(stages.records.back(), *job->spec, error.what());
+  job->cases = std::exchange(stages.last.cases, {});
+  core.settle(job);
+  return true;
 }
 
 }  // namespace anticrack::jobs

@@ -35,7 +35,8 @@ Error ran_too_long(std::chrono::milliseconds limit) {
 
 }  // namespace
 
-TimeLimits::TimeLimits(EngineCore& core) : _core(core), _thread([this] { work(); }) {}
+TimeLimits::TimeLimits(EngineCore& core)
+    : _core(core), _thread(core.start(EngineCore::Lock(core.mutex), [this] { work(); })) {}
 
 TimeLimits::~TimeLimits() { _thread.join(); }
 

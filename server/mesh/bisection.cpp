@@ -11,6 +11,7 @@
 #include "mesh/geometry_primitives.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/refine.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::mesh {
 namespace {
@@ -118,7 +119,9 @@ std::vector<std::uint8_t> reference_sides(const Mesh& mesh, const EdgeTable& edg
   std::vector<std::uint8_t> sides(mesh.triangle_count(), 0);
   if (mesh.bisection_bound > 0) return sides;
   std::vector<double> longest(mesh.triangle_count(), -1.0);
+  std::size_t turn = 0;
   edges.each([&](std::span<const EdgeUse> uses) {
+    stop::look_at_turn<std::size_t{1} << 16>(turn++, bisecting);
     const double length = squared_length(mesh, uses[0].low(), uses[0].high());
     for (const EdgeUse& use : uses) {
       const auto t = at(use.triangle);
@@ -142,7 +145,9 @@ Bisection::Bisection(const Mesh& base, std::size_t max_triangles)
     for (std::size_t i = 0; i < 3; ++i)
       _corners[t][i] = base.triangles[3 * t + (reference[t] + i) % 3];
   _across.assign(base.triangle_count(), {-1, -1, -1});
+  std::size_t turn = 0;
   edges.each([&](std::span<const EdgeUse> uses) {
+    stop::look_at_turn<std::size_t{1} << 16>(turn++, bisecting);
     check_plane(uses);
     if (uses.size() < 2) return;
     for (std::size_t i = 0; i < 2; ++i) {
@@ -246,6 +251,7 @@ Mesh Bisection::finish() && {
   mesh.dirichlet = _base.dirichlet;
   mesh.warnings = _base.warnings;
   mesh.bisection_bound = bisection_bound(_base);
+  stop::look(bisecting);
   cut_lines(mesh, Midpoints(static_cast<std::int32_t>(_base.node_count()), _parents));
   return mesh;
 }
@@ -255,6 +261,7 @@ double bisection_bound(const Mesh& base) {
   const std::vector<std::uint8_t> reference = reference_sides(base, EdgeTable(base.triangles));
   double smallest = 180;
   for (std::size_t t = 0; t < base.triangle_count(); ++t) {
+    stop::look_at_turn(t, bisecting);
     const Point a = corner(base, t, reference[t]);
     const Point b = corner(base, t, (reference[t] + 1U) % 3);
     const Point c = corner(base, t, (reference[t] + 2U) % 3);

@@ -18,6 +18,9 @@
 
 namespace anticrack::mesh {
 
+/// What the looks of bisection say is done.
+constexpr const char* bisecting = "bisecting a mesh";
+
 /// The side (0, 1, 2: from corner 0, 1, 2 to the next) of each triangle that is its reference edge,
 /// shape (m). O(m).
 std::vector<std::uint8_t> reference_sides(const Mesh& mesh, const EdgeTable& edges);

@@ -6,8 +6,14 @@
 #include <utility>
 
 #include "mesh/at.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::mesh {
+namespace {
+
+constexpr const char* listing = "listing the edges of a mesh";
+
+}  // namespace
 
 EdgeTable::EdgeTable(std::span<const std::int32_t> triangles) : _uses(triangles.size()) {
   const auto use = [&](std::size_t corner) {
@@ -18,10 +24,15 @@ EdgeTable::EdgeTable(std::span<const std::int32_t> triangles) : _uses(triangles.
   const std::size_t nodes = triangles.empty() ? 0 : at(std::ranges::max(triangles)) + 1;
   std::vector<std::size_t> end(nodes + 1, 0);
   for (std::size_t c = 0; c < triangles.size(); ++c) ++end[at(use(c).low())];
+  stop::look(listing);
   std::partial_sum(end.begin(), end.end(), end.begin());
-  for (std::size_t c = triangles.size(); c-- > 0;) _uses[--end[at(use(c).low())]] = use(c);
+  for (std::size_t c = triangles.size(); c-- > 0;) {
+    stop::look_at_turn<std::size_t{1} << 18>(c, listing);
+    _uses[--end[at(use(c).low())]] = use(c);
+  }
   // end[n] is now where node n begins.
   for (std::size_t n = 0; n < nodes; ++n) {
+    stop::look_at_turn<std::size_t{1} << 16>(n, listing);
     std::sort(_uses.begin() + static_cast<std::ptrdiff_t>(end[n]),
               _uses.begin() + static_cast<std::ptrdiff_t>(end[n + 1]),
               [](const EdgeUse& a, const EdgeUse& b) {

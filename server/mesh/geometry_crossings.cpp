@@ -16,7 +16,8 @@ constexpr double smallest_angle = std::numbers::pi / 180;
 
 class Meetings {
  public:
-  explicit Meetings(const Network& network) : _network(network), _tolerance(network.tolerance) {}
+  Meetings(const Network& network, std::size_t most)
+      : _network(network), _tolerance(network.tolerance), _most(most) {}
 
   void meet(const Chord& s, const Chord& t) {
     if (s.line == t.line)
@@ -156,6 +157,7 @@ class Meetings {
     refine(s, t, crossing.t);
     crossing.at = first.straight() ? second.at(crossing.t[1]) : first.at(crossing.t[0]);
     _crossings.push_back(crossing);
+    check_meetings(_crossings.size(), _most);
   }
 
   /// Newton on c1(t1) = c2(t2), which are nearly straight within their chords. Lines along each
@@ -181,13 +183,14 @@ class Meetings {
 
   const Network& _network;
   double _tolerance;
+  std::size_t _most;
   std::vector<Crossing> _crossings;
 };
 
 }  // namespace
 
-std::vector<Crossing> find_crossings(const Network& network) {
-  Meetings meetings(network);
+std::vector<Crossing> find_crossings(const Network& network, std::size_t most) {
+  Meetings meetings(network, most);
   std::vector<Segment> segments;
   segments.reserve(network.chords.size());
   for (const Chord& chord : network.chords) segments.push_back(meetings.segment(chord));

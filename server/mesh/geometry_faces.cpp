@@ -54,6 +54,18 @@ class Walker {
     return twice / 2;
   }
 
+  /// From the lowest to the highest coordinates.
+  Segment box(const std::vector<int>& loop) const {
+    Segment box{start_point(loop.front()), start_point(loop.front())};
+    for (const int half : loop) {
+      for (std::size_t k = 0; k < 2; ++k) {
+        box.a[k] = std::min(box.a[k], start_point(half)[k]);
+        box.b[k] = std::max(box.b[k], start_point(half)[k]);
+      }
+    }
+    return box;
+  }
+
   bool holds(const std::vector<int>& loop, const Point& p) const {
     bool odd = false;
     for (const int half : loop) {
@@ -172,6 +184,9 @@ Arrangement arrange(std::span<const Point> points, EdgeSpan edges, const std::ve
     std::size_t& best = around[at(part_of(i))];
     if (best == loops.size() || area[i] < area[best]) best = i;
   }
+  std::vector<Segment> box;
+  box.reserve(loops.size());
+  for (const std::vector<int>& loop : loops) box.push_back(walker.box(loop));
   Arrangement result;
   std::vector<int> face_of(loops.size(), Arrangement::outside);
   std::vector<std::size_t> loop_of;
@@ -181,6 +196,7 @@ Arrangement arrange(std::span<const Point> points, EdgeSpan edges, const std::ve
     loop_of.push_back(i);
     result.faces.emplace_back();
     result.faces.back().area = area[i];
+    result.faces.back().box = box[i];
     add_loop(walker, loops[i], true, result.faces.back());
   }
   for (std::size_t i = 0; i < loops.size(); ++i) {
@@ -190,8 +206,9 @@ Arrangement arrange(std::span<const Point> points, EdgeSpan edges, const std::ve
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t f = 0; f < loop_of.size(); ++f) {
       const std::size_t j = loop_of[f];
-      if (part_of(j) == part_of(i) || area[j] >= least) continue;
-      if (!walker.holds(loops[j], walker.start_point(loops[i].front()))) continue;
+      if (area[j] >= least || part_of(j) == part_of(i)) continue;
+      const Point& p = walker.start_point(loops[i].front());
+      if (!boxes_meet(box[j], {p, p}, 0) || !walker.holds(loops[j], p)) continue;
       home = static_cast<int>(f);
       least = area[j];
     }
@@ -212,7 +229,7 @@ int face_at(const Arrangement& arrangement, std::span<const Point> points, EdgeS
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t f = 0; f < arrangement.faces.size(); ++f) {
     const Face& face = arrangement.faces[f];
-    if (face.area >= least) continue;
+    if (face.area >= least || !boxes_meet(face.box, {p, p}, 0)) continue;
     std::vector<Point> polygon;
     polygon.reserve(face.outer.size());
     for (const int edge : face.outer) {

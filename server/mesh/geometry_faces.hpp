@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mesh/geometry.hpp"
+#include "mesh/geometry_primitives.hpp"
 
 namespace anticrack::mesh {
 
@@ -19,6 +20,7 @@ struct Face {
   Loop outer;               ///< counterclockwise
   std::vector<Loop> holes;  ///< clockwise
   double area = 0;          ///< within `outer`
+  Segment box{};            ///< around it, from the lowest to the highest coordinates
 };
 
 struct Arrangement {

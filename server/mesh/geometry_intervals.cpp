@@ -68,6 +68,9 @@ std::vector<std::vector<int>> near_curves(const Plan& plan, double size) {
   std::vector<std::vector<int>> near(plan.curves.size());
   each_near_pair(segments, reach, [&](std::size_t s, std::size_t t) {
     if (joined(plan.curves[s], plan.curves[t])) return;
+    const double longest =
+        std::max(length_of(plan, plan.curves[s]), length_of(plan, plan.curves[t]));
+    if (!boxes_meet(segments[s], segments[t], longest / ratio)) return;
     const double limit = ratio * distance(segments[s], segments[t]);
     if (limit >= size) return;
     if (limit < length_of(plan, plan.curves[s])) near[s].push_back(static_cast<int>(t));

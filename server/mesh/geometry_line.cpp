@@ -2,6 +2,7 @@
 #include "mesh/geometry_line.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -16,6 +17,16 @@ constexpr int samples_half_an_arc = 128;
 double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1]; }
 
 }  // namespace
+
+Line::Box Line::around(const Box& a, const Box& b) noexcept {
+  Box both = a;
+  for (std::size_t k = 0; k < 2; ++k) {
+    both.diagonal.a[k] = std::min(a.diagonal.a[k], b.diagonal.a[k]);
+    both.diagonal.b[k] = std::max(a.diagonal.b[k], b.diagonal.b[k]);
+  }
+  both.slack = std::max(a.slack, b.slack);
+  return both;
+}
 
 Line::Line(Shape shape, bool closed, std::vector<Point> vertices)
     : _shape(shape), _closed(closed), _vertices(std::move(vertices)) {
@@ -122,9 +133,27 @@ Line::Box Line::box_of(std::size_t first, std::size_t last) const noexcept {
       box.diagonal.a[k] = std::min(box.diagonal.a[k], p[k]);
       box.diagonal.b[k] = std::max(box.diagonal.b[k], p[k]);
     }
-    if (!straight()) box.slack = std::max(box.slack, distance(_samples[i - 1].p, p));
   }
+  const auto each = static_cast<std::size_t>(samples_in_span());
+  for (std::size_t span = first / each; span * each < last; ++span)
+    box.slack = std::max(box.slack, bulge(static_cast<int>(span)));
   return box;
+}
+
+/// How far the curve of a span leaves the chords of its samples at most: h^2/8 of the largest
+/// second derivative, which is linear within a span of a spline.
+double Line::bulge(int k) const noexcept {
+  const double h = 1.0 / samples_in_span();
+  if (straight()) return 0;
+  if (!_angles.empty()) return _radius * sweep(k) * sweep(k) * h * h / 8;
+  const Point chord = minus(vertex(k + 1), vertex(k));
+  const Point& out = _out[static_cast<std::size_t>(k)];
+  const Point& in = _in[static_cast<std::size_t>(k)];
+  const double begin =
+      std::hypot(6 * chord[0] - 4 * out[0] - 2 * in[0], 6 * chord[1] - 4 * out[1] - 2 * in[1]);
+  const double end =
+      std::hypot(2 * out[0] + 4 * in[0] - 6 * chord[0], 2 * out[1] + 4 * in[1] - 6 * chord[1]);
+  return std::max(begin, end) * h * h / 8;
 }
 
 void Line::sample() {
@@ -135,10 +164,12 @@ void Line::sample() {
     _samples.push_back({t, at(t)});
     if (i > 0) _length += distance(_samples[_samples.size() - 2].p, _samples.back().p);
   }
-  _boxes.reserve(static_cast<std::size_t>(_spans));
+  const auto spans = static_cast<std::size_t>(_spans);
   const auto step = static_cast<std::size_t>(each);
-  for (std::size_t k = 0; k + 1 < _samples.size(); k += step) _boxes.push_back(box_of(k, k + step));
-  _box = box_of(0, _samples.size() - 1);
+  _boxes.resize(2 * spans);
+  for (std::size_t k = 0; k < spans; ++k) _boxes[spans + k] = box_of(k * step, (k + 1) * step);
+  for (std::size_t node = spans; node-- > 1;)
+    _boxes[node] = around(_boxes[2 * node], _boxes[2 * node + 1]);
 }
 
 int Line::span_of(double t) const noexcept {
@@ -208,49 +239,56 @@ Point Line::derivative(double t) const noexcept {
   return d;
 }
 
-/// The parameter of the point nearest to `p` where the distance has one minimum: golden section,
-/// then Newton on (c - p).c' with a curvature-free slope, which is exact near the line.
-double Line::closest(const Point& p, double low, double high) const noexcept {
-  constexpr double golden = 0.6180339887498949;
-  double a = low;
-  double b = high;
-  for (int i = 0; i < 40; ++i) {
-    const double left = b - golden * (b - a);
-    const double right = a + golden * (b - a);
-    const bool nearer = distance(at(left), p) <= distance(at(right), p);
-    (nearer ? b : a) = nearer ? right : left;
-  }
-  double t = (a + b) / 2;
-  for (int i = 0; i < 3; ++i) {
+/// The parameter of the point nearest to `p` between two samples: that on their chord, then Newton
+/// on (c - p).c' with a curvature-free slope, which is exact near the line.
+double Line::closest(const Point& p, const Sample& low, const Sample& high) const noexcept {
+  double t = low.t + (high.t - low.t) * nearest(p, Segment{low.p, high.p});
+  for (int i = 0; i < 4; ++i) {
     const Point d = derivative(t);
     const double square = dot(d, d);
     if (square == 0) break;
-    t = std::clamp(t - dot(minus(at(t), p), d) / square, low, high);
+    t = std::clamp(t - dot(minus(at(t), p), d) / square, low.t, high.t);
   }
   return t;
 }
 
 std::optional<double> Line::locate(const Point& p, double tolerance) const {
+  const auto near = [&](const Box& box) {
+    return boxes_meet(box.diagonal, {p, p}, tolerance + box.slack);
+  };
+  if (!near(_boxes[1])) return std::nullopt;
+  // An arc leaves its circle by rounding alone.
+  const double rounding = 8 * std::numeric_limits<double>::epsilon() * _radius;
+  if (!_angles.empty() && std::abs(distance(p, _centre) - _radius) > 2 * tolerance + rounding)
+    return std::nullopt;
   double best = 0;
   double off = std::numeric_limits<double>::infinity();
-  const auto apart = [&](const Box& box) {
-    return !boxes_meet(box.diagonal, {p, p}, tolerance + box.slack);
-  };
-  if (apart(_box)) return std::nullopt;
   const auto step = static_cast<std::size_t>(samples_in_span());
-  for (std::size_t k = 0; k < _boxes.size(); ++k) {
-    if (apart(_boxes[k])) continue;
+  const auto try_span = [&](std::size_t k, double slack) {
     for (std::size_t i = k * step + 1; i <= (k + 1) * step; ++i) {
       const Segment chord{_samples[i - 1].p, _samples[i].p};
-      if (!boxes_meet(chord, {p, p}, tolerance + _boxes[k].slack)) continue;
+      if (!boxes_meet(chord, {p, p}, tolerance + slack)) continue;
       const double t = straight() ? _samples[i - 1].t + nearest(p, chord)
-                                  : closest(p, _samples[i - 1].t, _samples[i].t);
+                                  : closest(p, _samples[i - 1], _samples[i]);
       const double d = straight() ? distance(p, chord) : distance(p, at(t));
-      if (d < off) {
-        off = d;
-        best = t;
-      }
+      if (d > off || (d == off && t >= best)) continue;
+      off = d;
+      best = t;
     }
+  };
+  const auto spans = static_cast<std::size_t>(_spans);
+  std::array<std::size_t, 64> open;  // nodes of the tree; deeper ones replace their parent
+  open[0] = 1;
+  for (std::size_t count = 1; count > 0;) {
+    const std::size_t node = open[--count];
+    const Box& box = _boxes[node];
+    if (!near(box)) continue;
+    if (node >= spans) {
+      try_span(node - spans, box.slack);
+      continue;
+    }
+    open[count++] = 2 * node;
+    open[count++] = 2 * node + 1;
   }
   if (off > tolerance) return std::nullopt;
   const double whole = std::round(best);

@@ -49,6 +49,7 @@ class Line {
   Point derivative(double t) const noexcept;
 
   /// Where the line passes within `tolerance` of `p`; in [0, spans), of an open line also spans.
+  /// O(log(spans)) where the line does not come near `p` many times.
   std::optional<double> locate(const Point& p, double tolerance) const;
   /// Of `p` from the line; exact for a polyline, else from fine chords.
   double distance_to(const Point& p) const noexcept;
@@ -67,17 +68,19 @@ class Line {
   };
   struct Box {
     Segment diagonal;
-    double slack = 0;  ///< the longest chord of two samples: a curve leaves its chord by less
+    double slack = 0;  ///< a curve leaves the chords of its samples by less
   };
   Line(Shape shape, bool closed, std::vector<Point> vertices);
   void sample();
   int samples_in_span() const noexcept;
+  static Box around(const Box& a, const Box& b) noexcept;
   Box box_of(std::size_t first, std::size_t last) const noexcept;
+  double bulge(int k) const noexcept;
   int span_of(double t) const noexcept;
   Point vertex(int k) const noexcept;
   double sweep(int k) const noexcept;
   double angle_at(int k, double u) const noexcept;
-  double closest(const Point& p, double low, double high) const noexcept;
+  double closest(const Point& p, const Sample& low, const Sample& high) const noexcept;
   std::vector<double> measure(double from, double to, const ChordRule& rule, int steps) const;
 
   Shape _shape = Shape::polyline;
@@ -91,8 +94,7 @@ class Line {
   double _radius = 0;
   std::vector<double> _angles;   ///< arc, circle: where each span begins and ends, from the centre
   std::vector<Sample> _samples;  ///< as many in every span
-  std::vector<Box> _boxes;       ///< of each span
-  Box _box;
+  std::vector<Box> _boxes;       ///< a tree: node i is around 2i and 2i + 1, span k is spans + k
 };
 
 }  // namespace anticrack::mesh

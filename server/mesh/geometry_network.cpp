@@ -41,13 +41,17 @@ int point_at(Network& network, const Point& p) {
   return point;
 }
 
-/// Adds a station at a point to all lines through it except one.
-void mark_others(Network& network, const Point& p, int point, std::size_t but) {
+/// Adds a station at a point to all lines through it except one. Returns how many there are.
+std::size_t mark_others(Network& network, const Point& p, int point, std::size_t but) {
+  std::size_t through = 0;
   for (std::size_t l = 0; l < network.lines.size(); ++l) {
     if (l == but) continue;
     const auto t = network.lines[l].line.locate(p, network.tolerance);
-    if (t) add_station(network.lines[l], *t, point);
+    if (!t) continue;
+    add_station(network.lines[l], *t, point);
+    ++through;
   }
+  return through;
 }
 
 /// Cells are four tolerances wide.
@@ -135,7 +139,15 @@ void check_inside(const Network& network) {
 
 }  // namespace
 
-Network lay_lines(const Drawn& geometry, const MeshOptions& options) {
+void check_meetings(std::size_t count, std::size_t most) {
+  if (count <= most) return;
+  throw errors::Error(errors::Reason::limit_exceeded,
+                      "the lines meet in more than " + std::to_string(most) +
+                          " points, which is the limit; leave some of the lines out")
+      .at("interfaces");
+}
+
+Network lay_lines(const Drawn& geometry, const MeshOptions& options, std::size_t max_meetings) {
   Boundary boundary = lay_boundary(geometry);
   check_counts(geometry, options);
   Network network;
@@ -158,13 +170,17 @@ Network lay_lines(const Drawn& geometry, const MeshOptions& options) {
          lay_curve({"", Shape::polyline, options.align[i]}, field, boundary.outline),
          {}});
   }
+  std::size_t stations = 0;  // that are vertices of another line
   for (std::size_t l = 0; l < network.lines.size(); ++l) {
     const std::vector<Point> vertices = network.lines[l].line.vertices();
     for (std::size_t v = 0; v < vertices.size(); ++v) {
+      const std::size_t before = network.points.size();
       const int point = point_at(network, vertices[v]);
       add_station(network.lines[l], static_cast<double>(v), point);
-      mark_others(network, vertices[v], point, l);
+      // A point that was known has its stations.
+      if (network.points.size() > before) stations += mark_others(network, vertices[v], point, l);
     }
+    check_meetings(stations, max_meetings);
   }
   return network;
 }
@@ -208,16 +224,10 @@ void cut(Network& network, const ChordRule& rule, std::size_t max_chords) {
     network.chords.clear();
     network.points.resize(known);
     for (std::size_t l = 0; l < network.lines.size(); ++l) cut_line(network, l, rule, max_chords);
-    const std::vector<Crossing> found = find_crossings(network);
+    const std::vector<Crossing> found = find_crossings(network, max_chords);
     if (found.empty()) {
       check_inside(network);
       return;
-    }
-    if (found.size() > max_chords) {
-      throw errors::Error(errors::Reason::limit_exceeded,
-                          "the lines cross in " + std::to_string(found.size()) +
-                              " points; at most " + std::to_string(max_chords) + " are allowed")
-          .at("interfaces");
     }
     network.points.resize(known);  // a crossing is not an end of a chord that is cut anew
     for (const Crossing& crossing : found) {

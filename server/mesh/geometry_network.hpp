@@ -63,8 +63,9 @@ struct Network {
 };
 
 /// The boundary, the interfaces and the align lines, each checked by itself; no chords yet.
-/// Throws errors::Error (geometry_invalid, limit_exceeded).
-Network lay_lines(const Drawn& geometry, const MeshOptions& options);
+/// Throws errors::Error: geometry_invalid; limit_exceeded, also where more than `max_meetings`
+/// vertices of lines lie on other lines.
+Network lay_lines(const Drawn& geometry, const MeshOptions& options, std::size_t max_meetings);
 
 /// Adds a station at `p` to every line that passes within the tolerance. Uses an existing point
 /// there, if any. Returns the number of the point.
@@ -86,11 +87,15 @@ struct Crossing {
   Point at{};
 };
 
+/// Throws errors::Error (limit_exceeded) at "interfaces" where lines meet in more than `most`
+/// points.
+void check_meetings(std::size_t count, std::size_t most);
+
 /// Checks every pair of chords and returns the crossings that are no stations yet. Throws
 /// geometry_invalid for a line that meets itself, leaves the membrane, touches the boundary other
 /// than with its ends, runs along another line or meets it at less than a degree, and for a hole
-/// that touches another line of the boundary.
+/// that touches another line of the boundary; limit_exceeded where there are more than `most`.
 /// O(c log c + pairs of chords over the same x).
-std::vector<Crossing> find_crossings(const Network& network);
+std::vector<Crossing> find_crossings(const Network& network, std::size_t most);
 
 }  // namespace anticrack::mesh

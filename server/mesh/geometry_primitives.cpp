@@ -5,7 +5,9 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <numbers>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace anticrack::mesh {
@@ -76,17 +78,89 @@ bool boxes_meet(const Segment& s, const Segment& t, double tolerance) noexcept {
   return true;
 }
 
+namespace {
+
+/// Segments over a direction: the sweep visits those whose parts of it overlap.
+struct Sweep {
+  std::vector<double> low, high;   ///< of each segment
+  std::vector<std::size_t> order;  ///< by `low`
+};
+
+Sweep sweep_along(std::span<const Segment> segments, double dx, double dy) {
+  Sweep sweep;
+  sweep.low.reserve(segments.size());
+  sweep.high.reserve(segments.size());
+  for (const Segment& each : segments) {
+    const double a = dx * each.a[0] + dy * each.a[1];
+    const double b = dx * each.b[0] + dy * each.b[1];
+    sweep.low.push_back(std::min(a, b));
+    sweep.high.push_back(std::max(a, b));
+  }
+  sweep.order.resize(segments.size());
+  std::iota(sweep.order.begin(), sweep.order.end(), std::size_t{0});
+  std::ranges::stable_sort(sweep.order, {}, [&](std::size_t i) { return sweep.low[i]; });
+  return sweep;
+}
+
+/// Pairs that overlap along the direction.
+double pairs_of(const Sweep& sweep, double reach) {
+  std::vector<double> lows;
+  lows.reserve(sweep.order.size());
+  for (const std::size_t i : sweep.order) lows.push_back(sweep.low[i]);
+  double pairs = 0;
+  for (std::size_t i = 0; i < lows.size(); ++i) {
+    const double end = sweep.high[sweep.order[i]] + reach;
+    const auto after =
+        std::upper_bound(lows.begin() + static_cast<std::ptrdiff_t>(i), lows.end(), end);
+    pairs += static_cast<double>(after - lows.begin()) - static_cast<double>(i) - 1;
+  }
+  return pairs;
+}
+
+/// Along x or, where very many lie over the same x, along the direction with the fewest pairs.
+Sweep best_sweep(std::span<const Segment> segments, double reach) {
+  constexpr std::size_t few = 5'000;
+  constexpr double many = 1e7;
+  constexpr int directions = 16;
+  Sweep best = sweep_along(segments, 1, 0);
+  if (segments.size() < few) return best;
+  double pairs = pairs_of(best, reach);
+  for (int i = 1; i < directions && pairs > many; ++i) {
+    const double angle = std::numbers::pi * i / directions;
+    Sweep other = sweep_along(segments, std::cos(angle), std::sin(angle));
+    const double fewer = pairs_of(other, reach);
+    if (fewer >= pairs) continue;
+    pairs = fewer;
+    best = std::move(other);
+  }
+  return best;
+}
+
+/// Whether all of `t` lies on one side of the line through `s`, further off than `reach`.
+bool beside(const Segment& s, const Segment& t, double reach) noexcept {
+  const double a = cross(s.a, s.b, t.a);
+  const double b = cross(s.a, s.b, t.b);
+  if ((a > 0) != (b > 0)) return false;
+  const double dx = s.b[0] - s.a[0];
+  const double dy = s.b[1] - s.a[1];
+  constexpr double rounding = 1 + 1e-5;
+  const double least = std::min(a * a, b * b);
+  return least > rounding * reach * reach * (dx * dx + dy * dy);
+}
+
+}  // namespace
+
 void each_near_pair(std::span<const Segment> segments, double reach,
                     const std::function<void(std::size_t, std::size_t)>& visit) {
-  const auto low = [&](std::size_t i) { return std::min(segments[i].a[0], segments[i].b[0]); };
-  const auto high = [&](std::size_t i) { return std::max(segments[i].a[0], segments[i].b[0]); };
-  std::vector<std::size_t> order(segments.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, {}, low);
+  const auto [low, high, order] = best_sweep(segments, reach);
   for (std::size_t i = 0; i < order.size(); ++i) {
-    const double end = high(order[i]) + reach;
-    for (std::size_t j = i + 1; j < order.size() && low(order[j]) <= end; ++j)
-      if (boxes_meet(segments[order[i]], segments[order[j]], reach)) visit(order[i], order[j]);
+    const Segment& s = segments[order[i]];
+    const double end = high[order[i]] + reach;
+    for (std::size_t j = i + 1; j < order.size() && low[order[j]] <= end; ++j) {
+      const Segment& t = segments[order[j]];
+      if (boxes_meet(s, t, reach) && !beside(s, t, reach) && !beside(t, s, reach))
+        visit(order[i], order[j]);
+    }
   }
 }
 

@@ -41,8 +41,9 @@ std::pair<double, double> meeting_point(const Segment& s, const Segment& t) noex
 /// Whether the bounding boxes, grown by `tolerance`, have a point in common. Cheap.
 bool boxes_meet(const Segment& s, const Segment& t, double tolerance) noexcept;
 
-/// Calls visit(i, j) for the pairs of segments whose bounding boxes come within `reach`, once each,
-/// in a sweep along x. O(n log n + pairs over the same x).
+/// Calls visit(i, j) once for each pair of segments within `reach`, and some others, in a sweep
+/// along x or, where there are very many over the same x, along the best of 16 directions. O(n log
+/// n + pairs that overlap along it).
 void each_near_pair(std::span<const Segment> segments, double reach,
                     const std::function<void(std::size_t, std::size_t)>& visit);
 

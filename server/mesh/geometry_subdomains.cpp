@@ -186,7 +186,8 @@ int subdomain_at(const RegionSpec& region, const Field& field, const Network& ne
   check_point(region.at, field);
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const Segment s{plan.points[at(edges[e][0])], plan.points[at(edges[e][1])]};
-    if (!kept[e] || distance(region.at, s) > network.tolerance) continue;
+    if (!kept[e] || !boxes_meet(s, {region.at, region.at}, network.tolerance)) continue;
+    if (distance(region.at, s) > network.tolerance) continue;
     refuse(field, field, " ", show(region.at), " lies on ",
            network.lines[at(network.chords[e].line)].field,
            "; it must lie inside the subdomain it names");

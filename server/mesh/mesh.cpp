@@ -11,6 +11,7 @@
 #include "mesh/at.hpp"
 #include "mesh/edges.hpp"
 #include "mesh/geometry_primitives.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::mesh {
 namespace {
@@ -66,6 +67,7 @@ void check_triangles(const Mesh& mesh) {
   std::vector<bool> node_used(mesh.node_count(), false);
   std::vector<bool> subdomain_used(mesh.subdomains.size(), false);
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    stop::look_at_turn<std::size_t{1} << 16>(t, "checking a mesh");
     for (std::size_t corner = 0; corner < 3; ++corner) {
       const std::int32_t node = mesh.triangles[3 * t + corner];
       if (node < 0 || node >= nodes)
@@ -198,7 +200,9 @@ std::vector<EdgeKey> check_interfaces(const Mesh& mesh, const EdgeTable& edges) 
 }
 
 void check_edges(const Mesh& mesh, const EdgeTable& edges, const std::vector<EdgeKey>& interfaces) {
+  std::size_t turn = 0;
   edges.each([&](std::span<const EdgeUse> uses) {
+    stop::look_at_turn<std::size_t{1} << 16>(turn++, "checking a mesh");
     const EdgeUse& first = uses[0];
     if (uses.size() > 2)
       fail(where_edge(mesh, first.low(), first.high()), " belongs to ", uses.size(),

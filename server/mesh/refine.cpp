@@ -13,6 +13,7 @@
 #include "mesh/bisection.hpp"
 #include "mesh/edges.hpp"
 #include "mesh/size_rule.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::mesh {
 namespace {
@@ -122,6 +123,7 @@ Mesh grade(const Mesh& base, std::span<const std::int32_t> centres, const Gradin
   Bisection mesh(base, std::min(max_triangles, at(std::numeric_limits<std::int32_t>::max())));
   // One pass suffices: children of a small enough triangle are small enough, new ones come last.
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    stop::look_at_turn(t, bisecting, mesh.triangle_count());
     while (rule.too_large(mesh.corners(t)))
       if (!mesh.bisect(t)) refuse_count(base, grading, max_triangles);
   }
@@ -141,9 +143,12 @@ Mesh refine(const Mesh& base, std::span<const std::uint8_t> levels, std::size_t 
   };
   // Halves are exact but for rounding: half a level lies between.
   std::vector<double> enough(base.triangle_count());
-  for (std::size_t t = 0; t < enough.size(); ++t)
+  for (std::size_t t = 0; t < enough.size(); ++t) {
+    stop::look_at_turn(t, bisecting);
     enough[t] = twice_area(mesh.corners(t)) * std::exp2(0.5 - levels[t]);
+  }
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    stop::look_at_turn(t, bisecting);
     for (auto p = mesh.corners(t); twice_area(p) > std::max(enough[at(mesh.origin(t))], least(p));
          p = mesh.corners(t)) {
       if (mesh.bisect(t)) continue;

@@ -17,6 +17,7 @@
 #include "mesher/messages.hpp"
 #include "mesher/restrict.hpp"
 #include "mesher/size_field.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::mesher {
 namespace {
@@ -153,9 +154,13 @@ void choose_options(std::vector<SizedCurve> curves, double growth) {
   gmsh::option::setNumber("Mesh.RandomFactor", random_factor(curves));
   const SizeField size(std::move(curves), growth);
   // Newer versions of gmsh give one more argument, the size they would have chosen.
-  gmsh::model::mesh::setSizeCallback([size](int, int, double x, double y, auto...) {
-    return size({x, y});
-  });
+  gmsh::model::mesh::setSizeCallback(
+      [size, nodes = std::size_t{0}](int, int, double x, double y, auto...) mutable {
+        // It asks once for each node, and there are two triangles a node.
+        ++nodes;
+        stop::look_at_turn<256>(nodes, "generating a mesh", 2 * nodes);
+        return size({x, y});
+      });
 }
 
 /// Numbers gmsh's nodes in the order of their first use and adds them to a mesh.

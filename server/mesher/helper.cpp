@@ -15,11 +15,14 @@
 #include <csignal>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "mesher/child.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::mesher {
 namespace {
@@ -100,8 +103,9 @@ class Conversation {
  public:
   /// `kind`: "import" of `file`, or "generate" without one.
   Conversation(const HelperOptions& options, std::stop_token stop, std::size_t most_bytes,
-               const char* kind, Descriptor file)
+               const char* kind, Descriptor file, const ProgressListener& listener)
       : _options(options),
+        _listener(listener),
         _stop(std::move(stop)),
         _wake(_stop),
         _deadline(Clock::now() + options.time_limit),
@@ -121,6 +125,7 @@ class Conversation {
         if (request.empty()) _child.end_input();
       }
       if ((events & (POLLIN | POLLHUP | POLLERR)) != 0) open = receive(reply);
+      if (!_replies) take_reports(reply);
     }
     // It closes its output just before it ends.
     while (!_child.ended()) wait(0, std::chrono::milliseconds(2));
@@ -168,7 +173,25 @@ class Conversation {
     return n < 0 && (errno == EAGAIN || errno == EINTR);
   }
 
+  /// Takes the reports off the beginning of what was received, and the mark of the reply.
+  void take_reports(mesh::Bytes& received) {
+    std::size_t taken = 0;
+    while (taken < received.size() && received[taken] == report_mark) {
+      const auto report = first_report(std::span(received).subspan(taken));
+      if (!report) break;
+      if (_listener) _listener(report->first);
+      taken += report->second;
+    }
+    if (taken < received.size() && received[taken] != report_mark) {
+      _replies = true;
+      taken += received[taken] == reply_mark ? 1 : 0;  // else it makes no sense, as will be seen
+    }
+    received.erase(received.begin(), received.begin() + static_cast<std::ptrdiff_t>(taken));
+  }
+
   const HelperOptions& _options;
+  const ProgressListener& _listener;
+  bool _replies = false;  ///< the reports have ended
   std::stop_token _stop;
   StopSignal _wake;
   Clock::time_point _deadline;
@@ -177,11 +200,11 @@ class Conversation {
 };
 
 mesh::Bytes converse(const HelperOptions& options, const mesh::MesherRequest& request,
-                     Descriptor file, std::stop_token stop) {
+                     Descriptor file, std::stop_token stop, const ProgressListener& listener) {
   try {
     const char* kind = file.empty() ? "generate" : "import";
     Conversation conversation(options, std::move(stop), most_reply_bytes(request), kind,
-                              std::move(file));
+                              std::move(file), listener);
     return conversation.exchange(mesh::encode(request));
   } catch (const std::system_error& error) {
     throw failed(
@@ -226,13 +249,14 @@ mesh::MesherReply understand(std::span<const std::byte> bytes) {
 }  // namespace
 
 mesh::Mesh run(const HelperOptions& options, const mesh::MesherRequest& request,
-               std::stop_token stop) {
+               std::stop_token stop, const ProgressListener& listener) {
+  const stop::Scope scope(stop);
   if (stop.stop_requested()) throw Error(Reason::cancelled, "meshing was cancelled");
   Descriptor file;
   if (const auto* import = std::get_if<mesh::ImportRequest>(&request))
     file = open_msh(import->path);
   mesh::MesherReply reply =
-      understand(converse(options, request, std::move(file), std::move(stop)));
+      understand(converse(options, request, std::move(file), std::move(stop), listener));
   if (auto* error = std::get_if<Error>(&reply)) throw std::move(*error);
   mesh::Mesh mesh = std::get<mesh::Mesh>(std::move(reply));
   try {
@@ -247,6 +271,14 @@ mesh::Mesh run(const HelperOptions& options, const mesh::MesherRequest& request,
 }
 
 void require_msh(const std::string& path) { open_msh(path); }
+
+const char* mark() noexcept { return "anticrack-mesher of anticrack " ANTICRACK_VERSION; }
+
+bool is_helper(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  return bytes.starts_with("#!") || bytes.find(mark()) != std::string::npos;
+}
 
 std::string default_executable() {
   namespace fs = std::filesystem;

@@ -9,11 +9,13 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <stop_token>
 #include <string>
 
 #include "mesh/codec.hpp"
 #include "mesh/mesh.hpp"
+#include "mesher/progress.hpp"
 
 namespace anticrack::mesher {
 
@@ -23,14 +25,23 @@ struct HelperOptions {
   std::uint64_t memory_limit = 6ULL << 30;  ///< bytes of address space (RLIMIT_AS)
 };
 
+/// Receives how far the helper is, about every second.
+using ProgressListener = std::function<void(const Progress&)>;
+
 /// Sends the request to a new helper process and returns its mesh, validated. Blocks; `stop` kills
 /// the helper. Thread-safe. Throws errors::Error: the helper's own errors; mesher_failed (crash,
 /// forbidden system call, time or memory limit: the message says which); cancelled.
 mesh::Mesh run(const HelperOptions& options, const mesh::MesherRequest& request,
-               std::stop_token stop);
+               std::stop_token stop, const ProgressListener& listener = {});
 
 /// Throws errors::Error (mesh_invalid) unless the first word of the file is $MeshFormat.
 void require_msh(const std::string& path);
+
+/// What the program anticrack-mesher of this version has in it.
+const char* mark() noexcept;
+
+/// Whether a file is that program, or a script, which may start it. False where it cannot be read.
+bool is_helper(const std::string& path);
 
 /// Path of anticrack-mesher beside the running executable, or in ../libexec/anticrack.
 std::string default_executable();

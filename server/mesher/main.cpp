@@ -8,9 +8,11 @@
 
 #include <cerrno>
 #include <charconv>
+#include <chrono>
 #include <iostream>
 #include <new>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -20,8 +22,11 @@
 #include "mesher/child.hpp"
 #include "mesher/generate.hpp"
 #include "mesher/grading.hpp"
+#include "mesher/helper.hpp"
 #include "mesher/import.hpp"
+#include "mesher/progress.hpp"
 #include "mesher/restrict.hpp"
+#include "stop/stop.hpp"
 
 namespace {
 
@@ -50,7 +55,7 @@ mesh::Bytes read_all(int descriptor, const char* name) {
   return bytes;
 }
 
-void write_all(int descriptor, const mesh::Bytes& bytes) {
+void write_all(int descriptor, std::span<const std::byte> bytes) {
   for (std::size_t done = 0; done < bytes.size();) {
     const ssize_t n = write(descriptor, bytes.data() + done, bytes.size() - done);
     if (n < 0 && errno == EINTR) continue;
@@ -58,6 +63,23 @@ void write_all(int descriptor, const mesh::Bytes& bytes) {
     done += static_cast<std::size_t>(n);
   }
 }
+
+/// Writes how far it is at the looks of the work, about once a second.
+class Reporter {
+ public:
+  bool operator()(const stop::Look& at) {
+    const auto now = Clock::now();
+    if (now < _next) return false;
+    _next = now + pause;
+    write_all(STDOUT_FILENO, mesher::encode(mesher::Progress{at.doing, at.done}));
+    return false;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr std::chrono::milliseconds pause{700};
+  Clock::time_point _next = Clock::now() + pause;
+};
 
 template <class Wanted>
 Wanted request() {
@@ -107,13 +129,19 @@ int main(int argc, char** argv) {
   const auto memory = argc == 4 ? parse_number(argv[1]) : std::nullopt;
   const auto seconds = argc == 4 ? parse_number(argv[2]) : std::nullopt;
   if (!memory || !seconds || (!import && kind != "generate")) {
-    std::cerr << "usage: anticrack-mesher MEMORY_BYTES CPU_SECONDS generate|import\n"
+    std::cerr << mesher::mark()
+              << "\nusage: anticrack-mesher MEMORY_BYTES CPU_SECONDS generate|import\n"
                  "Meshes the one request on its standard input; the server starts it.\n";
     return 2;
   }
   try {
     mesher::restrict_process({*memory, *seconds});
-    write_all(STDOUT_FILENO, mesh::encode(answer(import, *memory)));
+    const mesh::Bytes reply = [&] {
+      const stop::Scope scope{stop::Asked(Reporter())};
+      return mesh::encode(answer(import, *memory));
+    }();
+    write_all(STDOUT_FILENO, std::span(&mesher::reply_mark, 1));
+    write_all(STDOUT_FILENO, reply);
   } catch (const std::exception& error) {
     std::cerr << "anticrack-mesher: " << error.what() << '\n';
     return 1;

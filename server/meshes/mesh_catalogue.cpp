@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <mutex>
 #include <optional>
 #include <utility>
 
@@ -40,6 +41,37 @@ void check_title(const std::string& title) {
       .at("title");
 }
 
+/// Hears of the end of the last job on a mesh, which may come after that of the catalogue.
+class Ends {
+ public:
+  explicit Ends(Preparation& preparation) : _preparation(&preparation) {}
+  void of(const std::string& mesh) {
+    const std::lock_guard lock(_mutex);
+    if (_preparation != nullptr) _preparation->let_go(mesh);
+  }
+  void forget() {
+    const std::lock_guard lock(_mutex);
+    _preparation = nullptr;
+  }
+
+ private:
+  std::mutex _mutex;
+  Preparation* _preparation;
+};
+
+void require_memory(const mesh::Mesh& mesh, std::uint64_t budget) {
+  const std::uint64_t wanted = operators::estimate_bytes(mesh);
+  if (wanted <= budget) return;
+  constexpr std::uint64_t mebibyte = 1 << 20;
+  throw Error(
+      Reason::limit_exceeded,
+      fmt::format("the operators of a finer mesh ({} triangles) need about {} MiB, more "
+                  "than the memory-budget of {} MiB of the server; ask for a larger error, "
+                  "or start the server with more",
+                  mesh.triangle_count(), (wanted + mebibyte - 1) / mebibyte, budget / mebibyte))
+      .at("memory_budget");
+}
+
 }  // namespace
 
 struct MeshCatalogue::State {
@@ -54,15 +86,17 @@ struct MeshCatalogue::State {
   store::Store& store;
   operators::OperatorCache& cache;
   Preparation preparation;
+  const std::shared_ptr<Ends> ends = std::make_shared<Ends>(preparation);
   std::size_t claims = 0;  ///< meshes on their way into the queue; guarded by the lock
 
   MeshIndex& index() { return preparation.index(); }
 
-  /// The cache's key for the operators of a mesh; empty if it is not meshed.
-  std::string key(const std::string& id) {
+  /// The cache's key for the operators of a mesh, empty if it is not meshed; and its owner.
+  std::pair<std::string, std::string> key(const std::string& id) {
     const auto lock = preparation.lock();
     const LiveMesh* mesh = index().find(id);
-    return mesh != nullptr && mesh->stage == Stage::meshed ? mesh->sha256 : std::string();
+    if (mesh == nullptr || mesh->stage != Stage::meshed) return {};
+    return {mesh->sha256, mesh->owner};
   }
 
   // With the lock held:
@@ -75,11 +109,13 @@ struct MeshCatalogue::State {
 
   /// For a mesh that is created again: resumes its preparation if that was interrupted. False: the
   /// mesh must be made.
-  bool resume(const LiveMesh* mesh, const std::string& id) {
+  bool resume(const LiveMesh* mesh, const std::string& id, bool for_job) {
     if (mesh == nullptr || mesh->stage == Stage::failed) return false;
-    if (mesh->stage == Stage::pending && !mesh->run) {
+    if (mesh->stage != Stage::pending) return true;
+    if (mesh->for_job && !for_job) return false;  // its record is to say so
+    if (!mesh->run) {
       require_room();
-      preparation.begin(id, true);
+      preparation.begin(id, !mesh->for_job);
     }
     return true;
   }
@@ -105,8 +141,9 @@ struct MeshCatalogue::State {
     if (record != nullptr) {
       mesh.stage = record->sha256.empty() ? Stage::pending : Stage::meshed;
       mesh.error.reset();
+      mesh.for_job = record->for_job;
       ++mesh.version;
-      if (begin) preparation.begin(id, true);
+      if (begin) preparation.begin(id, !mesh.for_job);
     } else if (mesh.stage == Stage::absent) {
       index().remove(id);
     }
@@ -118,23 +155,24 @@ MeshCatalogue::MeshCatalogue(CatalogueOptions options, store::Store& store,
                              operators::OperatorCache& cache)
     : _state(std::make_unique<State>(std::move(options), store, cache)) {}
 
-MeshCatalogue::~MeshCatalogue() = default;
+MeshCatalogue::~MeshCatalogue() { _state->ends->forget(); }
 
 MeshRecord MeshCatalogue::create(const store::MeshDefinition& definition, const std::string& title,
-                                 const std::string& owner) {
+                                 const std::string& owner, bool for_job) {
   check_title(title);
   const std::size_t triangles = check_definition(definition, owner, _state->options, _state->store);
   const std::string id = identity(definition, owner).substr(0, id_digits);
   Preparation& preparation = _state->preparation;
   {
     auto lock = preparation.lock();
-    if (_state->resume(preparation.settled(lock, id), id)) {
+    if (_state->resume(preparation.settled(lock, id), id, for_job)) {
       lock.unlock();
       return get(id);
     }
     _state->require_room();
     LiveMesh& mesh = _state->claim(id);
     mesh.definition = identity(definition);
+    mesh.owner = owner;
     mesh.size_class = meshes::size_class(triangles);
   }
   MeshRecord record;
@@ -153,6 +191,7 @@ MeshRecord MeshCatalogue::create(const store::MeshDefinition& definition, const 
     }
     // A failed mesh with a triangulation needs only its operators again.
     record.state = record.sha256.empty() ? MeshState::pending : MeshState::evicted;
+    record.for_job = for_job;
     _state->store.put(record);
   } catch (...) {
     const auto lock = preparation.lock();
@@ -178,7 +217,9 @@ MeshRecord MeshCatalogue::refine(const Parent& parent, std::span<const std::uint
       lock.unlock();
       return get(record.id);
     }
-    _state->claim(record.id).definition = identity(definition);
+    LiveMesh& claimed = _state->claim(record.id);
+    claimed.definition = identity(definition);
+    claimed.owner = parent.owner;
   }
   try {
     const auto start = std::chrono::steady_clock::now();
@@ -192,6 +233,7 @@ MeshRecord MeshCatalogue::refine(const Parent& parent, std::span<const std::uint
                   "the triangles that the error comes from are as small as rounding lets them be; "
                   "ask for a larger error, or put the origin near them");
     }
+    require_memory(fine, _state->cache.budget());
     record.owner = parent.owner;
     record.title = "a stage of jobs/" + parent.job;
     record.definition = definition;
@@ -287,12 +329,14 @@ void MeshCatalogue::erase(const std::string& id) {
   auto lock = preparation.lock();
   preparation.settled(lock, id);
   LiveMesh& mesh = index.known(id);
-  if (mesh.run) throw in_use(id, "it is being prepared; wait until it is READY");
   if (!mesh.users.expired())
     throw in_use(id, "a job that has not ended needs it; wait for it or cancel it");
+  const std::shared_ptr<Run> run =
+      preparation.give_up(mesh, Error(Reason::not_found, "meshes/" + id + " was deleted"));
   const Stage stage = std::exchange(mesh.stage, Stage::absent);
   mesh.claimed = true;
   lock.unlock();
+  if (run) run->stop.request_stop();
   try {
     _state->store.erase_mesh(id);
   } catch (...) {
@@ -315,30 +359,34 @@ std::shared_ptr<void> MeshCatalogue::use(const std::string& id) {
   LiveMesh& mesh = _state->index().known(id);
   std::shared_ptr<void> user = mesh.users.lock();
   if (!user) {
-    user = std::make_shared<char>();
+    user = std::shared_ptr<void>(new char, [ends = _state->ends, id](void* one) {
+      delete static_cast<char*>(one);
+      ends->of(id);
+    });
     mesh.users = user;
+    mesh.used = true;
   }
   return user;
 }
 
-std::shared_ptr<const operators::MeshOperator> MeshCatalogue::prepare(const std::string& id,
-                                                                      const PhaseListener& listener,
-                                                                      std::stop_token stop) {
-  return _state->preparation.prepare(id, listener, stop);
+std::shared_ptr<const operators::MeshOperator> MeshCatalogue::prepare(
+    const std::string& id, const PhaseListener& listener, std::stop_token stop,
+    const ProgressListener& progress) {
+  return _state->preparation.prepare(id, listener, stop, progress);
 }
 
 std::shared_ptr<const operators::MeshOperator> MeshCatalogue::find(const std::string& id) const {
-  const std::string key = _state->key(id);
-  return key.empty() ? nullptr : _state->cache.find(key);
+  const auto [key, owner] = _state->key(id);
+  return key.empty() ? nullptr : _state->cache.find(key, owner);
 }
 
 bool MeshCatalogue::ready(const std::string& id) const {
-  const std::string key = _state->key(id);
+  const std::string key = _state->key(id).first;
   return !key.empty() && _state->cache.contains(key);
 }
 
 bool MeshCatalogue::pinned(const std::string& id) const {
-  const std::string key = _state->key(id);
+  const std::string key = _state->key(id).first;
   return !key.empty() && _state->cache.pinned(key);
 }
 

@@ -30,13 +30,16 @@ struct CatalogueOptions {
 
 /// Receives the phases of a mesh on its way to READY.
 using PhaseListener = std::function<void(store::MeshState)>;
+/// Receives how far the mesher is, about every second.
+using ProgressListener = std::function<void(const store::MeshProgress&)>;
 
-/// Meshes and factorises new meshes in the background in the order they came, two per size class
-/// (size_class.hpp) at a time, so that large meshes do not delay small ones. Thread-safe.
+/// Meshes and factorises new meshes in the background, owners in turn, two per size class
+/// (size_class.hpp) at a time, so that large meshes do not delay small ones, and one more for an
+/// owner who has none there, so that slow ones do not delay those of others. Thread-safe.
 ///
 /// On disk a mesh is PENDING, EVICTED (meshed) or FAILED. At start, meshes that are still PENDING
-/// are scheduled, oldest first. A mesh for which the disk has no room stays PENDING; its waiters
-/// get the error, and it is tried again when it is created, warmed or prepared.
+/// are scheduled, oldest first, but for those that are only there for jobs. A mesh for which the
+/// disk has no room stays PENDING; its waiters get the error, and it is tried again until it has.
 class MeshCatalogue {
  public:
   /// Schedules the pending meshes of the store. `store` and `cache` must outlive the catalogue.
@@ -46,10 +49,11 @@ class MeshCatalogue {
 
   /// Returns the record of an equal definition, or writes and returns a new, pending one. A failed
   /// mesh is tried again. Does not wait for the mesher. Owners share triangulations and operators
-  /// of equal meshes, but not records. Throws errors::Error: geometry_invalid, invalid_argument,
-  /// not_found (upload), busy, quota_exceeded, disk_full.
+  /// of equal meshes, but not records. `for_job`: only its jobs want it; it is stopped when the
+  /// last of them has ended. Throws errors::Error: geometry_invalid, invalid_argument, not_found
+  /// (upload), busy, quota_exceeded, disk_full.
   store::MeshRecord create(const store::MeshDefinition& definition, const std::string& title,
-                           const std::string& owner);
+                           const std::string& owner, bool for_job = false);
 
   struct Parent {
     std::string mesh;  ///< id
@@ -58,8 +62,10 @@ class MeshCatalogue {
   };
   /// A mesh whose triangles are bisected, levels (m) as mesh::refine() has them: made at once and
   /// written, its operators when they are prepared. The same parent and levels give the same mesh.
-  /// Throws errors::Error: not_found, not_ready (the parent), limit_exceeded, quota_exceeded,
-  /// disk_full, numerical (what is to be bisected is as small as mesh::refine() makes triangles).
+  /// Throws errors::Error: not_found, not_ready (the parent), limit_exceeded (the triangles, or at
+  /// "memory_budget" what its operators would take), quota_exceeded, disk_full, numerical (what is
+  /// to be bisected is as small as mesh::refine() makes triangles), cancelled at a look
+  /// (stop/stop.hpp).
   store::MeshRecord refine(const Parent& parent, std::span<const std::uint8_t> levels,
                            std::size_t max_triangles);
   std::size_t max_triangles() const noexcept;  ///< of a mesh
@@ -75,9 +81,10 @@ class MeshCatalogue {
   /// Frees the operators, if any; the definition and the triangulation stay. Throws not_found,
   /// in_use (a running job or a factorisation needs them).
   store::MeshRecord evict(const std::string& id);
-  /// Throws not_found, in_use (being prepared, or a job that has not ended uses it).
+  /// Stops its preparation. Throws not_found, in_use (a job that has not ended uses it).
   void erase(const std::string& id);
   /// Marks the mesh as used by an unfinished job: erase() refuses until all results are released.
+  /// Then the preparation of a mesh for jobs stops.
   /// Throws not_found.
   std::shared_ptr<void> use(const std::string& id);
 
@@ -87,7 +94,8 @@ class MeshCatalogue {
   /// which ends this wait only.
   std::shared_ptr<const operators::MeshOperator> prepare(const std::string& id,
                                                          const PhaseListener& listener,
-                                                         std::stop_token stop);
+                                                         std::stop_token stop,
+                                                         const ProgressListener& progress = {});
   /// The operator if it is in memory, else null. Does not block.
   std::shared_ptr<const operators::MeshOperator> find(const std::string& id) const;
   /// Whether the operators are in memory, so that prepare() would not block.

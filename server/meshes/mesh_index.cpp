@@ -25,6 +25,7 @@ MeshState state_of(const LiveMesh& mesh, const MeshRecord& record, bool in_memor
 
 MeshRecord seen(const LiveMesh& mesh, MeshRecord record, bool in_memory) {
   record.state = state_of(mesh, record, in_memory);
+  if (record.state == MeshState::meshing && mesh.run) record.progress = mesh.run->progress;
   if (mesh.operators.bytes > 0) {
     record.operator_bytes = mesh.operators.bytes;
     record.theta_star = mesh.operators.theta_star;
@@ -39,8 +40,10 @@ LiveMesh& MeshIndex::add(const MeshRecord& record) {
                : record.sha256.empty()           ? Stage::pending
                                                  : Stage::meshed;
   mesh.definition = identity(record.definition);
+  mesh.owner = record.owner;
   mesh.sha256 = record.sha256;
   mesh.error = record.error;
+  mesh.for_job = record.for_job;
   mesh.operators = {record.operator_bytes, record.theta_star, record.factorize_seconds};
   mesh.size_class = size_class(record.triangle_count);
   return mesh;

@@ -31,18 +31,23 @@ struct Measured {
   double seconds = 0;
 };
 
-/// The preparation of a mesh up to its operators, shared by all its waiters. When the last waiter
-/// leaves a run that is not in the background, the run is stopped and detached from the mesh.
+/// The preparation of a mesh up to its operators, shared by all its waiters. A run that is not in
+/// the background is stopped and detached from the mesh when the last waiter leaves it, or when no
+/// job uses the mesh any more; any run is when the mesh is erased.
 struct Run {
   const std::string id;
   const int size_class;
+  const std::string owner = {};
   std::stop_source stop = {};
 
   store::MeshState phase = store::MeshState::pending;  ///< or meshing, factorizing
   bool background = false;                             ///< goes on without waiters
+  bool measures = false;                               ///< theta* as well
   int waiters = 0;
-  bool visible = false;  ///< the operators, to every caller
-  bool ending = false;   ///< only its outcome has to be written
+  bool visible = false;                              ///< the operators, to every caller
+  bool ending = false;                               ///< only its outcome has to be written
+  bool writing = false;                              ///< its record: it is not given up meanwhile
+  std::optional<store::MeshProgress> progress = {};  ///< of the mesher
   std::shared_ptr<const operators::MeshOperator> result =
       {};  ///< until the last waiter has taken it
   std::optional<errors::Error> error = {};
@@ -50,13 +55,17 @@ struct Run {
 
 struct LiveMesh {
   Stage stage = Stage::absent;
-  bool claimed = false;                ///< its record is being made or erased
-  std::uint64_t version = 0;           ///< incremented with each change of the record
-  std::string definition;              ///< hash, without the owner
+  bool claimed = false;       ///< its record is being made or erased
+  std::uint64_t version = 0;  ///< incremented with each change of the record
+  std::string definition;     ///< hash, without the owner
+  std::string owner;
   std::string sha256;                  ///< of the triangulation; empty: not meshed
   std::optional<errors::Error> error;  ///< when failed
   Measured operators;
   int size_class = 0;         ///< by its actual or expected triangles
+  bool for_job = false;       ///< nobody wants it but its jobs
+  bool used = false;          ///< by a job, at some time
+  int refusals = 0;           ///< by the disk, one after another
   bool pin = false;           ///< pin its operators once they are made
   std::shared_ptr<Run> run;   ///< null: it is not being prepared
   std::weak_ptr<void> users;  ///< jobs that have not ended

@@ -12,6 +12,7 @@
 #include "meshes/mesh_index.hpp"
 #include "meshes/size_class.hpp"
 #include "meshes/triangulation.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::meshes {
 
@@ -70,7 +71,9 @@ void Preparation::recover() {
     if (records.size() < records_a_page) break;
     page.after = records.back().id;
   }
-  for (auto id = unmeshed.rbegin(); id != unmeshed.rend(); ++id) begin(*id, true);
+  // Those for jobs begin when their jobs ask for them.
+  for (auto id = unmeshed.rbegin(); id != unmeshed.rend(); ++id)
+    if (!_index.known(*id).for_job) begin(*id, true);
 }
 
 MeshRecord Preparation::stored(const std::string& id) const {
@@ -96,7 +99,8 @@ LiveMesh* Preparation::settled(Lock& lock, const std::string& id) {
   LiveMesh* mesh = nullptr;
   _changed.wait(lock, [&] {
     mesh = _index.find(id);
-    return mesh == nullptr || !(mesh->claimed || (mesh->run && mesh->run->ending));
+    return mesh == nullptr ||
+           !(mesh->claimed || (mesh->run && (mesh->run->ending || mesh->run->writing)));
   });
   return mesh;
 }
@@ -105,29 +109,60 @@ Preparation::RunPtr Preparation::begin(const std::string& id, bool background) {
   LiveMesh& mesh = _index.known(id);
   const bool pending = mesh.stage == Stage::pending;
   if (!mesh.run) {
-    mesh.run = std::make_shared<Run>(Run{id, mesh.size_class});
+    mesh.run = std::make_shared<Run>(Run{id, mesh.size_class, mesh.owner});
     mesh.run->phase = pending ? MeshState::pending : MeshState::factorizing;
     _queue.push_back(mesh.run);
     _changed.notify_all();
   }
-  mesh.run->background = mesh.run->background || background || pending;
+  mesh.run->background = mesh.run->background || background;
+  mesh.run->measures = mesh.run->measures || background || pending;
   return mesh.run;
 }
 
+Preparation::RunPtr Preparation::give_up(LiveMesh& mesh, const Error& why) {
+  const RunPtr run = std::exchange(mesh.run, nullptr);
+  if (!run) return nullptr;
+  _queue.remove(run);
+  run->error = why;
+  _changed.notify_all();
+  return run;
+}
+
+void Preparation::let_go(const std::string& id) {
+  RunPtr run;
+  {
+    const auto held = lock();
+    LiveMesh* mesh = _index.find(id);
+    if (mesh == nullptr || !mesh->run || !mesh->users.expired()) return;
+    const Run& its = *mesh->run;
+    if (its.background || its.waiters > 0 || its.result || its.ending || its.writing) return;
+    run = give_up(*mesh, Error(Reason::cancelled, "no job wants meshes/" + id + " any more"));
+  }
+  run->stop.request_stop();
+}
+
 std::size_t Preparation::queued() const {
-  return static_cast<std::size_t>(std::count_if(_queue.begin(), _queue.end(),
-                                                [](const RunPtr& run) { return run->background; }));
+  return static_cast<std::size_t>(
+      std::count_if(_queue.begin(), _queue.end(), [](const RunPtr& run) { return run->measures; }));
 }
 
 void Preparation::await(Lock& lock, Run& run, bool joins, const PhaseListener& listener,
-                        const std::stop_token& stop) {
+                        const std::stop_token& stop, const ProgressListener& progress) {
   const auto ended = [&] { return run.result || run.error; };
   std::optional<MeshState> reported;
+  std::optional<store::MeshProgress> told;
   while (reported != run.phase || !ended()) {
     const MeshState phase = run.phase;
     if (reported == phase) {
-      if (!_changed.wait(lock, stop, [&] { return run.phase != phase || ended(); }))
+      const auto farther = [&] { return phase == MeshState::meshing && run.progress != told; };
+      if (!_changed.wait(lock, stop, [&] { return run.phase != phase || ended() || farther(); }))
         throw Error(Reason::cancelled, "stopped while waiting for meshes/" + run.id);
+      if (run.phase == phase && !ended() && farther()) {
+        told = run.progress;
+        lock.unlock();
+        if (progress) progress(*told);
+        lock.lock();
+      }
       continue;
     }
     reported = phase;
@@ -139,19 +174,20 @@ void Preparation::await(Lock& lock, Run& run, bool joins, const PhaseListener& l
 }
 
 Preparation::Operator Preparation::prepare(const std::string& id, const PhaseListener& listener,
-                                           const std::stop_token& stop) {
+                                           const std::stop_token& stop,
+                                           const ProgressListener& progress) {
   Lock held = lock();
   settled(held, id);
   LiveMesh& mesh = _index.known(id);
   if (mesh.stage == Stage::failed) throw Error(*mesh.error);
   if (mesh.stage == Stage::meshed && mesh.operators.bytes > 0 && (!mesh.run || mesh.run->visible)) {
-    if (Operator ready = _cache.find(mesh.sha256)) return ready;
+    if (Operator ready = _cache.find(mesh.sha256, mesh.owner)) return ready;
   }
   const bool joins = mesh.run != nullptr;
   const RunPtr run = begin(id, false);
   ++run->waiters;
   try {
-    await(held, *run, joins, listener, stop);
+    await(held, *run, joins, listener, stop, progress);
   } catch (...) {
     if (!held) held.lock();
     const bool unwanted = leave(*run);
@@ -173,7 +209,7 @@ bool Preparation::leave(Run& run) {
     run.result.reset();  // the run is over; its result would pin the operators
     return false;
   }
-  if (run.background || run.result || run.ending) return false;
+  if (run.background || run.result || run.ending || run.writing) return false;
   _queue.remove(mesh->run);
   mesh->run.reset();
   _changed.notify_all();
@@ -191,7 +227,21 @@ void Preparation::work() {
   for (;;) {
     RunPtr run;
     ++_idle;
-    _changed.wait(held, stop, [&] { return stop.stop_requested() || (run = take()); });
+    while (!stop.stop_requested() && !(run = take())) {
+      const auto first_due = [&] {
+        return _later.empty() ? Steady::time_point::max() : _later.begin()->first;
+      };
+      const auto due = first_due();
+      const auto awake = [&] {
+        return stop.stop_requested() || (run = take()) || first_due() != due;
+      };
+      if (_later.empty())
+        _changed.wait(held, stop, awake);
+      else
+        _changed.wait_until(held, stop, due, awake);
+      if (run) break;
+      begin_due();
+    }
     --_idle;
     if (!run) return;
     if (_idle == 0) {
@@ -209,17 +259,37 @@ void Preparation::work() {
   }
 }
 
+bool Preparation::may_begin(const Run& run) const {
+  int as_large = 0;
+  bool own = false;
+  for (const RunPtr& other : _under_way) {
+    if (other->size_class != run.size_class) continue;
+    ++as_large;
+    own = own || other->owner == run.owner;
+  }
+  const bool newcomer = !run.owner.empty() && !own;
+  return as_large < (newcomer ? 2 : 1) * runs_at_once;
+}
+
 Preparation::RunPtr Preparation::take() {
+  auto best = _queue.end();
+  std::pair<std::ptrdiff_t, std::uint64_t> best_rank;
   for (auto run = _queue.begin(); run != _queue.end(); ++run) {
-    const auto as_large = std::count_if(_under_way.begin(), _under_way.end(), [&](const RunPtr& r) {
-      return r->size_class == (*run)->size_class;
-    });
-    if (as_large < runs_at_once) {
-      _under_way.splice(_under_way.end(), _queue, run);
-      return _under_way.back();
+    if (!may_begin(**run)) continue;
+    const std::string& owner = (*run)->owner;
+    const auto own = std::count_if(_under_way.begin(), _under_way.end(),
+                                   [&](const RunPtr& other) { return other->owner == owner; });
+    const auto started = _started.find(owner);
+    const std::pair rank{own, started == _started.end() ? 0 : started->second};
+    if (best == _queue.end() || rank < best_rank) {
+      best = run;
+      best_rank = rank;
     }
   }
-  return nullptr;
+  if (best == _queue.end()) return nullptr;
+  _started[(*best)->owner] = ++_starts;
+  _under_way.splice(_under_way.end(), _queue, best);
+  return _under_way.back();
 }
 
 void Preparation::perform(Run& run) {
@@ -252,19 +322,40 @@ std::shared_ptr<const mesh::Mesh> Preparation::triangulate(Run& run) {
   const bool copied = made.has_value();
   if (!copied) {
     ++_meshings;
-    made = meshes::triangulate(record, _options, _store, run.stop.get_token());
+    made = meshes::triangulate(record, _options, _store, run.stop.get_token(),
+                               [&](const store::MeshProgress& progress) {
+                                 const auto held = lock();
+                                 run.progress = progress;
+                                 _changed.notify_all();
+                               });
   }
-  _store.put(made->record, *made->mesh);
+  {
+    auto held = lock();
+    const LiveMesh* mesh = begin_writing(held, run);
+    if (mesh == nullptr) throw Error(Reason::cancelled, "meshing was cancelled");
+    made->record.for_job = mesh->for_job;
+  }
+  try {
+    _store.put(made->record, *made->mesh);
+  } catch (...) {
+    end_writing(run);
+    throw;
+  }
   {
     const auto held = lock();
     LiveMesh& mesh = _index.known(run.id);
     mesh.stage = Stage::meshed;
     mesh.sha256 = made->record.sha256;
     mesh.size_class = size_class(made->record.triangle_count);
+    mesh.refusals = 0;
     ++mesh.version;
     run.phase = MeshState::factorizing;
+    run.progress.reset();
+    const bool wanted = run.background || run.waiters > 0 || !mesh.used || !mesh.users.expired();
+    if (!wanted) run.stop.request_stop();  // its last job ended while it was written
     _changed.notify_all();
   }
+  end_writing(run);
   if (!copied && _options.meshed) _options.meshed(made->record);
   return std::move(made->mesh);
 }
@@ -276,9 +367,9 @@ void Preparation::factorize(Run& run, std::shared_ptr<const mesh::Mesh> triangul
   Lock held = lock();
   LiveMesh* mesh = mesh_of(run);
   if (mesh == nullptr) return;
-  const std::string sha256 = mesh->sha256;
+  const std::string sha256 = mesh->sha256, owner = mesh->owner;
   held.unlock();
-  Operator result = _cache.find(sha256);
+  Operator result = _cache.find(sha256, owner);
   if (!result) {
     triangulation = triangulation ? std::move(triangulation) : _store.triangulation(sha256);
     if (!triangulation) {
@@ -286,7 +377,7 @@ void Preparation::factorize(Run& run, std::shared_ptr<const mesh::Mesh> triangul
                                                "folder: delete the mesh and create it again",
                                                run.id));
     }
-    result = _cache.acquire(sha256, std::move(triangulation), run.stop.get_token());
+    result = _cache.acquire(sha256, std::move(triangulation), run.stop.get_token(), owner);
   }
   held.lock();
   mesh = mesh_of(run);
@@ -302,30 +393,68 @@ void Preparation::factorize(Run& run, std::shared_ptr<const mesh::Mesh> triangul
   run.result = result;
   if (run.waiters > 0) {
     run.visible = true;
-    run.ending = !run.background;
+    run.ending = !run.measures;
     _changed.notify_all();
-    record_outcome(held, *mesh, run.id);
+    record_outcome(held, run);
   }
-  if (run.background && !run.ending) {
+  if (run.measures && !run.ending) {
     held.unlock();
-    const double theta = theta_star(*result);
+    const double theta = [&] {
+      const stop::Scope scope(run.stop.get_token());
+      return theta_star(*result);
+    }();
     held.lock();
+    mesh = mesh_of(run);
+    if (mesh == nullptr) return;
     measure(theta);
     result.reset();  // first, so that the operators can be evicted once they are announced
     if (run.waiters == 0) run.result.reset();
     run.visible = true;
     run.ending = true;
-    record_outcome(held, *mesh, run.id);
+    record_outcome(held, run);
   }
   finish(run);
 }
 
+LiveMesh* Preparation::begin_writing(Lock& lock, Run& run) {
+  LiveMesh* mesh = nullptr;
+  _changed.wait(lock, [&] { return (mesh = mesh_of(run)) == nullptr || !mesh->claimed; });
+  run.writing = mesh != nullptr;
+  return mesh;
+}
+
+void Preparation::end_writing(Run& run) {
+  const auto held = lock();
+  run.writing = false;
+  _changed.notify_all();
+}
+
+void Preparation::begin_due() {
+  while (!_later.empty() && _later.begin()->first <= Steady::now()) {
+    const std::string id = _later.extract(_later.begin()).mapped();
+    const LiveMesh* mesh = _index.find(id);
+    const bool waits = mesh != nullptr && mesh->stage == Stage::pending && !mesh->claimed;
+    const bool wanted = waits && !(mesh->for_job && mesh->used && mesh->users.expired());
+    if (wanted) begin(id, !mesh->for_job);
+  }
+}
+
+/// Soon, and then more and more rarely, up to each half minute.
+void Preparation::begin_later(LiveMesh& mesh, const std::string& id) {
+  constexpr int most_doublings = 5;
+  constexpr std::chrono::seconds first{1}, longest{30};
+  const auto delay = std::min(first * (1 << std::min(mesh.refusals++, most_doublings)), longest);
+  _later.emplace(Steady::now() + delay, id);
+}
+
 /// The measured values are valid even if the disk has no room for them.
-void Preparation::record_outcome(Lock& lock, LiveMesh& mesh, const std::string& id) {
-  const Measured measured = mesh.operators;
+void Preparation::record_outcome(Lock& lock, Run& run) {
+  LiveMesh* const mesh = begin_writing(lock, run);
+  if (mesh == nullptr) return;
+  const Measured measured = mesh->operators;
   lock.unlock();
   try {
-    MeshRecord record = stored(id);
+    MeshRecord record = stored(run.id);
     record.operator_bytes = measured.bytes;
     record.theta_star = measured.theta_star;
     record.factorize_seconds = measured.seconds;
@@ -333,13 +462,16 @@ void Preparation::record_outcome(Lock& lock, LiveMesh& mesh, const std::string& 
   } catch (const Error&) {
   }
   lock.lock();
-  ++mesh.version;
+  run.writing = false;
+  ++mesh->version;
+  _changed.notify_all();
 }
 
 void Preparation::fail(Run& run, Error error) {
   Lock held = lock();
-  LiveMesh* mesh = mesh_of(run);
+  LiveMesh* mesh = begin_writing(held, run);
   if (mesh == nullptr) return;
+  run.writing = false;
   run.ending = true;
   const bool meshed = mesh->stage == Stage::meshed;
   held.unlock();
@@ -360,6 +492,8 @@ void Preparation::fail(Run& run, Error error) {
   if (failed) {
     mesh->stage = Stage::failed;
     mesh->error = error;
+  } else if (!meshed && error.reason() != Reason::cancelled) {
+    begin_later(*mesh, run.id);
   }
   run.error = std::move(error);
   finish(run);

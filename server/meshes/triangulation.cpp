@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshes/triangulation.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <span>
 #include <system_error>
 #include <utility>
 #include <variant>
@@ -11,6 +13,7 @@
 #include "mesh/codec.hpp"
 #include "meshes/summary.hpp"
 #include "meshes/tension_laws.hpp"
+#include "stop/stop.hpp"
 #include "store/digest.hpp"
 #include "store/files.hpp"
 
@@ -32,8 +35,18 @@ mesh::MesherRequest request_for(const store::MeshRecord& record, const Catalogue
   }
   const auto& upload = std::get<store::UploadRef>(record.definition);
   std::string path = require_upload(store, upload, record.owner);
-  store::require_intact_upload(path, upload.sha256);
+  try {
+    store::require_intact_upload(path, upload.sha256);
+  } catch (const errors::Error& damaged) {  // for good, unlike what the disk refuses
+    throw errors::Error(errors::Reason::not_found, damaged.what()).at("upload");
+  }
   return mesh::ImportRequest{std::move(path), upload.options, options.max_triangles};
+}
+
+/// Triangles that the mesher makes, roughly; 0 where bisection decides.
+std::uint64_t expected_of(const mesh::MesherRequest& request) {
+  const auto* generate = std::get_if<mesh::GenerateRequest>(&request);
+  return generate == nullptr || generate->plan.grading.h0 > 0 ? 0 : generate->plan.triangles;
 }
 
 }  // namespace
@@ -78,16 +91,30 @@ void meshed(const mesh::Mesh& mesh, std::chrono::steady_clock::time_point start,
             store::MeshRecord& record) {
   record.mesh_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  record.sha256 = store::Sha256().add(mesh::encode(mesh)).finish();
+  const mesh::Bytes encoded = mesh::encode(mesh);
+  constexpr std::size_t piece = std::size_t{4} << 20;
+  store::Sha256 sha256;
+  for (std::span<const std::byte> left(encoded); !left.empty();) {
+    stop::look("encoding a mesh");
+    sha256.add(left.first(std::min(piece, left.size())));
+    left = left.subspan(std::min(piece, left.size()));
+  }
+  record.sha256 = sha256.finish();
   record.state = store::MeshState::evicted;
   summarize(mesh, record);
 }
 
 Triangulation triangulate(store::MeshRecord record, const CatalogueOptions& options,
-                          const store::Store& store, const std::stop_token& stop) {
+                          const store::Store& store, const std::stop_token& stop,
+                          const ProgressListener& progress) {
   const auto start = std::chrono::steady_clock::now();
+  const mesh::MesherRequest request = request_for(record, options, store);
+  const std::uint64_t expected = expected_of(request);
   auto mesh = std::make_shared<const mesh::Mesh>(
-      mesher::run(options.helper, request_for(record, options, store), stop));
+      mesher::run(options.helper, request, stop, [&](const mesher::Progress& now) {
+        progress({now.doing, now.triangles, now.triangles < expected ? expected : 0});
+      }));
+  const stop::Scope scope(stop);
   meshed(*mesh, start, record);
   return {std::move(mesh), std::move(record)};
 }

@@ -38,7 +38,8 @@ void meshed(const mesh::Mesh& mesh, std::chrono::steady_clock::time_point start,
 
 /// Runs the helper: seconds to minutes. Throws as mesher::run, mesh::plan and require_upload do.
 Triangulation triangulate(store::MeshRecord record, const CatalogueOptions& options,
-                          const store::Store& store, const std::stop_token& stop);
+                          const store::Store& store, const std::stop_token& stop,
+                          const ProgressListener& progress);
 
 /// The triangulation of another mesh with the same definition; none if that has gone. O(m).
 std::optional<Triangulation> copy_of(const std::string& twin, store::MeshRecord record,

@@ -6,6 +6,7 @@
 #include <sys/socket.h>
 
 #include <cerrno>
+#include <deque>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
@@ -14,8 +15,11 @@
 namespace anticrack::metrics {
 namespace {
 
-constexpr unsigned most_connections = 32;
-constexpr unsigned connection_seconds = 10;
+/// Beyond these the oldest connection is closed, so that a new one never waits.
+constexpr std::size_t most_connections = 64;
+/// Those that are being closed come on top.
+constexpr unsigned most_descriptors = 2 * most_connections;
+constexpr unsigned idle_seconds = 10;
 
 template <auto release>
 struct Release {
@@ -48,12 +52,29 @@ MHD_Result respond(MHD_Connection* connection, unsigned status, const std::strin
 }  // namespace
 
 struct HttpPage::State {
+  std::deque<int> connections;  ///< their descriptors, the oldest first; for MHD's thread alone
   std::string path;
   std::string content_type;
   std::function<std::string()> make;
   std::string address;
   std::unique_ptr<MHD_Daemon, Release<MHD_stop_daemon>>
       daemon;  ///< declared last: it uses the others
+
+  /// Clients that ask for nothing, or ever so slowly, must not keep out one that does.
+  static void note(void* self, MHD_Connection* connection, void** /*kept*/,
+                   MHD_ConnectionNotificationCode what) {
+    auto& open = static_cast<State*>(self)->connections;
+    const int socket =
+        MHD_get_connection_info(connection, MHD_CONNECTION_INFO_CONNECTION_FD)->connect_fd;
+    if (what == MHD_CONNECTION_NOTIFY_CLOSED) {
+      std::erase(open, socket);
+      return;
+    }
+    open.push_back(socket);
+    if (open.size() <= most_connections) return;
+    ::shutdown(open.front(), SHUT_RDWR);
+    open.pop_front();
+  }
 
   static MHD_Result answer(void* self, MHD_Connection* connection, const char* url,
                            const char* method, const char* /*version*/, const char* /*upload*/,
@@ -93,8 +114,9 @@ HttpPage::HttpPage(const std::string& address, std::string path, std::string con
   errno = 0;
   _state->daemon.reset(MHD_start_daemon(
       MHD_USE_AUTO | MHD_USE_INTERNAL_POLLING_THREAD | family, 0, nullptr, nullptr, &State::answer,
-      _state.get(), MHD_OPTION_SOCK_ADDR, where->ai_addr, MHD_OPTION_CONNECTION_LIMIT,
-      most_connections, MHD_OPTION_CONNECTION_TIMEOUT, connection_seconds, MHD_OPTION_END));
+      _state.get(), MHD_OPTION_SOCK_ADDR, where->ai_addr, MHD_OPTION_NOTIFY_CONNECTION,
+      &State::note, _state.get(), MHD_OPTION_CONNECTION_LIMIT, most_descriptors,
+      MHD_OPTION_CONNECTION_TIMEOUT, idle_seconds, MHD_OPTION_END));
   if (!_state->daemon) throw std::runtime_error(std::generic_category().message(errno));
   const MHD_DaemonInfo* port = MHD_get_daemon_info(_state->daemon.get(), MHD_DAEMON_INFO_BIND_PORT);
   _state->address = address.substr(0, colon + 1) + std::to_string(port->port);

@@ -7,8 +7,8 @@
 
 namespace anticrack::metrics {
 
-/// Serves one page over HTTP, made anew for each GET, on a separate thread. The number and the idle
-/// time of connections are limited, so that idle clients cannot block others.
+/// Serves one page over HTTP, made anew for each GET, on a separate thread. Connections that idle
+/// are closed, and beyond a number of them the oldest, so that no client can keep out another.
 ///
 /// Uses libmicrohttpd instead of prometheus-cpp's exposer, whose threads have 100 kB of stack:
 /// thread-local variables of OpenBLAS and METIS take 90 kB of it.

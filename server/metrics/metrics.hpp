@@ -26,6 +26,10 @@ struct Snapshot {
   std::vector<store::OwnerUsage> owners;
   std::uint64_t meshings = 0;
   int pending_meshes = 0;
+  int connections = 0;
+  int connections_limit = 0;
+  std::uint64_t connections_accepted = 0;
+  std::uint64_t connections_refused = 0;
   int watchers = 0;
   int transfers = 0;
   std::uint64_t largest_lag = 0;

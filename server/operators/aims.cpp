@@ -20,6 +20,15 @@ fem::Load Aim::force(const mesh::Mesh& mesh) const {
   return load;
 }
 
+std::vector<estimate::ForceOn> Aim::unit(std::size_t inclusions) const {
+  std::vector<estimate::ForceOn> forces(inclusions);
+  if (value == &contact::InclusionAnswer::displacement)
+    forces[inclusion].force = 1;
+  else
+    forces[inclusion].moment = {moment.x, moment.y};
+  return forces;
+}
+
 std::vector<Aim> aims(const MeshOperator::Parts& parts) {
   using Of = contact::InclusionAnswer;
   std::vector<Aim> aims;
@@ -99,7 +108,9 @@ const std::vector<double>& flux_norms(const MeshOperator::Parts& parts,
       const std::span<const Aim> some = goals.first(std::min(together, goals.size()));
       const std::vector<std::vector<double>> fields =
           open ? open->fields(sums(some)) : open_fields(parts, some);
-      std::ranges::copy(estimate::norms_of_fluxes(cut, fields), std::back_inserter(norms));
+      std::vector<std::vector<estimate::ForceOn>> units;
+      for (const Aim& aim : some) units.push_back(aim.unit(parts.mesh->inclusions.size()));
+      std::ranges::copy(estimate::norms_of_fluxes(cut, fields, units), std::back_inserter(norms));
     }
     return norms;
   });

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "contact/linear_contact.hpp"
+#include "estimate/lack.hpp"
 #include "operators/mesh_parts.hpp"
 
 namespace anticrack::operators {
@@ -23,6 +24,8 @@ struct Aim {
   std::optional<double> contact::InclusionAnswer::*estimate = nullptr;
 
   fem::Load force(const mesh::Mesh& mesh) const;
+  /// The same, of each of so many inclusions.
+  std::vector<estimate::ForceOn> unit(std::size_t inclusions) const;
   double value_in(const contact::Answer& answer) const {
     return answer.inclusions[inclusion].*value;
   }

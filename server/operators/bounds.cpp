@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -7,6 +9,7 @@
 #include "mesh/at.hpp"
 #include "operators/displacement_bounds.hpp"
 #include "operators/load_bounds.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::operators {
 namespace {
@@ -14,12 +17,28 @@ namespace {
 /// Of fields, fluxes and scratch.
 constexpr std::size_t bytes_per_triangle_and_load = 450;
 
+constexpr const char* bounding = "computing bounds";
+
 std::string obstacle_of(const LoadOnTraces& load, const estimate::CutMesh& cut,
                         const contact::Answer& answer) {
   if (!cut.obstacle.empty()) return cut.obstacle;
   if (!load.parts.obstacle.empty()) return load.parts.obstacle;
-  if (!bounded(answer)) return "the discrete problem is not solved to 1e-10; see its KKT residuals";
+  if (!bounded(answer, cut))
+    return "contact alone holds a part of the membrane, and " + contact::residuals_of(answer) +
+           ", above 1e-10: hold that part by glue or a prescribed value";
   return "";
+}
+
+/// Energies are squares: of what is very small or very large nothing is left of them.
+std::string obstacle_of(std::span<const double> u, double tension) {
+  constexpr double least = 1e-250, most = 1e280;
+  double largest = 0;
+  for (const double one : u) largest = std::max(largest, std::abs(one));
+  const double square = tension * largest * largest;
+  if (largest == 0 || (square >= least && square <= most)) return "";
+  return fmt::format(
+      "the largest |u| is {:g}, and its square is beyond the range of numbers: scale the load {}",
+      largest, square < least ? "up" : "down");
 }
 
 /// What the bounds of an answer are made from.
@@ -52,8 +71,9 @@ void find_bounds(const MeshOperator::Parts& parts, const estimate::CutMesh& cut,
           "give their sum as a load of its own";
       continue;
     }
+    const estimate::Lack lack = lack_of(cut, fluxes[i], balance, load);
     const estimate::Bracket bracket =
-        estimate::bracket(cut, fluxes[i], balance, lifts, u, answer.energy);
+        estimate::bracket(cut, fluxes[i], balance, lifts, u, answer.energy, lack.flux);
     answer.energy_lower = bracket.lower;
     answer.energy_upper = bracket.upper;
     answer.error_bound = bracket.error;
@@ -62,7 +82,7 @@ void find_bounds(const MeshOperator::Parts& parts, const estimate::CutMesh& cut,
     for (std::size_t t = 0; t < bracket.indicator.size(); ++t)
       of.indicator[at(cut.triangle[t])] = bracket.indicator[t];
     bounded.push_back(
-        {load, primals.emplace_back(cut, fluxes[i], balance, lifts, u), answer, of.stop});
+        {load, primals.emplace_back(cut, fluxes[i], balance, lifts, u, lack), answer, of.stop});
   }
   bound_displacements(parts, bounded);
 }
@@ -87,24 +107,29 @@ void MeshOperator::estimate(std::span<Estimate> all) const {
   const std::size_t together = estimated_together();
   for (; all.size() > together; all = all.subspan(together)) estimate(all.first(together));
   if (all.empty()) return;
+  const stop::Scope scope([all](const stop::Look&) {
+    return std::ranges::all_of(all, [](const Estimate& one) { return one.stop.stop_requested(); });
+  });
   const Working counted(_parts->at_work,
                         all.size() * _parts->mesh->triangle_count() * bytes_per_triangle_and_load);
   const estimate::CutMesh& cut = _parts->cut_mesh();
   std::vector<Material> materials;
   for (Estimate& one : all) {
+    const stop::Scope own(one.stop);
     try {
+      stop::look(bounding);
       require_prepared(*one.load, true);
       const PreparedLoad::Data& data = *one.load->_data;
       const LoadOnTraces& load = data.condensed;
       contact::Answer& answer = *one.answer;
       answer.no_bracket = obstacle_of(load, cut, answer);
       if (!answer.no_bracket.empty()) continue;
-      if (one.stop.stop_requested())
-        throw errors::Error(errors::Reason::cancelled, "stopped before the error was estimated");
       const bool recovered = answer.fields.empty();
       if (recovered) recover_fields({&one.load, 1}, {&one.answer, 1});
       Material material{one, load, of_copies(answer.fields), {}, {}};
       if (recovered) answer.fields.clear();
+      answer.no_bracket = obstacle_of(material.u, cut.shapes.largest_tension);
+      if (!answer.no_bracket.empty()) continue;
       BalancedLoad of_load =
           data.balanced ? *data.balanced
                         : balanced(load.parts, _parts->decomposition.subdomains, cut, one.stop);
@@ -121,6 +146,11 @@ void MeshOperator::estimate(std::span<Estimate> all) const {
   }
   try {
     find_bounds(*_parts, cut, materials);
+    for (const Material& one : materials) {
+      if (one.of.stop.stop_requested())
+        one.of.failure = std::make_exception_ptr(
+            errors::Error(errors::Reason::cancelled, std::string("stopped while ") + bounding));
+    }
   } catch (...) {
     for (const Material& one : materials) one.of.failure = std::current_exception();
   }

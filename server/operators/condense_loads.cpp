@@ -6,6 +6,7 @@
 #include <sstream>
 #include <utility>
 
+#include "fem/adaptive_load.hpp"
 #include "fem/load_vector.hpp"
 #include "fem/traction.hpp"
 #include "mesh/at.hpp"
@@ -34,21 +35,54 @@ void require_array_fits(const fem::Load& load, const mesh::Mesh& mesh) {
   }
 }
 
-std::string inexact(const std::string& what, const std::string& subdomain, double relative_error,
-                    double wanted) {
-  if (!std::isfinite(relative_error)) {
-    return what + " on subdomain \"" + subdomain +
-           "\" cannot be integrated, and no estimate of its error is possible: the integral may "
-           "not exist, or a peak is too narrow for the mesh; refine the mesh there or change the "
-           "expression";
-  }
+/// How an expression was integrated.
+struct Integrated {
+  std::string what, subdomain;
+  double estimate, tolerance;  ///< of the samples, relative
+  const fem::Proof& proof;
+  double enough;  ///< of Proof::relative
+};
+
+std::string place(const fem::Proof& proof) {
+  std::ostringstream text;
+  text.precision(6);
+  text << "(" << proof.worst_x << ", " << proof.worst_y << ")";
+  return text.str();
+}
+
+/// What a user has to know of it; empty: nothing.
+std::string inexact(const Integrated& one) {
+  const std::string who = one.what + " on subdomain \"" + one.subdomain + "\"";
   std::ostringstream message;
   message.precision(2);
-  message << what << " on subdomain \"" << subdomain << "\" may be wrong by " << relative_error
-          << " of its integral (tolerance: " << wanted
-          << "): it varies too fast to be integrated in a bounded time; refine the mesh or smooth "
-             "the expression";
+  if (std::isfinite(one.proof.relative())) {
+    if (one.proof.relative() <= one.enough) return "";
+    message << who << " varies too fast near " << place(one.proof)
+            << " to be integrated in a bounded time: up to " << one.proof.relative()
+            << " of its integral is unknown, which the bounds take into account; refine the mesh "
+               "there or smooth the expression";
+    return message.str();
+  }
+  if (!std::isfinite(one.estimate)) {
+    return who +
+           " cannot be integrated: the integral may not exist, as the expression has no bound "
+           "near " +
+           place(one.proof) + "; change the expression there";
+  }
+  if (one.estimate <= one.tolerance) return "";
+  message << who << " may be wrong by " << one.estimate
+          << " of its integral (tolerance: " << one.tolerance
+          << "), which is an estimate: the expression has no bound near " << place(one.proof)
+          << "; refine the mesh there or change the expression";
   return message.str();
+}
+
+/// Why nothing can be proved with it; empty: it can.
+std::string no_proof(const Integrated& one) {
+  if (std::isfinite(one.proof.unknown)) return "";
+  return one.what + " on subdomain \"" + one.subdomain + "\" has no bound near " +
+         place(one.proof) +
+         ", so that no bounds can be proved; let the expression stay finite there";
 }
 
 /// Loads that are condensed together.
@@ -198,19 +232,22 @@ class Block {
 
   Eigen::VectorXd integrate(std::size_t i, std::size_t s, LoadOnTraces& result) const {
     const ddm::Subdomain& subdomain = _decomposition.subdomains[s];
-    double error = 0;
+    fem::IntegrationReport report{};
     Eigen::VectorXd of_nodes = fem::load_vector(subdomain.part, _loads[i]->force, subdomain.name,
-                                                {subdomain.node, subdomain.triangle, _stop, &error,
+                                                {subdomain.node, subdomain.triangle, _stop, &report,
                                                  _parts ? &result.parts.integrated[s] : nullptr});
-    const double wanted = fem::force_tolerance(subdomain.part.triangle_count());
-    if (error > wanted) warn(inexact("the force", subdomain.name, error, wanted), result);
+    const std::size_t triangles = subdomain.part.triangle_count();
+    judge({"the force", subdomain.name, report.relative_error_estimate,
+           fem::force_tolerance(triangles), report.proof, 3 * fem::proof_tolerance(triangles)},
+          result);
     return of_nodes;
   }
 
-  /// A load that is not known well enough has no bounds.
-  static void warn(const std::string& warning, LoadOnTraces& result) {
-    result.warnings.push_back(warning);
-    result.parts.obstacle = warning;
+  static void judge(const Integrated& one, LoadOnTraces& result) {
+    if (std::string warning = inexact(one); !warning.empty())
+      result.warnings.push_back(std::move(warning));
+    if (std::string obstacle = no_proof(one); !obstacle.empty())
+      result.parts.obstacle = std::move(obstacle);
   }
 
   /// Traction and point forces.
@@ -219,11 +256,13 @@ class Block {
     const ddm::Subdomain& subdomain = _decomposition.subdomains[s];
     const fem::Load& load = *_loads[i];
     if (!load.traction.empty() && !_neumann.of(s).empty()) {
-      const double error =
+      const fem::TractionReport report =
           fem::add_traction(subdomain.part, _neumann.of(s), load.traction, of_nodes, _stop,
                             _parts ? &result.parts.traction[s] : nullptr);
-      if (error > fem::traction_tolerance)
-        warn(inexact("the traction", subdomain.name, error, fem::traction_tolerance), result);
+      constexpr double enough = 1e-4;
+      judge({"the traction", subdomain.name, report.relative_error_estimate,
+             fem::traction_tolerance, report.proof, enough},
+            result);
     }
     for (const NodalForce& force : _placed[i].subdomains[s]) of_nodes[force.node] += force.value;
     if (!of_nodes.allFinite()) {

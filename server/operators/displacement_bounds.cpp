@@ -14,6 +14,7 @@
 #include "estimate/bracket.hpp"
 #include "estimate/interval.hpp"
 #include "operators/aims.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::operators {
 namespace {
@@ -27,7 +28,12 @@ class Search {
   /// `unloaded`: norm of the flux of a unit force with every contact open.
   Search(const Bounded& of, const contact::Adjoint& adjoint, const Aim& aim,
          contact::Adjoint::Goal goal, double unloaded)
-      : _of(of), _adjoint(adjoint), _aim(aim), _goal(std::move(goal)), _unloaded(unloaded) {
+      : _of(of),
+        _adjoint(adjoint),
+        _aim(aim),
+        _unit(aim.unit(of.answer.inclusions.size())),
+        _goal(std::move(goal)),
+        _unloaded(unloaded) {
     const double norm = std::sqrt(of.primal.flux.norm_squared());
     _c = 2 * (norm > 0 ? std::sqrt(_goal.compliance) / norm : 1);
   }
@@ -35,12 +41,13 @@ class Search {
   const Bounded& of() const { return _of; }
   const Aim& aim() const { return _aim; }
   bool held() const { return !(_goal.compliance > 0); }
-  bool done() const { return held() || _tries == most_tries; }
+  bool done() const { return held() || _tries == most_tries || stopped(); }
+  bool stopped() const { return _of.stop.stop_requested(); }
 
   Eigen::VectorXd load() const { return _adjoint.load(_goal, _c); }
   Eigen::VectorXd jumps() const { return _adjoint.jumps(_goal, _c); }
   estimate::Aimed aimed(std::span<const double> z, std::span<const double> reacting) const {
-    return {&_of.primal, {z, reacting, _aim.value_in(_of.answer), _c}, _unloaded};
+    return {&_of.primal, {z, reacting, _aim.value_in(_of.answer), _c, _unit}, _unloaded};
   }
 
   void take(const estimate::Interval& one) {
@@ -72,6 +79,7 @@ class Search {
   const Bounded& _of;
   const contact::Adjoint& _adjoint;
   const Aim& _aim;
+  std::vector<estimate::ForceOn> _unit;
   contact::Adjoint::Goal _goal;
   double _c = 0, _unloaded;
   estimate::Interval _best;
@@ -169,11 +177,14 @@ class Slopes {
       add(sum.inclusion_forces[j].on_holders, unit.inclusion_forces[j].on_holders, forces);
     }
     const contact::Answer answer = solve({sum.subdomains, sum.inclusion_forces}, true);
-    if (!bounded(answer)) return std::nullopt;
+    const estimate::CutMesh& cut = _primal.cut;
+    if (!bounded(answer, cut)) return std::nullopt;
     const std::vector<double> u = of_copies(answer.fields);
-    const auto& [cut, of_load, load, lifts, of_answer] = _primal;
+    const estimate::LoadBalance& load = _primal.load;
     const estimate::EquilibratedFlux flux(cut, {u, load.force, load.traction});
-    return estimate::bracket(cut, flux, load, lifts, u, answer.energy).lower;
+    return estimate::bracket(cut, flux, load, _primal.lifts, u, answer.energy,
+                             lack_of(cut, flux, load, sum).flux)
+        .lower;
   }
 
   const MeshOperator::Parts& _parts;
@@ -220,6 +231,7 @@ void bound_by_adjoints(const MeshOperator::Parts& parts, const std::vector<Aim>&
   std::deque<Search> searches;
   std::vector<std::pair<const Bounded*, const Aim*>> by_energy;
   for (const Bounded& of : answers) {
+    if (of.stop.stop_requested()) continue;
     const contact::Adjoint& adjoint = adjoints.emplace_back(parts.problem, of.answer);
     const bool loaded_beyond = !of.primal.load.oscillation.empty();
     std::vector<contact::Opened> opened;
@@ -242,19 +254,35 @@ void bound_by_adjoints(const MeshOperator::Parts& parts, const std::vector<Aim>&
     advance(parts, cut, active);
   }
   for (const Search& search : searches)
-    if (!search.finish()) by_energy.emplace_back(&search.of(), &search.aim());
-  for (const auto& [of, aim] : by_energy)
-    Slopes(parts, of->load, of->primal, *of->answer.energy_lower, *of->answer.energy_upper,
-           of->stop)
-        .find(*aim, of->answer);
+    if (!search.stopped() && !search.finish()) by_energy.emplace_back(&search.of(), &search.aim());
+  for (const auto& [of, aim] : by_energy) {
+    if (of->stop.stop_requested()) continue;
+    const stop::Scope scope(of->stop);
+    try {
+      Slopes(parts, of->load, of->primal, *of->answer.energy_lower, *of->answer.energy_upper,
+             of->stop)
+          .find(*aim, of->answer);
+    } catch (const errors::Error& error) {
+      if (error.reason() != errors::Reason::cancelled || !of->stop.stop_requested()) throw;
+    }
+  }
 }
 
 }  // namespace
 
-bool bounded(const contact::Answer& answer) {
+bool bounded(const contact::Answer& answer, const estimate::CutMesh& cut) {
   constexpr double most_kkt = 1e-10;
   return answer.status == contact::Status::converged &&
-         contact::within(answer.kkt_relative, most_kkt);
+         (std::isfinite(cut.ways.triangle) || contact::within(answer.kkt_relative, most_kkt));
+}
+
+estimate::Lack lack_of(const estimate::CutMesh& cut, const estimate::EquilibratedFlux& flux,
+                       const estimate::LoadBalance& balance, const LoadOnTraces& load) {
+  if (!std::isfinite(cut.ways.triangle)) return {};
+  std::vector<estimate::ForceOn> forces;
+  for (const auto& [on_nodes, on_holders] : load.inclusion_forces)
+    forces.push_back({on_nodes.force, {on_nodes.moment_x, on_nodes.moment_y}});
+  return estimate::lack_of(cut, flux, balance.traction, forces, estimate::pressing(cut, flux));
 }
 
 std::vector<double> of_copies(const std::vector<contact::Field>& fields) {

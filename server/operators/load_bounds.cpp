@@ -54,6 +54,14 @@ BalancedLoad balanced(const LoadParts& parts, const std::vector<ddm::Subdomain>&
       force[s] = std::move(*linear);
   }
   result.balance = estimate::load_balance(cut, force, parts.traction);
+  if (result.obstacle.empty() && !std::ranges::all_of(result.balance.oscillation, [](double one) {
+        return std::isfinite(one);
+      })) {
+    result.obstacle =
+        "a part of the membrane that cracks and inclusions enclose has a load that is not "
+        "integrated "
+        "exactly, and no bounds can be proved; give it a load that is linear there";
+  }
   return result;
 }
 

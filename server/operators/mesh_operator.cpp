@@ -7,26 +7,18 @@
 #include "ddm/at_once.hpp"
 #include "ddm/blas.hpp"
 #include "operators/mesh_parts.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::operators {
 namespace {
 
-void require_running(const std::stop_token& stop) {
-  if (stop.stop_requested())
-    throw errors::Error(errors::Reason::cancelled, "stopped while factorising a mesh");
-}
-
 std::vector<ddm::SubdomainOperator> factorise_subdomains(
-    const std::vector<ddm::Subdomain>& subdomains, int threads, const std::stop_token& stop) {
+    const std::vector<ddm::Subdomain>& subdomains, int threads) {
   std::vector<std::optional<ddm::SubdomainOperator>> done(subdomains.size());
   // Where subdomains are fewer than threads, several share one.
   const int each = std::max(1, threads / std::max(1, static_cast<int>(subdomains.size())));
-  ddm::at_once(subdomains.size(), threads, [&] {
-    return [&](std::size_t s) {
-      require_running(stop);
-      done[s].emplace(subdomains[s], each);
-    };
-  });
+  ddm::at_once(subdomains.size(), threads,
+               [&] { return [&](std::size_t s) { done[s].emplace(subdomains[s], each); }; });
   std::vector<ddm::SubdomainOperator> operators;
   operators.reserve(done.size());
   for (std::optional<ddm::SubdomainOperator>& subdomain : done)
@@ -72,7 +64,7 @@ MeshOperator::Parts::Parts(std::shared_ptr<const mesh::Mesh> cut_mesh, int threa
       neumann(*mesh, decomposition),
       operators(contact::is_long(decomposition, most_dense)
                     ? std::vector<ddm::SubdomainOperator>()
-                    : factorise_subdomains(decomposition.subdomains, threads, stop)),
+                    : factorise_subdomains(decomposition.subdomains, threads)),
       uzawa_obstacle(contact::is_long(decomposition, most_dense)
                          ? long_interfaces
                          : ddm::uzawa_obstacle(decomposition, *mesh)),
@@ -80,7 +72,7 @@ MeshOperator::Parts::Parts(std::shared_ptr<const mesh::Mesh> cut_mesh, int threa
       sweep_geometry(problem),
       geometry(contact::trace_geometry(decomposition, *mesh)) {
   if (contact::is_long(decomposition, most_dense))
-    joined.emplace(problem, threads, stop);
+    joined.emplace(problem, threads);
   else
     skeleton.emplace(problem);
 }
@@ -96,7 +88,8 @@ std::shared_ptr<const MeshOperator> MeshOperator::factorise(std::shared_ptr<cons
                                                             int threads, std::stop_token stop,
                                                             std::size_t most_dense) {
   require_threadsafe_blas();
-  require_running(stop);
+  const stop::Scope scope(stop);
+  stop::look("factorising a mesh");
   auto parts = std::make_shared<const Parts>(std::move(mesh), threads, stop, most_dense);
   return std::shared_ptr<const MeshOperator>(new MeshOperator(std::move(parts)));
 }

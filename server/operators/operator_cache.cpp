@@ -3,16 +3,17 @@
 
 #include <algorithm>
 #include <condition_variable>
-#include <map>
 #include <mutex>
 #include <new>
 #include <optional>
+#include <set>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "errors/errors.hpp"
 #include "operators/freed_memory.hpp"
+#include "operators/memory_shares.hpp"
 
 namespace anticrack::operators {
 namespace {
@@ -21,6 +22,7 @@ using errors::Error;
 using errors::Reason;
 using Operator = std::shared_ptr<const MeshOperator>;
 using Operators = std::vector<Operator>;
+using Clock = std::chrono::steady_clock;
 
 /// A factorisation under way and its waiters.
 struct Flight {
@@ -28,6 +30,7 @@ struct Flight {
   int waiters = 1;         ///< the caller whose thread factorises is one
   bool abandoned = false;  ///< the last waiter left: it is being stopped; joining is too late
   bool done = false;
+  bool starved = false;  ///< the system had no memory for it
   Operator result;
   std::optional<Error> error;
 };
@@ -36,8 +39,10 @@ struct Flight {
 struct Entry {
   Operator ready;
   std::shared_ptr<Flight> flight;
-  std::uint64_t estimate = 0;  ///< counts in flight; an operator is measured
+  std::uint64_t estimate = 0;      ///< counts in flight; an operator is measured
+  std::set<std::string> owners{};  ///< who asked for it
   std::uint64_t last_use = 0;
+  Clock::time_point used{};
   bool kept = false;  ///< pinned without a holder
 
   /// With the mutex held, the operator can only be reached through copies that are counted.
@@ -68,6 +73,14 @@ Error full(std::uint64_t estimate, std::uint64_t held, std::uint64_t budget) {
   return error.retry_after(retry_delay);
 }
 
+Error over_share(std::uint64_t estimate, const PinnedShare& share) {
+  Error error(Reason::busy, "the operators of this mesh need about " + mebibytes(estimate) +
+                                "; your running jobs and factorisations hold " +
+                                mebibytes(share.own) + ", those of one user may hold " +
+                                mebibytes(share.most) + " now: try again when one has ended");
+  return error.retry_after(retry_delay);
+}
+
 /// Slow for many pages; call without a lock.
 void release(Operators operators) {
   if (!operators.empty()) {
@@ -82,14 +95,17 @@ void release(Operators operators) {
 struct OperatorCache::State {
   using Lock = std::unique_lock<std::mutex>;
 
-  State(std::uint64_t budget_bytes, Factorise factorise_mesh, Listener listener)
+  State(std::uint64_t budget_bytes, Factorise factorise_mesh, Listener listener,
+        std::chrono::milliseconds stale)
       : budget(budget_bytes),
         factorise(std::move(factorise_mesh)),
-        factorised(std::move(listener)) {}
+        factorised(std::move(listener)),
+        stale_after(stale) {}
 
   const std::uint64_t budget;
   const Factorise factorise;
   const Listener factorised;
+  const std::chrono::milliseconds stale_after;
 
   std::mutex mutex;
   std::condition_variable_any landed;
@@ -102,10 +118,16 @@ struct OperatorCache::State {
     return found == entries.end() ? nullptr : &found->second;
   }
 
-  Operator hit(const std::string& key) {
+  void use(Entry& entry, const std::string& owner) {
+    entry.owners.insert(owner);
+    entry.last_use = ++clock;
+    entry.used = Clock::now();
+  }
+
+  Operator hit(const std::string& key, const std::string& owner) {
     Entry* entry = find(key);
     if (entry == nullptr || !entry->ready) return nullptr;
-    entry->last_use = ++clock;
+    use(*entry, owner);
     ++counters.hits;
     return entry->ready;
   }
@@ -126,25 +148,34 @@ struct OperatorCache::State {
     return taken;
   }
 
-  /// Takes out operators that are not pinned, least recently used first, until the rest and
-  /// `wanted` fit in `limit`; none if that is impossible. O(n log n).
-  std::optional<Operators> evict(std::uint64_t wanted, std::uint64_t limit) {
-    if (wanted > limit) return std::nullopt;
-    std::uint64_t held = 0;
-    std::map<std::uint64_t, std::pair<std::string, std::uint64_t>> candidates;  // by last use
-    for (const auto& [key, entry] : entries) {
-      held += entry.bytes();
-      if (!entry.pinned()) candidates[entry.last_use] = {key, entry.bytes()};
-    }
-    std::vector<std::string> chosen;
-    for (auto next = candidates.begin(); held > limit - wanted; ++next) {
-      if (next == candidates.end()) return std::nullopt;
-      held -= next->second.second;
-      chosen.push_back(next->second.first);
-    }
+  std::vector<Resident> residents() const {
+    const Clock::time_point stale = Clock::now() - stale_after;
+    std::vector<Resident> all;
+    for (const auto& [key, entry] : entries)
+      all.push_back({&key, &entry.owners, entry.bytes(), entry.last_use, entry.used < stale,
+                     entry.in_use(), entry.kept});
+    return all;
+  }
+
+  /// Takes out operators until the rest and `wanted` fit in `limit`, as choose_victims() says.
+  std::optional<Operators> evict(const std::string& owner, std::uint64_t wanted,
+                                 std::uint64_t limit) {
+    const auto chosen = choose_victims(residents(), owner, wanted, limit);
+    if (!chosen) return std::nullopt;
     Operators evicted;
-    for (const std::string& key : chosen) evicted.push_back(take(key));
+    for (const std::string& key : *chosen) evicted.push_back(take(key));
     return evicted;
+  }
+
+  /// Room for what is to be factorised. Throws errors::Error (limit_exceeded, busy).
+  Operators make_room(const std::string& owner, std::uint64_t estimate) {
+    if (estimate > budget) throw too_large(estimate, budget);
+    const PinnedShare share = pinned_share(residents(), owner, estimate, budget);
+    const bool fits = estimate <= budget - std::min(budget, share.used);
+    if (fits && !share.enough) throw over_share(estimate, share);
+    std::optional<Operators> evicted = fits ? evict(owner, estimate, budget) : std::nullopt;
+    if (!evicted) throw full(estimate, share.used, budget);
+    return std::move(*evicted);
   }
 
   /// One waiter fewer; the last one stops the factorisation, without the lock.
@@ -181,6 +212,7 @@ struct OperatorCache::State {
     } catch (const std::bad_alloc&) {
       flight.error = Error(Reason::busy, "not enough memory to factorise this mesh now");
       flight.error->retry_after(retry_delay);
+      flight.starved = true;
     } catch (const std::exception& thrown) {
       flight.error = Error(Reason::internal, std::string("factorising failed: ") + thrown.what());
     }
@@ -188,19 +220,30 @@ struct OperatorCache::State {
     return nullptr;
   }
 
+  /// The system has less memory than the budget: all that is not in use goes; where that is nothing
+  /// either, another try would do no better.
+  Operators after_starving(Flight& flight) {
+    Operators evicted = evict({}, 0, pinned_bytes()).value_or(Operators());
+    if (evicted.empty() && pinned_bytes() == 0) {
+      flight.error = Error(Reason::limit_exceeded,
+                           "there is not enough memory for the operators of this mesh, though the "
+                           "memory budget of " +
+                               mebibytes(budget) +
+                               " has room: use a coarser mesh, or give the server more memory "
+                               "(ulimit -v, its control group)");
+    }
+    return evicted;
+  }
+
   /// Factorises on this thread, also for callers that join.
   Operator fly(Lock& lock, const std::string& key, std::shared_ptr<const mesh::Mesh> mesh,
-               std::uint64_t estimate, const std::stop_token& stop) {
-    std::optional<Operators> evicted = evict(estimate, budget);
-    if (!evicted) {
-      throw estimate > budget ? too_large(estimate, budget)
-                              : full(estimate, pinned_bytes(), budget);
-    }
+               const std::string& owner, std::uint64_t estimate, const std::stop_token& stop) {
+    Operators evicted = make_room(owner, estimate);
     const auto flight = std::make_shared<Flight>();
-    entries[key] = {nullptr, flight, estimate};
+    entries[key] = {nullptr, flight, estimate, {owner}};
     ++counters.factorizations;
     lock.unlock();
-    release(std::move(*evicted));
+    release(std::exchange(evicted, {}));
     Operator result;
     bool left = false;
     {
@@ -216,25 +259,30 @@ struct OperatorCache::State {
     flight->waiters -= left ? 0 : 1;
     if (result) {
       flight->result = flight->waiters > 0 ? result : nullptr;
-      entries[key] = {result, nullptr, 0, ++clock};
+      Entry& entry = entries.at(key);
+      entry.ready = result;
+      entry.flight.reset();
+      use(entry, owner);
       if (left) result.reset();
       // As near to the budget as those in use allow.
-      evicted = evict(0, std::max(budget, pinned_bytes()));
+      if (auto over = evict(owner, 0, std::max(budget, pinned_bytes()))) evicted = std::move(*over);
     } else {
-      evicted.reset();
       entries.erase(key);
+      if (flight->starved) evicted = after_starving(*flight);
     }
     landed.notify_all();
     lock.unlock();
-    release(evicted ? std::move(*evicted) : Operators());
+    release(std::move(evicted));
     if (left) throw stopped();
     if (!result) throw Error(*flight->error);
     return result;
   }
 };
 
-OperatorCache::OperatorCache(std::uint64_t budget_bytes, Factorise factorise, Listener factorised)
-    : _state(std::make_unique<State>(budget_bytes, std::move(factorise), std::move(factorised))) {
+OperatorCache::OperatorCache(std::uint64_t budget_bytes, Factorise factorise, Listener factorised,
+                             std::chrono::milliseconds stale_after)
+    : _state(std::make_unique<State>(budget_bytes, std::move(factorise), std::move(factorised),
+                                     stale_after)) {
   set_up_heaps();
 }
 
@@ -242,18 +290,20 @@ OperatorCache::~OperatorCache() = default;
 
 std::shared_ptr<const MeshOperator> OperatorCache::acquire(const std::string& key,
                                                            std::shared_ptr<const mesh::Mesh> mesh,
-                                                           std::stop_token stop) {
+                                                           std::stop_token stop,
+                                                           const std::string& owner) {
   std::optional<std::uint64_t> estimate;
   State::Lock lock(_state->mutex);
   for (;;) {
-    if (Operator ready = _state->hit(key)) return ready;
+    if (Operator ready = _state->hit(key, owner)) return ready;
     if (stop.stop_requested()) throw stopped();
-    if (const Entry* found = _state->find(key)) {
+    if (Entry* found = _state->find(key)) {
       const std::shared_ptr<Flight> flight = found->flight;
+      found->owners.insert(owner);
       if (!flight->abandoned) return _state->join(lock, flight, stop);
       _state->landed.wait(lock, stop, [&] { return flight->done; });
     } else if (estimate) {
-      return _state->fly(lock, key, std::move(mesh), *estimate, stop);
+      return _state->fly(lock, key, std::move(mesh), owner, *estimate, stop);
     } else {
       lock.unlock();
       estimate = estimate_bytes(*mesh);
@@ -262,9 +312,10 @@ std::shared_ptr<const MeshOperator> OperatorCache::acquire(const std::string& ke
   }
 }
 
-std::shared_ptr<const MeshOperator> OperatorCache::find(const std::string& key) {
+std::shared_ptr<const MeshOperator> OperatorCache::find(const std::string& key,
+                                                        const std::string& owner) {
   const std::lock_guard lock(_state->mutex);
-  return _state->hit(key);
+  return _state->hit(key, owner);
 }
 
 bool OperatorCache::contains(const std::string& key) const {
@@ -303,6 +354,8 @@ void OperatorCache::count_join() {
   const std::lock_guard lock(_state->mutex);
   ++_state->counters.joins;
 }
+
+std::uint64_t OperatorCache::budget() const noexcept { return _state->budget; }
 
 CacheMetrics OperatorCache::metrics() const {
   const std::lock_guard lock(_state->mutex);

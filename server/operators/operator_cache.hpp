@@ -17,6 +17,9 @@ namespace anticrack::operators {
 /// Retry delay of `busy` errors about memory or threads.
 constexpr std::chrono::milliseconds retry_delay{1000};
 
+/// Operators that nobody asked for meanwhile protect their owner's share of memory no more.
+constexpr std::chrono::milliseconds default_stale_after{std::chrono::hours(1)};
+
 struct CacheMetrics {
   std::uint64_t factorizations = 0;
   std::uint64_t hits = 0;
@@ -32,13 +35,12 @@ struct CacheMetrics {
 /// same
 ///    operator or the same error.
 /// 2. An operator in use (shared_ptr) is pinned: counted and not evicted.
-/// 3. A factorisation first reserves its estimate, evicting unpinned entries, least recently used
-/// first.
-///    If that is not enough: errors::Error busy, or limit_exceeded if the estimate exceeds the
-///    budget. Then its measured size replaces the estimate. Measured and reserved bytes stay within
-///    the budget. If a measured size exceeds its estimate (an error of estimate_bytes), or an
-///    operator grows in use (theta*, bases of sweeps), unpinned entries go at once, and nothing
-///    more is admitted until the total is within the budget.
+/// 3. A factorisation first reserves its estimate, evicting unpinned entries by owners' shares
+///    (memory_shares.hpp). If that is not enough: errors::Error busy, or limit_exceeded if the
+///    estimate exceeds the budget. Then its measured size replaces the estimate. Measured and
+///    reserved bytes stay within the budget. If a measured size exceeds its estimate (an error of
+///    estimate_bytes), or an operator grows in use (theta*, bases of sweeps), unpinned entries go
+///    at once, and nothing more is admitted until the total is within the budget.
 /// 4. `pin` keeps an entry until `evict`.
 /// 5. Evicted memory returns to the system before the factorisation it made room for
 ///    (freed_memory.hpp).
@@ -55,16 +57,18 @@ class OperatorCache {
   using Listener = std::function<void(std::chrono::duration<double>)>;
 
   /// `factorise` may throw errors for acquire() and should obey its stop.
-  OperatorCache(std::uint64_t budget_bytes, Factorise factorise, Listener factorised = {});
+  OperatorCache(std::uint64_t budget_bytes, Factorise factorise, Listener factorised = {},
+                std::chrono::milliseconds stale_after = default_stale_after);
   /// No call may be under way.
   ~OperatorCache();
 
-  /// The operator of a mesh, from memory or factorised; blocks. `key`: hash of the mesh's content.
+  /// The operator of a mesh, from memory or factorised; blocks. `key`: hash of the mesh's content;
+  /// `owner`: whose share it counts in, empty without authentication.
   std::shared_ptr<const MeshOperator> acquire(const std::string& key,
                                               std::shared_ptr<const mesh::Mesh> mesh,
-                                              std::stop_token stop);
+                                              std::stop_token stop, const std::string& owner = {});
   /// The operator when it is in memory (a hit), else null. Does not block.
-  std::shared_ptr<const MeshOperator> find(const std::string& key);
+  std::shared_ptr<const MeshOperator> find(const std::string& key, const std::string& owner = {});
   bool contains(const std::string& key) const;
   /// Keeps an entry that is in memory; false when it is not there.
   bool pin(const std::string& key);
@@ -74,6 +78,7 @@ class OperatorCache {
   Eviction evict(const std::string& key);
   /// Counts a caller that waits for an acquire() of another one instead of its own.
   void count_join();
+  std::uint64_t budget() const noexcept;  ///< bytes
   CacheMetrics metrics() const;
 
  private:

@@ -4,6 +4,7 @@
 
 #include "errors/errors.hpp"
 #include "operators/mesh_parts.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::operators {
 
@@ -25,6 +26,7 @@ void MeshOperator::require_prepared(const PreparedLoad& load, bool fields) const
 
 std::vector<std::variant<PreparedLoad, errors::Error>> MeshOperator::prepare(
     std::span<const fem::Load* const> loads, const std::stop_token& stop) const {
+  const stop::Scope scope(stop);
   std::vector<CondensedOutcome> condensed = condense_loads(
       loads, *_parts->mesh, _parts->decomposition, _parts->condense(), _parts->neumann, stop, true);
   std::vector<std::variant<PreparedLoad, errors::Error>> prepared;

@@ -9,6 +9,7 @@
 #include "errors/errors.hpp"
 #include "mesh/at.hpp"
 #include "operators/mesh_parts.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::operators {
 namespace {
@@ -101,6 +102,7 @@ std::shared_ptr<const LoadBasis> MeshOperator::basis(std::span<const fem::Load* 
     throw errors::Error(errors::Reason::invalid_argument, "a sweep combines at least one load")
         .at("load_cases");
   }
+  const stop::Scope scope(stop);
   require_memory(loads.size(), _parts->decomposition, bounds);
   const auto make = [&]() -> BasisCache::Basis {
     std::vector<LoadOnTraces> condensed =
@@ -126,6 +128,7 @@ bool MeshOperator::sweep_rows(const contact::ActiveSetOptions& options, contact:
   if (rows.inclusions != _parts->mesh->inclusions.size() ||
       rows.contacts != contact_nodes().size() || (!start.empty() && start.size() != contacts))
     throw errors::Error(errors::Reason::internal, "rows of a sweep on another mesh");
+  const stop::Scope scope(stop);
   contact::SweepSolver solver(_parts->problem, _parts->sweep_geometry,
                               _parts->with_problem([&](const auto& problem) {
                                 return contact::rows_of(problem, options, start);

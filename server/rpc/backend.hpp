@@ -36,6 +36,9 @@ struct Limits {
   std::uint64_t mesh_triangles = 4'000'000;
   std::uint64_t memory_budget_bytes = 0;
   std::chrono::seconds meshing_time{600};
+  /// Connections, whatever runs on them, and how many of them one address may have.
+  int connections = 4'096;
+  int connections_an_address = 1'024;
   /// A reader that does not read holds about 4 MiB of the transport's buffers.
   int watchers = 2'000;
   /// Uploads and block reads under way.

@@ -36,7 +36,8 @@ Unary* MeshService::CreateMesh(Context* context, const v1::CreateMeshRequest* re
     _edge.admission.require_open();
     const store::MeshDefinition definition = api::to_definition(*request);
     try {
-      *response = to_answer(_edge.backend.catalogue.create(definition, request->title(), who.name));
+      *response = to_answer(_edge.backend.catalogue.create(definition, request->title(), who.name,
+                                                           request->for_job()));
     } catch (const Error& error) {
       const bool about_file = error.fields().empty() && error.reason() == Reason::mesh_invalid;
       throw api::below_mesh_request(about_file ? Error(error).at("upload") : error);

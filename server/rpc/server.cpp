@@ -8,10 +8,11 @@
 
 #include <array>
 #include <mutex>
-#include <string_view>
+#include <optional>
 
 #include "errors/errors.hpp"
 #include "jobs/job_engine.hpp"
+#include "rpc/acceptor.hpp"
 #include "rpc/call_meter.hpp"
 #include "rpc/edge.hpp"
 #include "rpc/mesh_service.hpp"
@@ -24,6 +25,7 @@ namespace anticrack::rpc {
 namespace {
 
 using namespace std::chrono_literals;
+using External = grpc::experimental::ExternalConnectionAcceptor;
 
 constexpr std::array service_names{"anticrack.v1.UploadService", "anticrack.v1.MeshService",
                                    "anticrack.v1.SolveService", "anticrack.v1.ServerService"};
@@ -41,9 +43,8 @@ constexpr auto shutdown_patience = 300ms;
 void keep_grpc_up() { grpc_init(); }
 
 void set_arguments(grpc::ServerBuilder& builder) {
-  // Without it a second server on the port starts silently and takes half of the calls.
-  builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
-  // A connection without a request is closed sooner than after gRPC's two minutes.
+  // A connection that does not say what HTTP/2 and TLS begin with is closed sooner than after
+  // gRPC's two minutes.
   builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, 20'000);
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, 30'000);
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 10'000);
@@ -58,17 +59,6 @@ void set_arguments(grpc::ServerBuilder& builder) {
   builder.SetMaxReceiveMessageSize(max_message_bytes);
 }
 
-/// localhost by its number: a machine need not have /etc/hosts, and no name is looked up.
-std::string to_bind(const std::string& listen) {
-  constexpr std::string_view name = "localhost:";
-  return listen.starts_with(name) ? "127.0.0.1:" + listen.substr(name.size()) : listen;
-}
-
-std::string bound_address(const std::string& listen, int port) {
-  if (listen.starts_with("unix:")) return listen;
-  return listen.substr(0, listen.rfind(':') + 1) + std::to_string(port);
-}
-
 }  // namespace
 
 void Admission::require_open() const {
@@ -77,7 +67,9 @@ void Admission::require_open() const {
 
 struct Server::State {
   State(const ServerOptions& options, const Backend& backend)
-      : edge(options, backend),
+      : acceptor(options.listen,
+                 {options.limits.connections, options.limits.connections_an_address}),
+        edge(options, backend),
         uploads(edge),
         meshes(edge),
         solves(edge),
@@ -95,6 +87,8 @@ struct Server::State {
     for (const char* name : service_names) health->SetServingStatus(name, serving);
   }
 
+  /// Ours: gRPC 1.51 listens no more after a moment without descriptors.
+  Acceptor acceptor;
   Edge edge;
   UploadService uploads;
   MeshService meshes;
@@ -102,7 +96,6 @@ struct Server::State {
   ServerService info;
   std::optional<Certificates> certificates;
   std::unique_ptr<grpc::Server> server;
-  std::string address;
   std::once_flag drained;
 };
 
@@ -113,31 +106,33 @@ Server::Server(const ServerOptions& options, const Backend& backend)
   grpc::reflection::InitProtoReflectionServerBuilderPlugin();
   grpc::ServerBuilder builder;
   set_arguments(builder);
-  int port = 0;
-  const std::string listen = to_bind(options.listen);
-  builder.AddListeningPort(listen, _state->credentials(), &port);
+  const std::shared_ptr<External> external = builder.experimental().AddExternalConnectionAcceptor(
+      grpc::ServerBuilder::experimental_type::ExternalConnectionType::FROM_FD,
+      _state->credentials());
   builder.RegisterService(&_state->uploads);
   builder.RegisterService(&_state->meshes);
   builder.RegisterService(&_state->solves);
   builder.RegisterService(&_state->info);
   builder.experimental().SetInterceptorCreators(call_meters(options.call_ended));
   _state->server = builder.BuildAndStart();
-  if (!_state->server || port == 0) {
-    throw errors::Error(errors::Reason::invalid_argument,
-                        "cannot listen on " + options.listen +
-                            ": the address is taken or not one of this machine; choose another "
-                            "(port 0 picks a free one)")
-        .at("listen");
+  if (!_state->server) {
+    throw errors::Error(errors::Reason::internal,
+                        "gRPC does not start; see the server's error output");
   }
-  _state->address = bound_address(listen, port);
   _state->set_serving(true);
+  _state->acceptor.start([external](int listener, int connection) {
+    External::NewConnectionParameters parameters;
+    parameters.listener_fd = listener;
+    parameters.fd = connection;
+    external->HandleNewConnection(&parameters);
+  });
 }
 
 Server::~Server() {
   if (_state->server) drain(0ms);
 }
 
-const std::string& Server::address() const noexcept { return _state->address; }
+const std::string& Server::address() const noexcept { return _state->acceptor.address(); }
 
 void Server::replace(const Security& security) {
   if (_state->certificates && security.tls) _state->certificates->replace(*security.tls);
@@ -154,6 +149,7 @@ void Server::drain(std::chrono::milliseconds grace) {
     _state->edge.backend.engine.stop(grace);
     _state->edge.hub.drain(draining_error(), stream_patience,
                            SteadyClock::now() + stream_patience + shutdown_patience);
+    _state->acceptor.stop();
     _state->server->Shutdown(std::chrono::system_clock::now() + shutdown_patience);
     _state->server->Wait();
   });
@@ -161,7 +157,9 @@ void Server::drain(std::chrono::milliseconds grace) {
 
 Server::Metrics Server::metrics() const {
   const StreamCounts counts = _state->edge.hub.counts();
-  return {counts.watchers, counts.transfers, _state->edge.hub.largest_lag()};
+  const Acceptor::Counts connections = _state->acceptor.counts();
+  return {counts.watchers,  counts.transfers,     _state->edge.hub.largest_lag(),
+          connections.open, connections.accepted, connections.refused};
 }
 
 }  // namespace anticrack::rpc

@@ -78,6 +78,9 @@ class Server {
     int watchers = 0;
     int transfers = 0;
     std::uint64_t largest_lag = 0;  ///< events the slowest watcher is behind
+    int connections = 0;            ///< that are open
+    std::uint64_t connections_accepted = 0;
+    std::uint64_t connections_refused = 0;  ///< beyond a limit
   };
   /// Now.
   Metrics metrics() const;

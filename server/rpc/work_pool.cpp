@@ -8,10 +8,17 @@
 namespace anticrack::rpc {
 
 WorkPool::WorkPool(int threads) {
-  for (int i = 0; i < threads; ++i) _threads.emplace_back([this] { run(); });
+  try {
+    for (int i = 0; i < threads; ++i) _threads.emplace_back([this] { run(); });
+  } catch (...) {
+    stop();
+    throw;
+  }
 }
 
-WorkPool::~WorkPool() {
+WorkPool::~WorkPool() { stop(); }
+
+void WorkPool::stop() {
   {
     const std::lock_guard lock(_mutex);
     _stopping = true;

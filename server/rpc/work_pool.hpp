@@ -35,6 +35,7 @@ class WorkPool {
 
  private:
   void run();
+  void stop();
 
   mutable std::mutex _mutex;
   std::condition_variable _changed;

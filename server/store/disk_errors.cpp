@@ -23,7 +23,7 @@ Error disk_full(const std::string& what) {
       .retry_after(retry_delay);
 }
 
-bool no_space(int code) noexcept { return code == ENOSPC || code == EDQUOT; }
+bool no_space(int code) noexcept { return code == ENOSPC || code == EDQUOT || code == EFBIG; }
 
 Error disk_error(const std::string& action, int code) {
   const std::string what =

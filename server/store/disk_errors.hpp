@@ -12,7 +12,7 @@ namespace anticrack::store {
 /// disk_full with a retry delay, for no space and for a budget that is spent.
 errors::Error disk_full(const std::string& what);
 
-/// No space, or a quota: ENOSPC, EDQUOT.
+/// No space, a quota, or the limit of a file's size: ENOSPC, EDQUOT, EFBIG.
 bool no_space(int code) noexcept;
 
 /// Of a failed system call: disk_full where there is no space, else storage.

@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "store/disk_usage.hpp"
@@ -44,6 +45,8 @@ class Descriptor {
   /// -1: none.
   int get() const noexcept { return _number; }
   explicit operator bool() const noexcept { return _number >= 0; }
+  /// The number, which is the caller's to close from then on.
+  int release() noexcept { return std::exchange(_number, -1); }
 
  private:
   int _number;

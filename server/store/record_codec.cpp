@@ -43,6 +43,7 @@ std::string encode(const MeshRecord& record) {
     api::write_field(*refinement, out, "refinement");
   else
     api::write_definition(record.definition, *out.mutable_definition());
+  api::write_field(record.for_job, out, "for_job");
   return api::serialized(out);
 }
 
@@ -61,6 +62,7 @@ MeshRecord decode_mesh_record(std::string_view bytes) {
       record.definition = api::read_one<Refinement>(in, "refinement");
     else
       record.definition = api::read_definition(in.definition());
+    record.for_job = in.for_job();
     return record;
   });
 }

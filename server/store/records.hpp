@@ -88,6 +88,15 @@ struct InterfaceSummary {
 };
 ANTICRACK_FIELDS(InterfaceSummary, name, length, node_count, segments, start)
 
+/// Of a mesh in the mesher.
+struct MeshProgress {
+  std::string doing;                     ///< "bisecting a mesh"
+  std::uint64_t triangles = 0;           ///< so far; 0: not counted
+  std::uint64_t expected_triangles = 0;  ///< 0: not known
+  bool operator==(const MeshProgress&) const = default;
+};
+ANTICRACK_FIELDS(MeshProgress, doing, triangles, expected_triangles)
+
 struct MeshRecord {
   std::string id;     ///< first 16 digits of the hash of definition and owner
   std::string owner;  ///< identity that created it; empty on a server without authentication
@@ -114,11 +123,14 @@ struct MeshRecord {
   std::uint64_t operator_bytes = 0;
   double theta_star = 0;
   double factorize_seconds = 0;
+  // Besides:
+  std::optional<MeshProgress> progress{};  ///< while it is meshed; not on the disk
+  bool for_job = false;                    ///< nobody wants it but its jobs
 };
 ANTICRACK_FIELDS(MeshRecord, id, owner, title, definition, state, error, created, sha256,
                  node_count, triangle_count, subdomains, interfaces, inclusions, warnings,
                  minimum_angle, bisection_bound, tips, dirichlet_length, neumann_length,
-                 mesh_seconds, operator_bytes, theta_star, factorize_seconds)
+                 mesh_seconds, operator_bytes, theta_star, factorize_seconds, progress, for_job)
 
 enum class JobState {
   queued = 1,

@@ -60,6 +60,8 @@ job-memory = "20MiB"
 columns = 13
 kept-meshes = 14
 streams-a-client = 15
+connections = 18
+connections-an-address = 19
 max-sweep-rows = 16
 max-sweep-basis = 17
 )",
@@ -93,6 +95,8 @@ max-sweep-basis = 17
   EXPECT_EQ(config.jobs.max_sweep_basis, 17);
   EXPECT_EQ(config.meshes.max_meshes, 14);
   EXPECT_EQ(config.limits.streams_a_client, 15);
+  EXPECT_EQ(config.limits.connections, 18);
+  EXPECT_EQ(config.limits.connections_an_address, 19);
 }
 
 TEST(Config, LetsTheCommandLineWin) {

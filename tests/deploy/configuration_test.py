@@ -6,7 +6,7 @@ from places import DEPLOY
 from processes import ANTICRACKD, FolderTest, run
 
 # Found out at the start: other machines, other values.
-MACHINE = {"data-dir", "memory-budget", "threads"}
+MACHINE = {"connections", "data-dir", "memory-budget", "threads"}
 KEY = re.compile(r"#([a-z-]+) = (.*)")
 
 

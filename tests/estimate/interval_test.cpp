@@ -154,7 +154,9 @@ void check_identities(unsigned seed, bool rich, Figures& tally) {
       const contact::Displaced pair[] = {{&aim, adjoint.jumps(goal, c)}, {&aim, free.d}};
       const std::vector<std::vector<double>> fields = contact::fields_of(problem, pair);
       const std::vector<double>&z = fields[0], &reacting = fields[1];
-      const Dual dual{z, reacting, coarse.answer.inclusions[j].displacement, c};
+      std::vector<ForceOn> on_inclusions(coarse.answer.inclusions.size());
+      on_inclusions[j].force = 1;
+      const Dual dual{z, reacting, coarse.answer.inclusions[j].displacement, c, on_inclusions};
       const Interval found = interval({coarse.cut, sigma, load, none, coarse.u}, dual, 0);
       tally.left += std::isfinite(found.width()) ? 0 : 1;
       if (!std::isfinite(found.width())) continue;
@@ -186,8 +188,8 @@ void check_identities(unsigned seed, bool rich, Figures& tally) {
         jumps[i] += (i % 2 == 0 ? 1 : -1) * 3e-13 * z_size;
       const contact::Displaced rounded{&aim, jumps};
       const std::vector<double> near = contact::fields_of(problem, {&rounded, 1}).front();
-      const Interval wider =
-          interval({coarse.cut, sigma, load, none, coarse.u}, {z, near, dual.value, c}, 0);
+      const Interval wider = interval({coarse.cut, sigma, load, none, coarse.u},
+                                      {z, near, dual.value, c, on_inclusions}, 0);
       EXPECT_GT(truth, wider.lower - 1e-11 * size);
       EXPECT_LT(truth, wider.upper + 1e-11 * size);
       EXPECT_LT(wider.width(), half_width(c, found.eta, found.rho) * 2 + 1e-9 * size);

@@ -106,13 +106,15 @@ inline std::array<double, 3> barycentric(const Solved& in, std::size_t t, const 
 /// holds a part or nothing solves it.
 struct Nested {
   std::optional<Solved> coarse, fine;
+  fem::Load load;             // but for its force
+  std::vector<double> force;  // on the coarse one
 
   Nested(unsigned seed, bool rich) {
     reference::RandomMembrane membrane(seed, rich);
     mesh::Mesh mesh = membrane.mesh();
     if (seed % 3 == 0) reference::add_laws(membrane, false, mesh);
     const mesh::Mesh finer = mesh::refine_uniform(mesh);
-    std::vector<double> force, finer_force;
+    std::vector<double> finer_force;
     if (seed % 2 == 0) {
       for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
         force.push_back(membrane.uniform(-1, 1));
@@ -125,7 +127,6 @@ struct Nested {
         finer_force.push_back(0.5 * (force[at(uses[0].low())] + force[at(uses[0].high())]));
       });
     }
-    fem::Load load;
     load.name = "random";
     load.boundary_value = std::to_string(membrane.uniform(-1, 1)) + "*x - 0.4*y";
     load.traction = std::to_string(membrane.uniform(-1, 1));

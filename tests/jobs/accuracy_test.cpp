@@ -129,6 +129,52 @@ TEST(Accuracy, SaysWhatWasReachedAndWhatStoppedIt) {
   EXPECT_THAT(lost.not_reached, HasSubstr("on 50 triangles: on 100 there are no bounds: a point"));
 }
 
+TEST(Accuracy, OfWhatIsZeroIsSaidInItsUnit) {
+  JobSpec spec = energy_to(1);
+  spec.accuracy->displacement = 0.01;
+  CaseRecord odd = answer_between(-1, -1);
+  odd.answer.inclusions = {inclusion(1e-17, -6e-3, 5e-3)};
+  StageRecord first{"mesh", 50, 0, {stage_answer(odd)}};
+  odd.answer.inclusions = {inclusion(3e-17, -6e-5, 5e-5)};
+  StageRecord now{"mesh", 100, 0, {stage_answer(odd)}};
+  EXPECT_FALSE(judge_one(odd, spec, {first, first}).over) << "the first stages say little";
+  const Verdict stopped = judge_one(odd, spec, {first, now, now});
+  EXPECT_THAT(stopped.not_reached, HasSubstr("energy 0 % (asked 100 %), A is 0 within 6e-05 on"));
+  EXPECT_THAT(stopped.not_reached, HasSubstr("ask for accuracy.energy"));
+  EXPECT_THAT(judge_one(odd, spec, {}, 100).not_reached, HasSubstr("A is 0 within 6e-05 on 100"));
+
+  odd.answer.inclusions.push_back(inclusion(2, 1.999, 2.001));
+  EXPECT_EQ(judge_one(odd, spec).not_reached, "") << "relative to the largest";
+  EXPECT_TRUE(judge_one(odd, spec).over);
+  spec.accuracy->each_inclusion = true;
+  odd.answer.inclusions[0].name = "left";
+  now.answers = {stage_answer(odd, true)};
+  const Verdict each = judge({now, now, now, now}, {&odd}, spec, 1000, 0);
+  EXPECT_THAT(each.not_reached, HasSubstr("A of \"left\" is 0 within 6e-05"));
+  EXPECT_THAT(each.not_reached, HasSubstr("leave each_inclusion out, or ask for accuracy.energy"));
+
+  spec = energy_to(0.01);
+  CaseRecord balanced = answer_between(-0.02, 0.01);
+  balanced.answer.energy = 1e-18;
+  now.answers = {stage_answer(balanced)};
+  EXPECT_THAT(judge_one(balanced, spec, {now, now, now}).not_reached,
+              HasSubstr("reached energy is 0 within 0.02 on 100 triangles: an error relative to 0 "
+                        "cannot be reached; ask for accuracy.A"));
+}
+
+TEST(Accuracy, OneLoadCaseWithoutHopeDoesNotStopTheOthers) {
+  JobSpec spec = energy_to(0.1);
+  spec.loads.push_back({"push", 1.0, ""});
+  CaseRecord stuck = answer_between(-1, 1), far = answer_between(-3, -2);
+  stuck.answer.energy = 0;
+  const StageRecord before{"mesh", 50, 0, {stage_answer(stuck), stage_answer(far)}};
+  far = answer_between(-2.5, -2);
+  const StageRecord now{"mesh", 100, 0, {stage_answer(stuck), stage_answer(far)}};
+  EXPECT_FALSE(judge({before, before, before, now}, {&stuck, &far}, spec, 1000, 0).over);
+  EXPECT_THAT(judge({before, now, now, now, now}, {&stuck, &far}, spec, 1000, 0).not_reached,
+              HasSubstr("load case \"pull\" reached energy is 0 within 1"));
+}
+
 TEST(Accuracy, AFailedLoadCaseEndsIt) {
   CaseRecord failed;
   failed.status = contact::Status::failed;

@@ -159,6 +159,7 @@ TEST(EngineBatch, MeshesTakeTurnsOnOneThread) {
   EngineOptions options;
   options.threads = 1;
   options.turn = 1ms;
+  options.long_step = 1h;
   Engine test(options);
   const std::string busy = test.submit(endless_job(test.ready_mesh(0.1)));
   ASSERT_TRUE(test.iterating(busy));

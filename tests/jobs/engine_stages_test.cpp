@@ -177,6 +177,62 @@ TEST(EngineStages, StopAtALimitAndSaySo) {
   EXPECT_THAT(unbounded.not_reached, HasSubstr("load case \"skew\""));
 }
 
+TEST(EngineStages, StopAtTheMemoryBudgetAndSaySo) {
+  JobRecord whole;
+  std::uint64_t of_stage = 0;
+  {
+    Engine test;
+    store::JobSpec spec = accurate_job(test.ready_mesh(0.4));
+    spec.accuracy->keep_stages = true;
+    whole = test.ended(test.submit(spec));
+    ASSERT_GE(whole.stages.size(), 3U);
+    const auto mesh = test.backend.catalogue.get(whole.stages[1].mesh);
+    of_stage = operators::estimate_bytes(*test.backend.store->triangulation(mesh.sha256));
+  }
+  anticrack::testing::BackendOptions options;
+  options.memory_budget = of_stage + of_stage / 50;
+  Engine test({}, options);
+  const std::string id = test.submit(accurate_job(test.ready_mesh(0.4)));
+  const JobRecord job = test.ended(id);
+  EXPECT_EQ(job.state, JobState::not_converged);
+  EXPECT_THAT(job.not_reached, HasSubstr("memory-budget"));
+  EXPECT_GE(job.stages.size(), 2U) << "what is allowed is used";
+  EXPECT_LT(job.stages.back().triangles, whole.stages.back().triangles);
+  EXPECT_EQ(job.cases[1].status, contact::Status::converged);
+  EXPECT_EQ(job.cases[1].answer.energy, job.stages.back().answers[1].energy);
+  EXPECT_TRUE(array<double>(*test.engine.result(id), "loads/1/traces/0/jump"));
+}
+
+TEST(EngineStages, GoBackToWhatFitsIntoASmallerMemoryBudgetAfterARestart) {
+  anticrack::testing::TemporaryFolder folder;
+  anticrack::testing::BackendOptions options;
+  options.data_folder = (folder / "data").string();
+  std::string id;
+  std::uint64_t second = 0;
+  {
+    Engine test({}, options);
+    id = test.submit(accurate_job(test.ready_mesh(0.4), 0.005));
+    std::promise<void> begun;
+    const auto listener =
+        when(test.engine, id, phase_begins("stage 3"), [&] { begun.set_value(); });
+    ASSERT_EQ(begun.get_future().wait_for(300s), std::future_status::ready);
+    test.engine.stop(0ms);
+    const auto stages = test.backend.store->job(id)->stages;
+    ASSERT_GE(stages.size(), 3U);
+    const auto mesh = test.backend.catalogue.get(stages[1].mesh);
+    second = operators::estimate_bytes(*test.backend.store->triangulation(mesh.sha256));
+  }
+  options.memory_budget = second + second / 50;
+  Engine test({}, options);
+  const JobRecord job = test.ended(id);
+  EXPECT_EQ(job.state, JobState::not_converged);
+  EXPECT_THAT(job.not_reached, HasSubstr("memory budget"));
+  ASSERT_EQ(job.stages.size(), 2U);
+  EXPECT_EQ(job.cases[0].status, contact::Status::converged);
+  EXPECT_EQ(job.cases[0].answer.energy, job.stages.back().answers.at(0).energy);
+  EXPECT_TRUE(array<double>(*test.engine.result(id), "loads/1/traces/0/jump"));
+}
+
 TEST(EngineStages, CancelledBetweenTwoTheyKeepTheAnswersOfTheLast) {
   Engine test;
   const store::JobSpec spec = accurate_job(test.ready_mesh(0.4));

@@ -80,6 +80,7 @@ inline EngineOptions one_thread() {
   EngineOptions options;
   options.threads = 1;
   options.columns = 1;
+  options.long_step = std::chrono::hours(1);  // nor does a spare thread solve another
   return options;
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,6 +23,7 @@ class FailingStore final : public store::Store {
   std::atomic<bool> put_fails{false};
   std::atomic<bool> finish_fails{false};
   std::atomic<int> failures{0};
+  std::function<void()> reading_upload = {};  ///< called by whoever asks for one
 
   void put(const store::MeshRecord& record) override { _real.put(record); }
   void put(const store::MeshRecord& record, const mesh::Mesh& triangulation) override {
@@ -78,6 +80,7 @@ class FailingStore final : public store::Store {
 
   std::optional<std::string> upload_path(const std::string& sha256,
                                          const std::string& owner) const override {
+    if (reading_upload) reading_upload();
     return _real.upload_path(sha256, owner);
   }
   std::string new_upload_path(std::uint64_t bytes) override { return _real.new_upload_path(bytes); }

@@ -241,6 +241,34 @@ TEST_F(ScheduleTest, MeshesOfOneSizeHoldUpNoneOfAnother) {
   EXPECT_EQ(schedule.next_to_prepare(now), "c");
 }
 
+TEST_F(ScheduleTest, MeshesOfOneOwnerHoldUpNoneOfAnother) {
+  for (const char* mesh : {"a", "b", "c", "d"}) add(mesh, Priority::normal, Lane::lumped, "greedy");
+  EXPECT_TRUE(schedule.next_to_prepare(now) && schedule.next_to_prepare(now));
+  EXPECT_FALSE(schedule.next_to_prepare(now));
+  for (const char* mesh : {"e", "f"}) add(mesh, Priority::normal, Lane::lumped, "modest");
+  EXPECT_TRUE(schedule.next_to_prepare(now));
+  EXPECT_FALSE(schedule.next_to_prepare(now)) << "a newcomer has one place";
+  add("g", Priority::normal, Lane::lumped, "third");
+  EXPECT_EQ(schedule.next_to_prepare(now), "g");
+  add("h", Priority::normal, Lane::lumped, "fourth");
+  EXPECT_FALSE(schedule.next_to_prepare(now)) << "twice the limit is all";
+}
+
+TEST_F(ScheduleTest, GivesATurnToWhoIsNotExcluded) {
+  ready("a");
+  ready("b");
+  add("a", Priority::interactive, Lane::lumped, "greedy");
+  add("b", Priority::bulk, Lane::lumped, "modest");
+  const auto greedy = [](const std::string&, const std::string& owner) {
+    return owner == "greedy";
+  };
+  const auto turn = schedule.next_turn(now, greedy);
+  ASSERT_TRUE(turn);
+  EXPECT_EQ(turn->mesh, "b");
+  EXPECT_EQ(turn->owner, "modest");
+  EXPECT_FALSE(schedule.next_turn(now, [](const auto&, const auto&) { return true; }));
+}
+
 TEST_F(ScheduleTest, TriesAMeshAgainWhenItsTimeHasCome) {
   add("a");
   EXPECT_EQ(schedule.next_to_prepare(now), "a");

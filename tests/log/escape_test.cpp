@@ -23,6 +23,8 @@ TEST(Escape, ShowsWhatUnicodeHides) {
   EXPECT_EQ(escape("\u2028\u2029"), R"(\u2028\u2029)");
   EXPECT_EQ(escape("\u202etxt\u2069"), R"(\u202etxt\u2069)");
   EXPECT_EQ(escape("\ufeff"), R"(\ufeff)");
+  EXPECT_EQ(escape("\u061c\u00ad\u200b"), R"(\u061c\u00ad\u200b)");
+  EXPECT_EQ(escape("\U000e0041"), R"(\udb40\udc41)");
 }
 
 TEST(Escape, ReplacesWhatIsNoUtf8ByteByByte) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <future>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -101,6 +102,51 @@ TEST(SizesMeshing, ASmallMeshIsMeshedFirstThoughLargeOnesWaitedWhenTheServerStar
   Backend backend(options);
   EXPECT_TRUE(eventually([&] { return backend.catalogue.get(small).state == MeshState::meshing; }));
   EXPECT_TRUE(eventually([&] { return backend.catalogue.meshings() == 3U; }));
+}
+
+TEST_F(Sizes, AMeshIsReadyWhileThoseOfAnotherOwnerAreMade) {
+  const auto create = [&](double size, const std::string& owner) {
+    return backend.catalogue.create(Backend::definition(size), "", owner).id;
+  };
+  backend.door.shut();
+  for (const double size : {0.1, 0.11, 0.125, 0.14, 0.16}) create(size, "greedy");
+  ASSERT_TRUE(eventually([&] { return backend.door.waiting() == 2; }));
+  const std::string modest = create(0.2, "modest");
+  // Its place does not depend on theirs.
+  ASSERT_TRUE(eventually([&] { return backend.door.waiting() == 3; }));
+  create(0.25, "modest");
+  const std::string third = create(0.3, "third");
+  ASSERT_TRUE(eventually([&] { return backend.door.waiting() == 4; }));
+  EXPECT_EQ(state(third), MeshState::factorizing) << "before the second one of the modest owner";
+  const std::string last = create(0.4, "fourth");
+  backend.door.open();
+  for (const std::string& id : {modest, third, last})
+    EXPECT_TRUE(eventually([&] { return state(id) == MeshState::ready; }));
+}
+
+TEST_F(Sizes, OwnersTakeTurnsInTheQueue) {
+  std::vector<std::string> order;
+  std::mutex mutex;
+  BackendOptions options;
+  options.meshed = [&](const store::MeshRecord& mesh) {
+    const std::lock_guard lock(mutex);
+    order.push_back(mesh.owner);
+  };
+  Backend one(options);
+  one.door.shut();
+  const auto create = [&](double size, const std::string& owner) {
+    return one.catalogue.create(Backend::definition(size), "", owner).id;
+  };
+  std::string last;
+  for (const double size : {0.1, 0.11, 0.125, 0.14, 0.16}) last = create(size, "greedy");
+  ASSERT_TRUE(eventually([&] { return one.door.waiting() == 2; }));
+  for (const double size : {0.2, 0.25}) create(size, "modest");
+  ASSERT_TRUE(eventually([&] { return one.door.waiting() == 3; }));
+  one.door.open();
+  EXPECT_TRUE(eventually([&] { return one.catalogue.get(last).state == MeshState::ready; }));
+  const std::lock_guard lock(mutex);
+  ASSERT_EQ(order.size(), 7U);
+  EXPECT_NE(order.back(), "modest") << "though they came last";
 }
 
 }  // namespace

@@ -4,6 +4,9 @@
 #include <curl/curl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <filesystem>
@@ -35,6 +38,7 @@ std::string get(const std::string& url) {
   curl_easy_setopt(curl.get(), CURLOPT_URL, url.c_str());
   curl_easy_setopt(curl.get(), CURLOPT_NOPROXY, "*");
   curl_easy_setopt(curl.get(), CURLOPT_FAILONERROR, 1L);
+  curl_easy_setopt(curl.get(), CURLOPT_TIMEOUT, 30L);
   curl_easy_setopt(curl.get(), CURLOPT_WRITEFUNCTION, append);
   curl_easy_setopt(curl.get(), CURLOPT_WRITEDATA, &body);
   return curl_easy_perform(curl.get()) == CURLE_OK ? body : "";
@@ -119,6 +123,38 @@ TEST_F(Exposition, TellsWhatHappened) {
 TEST_F(Exposition, ReadsAnewAtEachScrape) {
   EXPECT_THAT(scrape(), HasSubstr("anticrack_iterations_total 1\n"));
   EXPECT_THAT(scrape(), HasSubstr("anticrack_iterations_total 2\n"));
+}
+
+/// Connections to `address`, each of which has sent `text`.
+class HalfOpen {
+ public:
+  HalfOpen(const std::string& address, int count, const std::string& text) {
+    sockaddr_in where{};
+    where.sin_family = AF_INET;
+    where.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    const int port = std::stoi(address.substr(address.rfind(':') + 1));
+    where.sin_port = htons(static_cast<std::uint16_t>(port));
+    for (int i = 0; i < count; ++i) {
+      const int made = _sockets.emplace_back(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+      EXPECT_EQ(::connect(made, reinterpret_cast<const sockaddr*>(&where), sizeof(where)), 0);
+      ::send(made, text.data(), text.size(), MSG_NOSIGNAL);
+    }
+  }
+  ~HalfOpen() {
+    for (const int socket : _sockets) ::close(socket);
+  }
+
+ private:
+  std::vector<int> _sockets;
+};
+
+TEST_F(Exposition, AnswersWhileManyHaveBegunToAsk) {
+  for (const char* begun : {"", "GET", "GET /metrics HTTP/1.1\r\nHost: a\r\n",
+                            "POST /metrics HTTP/1.1\r\nHost: a\r\nContent-Length: 9\r\n\r\n1"}) {
+    const HalfOpen before(_address, 200, begun);
+    EXPECT_THAT(scrape(), HasSubstr("anticrack_ready 1\n")) << begun;
+    EXPECT_THAT(scrape(), HasSubstr("anticrack_ready 1\n")) << begun;
+  }
 }
 
 TEST_F(Exposition, PleasesPromtool) {

@@ -225,6 +225,7 @@ TEST(Watch, BeatsWhereNothingHappens) {
   RunningServer server([](auto& settings) {
     settings.engine.threads = 1;
     settings.engine.turn = std::chrono::hours(1);  // the other mesh waits for its own
+    settings.engine.long_step = std::chrono::hours(1);
     settings.server.heartbeat = std::chrono::milliseconds(20);
   });
   const std::string mesh = server.create(paper_mesh(0.5)).name();

@@ -12,6 +12,7 @@
 #include <string>
 #include <utility>
 
+#include "client/meshes.hpp"
 #include "client/uuid.hpp"
 #include "service/daemon.hpp"
 #include "service/stored_data.hpp"
@@ -96,6 +97,31 @@ TEST(FullDisk, RefusesCleanlyAndLosesNothing) {
             "");
   EXPECT_TRUE(anticrack::testing::eventually(
       [&] { return refusal(daemon, work_of_this) == client::Code::ok; }));
+  EXPECT_EQ(daemon.stop(), 0);
+  EXPECT_THAT(flaws_of(daemon.data()), IsEmpty());
+}
+
+TEST(FullDisk, AMeshThatWasAcknowledgedGoesOnWhenThereIsRoom) {
+  const anticrack::testing::TemporaryFolder folder;
+  const SmallDisk disk((folder / "disk").string());
+  if (!disk.problem().empty()) {
+    GTEST_SKIP() << "a file system cannot be mounted here: " << disk.problem();
+  }
+  Daemon daemon(folder / "disk" / "data", {});
+  client::Connection connection(daemon.connection());
+  // Seconds in the mesher, and a triangulation of some MiB.
+  const Work large = work("paper-3.toml", {"mesh.preset=\"uniform\"", "mesh.size=0.01"});
+  const std::string mesh = client::create_mesh(connection, large.mesh).name();
+  disk.fill();
+  const auto state = [&] { return client::get_mesh(connection, mesh).state(); };
+  ASSERT_TRUE(anticrack::testing::eventually([&] { return state() != v1::Mesh::STATE_PENDING; }));
+  ASSERT_TRUE(anticrack::testing::eventually([&] {
+    disk.fill();
+    return state() == v1::Mesh::STATE_PENDING;
+  })) << "the disk has no room for it";
+  disk.make_room();
+  EXPECT_TRUE(anticrack::testing::eventually([&] { return client::settled(state()); }));
+  EXPECT_NE(state(), v1::Mesh::STATE_FAILED);
   EXPECT_EQ(daemon.stop(), 0);
   EXPECT_THAT(flaws_of(daemon.data()), IsEmpty());
 }

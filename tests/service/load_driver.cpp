@@ -2,7 +2,9 @@
 //
 // Many clients that submit and watch for a while: no error but documented backpressure, every job
 // ends, the server's memory stays within bounds; latencies are told, not judged. With --greedy, two
-// owners with many clients each beside a modest one with one: its times alone and beside them.
+// owners with many clients each beside a modest one with one: its times alone and beside them. What
+// the greedy ones want (--work) is "small" jobs on one mesh, jobs with an accuracy on "fresh"
+// meshes, more than memory holds, or loads that are "slow" to integrate.
 #include <grpcpp/generic/generic_stub.h>
 #include <grpcpp/grpcpp.h>
 #include <CLI/CLI.hpp>
@@ -13,6 +15,7 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <mutex>
 #include <random>
 #include <thread>
@@ -36,12 +39,14 @@ struct Options {
   unsigned seed = 1;
   std::uint64_t memory = 2'048;  ///< MiB the server may come to hold
   int greedy = 0;                ///< clients of each greedy owner; 0: no owners
+  std::string work = "small";    ///< of the greedy ones
   std::string owner;             ///< in a process of greedy clients: theirs
   std::string address;           ///< and the server's
 };
 
 struct Run {
   std::vector<Work> works;
+  std::function<Work()> next;  ///< instead of them
   std::atomic<bool> done = false;
   std::atomic<std::uint64_t> jobs = 0;
   std::atomic<std::uint64_t> waits = 0;  ///< for a queue that was full
@@ -75,10 +80,10 @@ void be_a_client(Run& run, client::Connection& connection, unsigned seed) {
   std::minstd_rand random(seed);
   try {
     while (!run.done) {
-      const Work& work = run.works[random() % run.works.size()];
+      const Work work = run.next ? run.next() : run.works[random() % run.works.size()];
       const v1::Job job =
           wait_for_end(connection, submit(connection, work, client::make_uuid()).name());
-      if (!ran_to_its_end(job)) {
+      if (!run.next && !ran_to_its_end(job)) {
         run.complain("a job ended in another state: " + job.ShortDebugString());
       }
       run.ended(job.name());
@@ -151,17 +156,52 @@ void be_modest(Run& run, const client::ConnectionOptions& chosen, int seconds, c
   client::Connection connection(chosen);
   std::vector<double> times;
   const auto end = Clock::now() + std::chrono::seconds(seconds);
+  wait_for_end(connection, submit(connection, run.works.front(), client::make_uuid()).name());
   while (Clock::now() < end) {
     const auto begin = Clock::now();
     const v1::Job job =
         wait_for_end(connection, submit(connection, run.works.front(), client::make_uuid()).name());
     if (!ran_to_its_end(job)) run.complain("a modest job did not succeed");
+    if (waited_for_factors(job)) run.complain("a modest job had to wait for factors it had before");
     times.push_back(Milliseconds(Clock::now() - begin).count());
   }
   tell(what, times);
 }
 
 Work small_work() { return work("paper-3.toml", {"mesh.preset=uniform", "mesh.size=0.1"}); }
+
+/// By the active set, on a mesh that no other has.
+Work fresh_work(unsigned number) {
+  Work one = work("slit.toml", {"mesh.preset=uniform", "mesh.size=0.05"});
+  one.mesh.mutable_options()->set_size(0.05 + 1e-6 * number);
+  one.job.mutable_accuracy()->set_energy(4e-3);
+  return one;
+}
+
+Work slow_work() {
+  Work one = work("slit.toml", {"mesh.preset=uniform", "mesh.size=0.03"});
+  v1::LoadCase load = one.job.load_cases(0);
+  one.job.clear_load_cases();
+  for (int i = 0; i < 8; ++i) {
+    load.set_name("slow " + std::to_string(i));
+    load.mutable_force()->set_expression("sin(" + std::to_string(200 + i) +
+                                         "*x*y) + cos(300*x) + (x*x + y*y < 0.1 ? exp(x) : 1)");
+    *one.job.add_load_cases() = load;
+  }
+  return one;
+}
+
+/// What the greedy ones want next.
+Work greedy_work(const std::string& kind, unsigned number) {
+  return kind == "fresh" ? fresh_work(number) : kind == "slow" ? slow_work() : small_work();
+}
+
+/// What a modest job waited for.
+bool waited_for_factors(const v1::Job& job) {
+  return std::any_of(job.timeline().begin(), job.timeline().end(), [](const v1::Job::Step& step) {
+    return step.detail().find("factorising") != std::string::npos;
+  });
+}
 
 client::ConnectionOptions as(const std::string& owner, const std::string& address, Run& run) {
   client::ConnectionOptions chosen;
@@ -175,7 +215,8 @@ client::ConnectionOptions as(const std::string& owner, const std::string& addres
 /// A process of its own: the clients of one greedy owner.
 int be_greedy(const Options& options) {
   Run run;
-  run.works = {small_work()};
+  std::atomic<unsigned> made = options.seed;
+  run.next = [&] { return greedy_work(options.work, ++made); };
   std::vector<std::unique_ptr<client::Connection>> connections;
   std::vector<std::thread> clients;
   for (int i = 0; i < options.greedy; ++i) {
@@ -205,17 +246,19 @@ int drive_owners(const Options& options) {
     tokens << name << " user " << store::Sha256().add("token of " + name).finish() << '\n';
   tokens.close();
   std::filesystem::permissions(file, std::filesystem::perms::owner_read);
-  Daemon daemon({"--log-level", "error", "--queued-jobs", std::to_string(options.greedy),
-                 "--kept-jobs", "200", "--tokens", file});
+  Daemon daemon({"--log-level", "error", "--queued-jobs", std::to_string(options.greedy + 4),
+                 "--kept-jobs", "200", "--memory-budget", "40MiB", "--tokens", file});
   const client::ConnectionOptions modest = as("modest", daemon.address(), run);
   be_modest(run, modest, options.seconds / 2, "modest, alone");
   // Clients run elsewhere: these leave the processors to the server and to the modest one.
   std::vector<std::unique_ptr<anticrack::testing::Process>> others;
+  unsigned seed = 1;
   for (const std::string& owner : greedy) {
     others.push_back(std::make_unique<anticrack::testing::Process>(std::vector<std::string>{
         "/usr/bin/nice", "-n", "19", std::filesystem::read_symlink("/proc/self/exe"), "--owner",
-        owner, "--address", daemon.address(), "--greedy", std::to_string(options.greedy),
-        "--seconds", std::to_string(options.seconds / 2 + 2)}));
+        owner, "--address", daemon.address(), "--greedy", std::to_string(options.greedy), "--work",
+        options.work, "--seed", std::to_string(seed += 10'000), "--seconds",
+        std::to_string(options.seconds / 2 + 2)}));
   }
   std::this_thread::sleep_for(std::chrono::seconds(1));
   be_modest(run, modest, options.seconds / 2, "modest, beside two greedy owners");
@@ -223,6 +266,13 @@ int drive_owners(const Options& options) {
     if (other->wait() != 0) run.complain("greedy clients: " + other->error());
     std::printf("%s", other->output().c_str());
   }
+  client::Connection connection(modest);
+  const v1::ServerMetrics metrics = client::server_info(connection).metrics();
+  std::printf("%llu factorisations, %llu evictions\n",
+              static_cast<unsigned long long>(metrics.factorizations()),
+              static_cast<unsigned long long>(metrics.operator_evictions()));
+  if (options.work == "fresh" && metrics.operator_evictions() == 0)
+    run.complain("memory was never short");
   if (daemon.stop() != 0) run.complain("anticrackd did not stop well");
   return run.report();
 }
@@ -291,6 +341,9 @@ int main(int argc, char** argv) {
   app.add_option("--memory", options.memory, "What the server may come to hold, MiB")
       ->capture_default_str();
   app.add_option("--greedy", options.greedy, "Clients of each of two greedy owners; 0: no owners")
+      ->capture_default_str();
+  app.add_option("--work", options.work, "What they want")
+      ->check(CLI::IsMember({"small", "fresh", "slow"}))
       ->capture_default_str();
   app.add_option("--owner", options.owner, "Be the clients of this greedy owner");
   app.add_option("--address", options.address, "Of their server");

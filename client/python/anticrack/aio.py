@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import contextlib
 import os
 from collections.abc import AsyncIterator, Callable, Iterable, Sequence
 from typing import Any, TextIO
@@ -14,7 +13,7 @@ from .arrays import Array
 from . import private_server
 from .case import Case, as_case
 from .client import JobState, noted
-from .credentials import CHANNEL, Credentials, Path, address_of, token_of
+from .credentials import Credentials, Path, address_of, token_of
 from .errors import of_call, of_status
 from .progress import Progress
 from .result import Result
@@ -29,22 +28,25 @@ class AsyncTransport(Transport):
 
     def _open(self, address: str, secrets: Any) -> Any:
         if secrets is None:
-            return grpc.aio.insecure_channel(address, CHANNEL)
-        return grpc.aio.secure_channel(address, secrets, CHANNEL)
+            return grpc.aio.insecure_channel(address, self.options)
+        return grpc.aio.secure_channel(address, secrets, self.options)
 
     async def unary(self, method: Callable[..., Any], request: Any) -> Any:
+        self.require_owner()
         try:
             return await method(request, timeout=DEADLINE, metadata=self.metadata)
         except grpc.RpcError as error:
             raise of_call(error) from None
 
     async def upload(self, parts: Callable[[], Iterable[Any]]) -> Any:
+        self.require_owner()
         try:
             return await self.uploads.CreateUploads(iter(parts()), metadata=self.metadata)
         except grpc.RpcError as error:
             raise of_call(error) from None
 
     async def stream(self, method: Callable[..., Any], request: Any) -> AsyncIterator[Any]:
+        self.require_owner()
         call = method(request, metadata=self.metadata)
         try:
             async for message in call:
@@ -60,6 +62,7 @@ class AsyncTransport(Transport):
     async def close(self) -> None:
         self._end()
         await self.channel.close()
+        self.stop_server()
 
 
 class AsyncJob(JobState):
@@ -151,9 +154,8 @@ def connect(address: str | None = None, *, tls: bool = False, ca: Path | None = 
     return AsyncClient(Session(AsyncTransport(address, credentials), address, Backoff(patience, first_contact)))
 
 
-@contextlib.asynccontextmanager
-async def local(*flags: str, program: Path | None = None) -> AsyncIterator[AsyncClient]:
-    """As anticrack.local."""
-    with private_server.server(*flags, program=program) as address:
-        async with connect(address) as client:
-            yield client
+def local(*flags: str, program: Path | None = None) -> AsyncClient:
+    """As anticrack.local, and as connect called where a loop runs."""
+    server = private_server.Server(*flags, program=program)
+    transport = AsyncTransport(server.address, Credentials(), server)
+    return AsyncClient(Session(transport, server.address, Backoff(300.0, 3.0)))

@@ -13,7 +13,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from .arrays import Array
+from .arrays import Array, is_array
 from .errors import CaseError
 from .msh import Msh
 from .sections import shown
@@ -213,7 +213,7 @@ class Load(_Table):
     def table(self) -> dict[str, Any]:
         out = _table(self)
         per = out.pop("per", None)
-        if isinstance(self.f, (list, tuple)) or getattr(self.f, "ndim", 0) > 0:
+        if is_array(self.f):
             out["f"] = {"values": self.f, **({"per": per} if per else {})}
         elif per is not None:
             raise CaseError(f"load {self.name}: per goes with an array of values")

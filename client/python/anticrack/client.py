@@ -2,13 +2,10 @@
 """The client that waits for each answer. anticrack.aio has the same with await."""
 from __future__ import annotations
 
-import contextlib
 import os
 import warnings
 from collections.abc import Iterator, Sequence
 from typing import Any, TextIO
-
-import numpy as np
 
 from .arrays import Array
 from . import private_server
@@ -21,6 +18,8 @@ from .progress import Progress
 from .result import Result
 from .retry import Backoff
 from .session import ENDED, Session
+from .sweeps import coefficients_of
+from .text import shown
 from .transport import Transport, each, finished
 from .v1 import mesh_pb2, server_pb2, solve_pb2
 
@@ -31,7 +30,10 @@ class JobState:
     def __init__(self, session: Session, message: solve_pb2.Job, case: Case | None = None,
                  coefficients: Any = None) -> None:
         self.message = message
-        self._session, self._case, self._coefficients = session, case, coefficients
+        self._session, self._case = session, case
+        # As they are now: the array may be used for something else before the answers are there.
+        self._coefficients = None if coefficients is None else coefficients_of(
+            coefficients, [load.name for load in message.load_cases])
 
     @property
     def name(self) -> str:
@@ -67,19 +69,17 @@ class JobState:
 
     def _complete(self, result: Result) -> Result:
         if result.sweep is not None and self._coefficients is not None:
-            values = self._coefficients
-            result.sweep.coefficients = np.asarray(
-                values[result.sweep.loads].to_numpy() if hasattr(values, "columns") else values, dtype=float)
+            result.sweep.coefficients = self._coefficients
         return result
 
     def __repr__(self) -> str:
-        return f"<{self.name}: {self.state}>"
+        return f"<{shown(self.name)}: {self.state}>"
 
 
 def noted(result: Result) -> Result:
     """Warns of what is to be known, at the line that called run()."""
     for note in notes_on(result):
-        warnings.warn(note, stacklevel=3)
+        warnings.warn(shown(note), stacklevel=3)
     return result
 
 
@@ -196,9 +196,8 @@ def connect(address: str | None = None, *, tls: bool = False, ca: Path | None = 
     return Client(Session(Transport(address, credentials), address, Backoff(patience, first_contact)))
 
 
-@contextlib.contextmanager
-def local(*flags: str, program: Path | None = None) -> Iterator[Client]:
-    """A client of a private server, which lives as long as the context. flags: of anticrackd, as "--threads", "2";
-    program: that on PATH unless named."""
-    with private_server.server(*flags, program=program) as address, connect(address) as client:
-        yield client
+def local(*flags: str, program: Path | None = None) -> Client:
+    """A client of a private server, which ends at the end of `with`, by close(), or when nobody has the client or a job
+    of it any more. flags: of anticrackd, as "--threads", "2"; program: that on PATH unless named."""
+    server = private_server.Server(*flags, program=program)
+    return Client(Session(Transport(server.address, Credentials(), server), server.address, Backoff(300.0, 3.0)))

@@ -24,9 +24,9 @@ def is_loopback(address: str) -> bool:
     """Whether what is sent there stays on the machine."""
     if address.startswith(("unix:", "unix-abstract:")):
         return True
-    address = re.sub(r"^(dns:///|dns:|ipv4:|ipv6:)", "", address)
+    address = re.sub(r"^(dns:///|dns:|ipv4:|ipv6:)", "", address.lower())
     host = address.partition(":")[0]
-    return (address in ("::1", "[::1]") or address.startswith("[::1]:") or host == "localhost"
+    return (address in ("::1", "[::1]") or address.startswith("[::1]:") or host in ("localhost", "localhost.")
             or re.fullmatch(r"127\.[0-9.]*", host) is not None)
 
 

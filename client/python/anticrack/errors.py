@@ -7,6 +7,7 @@ from typing import Any
 
 import grpc
 
+from .text import shown
 from .v1 import error_pb2
 
 
@@ -59,7 +60,7 @@ class ServerError(Error):
     def __init__(self, code: str, message: str, reason: str = "", fields: tuple[tuple[str, str], ...] = (),
                  metadata: dict[str, str] | None = None, retry_delay: float = 0) -> None:
         lines = [f"{path}: {what}" for path, what in fields]
-        super().__init__("\n".join(lines) or message)
+        super().__init__(shown("\n".join(lines) or message, "\n"))
         self.code, self.reason, self.fields = code, reason, fields
         self.metadata, self.retry_delay = metadata or {}, retry_delay
 
@@ -67,6 +68,7 @@ class ServerError(Error):
     def lost(self) -> bool:
         """Whether the connection was lost rather than the call refused."""
         return (self.code == "UNAVAILABLE" or (self.code == "UNKNOWN" and "Stream removed" in str(self))
+                or (self.code == "CANCELLED" and not self.reason)  # by a server that stops, not by one asked to
                 or (self.code == "INTERNAL" and "RST_STREAM" in str(self)))
 
     @property

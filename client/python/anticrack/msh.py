@@ -6,9 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-import numpy as np
-
-from .arrays import Array
+from .arrays import Array, array_of
 from .errors import CaseError
 from .text import counted
 
@@ -41,22 +39,19 @@ class Msh:
 
     def to_bytes(self) -> bytes:
         """MSH 2.2, ascii: every number reads back as the same."""
-        points = np.asarray(self.points, dtype=float)
-        if points.ndim != 2 or points.shape[1] not in (2, 3) or not np.isfinite(points).all():
-            raise CaseError(f"points of shape {points.shape} are not finite (n, 2) or (n, 3)")
+        points = _points(self.points)
         tags: dict[tuple[int, str], int] = {}
         elements: list[str] = []
         for kind, array in self.cells.items():
             if kind not in _TYPES:
                 raise CaseError(f"cells of kind '{kind}' are no part of a membrane; known are line, triangle")
             code, dimension, corners = _TYPES[kind]
-            nodes = np.asarray(array)
-            if nodes.ndim != 2 or nodes.shape[1] != corners or nodes.dtype.kind not in "iu":
-                raise CaseError(f"cells '{kind}' of {nodes.dtype} and shape {nodes.shape} are not integers "
-                                f"(n, {corners})")
-            if nodes.size and not 0 <= int(nodes.min()) <= int(nodes.max()) < len(points):
+            if hasattr(array, "__len__") and not len(array):
+                continue
+            nodes = array_of(array, ("n", corners), lambda problem: CaseError(f"cells '{kind}': {problem}"), whole=True)
+            if not 0 <= int(nodes.min()) <= int(nodes.max()) < len(points):
                 raise CaseError(f"cells '{kind}' name points that are not there; they count from 0")
-            names = [str(name) for name in self.groups.get(kind, [""] * len(nodes))]
+            names = _names(self.groups.get(kind, [""] * len(nodes)), kind)
             if len(names) != len(nodes):
                 raise CaseError(f"groups of '{kind}' are {len(names)} names for {len(nodes)} cells")
             for name, cell in zip(names, nodes.tolist()):
@@ -72,3 +67,25 @@ class Msh:
         lines += [f"{i} {x!r} {y!r} 0" for i, (x, y, *_) in enumerate(points.tolist(), 1)]
         lines += ["$EndNodes", "$Elements", str(len(elements)), *elements, "$EndElements", ""]
         return "\n".join(lines).encode()
+
+
+def _points(values: Any) -> Array:
+    """(n, 2) or (n, 3), in a plane of one z."""
+    def fail(problem: str) -> CaseError:
+        return CaseError(f"points: {problem}")
+    points = array_of(values, ("n", "2 or 3"), fail)
+    if points.shape[1] not in (2, 3):
+        raise fail(f"an array of shape {points.shape} is not (n, 2) or (n, 3)")
+    low, high = points.min(axis=0), points.max(axis=0)
+    if points.shape[1] == 3 and high[2] - low[2] > 1e-9 * (high - low).max():
+        raise fail(f"z goes from {low[2]:g} to {high[2]:g}; a sheet is flat, so give points (n, 2)")
+    return points
+
+
+def _names(values: Any, kind: str) -> list[str]:
+    """Of groups; "" for none."""
+    names = list(values)
+    for i, name in enumerate(names):
+        if not isinstance(name, str):
+            raise CaseError(f"groups of '{kind}': {name!r} at [{i}] is not text; write a name, or '' for none")
+    return [str(name) for name in names]

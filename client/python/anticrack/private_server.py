@@ -1,57 +1,121 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A server of one's own, for as long as it is needed."""
+"""A server of one's own. It ends with this process however that ends, since its standard input does, and removes its
+folders then; see anticrackd --private."""
 from __future__ import annotations
 
-import contextlib
+import os
 import pathlib
 import shutil
 import signal
 import subprocess
-import tempfile
 import threading
-from collections.abc import Iterator
+import weakref
 
 from .credentials import Path
 from .errors import LocalServerError
 
+DYING = 1.0  # from the end of a connection to that of the process, which closes its files first [s]
+PATIENCE = 20.0  # with one that ends [s]
 
-@contextlib.contextmanager
-def server(*flags: str, program: Path | None = None) -> Iterator[str]:
-    """The address of an anticrackd (that on PATH unless named) on a socket that only this user can reach, with a data
-    folder that goes with it; `flags` are further ones of its command line. Raises LocalServerError."""
-    found = shutil.which("anticrackd" if program is None else program)
-    if found is None:
-        raise LocalServerError("there is no anticrackd on PATH; install anticrack-server, or name the program: "
-                               "anticrack.local(program=...)")
-    with tempfile.TemporaryDirectory(prefix="anticrack-") as folder:
-        address = f"unix:{folder}/socket"
-        log = pathlib.Path(folder, "log")
-        with open(log, "wb") as errors:
-            process = subprocess.Popen(
-                [*_ends_with_us(), found, "--listen", address, "--data-dir", folder + "/data", "--log-level", "warn",
-                 *flags],
-                stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=errors, text=True, start_new_session=True)
-        assert process.stdout is not None
+
+class Server:
+    """An anticrackd (that on PATH unless named) on a socket that only this user can reach, with a data folder that goes
+    with it; `flags` are further ones of its command line. Raises LocalServerError. Belongs to the process that made
+    it: in a forked one stop() does nothing."""
+
+    def __init__(self, *flags: str, program: Path | None = None) -> None:
+        found = shutil.which("anticrackd" if program is None else program)
+        if found is None:
+            raise LocalServerError("there is no anticrackd on PATH; install anticrack-server, or name the program: "
+                                   "anticrack.local(program=...)")
+        self._owner, self._stopping = os.getpid(), threading.Lock()
+        self._log = os.memfd_create("anticrackd-log")
         try:
-            line = process.stdout.readline()  # once it listens; empty if it ends before
-            if not line:
-                process.wait()
-                raise LocalServerError("anticrackd ended before it was ready:\n"
-                                       + log.read_text(encoding="utf-8", errors="replace")[-2000:])
-            yield address
-        finally:
-            process.send_signal(signal.SIGTERM)
+            self._process = subprocess.Popen(
+                [found, "--private", "--log-level", "warn", *flags], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                stderr=self._log, start_new_session=True)
+        except OSError as error:
+            os.close(self._log)
+            raise LocalServerError(f"{found} cannot be started: {error.strerror}") from None
+        _alive.add(self)
+        self.address = ""
+        try:
+            self._wait_until_ready()
+        except BaseException:
+            self.stop()
+            raise
+
+    def _wait_until_ready(self) -> None:
+        assert self._process.stdout is not None
+        line = self._process.stdout.readline().decode()  # once it listens; empty if it ends before
+        self.address = line.partition("listening on ")[2].strip()
+        if not self.address:
+            self._process.wait()
+            raise LocalServerError(f"anticrackd {self._ending(' before it was ready')}{self._last_words()}")
+
+    def require_alive(self) -> None:
+        """For who has lost the connection: raises LocalServerError if the server has ended, with how it did."""
+        try:
+            self._process.wait(DYING)
+        except subprocess.TimeoutExpired:
+            return
+        raise LocalServerError(f"the private server {self._ending()}{self._last_words()}")
+
+    def stop(self) -> None:
+        """And wait until it is gone; once."""
+        if os.getpid() != self._owner:
+            return
+        with self._stopping:
+            if self._log < 0:
+                return
+            assert self._process.stdin is not None and self._process.stdout is not None
+            self._process.stdin.close()  # which asks it to end
             try:
-                process.wait(20)
+                self._process.wait(PATIENCE)
             except subprocess.TimeoutExpired:
-                process.kill()
-                process.wait()
-            process.stdout.close()
+                self._process.kill()
+                self._process.wait()
+            if self._process.returncode != 0:
+                self._remove_left()
+            self._process.stdout.close()
+            os.close(self._log)
+            self._log = -1
+
+    def leave(self) -> None:
+        """In a forked child, which else would keep the server alive beyond its owner."""
+        if self._process.stdin is not None and not self._process.stdin.closed:
+            self._process.stdin.close()
+        self._process.returncode = 0  # not this process's child
+
+    def _ending(self, when: str = "") -> str:
+        code = self._process.returncode
+        if code >= 0:
+            return f"ended with exit code {code}{when}"
+        known: dict[int, str] = {
+            signal.SIGKILL: ", perhaps because memory ran out: a coarser mesh takes less",
+            signal.SIGXFSZ: ", the limit of a file's size: raise it with ulimit -f",
+            signal.SIGXCPU: ", the limit of processor time: raise it with ulimit -t"}
+        return f"died of signal {-code} ({signal.strsignal(-code)}){when}{known.get(-code, '')}"
+
+    def _last_words(self) -> str:
+        size = os.fstat(self._log).st_size
+        text = os.pread(self._log, 4000, max(size - 4000, 0)).decode("utf-8", "replace").strip()
+        return "".join([":"] + ["\n  " + line for line in text.splitlines()[-5:]]) if text else ""
+
+    def _remove_left(self) -> None:
+        """What it had no chance to remove."""
+        folder = pathlib.Path(self.address.removeprefix("unix:")).parent
+        if folder.name.startswith("anticrack-private-"):
+            shutil.rmtree(folder, ignore_errors=True)
 
 
-def _ends_with_us() -> list[str]:
-    """So that a killed program leaves no server behind. It would be stopped at the end of this thread, hence only of
-    the main one."""
-    setpriv = shutil.which("setpriv")
-    main = threading.current_thread() is threading.main_thread()
-    return [setpriv, "--pdeathsig", "TERM"] if setpriv and main else []
+_alive: weakref.WeakSet[Server] = weakref.WeakSet()
+
+
+def _in_child() -> None:
+    for server in list(_alive):
+        server.leave()
+
+
+if hasattr(os, "register_at_fork"):  # not on Windows, where nothing is forked
+    os.register_at_fork(after_in_child=_in_child)

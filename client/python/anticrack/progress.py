@@ -10,6 +10,7 @@ from typing import Any, TextIO
 import numpy as np
 
 from .result import known
+from .text import shown
 from .v1 import solve_pb2
 
 WIDTH = 20
@@ -17,7 +18,7 @@ PAUSE = 0.1  # between two looks of a bar [s]
 
 
 class State:
-    """Follows the events of a job; the text of what is worth a line, or None. stages: of an accuracy, a line each."""
+    """Follows the events of a job; what is worth a line. stages: of an accuracy, a line each."""
 
     def __init__(self, job: solve_pb2.Job) -> None:
         self.total = job.sweep_answer.rows if job.HasField("sweep") else job.load_case_count or len(job.load_cases)
@@ -28,7 +29,7 @@ class State:
         self.stages: dict[str, str] = {}
         self.ended, self.now = 0, "submitted"
 
-    def take(self, message: solve_pb2.WatchJobResponse) -> str | None:
+    def take(self, message: solve_pb2.WatchJobResponse) -> list[str]:
         event = message.WhichOneof("event")
         lines = []
         for load in message.load_cases_ended:
@@ -56,7 +57,7 @@ class State:
             self.now = _word(solve_pb2.Job.State.Name(message.ended.state))
             self.ended = message.ended.load_cases_ended or self.ended
             lines.append(self.now)
-        return "\n".join(lines) or None
+        return lines
 
     def _load_ended(self, answer: solve_pb2.LoadCaseAnswer) -> list[str]:
         if self.accuracy is not None and answer.status == answer.STATUS_CONVERGED:
@@ -107,14 +108,23 @@ class Progress:
 
     def __init__(self, job: solve_pb2.Job, out: TextIO | None = None) -> None:
         self._state, self._name = State(job), job.name
-        self._out = out or sys.stderr
+        self._out: TextIO | None = out or sys.stderr  # which a program without a terminal may lack
         self._handle = _notebook_handle() if out is None else None
-        self._bar = self._handle is None and self._out.isatty()
+        self._bar = self._handle is None and _is_terminal(self._out)
         self._shown, self._next = 0, 0.0
 
     def take(self, message: solve_pb2.WatchJobResponse) -> None:
+        if self._out is None:
+            return
+        try:
+            self._show(message)
+        except (OSError, ValueError):  # closed, or full: no reason to lose the job
+            self._out = None
+
+    def _show(self, message: solve_pb2.WatchJobResponse) -> None:
+        assert self._out is not None
         before = len(self._state.stages)
-        line = self._state.take(message)
+        lines = self._state.take(message)
         stages = list(self._state.stages.values())[before:]
         drawn = self._handle is not None or self._bar
         if drawn and not stages and not message.HasField("ended"):
@@ -132,19 +142,27 @@ class Progress:
             if message.HasField("ended"):
                 self._out.write("\n")
             self._out.flush()
-        elif line:
-            self._out.write("".join(f"{self._name}: {part}\n" for part in line.split("\n")))
+        elif lines:
+            self._out.write("".join(shown(f"{self._name}: {part}") + "\n" for part in lines))
             self._out.flush()
 
     def _columns(self) -> int:
         """A longer text would go on in a second line, which stays."""
+        assert self._out is not None
         try:
             return os.get_terminal_size(self._out.fileno()).columns - 1
         except OSError:
             return 100
 
     def _text(self) -> str:
-        return f"{self._name} {self._state.bar()}"
+        return shown(f"{self._name} {self._state.bar()}")
+
+
+def _is_terminal(out: TextIO | None) -> bool:
+    try:
+        return out is not None and out.isatty()
+    except ValueError:  # closed
+        return False
 
 
 def _notebook_handle() -> Any:

@@ -2,16 +2,15 @@
 """Writes the result file that client/RESULT.md describes."""
 from __future__ import annotations
 
-import contextlib
+import io
 import os
-import tempfile
 from dataclasses import fields
 from typing import Any
 
 import h5py
 import numpy as np
 
-from .errors import Error
+from . import output
 from .result import KKT, SCALARS, Inclusion, Load, Result, Sweep, Units
 
 _TEXT = h5py.string_dtype()
@@ -28,17 +27,12 @@ _DIMENSIONS = {
 
 def save(result: Result, path: str | os.PathLike[str]) -> bool:
     """Whole or not at all. Whether what was there is kept as PATH~: no result of the same case."""
-    folder = os.path.dirname(os.path.abspath(path))
-    if not os.path.isdir(folder):
-        raise Error(f"{os.fspath(path)}: there is no folder {folder}; make it, or name another")
-    with tempfile.TemporaryDirectory(prefix=".anticrack-", dir=folder) as scratch:
-        made = os.path.join(scratch, "result.h5")
-        with h5py.File(made, "w") as file:
-            _put_result(file, result)
-        former = os.path.isfile(path) and not _holds_the_same(path, result)
-        if former:
-            _keep(path)
-        os.replace(made, path)
+    target, stream = output.target_of(path)
+    image = io.BytesIO()  # a full disk while HDF5 closes a file makes it crash
+    with h5py.File(image, "w") as file:
+        _put_result(file, result)
+    former = not stream and os.path.isfile(target) and not _holds_the_same(target, result)
+    output.write(path, image.getbuffer(), keep=former)
     return former
 
 
@@ -51,16 +45,6 @@ def _holds_the_same(path: str | os.PathLike[str], result: Result) -> bool:
                         and "sweep" not in file)
     except (OSError, KeyError):
         return False
-
-
-def _keep(path: str | os.PathLike[str]) -> None:
-    backup = os.fspath(path) + "~"
-    with contextlib.suppress(FileNotFoundError):
-        os.remove(backup)
-    try:
-        os.link(path, backup)
-    except OSError:  # not every file system has second names
-        os.replace(path, backup)
 
 
 def _put(group: Any, name: str, values: Any) -> None:

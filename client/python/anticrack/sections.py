@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from google.protobuf.duration_pb2 import Duration
 
+from .arrays import as_float, is_number, plain
 from .errors import CaseError
 from .text import plain, short, suggestion
 
@@ -49,8 +50,11 @@ class Section:
 
     def get(self, key: str) -> Any:
         """None where the key is absent. Arrays of numpy are lists."""
-        value = self.table.get(key)
-        return value.tolist() if isinstance(value, np.ndarray) else value
+        return self.plain(self.table.get(key), key)
+
+    def plain(self, value: Any, key: str) -> Any:
+        """Of an array lists, of a single number that one."""
+        return plain(value, lambda problem: self.error(key, problem))
 
     def error(self, key: str, problem: str) -> CaseError:
         place = ".".join(part for part in (self.path, key) if part)
@@ -67,7 +71,8 @@ class Section:
         return self.get(key)
 
     def number_of(self, value: Any, key: str, cure: str = "write one, such as 0.5") -> float:
-        if isinstance(value, bool) or not isinstance(value, numbers.Real) or not math.isfinite(value):
+        value = self.plain(value, key)
+        if not is_number(value) or not math.isfinite(as_float(value)):
             text = value if isinstance(value, str) else ""
             unit = re.fullmatch(r"([-+]?[0-9.]+(?:[eE][-+]?[0-9]+)?) *[A-Za-z].*", text)
             if unit:
@@ -77,7 +82,7 @@ class Section:
         return float(value)
 
     def numbers_of(self, value: Any, key: str, count: int, what: str, cure: str) -> list[float]:
-        value = value.tolist() if isinstance(value, np.ndarray) else value
+        value = self.plain(value, key)
         if not isinstance(value, (list, tuple)) or len(value) != count:
             raise self.error(key, f"{shown(value)} is not {what}; {cure}")
         return [self.number_of(number, key, cure) for number in value]
@@ -87,7 +92,7 @@ class Section:
         return {"x": x, "y": y}
 
     def list_of(self, value: Any, key: str, what: str, cure: str) -> list[Any]:
-        value = value.tolist() if isinstance(value, np.ndarray) else value
+        value = self.plain(value, key)
         if not isinstance(value, (list, tuple)):
             raise self.error(key, f"{shown(value)} is not {what}; {cure}")
         return list(value)
@@ -98,6 +103,7 @@ class Section:
 
     def part_of(self, value: Any, key: str) -> dict[str, dict[str, float]]:
         """[from, to]"""
+        value = self.plain(value, key)
         if not isinstance(value, (list, tuple)) or len(value) != 2:
             raise self.error(key, f"{shown(value)} is not a part; write [from, to] with points from and to")
         return {"from": self.point_of(value[0], f"{key}.0"), "to": self.point_of(value[1], f"{key}.1")}
@@ -114,7 +120,7 @@ class Section:
 
     def count(self, key: str) -> int | None:
         value = self.get(key)
-        if key in self and (isinstance(value, bool) or not isinstance(value, numbers.Integral)
+        if key in self and (not is_number(value) or not isinstance(value, numbers.Integral)
                             or not 1 <= int(value) < 2**31):
             raise self.error(key, f"{shown(value)} is not a count; write a whole number from 1 to {2**31 - 1}")
         return None if value is None else int(value)

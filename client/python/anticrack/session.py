@@ -16,6 +16,7 @@ from .blocks import BlockReceiver
 from .case import Case, as_case
 from .errors import CaseError, ServerError
 from .places import in_terms_of
+from .proxies import remark
 from .result import Result
 from .retry import Backoff
 from .sweeps import sweep_of
@@ -37,6 +38,8 @@ class Session:
 
     async def _wait(self, backoff: Backoff, error: ServerError) -> None:
         """Until the next try; raises `error`, if it is about a lost connection with the cure, to give up."""
+        if error.lost:
+            self.transport.require_alive()
         try:
             first = not backoff.failing
             delay = backoff.next(error)
@@ -45,8 +48,9 @@ class Session:
         except ServerError:
             if not error.lost or error.reason:
                 raise
-            raise ServerError(error.code, f"cannot reach the server at {self.address} ({error}); is it anticrackd, and "
-                              "does it want TLS (ca, cert, key)? anticrack.local() starts a private one") from None
+            cure = ("is it anticrackd, and does it want TLS (ca, cert, key)? anticrack.local() starts a private one"
+                    if self.transport.proxy is None else remark(self.transport.proxy))
+            raise ServerError(error.code, f"cannot reach the server at {self.address} ({error}); {cure}") from None
         await self.transport.sleep(delay)
 
     def _succeeded(self, backoff: Backoff) -> None:
@@ -176,6 +180,7 @@ class Session:
         if matrix is not None:
             target = job.sweep.coefficients if coefficients is not None else job.sweep.nodal_forces
             target.upload = (await self.upload([matrix], upload_pb2.Upload.KIND_ARRAY))[0]
+        requests.mesh.for_job = True
         job.mesh = (await self._create_mesh(requests)).name
         request = solve_pb2.CreateJobRequest(job=job, request_id=str(uuid.uuid4()))
         return await self.call(self.transport.jobs.CreateJob, request)  # type: ignore[no-any-return]

@@ -2,13 +2,11 @@
 """Many combinations of a case's loads in one job."""
 from __future__ import annotations
 
-import operator
 import os
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
-import numpy as np
-
+from .arrays import Array, array_of, is_array
 from .errors import CaseError
 from .sections import shown
 from .v1 import solve_pb2
@@ -32,27 +30,40 @@ def sweep_of(job: solve_pb2.Job, coefficients: Any, nodal_forces: Any, traces: S
             raise CaseError(f"{key}: {shown(values)} is no array; give an array (rows, "
                             + ("nodes)" if key == "nodal_forces" else
                                "loads) or a DataFrame, of a CSV file pandas.read_csv(...)"))
-    names = [load.name for load in job.load_cases]
-    if coefficients is not None and hasattr(coefficients, "columns"):
-        if sorted(map(str, coefficients.columns)) != sorted(names):
-            raise CaseError(f"columns {list(coefficients.columns)} are not the loads {names}")
-        coefficients = coefficients[names].to_numpy()
-    try:
-        matrix = np.asarray(coefficients if coefficients is not None else nodal_forces)
-    except ValueError:
-        raise CaseError("coefficients or nodal_forces: the rows are not all of one length") from None
-    columns = len(names) if coefficients is not None else None
-    if matrix.ndim != 2 or not matrix.size or (columns is not None and matrix.shape[1] != columns):
-        wanted = "nodes" if columns is None else columns
-        raise CaseError(f"an array of shape {matrix.shape} is not (rows, {wanted})")
-    if matrix.dtype.kind not in "fiu" or not np.isfinite(matrix).all():
-        raise CaseError("coefficients and forces are finite numbers")
+    if coefficients is not None:
+        matrix = coefficients_of(coefficients, [load.name for load in job.load_cases])
+    else:
+        matrix = array_of(nodal_forces, ("rows", "nodes"), lambda problem: CaseError(f"nodal_forces: {problem}"),
+                          in_order=True)
+        del job.load_cases[:]
     del job.outputs[:]
     job.sweep.bounds = bounds
-    try:
-        job.sweep.traces.extend(sorted({operator.index(row) for row in traces}))
-    except TypeError:
-        raise CaseError(f"traces: {shown(traces)} is not a list of rows; write [0, 2]") from None
-    if nodal_forces is not None:
-        del job.load_cases[:]
-    return matrix.astype("<f8").tobytes()
+    job.sweep.traces.extend(_kept(traces, len(matrix)))
+    return matrix.tobytes()
+
+
+def coefficients_of(values: Any, loads: Sequence[str]) -> Array:
+    """(rows, loads), of a DataFrame its columns by name, wherever they stand."""
+    def fail(problem: str) -> CaseError:
+        return CaseError(f"coefficients: {problem}")
+    if hasattr(values, "columns"):
+        columns = [str(name) for name in values.columns]
+        if sorted(columns) != sorted(loads):
+            raise fail(f"columns {columns} are not the loads {list(loads)}")
+        return array_of(values, ("rows", len(loads)), fail)[:, [columns.index(name) for name in loads]].copy()
+    return array_of(values, ("rows", len(loads)), fail)
+
+
+def _kept(traces: Any, rows: int) -> list[int]:
+    """Each once, in their order."""
+    def fail(problem: str) -> CaseError:
+        return CaseError(f"traces: {problem}; write rows, as [0, 2]")
+    if not is_array(traces) and (isinstance(traces, (str, bytes)) or not isinstance(traces, Iterable)):
+        raise fail(f"{shown(traces)} is not a list of rows")
+    values = traces if is_array(traces) else list(traces)
+    if hasattr(values, "__len__") and not len(values):
+        return []
+    kept = sorted(set(array_of(values, ("rows",), fail, whole=True).tolist()))
+    if kept and not 0 <= kept[0] <= kept[-1] < rows:
+        raise fail(f"{kept[0] if kept[0] < 0 else kept[-1]} is no row; there are {rows}, counted from 0")
+    return kept

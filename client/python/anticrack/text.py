@@ -5,10 +5,24 @@ from __future__ import annotations
 import difflib
 import html
 import math
+import re
+import unicodedata
 from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
+
+# What Unicode ignores though its category does not say so.
+_IGNORABLE = re.compile("[\u034f\u115f\u1160\u17b4\u17b5\u180b-\u180f\u2065\u3164\ufe00-\ufe0f\uffa0"
+                        "\ufff0-\ufff8\U000e0000-\U000e0fff]")
+_HIDDEN = {"Cc", "Cf", "Cs", "Zl", "Zp"}
+
+
+def shown(text: object, keep: str = "") -> str:
+    """Text of others for a terminal or a page, as the command shows it: what does not show itself, as line breaks and
+    marks of the direction of writing, becomes "?", but for what is in `keep`."""
+    return "".join(c if c in keep or not (unicodedata.category(c) in _HIDDEN or _IGNORABLE.match(c)) else "?"
+                   for c in str(text))
 
 
 def interval(lower: float, upper: float, value: float, unit: str = "") -> str:
@@ -29,10 +43,16 @@ def interval(lower: float, upper: float, value: float, unit: str = "") -> str:
     step = 10.0 ** -behind
     shown = math.copysign(math.floor(abs(middle) / step + 0.5), middle) * step
     beside = math.ceil(max(upper - shown, shown - lower) / step - 1e-6) * step
-    texts = [f"{number / 10.0 ** exponent + 0.0:.{max(0, behind + exponent)}f}" for number in (shown, beside, value)]
+    texts = [f"{_unsigned(number / 10.0 ** exponent, max(0, behind + exponent)):.{max(0, behind + exponent)}f}"
+             for number in (shown, beside, value)]
     if not exponent:
         return f"{texts[0]} +- {texts[1]}{unit} ({texts[2]} on the mesh)"
     return f"({texts[0]} +- {texts[1]})e{exponent}{unit} ({texts[2]}e{exponent} on the mesh)"
+
+
+def _unsigned(number: float, decimals: int) -> float:
+    """0 where no other digit would be printed than 0: no "-0.00"."""
+    return 0.0 if abs(number) < 0.5 * 10.0 ** -decimals else number
 
 
 def short_length(length: float) -> str:
@@ -49,7 +69,7 @@ def plain(value: Any) -> Any:
 
 def short(text: str, most: int = 60) -> str:
     """In one line, cut."""
-    text = " ".join(text.split())
+    text = shown(" ".join(text.split()))
     return text if len(text) <= most else text[:most] + "..."
 
 
@@ -59,7 +79,7 @@ def counted(count: int, one: str) -> str:
 
 def listed(names: Iterable[object], most: int = 20) -> str:
     """Separated by commas; of many the first."""
-    texts = [str(name) for name in names]
+    texts = [shown(name) for name in names]
     return ", ".join(texts[:most]) + (f" and {len(texts) - most} more" if len(texts) > most else "")
 
 
@@ -68,7 +88,7 @@ def suggestion(word: str, known: Iterable[str]) -> str:
     known = list(known)
     near = difflib.get_close_matches(word, known, 1)
     if near:
-        return f"did you mean {near[0]}?"
+        return f"did you mean {shown(near[0])}?"
     return f"known are {listed(known)}" if known else "there are none"
 
 
@@ -81,7 +101,7 @@ def lines(items: Sequence[object], most: int = 10) -> str:
 def html_table(title: str, head: Sequence[str], rows: Sequence[Sequence[str]], most: int = 50) -> str:
     """Of many rows the first."""
     def row(cells: Sequence[str], tag: str) -> str:
-        return "<tr>" + "".join(f"<{tag}>{html.escape(cell)}</{tag}>" for cell in cells) + "</tr>"
+        return "<tr>" + "".join(f"<{tag}>{html.escape(shown(cell))}</{tag}>" for cell in cells) + "</tr>"
     more = f"<p>and {len(rows) - most} more</p>" if len(rows) > most else ""
-    return (f"<p>{html.escape(title)}</p><table>{row(head, 'th')}{''.join(row(cells, 'td') for cells in rows[:most])}"
-            f"</table>{more}")
+    return (f"<p>{html.escape(shown(title))}</p><table>{row(head, 'th')}"
+            f"{''.join(row(cells, 'td') for cells in rows[:most])}</table>{more}")

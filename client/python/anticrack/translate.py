@@ -3,16 +3,13 @@
 server."""
 from __future__ import annotations
 
-import numbers
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
-from .arrays import Array
+from .arrays import Array, array_of, is_number
 from .errors import package
 from .sections import Section
 from .text import plain
@@ -329,9 +326,10 @@ def _delamination(section: Section, inclusion: mesh_pb2.Inclusion) -> None:
     if isinstance(value, (list, tuple)):
         parts = inclusion.delaminated_parts
         parts.SetInParent()
-        for i, pair in enumerate(value):
+        for i, given in enumerate(value):
             key = f"delaminated.{i}"
-            if isinstance(pair, (list, tuple)) and pair and isinstance(pair[0], numbers.Real):
+            pair = section.plain(given, key)
+            if isinstance(pair, (list, tuple)) and pair and is_number(pair[0]):
                 start, end = section.numbers_of(pair, key, 2, "a stretch",
                                                 "write [0.5, 1.0], by arc length over the whole length")
                 parts.stretches.add(**{"from": start, "to": end})
@@ -464,17 +462,16 @@ def _values(section: Section, folder: Path) -> Array:
         path, key = folder / (section.text("file") or ""), "dataset"
         try:
             with h5py.File(path) as file:
-                values = file[section.text("dataset")][()]
+                found = file[section.text("dataset")]
+                if not isinstance(found, h5py.Dataset):
+                    kind = "group" if isinstance(found, h5py.Group) else "named type"
+                    raise section.error("dataset", f"{section.text('dataset')} is a {kind}, not a dataset"
+                                        + (f"; it has {', '.join(found)}" if kind == "group" and len(found) else ""))
+                values = found[()]
         except (OSError, KeyError) as error:
             raise section.error("file", f"{path}: {error}") from None
-    try:
-        array = np.asarray(values)
-    except ValueError as error:  # lists of several lengths
-        raise section.error(key, str(error)) from None
-    if array.ndim != 1 or array.dtype.kind not in "fiu" or not np.isfinite(array).all():
-        raise section.error(key, f"{array.dtype} of shape {array.shape} is not one finite number for each node or "
-                                 "triangle")
-    return array.astype("<f8")
+    of = f"{section.text('per')}s"
+    return array_of(values, (of,), lambda problem: section.error(key, problem), in_order=True)
 
 
 def _accuracy(root: Section, out: Requests) -> None:

@@ -3,7 +3,9 @@
 blocking calls of this transport they never wait for an event loop, so that `finished` runs them like functions."""
 from __future__ import annotations
 
+import os
 import time
+import weakref
 from collections.abc import AsyncIterator, Callable, Coroutine, Iterable, Iterator
 from typing import Any, TypeVar
 
@@ -11,10 +13,16 @@ import grpc
 
 from .credentials import CHANNEL, Credentials
 from .errors import Error, of_call
+from .private_server import Server
+from .proxies import proxy_for
 from .v1 import mesh_pb2_grpc, server_pb2_grpc, solve_pb2_grpc, upload_pb2_grpc
 
 T = TypeVar("T")
 DEADLINE = 30.0  # of a try of a unary call [s]
+
+
+def _nothing() -> None:
+    """In place of the end of a private server."""
 
 
 class _Closed:
@@ -27,8 +35,15 @@ class _Closed:
 class Transport:
     """Blocking."""
 
-    def __init__(self, address: str, credentials: Credentials) -> None:
+    def __init__(self, address: str, credentials: Credentials, server: Server | None = None) -> None:
+        """server: a private one, which ends with this."""
+        self.server_process, self._owner = server, os.getpid()
+        self.stop_server: Callable[[], Any] = _nothing
+        if server is not None:
+            self.stop_server = weakref.finalize(self, server.stop)
         secrets = credentials.of_channel(address)
+        self.proxy = proxy_for(address)
+        self.options = [*CHANNEL, ("grpc.enable_http_proxy", int(self.proxy is not None))]
         self.metadata = credentials.metadata()
         self.channel = self._open(address, secrets)
         self.meshes: Any = mesh_pb2_grpc.MeshServiceStub(self.channel)  # type: ignore[no-untyped-call]
@@ -38,22 +53,36 @@ class Transport:
 
     def _open(self, address: str, secrets: Any) -> Any:
         if secrets is None:
-            return grpc.insecure_channel(address, CHANNEL)
-        return grpc.secure_channel(address, secrets, CHANNEL)
+            return grpc.insecure_channel(address, self.options)
+        return grpc.secure_channel(address, secrets, self.options)
+
+    def require_owner(self) -> None:
+        """gRPC's connections do not survive a fork: calls of the child would wait for ever."""
+        if os.getpid() != self._owner:
+            raise Error("this client belongs to the process that this one was forked from; make one here, with "
+                        "anticrack.local() or anticrack.connect()")
+
+    def require_alive(self) -> None:
+        """For who has lost the connection: raises LocalServerError if a private server has ended."""
+        if self.server_process is not None:
+            self.server_process.require_alive()
 
     async def unary(self, method: Callable[..., Any], request: Any) -> Any:
+        self.require_owner()
         try:
             return method(request, timeout=DEADLINE, metadata=self.metadata)
         except grpc.RpcError as error:
             raise of_call(error) from None
 
     async def upload(self, parts: Callable[[], Iterable[Any]]) -> Any:
+        self.require_owner()
         try:
             return self.uploads.CreateUploads(iter(parts()), metadata=self.metadata)
         except grpc.RpcError as error:
             raise of_call(error) from None
 
     async def stream(self, method: Callable[..., Any], request: Any) -> AsyncIterator[Any]:
+        self.require_owner()
         call = method(request, metadata=self.metadata)
         try:
             for message in call:
@@ -72,6 +101,7 @@ class Transport:
     async def close(self) -> None:
         self._end()
         self.channel.close()
+        self.stop_server()
 
 
 def finished(work: Coroutine[Any, Any, T]) -> T:

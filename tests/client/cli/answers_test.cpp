@@ -78,6 +78,19 @@ TEST(AnswersTable, NamesTheCureOfAnErrorAboveOnePerCentThatNobodyChose) {
   EXPECT_THAT(answers_table(result), ::testing::Not(::testing::HasSubstr("[accuracy]")));
 }
 
+TEST(AnswersTable, SaysThatUOf0HasNoRelativeError) {
+  results::Result result = two_loads();
+  results::Load& load = result.loads[0];
+  load.error_bound = 0.1;
+  load.energy = -0.0;
+  const std::string text = answers_table(result);
+  EXPECT_THAT(text, ::testing::HasSubstr("opening: u is 0 on this mesh, but need not be"));
+  EXPECT_THAT(text, ::testing::Not(::testing::HasSubstr("within")));
+  EXPECT_THAT(text, ::testing::Not(::testing::HasSubstr("-0 ")));
+  load.error_bound = 0;  // nothing acts
+  EXPECT_THAT(answers_table(result), ::testing::Not(::testing::HasSubstr("u is 0")));
+}
+
 TEST(AnswersTable, OfTheActiveSetHasTheLargestKktResidual) {
   results::Result result = two_loads();
   result.loads[0].theta = result.loads[0].theta_star = results::unknown;

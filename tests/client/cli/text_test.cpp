@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "results/interval.hpp"
+#include "words/shown.hpp"
 
 namespace anticrack::cli {
 namespace {
@@ -16,7 +17,6 @@ TEST(Sanitise, TakesTheTerminalOutOfTheServersHands) {
   EXPECT_EQ(sanitise("\x1b[2Jgone\r\n\t\x7f"), "?[2Jgone????");
   EXPECT_EQ(sanitise("\xc2\x9b"
                      "31m"),
-            "?"
             "?31m")
       << "the C1 control CSI, in UTF-8";
   EXPECT_EQ(sanitise(std::string("a\0b", 3)), "a?b");
@@ -47,7 +47,25 @@ TEST(Sanitise, ReplacesWhatIsNoUtf8) {
 TEST(Sanitise, ReplacesMarksThatReorderALine) {
   EXPECT_EQ(sanitise("a\xe2\x80\xae"
                      "b"),
-            "a???b");
+            "a?b");
+  for (const char* hidden : {"\u202a", "\u202b", "\u202c", "\u202d", "\u2066", "\u2067", "\u2068",
+                             "\u2069", "\u200e", "\u200f", "\u061c"})
+    EXPECT_EQ(sanitise(std::string("a") + hidden + "b"), "a?b");
+}
+
+TEST(Sanitise, ReplacesWhatBreaksALineOrIsNotSeen) {
+  for (const char* hidden :
+       {"\u0085",     "\u2028",     "\u2029",     "\u000b",    "\u000c", "\u00ad", "\u034f",
+        "\u115f",     "\u180e",     "\u200b",     "\u200c",    "\u200d", "\u2060", "\u2063",
+        "\u206a",     "\u3164",     "\ufe0f",     "\ufeff",    "\uffa0", "\ufff9", "\U000e0001",
+        "\U000e0041", "\U000e01ef", "\U0001d173", "\U000110bd"})
+    EXPECT_EQ(sanitise(std::string("a") + hidden + "b"), "a?b")
+        << words::first_character(hidden).code;
+}
+
+TEST(Sanitise, IsUndoneByReadersOfJson) {
+  EXPECT_EQ(words::escaped_in_json("{\n \"a\": \"\u202eb\U000e0041\"}"),
+            "{\n \"a\": \"\\u202eb\\udb40\\udc41\"}");
 }
 
 TEST(Columns, AreThoseOfATerminal) {
@@ -82,6 +100,8 @@ TEST(Number, IsShortAndSaysWhenThereIsNone) {
   EXPECT_EQ(number(2.0, 4), "2");
   EXPECT_EQ(number(1.74321, 4), "1.743");
   EXPECT_EQ(number(9.56e-13, 2, true), "9.56e-13");
+  EXPECT_EQ(number(-0.0), "0");
+  EXPECT_EQ(exact(-0.0), "0");
   EXPECT_EQ(number(std::numeric_limits<double>::quiet_NaN()), "-");
   EXPECT_EQ(number(std::numeric_limits<double>::infinity()), "-");
 }

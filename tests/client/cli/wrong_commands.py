@@ -124,7 +124,8 @@ COMMANDS = [
     ("run case.toml -o case.toml/a.h5", 2,
      "case.toml/a.h5: cannot be written: Not a directory; choose another path with -o"),
     ("run case.toml -o /dev/full", 2,
-     "/dev/full: is not a regular file; choose another path with -o"),
+     "/dev/full: cannot be written: No space left on device; free space there, or choose another "
+     "path with -o"),
     ("plot result.h5 -o case.toml", 2,
      "case.toml: cannot be made a folder: Not a directory; choose another folder"),
     ("manual case.toml", 2,
@@ -181,8 +182,8 @@ COMMANDS = [
      'plain.h5: "matrx" is missing, there is matrix, named, vector, wide; name a two-dimensional '
      "dataset of float64 in an HDF5 file"),
     ("sweep two.toml --coefficients plain.h5:/vector", 2,
-     "plain.h5: dataset vector is not of shape (rows,columns); name a two-dimensional dataset of "
-     "float64 in an HDF5 file"),
+     "plain.h5: dataset vector is not of shape (rows,columns) but (3); name a two-dimensional dataset "
+     "of float64 in an HDF5 file"),
     ("sweep two.toml --coefficients plain.h5:/wide", 2,
      "plain.h5:/wide: it has 5 columns, the case 2 loads; write one column for each load, in their "
      "order, or name them in an attribute loads of the dataset"),

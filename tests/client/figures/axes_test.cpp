@@ -29,6 +29,35 @@ TEST(Axes, of_a_range_without_extent_reach_around_it) {
   EXPECT_THAT(axis_range('x', {-0.5, 0.5}, 6, 1), HasSubstr("set xtics 1\n"));
 }
 
+TEST(Axes, have_a_label_where_no_round_one_lies_on_a_short_side) {
+  EXPECT_EQ(tics('y', {0, 10}, 20, Scale()), "set ytics 0, 20, 10");
+  EXPECT_EQ(tics('y', {11, 19}, 20, Scale()), "set ytics ('15' 15)");
+  EXPECT_EQ(tics('y', {25.1, 25.9}, 20, Scale()), "set ytics ('25.5' 25.5)");
+}
+
+TEST(Axes, far_from_zero_leave_an_offset_out_and_say_so) {
+  EXPECT_EQ(offset_of({-50, 50}), 0);
+  EXPECT_EQ(offset_of({900, 1000}), 0);
+  EXPECT_EQ(offset_of({6000000, 6000100}), 6000000);
+  EXPECT_EQ(offset_of({-6000100, -6000000}), -6000000);
+  EXPECT_EQ(offset_of({50, 50.01}), 50);
+  EXPECT_EQ(offset_of({50, 50.01}, 100), 0);  // a strip of a long sheet
+  EXPECT_EQ(offset_of({5, 5}), 0);
+  EXPECT_EQ(offset_of(empty_range()), 0);
+  EXPECT_EQ(named_without("x", 6000000), "x \xE2\x88\x92 6000000");
+  EXPECT_EQ(named_without("x", -0.5), "x + 0.5");
+  EXPECT_EQ(named_without("x", 0), "x");
+  EXPECT_EQ(axis_range('x', {6000020, 6000060}, 6, 20, Scale({6000000, 6000100})),
+            "set xrange [6000020:6000060]\n"
+            "set xtics ('20' 6000020, '40' 6000040, '60' 6000060)\n");
+}
+
+TEST(Axes, tell_a_point_from_its_neighbours) {
+  EXPECT_EQ(point_text(0.5, 0, 1, 4), "(0.5, 0)");
+  EXPECT_EQ(point_text(1.0 / 3, 2.0 / 3, 1, 4), "(0.3333, 0.6667)");
+  EXPECT_EQ(point_text(6000020.25, 50, 100, 4), "(6000020.25, 50)");
+}
+
 TEST(Axes, with_a_log_scale_label_whole_decades_or_parts_of_few) {
   EXPECT_THAT(log_axis('x', {100, 1500}), HasSubstr("('' 90 1, '100' 100, '200' 200, '' 300 1"));
   EXPECT_THAT(log_axis('y', {1e-5, 2e-2}), HasSubstr("'10\xE2\x81\xBB\xE2\x81\xB4' 0.0001"));
@@ -71,6 +100,15 @@ TEST(Scale, is_a_power_of_ten_for_what_is_small_or_large) {
   EXPECT_EQ(micro.column(4), "($4*1e6)");
   EXPECT_DOUBLE_EQ(micro.drawn({-3e-6, 2e-6}).low, -3);
   EXPECT_EQ(Scale({0, 2e5}).column(2), "($2*1e-3)");
+}
+
+TEST(Scale, leaves_an_offset_out) {
+  const Scale lifted({1e6, 1e6 + 0.5});
+  EXPECT_EQ(lifted.label("u", "mm"), "u \xE2\x88\x92 1000000 [mm]");
+  EXPECT_EQ(lifted.column(2), "(($2-1000000)*1e0)");
+  EXPECT_DOUBLE_EQ(lifted.drawn({1e6, 1e6 + 0.5}).high, 0.5);
+  const Scale narrow({-1.5 - 2e-6, -1.5 + 2e-6});
+  EXPECT_EQ(narrow.label("energy", "J"), "energy + 1.5 J [10\xE2\x81\xBB\xE2\x81\xB6 J]");
 }
 
 }  // namespace

@@ -23,6 +23,7 @@ namespace fs = std::filesystem;
 using anticrack::testing::sample_result;
 using anticrack::testing::TemporaryFolder;
 using anticrack::testing::with_stages;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -257,6 +258,87 @@ TEST(Draw, draws_the_steps_of_the_active_set) {
   EXPECT_THAT(svg, HasSubstr("converged after 3 steps"));
   EXPECT_THAT(svg, HasSubstr("complementarity"));
   EXPECT_THAT(svg, HasSubstr("KKT residual"));
+}
+
+/// The sheet of `sample_result` stretched and moved.
+results::Result placed(double width, double height, double x, double y) {
+  auto result = sample_result(4);
+  result.loads.resize(1);
+  const auto move = [](std::vector<double>& values, std::size_t first, std::size_t step,
+                       double factor, double by) {
+    for (std::size_t i = first; i < values.size(); i += step) values[i] = factor * values[i] + by;
+  };
+  move(result.mesh.xy, 0, 2, width / 2, x);
+  move(result.mesh.xy, 1, 2, height / 2, y);
+  for (auto& interface : result.interfaces) {
+    move(interface.x, 0, 1, width / 2, x);
+    move(interface.y, 0, 1, height / 2, y);
+    move(interface.s, 0, 1, width / 2, 0);
+  }
+  return result;
+}
+
+TEST(Draw, draws_sheets_of_any_shape_size_and_place) {
+  const TemporaryFolder folder;
+  struct Sheet {
+    double width, height, x, y;
+  };
+  const Options options{.formats = {Format::svg}};
+  for (const auto& [width, height, x, y] :
+       {Sheet{60, 10, 30, 5}, Sheet{80, 10, 40, 6}, Sheet{100, 10, 50, 0}, Sheet{100, 10, 50, 30},
+        Sheet{1e4, 1, 0, 0}, Sheet{1, 50, 0.5, 25}, Sheet{1, 1e4, 0, 0}, Sheet{1e-9, 1e-9, 0, 0},
+        Sheet{1e9, 1e9, 0, 0}, Sheet{1e9, 1e-3, 5e8, 1e5}, Sheet{100, 100, 6000050, 50},
+        Sheet{1, 1, 5e5, -6e6}, Sheet{1e-3, 1e-3, -1e6, 0}, Sheet{1, 1, 1e17, -1e17}}) {
+    const auto result = placed(width, height, x, y);
+    EXPECT_EQ(draw(result, folder.path(), options).files.size(), 5u) << width << " x " << height;
+    EXPECT_NO_THROW(draw_together(result, folder.path(), options)) << width << " x " << height;
+  }
+}
+
+TEST(Draw, says_what_the_labels_of_far_places_leave_out) {
+  const TemporaryFolder folder;
+  draw(placed(100, 100, 6000050, 50), folder.path(), {.formats = {Format::svg}});
+  for (const char* figure : {"opening", "opening-membrane", "opening-plan", "opening-traces"}) {
+    const std::string svg = bytes_of(folder / (std::string(figure) + ".svg"));
+    EXPECT_THAT(svg, HasSubstr("x \xE2\x88\x92 6000000")) << figure;
+    EXPECT_THAT(svg, Not(HasSubstr("6.0000"))) << figure;
+  }
+}
+
+TEST(Draw, draws_of_many_interfaces_and_loads_what_is_asked_for) {
+  const TemporaryFolder folder;
+  auto result = sample_result(2);
+  result.loads.resize(1);
+  auto& load = result.loads[0];
+  load.history = {};
+  for (std::size_t i = 1; i < 13; ++i) {
+    result.interfaces.push_back(result.interfaces[0]);
+    result.interfaces[i].name = "line-" + std::to_string(i);
+    load.traces.push_back(load.traces[0]);
+  }
+  for (double& jump : load.traces[4].jump) jump *= 2;
+  const auto drawn = [&](const char* name, Options options) {
+    options.formats = {Format::svg};
+    return draw(result, folder / name, options);
+  };
+  const Drawn few = drawn("few", {});
+  EXPECT_EQ(files_in(folder / "few"),
+            (std::set<std::string>{"opening.svg", "opening-membrane.svg", "opening-plan.svg",
+                                   "opening-traces-5.svg"}));
+  EXPECT_THAT(few.notes, Contains(HasSubstr("of 13 interfaces that can open the most eventful")));
+  EXPECT_EQ(drawn("all", {.all_interfaces = true}).files.size(), 16u);
+  EXPECT_EQ(drawn("only", {.only = {"traces"}}).files.size(), 13u);
+  EXPECT_EQ(drawn("one", {.only = {"traces"}, .interface = "line-3"}).files.size(), 1u);
+
+  result.loads.resize(13, load);
+  for (std::size_t l = 0; l < result.loads.size(); ++l)
+    result.loads[l].name = "load-" + std::to_string(l);
+  const Drawn first = drawn("first", {.only = {"plan"}});
+  EXPECT_EQ(first.files.size(), 12u);
+  EXPECT_THAT(first.notes, ElementsAre(HasSubstr("the first 12 of 13 loads drawn; --load NAME")));
+  const Drawn every = drawn("every", {.only = {"plan"}, .all_loads = true});
+  EXPECT_EQ(every.files.size(), 13u);
+  EXPECT_THAT(every.notes, IsEmpty());
 }
 
 TEST(Draw, lays_the_first_eight_loads_over_each_other) {

@@ -195,7 +195,7 @@ TEST(Surface, leaves_out_what_is_not_finite) {
 
 TEST(Amplification, is_round_and_fits_the_membrane) {
   Surface seen;
-  seen.x_max = 2;
+  seen.x_max = seen.y_max = 2;
   for (const double u : {1e-9, 0.003, 0.02, 0.0863, 0.3, 7.0, 1e5}) {
     seen.highest = u;
     const double height = amplification(seen) * u / seen.width();

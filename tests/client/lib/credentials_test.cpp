@@ -107,7 +107,7 @@ TEST_F(CredentialsTest, ATokenCrossesNoNetworkUnencrypted) {
 TEST(Loopback, IsWhatDoesNotLeaveTheMachine) {
   for (const char* near : {"localhost:7433", "localhost", "127.0.0.1:1", "127.8.9.1:1", "[::1]:1",
                            "::1", "unix:/run/a", "unix-abstract:a", "ipv4:127.0.0.1:1",
-                           "dns:///localhost:1", "ipv6:[::1]:1"}) {
+                           "dns:///localhost:1", "ipv6:[::1]:1", "LocalHost:1", "localhost.:1"}) {
     EXPECT_TRUE(is_loopback(near)) << near;
   }
   for (const char* far : {"10.0.0.1:1", "example:7433", "127.evil.example:1", "localhost.example:1",

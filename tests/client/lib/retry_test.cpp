@@ -18,6 +18,10 @@ TEST(LostConnection, IsWhatKilledServersLookLike) {
   EXPECT_TRUE(is_lost_connection(Error(Code::unavailable, "Socket closed")));
   EXPECT_TRUE(is_lost_connection(Error(Code::unknown, "Stream removed")));
   EXPECT_TRUE(is_lost_connection(Error(Code::internal, "Received RST_STREAM with error code 2")));
+  EXPECT_TRUE(is_lost_connection(Error(Code::cancelled, "CANCELLED")));
+  Details stopped;
+  stopped.reason = "CANCELLED";
+  EXPECT_FALSE(is_lost_connection(Error(Code::cancelled, "stopped on request", stopped)));
   EXPECT_FALSE(is_lost_connection(Error(Code::unknown, "a bug")));
   EXPECT_FALSE(is_lost_connection(Error(Code::internal, "a bug")));
   EXPECT_FALSE(is_lost_connection(Error(Code::not_found, "Stream removed")));

@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <stdexcept>
+
 #include "client/jobs.hpp"
 #include "client/lib/scripted_server.hpp"
 #include "client/uuid.hpp"
@@ -74,6 +77,56 @@ TEST(Connection, ToNobodyFailsWithTheAddressAndTheCure) {
     EXPECT_THAT(error.what(), ::testing::HasSubstr("/nonexistent/socket"));
     EXPECT_THAT(error.what(), ::testing::HasSubstr("--local"));
   }
+}
+
+/// A variable until the end of the scope.
+class Variable {
+ public:
+  Variable(const char* name, const std::string& value) : _name(name) {
+    setenv(name, value.c_str(), 1);
+  }
+  ~Variable() { unsetenv(_name); }
+  Variable(const Variable&) = delete;
+  Variable& operator=(const Variable&) = delete;
+
+ private:
+  const char* _name;
+};
+
+TEST(Connection, ToThisMachineUsesNoProxy) {
+  const Variable proxies[]{{"grpc_proxy", "http://127.0.0.1:9"},
+                           {"https_proxy", "http://127.0.0.1:9"},
+                           {"http_proxy", "http://127.0.0.1:9"}};
+  ScriptedServer server;
+  server.deletions = {{}};
+  Connection connection(server.options());
+  EXPECT_NO_THROW(delete_job(connection, "jobs/1"));
+}
+
+TEST(Connection, ThroughAProxyThatFailsNamesItsVariable) {
+  const Variable proxy("https_proxy", "http://name:secret@127.0.0.1:9");
+  ConnectionOptions options;
+  options.address = "far.example:7433";
+  options.first_contact = std::chrono::milliseconds(0);
+  Connection connection(options);
+  try {
+    server_info(connection);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("https_proxy sends what goes there through the "
+                                                   "proxy 127.0.0.1:9"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("no_proxy"));
+    EXPECT_THAT(error.what(), ::testing::Not(::testing::HasSubstr("secret")));
+  }
+}
+
+TEST(Connection, ThatIsLostForGoodEndsTheCallAtOnce) {
+  ConnectionOptions options;
+  options.address = "unix:/nonexistent/socket";
+  options.first_contact = std::chrono::hours(1);
+  options.lost = [] { throw std::domain_error("the server is dead"); };
+  Connection connection(options);
+  EXPECT_THROW(server_info(connection), std::domain_error);
 }
 
 }  // namespace

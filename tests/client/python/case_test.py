@@ -275,7 +275,7 @@ class Msh(FolderTest):
         points = [[0, 0], [1, 0], [0, 1]]
         for cells, groups, said in (
                 ({"triangle": [[0, 1, 3]]}, {}, "points that are not there"),
-                ({"triangle": [[0, 1]]}, {}, r"integers \(n, 3\)"),
+                ({"triangle": [[0, 1]]}, {}, r"shape \(1, 2\) is not \(n, 3\)"),
                 ({"quad": [[0, 1, 2, 0]]}, {}, "no part of a membrane"),
                 ({"triangle": [[0, 1, 2]]}, {"triangle": ["a", "b"]}, "2 names for 1 cells")):
             with self.assertRaisesRegex(anticrack.CaseError, said):

@@ -260,7 +260,7 @@ class Jobs(unittest.TestCase):
         self.assertIn(f"\r{job.name} [####################] 1/1 load cases, done", bar.getvalue())
         self.assertEqual(bar.getvalue().count("\n"), 1)
         waits = solve_pb2.WatchJobResponse(phase={"state": solve_pb2.Job.STATE_WAITING_FOR_MESH})
-        self.assertEqual(State(job.message).take(waits), "waiting for the mesh")
+        self.assertEqual(State(job.message).take(waits), ["waiting for the mesh"])
 
     def test_progress_in_a_notebook_is_one_text_that_changes(self):
         ipython = unittest.mock.MagicMock()

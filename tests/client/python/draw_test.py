@@ -152,7 +152,7 @@ class Figures(unittest.TestCase):
 
     def test_pressure_is_on_cracks_and_its_spikes_are_cut_off(self):
         ax = draw.pressure(self.several, "pulled")
-        self.assertRegex(ax.get_ylabel(), r"cut off at the tips, up to \d")
+        self.assertRegex(ax.get_ylabel(), r"cut off at the tips, up to [\d$]")
         (line,) = ax.lines
         self.assertLess(ax.get_ylim()[1], numpy.nanmax(line.get_ydata()) / 1000)
         self.assertNotIn("cut off", draw.pressure(self.skew).get_ylabel())
@@ -255,6 +255,12 @@ class Figures(unittest.TestCase):
                                                     self.sweep.sweep.displacement_upper.max()))
         with self.assertRaisesRegex(anticrack.Error, "no load 'openin'; did you mean opening"):
             draw.sweep(self.sweep, "openin")
+        for values, said in (([1.0], r"x: an array of shape \(1,\) is not \(2,\)"), ([1, numpy.nan], "x: nan at"),
+                             (numpy.ma.masked_array([1, 2], [True, False]), "x: 1 of 2 entries are masked")):
+            with self.assertRaisesRegex(anticrack.Error, said):
+                draw.sweep(self.sweep, values)
+        (line,) = draw.sweep(self.sweep, numpy.int64(1)).lines
+        self.assertEqual(line.get_xdata().tolist(), [0, 1])
         with self.assertRaisesRegex(anticrack.Error, "not the result of a sweep"):
             draw.sweep(self.skew)
 
@@ -275,3 +281,148 @@ class Figures(unittest.TestCase):
         ax = draw.sweep(result)
         self.assertEqual((ax.get_xlabel(), ax.lines[0].get_linestyle()), ("row", "None"))
         self.assertTrue((ax.get_xticks() % 1 == 0).all(), ax.get_xticks())
+
+
+FIBRE = "points = [[-0.5, 0], [0.5, 0]]"
+
+
+def odd_case(width=2.0, height=2.0, x=0.0, y=0.0, load="y > 0 ? 1 : -1", size=0.4, inclusion=FIBRE, more=""):
+    """A fibre on a sheet with this middle; the load is that of coordinates from the middle, in halves of the sheet."""
+    half, high = width / 2, height / 2
+    place = f"(x - ({x})) / {half}", f"(y - ({y})) / {high}"
+    for name, text in zip("xy", place):
+        load = load.replace(name, f"({text})") if name == "x" else load.replace("y", f"({text})", 1)
+    corners = [[x - half, y - high], [x + half, y - high], [x + half, y + high], [x - half, y + high]]
+    tables = {"geometry": {"boundary": corners}, "output": {"fields": True},
+              "mesh": {"preset": "uniform", "size": size * min(half, 16 * high)}, "load": [{"name": "a", "f": load}]}
+    case = anticrack.Case.parse(more)
+    case.tables.update(tables)
+    if inclusion:
+        points = [[x - half / 2, y], [x + half / 2, y]] if width >= height else [[x, y - high / 2], [x, y + high / 2]]
+        case.tables["geometry"]["inclusion"] = [{"name": "fibre", "points": points}]
+    return case
+
+
+class OddResults(unittest.TestCase):
+    """Each is drawn without a warning and with labels that can be told apart."""
+    SHEETS = {
+        "plain": {}, "long": {"width": 100, "height": 10}, "longer": {"width": 1000, "height": 1},
+        "tall": {"width": 1, "height": 50}, "small": {"width": 1e-9, "height": 1e-9},
+        "large": {"width": 1e9, "height": 1e9}, "of a map": {"width": 100, "height": 100, "x": 6000050, "y": 50},
+        "far below": {"width": 10, "height": 5, "x": -2e5, "y": -3e5}, "without anything": {"inclusion": ""},
+        "without a load": {"load": "0 * x"}, "of few triangles": {"size": 2.0}, "hardly loaded": {"load": "1e-30 * x"},
+        "loaded beyond all": {"load": "1e30 * x"}, "pressed": {"load": "y > 0 ? -1 : 1"},
+    }
+
+    @classmethod
+    def setUpClass(cls):
+        cls.results = {}
+        with anticrack.local(program=ANTICRACKD) as client:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")  # of u that is not small
+                for name, sheet in cls.SHEETS.items():
+                    cls.results[name] = client.run(odd_case(**sheet), progress=False)
+                lifted = odd_case()
+                lifted.tables["load"][0]["boundary_value"] = 1e6
+                cls.results["lifted"] = client.run(lifted, progress=False)
+
+    def setUp(self):
+        warnings.simplefilter("error")
+        self.addCleanup(warnings.resetwarnings)
+        self.addCleanup(pyplot.close, "all")
+
+    def labels_are_apart(self, ax):
+        ax.figure.canvas.draw()
+        for axis, side in ((ax.xaxis, 0), (ax.yaxis, 1)):
+            low, high = sorted(axis.get_view_interval())
+            boxes = [label.get_window_extent() for label in axis.get_ticklabels()
+                     if low <= label.get_position()[side] <= high and label.get_text()]
+            self.assertGreater(len(boxes), 0)
+            ends = sorted((box.x0, box.x1) if side == 0 else (box.y0, box.y1) for box in boxes)
+            for (_, end), (begin, _) in zip(ends, ends[1:]):
+                self.assertLess(end, begin)
+
+    def test_are_drawn(self):
+        for name, result in self.results.items():
+            for figure in (draw.membrane, draw.displacement, draw.plan, draw.interfaces, draw.traces, draw.pressure,
+                           draw.convergence):
+                if name == "without anything" and figure in (draw.traces, draw.pressure):
+                    continue
+                with self.subTest(sheet=name, figure=figure.__name__):
+                    ax = figure(result)
+                    if ax.name == "3d":
+                        ax.figure.canvas.draw()
+                    else:
+                        self.labels_are_apart(ax)
+                    said = [text.get_text() for text in ax.figure.findobj(matplotlib.text.Text)]
+                    self.assertFalse([text for text in said if "nan" in text or "e+" in text or text == "-0"], said)
+                    pyplot.close(ax.figure)
+
+    def test_places_far_away_leave_an_offset_out(self):
+        for figure in (draw.membrane, draw.displacement, draw.plan, draw.interfaces):
+            ax = figure(self.results["of a map"])
+            self.assertEqual((ax.get_xlabel(), ax.get_ylabel()), ("x \u2212 6000000", "y"))
+            self.assertEqual(ax.xaxis.get_major_formatter()(6000040, 0), "40")
+            ax = figure(self.results["far below"])
+            self.assertEqual((ax.get_xlabel(), ax.get_ylabel()), ("x + 200000", "y + 300000"))
+        self.assertEqual(draw.traces(self.results["of a map"]).get_xlabel(), "arc length of fibre from (6000025, 50)")
+        result = copy.copy(self.results["small"])
+        result.units = anticrack.result.Units("m", "N")
+        ax = draw.interfaces(result)
+        self.assertEqual(ax.get_xlabel(), "x [$10^{-12}$ m]")
+        self.assertEqual(ax.xaxis.get_major_formatter()(-2e-10, 0), "\u2212200")
+        self.assertEqual(ax.xaxis.get_major_formatter()(-1e-26, 0), "0")
+
+    def test_long_sheets_are_drawn_wider(self):
+        for name, axis in (("long", "y"), ("longer", "y"), ("tall", "x")):
+            ax = draw.plan(self.results[name])
+            ax.figure.canvas.draw()
+            box = ax.get_window_extent()
+            self.assertLess(max(box.width / box.height, box.height / box.width), 8.5, name)
+            self.assertRegex(getattr(ax, f"get_{axis}label")(), axis + r", stretched \u00d7[\d.]+")
+        for name in ("plain", "of a map"):
+            self.assertNotIn("stretched", draw.plan(self.results[name]).get_ylabel())
+
+    def test_factors_are_for_people(self):
+        for name, said in (("small", "\u00d7$"), ("hardly loaded", "\u00d7$"), ("loaded beyond all", "\u00d7$"),
+                           ("without a load", "to scale")):
+            self.assertIn(said, draw.membrane(self.results[name]).get_title())
+
+    def test_curves_of_a_lifted_sheet_are_told_apart(self):
+        ax = draw.traces(self.results["lifted"])
+        said = [text.get_text() for text in ax.get_legend().get_texts()]
+        self.assertEqual(said[:3], ["a: $u^-$ \u2212 1000000", "a: $u^+$ \u2212 1000000", "a: $[u]$"])
+        low, high = ax.get_ylim()
+        self.assertLess(high - low, 2)
+
+    def test_what_is_not_there_is_said(self):
+        for figure in (draw.traces, draw.pressure):
+            with self.assertRaisesRegex(anticrack.Error, "the sheet has no interface"):
+                figure(self.results["without anything"])
+            with self.assertRaisesRegex(anticrack.Error, "a has no traces: it is failed"):
+                figure(self.results["plain"], anticrack.result.Load("a", "failed"))
+        with self.assertRaisesRegex(anticrack.Error, "a has no history"):
+            draw.convergence(self.results["plain"], anticrack.result.Load("a", "converged"))
+        empty = copy.copy(self.results["plain"])
+        empty.loads = anticrack.names.Named("load")
+        with self.assertRaisesRegex(anticrack.Error, "there is no load to draw"):
+            draw.traces(empty)
+
+    def test_residuals_of_0_have_a_place(self):
+        result = copy.deepcopy(self.results["plain"])
+        result["a"].history.update(iteration=numpy.arange(1, 4), criterion=numpy.array([1.0, 1e-8, 0]), **{
+            f"kkt_{name}": numpy.array([1e-3, 0, 0]) for name in anticrack.result.KKT})
+        ax = draw.convergence(result)
+        self.assertEqual((ax.get_yscale(), ax.get_ylim()[0]), ("symlog", 0))
+        self.assertIn("$\\mathdefault{0}$", [text.get_text() for text in ax.get_yticklabels()])
+
+    def test_numbers_of_numpy_choose_interfaces(self):
+        result = self.results["plain"]
+        self.assertEqual(draw.traces(result, "a", numpy.int64(0)).get_xlabel(),
+                         draw.traces(result, "a", "fibre").get_xlabel())
+        with self.assertRaisesRegex(anticrack.Error, "there is no interface 1; there is 1 interface"):
+            draw.traces(result, "a", 1)
+
+    def test_no_zero_has_a_sign(self):
+        self.assertEqual(anticrack.text.interval(-1e-3, 1e-3, -1e-17), "0.0000 +- 0.0010 (0.0000 on the mesh)")
+        self.assertNotIn("-0.0000 ", repr(self.results["pressed"]))

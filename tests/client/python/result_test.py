@@ -181,6 +181,24 @@ max_iterations = 3
             for item in (result.mesh, *result.interfaces, *result["skew"].traces, result["skew"].inclusions["fibre"]):
                 self.assertLess(len(repr(item)), 200)
 
+    def test_texts_of_others_are_harmless_where_they_are_shown(self):
+        bad = "a\u202eb\u2066\u061c\u200b\u2028\x1b[2J\nFORGED\U000e0041"
+        file, _ = self.both(EXAMPLES / "several-inclusions.toml", "run")
+        result = copy.deepcopy(file)
+        result.title = result.not_reached = result.mesh.inclusions[0] = result.mesh.subdomain_names[0] = bad
+        load = result["pulled"]
+        load.name = load.reason = load.traces[0].name = result.interfaces[0].name = load.fields[0].subdomain = bad
+        part = next(iter(load.inclusions.values()))
+        part.name = bad
+        error = anticrack.ServerError("INTERNAL", bad)
+        shown = [repr(thing) for thing in (result, result.mesh, result.interfaces, load, load.traces, load.fields, part,
+                                           load.inclusions)]
+        for text in (*shown, str(error), result._repr_html_(), load._repr_html_()):
+            self.assertIn("a?b", text)
+            self.assertTrue(all(c.isprintable() or c == "\n" for c in text), text)
+        for text in shown:
+            self.assertNotRegex(text, "(?m)^FORGED")
+
     def test_are_found_by_name(self):
         file, _ = self.both(EXAMPLES / "several-inclusions.toml", "run")
         load = copy.deepcopy(file["pulled"])

@@ -24,6 +24,10 @@ class Played:
     def __init__(self, *script):
         self.script, self.requests, self.slept = list(script), [], []
         self.jobs = self.meshes = unittest.mock.MagicMock()
+        self.proxy = None
+
+    def require_alive(self):
+        """It is no private server."""
 
     def next(self, request):
         self.requests.append(request)

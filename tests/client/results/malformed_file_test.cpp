@@ -220,7 +220,7 @@ const std::array<Damage, 39> damages{{
        H5Ldelete(f, "/mesh/nodes", H5P_DEFAULT);
        H5Gclose(H5Gcreate2(f, "/mesh/nodes", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
      },
-     "dataset nodes is damaged"},
+     "\"nodes\" is a group, not a dataset"},
     {"dataset_for_a_group",
      [](hid_t f) { replace_dataset(f, "/loads/opening/history", H5T_STD_I32LE, {3}); },
      "\"history\" is not a group"},

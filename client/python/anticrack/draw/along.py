@@ -2,25 +2,26 @@
 """Over the arc length of an interface."""
 from __future__ import annotations
 
+import operator
 from typing import Any
 
 import numpy as np
 
 from ..arrays import Array
-from ..errors import Error
 from ..result import CRACK, DELAMINATED, Interface, Load, Result, Trace, runs
-from .panel import LINES, axes, cut, load_of
+from ..text import shown as printable
+from .panel import (LINES, axes, cut, legend_below, load_of, named_without, number_text, offset_of, point_text,
+                    traces_of)
 
 
 def _interface(result: Result, load: Load, interface: int | str | None, pressed: bool = False) -> int:
     """The one named, or the most eventful: whose jump is largest or, if nothing is open, whose contact is longest.
     pressed: whose contact is longest, but the same one where its contact is at least half as long; as the command."""
-    if isinstance(interface, int):
-        return interface
-    if interface is not None:
+    traces_of(result, load)
+    if isinstance(interface, str):
         return result.interfaces.place(interface)
-    if not load.traces:
-        raise Error(f"{load.name} has no traces")
+    if interface is not None:
+        return operator.index(interface)
     jumps = [np.abs(trace.jump).max(initial=0) for trace in load.traces]
     largest = max(np.abs(trace.u_plus).max(initial=0) for trace in load.traces)
     contact = [_lengths(line) @ (trace.contact != 0) for line, trace in zip(result.interfaces, load.traces)]
@@ -38,14 +39,26 @@ def _lengths(line: Interface) -> Array:
 
 def _arc_length(result: Result, line: Interface) -> str:
     """For an axis."""
-    return f"arc length of {line.name} from ({line.x[0]:.4g}, {line.y[0]:.4g}){result.units.label('L')}"
+    start = point_text(line.x[0], line.y[0], line.s[-1])
+    return f"arc length of {printable(line.name)} from {start}{result.units.label('L')}"
+
+
+def _show_zero(load: Load, trace: Trace, ax: Any) -> None:
+    """Where u is rounding against that of the membrane, estimated from its energy, zero looks like zero; as the
+    command's."""
+    typical = float(np.sqrt(abs(load.energy))) if np.isfinite(load.energy) else 0.0
+    largest = max(np.abs(values).max(initial=0) for values in (trace.u_plus, trace.u_minus, trace.jump))
+    if 0 < largest < 1e-9 * typical:
+        power = 10.0 ** np.floor(np.log10(typical))
+        ax.update_datalim([(0, -power), (0, power)], updatex=False)
+        ax.autoscale_view()
 
 
 def _shade_contact(line: Interface, trace: Trace, ax: Any, load: Load, curve: Any) -> None:
     """In the colour of its curve, so that those of several loads are told apart. To the middles of the edges at its
     ends: the bands add up to the contact length."""
     middles = np.concatenate((line.s[:1], (line.s[:-1] + line.s[1:]) / 2, line.s[-1:]))
-    label: str | None = f"{load.name}: contact"
+    label: str | None = f"{printable(load.name)}: contact"
     for first, last in runs(trace.contact):
         if trace.contact[first]:
             ax.axvspan(middles[first], middles[last], color=curve.get_color(), alpha=0.2, linewidth=0, zorder=0,
@@ -64,8 +77,9 @@ def _bars(result: Result, line: Interface, ax: Any) -> None:
                        label=labels.pop(kind, "_again"))
     for inclusion in sorted(set(line.edge_inclusion.tolist()) - {-1}):
         lies = line.edge_inclusion == inclusion
-        ax.annotate(result.mesh.inclusions[inclusion], ((line.s[:-1][lies].min() + line.s[1:][lies].max()) / 2, 0.04),
-                    ha="center", xycoords=ax.get_xaxis_transform())
+        middle = (line.s[:-1][lies].min() + line.s[1:][lies].max()) / 2
+        ax.annotate(printable(result.mesh.inclusions[inclusion]), (middle, 0.04), ha="center",
+                    xycoords=ax.get_xaxis_transform())
 
 
 def edge_pressure(line: Interface, trace: Trace) -> tuple[Array, Array, Array, Array]:
@@ -94,16 +108,19 @@ def traces(result: Result, load: str | Load | None = None, interface: int | str 
     index = _interface(result, load, interface)
     line, trace = result.interfaces[index], load.traces[index]
     first = not ax.lines
-    (curve,) = ax.plot(line.s, trace.u_minus, label=f"{load.name}: $u^-$")
-    ax.plot(line.s, trace.u_plus, "--", label=f"{load.name}: $u^+$")
-    ax.plot(line.s, trace.jump, ":", label=f"{load.name}: $[u]$")
+    values = np.concatenate((trace.u_minus, trace.u_plus))
+    offset = offset_of(values.min(), values.max(), np.ptp(trace.jump))  # else [u] would be 0 against a lifted sheet
+    name = printable(load.name)
+    (curve,) = ax.plot(line.s, trace.u_minus - offset, label=f"{name}: {named_without('$u^-$', offset)}")
+    ax.plot(line.s, trace.u_plus - offset, "--", label=f"{name}: {named_without('$u^+$', offset)}")
+    ax.plot(line.s, trace.jump, ":", label=f"{name}: $[u]$")
+    _show_zero(load, trace, ax)
     _shade_contact(line, trace, ax, load, curve)
     if first:
         _bars(result, line, ax)
     ax.set(xlabel=_arc_length(result, line), ylabel="displacement" + result.units.label("L"),
-           title=load.name if first else "")
-    # Several loads leave no room between their curves.
-    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncol=2, fontsize="small", frameon=False)
+           title=printable(load.name) if first else "")
+    legend_below(ax)  # several loads leave no room between their curves
     return ax
 
 
@@ -117,7 +134,7 @@ def pressure(result: Result, load: str | Load | None = None, interface: int | st
     line, trace = result.interfaces[index], load.traces[index]
     s, values, lengths, closed = edge_pressure(line, trace)
     first = not ax.lines
-    name = load.name if closed.any() else f"{load.name}: no contact"
+    name = printable(load.name) if closed.any() else f"{printable(load.name)}: no contact"
     (curve,) = ax.plot(s, values, label=name)
     unit = result.units.label("F/L")
     label = ax.get_ylabel() or "contact pressure" + unit
@@ -126,7 +143,7 @@ def pressure(result: Result, load: str | Load | None = None, interface: int | st
         shown, highest = cut(values[closed], lengths[closed], 0.9, 1.5)
         ax.set_ylim(0, max(1.05 * shown, 0 if first else ax.get_ylim()[1]))
         if shown < highest:
-            label = f"contact pressure{unit}, cut off at the tips, up to {highest:.2g}"
+            label = f"contact pressure{unit}, cut off at the tips, up to {number_text(highest, 2)}"
     ax.set(xlabel=_arc_length(result, line), ylabel=label, title=name if first else "")
     if not first:
         ax.legend(loc="best", fontsize="small")

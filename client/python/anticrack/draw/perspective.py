@@ -9,16 +9,17 @@ import numpy as np
 from ..arrays import Array
 from ..errors import Error
 from ..result import Load, Result, runs
-from .panel import BOX, LINES, axes, fields, load_of
+from ..text import shown as printable
+from .panel import BOX, LINES, Scale, axes, factor_text, fields, label_axis, load_of, stretch_of, widened
 
 _NAMES = 6  # of inclusions: more would cover each other
 
 
-def _amplification(extent: float, width: float) -> float:
-    """A round factor by which u is up to 0.3 of the width; as in the command's figure."""
+def _amplification(extent: float, size: float) -> float:
+    """A round factor by which u is up to 0.3 of the size; as in the command's figure."""
     if not extent > 0:
         return 1.0
-    wanted = 0.3 * width / extent
+    wanted = 0.3 * size / extent
     power = 10.0 ** np.floor(np.log10(wanted))
     return float(power * max(step for step in (1, 1.5, 2, 3, 4, 5, 6, 8) if step * power <= wanted))
 
@@ -41,8 +42,8 @@ def _mark(result: Result, load: Load, factor: float, ax: Any) -> None:
             ax.plot(*line, color=LINES[kind][1], linewidth=1.5, zorder=100)
             if inclusion >= 0 and inclusion not in named and len(result.mesh.inclusions) <= _NAMES:
                 named.add(inclusion)
-                ax.text(*line[:, line.shape[1] // 2], result.mesh.inclusions[inclusion], ha="center", va="bottom",
-                        fontsize="small", bbox=BOX, zorder=101)
+                ax.text(*line[:, line.shape[1] // 2], printable(result.mesh.inclusions[inclusion]), ha="center",
+                        va="bottom", fontsize="small", bbox=BOX, zorder=101)
 
 
 def _corners(result: Result, load: Load) -> tuple[Array, Array, Array]:
@@ -66,20 +67,26 @@ def membrane(result: Result, load: str | Load | None = None, ax: Any = None, cma
                     "draw.displacement, which is from above")
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import Normalize
-    width = np.ptp(nodes, axis=0).max()
-    factor = _amplification(np.ptp(u), width)
-    colours = Normalize(u.min(), u.max())
+    sides = np.ptp(nodes, axis=0)
+    # Of a long sheet neither its length, or it would stand like a curtain, nor its width.
+    stretched = stretch_of(sides)
+    shown = stretched * sides
+    factor = _amplification(np.ptp(u), np.sqrt(shown.prod()))
+    colours = Normalize(*widened(u.min(), u.max()))
     shades = ScalarMappable(colours, cmap)
     faces = ax.plot_trisurf(*nodes.T, factor * u, triangles=triangles, linewidth=0.2, antialiased=False)
     of_faces = shades.to_rgba(u[triangles].mean(axis=1))
     faces.set(facecolors=of_faces, edgecolors=of_faces)
-    ax.figure.colorbar(shades, ax=ax, label="u" + result.units.label("L"), shrink=0.6, pad=0.1)
+    place = {"location": "bottom", "pad": 0.05} if (stretched != 1).any() else {"pad": 0.1}  # beside the names of axes
+    ax.figure.colorbar(shades, ax=ax, label="u" + result.units.label("L"), shrink=0.6, **place)
     _mark(result, load, factor, ax)
-    length, low, high = result.units.label("L"), nodes.min(axis=0), nodes.max(axis=0)
-    scale = "to scale" if factor == 1 else f"amplified \u00d7{factor:.4g}"
-    ax.set(xlabel="x" + length, ylabel="y" + length, zticks=[], title=f"{load.name}: u {scale}")
-    ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
-    ax.locator_params(nbins=5)
-    ax.set_box_aspect([np.ptp(limits) for limits in (ax.get_xlim(), ax.get_ylim(), ax.get_zlim())])
+    low, high = nodes.min(axis=0), nodes.max(axis=0)
+    scale = "to scale" if factor == 1 else f"amplified {factor_text(factor)}"
+    ax.set(zticks=[], title=f"{printable(load.name)}: u {scale}", xlim=(low[0], high[0]), ylim=(low[1], high[1]))
+    for i, axis in enumerate((ax.xaxis, ax.yaxis)):
+        axis.get_major_locator().set_params(nbins=5 if shown[i] > shown.max() / 3 else 2)
+        label_axis(axis, "xy"[i], result.units.behind("L").strip(),
+                   Scale(low[i], high[i], shown.max() / stretched[i]), stretched[i])
+    ax.set_box_aspect([*(np.ptp((ax.get_xlim(), ax.get_ylim()), axis=1) * stretched), np.ptp(ax.get_zlim())])
     ax.view_init(38, _azimuth(result))
     return ax

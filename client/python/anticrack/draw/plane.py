@@ -8,16 +8,19 @@ import numpy as np
 
 from ..arrays import Array
 from ..result import DELAMINATED, Load, Result, runs
-from .panel import BOX, LINES, axes, cut, fields, load_of
+from ..text import shown as printable
+from .panel import (BOX, LINES, Scale, axes, cut, fields, label_axis, legend_below, load_of, number_text, stretch_of,
+                    widened)
 
 _NAMES = 20  # of inclusions: more would cover each other
+_LABELLED = 60  # lines of u, likewise
 
 
 def _levels(load: Load, levels: int) -> Array:
     """Of u: round numbers, about so many, from its lowest to its highest."""
     from matplotlib.ticker import MaxNLocator
     low, high = min(f.u.min() for f in fields(load)), max(f.u.max() for f in load.fields)
-    return np.asarray(MaxNLocator(levels).tick_values(low, high if high > low else low + 1))
+    return np.asarray(MaxNLocator(levels).tick_values(*widened(low, high)))
 
 
 def _lines(levels: Array, triangulation: Any, u: Array, width: float, ax: Any) -> Any:
@@ -53,7 +56,10 @@ def interfaces(result: Result, load: str | Load | None = None, ax: Any = None, l
             segments = LineCollection(list(result.mesh.nodes[edges]), linewidth=width, color=color, capstyle="round")
             drawn[what] = ax.add_collection(segments)
     named: set[int] = set()
-    away = 0.012 * np.ptp(result.mesh.nodes, axis=0).max()
+    low, high = result.mesh.nodes.min(axis=0), result.mesh.nodes.max(axis=0)
+    stretched = stretch_of(high - low)
+    shown = stretched * (high - low)
+    away = 0.012 * shown.max() / stretched
     for interface in result.interfaces:
         for first, last in runs(interface.edge_kind * 100_000 + interface.edge_inclusion):
             kind, inclusion = int(interface.edge_kind[first]), int(interface.edge_inclusion[first])
@@ -62,27 +68,37 @@ def interfaces(result: Result, load: str | Load | None = None, ax: Any = None, l
             x, y = interface.x[first:last + 1], interface.y[first:last + 1]
             what, color = LINES[kind]
             (drawn[what],) = ax.plot(x, y, color=color, linewidth=2)
-            across = np.stack((-np.gradient(y), np.gradient(x))) / np.hypot(np.gradient(x), np.gradient(y))
+            along = np.gradient(np.stack((x, y)), axis=1) * stretched[:, None]
+            across = np.stack((-along[1], along[0])) / np.hypot(*along)
             if kind == DELAMINATED:
-                (drawn["the side that came off"],) = ax.plot(x - away * across[0], y - away * across[1], ":",
+                (drawn["the side that came off"],) = ax.plot(x - away[0] * across[0], y - away[1] * across[1], ":",
                                                              color="#D00000")
             if labels and inclusion >= 0 and inclusion not in named and len(result.mesh.inclusions) <= _NAMES:
                 named.add(inclusion)
                 middle = len(x) // 2
                 up, right = across[1, middle], across[0, middle]
-                ax.annotate(result.mesh.inclusions[inclusion], (x[middle], y[middle]), xytext=(6 * right, 6 * up),
-                            textcoords="offset points", va="bottom" if up > 0.5 else "top" if up < -0.5 else "center",
+                ax.annotate(printable(result.mesh.inclusions[inclusion]), (x[middle], y[middle]),
+                            xytext=(6 * right, 6 * up), textcoords="offset points",
+                            va="bottom" if up > 0.5 else "top" if up < -0.5 else "center",
                             ha="center" if abs(up) > 0.9 else "left" if right > 0 else "right",
-                            bbox=BOX)
+                            rotation=90 if abs(up) < 0.1 else 0, bbox=BOX)
     if labels and drawn:
-        ax.legend(list(drawn.values()), list(drawn), loc="upper center", bbox_to_anchor=(0.5, -0.14), ncol=2,
-                  fontsize="small", frameon=False)
-    length, low, high = result.units.label("L"), result.mesh.nodes.min(axis=0), result.mesh.nodes.max(axis=0)
-    margin = 0.03 * (high - low).max()
-    ax.set(aspect="equal", xlabel="x" + length, ylabel="y" + length, xlim=(low[0] - margin, high[0] + margin),
-           ylim=(low[1] - margin, high[1] + margin))
-    ax.locator_params(nbins=6)
+        legend_below(ax, list(drawn.values()), list(drawn))
+    margin = 0.03 * shown.max() / stretched
+    ax.set(aspect=stretched[1] / stretched[0], xlim=(low[0] - margin[0], high[0] + margin[0]),
+           ylim=(low[1] - margin[1], high[1] + margin[1]))
+    for i, axis in enumerate((ax.xaxis, ax.yaxis)):
+        label_axis(axis, "xy"[i], result.units.behind("L").strip(),
+                   Scale(low[i], high[i], shown.max() / stretched[i]), stretched[i])
+        narrow = shown.max() / shown[i]
+        axis.get_major_locator().set_params(nbins=6 if narrow < 3 else 3 if narrow < 6 else 1)
     return ax
+
+
+def _beside(result: Result) -> dict[str, Any]:
+    """Where there is room for a colour bar: along the longer sides."""
+    width, height = np.ptp(result.mesh.nodes, axis=0)
+    return {"location": "top", "aspect": 40} if width > 2 * height else {}
 
 
 def displacement(result: Result, load: str | Load | None = None, ax: Any = None, levels: int = 12, lines: bool = True,
@@ -96,9 +112,9 @@ def displacement(result: Result, load: str | Load | None = None, ax: Any = None,
         shades = ax.tricontourf(triangulation, part.u, steps, cmap=cmap)
         if lines:
             _lines(steps, triangulation, part.u, 0.3, ax)
-    ax.figure.colorbar(shades, ax=ax, label="u" + result.units.label("L"))
+    ax.figure.colorbar(shades, ax=ax, label="u" + result.units.label("L"), **_beside(result))
     interfaces(result, load, ax)
-    ax.set_title(load.name)
+    ax.set_title(printable(load.name))
     return ax
 
 
@@ -132,15 +148,16 @@ def plan(result: Result, load: str | Load | None = None, ax: Any = None, levels:
     parts = [Triangulation(*result.mesh.nodes[part.nodes].T, part.triangles) for part in load.fields]
     shown, highest = flux_peaks(result, load, sizes)
     steps = _levels(load, levels)
+    scale = Scale(steps.min(), steps.max())
     for part, field, size in zip(parts, load.fields, sizes):
         shades = ax.tripcolor(part, size, vmin=0, vmax=shown if shown > 0 else 1, cmap=cmap, rasterized=True)
         lines = _lines(steps, part, field.u, 0.6, ax)
-        if lines is not None:
-            ax.clabel(lines, lines.levels[::2], fmt="%.3g", fontsize="x-small")
-    said = f", peaks cut off, up to {highest:.2g}" if shown < highest else ""
+        if lines is not None and sum(map(len, lines.allsegs)) <= _LABELLED:
+            ax.clabel(lines, lines.levels[::2], fmt=scale.text, fontsize="x-small")
+    said = f", peaks cut off, up to {number_text(highest, 2)}" if shown < highest else ""
     name = r"$|\nabla u|$" if result.mesh.tension_law else r"$|T \nabla u|$" + result.units.label("F/L")
     ax.figure.colorbar(shades, ax=ax, label=name + said,
-                       extend="max" if said else "neither")
+                       extend="max" if said else "neither", **_beside(result))
     interfaces(result, load, ax)
-    ax.set_title(f"{load.name}: lines of u{result.units.label('L')}")
+    ax.set_title(f"{printable(load.name)}: lines of {scale.label('u', result.units.behind('L').strip())}")
     return ax

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "results/replace_file.hpp"
+#include "output/file.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -11,10 +11,12 @@
 #include <system_error>
 #include <utility>
 
-#include "results/error.hpp"
-#include "results/file.hpp"
+#include "output/error.hpp"
+#include "output/standard.hpp"
+#include "output/target.hpp"
+#include "output/write_all.hpp"
 
-namespace anticrack::results {
+namespace anticrack::output {
 namespace {
 
 namespace fs = std::filesystem;
@@ -22,6 +24,7 @@ namespace fs = std::filesystem;
 [[noreturn]] void fail(const fs::path& path, const std::string& what, int error) {
   const char* cure = "choose another path with -o";
   if (error == ENOSPC || error == EDQUOT) cure = "free space there, or choose another path with -o";
+  if (error == EFBIG) cure = "raise the limit of a file's size (ulimit -f)";
   if (error == EACCES || error == EPERM || error == EROFS)
     cure = "make the folder writable, or choose another path with -o";
   if (error == ENOENT) cure = "create the folder first, or choose another path with -o";
@@ -52,13 +55,11 @@ class TemporaryFile {
     if (!_renamed) unlink(_name.c_str());
   }
 
+  /// With the permissions of the file it replaces.
   void write(std::span<const std::byte> bytes) {
-    while (!bytes.empty()) {
-      const ssize_t written = ::write(_descriptor, bytes.data(), bytes.size());
-      if (written < 0 && errno == EINTR) continue;
-      if (written < 0) fail(_target, "cannot be written", errno);
-      bytes = bytes.subspan(static_cast<std::size_t>(written));
-    }
+    struct stat former {};
+    if (stat(_target.c_str(), &former) == 0) fchmod(_descriptor, former.st_mode & 0777);
+    if (const int error = write_all(_descriptor, bytes)) fail(_target, "cannot be written", error);
   }
 
   void rename_to_target() {
@@ -81,45 +82,64 @@ class TemporaryFile {
   bool _renamed = false;
 };
 
-}  // namespace
-
-void check_writable(const fs::path& path) {
-  struct stat status {};
-  if (path.filename().empty() || path.filename() == "." || path.filename() == "..")
-    throw Error(path.string(), "is a folder", "name a file with -o");
-  if (stat(path.c_str(), &status) == 0) {
-    if (S_ISDIR(status.st_mode)) throw Error(path.string(), "is a folder", "name a file with -o");
-    if (!S_ISREG(status.st_mode))
-      throw Error(path.string(), "is not a regular file", "choose another path with -o");
-    if (access(path.c_str(), W_OK) != 0) fail(path, "may not be replaced", errno);
-    if (fs::is_directory(backup_of(path)))
-      throw Error(backup_of(path).string(), "is a folder, and a former result is kept by this name",
-                  "choose another path with -o");
-  } else if (errno != ENOENT) {
-    fail(path, "cannot be written", errno);
-  }
-  TemporaryFile{path};
+void write_stream(const fs::path& path, const Target& target, std::span<const std::byte> bytes) {
+  if (target.is_standard_output()) return print(bytes);
+  const int descriptor = target.descriptor >= 0 ? dup(target.descriptor)
+                                                : open(target.path.c_str(), O_WRONLY | O_CLOEXEC);
+  if (descriptor < 0) fail(path, "cannot be written", errno);
+  const int error = write_all(descriptor, bytes);
+  const int late = close(descriptor) == 0 ? 0 : errno;
+  if (error != 0 || late != 0) fail(path, "cannot be written", error != 0 ? error : late);
 }
+
+}  // namespace
 
 fs::path backup_of(const fs::path& path) {
   fs::path backup = path;
   return backup += "~";
 }
 
-void replace_file(const fs::path& path, std::span<const std::byte> bytes, bool keep) {
-  TemporaryFile file(path);
+void check_writable(const fs::path& path) {
+  if (path.filename().empty() || path.filename() == "." || path.filename() == "..")
+    throw Error(path.string(), "is a folder", "name a file with -o");
+  const Target target = target_of(path);
+  if (target.kind == Target::Kind::folder)
+    throw Error(path.string(), "is a folder", "name a file with -o");
+  if (target.descriptor >= 0) return;
+  if (access(target.path.c_str(), W_OK) != 0 && errno != ENOENT)
+    fail(path, "cannot be written", errno);
+  if (target.kind == Target::Kind::stream) return;
+  if (fs::is_directory(backup_of(target.path)))
+    throw Error(backup_of(target.path).string(),
+                "is a folder, and a former result is kept by this name",
+                "choose another path with -o");
+  TemporaryFile{target.path};
+}
+
+void write_file(const fs::path& path, std::span<const std::byte> bytes, bool keep) {
+  const Target target = target_of(path);
+  if (target.kind == Target::Kind::stream) return write_stream(path, target, bytes);
+  if (target.kind == Target::Kind::folder) fail(path, "cannot be written", EISDIR);
+  TemporaryFile file(target.path);
   file.write(bytes);
   if (keep) {
-    const fs::path backup = backup_of(path);
+    const fs::path backup = backup_of(target.path);
     unlink(backup.c_str());
     // A second name, so that the first is never without a file; not every file system has them.
-    if (link(path.c_str(), backup.c_str()) != 0 && rename(path.c_str(), backup.c_str()) != 0)
+    if (link(target.path.c_str(), backup.c_str()) != 0 &&
+        rename(target.path.c_str(), backup.c_str()) != 0)
       fail(path, "cannot be kept as " + backup.string(), errno);
   }
   file.rename_to_target();
 }
 
+void write_file(const fs::path& path, std::string_view text) {
+  write_file(path, std::as_bytes(std::span(text)));
+}
+
 void make_folder(const fs::path& folder) {
+  if (folder == "-")
+    throw Error("-", "is standard output, and several files are to be written", "name a folder");
   std::error_code error;
   fs::create_directories(folder, error);
   if (error || !fs::is_directory(folder)) {
@@ -132,4 +152,4 @@ void make_folder(const fs::path& folder) {
   }
 }
 
-}  // namespace anticrack::results
+}  // namespace anticrack::output

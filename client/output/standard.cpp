@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "output/standard.hpp"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <mutex>
+
+#include "output/write_all.hpp"
+
+namespace anticrack::output {
+namespace {
+
+std::mutex printing;
+int failure = 0;
+
+}  // namespace
+
+void prepare_process() noexcept {
+  for (const int number : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(number, F_GETFD) >= 0 || errno != EBADF) continue;
+    // The lowest free number is this one.
+    if (open("/dev/null", number == STDIN_FILENO ? O_WRONLY : O_RDONLY) != number) return;
+  }
+  signal(SIGXFSZ, SIG_IGN);
+  signal(SIGCHLD, SIG_DFL);
+}
+
+void print(std::span<const std::byte> bytes) noexcept {
+  const std::lock_guard lock(printing);
+  if (failure != 0) return;
+  // What others left in the buffer of stdout goes first.
+  failure = std::fflush(stdout) != 0 ? errno : write_all(STDOUT_FILENO, bytes);
+}
+
+void print(std::string_view text) noexcept { print(std::as_bytes(std::span(text))); }
+
+int print_failure() noexcept {
+  const std::lock_guard lock(printing);
+  // Some network file systems tell of a full disk when a file is closed.
+  if (const int copy = failure == 0 ? dup(STDOUT_FILENO) : -1; copy >= 0 && close(copy) != 0)
+    failure = errno;
+  return failure;
+}
+
+}  // namespace anticrack::output

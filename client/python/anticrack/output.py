@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The one place where files are written."""
+from __future__ import annotations
+
+import contextlib
+import itertools
+import os
+import re
+import stat
+import sys
+
+from .errors import Error
+
+_numbers = itertools.count()  # of temporary names
+
+
+def target_of(path: str | os.PathLike[str]) -> tuple[str, bool]:
+    """Where a path leads, behind all symbolic links, and whether that is a device or a pipe, to be written from here to
+    its end."""
+    found = os.fsdecode(path)
+    for _ in range(40):  # as the kernel
+        parent = os.path.dirname(found) or "."
+        if re.fullmatch("[0-9]+", os.path.basename(found)) and _same(parent, "/proc/self/fd"):
+            return found, True  # a descriptor: its link leads to a name that need not be the open file's
+        try:
+            found = os.path.join(parent, os.readlink(found))
+        except OSError:  # no link
+            break
+    try:
+        mode = os.stat(found).st_mode
+    except FileNotFoundError:
+        return found, False
+    except OSError as error:
+        raise _unwritable(path, error) from None
+    if stat.S_ISDIR(mode) or stat.S_ISBLK(mode) or stat.S_ISSOCK(mode):
+        what = "folder" if stat.S_ISDIR(mode) else "disk" if stat.S_ISBLK(mode) else "socket"
+        raise Error(f"{os.fsdecode(path)} is a {what}; name a file")
+    return found, not stat.S_ISREG(mode)
+
+
+def write(path: str | os.PathLike[str], content: bytes | memoryview, keep: bool = False) -> None:
+    """Whole or not at all, with the permissions of a file that is there; through symbolic links, and into a device or
+    pipe as a stream. keep: what was there is called PATH~ from then on."""
+    target, stream = target_of(path)
+    try:
+        if stream:
+            _write_stream(target, content)
+        else:
+            _replace(target, content, keep)
+    except OSError as error:
+        raise _unwritable(path, error) from None
+
+
+def _same(one: str, other: str) -> bool:
+    try:
+        return os.path.samefile(one, other)
+    except OSError:
+        return False
+
+
+def _unwritable(path: str | os.PathLike[str], error: OSError) -> Error:
+    folder = os.path.dirname(os.path.abspath(os.fsdecode(path)))
+    if isinstance(error, FileNotFoundError) and not os.path.isdir(folder):
+        return Error(f"{os.fsdecode(path)}: there is no folder {folder}; make it, or name another")
+    return Error(f"{os.fsdecode(path)} cannot be written: {error.strerror}; free space there, or name another file")
+
+
+def _write_stream(target: str, content: bytes | memoryview) -> None:
+    for text in (sys.stdout, sys.stderr):  # what was printed before comes before
+        if text is not None:
+            text.flush()
+    number = re.fullmatch("[0-9]+", os.path.basename(target)) and _same(os.path.dirname(target), "/proc/self/fd")
+    descriptor = os.dup(int(os.path.basename(target))) if number else os.open(target, os.O_WRONLY)
+    with open(descriptor, "wb", buffering=0) as file:
+        rest = memoryview(content)
+        while rest:
+            rest = rest[file.write(rest):]
+
+
+def _replace(target: str, content: bytes | memoryview, keep: bool) -> None:
+    made = os.path.join(os.path.dirname(target), f".{os.getpid()}-{next(_numbers)}.anticrack-partial")
+    descriptor = os.open(made, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, 0o666)
+    try:
+        with open(descriptor, "wb") as file:
+            with contextlib.suppress(FileNotFoundError):
+                os.fchmod(descriptor, stat.S_IMODE(os.stat(target).st_mode))
+            file.write(content)
+            file.flush()
+            os.fsync(descriptor)
+        if keep:
+            _keep(target)
+        os.replace(made, target)
+    except BaseException:
+        with contextlib.suppress(OSError):
+            os.remove(made)
+        raise
+
+
+def _keep(target: str) -> None:
+    backup = target + "~"
+    with contextlib.suppress(FileNotFoundError):
+        os.remove(backup)
+    try:
+        os.link(target, backup)
+    except OSError:  # not every file system has second names
+        os.replace(target, backup)

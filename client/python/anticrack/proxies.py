@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which HTTP proxy gRPC would use, by the environment."""
+from __future__ import annotations
+
+import ipaddress
+import os
+import re
+
+from .credentials import is_loopback
+
+
+def proxy_for(address: str) -> tuple[str, str] | None:
+    """The variable that names it, and HOST:PORT. None for what stays on the machine, and for what no_grpc_proxy,
+    no_proxy or NO_PROXY, the first that is set, exempts: a list of the ends of names, addresses and networks
+    (10.0.0.0/8), each also with a port, or *."""
+    name = _first_set("grpc_proxy", "https_proxy", "http_proxy")
+    if name is None or not os.environ[name] or is_loopback(address):
+        return None
+    server = _split(re.sub(r"^(dns:///|dns:|ipv4:|ipv6:)", "", address))
+    exempt = _first_set("no_grpc_proxy", "no_proxy", "NO_PROXY")
+    if exempt is not None and any(_exempts(entry.strip(), *server) for entry in os.environ[exempt].split(",")):
+        return None
+    return name, os.environ[name].rpartition("://")[2].partition("/")[0].rpartition("@")[2]  # without a password
+
+
+def remark(proxy: tuple[str, str]) -> str:
+    return (f"{proxy[0]} sends what goes there through the proxy {proxy[1]}: for a server that is reached without it "
+            "add its host to no_proxy")
+
+
+def _first_set(*names: str) -> str | None:
+    return next((name for name in names if name in os.environ), None)
+
+
+def _split(text: str) -> tuple[str, str]:
+    """Host and port of HOST, HOST:PORT, [IPV6]:PORT or IPV6, in lower case."""
+    text = text.lower()
+    if text.startswith("["):
+        host, _, rest = text[1:].partition("]")
+        return host, rest.removeprefix(":")
+    host, _, port = text.partition(":")
+    return (text, "") if ":" in port else (host, port)
+
+
+def _ip(host: str) -> ipaddress.IPv4Address | ipaddress.IPv6Address | None:
+    try:
+        ip = ipaddress.ip_address(host)
+    except ValueError:
+        return None
+    return getattr(ip, "ipv4_mapped", None) or ip
+
+
+def _exempts(entry: str, host: str, port: str) -> bool:
+    if entry == "*":
+        return True
+    ip = _ip(host)
+    if "/" in entry:
+        try:
+            return ip is not None and ip in ipaddress.ip_network(entry, strict=False)
+        except ValueError:
+            return False
+    wanted, wanted_port = _split(entry[1:] if entry.startswith("*.") else entry)
+    if not wanted or wanted_port not in ("", port):
+        return False
+    other = _ip(wanted)
+    return ip == other if other is not None else host.endswith(wanted) or "." + host == wanted

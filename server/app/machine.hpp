@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What this process may use of the machine: what defaults are made of.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace anticrack::app {
+
+struct Machine {
+  std::uint64_t memory_bytes = 0;
+  std::string memory_limit;  ///< what limits it: "the memory of the machine", or a file
+  int processors = 1;
+};
+
+/// Memory: the least of what the machine has and its control groups allow (control_group.hpp);
+/// ulimit -v is about address space (address_space.hpp). Processors: those the process may run on
+/// (taskset, cpusets), at most the quota of its control groups, rounded up. `root`: as of
+/// group_limits().
+Machine this_machine(const std::string& root = "");
+
+}  // namespace anticrack::app

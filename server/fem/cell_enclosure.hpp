@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What is proved of an expression on one triangle, by interval arithmetic.
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "expression/enclosure.hpp"
+
+namespace anticrack::fem {
+
+using expression::Interval;
+
+/// A triangle about its centroid.
+struct Centred {
+  double x, y;                   ///< the centroid
+  std::array<double, 3> dx, dy;  ///< from there to the corners
+  double area;
+  double reach_x, reach_y;    ///< greatest |dx| and |dy|
+  double length_x, length_y;  ///< fourth roots of the means of dx^4 and dy^4
+  Centred(const std::array<double, 3>& at_x, const std::array<double, 3>& at_y);
+  /// Means over the triangle.
+  double xx() const { return mean(dx, dx); }
+  double xy() const { return mean(dx, dy); }
+  double yy() const { return mean(dy, dy); }
+  /// Of squared distances to corner i.
+  double squared_distance(std::size_t i) const {
+    return xx() + yy() + dx[i] * dx[i] + dy[i] * dy[i];
+  }
+  double diameter() const;
+
+ private:
+  static double mean(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+    return (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) / 12;
+  }
+};
+
+struct Enclosed {
+  double integral = 0;  ///< int f is within `radius` of it; that may be infinite
+  double radius = 0;
+  Interval values;  ///< of f
+};
+
+/// int f and the values of f on a triangle. By the mean value form of degree 3 where f is smooth,
+/// of degree 1 where it has kinks. Where lines of jumps and kinks pass, by straight lines in their
+/// places, with strips about those in which either side is possible. Else by the values alone.
+/// Rounding in the places of points is not enclosed: some 1e-15 of the coordinates.
+Enclosed enclose(expression::Enclosure& f, const Centred& triangle);
+
+}  // namespace anticrack::fem

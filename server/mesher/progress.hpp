@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// How far the helper process is: what it writes before its reply.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace anticrack::mesher {
+
+struct Progress {
+  std::string doing;            ///< "bisecting a mesh"
+  std::uint64_t triangles = 0;  ///< so far; 0: not counted
+};
+
+/// What is read from the helper: reports, then the reply, each begun by one of these bytes.
+constexpr std::byte report_mark{'P'}, reply_mark{'R'};
+
+/// A report as bytes.
+std::vector<std::byte> encode(const Progress& progress);
+
+/// The report at the beginning, and how many bytes it takes; none while it is not complete. Letters
+/// other than of plain words are left out: they come from a process that reads files of others.
+std::optional<std::pair<Progress, std::size_t>> first_report(std::span<const std::byte> bytes);
+
+}  // namespace anticrack::mesher

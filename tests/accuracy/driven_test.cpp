@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Whatever drives a membrane, alone, residuals are relative to it and there are bounds.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "accuracy/base_meshes.hpp"
+#include "accuracy/sequence.hpp"
+#include "errors/errors.hpp"
+#include "mesh/refine.hpp"
+
+namespace anticrack::accuracy {
+namespace {
+
+constexpr std::size_t most_triangles = 2'000'000;
+
+struct Driven {
+  std::string what;
+  fem::Load load;
+  mesh::Motion motion{};
+  bool without_dirichlet = false;
+};
+
+fem::Load loaded(const std::function<void(fem::Load&)>& set) {
+  fem::Load load;
+  load.name = "case";
+  set(load);
+  return load;
+}
+
+fem::Load nothing() {
+  return loaded([](fem::Load&) {});
+}
+fem::Load by(const std::string& force) {
+  return loaded([&](fem::Load& load) { load.force = fem::Expression{force}; });
+}
+fem::Load by_boundary(const std::string& value) {
+  return loaded([&](fem::Load& load) { load.boundary_value = value; });
+}
+
+std::vector<Driven> all() {
+  std::vector<Driven> cases{
+      {"nothing", nothing()},
+      {"a held value", nothing(), {false, 0.1}},
+      {"a negative held value", nothing(), {false, -0.1}},
+      {"a held value and nothing else", nothing(), {false, 0.1}, true},
+      {"a tiny held value", nothing(), {false, 1e-30}},
+      {"a large held value", nothing(), {false, 1e30}},
+      {"a held value of 0", nothing(), {false, 0.0}},
+      {"boundary values", by_boundary("0.3 - x + 2*y")},
+      {"one boundary value", by_boundary("0.25")},
+      {"the same boundary value as is held", by_boundary("0.1"), {false, 0.1}},
+      {"opening boundary values", by_boundary("y")},
+      {"closing boundary values", by_boundary("-y")},
+      {"an opening load", by("y > 0 ? 1 : -1")},
+      {"a closing load", by("y > 0 ? -1 : 1")},
+      {"a load that cancels in all", by("sin(pi*x)")},
+      {"a load of 1e-100", by("1e-100*(1 + y)")},
+      {"a load of 1e100", by("1e100*(1 + y)")},
+      {"a force", loaded([](fem::Load& load) { load.inclusion_forces["rigid"] = 1; })},
+      {"a moment",
+       loaded([](fem::Load& load) {
+         load.inclusion_moments["rigid"] = {1, 0};
+       }),
+       {true, {}}},
+      {"forces that cancel", loaded([](fem::Load& load) {
+         load.inclusion_forces["rigid"] = 1e8;
+         load.force = fem::Expression{"1e-8"};
+       })},
+  };
+  for (const char* f : {"1e-300", "1e-30", "1e-10", "1e-6", "1e-3"})
+    cases.push_back({"a held value and f = " + std::string(f), by(f), {false, 0.1}});
+  return cases;
+}
+
+mesh::Mesh mesh_of(const Driven& driven) {
+  mesh::Mesh mesh = mesh::grade(diagonals(), {0.2, 0.2, 0}, most_triangles);
+  for (std::string& name : mesh.inclusions) name = "rigid";
+  mesh.motions.assign(mesh.inclusions.size(), driven.motion);
+  if (driven.without_dirichlet) mesh.dirichlet.clear();
+  return mesh;
+}
+
+void check(const Driven& driven, std::size_t most_dense) {
+  SCOPED_TRACE(driven.what + (most_dense == 0 ? ", joined" : ""));
+  const auto op = factorise(mesh_of(driven), most_dense);
+  const contact::Answer answer = solve_bounded(*op, driven.load);
+  ASSERT_EQ(answer.status, contact::Status::converged) << answer.reason;
+  const contact::KktResiduals& kkt = answer.kkt_relative;
+  for (const double one : {kkt.equilibrium, kkt.gap, kkt.sign, kkt.complementarity})
+    EXPECT_LE(one, 1e-10);
+  ASSERT_EQ(answer.no_bracket, "");
+  EXPECT_LE(*answer.energy_lower, answer.energy);
+  EXPECT_GE(*answer.energy_upper, answer.energy);
+  const double size = std::abs(*answer.energy_upper) + std::abs(*answer.energy_lower);
+  EXPECT_LE(*answer.energy_upper - *answer.energy_lower, 0.7 * size + 1e-12);
+  ASSERT_TRUE(answer.inclusions[0].displacement_lower);
+  EXPECT_LE(*answer.inclusions[0].displacement_lower, answer.inclusions[0].displacement);
+  EXPECT_GE(*answer.inclusions[0].displacement_upper, answer.inclusions[0].displacement);
+}
+
+TEST(Driven, ByAnythingAloneItConvergesWithBounds) {
+  for (const Driven& driven : all())
+    for (const std::size_t most_dense : {operators::max_dense, std::size_t{0}})
+      check(driven, most_dense);
+}
+
+TEST(Driven, ByNothingItStaysAtZero) {
+  for (const std::size_t most_dense : {operators::max_dense, std::size_t{0}}) {
+    const auto op = factorise(mesh_of({"nothing", nothing()}), most_dense);
+    const contact::Answer answer = solve_bounded(*op, nothing());
+    EXPECT_EQ(answer.energy, 0);
+    EXPECT_EQ(*answer.energy_lower, 0);
+    EXPECT_EQ(*answer.energy_upper, 0);
+    EXPECT_EQ(*answer.inclusions[0].displacement_lower, 0);
+    EXPECT_EQ(*answer.inclusions[0].displacement_upper, 0);
+  }
+}
+
+TEST(Driven, ByWhatHasNoSquareItHasNoBounds) {
+  for (const std::size_t most_dense : {operators::max_dense, std::size_t{0}}) {
+    const auto op = factorise(mesh_of({"little", nothing()}), most_dense);
+    const contact::Answer answer = solve_bounded(*op, by("1e-300*(1 + y)"));
+    EXPECT_EQ(answer.status, contact::Status::converged) << answer.reason;
+    EXPECT_NE(answer.no_bracket.find("scale the load up"), std::string::npos) << answer.no_bracket;
+    EXPECT_FALSE(answer.energy_lower);
+    EXPECT_THROW(solve_bounded(*op, by("1e300*(1 + y)")), errors::Error);
+  }
+}
+
+TEST(Driven, ByLoadsThatCancelRowsOfSweepsConverge) {
+  for (const std::size_t most_dense : {operators::max_dense, std::size_t{0}}) {
+    const auto op = factorise(mesh_of({"sums", nothing(), {false, 0.1}}), most_dense);
+    const fem::Load first = by("1 + x - y"), second = by("3*(1 + x - y)");
+    const fem::Load* const loads[] = {&first, &second};
+    const auto basis = op->basis(loads, {}, true);
+    const double coefficients[] = {3, -1, 3e8, -1e8, 0, 0, 1e-300, 0, 1, 0};
+    contact::SweepColumns rows(5, 1, op->contact_nodes().size(), false, true);
+    std::vector<char> start;
+    ASSERT_TRUE(op->sweep(*basis, coefficients, {}, rows, start));
+    for (std::size_t row = 0; row < rows.rows(); ++row) {
+      EXPECT_EQ(rows.status[row], contact::Status::converged) << row;
+      EXPECT_LT(rows.kkt[row], 1e-10) << row;
+    }
+    EXPECT_NEAR(rows.energy[2], rows.energy[0], 1e-9);
+    EXPECT_NEAR(rows.energy[3], rows.energy[0], 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace anticrack::accuracy
