@@ -60,11 +60,11 @@ def short_length(length: float) -> str:
     return f"{float(f'{length:.3g}'):.6g}"
 
 
-def plain(value: Any) -> Any:
+def without_numpy(value: Any) -> Any:
     """With Python's numbers for numpy's, of which numpy 2 writes np.float64(0.5)."""
     if isinstance(value, np.generic):
         return value.item()
-    return type(value)(map(plain, value)) if type(value) in (list, tuple) else value
+    return type(value)(map(without_numpy, value)) if type(value) in (list, tuple) else value
 
 
 def short(text: str, most: int = 60) -> str:
