@@ -17,7 +17,7 @@ from .arrays import Array, is_array
 from .errors import CaseError
 from .msh import Msh
 from .sections import shown
-from .text import listed, short
+from .text import listed, short, without_numpy
 from .translate import Requests, requests_of
 
 T = TypeVar("T")
@@ -60,7 +60,8 @@ class _Table:
 
     def __repr__(self) -> str:
         """What is given; long values are cut."""
-        given = {entry.name: getattr(self, entry.name) for entry in fields(self)}  # type: ignore[arg-type]
+        given = {entry.name: without_numpy(getattr(self, entry.name))
+                 for entry in fields(self)}  # type: ignore[arg-type]
         told = [f"{name}={short(repr(given[name]))}" for name in sorted(given, key=lambda name: name != "name")
                 if given[name] is not None and not (isinstance(given[name], list) and not given[name])]
         return f"{type(self).__name__}({', '.join(told)})"

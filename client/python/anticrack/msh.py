@@ -54,7 +54,8 @@ class Msh:
             names = _names(self.groups.get(kind, [""] * len(nodes)), kind)
             if len(names) != len(nodes):
                 raise CaseError(f"groups of '{kind}' are {len(names)} names for {len(nodes)} cells")
-            for name, cell in zip(names, nodes.tolist()):
+            rows: list[list[int]] = list(nodes.tolist())
+            for name, cell in zip(names, rows):
                 tag = tags.setdefault((dimension, name), len(tags) + 1) if name else 0
                 entity = tag or 10**6 + dimension
                 elements.append(f"{len(elements) + 1} {code} 2 {tag} {entity} " + " ".join(str(i + 1) for i in cell))

@@ -507,7 +507,7 @@ def _row(sweep: Sweep, row: int, traces: Parts[Trace], interfaces: list[Interfac
 
 def runs(values: Array) -> list[tuple[int, int]]:
     """(first, last + 1) of equal entries."""
-    cuts = (np.flatnonzero(np.diff(values)) + 1).tolist()
+    cuts = [int(last) + 1 for last in np.flatnonzero(np.diff(values))]
     return list(zip([0, *cuts], [*cuts, len(values)])) if len(values) else []
 
 

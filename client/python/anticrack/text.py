@@ -8,6 +8,9 @@ import math
 import re
 import unicodedata
 from collections.abc import Iterable, Sequence
+from typing import Any
+
+import numpy as np
 
 # What Unicode ignores though its category does not say so.
 _IGNORABLE = re.compile("[\u034f\u115f\u1160\u17b4\u17b5\u180b-\u180f\u2065\u3164\ufe00-\ufe0f\uffa0"
@@ -55,6 +58,13 @@ def _unsigned(number: float, decimals: int) -> float:
 def short_length(length: float) -> str:
     """Of contact: without bounds, and the mesh's to about an edge, so three digits."""
     return f"{float(f'{length:.3g}'):.6g}"
+
+
+def without_numpy(value: Any) -> Any:
+    """With Python's numbers for numpy's, of which numpy 2 writes np.float64(0.5)."""
+    if isinstance(value, np.generic):
+        return value.item()
+    return type(value)(map(without_numpy, value)) if type(value) in (list, tuple) else value
 
 
 def short(text: str, most: int = 60) -> str:

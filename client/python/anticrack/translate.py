@@ -12,6 +12,7 @@ from typing import Any
 from .arrays import Array, array_of, is_number
 from .errors import package
 from .sections import Section
+from .text import without_numpy
 from .v1 import mesh_pb2, solve_pb2
 
 _PRESETS = ["paper", "uniform", "graded", "coarse"]
@@ -165,7 +166,7 @@ def _groups(section: Section, key: str, groups: Any) -> None:
         if not tag.isdecimal() or not 1 <= int(tag) < 2**31:
             raise section.error(f"{key}.{tag}", f"'{tag}' is not a tag; {cure}")
         if not isinstance(meaning, str) or not meaning:
-            raise section.error(f"{key}.{tag}", f"{meaning!r} is not a meaning of a group; {cure}")
+            raise section.error(f"{key}.{tag}", f"{without_numpy(meaning)!r} is not a meaning of a group; {cure}")
         groups[int(tag)] = meaning
 
 

@@ -262,6 +262,9 @@ boundary_value = "x"
     def test_are_told_by_what_is_given(self):
         self.assertEqual(repr(Inclusion("fibre", (0, 0), (1, 0), fixed=0.5)),
                          "Inclusion(name='fibre', start=(0, 0), end=(1, 0), fixed=0.5)")
+        half = numpy.float64(0.5)
+        self.assertEqual(repr(Inclusion("fibre", (half, 0), [half, half], fixed=half)),
+                         "Inclusion(name='fibre', start=(0.5, 0), end=[0.5, 0.5], fixed=0.5)")
         case = Case(Geometry(SQUARE, inclusions=[Inclusion("b", points=numpy.zeros((1000, 2)))] * 9), [Load("a", 1)])
         self.assertEqual(repr(case), "<Case '' with geometry, load>")
         self.assertLess(len(repr(Inclusion("b", points=numpy.zeros((1000, 2))))), 120)

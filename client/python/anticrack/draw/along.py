@@ -75,7 +75,7 @@ def _bars(result: Result, line: Interface, ax: Any) -> None:
         if kind in LINES:
             ax.axvspan(line.s[begin], line.s[end], 0, 0.03, color=LINES[kind][1], linewidth=0,
                        label=labels.pop(kind, "_again"))
-    for inclusion in sorted(set(line.edge_inclusion.tolist()) - {-1}):
+    for inclusion in sorted({int(inclusion) for inclusion in line.edge_inclusion} - {-1}):
         lies = line.edge_inclusion == inclusion
         middle = (line.s[:-1][lies].min() + line.s[1:][lies].max()) / 2
         ax.annotate(printable(result.mesh.inclusions[inclusion]), (middle, 0.04), ha="center",

@@ -101,14 +101,19 @@ def _beside(result: Result) -> dict[str, Any]:
     return {"location": "top", "aspect": 40} if width > 2 * height else {}
 
 
+def _triangulation(result: Result, part: Any) -> Any:
+    from matplotlib.tri import Triangulation
+    x, y = result.mesh.nodes[part.nodes].T
+    return Triangulation(x, y, part.triangles)
+
+
 def displacement(result: Result, load: str | Load | None = None, ax: Any = None, levels: int = 12, lines: bool = True,
                  cmap: str = "viridis") -> Any:
     """u from above, in colours and contour lines, with cracks and inclusions; takes a case with fields."""
     load = load_of(result, load)
     steps, ax = _levels(load, levels), axes(ax)
-    from matplotlib.tri import Triangulation
     for part in load.fields:
-        triangulation = Triangulation(*result.mesh.nodes[part.nodes].T, part.triangles)
+        triangulation = _triangulation(result, part)
         shades = ax.tricontourf(triangulation, part.u, steps, cmap=cmap)
         if lines:
             _lines(steps, triangulation, part.u, 0.3, ax)
@@ -143,9 +148,8 @@ def plan(result: Result, load: str | Load | None = None, ax: Any = None, levels:
     """From above: labelled lines of u over the flux (see `flux`) in colours, with cracks and inclusions; takes a case
     with fields. The flux grows without bound at tips: its peaks are cut off, and the colour bar says so."""
     ax, load = axes(ax), load_of(result, load)
-    from matplotlib.tri import Triangulation
     sizes = flux(result, load)
-    parts = [Triangulation(*result.mesh.nodes[part.nodes].T, part.triangles) for part in load.fields]
+    parts = [_triangulation(result, part) for part in load.fields]
     shown, highest = flux_peaks(result, load, sizes)
     steps = _levels(load, levels)
     scale = Scale(steps.min(), steps.max())
