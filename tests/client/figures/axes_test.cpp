@@ -31,8 +31,8 @@ TEST(Axes, of_a_range_without_extent_reach_around_it) {
 
 TEST(Axes, have_a_label_where_no_round_one_lies_on_a_short_side) {
   EXPECT_EQ(tics('y', {0, 10}, 20, Scale()), "set ytics 0, 20, 10");
-  EXPECT_EQ(tics('y', {11, 19}, 20, Scale()), "set ytics ('15' 15)");
-  EXPECT_EQ(tics('y', {25.1, 25.9}, 20, Scale()), "set ytics ('25.5' 25.5)");
+  EXPECT_EQ(tics('y', {11, 19}, 20, Scale()), "set ytics ('16' 16)");
+  EXPECT_EQ(tics('y', {25.1, 25.9}, 20, Scale()), "set ytics ('25.6' 25.6)");
 }
 
 TEST(Axes, far_from_zero_leave_an_offset_out_and_say_so) {
