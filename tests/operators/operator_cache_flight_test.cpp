@@ -187,9 +187,26 @@ TEST(OperatorCacheError, OfAnyOtherKindIsTold) {
   OperatorCache broken(std::uint64_t{1} << 30,
                        [](auto, std::stop_token) -> Operator { throw std::runtime_error("odd"); });
   EXPECT_TRUE(throws([&] { broken.acquire("mesh", mesh, {}); }, Reason::internal));
-  OperatorCache exhausted(std::uint64_t{1} << 30,
-                          [](auto, std::stop_token) -> Operator { throw std::bad_alloc(); });
-  EXPECT_TRUE(throws([&] { exhausted.acquire("mesh", mesh, {}); }, Reason::busy));
+}
+
+TEST(OperatorCacheError, OfTooLittleMemoryGoesAwayWithWhatIsInMemory) {
+  const auto mesh = small_mesh();
+  bool there_is_memory = true;
+  OperatorCache cache(std::uint64_t{1} << 30, [&](auto made_of, std::stop_token stop) {
+    if (!there_is_memory) throw std::bad_alloc();
+    return MeshOperator::factorise(std::move(made_of), 1, stop);
+  });
+  Operator held = cache.acquire("held", mesh, {});
+  cache.acquire("unused", mesh, {});
+  there_is_memory = false;
+  EXPECT_TRUE(throws([&] { cache.acquire("mesh", mesh, {}); }, Reason::busy));
+  EXPECT_FALSE(cache.contains("unused"));
+  EXPECT_TRUE(throws([&] { cache.acquire("mesh", mesh, {}); }, Reason::busy)) << "a job may end";
+  held.reset();
+  EXPECT_TRUE(throws([&] { cache.acquire("mesh", mesh, {}); }, Reason::busy));
+  EXPECT_TRUE(throws([&] { cache.acquire("mesh", mesh, {}); }, Reason::limit_exceeded));
+  there_is_memory = true;
+  EXPECT_TRUE(cache.acquire("mesh", mesh, {}));
 }
 
 TEST(OperatorCacheEnd, StopsAFactorisationThatWasLeft) {

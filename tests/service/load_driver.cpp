@@ -151,6 +151,13 @@ void probe(Run& run, const Daemon& daemon, int seconds) {
   tell("health check", checks);
 }
 
+/// Whether they were not in memory.
+bool waited_for_factors(const v1::Job& job) {
+  return std::any_of(job.timeline().begin(), job.timeline().end(), [](const v1::Job::Step& step) {
+    return step.detail().find("factorising") != std::string::npos;
+  });
+}
+
 /// Jobs of one client, one after the other, timed from the request to the end.
 void be_modest(Run& run, const client::ConnectionOptions& chosen, int seconds, const char* what) {
   client::Connection connection(chosen);
@@ -194,13 +201,6 @@ Work slow_work() {
 /// What the greedy ones want next.
 Work greedy_work(const std::string& kind, unsigned number) {
   return kind == "fresh" ? fresh_work(number) : kind == "slow" ? slow_work() : small_work();
-}
-
-/// What a modest job waited for.
-bool waited_for_factors(const v1::Job& job) {
-  return std::any_of(job.timeline().begin(), job.timeline().end(), [](const v1::Job::Step& step) {
-    return step.detail().find("factorising") != std::string::npos;
-  });
 }
 
 client::ConnectionOptions as(const std::string& owner, const std::string& address, Run& run) {
