@@ -87,7 +87,7 @@ void check_held(const Geometry& geometry, const Plan& plan) {
 
 /// Refuses inclusions and cracks beside which a piece of the membrane would be held in a point
 /// alone: at the end of a side that is held, or between two that end in a point of one.
-void check_contacts(const Layout& layout, const Network& network, const Plan& plan) {
+void check_contacts(const Layout& layout, const Plan& plan) {
   struct Ends {
     int held = 0;   ///< curves of the boundary where u is held
     int free = 0;   ///< and others
@@ -264,7 +264,7 @@ Plan plan(const Geometry& given, const MeshOptions& options, std::size_t max_tri
   const std::vector<const Stretch*> stretches = stretches_of(layout, network);
   add_curves(layout, network, stretches, plan);
   check_held(geometry, plan);
-  check_contacts(layout, network, plan);
+  check_contacts(layout, plan);
   lay_subdomains(geometry, network, names, walks_of(stretches), plan);
   if (options.preset == Preset::paper) {
     check_for_paper(geometry, options, plan);
