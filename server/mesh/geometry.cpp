@@ -85,6 +85,39 @@ void check_held(const Geometry& geometry, const Plan& plan) {
          "whole; leave a side or a hole out of neumann, or hold an inclusion, as by fixed = 0");
 }
 
+/// Refuses inclusions and cracks beside which a piece of the membrane would be held in a point
+/// alone: at the end of a side that is held, or between two that end in a point of one.
+void check_contacts(const Layout& layout, const Plan& plan) {
+  struct Ends {
+    int held = 0;   ///< curves of the boundary where u is held
+    int free = 0;   ///< and others
+    int parts = 0;  ///< curves of inclusions and cracks
+  };
+  std::vector<Ends> ends(plan.points.size());
+  for (const PlannedCurve& curve : plan.curves) {
+    for (const int point : {curve.a, curve.b}) {
+      Ends& at_point = ends[at(point)];
+      if (curve.role == Role::dirichlet) ++at_point.held;
+      if (curve.role == Role::neumann) ++at_point.free;
+      if (curve.role == Role::interface && curve.kind != Kind::glue) ++at_point.parts;
+    }
+  }
+  for (const PlacedPart& part : layout.parts) {
+    for (const bool end : {false, true}) {
+      const int point = end ? part.end.point : part.begin.point;
+      const Ends& there = ends[at(point)];
+      if (there.held == 0 || (there.free == 0 && there.parts == 1)) continue;
+      const std::string which = end != part.reversed ? ".to" : ".from";
+      refuse(place_of(part) + (part.own ? "" : which), part.field, " ends at ",
+             show(plan.points[at(point)]),
+             there.free > 0 ? " on the boundary, where u is held on one side of it only; end it "
+                              "elsewhere, or name what lies on both sides in neumann, or none"
+                            : " on the boundary, where u is held and another one ends; let them "
+                              "end apart");
+    }
+  }
+}
+
 /// The stretch that each chord of an interface lies on, or null.
 std::vector<const Stretch*> stretches_of(const Layout& layout, const Network& network) {
   std::vector<const Stretch*> stretches;
@@ -231,6 +264,7 @@ Plan plan(const Geometry& given, const MeshOptions& options, std::size_t max_tri
   const std::vector<const Stretch*> stretches = stretches_of(layout, network);
   add_curves(layout, network, stretches, plan);
   check_held(geometry, plan);
+  check_contacts(layout, plan);
   lay_subdomains(geometry, network, names, walks_of(stretches), plan);
   if (options.preset == Preset::paper) {
     check_for_paper(geometry, options, plan);

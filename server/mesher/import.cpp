@@ -166,6 +166,42 @@ void take_interfaces(const EdgeRoles& roles, const std::vector<bool>& on_boundar
   }
 }
 
+/// As check_contacts in mesh/geometry.cpp: no piece of the membrane is held in a point alone.
+void check_contacts(const mesh::EdgeTable& edges, const Mesh& mesh) {
+  struct Ends {
+    int held = 0;
+    int boundary = 0;
+    int parts = 0;
+  };
+  std::map<std::int32_t, Ends> ends;
+  for (const auto& edge : mesh.dirichlet)
+    for (const std::int32_t node : edge) ++ends[node].held;
+  const auto add = [&](std::int32_t node, int Ends::*count) {
+    if (const auto found = ends.find(node); found != ends.end()) ++(found->second.*count);
+  };
+  edges.each([&](std::span<const mesh::EdgeUse> uses) {
+    if (uses.size() != 1) return;
+    add(uses[0].from, &Ends::boundary);
+    add(uses[0].to, &Ends::boundary);
+  });
+  for (const mesh::Interface& interface : mesh.interfaces) {
+    for (std::size_t i = 0; i < interface.kind.size(); ++i) {
+      if (interface.kind[i] == Kind::glue) continue;
+      add(interface.nodes[i], &Ends::parts);
+      add(interface.nodes[i + 1], &Ends::parts);
+    }
+  }
+  for (const auto& [node, there] : ends) {
+    const bool both_sides = there.held == there.boundary;
+    if (there.parts == 0 || (both_sides && there.parts == 1)) continue;
+    refuse("{} at {} on the boundary, where u is held{}",
+           both_sides ? "two inclusions or cracks end" : "an inclusion or a crack ends",
+           place_of(mesh, node),
+           both_sides ? "; let them end apart"
+                      : " on one side of it only; end it elsewhere, or name both sides alike");
+  }
+}
+
 void take_motions(const std::map<std::string, mesh::Motion>& given, Mesh& mesh) {
   if (given.empty()) return;
   mesh.motions.resize(mesh.inclusions.size());
@@ -208,6 +244,7 @@ Mesh to_mesh(const MshFile& file, const mesh::MeshOptions& options) {
   take_interfaces(roles, edges.boundary_nodes(mesh.node_count()), directed, mesh);
   take_motions(options.inclusion_motions, mesh);
   mesh.dirichlet = std::move(roles.dirichlet);
+  check_contacts(edges, mesh);
   shorten(mesh.warnings);
   mesh::validate(mesh);
   return mesh;

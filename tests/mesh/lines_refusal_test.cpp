@@ -209,10 +209,6 @@ const Fault line_faults[] = {
      },
      "inclusions[1].part",
      {"share the tip (0.5, 0)", "make them one"}},
-    {"CrackAtTheDirichletBoundary",
-     [](Geometry& g) { g.cracks = {crack("c", 0.75, 1)}; },
-     "cracks[0].part.to",
-     {"ends at (1, 0) on the boundary", "in neumann"}},
     {"RingAllCracked",
      [](Geometry& g) {
        add(g, "b", {{0, 0.25}, {0.5, 0.25}, {0, 0.5}}, true);

@@ -98,7 +98,7 @@ TEST(PlanParts, NeumannPartsOfTheBoundary) {
   }
 }
 
-TEST(PlanParts, ACrackMayLeaveThroughTheNeumannBoundary) {
+TEST(PlanParts, ACrackMayLeaveThroughTheBoundary) {
   Geometry geometry = square();
   geometry.interfaces = {polyline("a", {{-1, 0}, {1, 0}})};
   geometry.cracks = {{"c", {{0, 0}, {1, 0}}}};
@@ -107,15 +107,33 @@ TEST(PlanParts, ACrackMayLeaveThroughTheNeumannBoundary) {
   // two parts that meet there
   geometry.neumann = {{{1, 0}, {1, 1}}, {{1, -1}, {1, 0}}};
   expect_consistent(plan_of(geometry), 4);
-  for (const mesh::Part& part :
-       {mesh::Part{{1, -1}, {1, 0}}, mesh::Part{{1, 0}, {1, 1}}, mesh::Part{{-1, 1}, {-1, -1}}}) {
+  // and where u is held
+  geometry.neumann = {{{-1, 1}, {-1, -1}}};
+  expect_consistent(plan_of(geometry), 4);
+  // on one side alone one of its faces would be held in a point
+  for (const mesh::Part& part : {mesh::Part{{1, -1}, {1, 0}}, mesh::Part{{1, 0}, {1, 1}}}) {
     geometry.neumann = {part};
     EXPECT_TRUE(testing::throws([&] { plan_of(geometry); }, errors::Reason::geometry_invalid,
                                 "cracks[0].part.to"));
   }
 }
 
-TEST(PlanParts, AnInclusionMayLeaveThroughTheNeumannBoundary) {
+TEST(PlanParts, TwoCracksMayNotEndInOnePointThatIsHeld) {
+  Geometry geometry = square();
+  const auto from_corner = [](double x) {
+    return mesh::CrackSpec{"c" + std::to_string(x > 0),
+                           {},
+                           true,
+                           mesh::LineSpec{mesh::Shape::polyline, {{0, -1}, {x, 0}}}};
+  };
+  geometry.cracks = {from_corner(-0.5), from_corner(0.5)};
+  EXPECT_TRUE(testing::throws([&] { plan_of(geometry); }, errors::Reason::geometry_invalid,
+                              "cracks[0].line"));
+  geometry.cracks.pop_back();
+  expect_consistent(plan_of(geometry), 4);
+}
+
+TEST(PlanParts, AnInclusionMayLeaveThroughTheBoundary) {
   Geometry geometry = square();
   geometry.interfaces = {polyline("a", {{-1, 0}, {1, 0}})};
   geometry.inclusions = {{"bar", {{0, 0}, {1, 0}}, {{{0, 0}, {0.5, 0}}}}};

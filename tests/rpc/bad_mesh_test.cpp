@@ -47,9 +47,6 @@ const std::vector<BadMesh>& bad_meshes() {
       {"InclusionOffTheInterface",
        [](auto& request) { move(*part(request).mutable_from(), 0, 0.1); }, "GEOMETRY_INVALID",
        "geometry.inclusions[0].part.from"},
-      {"InclusionThatTouchesTheBoundary",
-       [](auto& request) { move(*part(request).mutable_to(), 1, 0); }, "GEOMETRY_INVALID",
-       "geometry.inclusions[0].part.to"},
       {"InterfaceThatSeparatesAndCarriesNothing",
        [](auto& request) {
          geometry(request).clear_inclusions();
