@@ -82,8 +82,6 @@ std::string how_it_ended(int status, const std::string& when = "") {
   switch (number) {
     case SIGKILL:
       return signal + ", perhaps because memory ran out: a coarser mesh takes less";
-    case SIGXFSZ:
-      return signal + ", the limit of a file's size: raise it with ulimit -f";
     case SIGXCPU:
       return signal + ", the limit of processor time: raise it with ulimit -t";
     default:

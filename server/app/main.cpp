@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <chrono>
 #include <cstdlib>
 #include <iostream>
@@ -88,8 +89,10 @@ int serve(const app::Config& config, const app::PrivatePlace* place) {
   app::require_usable_surroundings(config);
   const app::Signals signals;
   auto service = std::make_unique<app::Service>(config);
-  for (const std::string& odd : app::odd_surroundings(config))
-    log::warn("surroundings", {{"odd", odd}});
+  if (place == nullptr) {  // of which nothing is to be kept
+    for (const std::string& odd : app::odd_surroundings(config))
+      log::warn("surroundings", {{"odd", odd}});
+  }
   std::cout << "anticrackd listening on " << service->address() << std::endl;
   log::info("started", {{"version", rpc::version()},
                         {"address", service->address()},
@@ -130,8 +133,9 @@ int run(int argc, char** argv) {
   const app::CommandLine line = app::parse_command_line(argc, argv, rpc::version());
   if (line.text) {
     std::cout << *line.text << std::flush;
-    if (!std::cout) throw std::runtime_error("standard output cannot be written");
-    return 0;
+    if (std::cout) return 0;
+    if (errno == EPIPE) return 128 + SIGPIPE;  // who read it, as head, has enough
+    throw std::runtime_error("standard output cannot be written");
   }
   std::optional<app::PrivatePlace> place;
   std::vector<app::Setting> file;

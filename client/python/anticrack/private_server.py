@@ -93,7 +93,6 @@ class Server:
             return f"ended with exit code {code}{when}"
         known: dict[int, str] = {
             signal.SIGKILL: ", perhaps because memory ran out: a coarser mesh takes less",
-            signal.SIGXFSZ: ", the limit of a file's size: raise it with ulimit -f",
             signal.SIGXCPU: ", the limit of processor time: raise it with ulimit -t"}
         return f"died of signal {-code} ({signal.strsignal(-code)}){when}{known.get(-code, '')}"
 
