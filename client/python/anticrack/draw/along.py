@@ -9,7 +9,7 @@ import numpy as np
 from ..arrays import Array
 from ..errors import Error
 from ..result import CRACK, DELAMINATED, Interface, Load, Result, Trace, runs
-from ..text import shown
+from ..text import harmless
 from .panel import LINES, axes, cut, load_of
 
 
@@ -21,7 +21,7 @@ def _interface(result: Result, load: Load, interface: int | str | None, pressed:
     if interface is not None:
         return result.interfaces.place(interface)
     if not load.traces:
-        raise Error(f"{shown(load.name)} has no traces")
+        raise Error(f"{harmless(load.name)} has no traces")
     jumps = [np.abs(trace.jump).max(initial=0) for trace in load.traces]
     largest = max(np.abs(trace.u_plus).max(initial=0) for trace in load.traces)
     contact = [_lengths(line) @ (trace.contact != 0) for line, trace in zip(result.interfaces, load.traces)]
@@ -39,14 +39,14 @@ def _lengths(line: Interface) -> Array:
 
 def _arc_length(result: Result, line: Interface) -> str:
     """For an axis."""
-    return f"arc length of {shown(line.name)} from ({line.x[0]:.4g}, {line.y[0]:.4g}){result.units.label('L')}"
+    return f"arc length of {harmless(line.name)} from ({line.x[0]:.4g}, {line.y[0]:.4g}){result.units.label('L')}"
 
 
 def _shade_contact(line: Interface, trace: Trace, ax: Any, load: Load, curve: Any) -> None:
     """In the colour of its curve, so that those of several loads are told apart. To the middles of the edges at its
     ends: the bands add up to the contact length."""
     middles = np.concatenate((line.s[:1], (line.s[:-1] + line.s[1:]) / 2, line.s[-1:]))
-    label: str | None = f"{shown(load.name)}: contact"
+    label: str | None = f"{harmless(load.name)}: contact"
     for first, last in runs(trace.contact):
         if trace.contact[first]:
             ax.axvspan(middles[first], middles[last], color=curve.get_color(), alpha=0.2, linewidth=0, zorder=0,
@@ -66,7 +66,7 @@ def _bars(result: Result, line: Interface, ax: Any) -> None:
     for inclusion in sorted(set(line.edge_inclusion.tolist()) - {-1}):
         lies = line.edge_inclusion == inclusion
         middle = (line.s[:-1][lies].min() + line.s[1:][lies].max()) / 2
-        ax.annotate(shown(result.mesh.inclusions[inclusion]), (middle, 0.04), ha="center",
+        ax.annotate(harmless(result.mesh.inclusions[inclusion]), (middle, 0.04), ha="center",
                     xycoords=ax.get_xaxis_transform())
 
 
@@ -96,14 +96,14 @@ def traces(result: Result, load: str | Load | None = None, interface: int | str 
     index = _interface(result, load, interface)
     line, trace = result.interfaces[index], load.traces[index]
     first = not ax.lines
-    (curve,) = ax.plot(line.s, trace.u_minus, label=f"{shown(load.name)}: $u^-$")
-    ax.plot(line.s, trace.u_plus, "--", label=f"{shown(load.name)}: $u^+$")
-    ax.plot(line.s, trace.jump, ":", label=f"{shown(load.name)}: $[u]$")
+    (curve,) = ax.plot(line.s, trace.u_minus, label=f"{harmless(load.name)}: $u^-$")
+    ax.plot(line.s, trace.u_plus, "--", label=f"{harmless(load.name)}: $u^+$")
+    ax.plot(line.s, trace.jump, ":", label=f"{harmless(load.name)}: $[u]$")
     _shade_contact(line, trace, ax, load, curve)
     if first:
         _bars(result, line, ax)
     ax.set(xlabel=_arc_length(result, line), ylabel="displacement" + result.units.label("L"),
-           title=shown(load.name) if first else "")
+           title=harmless(load.name) if first else "")
     # Several loads leave no room between their curves.
     ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncol=2, fontsize="small", frameon=False)
     return ax
@@ -119,7 +119,7 @@ def pressure(result: Result, load: str | Load | None = None, interface: int | st
     line, trace = result.interfaces[index], load.traces[index]
     s, values, lengths, closed = edge_pressure(line, trace)
     first = not ax.lines
-    name = shown(load.name) if closed.any() else f"{shown(load.name)}: no contact"
+    name = harmless(load.name) if closed.any() else f"{harmless(load.name)}: no contact"
     (curve,) = ax.plot(s, values, label=name)
     unit = result.units.label("F/L")
     label = ax.get_ylabel() or "contact pressure" + unit

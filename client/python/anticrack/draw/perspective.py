@@ -9,7 +9,7 @@ import numpy as np
 from ..arrays import Array
 from ..errors import Error
 from ..result import Load, Result, runs
-from ..text import shown
+from ..text import harmless
 from .panel import BOX, LINES, axes, fields, load_of
 
 _NAMES = 6  # of inclusions: more would cover each other
@@ -42,7 +42,7 @@ def _mark(result: Result, load: Load, factor: float, ax: Any) -> None:
             ax.plot(*line, color=LINES[kind][1], linewidth=1.5, zorder=100)
             if inclusion >= 0 and inclusion not in named and len(result.mesh.inclusions) <= _NAMES:
                 named.add(inclusion)
-                ax.text(*line[:, line.shape[1] // 2], shown(result.mesh.inclusions[inclusion]), ha="center",
+                ax.text(*line[:, line.shape[1] // 2], harmless(result.mesh.inclusions[inclusion]), ha="center",
                         va="bottom", fontsize="small", bbox=BOX, zorder=101)
 
 
@@ -78,7 +78,7 @@ def membrane(result: Result, load: str | Load | None = None, ax: Any = None, cma
     _mark(result, load, factor, ax)
     length, low, high = result.units.label("L"), nodes.min(axis=0), nodes.max(axis=0)
     scale = "to scale" if factor == 1 else f"amplified \u00d7{factor:.4g}"
-    ax.set(xlabel="x" + length, ylabel="y" + length, zticks=[], title=f"{shown(load.name)}: u {scale}")
+    ax.set(xlabel="x" + length, ylabel="y" + length, zticks=[], title=f"{harmless(load.name)}: u {scale}")
     ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
     ax.locator_params(nbins=5)
     ax.set_box_aspect([np.ptp(limits) for limits in (ax.get_xlim(), ax.get_ylim(), ax.get_zlim())])

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..arrays import Array
 from ..result import DELAMINATED, Load, Result, runs
-from ..text import shown
+from ..text import harmless
 from .panel import BOX, LINES, axes, cut, fields, load_of
 
 _NAMES = 20  # of inclusions: more would cover each other
@@ -71,7 +71,7 @@ def interfaces(result: Result, load: str | Load | None = None, ax: Any = None, l
                 named.add(inclusion)
                 middle = len(x) // 2
                 up, right = across[1, middle], across[0, middle]
-                ax.annotate(shown(result.mesh.inclusions[inclusion]), (x[middle], y[middle]),
+                ax.annotate(harmless(result.mesh.inclusions[inclusion]), (x[middle], y[middle]),
                             xytext=(6 * right, 6 * up), textcoords="offset points",
                             va="bottom" if up > 0.5 else "top" if up < -0.5 else "center",
                             ha="center" if abs(up) > 0.9 else "left" if right > 0 else "right",
@@ -100,7 +100,7 @@ def displacement(result: Result, load: str | Load | None = None, ax: Any = None,
             _lines(steps, triangulation, part.u, 0.3, ax)
     ax.figure.colorbar(shades, ax=ax, label="u" + result.units.label("L"))
     interfaces(result, load, ax)
-    ax.set_title(shown(load.name))
+    ax.set_title(harmless(load.name))
     return ax
 
 
@@ -144,5 +144,5 @@ def plan(result: Result, load: str | Load | None = None, ax: Any = None, levels:
     ax.figure.colorbar(shades, ax=ax, label=name + said,
                        extend="max" if said else "neither")
     interfaces(result, load, ax)
-    ax.set_title(f"{shown(load.name)}: lines of u{result.units.label('L')}")
+    ax.set_title(f"{harmless(load.name)}: lines of u{result.units.label('L')}")
     return ax
