@@ -277,8 +277,7 @@ std::optional<double> Line::locate(const Point& p, double tolerance) const {
     }
   };
   const auto spans = static_cast<std::size_t>(_spans);
-  std::array<std::size_t, 64> open;  // nodes of the tree; deeper ones replace their parent
-  open[0] = 1;
+  std::array<std::size_t, 64> open{1};  // nodes of the tree; deeper ones replace their parent
   for (std::size_t count = 1; count > 0;) {
     const std::size_t node = open[--count];
     const Box& box = _boxes[node];

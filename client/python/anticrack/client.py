@@ -19,7 +19,7 @@ from .result import Result
 from .retry import Backoff
 from .session import ENDED, Session
 from .sweeps import coefficients_of
-from .text import shown
+from .text import harmless
 from .transport import Transport, each, finished
 from .v1 import mesh_pb2, server_pb2, solve_pb2
 
@@ -73,13 +73,13 @@ class JobState:
         return result
 
     def __repr__(self) -> str:
-        return f"<{shown(self.name)}: {self.state}>"
+        return f"<{harmless(self.name)}: {self.state}>"
 
 
 def noted(result: Result) -> Result:
     """Warns of what is to be known, at the line that called run()."""
     for note in notes_on(result):
-        warnings.warn(shown(note), stacklevel=3)
+        warnings.warn(harmless(note), stacklevel=3)
     return result
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import grpc
 
-from .text import shown
+from .text import harmless
 from .v1 import error_pb2
 
 
@@ -60,7 +60,7 @@ class ServerError(Error):
     def __init__(self, code: str, message: str, reason: str = "", fields: tuple[tuple[str, str], ...] = (),
                  metadata: dict[str, str] | None = None, retry_delay: float = 0) -> None:
         lines = [f"{path}: {what}" for path, what in fields]
-        super().__init__(shown("\n".join(lines) or message, "\n"))
+        super().__init__(harmless("\n".join(lines) or message, "\n"))
         self.code, self.reason, self.fields = code, reason, fields
         self.metadata, self.retry_delay = metadata or {}, retry_delay
 

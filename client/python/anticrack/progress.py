@@ -10,7 +10,7 @@ from typing import Any, TextIO
 import numpy as np
 
 from .result import known
-from .text import shown
+from .text import harmless
 from .v1 import solve_pb2
 
 WIDTH = 20
@@ -143,7 +143,7 @@ class Progress:
                 self._out.write("\n")
             self._out.flush()
         elif lines:
-            self._out.write("".join(shown(f"{self._name}: {part}") + "\n" for part in lines))
+            self._out.write("".join(harmless(f"{self._name}: {part}") + "\n" for part in lines))
             self._out.flush()
 
     def _columns(self) -> int:
@@ -155,7 +155,7 @@ class Progress:
             return 100
 
     def _text(self) -> str:
-        return shown(f"{self._name} {self._state.bar()}")
+        return harmless(f"{self._name} {self._state.bar()}")
 
 
 def _is_terminal(out: TextIO | None) -> bool:

@@ -15,7 +15,7 @@ import numpy as np
 from .arrays import Array
 from .errors import Error, package
 from .names import Named, Parts
-from .text import counted, html_table, interval, lines, listed, short_length, shown
+from .text import counted, harmless, html_table, interval, lines, listed, short_length
 from .v1 import mesh_pb2, solve_pb2
 
 NAN = float("nan")
@@ -82,7 +82,7 @@ class Interface:
 
     def __repr__(self) -> str:
         length = self.s[-1] if len(self.s) else 0.0
-        return f"{shown(self.name)}: {counted(len(self.s), 'node')}, {length:.6g}{self.units.behind('L')} long"
+        return f"{harmless(self.name)}: {counted(len(self.s), 'node')}, {length:.6g}{self.units.behind('L')} long"
 
 
 @dataclass(repr=False)
@@ -97,7 +97,7 @@ class Trace:
     name, units = "", Units()  # of the interface
 
     def __repr__(self) -> str:
-        return (f"{shown(self.name or 'interface')}: {counted(len(self.jump), 'node')}, "
+        return (f"{harmless(self.name or 'interface')}: {counted(len(self.jump), 'node')}, "
                 f"{int((self.contact != 0).sum())} in contact, "
                 f"[u] up to {self.jump.max(initial=0):.4g}{self.units.behind('L')}")
 
@@ -116,7 +116,7 @@ class Field:
         return self.subdomain
 
     def __repr__(self) -> str:
-        return (f"{shown(self.name)}: {counted(len(self.nodes), 'node')}, "
+        return (f"{harmless(self.name)}: {counted(len(self.nodes), 'node')}, "
                 f"{counted(len(self.triangles), 'triangle')}, "
                 f"u from {self.u.min():.4g} to {self.u.max():.4g}{self.units.behind('L')}")
 
@@ -143,7 +143,7 @@ class Inclusion:
     units = Units()
 
     def __repr__(self) -> str:
-        told = f"{shown(self.name)}: A = {interval(self.A_lower, self.A_upper, self.A, self.units.behind('L'))}"
+        told = f"{harmless(self.name)}: A = {interval(self.A_lower, self.A_upper, self.A, self.units.behind('L'))}"
         if self.Bx or self.By:
             told += (f", Bx = {interval(self.Bx_lower, self.Bx_upper, self.Bx)}, "
                      f"By = {interval(self.By_lower, self.By_upper, self.By)}")
@@ -214,9 +214,9 @@ class Load:
         return interval(self.energy_lower, self.energy_upper, self.energy, self.units.behind("F L"))
 
     def __repr__(self) -> str:
-        told = f"{shown(self.name)}: {self.status.replace('_', ' ')}"
+        told = f"{harmless(self.name)}: {self.status.replace('_', ' ')}"
         if self.reason or self.error:
-            told += f" ({shown(self.reason or self.error)})"
+            told += f" ({harmless(self.reason or self.error)})"
         if not np.isnan(self.energy):
             told += (f", energy = {self._energy()}, contact length "
                      f"{short_length(self.contact_length)}{self.units.behind('L')}")
@@ -341,11 +341,11 @@ class Result:
 
     def _title(self) -> str:
         what = repr(self.sweep) if self.sweep is not None else counted(len(self.loads), "load case")
-        return f"{shown(self.title or 'result')}: {counted(len(self.mesh.triangles), 'triangle')}, {what}"
+        return f"{harmless(self.title or 'result')}: {counted(len(self.mesh.triangles), 'triangle')}, {what}"
 
     def __repr__(self) -> str:
         told = [self._title(), *([repr(self.loads)] if self.loads else [])]
-        return "\n".join(told + [f"not reached: {shown(self.not_reached)}"] * bool(self.not_reached))
+        return "\n".join(told + [f"not reached: {harmless(self.not_reached)}"] * bool(self.not_reached))
 
     def _repr_html_(self) -> str:
         """For a notebook."""

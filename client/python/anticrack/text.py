@@ -18,7 +18,7 @@ _IGNORABLE = re.compile("[\u034f\u115f\u1160\u17b4\u17b5\u180b-\u180f\u2065\u316
 _HIDDEN = {"Cc", "Cf", "Cs", "Zl", "Zp"}
 
 
-def shown(text: object, keep: str = "") -> str:
+def harmless(text: object, keep: str = "") -> str:
     """Text of others for a terminal or a page, as the command shows it: what does not show itself, as line breaks and
     marks of the direction of writing, becomes "?", but for what is in `keep`."""
     return "".join(c if c in keep or not (unicodedata.category(c) in _HIDDEN or _IGNORABLE.match(c)) else "?"
@@ -69,7 +69,7 @@ def without_numpy(value: Any) -> Any:
 
 def short(text: str, most: int = 60) -> str:
     """In one line, cut."""
-    text = shown(" ".join(text.split()))
+    text = harmless(" ".join(text.split()))
     return text if len(text) <= most else text[:most] + "..."
 
 
@@ -79,7 +79,7 @@ def counted(count: int, one: str) -> str:
 
 def listed(names: Iterable[object], most: int = 20) -> str:
     """Separated by commas; of many the first."""
-    texts = [shown(name) for name in names]
+    texts = [harmless(name) for name in names]
     return ", ".join(texts[:most]) + (f" and {len(texts) - most} more" if len(texts) > most else "")
 
 
@@ -88,7 +88,7 @@ def suggestion(word: str, known: Iterable[str]) -> str:
     known = list(known)
     near = difflib.get_close_matches(word, known, 1)
     if near:
-        return f"did you mean {shown(near[0])}?"
+        return f"did you mean {harmless(near[0])}?"
     return f"known are {listed(known)}" if known else "there are none"
 
 
@@ -101,7 +101,7 @@ def lines(items: Sequence[object], most: int = 10) -> str:
 def html_table(title: str, head: Sequence[str], rows: Sequence[Sequence[str]], most: int = 50) -> str:
     """Of many rows the first."""
     def row(cells: Sequence[str], tag: str) -> str:
-        return "<tr>" + "".join(f"<{tag}>{html.escape(shown(cell))}</{tag}>" for cell in cells) + "</tr>"
+        return "<tr>" + "".join(f"<{tag}>{html.escape(harmless(cell))}</{tag}>" for cell in cells) + "</tr>"
     more = f"<p>and {len(rows) - most} more</p>" if len(rows) > most else ""
-    return (f"<p>{html.escape(shown(title))}</p><table>{row(head, 'th')}"
+    return (f"<p>{html.escape(harmless(title))}</p><table>{row(head, 'th')}"
             f"{''.join(row(cells, 'td') for cells in rows[:most])}</table>{more}")

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..arrays import Array
 from ..result import CRACK, DELAMINATED, Interface, Load, Result, Trace, runs
-from ..text import shown as printable
+from ..text import harmless
 from .panel import (LINES, axes, cut, legend_below, load_of, named_without, number_text, offset_of, point_text,
                     traces_of)
 
@@ -40,7 +40,7 @@ def _lengths(line: Interface) -> Array:
 def _arc_length(result: Result, line: Interface) -> str:
     """For an axis."""
     start = point_text(line.x[0], line.y[0], line.s[-1])
-    return f"arc length of {printable(line.name)} from {start}{result.units.label('L')}"
+    return f"arc length of {harmless(line.name)} from {start}{result.units.label('L')}"
 
 
 def _show_zero(load: Load, trace: Trace, ax: Any) -> None:
@@ -58,7 +58,7 @@ def _shade_contact(line: Interface, trace: Trace, ax: Any, load: Load, curve: An
     """In the colour of its curve, so that those of several loads are told apart. To the middles of the edges at its
     ends: the bands add up to the contact length."""
     middles = np.concatenate((line.s[:1], (line.s[:-1] + line.s[1:]) / 2, line.s[-1:]))
-    label: str | None = f"{printable(load.name)}: contact"
+    label: str | None = f"{harmless(load.name)}: contact"
     for first, last in runs(trace.contact):
         if trace.contact[first]:
             ax.axvspan(middles[first], middles[last], color=curve.get_color(), alpha=0.2, linewidth=0, zorder=0,
@@ -78,7 +78,7 @@ def _bars(result: Result, line: Interface, ax: Any) -> None:
     for inclusion in sorted({int(inclusion) for inclusion in line.edge_inclusion} - {-1}):
         lies = line.edge_inclusion == inclusion
         middle = (line.s[:-1][lies].min() + line.s[1:][lies].max()) / 2
-        ax.annotate(printable(result.mesh.inclusions[inclusion]), (middle, 0.04), ha="center",
+        ax.annotate(harmless(result.mesh.inclusions[inclusion]), (middle, 0.04), ha="center",
                     xycoords=ax.get_xaxis_transform())
 
 
@@ -110,7 +110,7 @@ def traces(result: Result, load: str | Load | None = None, interface: int | str 
     first = not ax.lines
     values = np.concatenate((trace.u_minus, trace.u_plus))
     offset = offset_of(values.min(), values.max(), np.ptp(trace.jump))  # else [u] would be 0 against a lifted sheet
-    name = printable(load.name)
+    name = harmless(load.name)
     (curve,) = ax.plot(line.s, trace.u_minus - offset, label=f"{name}: {named_without('$u^-$', offset)}")
     ax.plot(line.s, trace.u_plus - offset, "--", label=f"{name}: {named_without('$u^+$', offset)}")
     ax.plot(line.s, trace.jump, ":", label=f"{name}: $[u]$")
@@ -119,7 +119,7 @@ def traces(result: Result, load: str | Load | None = None, interface: int | str 
     if first:
         _bars(result, line, ax)
     ax.set(xlabel=_arc_length(result, line), ylabel="displacement" + result.units.label("L"),
-           title=printable(load.name) if first else "")
+           title=harmless(load.name) if first else "")
     legend_below(ax)  # several loads leave no room between their curves
     return ax
 
@@ -134,7 +134,7 @@ def pressure(result: Result, load: str | Load | None = None, interface: int | st
     line, trace = result.interfaces[index], load.traces[index]
     s, values, lengths, closed = edge_pressure(line, trace)
     first = not ax.lines
-    name = printable(load.name) if closed.any() else f"{printable(load.name)}: no contact"
+    name = harmless(load.name) if closed.any() else f"{harmless(load.name)}: no contact"
     (curve,) = ax.plot(s, values, label=name)
     unit = result.units.label("F/L")
     label = ax.get_ylabel() or "contact pressure" + unit

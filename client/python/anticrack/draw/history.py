@@ -11,7 +11,7 @@ from ..arrays import Array, array_of
 from ..errors import Error
 from ..names import place
 from ..result import Load, Result, Sweep
-from ..text import shown as printable
+from ..text import harmless
 from .panel import axes, load_of
 
 _CURVES = 6  # of a sweep, at most
@@ -21,11 +21,11 @@ def convergence(result: Result, load: str | Load | None = None, ax: Any = None) 
     """Over the iterations: the relative change, and the residuals of the optimality conditions."""
     ax, load = axes(ax), load_of(result, load)
     if not load.history:
-        raise Error(f"{printable(load.name)} has no history of iterations")
+        raise Error(f"{harmless(load.name)} has no history of iterations")
     iterations = load.history["iteration"]
-    ax.plot(iterations, load.history["criterion"], ".-", label=f"{printable(load.name)}: relative change per iteration")
+    ax.plot(iterations, load.history["criterion"], ".-", label=f"{harmless(load.name)}: relative change per iteration")
     residuals = [load.history[name] for name in ("kkt_equilibrium", "kkt_gap", "kkt_sign", "kkt_complementarity")]
-    ax.plot(iterations, np.max(residuals, axis=0), ".--", label=f"{printable(load.name)}: largest KKT residual")
+    ax.plot(iterations, np.max(residuals, axis=0), ".--", label=f"{harmless(load.name)}: largest KKT residual")
     ax.set(xlabel="iteration", ylabel="relative change, KKT residual")
     _log_with_zero(ax)
     ax.xaxis.get_major_locator().set_params(integer=True, min_n_ticks=1)
@@ -48,12 +48,12 @@ def error_band(result: Result, load: str | Load | None = None, ax: Any = None) -
     """The energy of each stage and the band in which the membrane's own lies; takes a case with an accuracy."""
     ax, load = axes(ax), load_of(result, load)
     if not load.stages:
-        raise Error(f"{printable(load.name)} has no stages; solve with Case(accuracy=Accuracy(energy=1e-3)), in TOML "
+        raise Error(f"{harmless(load.name)} has no stages; solve with Case(accuracy=Accuracy(energy=1e-3)), in TOML "
                     "[accuracy]")
     stages = load.stages
     ax.fill_between(stages["triangles"], stages["energy_lower"], stages["energy_upper"], alpha=0.3,
-                    label=f"{printable(load.name)}: bounds of the membrane's energy")
-    ax.plot(stages["triangles"], stages["energy"], ".-", label=f"{printable(load.name)}: energy of the stage")
+                    label=f"{harmless(load.name)}: bounds of the membrane's energy")
+    ax.plot(stages["triangles"], stages["energy"], ".-", label=f"{harmless(load.name)}: energy of the stage")
     ax.set(xscale="log", xlabel="triangles", ylabel="energy" + result.units.label("F L"))
     from matplotlib.ticker import LogLocator, NullFormatter
     ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))  # of few decades, of which 1 alone is too few
@@ -109,14 +109,14 @@ def sweep(result: Result, x: str | int | Array | None = None, inclusion: str | i
         chosen = [place("inclusion", inclusion, columns.inclusions) if isinstance(inclusion, str) else inclusion]
     for i in chosen[:_CURVES]:
         (curve,) = ax.plot(values[rows], columns.displacement[rows, i], line,
-                           label=f"A of {printable(columns.inclusions[i])}")
+                           label=f"A of {harmless(columns.inclusions[i])}")
         if line == ".-" and columns.displacement_lower is not None and columns.displacement_upper is not None:
             ax.fill_between(values[rows], columns.displacement_lower[rows, i], columns.displacement_upper[rows, i],
                             color=curve.get_color(), alpha=0.3, linewidth=0)
     if not chosen:
         ax.plot(values[rows], columns.contact_length[rows], line, label="contact length")
     one = len(chosen) == 1
-    name = f"A of {printable(columns.inclusions[chosen[0]])}" if one else "A" if chosen else "contact length"
+    name = f"A of {harmless(columns.inclusions[chosen[0]])}" if one else "A" if chosen else "contact length"
     ax.set(xlabel=label, ylabel=name + result.units.label("L"))
     if label == "row":
         ax.xaxis.get_major_locator().set_params(integer=True)

@@ -10,7 +10,7 @@ import numpy as np
 from ..arrays import Array
 from ..errors import Error, package
 from ..result import BONDED, CRACK, DELAMINATED, FREE, Load, Result
-from ..text import shown
+from ..text import harmless
 
 # Of kinds of edges: name and colour, as in the command's figures.
 LINES = {BONDED: ("bonded inclusion", "#000000"), DELAMINATED: ("delaminated inclusion", "#E69F00"),
@@ -36,7 +36,8 @@ def load_of(result: Result, load: str | Load | None) -> Load:
 
 def fields(load: Load) -> list[Any]:
     if not load.fields:
-        raise Error(f"{shown(load.name)} has no fields; solve with Case(fields=True), in TOML [output] fields = true")
+        raise Error(f"{harmless(load.name)} has no fields; solve with Case(fields=True), in TOML [output] "
+                    "fields = true")
     return load.fields
 
 
@@ -45,7 +46,7 @@ def traces_of(result: Result, load: Load) -> None:
     if not result.interfaces:
         raise Error("the sheet has no interface, so there is nothing to draw along one")
     if not load.traces:
-        raise Error(f"{shown(load.name)} has no traces: it is {load.status.replace('_', ' ')}")
+        raise Error(f"{harmless(load.name)} has no traces: it is {load.status.replace('_', ' ')}")
 
 
 def widened(low: float, high: float) -> tuple[float, float]:

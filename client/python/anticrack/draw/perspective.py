@@ -9,7 +9,7 @@ import numpy as np
 from ..arrays import Array
 from ..errors import Error
 from ..result import Load, Result, runs
-from ..text import shown as printable
+from ..text import harmless
 from .panel import BOX, LINES, Scale, axes, factor_text, fields, label_axis, load_of, stretch_of, widened
 
 _NAMES = 6  # of inclusions: more would cover each other
@@ -42,7 +42,7 @@ def _mark(result: Result, load: Load, factor: float, ax: Any) -> None:
             ax.plot(*line, color=LINES[kind][1], linewidth=1.5, zorder=100)
             if inclusion >= 0 and inclusion not in named and len(result.mesh.inclusions) <= _NAMES:
                 named.add(inclusion)
-                ax.text(*line[:, line.shape[1] // 2], printable(result.mesh.inclusions[inclusion]), ha="center",
+                ax.text(*line[:, line.shape[1] // 2], harmless(result.mesh.inclusions[inclusion]), ha="center",
                         va="bottom", fontsize="small", bbox=BOX, zorder=101)
 
 
@@ -82,7 +82,7 @@ def membrane(result: Result, load: str | Load | None = None, ax: Any = None, cma
     _mark(result, load, factor, ax)
     low, high = nodes.min(axis=0), nodes.max(axis=0)
     scale = "to scale" if factor == 1 else f"amplified {factor_text(factor)}"
-    ax.set(zticks=[], title=f"{printable(load.name)}: u {scale}", xlim=(low[0], high[0]), ylim=(low[1], high[1]))
+    ax.set(zticks=[], title=f"{harmless(load.name)}: u {scale}", xlim=(low[0], high[0]), ylim=(low[1], high[1]))
     for i, axis in enumerate((ax.xaxis, ax.yaxis)):
         axis.get_major_locator().set_params(nbins=5 if shown[i] > shown.max() / 3 else 2)
         label_axis(axis, "xy"[i], result.units.behind("L").strip(),

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..arrays import Array
 from ..result import DELAMINATED, Load, Result, runs
-from ..text import shown as printable
+from ..text import harmless
 from .panel import (BOX, LINES, Scale, axes, cut, fields, label_axis, legend_below, load_of, number_text, stretch_of,
                     widened)
 
@@ -77,7 +77,7 @@ def interfaces(result: Result, load: str | Load | None = None, ax: Any = None, l
                 named.add(inclusion)
                 middle = len(x) // 2
                 up, right = across[1, middle], across[0, middle]
-                ax.annotate(printable(result.mesh.inclusions[inclusion]), (x[middle], y[middle]),
+                ax.annotate(harmless(result.mesh.inclusions[inclusion]), (x[middle], y[middle]),
                             xytext=(6 * right, 6 * up), textcoords="offset points",
                             va="bottom" if up > 0.5 else "top" if up < -0.5 else "center",
                             ha="center" if abs(up) > 0.9 else "left" if right > 0 else "right",
@@ -119,7 +119,7 @@ def displacement(result: Result, load: str | Load | None = None, ax: Any = None,
             _lines(steps, triangulation, part.u, 0.3, ax)
     ax.figure.colorbar(shades, ax=ax, label="u" + result.units.label("L"), **_beside(result))
     interfaces(result, load, ax)
-    ax.set_title(printable(load.name))
+    ax.set_title(harmless(load.name))
     return ax
 
 
@@ -163,5 +163,5 @@ def plan(result: Result, load: str | Load | None = None, ax: Any = None, levels:
     ax.figure.colorbar(shades, ax=ax, label=name + said,
                        extend="max" if said else "neither", **_beside(result))
     interfaces(result, load, ax)
-    ax.set_title(f"{printable(load.name)}: lines of {scale.label('u', result.units.behind('L').strip())}")
+    ax.set_title(f"{harmless(load.name)}: lines of {scale.label('u', result.units.behind('L').strip())}")
     return ax
