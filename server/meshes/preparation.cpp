@@ -36,6 +36,10 @@ double theta_star(const operators::MeshOperator& mesh_operator) {
   }
 }
 
+Error nobody_wants(const std::string& mesh) {
+  return {Reason::cancelled, "no job wants meshes/" + mesh + " any more"};
+}
+
 }  // namespace
 
 Preparation::Preparation(CatalogueOptions options, store::Store& store,
@@ -136,7 +140,7 @@ void Preparation::let_go(const std::string& id) {
     if (mesh == nullptr || !mesh->run || !mesh->users.expired()) return;
     const Run& its = *mesh->run;
     if (its.background || its.waiters > 0 || its.result || its.ending || its.writing) return;
-    run = give_up(*mesh, Error(Reason::cancelled, "no job wants meshes/" + id + " any more"));
+    run = give_up(*mesh, nobody_wants(id));
   }
   run->stop.request_stop();
 }
@@ -351,11 +355,11 @@ std::shared_ptr<const mesh::Mesh> Preparation::triangulate(Run& run) {
     ++mesh.version;
     run.phase = MeshState::factorizing;
     run.progress.reset();
+    run.writing = false;
     const bool wanted = run.background || run.waiters > 0 || !mesh.used || !mesh.users.expired();
-    if (!wanted) run.stop.request_stop();  // its last job ended while it was written
+    if (!wanted) give_up(mesh, nobody_wants(run.id));  // its last job ended while it was written
     _changed.notify_all();
   }
-  end_writing(run);
   if (!copied && _options.meshed) _options.meshed(made->record);
   return std::move(made->mesh);
 }
