@@ -40,7 +40,7 @@ mesh::Mesh near_mesh(const Near& near) {
   mesh::Geometry geometry;
   geometry.boundary = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
   for (const std::vector<Point>& points : near.lines) {
-    mesh::InclusionSpec one{fmt::format("fibre {}", geometry.inclusions.size()), {}, {}};
+    mesh::InclusionSpec one{fmt::format("fibre-{}", geometry.inclusions.size()), {}, {}};
     one.line = mesh::LineSpec{mesh::Shape::polyline, points};
     one.stretches = {{0, 1}};
     one.motion.tilt = near.tilt;
