@@ -188,7 +188,7 @@ Interval interval(const Aimed& aimed, const EquilibratedFlux& tau) {
     work -= 0.5 * kept[f] * (sigma.jump(f, 0) + sigma.jump(f, 1));
     limit(pressures, outward, pressure_of);
   }
-  if (jumps.left() || (pressures.left() && !bridged)) return {};
+  if (jumps.left() || pressures.left()) return {};  // another c is better
   double beyond = 0;
   for (const double one : primal.load.oscillation) beyond += one * one;
   const double off = std::sqrt(std::max(0.0, distance)), of_dual = std::sqrt(products.square);
