@@ -159,7 +159,7 @@ bool fall_back_a_stage(EngineCore& core, const EngineCore::Lock& /*held*/, const
     return true;
   }
   stages.over = true;
-  stages.not_reached = not_reached(stages.records.back(), *job->spec, error.what());
+  stages.not_reached = not_reached(stages.records.back(), {}, *job->spec, error.what());
   job->cases = std::exchange(stages.last.cases, {});
   core.settle(job);
   return true;
