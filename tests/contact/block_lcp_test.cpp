@@ -50,7 +50,7 @@ mesh::Mesh crossed_strip() {
 /// A strip solved both ways.
 class Strip {
  public:
-  explicit Strip(mesh::Mesh mesh) : _dense(std::move(mesh)), _joined(_dense.problem, 2, {}) {}
+  explicit Strip(mesh::Mesh mesh) : _dense(std::move(mesh)), _joined(_dense.problem, 2) {}
 
   JoinedMembrane::Reduced reduce(const char* force) const {
     const ddm::Decomposition& decomposition = _dense.space.decomposition;

@@ -21,7 +21,6 @@
 namespace anticrack::testing {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 
 std::string text(double value) {
   char digits[40];
@@ -48,10 +47,10 @@ class RandomShapes {
     };
     switch (_random() % 8) {
       case 0:
-        return where(squared + " < " + text(r * r), pi * r * r);
+        return where(squared + " < " + text(r * r), std::numbers::pi * r * r);
       case 1:  // a ring
         return where(squared + " < " + text(r * r) + " && " + squared + " > " + text(r * r / 4),
-                     pi * r * r * 3 / 4);
+                     std::numbers::pi * r * r * 3 / 4);
       case 2:  // a box
         return where("abs" + dx + " < " + text(r) + " && abs" + dy + " < " + text(r / 3),
                      4 * r * r / 3);
@@ -61,16 +60,16 @@ class RandomShapes {
         return where("abs" + dx + " < " + text(r), 4 * r);
       case 5: {  // a spike
         if (r > 0.05) return next();
-        return {text(rest) + "+" + text(force / (pi * r * r)) + "*exp(-" + squared + "/" +
+        return {text(rest) + "+" + text(force / (std::numbers::pi * r * r)) + "*exp(-" + squared + "/" +
                     text(r * r) + ")",
                 force + 4 * rest};
       }
       case 6:  // nested
         return where("(" + dx + " > 0 ? " + squared + " < " + text(r * r) + " : abs" + dy + " < " +
                          text(r) + " && " + dx + " > -" + text(r) + ")",
-                     pi * r * r / 2 + 2 * r * r);
+                     std::numbers::pi * r * r / 2 + 2 * r * r);
       default:  // a cone, and its foot
-        return {text(rest) + "+" + text(3 * force / (pi * r * r)) + "*max(0, 1-sqrt(" + squared +
+        return {text(rest) + "+" + text(3 * force / (std::numbers::pi * r * r)) + "*max(0, 1-sqrt(" + squared +
                     ")/" + text(r) + ")",
                 force + 4 * rest};
     }
@@ -121,7 +120,7 @@ TEST(LoadProof, TheEffectOfASmallDiscIsBoundedByALogarithm) {
   double before = 0;
   for (const double r : {1e-2, 1e-3, 1e-4, 1e-5}) {
     const Known disc{
-        "(x-0.213457)^2+(y-0.412345)^2 < " + text(r * r) + " ? " + text(1 / (pi * r * r)) + " : 0",
+        "(x-0.213457)^2+(y-0.412345)^2 < " + text(r * r) + " ? " + text(1 / (std::numbers::pi * r * r)) + " : 0",
         1};
     std::vector<double> load(mesh.node_count());
     fem::ForceParts parts;
@@ -137,7 +136,7 @@ TEST(LoadProof, TheEffectOfASmallDiscIsBoundedByALogarithm) {
     }
     const double bound = std::sqrt(squared);
     // The least possible: sqrt(log(R / r) / (2 pi)) with R about the size of a triangle.
-    EXPECT_GE(bound, std::sqrt(std::log(0.05 / r) / (2 * pi))) << r;
+    EXPECT_GE(bound, std::sqrt(std::log(0.05 / r) / (2 * std::numbers::pi))) << r;
     if (before > 0) {
       EXPECT_LE(bound - before, 5) << r;  // a disc by a tenth as large costs some 3.3 levels
     }

@@ -139,7 +139,6 @@ TEST(Tension, HasTheMeansOfItsLawAndTheirMatrix) {
     EXPECT_LE(of.spread, of.most());
   }
   EXPECT_NEAR(found.mean, 1.75, 1e-12);
-  EXPECT_EQ(found.obstacle, "");
   EXPECT_TRUE(tension(part, {"3", "2", 17}, "all").variation.empty());
 }
 

@@ -20,7 +20,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::UnorderedElementsAre;
 
-constexpr std::size_t enough = 1000;
+constexpr std::size_t many = 1000;
 
 /// The sample without its names, as labels.
 std::string as_freefem(const testing::MshSample& sample) {
@@ -69,7 +69,7 @@ mesh::Mesh imported(const std::string& file) {
   mesh::MeshOptions options;
   options.curve_groups = {{3, "dirichlet"}, {4, "delaminated:stiffener"}};
   options.surface_groups = {{1, "minus"}, {2, "plus"}};
-  return mesher::import_msh(file, options, enough);
+  return mesher::import_msh(file, options, many);
 }
 
 TEST(FreefemFile, IsTheMeshOfAMshWithTheSameGroups) {
@@ -93,7 +93,7 @@ TEST(FreefemFile, IsTheMeshOfAMshWithTheSameGroups) {
 TEST(FreefemFile, LabelsOfTrianglesAreSurfacesAlsoZero) {
   testing::MshSample sample = testing::square_sample();
   for (auto& t : sample.triangles) t.group -= 1;
-  EXPECT_THAT(mesher::import_msh(as_freefem(sample), {}, enough).subdomains,
+  EXPECT_THAT(mesher::import_msh(as_freefem(sample), {}, many).subdomains,
               UnorderedElementsAre("0", "1"));
 }
 
@@ -107,7 +107,7 @@ TEST(FreefemFile, DamageIsRefusedOrReadAndNothingElse) {
       std::string file = sound;
       for (int hits = 0; hits < 3; ++hits)
         file[random() % file.size()] = static_cast<char>(random() % 256);
-      testing::error_of([&] { mesher::import_msh(file, {}, enough); });
+      testing::error_of([&] { mesher::import_msh(file, {}, many); });
     }
     EXPECT_TRUE(testing::throws([&] { mesher::import_msh(sound, {}, 31); },
                                 errors::Reason::limit_exceeded));
@@ -130,7 +130,7 @@ TEST(FreefemFile, SaysWhatIsWrong) {
         Wrong{"MeshVersionFormatted 2\nDimension 7\n", "7 dimensions"},
         Wrong{"MeshVersionFormatted 2\nDimension 2\nEnd\n", "no triangle"}}) {
     const auto error =
-        testing::error_of([&, text = file] { mesher::import_msh(text, {}, enough); });
+        testing::error_of([&, text = file] { mesher::import_msh(text, {}, many); });
     ASSERT_TRUE(error) << file;
     EXPECT_EQ(error->reason(), errors::Reason::mesh_invalid);
     EXPECT_THAT(error->what(), HasSubstr(says));
