@@ -6,6 +6,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "estimate/equilibrated_flux.hpp"
 #include "fem/triangle_rules.hpp"
 #include "mesh/at.hpp"
+#include "mesh/edges.hpp"
 #include "mesh/refine_uniform.hpp"
 #include "operators/mesh_parts.hpp"
 #include "reference/random_laws.hpp"

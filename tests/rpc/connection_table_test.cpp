@@ -14,7 +14,8 @@ using namespace std::chrono_literals;
 class ConnectionTableTest : public ::testing::Test {
  protected:
   Admitted connect(ConnectionTable& table, const std::string& address) {
-    _sockets[++_last] = 100'000u + static_cast<unsigned>(_last);
+    ++_last;
+    _sockets[_last] = 100'000u + static_cast<unsigned>(_last);
     const Admitted admitted = table.add(address, _last, _sockets[_last], _now);
     if (admitted != Admitted::yes) _sockets.erase(_last);
     return admitted;
