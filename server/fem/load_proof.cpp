@@ -236,7 +236,9 @@ class Prover {
     // times as large at most.
     _parts.unknown[t] = frame.area * (missed + size);
     _parts.beyond[t] = std::sqrt(frame.area) * (all + 3.5 * missed + size);
-    if (_options.spread != nullptr) spread_smooth(t, jet, all, missed);
+    if (_options.spread == nullptr) return;
+    spread_smooth(t, jet, all, missed);
+    if (!((*_options.spread)[t].values.low > 0)) keep(t);  // a tension has to be above 0
   }
 
   void spread_smooth(std::size_t t, const Jet& jet, double all, double missed) {
