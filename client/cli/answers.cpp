@@ -258,7 +258,7 @@ std::string answers_table(const std::vector<results::Load>& loads, const results
   for (const Head& column : head) {
     if (column.name == Told::of) left.push_back(rows[0].size());
     rows[0].push_back(column.name);
-    rows[1].push_back(column.dimension ? units.of(*column.dimension) : "");
+    rows[1].push_back(column.dimension ? sanitise(units.of(*column.dimension)) : "");
   }
   std::string remarks;
   for (const results::Load& load : loads) {
@@ -283,10 +283,10 @@ std::string inclusions_table(const results::Result& result) {
   std::vector<std::vector<std::string>> rows{{"load", "inclusion"}, {"", ""}};
   for (const Column& column : columns) {
     rows[0].emplace_back(column.name);
-    rows[1].push_back(result.units.of(column.dimension));
+    rows[1].push_back(sanitise(result.units.of(column.dimension)));
   }
   rows[0].insert(rows[0].end(), {"resultant", "contact length"});
-  rows[1].insert(rows[1].end(), {result.units.of("F"), result.units.of("L")});
+  rows[1].insert(rows[1].end(), {sanitise(result.units.of("F")), sanitise(result.units.of("L"))});
   for (const results::Load& load : result.loads) {
     if (!has_answer(load)) continue;
     for (const results::Inclusion& inclusion : load.inclusions) {

@@ -79,7 +79,7 @@ void add_units(const results::Units& units, const std::vector<std::string>& dime
   if (units == results::Units{}) return;
   std::vector<std::string> row;
   for (const std::string& dimension : dimensions)
-    row.push_back(dimension.empty() ? "" : units.of(dimension));
+    row.push_back(dimension.empty() ? "" : sanitise(units.of(dimension)));
   rows.push_back(std::move(row));
 }
 
@@ -140,7 +140,7 @@ std::string boundary(const v1::Mesh& mesh, const CaseFacts& facts) {
   std::string sides;
   for (const std::string& name : mesh.geometry().neumann_sides())
     sides += (sides.empty() ? ": " : ", ") + sanitise(name);
-  const std::string unit = facts.units.label("L"), shown = unit.empty() ? "" : " " + unit;
+  const std::string unit = sanitise(facts.units.label("L")), shown = unit.empty() ? "" : " " + unit;
   std::string text =
       "\nboundary: u given on a length of " + number(mesh.dirichlet_length()) + shown;
   if (mesh.neumann_length() > 0)

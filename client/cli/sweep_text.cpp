@@ -58,7 +58,7 @@ void add_span(const std::string& name, const std::string& unit, const SweepSumma
 void add_inclusions(const results::Sweep& sweep, const SweepSummary& counts,
                     const results::Units& units, Rows& rows) {
   for (std::size_t i = 0; i < sweep.inclusions.size(); ++i) {
-    add_span(name_of("A", sweep, i), units.label("L"), counts.displacement_bounds[i], rows);
+    add_span(name_of("A", sweep, i), sanitise(units.label("L")), counts.displacement_bounds[i], rows);
     for (std::size_t part = 0; part < slope_parts.size() && counts.tilted(i); ++part)
       add_span(name_of(slope_parts[part], sweep, i), "", counts.slope[i][part], rows);
   }
@@ -86,7 +86,7 @@ void add_extremes(const results::Sweep& sweep, const SweepSummary& counts,
                     end_of(range_of(least).low, -1), sanitise(sweep.inclusions[least]),
                     end_of(range_of(most).high, 1), sanitise(sweep.inclusions[most])});
   };
-  add_one("A", units.label("L"), [&](std::size_t i) { return counts.displacement_bounds[i]; });
+  add_one("A", sanitise(units.label("L")), [&](std::size_t i) { return counts.displacement_bounds[i]; });
   for (std::size_t part = 0; part < slope_parts.size() && counts.tilted(); ++part)
     add_one(slope_parts[part], "", [&](std::size_t i) { return counts.slope[i][part]; });
 }
@@ -169,7 +169,7 @@ std::string sweep_table(const results::Sweep& sweep, const results::Units& units
     const auto& [shortest, longest] = counts.contact_length;
     rows.push_back({sanitise(results::labelled("contact length", units.label("L"))),
                     contact_text(shortest), "", contact_text(longest), ""});
-    add_span("energy", units.label("F L"), counts.energy_bounds, rows);
+    add_span("energy", sanitise(units.label("F L")), counts.energy_bounds, rows);
     text += table_of_spans(std::move(rows));
     if (sweep.inclusions.size() > few_inclusions)
       text += "all inclusions: anticrack show RESULT --inclusions, or --csv FILE\n";

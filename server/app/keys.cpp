@@ -193,7 +193,7 @@ const std::vector<Key>& keys() {
 
       count("connections",
             "Connections open at once; default: 4096, or what the limit of open files leaves",
-            &Limits::connections, 1, million),
+            &Limits::connections, 0, million),
       count("connections-an-address", "Connections that one address may have",
             &Limits::connections_an_address, 1, million),
       count("watchers", "Watches open at once", &Limits::watchers, 1, 100'000),

@@ -11,15 +11,18 @@ namespace {
 
 Jet exactly(double value) { return constant_jet({value, value}); }
 
-/// Whether an operand counts as true. What is 0 on a set without area does.
-enum class Truth { no, yes, unknown };
-Truth truth(const Jet& a) {
-  if (!a.defined) return Truth::unknown;  // what has no value counts as true
-  if (a.value().is(0)) return Truth::no;
-  return !a.value().holds(0) || a.slopes() ? Truth::yes : Truth::unknown;
+}  // namespace
+
+bool Enclosure::slopes(const Jet& a) const noexcept {
+  return a.order >= 1 && ((_x.low < _x.high && !a.of[1].holds(0)) ||
+                          (_y.low < _y.high && !a.of[2].holds(0)));
 }
 
-}  // namespace
+Enclosure::Truth Enclosure::truth(const Jet& a) const noexcept {
+  if (!a.defined) return Truth::unknown;  // what has no value counts as true
+  if (a.value().is(0)) return Truth::no;
+  return !a.value().holds(0) || slopes(a) ? Truth::yes : Truth::unknown;
+}
 
 Enclosure::Enclosure(const Tape& tape) : _tape(tape), _jets(tape.operations().size()) {
   const Ref result = tape.result();
@@ -129,15 +132,15 @@ Jet Enclosure::compare(Ref number, const Operation& operation) {
     return take(*choice, difference, exactly(1), exactly(0));
   if (!difference.defined) return undecided(number, {0, 1});  // what has no value compares as false
   // Where the difference slopes, both are equal on a line, which has no area.
-  const bool slopes = difference.slopes();
+  const bool sloping = slopes(difference);
   if (equality) {
-    if (u.high < v.low || v.high < u.low || slopes) return exactly(no);
+    if (u.high < v.low || v.high < u.low || sloping) return exactly(no);
     if (u.low == u.high && v.is(u.low)) return exactly(yes);
     return undecided(number, {0, 1});
   }
   const bool strict = operation.code == Code::less;
-  if (u.high < v.low || (u.high == v.low && (!strict || slopes))) return exactly(1);
-  if (v.high < u.low || (v.high == u.low && (strict || slopes))) return exactly(0);
+  if (u.high < v.low || (u.high == v.low && (!strict || sloping))) return exactly(1);
+  if (v.high < u.low || (v.high == u.low && (strict || sloping))) return exactly(0);
   return two_ways(number, exactly(1), exactly(0), false);
 }
 
@@ -223,9 +226,9 @@ Jet Enclosure::apply(Ref number, const Operation& operation) {
       if (choice != nullptr) return take(*choice, a, exactly(-1), exactly(1));
       if (!a.defined) return undecided(number, {-1, 1});
       if (a.value().is(0)) return exactly(0);
-      if (a.value().low > 0 || (a.value().low == 0 && a.slopes())) return exactly(1);
-      if (a.value().high < 0 || (a.value().high == 0 && a.slopes())) return exactly(-1);
-      if (!a.slopes()) return undecided(number, {-1, 1});
+      if (a.value().low > 0 || (a.value().low == 0 && slopes(a))) return exactly(1);
+      if (a.value().high < 0 || (a.value().high == 0 && slopes(a))) return exactly(-1);
+      if (!slopes(a)) return undecided(number, {-1, 1});
       return two_ways(number, exactly(-1), exactly(1), false);
     }
     case Code::less:

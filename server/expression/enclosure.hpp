@@ -31,8 +31,6 @@ struct Jet {
   bool defined = true;
 
   const Interval& value() const noexcept { return of[0]; }
-  /// Whether the gradient is 0 nowhere: then f has any given value on a set without area.
-  bool slopes() const noexcept { return order >= 1 && !(of[1].holds(0) && of[2].holds(0)); }
 };
 
 /// Encloses the result of a tape over boxes. Belongs to one thread. Elementary functions are those
@@ -63,6 +61,12 @@ class Enclosure {
 
  private:
   Jet apply(Ref number, const Operation& operation);
+  /// Whether it is not constant on any line along a side of the box: then it has any given value on a
+  /// set without area, or without length where the box is a line.
+  bool slopes(const Jet& a) const noexcept;
+  /// Whether an operand counts as true. What is 0 on a set without area does.
+  enum class Truth { no, yes, unknown };
+  Truth truth(const Jet& a) const noexcept;
   /// Of an operation whose side is given; null: of another one.
   const Choice* given(Ref number) const;
   Jet take(const Choice& choice, const Jet& argument, const Jet& below, const Jet& above);

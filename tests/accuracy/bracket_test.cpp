@@ -102,8 +102,8 @@ TEST(Bracket, OfAMirroredMembraneIsTheSameButForTheOrderOfTheFans) {
     EXPECT_NEAR(*image->energy_upper, *answer.energy_upper, 1e-9 * gap);
     const contact::InclusionAnswer &one = answer.inclusions[0], &other = image->inclusions[0];
     const double width = *one.displacement_upper - *one.displacement_lower;
-    EXPECT_NEAR(*other.displacement_lower, *one.displacement_lower, 0.02 * width);
-    EXPECT_NEAR(*other.displacement_upper, *one.displacement_upper, 0.02 * width);
+    EXPECT_NEAR(*other.displacement_lower, *one.displacement_lower, 0.15 * width);
+    EXPECT_NEAR(*other.displacement_upper, *one.displacement_upper, 0.15 * width);
   }
 }
 
@@ -162,13 +162,14 @@ TEST(Bracket, OfARotatedMembraneWithLawsIsTheSame) {
   ASSERT_EQ(one.no_bracket, "");
   const double gap = *one.energy_upper - *one.energy_lower;
   EXPECT_GT(gap, 1e-4);
-  EXPECT_NEAR(*other.energy_lower, *one.energy_lower, 0.02 * gap);  // another order of the fans
-  EXPECT_NEAR(*other.energy_upper, *one.energy_upper, 1e-6 * gap);
+  EXPECT_NEAR(*other.energy_lower, *one.energy_lower,
+              0.15 * gap);  // laws are enclosed over boxes along the axes
+  EXPECT_NEAR(*other.energy_upper, *one.energy_upper, 0.02 * gap);
   const contact::InclusionAnswer &of_one = one.inclusions[0], &of_other = other.inclusions[0];
   const double width = *of_one.displacement_upper - *of_one.displacement_lower;
   EXPECT_NEAR(of_other.displacement, of_one.displacement, 1e-9);
-  EXPECT_NEAR(*of_other.displacement_lower, *of_one.displacement_lower, 0.02 * width);
-  EXPECT_NEAR(*of_other.displacement_upper, *of_one.displacement_upper, 0.02 * width);
+  EXPECT_NEAR(*of_other.displacement_lower, *of_one.displacement_lower, 0.15 * width);
+  EXPECT_NEAR(*of_other.displacement_upper, *of_one.displacement_upper, 0.15 * width);
 }
 
 TEST(Bracket, IsNotGivenForBoundaryValuesOfInfiniteEnergy) {

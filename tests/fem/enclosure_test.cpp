@@ -168,7 +168,7 @@ TEST(Enclosure, TellsTheOneLineThatPassesAndBothSides) {
   taken = {*enclosure.choice()};
   enclosure({-0.1, 0.6}, {-0.1, 0.6}, 1, taken);
   EXPECT_TRUE(enclosure.choice());
-  EXPECT_TRUE(enclosure({0.6, 0.7}, {-0.1, 0.6}, 1).slopes());
+  EXPECT_TRUE(enclosure({0.6, 0.7}, {-0.1, 0.6}, 1).of[1].is(1));
   EXPECT_FALSE(enclosure.choice());
 }
 
@@ -177,6 +177,7 @@ TEST(Enclosure, ALineAlongABoxHasNoArea) {
   Enclosure enclosure(tape);
   EXPECT_TRUE(enclosure({0, 1}, {0, 1}, 1).value().is(1));
   EXPECT_TRUE(enclosure({0, 1}, {-1, 0}, 1).value().is(-1));
+  EXPECT_TRUE(enclosure({0, 1}, {0, 0}, 1).value().is(-1));  // the line itself
 }
 
 }  // namespace

@@ -83,7 +83,8 @@ def _read(values: Any, fail: Fail) -> Array:
     try:
         return np.asarray(values)
     except Exception as error:  # of lists of several lengths, or whatever an __array__ raises
-        told = str(error).partition(" The detected shape")[0] or type(error).__name__
+        uneven = isinstance(error, ValueError) and "inhomogeneous" in str(error)
+        told = "its lists are not all of one length" if uneven else str(error) or type(error).__name__
         raise fail(f"{_kind(values)} cannot be read as an array: {told}") from None
 
 

@@ -146,7 +146,7 @@ WRONG = {
                 pandas.Series(objects(v, None), dtype="Float64"), r"<NA> at "),
     "decimals": (lambda v: objects(v, decimal.Decimal(1)), r"Decimal\('1'\) at "),
     "a truth in it": (lambda v: objects(v, True), r"True at "),
-    "lists of several lengths": (lambda v: [[1, 2], [3]], "cannot be read as an array|inhomogeneous"),
+    "lists of several lengths": (lambda v: [[1, 2], [3]], "not all of one length"),
     "no dimension": (lambda v: numpy.array(3.0), r"shape \(\) is not|is not a finite number|array"),
     "too many dimensions": (lambda v: v[..., None, None], r"of shape \(.*\) is not \("),
     "empty": (lambda v: v[:0], "it is empty"),
