@@ -267,6 +267,8 @@ void require_msh(const std::string& path) { open_msh(path); }
 const char* mark() noexcept { return "anticrack-mesher of anticrack " ANTICRACK_VERSION; }
 
 bool is_helper(const std::string& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return false;
   std::ifstream file(path, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
   return bytes.starts_with("#!") || bytes.find(mark()) != std::string::npos;
