@@ -93,8 +93,12 @@ Bracket bracket(const CutMesh& cut, const EquilibratedFlux& flux, const LoadBala
   }
   const double distance = std::sqrt(squared) + lack;
   half_distance += lack * (std::sqrt(squared) + lack / 2);
-  // Without interval arithmetic: rounding is some 1e-14. Means of T are known less well.
-  const double rounding = 1e-12 * (std::abs(energy) + flux.norm_squared()) + unknown;
+  // Without interval arithmetic: rounding is some 1e-14, also of products of u that cancel, as where a
+  // membrane is lifted. Means of T are known less well.
+  double largest = 0;
+  for (const double value : u) largest = std::max(largest, std::abs(value));
+  const double rounding = 1e-12 * (std::abs(energy) + flux.norm_squared()) +
+                          1e-13 * cut.shapes.largest_tension * largest * largest + unknown;
   result.lower = energy + lift_energy - half_distance - work - rounding;
   result.upper += energy + lift_energy + rounding;
   result.error =

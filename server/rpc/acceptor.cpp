@@ -2,6 +2,7 @@
 #include "rpc/acceptor.hpp"
 
 #include <arpa/inet.h>
+#include <grpc/support/log.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
@@ -30,6 +31,13 @@ constexpr auto between_words = 60s;
 constexpr auto breath = 100ms;
 /// A peer that does not acknowledge what was sent is gone after this.
 constexpr unsigned unacknowledged_ms = 10'000;
+
+/// What gRPC complains of goes to the log, but for connections that are reset before it looks at them:
+/// strangers could fill the log with those.
+void complain(gpr_log_func_args* said) {
+  if (std::strstr(said->message, "getpeername") == nullptr)
+    log::error("grpc", {{"message", said->message}});
+}
 
 /// 0 where it is no socket.
 std::uint64_t socket_number(int descriptor) {
@@ -93,7 +101,9 @@ Acceptor::Acceptor(const std::string& listen, ConnectionLimits limits)
       _spare(event()),
       _table(limits, [](int descriptor, std::uint64_t socket) {
         return socket_number(descriptor) == socket;
-      }) {}
+      }) {
+  gpr_set_log_function(complain);
+}
 
 Acceptor::~Acceptor() { stop(); }
 

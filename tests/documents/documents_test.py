@@ -73,7 +73,7 @@ class Commands(FolderTest):
         (project / "build/release/python").symlink_to(PYTHON)
         socket = self.folder / "socket"  # in place of the port that everybody's server has
         daemon = programs / "anticrackd"
-        daemon.write_text(f'#!/bin/sh\ncase "$*" in *--listen*) ;; *) set -- "$@" --listen unix:{socket} ;; esac\n'
+        daemon.write_text(f'#!/bin/sh\ncase "$*" in *--listen*|*--private*) ;; *) set -- "$@" --listen unix:{socket} ;; esac\n'
                           f'exec {BIN}/anticrackd "$@"\n', encoding="utf-8")
         daemon.chmod(0o755)
 

@@ -198,7 +198,7 @@ class Jobs(unittest.TestCase):
                                 ({"coefficients": [[numpy.inf, 1]]}, "finite"),
                                 ({"coefficients": [[1, 1], [1]]}, "not all of one length"),
                                 ({"coefficients": "ratio.csv"}, "'ratio.csv' is no array; .*loads.*DataFrame.*csv"),
-                                ({"coefficients": [[1, 1]], "traces": ["a"]}, "traces: .*write .0, 2."),
+                                ({"coefficients": [[1, 1]], "traces": ["a"]}, "traces: .*write rows, as .0, 2."),
                                 ({"coefficients": [[1, 1]], "nodal_forces": [[1]]}, "not both")):
             with self.assertRaisesRegex(anticrack.CaseError, said):
                 self.client.submit(case, **arguments)
