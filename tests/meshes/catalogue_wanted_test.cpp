@@ -285,7 +285,7 @@ TEST(DamagedUpload, FailsItsMeshWithTheCause) {
 TEST(Progress, IsToldWhileAMeshIsMade) {
   Backend backend;
   store::GeometrySource source{anticrack::testing::paper_geometry(),
-                               {mesh::Preset::uniform, 0.003}};
+                               {mesh::Preset::uniform, 0.002}};
   const std::string id = backend.catalogue.create(source, "", "").id;
   std::vector<store::MeshProgress> heard;
   std::stop_source enough;

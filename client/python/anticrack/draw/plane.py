@@ -91,7 +91,9 @@ def interfaces(result: Result, load: str | Load | None = None, ax: Any = None, l
         label_axis(axis, "xy"[i], result.units.behind("L").strip(),
                    Scale(low[i], high[i], shown.max() / stretched[i]), stretched[i])
         narrow = shown.max() / shown[i]
-        axis.get_major_locator().set_params(nbins=6 if narrow < 3 else 3 if narrow < 6 and i == 1 else 1)
+        axis.get_major_locator().set_params(nbins=6 if narrow < 3 else 3 if narrow < 6 else 1)
+        if narrow >= 3:  # little room, above all for numbers side by side
+            axis.set_tick_params(labelsize="x-small")
     return ax
 
 
