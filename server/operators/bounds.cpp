@@ -144,6 +144,7 @@ void MeshOperator::estimate(std::span<Estimate> all) const {
       one.failure = std::current_exception();
     }
   }
+  if (materials.empty()) return;  // all were stopped or have none
   try {
     find_bounds(*_parts, cut, materials);
     for (const Material& one : materials) {
