@@ -354,6 +354,7 @@ mesh::Mesh generate(const Gmsh& /*its presence is needed*/, const mesh::Generate
   const Plan plan = coarsened(request.plan, halvings);
   const Frame frame(plan.points);
   try {
+    stop::look("generating a mesh");  // gmsh may take long before it asks for the first size
     build_model(plan, frame);
     choose_options(algorithm_of(plan), sized_curves(plan, frame), plan.growth);
     gmsh::model::mesh::generate(2);

@@ -64,7 +64,7 @@ void write_all(int descriptor, std::span<const std::byte> bytes) {
   }
 }
 
-/// Writes how far it is at the looks of the work, about once a second.
+/// Writes how far it is at the first look of the work, and then about once a second.
 class Reporter {
  public:
   bool operator()(const stop::Look& at) {
@@ -78,7 +78,7 @@ class Reporter {
  private:
   using Clock = std::chrono::steady_clock;
   static constexpr std::chrono::milliseconds pause{700};
-  Clock::time_point _next = Clock::now() + pause;
+  Clock::time_point _next;
 };
 
 template <class Wanted>

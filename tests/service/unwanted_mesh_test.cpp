@@ -35,9 +35,11 @@ int meshers_of(int server) {
 
 class UnwantedMesh : public ::testing::Test {
  protected:
-  /// A minute in the mesher.
+  /// Half a minute in gmsh: triangles as small as a thin strip beside the interface are not made by
+  /// halving.
   static Work long_work() {
-    return work("paper-3.toml", {"mesh.preset=\"uniform\"", "mesh.size=0.002"});
+    return work("paper-3.toml", {"mesh.preset=\"uniform\"",
+                                 "geometry.boundary=[[-1,-1e-4],[1,-1e-4],[1,1],[-1,1]]"});
   }
   bool meshes(int count) {
     return eventually([&] { return meshers_of(daemon.process().id()) == count; });
@@ -58,8 +60,7 @@ TEST_F(UnwantedMesh, StopsWithTheLastOfItsJobs) {
   ASSERT_TRUE(meshes(1));
   EXPECT_TRUE(eventually([&] {
     const v1::Mesh mesh = client::get_mesh(connection, first.mesh());
-    return mesh.state() == v1::Mesh::STATE_MESHING && mesh.progress().triangles() > 0 &&
-           !mesh.progress().doing().empty();
+    return mesh.state() == v1::Mesh::STATE_MESHING && !mesh.progress().doing().empty();
   }));
   EXPECT_THAT(daemon.client({"mesh", "list"}).output, HasSubstr("triangles"));
   EXPECT_THAT(daemon.client({"mesh", "show", first.mesh()}).output, HasSubstr("meshing: "));
