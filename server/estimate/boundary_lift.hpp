@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "estimate/boundary_samples.hpp"
 #include "estimate/cut_mesh.hpp"
 
 namespace anticrack::estimate {
@@ -19,16 +20,12 @@ struct Lift {
   double mean = 0;              ///< int_0^1 phi ds
   double first = 0;             ///< int_0^1 s phi ds
   double gradient_squared = 0;  ///< int |grad w|^2 after the map of the tension (Shapes)
-  /// Whether phi looks like the polynomials by which this is integrated. Of a g_D that jumps, or
-  /// rises like the square root of s, the energy is infinite and the integral means nothing.
-  bool smooth = true;
+  double unknown = 0;           ///< >= what integrals of phi times at most 1 are wrong by
 };
 
-/// Where g_D is to be sampled: (n,2) row-major, on all faces of the Dirichlet boundary.
-std::vector<double> lift_points(const CutMesh& cut);
-
-/// From g_D at these points, and u_h in the copies. By Gauss's rule in each half of an edge.
-std::vector<Lift> lifts(const CutMesh& cut, std::span<const double> samples,
+/// From g_D, and u_h in the copies. By Gauss's rule in each half of an edge, and what is unknown of
+/// g_D: gradient_squared is an upper bound, the means are wrong by `unknown` at most.
+std::vector<Lift> lifts(const CutMesh& cut, const BoundarySamples& samples,
                         std::span<const double> u);
 
 }  // namespace anticrack::estimate

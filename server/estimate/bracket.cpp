@@ -34,6 +34,9 @@ LiftIntegrals integrals_of(const CutMesh& cut, const EquilibratedFlux& flux,
   to.product = lift.mean * flux.flux_through(side, u);
   const double* through = &flux.through_faces()[2 * at(lift.face)];
   to.through = (through[0] + through[1]) * lift.mean;
+  to.unknown = lift.unknown *
+               (0.5 * (std::abs(value(i + 1)) + std::abs(value(i + 2))) + std::abs(value(i)) / 6 +
+                std::abs(flux.flux_through(side, u)) + std::abs(through[0]) + std::abs(through[1]));
   return to;
 }
 
@@ -42,19 +45,21 @@ Bracket bracket(const CutMesh& cut, const EquilibratedFlux& flux, const LoadBala
                 double lack) {
   std::vector<OnTriangle> lifted;
   if (!lifts.empty()) lifted.resize(cut.triangle_count());
+  double unknown = 0;
   for (const Lift& lift : lifts) {
     const LiftIntegrals one = integrals_of(cut, flux, load, lift, u);
     OnTriangle& all = lifted[at(cut.faces[at(lift.face)].side / 3)];
     all.norm += one.norm;
     all.difference += one.difference();
     all.energy += one.product - one.work;
+    unknown += 2 * one.unknown;  // once in either
   }
 
   Bracket result;
   result.indicator = flux.distance();
   const bool varies = !cut.shapes.variation.empty();
   double half_distance = 0;  // eta^2 / 2, less |w|^2 / 2, which Pi(v) has as well, if T is known
-  double squared = 0, work = 0, lift_energy = 0, lift_norm = 0, unknown = 0;
+  double squared = 0, work = 0, lift_energy = 0, lift_norm = 0;
   for (std::size_t t = 0; t < result.indicator.size(); ++t) {
     stop::look_at_turn(t, "computing bounds");
     double& one = result.indicator[t];
@@ -93,8 +98,8 @@ Bracket bracket(const CutMesh& cut, const EquilibratedFlux& flux, const LoadBala
   }
   const double distance = std::sqrt(squared) + lack;
   half_distance += lack * (std::sqrt(squared) + lack / 2);
-  // Without interval arithmetic: rounding is some 1e-14, also of products of u that cancel, as where a
-  // membrane is lifted. Means of T are known less well.
+  // Without interval arithmetic: rounding is some 1e-14, also of products of u that cancel, as
+  // where a membrane is lifted. Means of T are known less well.
   double largest = 0;
   for (const double value : u) largest = std::max(largest, std::abs(value));
   const double rounding = 1e-12 * (std::abs(energy) + flux.norm_squared()) +

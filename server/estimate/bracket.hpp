@@ -33,6 +33,7 @@ struct LiftIntegrals {
   double work = 0;     ///< int f w, f linear
   double product = 0;  ///< int T grad u_h . grad w
   double through = 0;  ///< int sigma.n phi
+  double unknown = 0;  ///< >= what the last three are wrong by, in all
   /// int (sigma - T grad u_h) . grad w
   double difference() const noexcept { return work + through - product; }
 };

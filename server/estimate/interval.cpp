@@ -81,12 +81,13 @@ class Sum {
     return sum;
   }
 
-  /// int (tau - T grad z) . grad w, its mean where it is not constant: w is on the outer boundary.
+  /// int (tau - T grad z) . grad w over int phi, by its mean where it is not constant: w is on the
+  /// outer boundary.
   double lifted(const Lift& lift) const {
     const auto side = at(_primal.cut.faces[at(lift.face)].side);
     const Vector normal = _primal.flux.normal_of(side), mean = _tau.mean_difference(side / 3),
                  shift = _primal.flux.flux_of(side / 3, _rest);
-    return lift.mean * ((mean[0] + shift[0]) * normal[0] + (mean[1] + shift[1]) * normal[1]);
+    return (mean[0] + shift[0]) * normal[0] + (mean[1] + shift[1]) * normal[1];
   }
 
  private:
@@ -140,13 +141,15 @@ Interval interval(const Aimed& aimed, const EquilibratedFlux& tau) {
   for (const double one : sigma.work_of_pressure()) pressure += std::max(0.0, one);
   const Sum sum(primal, dual, tau);
   const Products products = sum.products();
-  double residual = 0, mixed = 0.5 * products.mixed, distance = products.distance;
+  double residual = 0, mixed = 0.5 * products.mixed, distance = products.distance, unknown = 0;
   for (const Lift& lift : primal.lifts) {
     const auto side = at(cut.faces[at(lift.face)].side);
-    residual -= lift.mean * sigma.flux_through(side, dual.z);
-    mixed -= 0.5 * sum.lifted(lift);
+    const double through = sigma.flux_through(side, dual.z), lifted = sum.lifted(lift);
+    residual -= lift.mean * through;
+    mixed -= 0.5 * lift.mean * lifted;
+    unknown += lift.unknown * (std::abs(through) + 0.5 * std::abs(lifted));
     const LiftIntegrals of = integrals_of(cut, sigma, primal.load, lift, primal.u);
-    distance += of.norm * of.norm - 2 * of.difference();
+    distance += of.norm * of.norm - 2 * of.difference() + 2 * of.unknown;
   }
 
   double above = 0, below = 0, work = 0;
@@ -199,7 +202,7 @@ Interval interval(const Aimed& aimed, const EquilibratedFlux& tau) {
   const double lacking =
       bridged ? primal.lack.work * largest_of(dual.z) + 0.5 * (of_dual * s + t * off + s * t)
               : 2 * largest_of(primal.u) * pressures.all_beyond;
-  const double extra = aimed.unloaded * std::sqrt(beyond) + 0.5 * products.slack +
+  const double extra = aimed.unloaded * std::sqrt(beyond) + 0.5 * products.slack + unknown +
                        1e-12 * (std::abs(dual.value) + std::abs(middle)) + lacking;
   return {middle - half_width(below, eta, rho) - extra,
           middle + half_width(above, eta, rho) + extra,

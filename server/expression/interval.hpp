@@ -43,11 +43,11 @@ inline Interval hull(const Interval& a, const Interval& b) {
 }
 inline Interval operator-(const Interval& a) { return {-a.high, -a.low}; }
 inline Interval operator+(const Interval& a, const Interval& b) {
+  if (a.is(0)) return b;
+  if (b.is(0)) return a;
   return outward(a.low + b.low, a.high + b.high);
 }
-inline Interval operator-(const Interval& a, const Interval& b) {
-  return outward(a.low - b.high, a.high - b.low);
-}
+inline Interval operator-(const Interval& a, const Interval& b) { return a + -b; }
 inline Interval operator*(const Interval& a, const Interval& b) {
   if (a.is(0) || b.is(0)) return {};
   const double p = a.low * b.low, q = a.low * b.high, r = a.high * b.low, s = a.high * b.high;
@@ -58,7 +58,11 @@ inline Interval operator*(const Interval& a, const Interval& b) {
   return outward(std::min(std::min(p, q), std::min(r, s)),
                  std::max(std::max(p, q), std::max(r, s)));
 }
-inline Interval operator*(double factor, const Interval& a) { return Interval{factor, factor} * a; }
+inline Interval operator*(double factor, const Interval& a) {
+  if (factor == 0 || a.is(0)) return {};
+  return factor > 0 ? outward(factor * a.low, factor * a.high)
+                    : outward(factor * a.high, factor * a.low);
+}
 inline Interval square(const Interval& a) {
   const double most = a.magnitude(),
                least = a.holds(0) ? 0 : std::min(std::abs(a.low), std::abs(a.high));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "expression/jet.hpp"
 
+#include <cstdint>
 #include <numbers>
 
 namespace anticrack::expression {
@@ -18,19 +19,110 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 /// Derivatives over an interval, the k-th over k!.
 using Series = std::array<Interval, Jet::most + 1>;
 
-/// f(a) from the series of f over the values of a, by Horner's rule in what a varies.
-Jet compose(const Jet& a, const Series& f, int order) {
+/// A sum of products of intervals, whose rounding is allowed for once, at its end. Without terms,
+/// exactly 0.
+class Sum {
+ public:
+  void add(const Interval& a, const Interval& b) {
+    const double p = a.low * b.low, q = a.low * b.high, r = a.high * b.low, s = a.high * b.high;
+    const double low = std::min(std::min(p, q), std::min(r, s)),
+                 high = std::max(std::max(p, q), std::max(r, s));
+    _low += low;
+    _high += high;
+    _size += std::max(-low, high);
+    ++_terms;
+  }
+  Interval result() const {
+    if (_terms == 0) return {};
+    constexpr double unit = std::numeric_limits<double>::epsilon(),
+                     tiny = std::numeric_limits<double>::min();
+    if (!(_size < infinite)) return everything;
+    const double off = (_terms + 1) * (unit * _size + tiny);
+    return {_low - off, _high + off};
+  }
+
+ private:
+  double _low = 0, _high = 0, _size = 0;
+  int _terms = 0;
+};
+
+/// The pairs of coefficients whose products add up to each coefficient of a product.
+struct Pairs {
+  struct Pair {
+    std::uint8_t i, j;
+  };
+  std::array<Pair, 70> of{};
+  std::array<std::size_t, Jet::size + 1> first{};
+};
+
+constexpr Pairs pairs = [] {
+  Pairs result;
+  std::size_t count = 0;
+  for (int n = 0; n <= Jet::most; ++n) {
+    for (int k = 0; k <= n; ++k) {
+      result.first[first_of(n) + static_cast<std::size_t>(k)] = count;
+      for (int d = 0; d <= n; ++d) {
+        for (int i = std::max(0, k - n + d); i <= std::min(d, k); ++i)
+          result.of[count++] = {
+              static_cast<std::uint8_t>(first_of(d) + static_cast<std::size_t>(i)),
+              static_cast<std::uint8_t>(first_of(n - d) + static_cast<std::size_t>(k - i))};
+      }
+    }
+  }
+  result.first[Jet::size] = count;
+  return result;
+}();
+
+/// A bit for each coefficient that is not 0.
+unsigned present(const Jet& a) {
+  unsigned bits = 0;
+  for (std::size_t k = 0; k < end_of(std::min(a.order, a.degree)); ++k)
+    bits |= (a.of[k].is(0) ? 0U : 1U) << k;
+  return bits;
+}
+
+/// f(c + u x + v y), by the binomial theorem.
+Jet compose_linear(const Interval& u, const Interval& v, const Series& f, int known) {
+  constexpr double binomial[][5] = {{1}, {1, 1}, {1, 2, 1}, {1, 3, 3, 1}, {1, 4, 6, 4, 1}};
+  Series of_u{Interval{1, 1}}, of_v{Interval{1, 1}};
+  for (std::size_t k = 1; k < f.size(); ++k) {
+    of_u[k] = of_u[k - 1] * u;
+    of_v[k] = of_v[k - 1] * v;
+  }
+  Jet result;
+  for (int k = 1; k <= known; ++k) {
+    for (int j = 0; j <= k; ++j) {
+      const auto degree = static_cast<std::size_t>(k), by_y = static_cast<std::size_t>(j);
+      result.of[first_of(k) + by_y] =
+          binomial[degree][by_y] * (of_u[degree - by_y] * of_v[by_y] * f[degree]);
+    }
+  }
+  return result;
+}
+
+/// f(a) by Horner's rule in what a varies. That has no constant, so with k products to come all
+/// above the degree known - k falls away.
+Jet compose_any(const Jet& a, const Series& f, int known) {
   Jet vary = a;
   vary.of[0] = {};
+  Jet result = constant_jet(f[static_cast<std::size_t>(known)]);
+  for (int k = known; k-- > 0;) {
+    vary.order = known - k;
+    result = vary * result;
+    result.of[0] = f[static_cast<std::size_t>(k)];
+    result.order = Jet::most;
+  }
+  return result;
+}
+
+/// f(a) from the series of f over the values of a.
+Jet compose(const Jet& a, const Series& f, int order) {
   const int wanted = std::min(a.order, order);
   int known = 0;
   while (known < wanted && f[static_cast<std::size_t>(known + 1)].finite()) ++known;
-  vary.order = known;
   Jet result;
   if (a.degree > 0) {
-    result = constant_jet(f[static_cast<std::size_t>(known)]);
-    for (int k = known; k-- > 0;)
-      result = constant_jet(f[static_cast<std::size_t>(k)]) + vary * result;
+    result = a.degree == 1 ? compose_linear(a.of[1], a.of[2], f, known) : compose_any(a, f, known);
     result.degree = Jet::most;
   }
   result.of[0] = f[0];
@@ -274,17 +366,15 @@ Jet operator*(const Jet& a, const Jet& b) {
   result.order = std::min(a.order, b.order);
   result.degree = std::min(Jet::most, a.degree + b.degree);
   result.defined = a.defined && b.defined;
-  for (int d = 0; d <= std::min(a.degree, result.order); ++d) {
-    for (int e = 0; e <= std::min(b.degree, result.order - d); ++e) {
-      for (int i = 0; i <= d; ++i) {
-        for (int j = 0; j <= e; ++j) {
-          Interval& sum = result.of[first_of(d + e) + static_cast<std::size_t>(i + j)];
-          const Interval product = a.of[first_of(d) + static_cast<std::size_t>(i)] *
-                                   b.of[first_of(e) + static_cast<std::size_t>(j)];
-          sum = d == 0 && e == 0 ? product : sum + product;
-        }
-      }
+  const unsigned left = present(a), right = present(b);
+  result.of[0] = a.of[0] * b.of[0];
+  for (std::size_t k = 1; k < end_of(std::min(result.order, result.degree)); ++k) {
+    Sum sum;
+    for (std::size_t p = pairs.first[k]; p < pairs.first[k + 1]; ++p) {
+      const auto [i, j] = pairs.of[p];
+      if ((left >> i & right >> j & 1U) != 0) sum.add(a.of[i], b.of[j]);
     }
+    result.of[k] = sum.result();
   }
   return result;
 }

@@ -136,10 +136,10 @@ void MeshOperator::estimate(std::span<Estimate> all) const {
       BalancedLoad of_load =
           data.balanced ? *data.balanced
                         : balanced(load.parts, _parts->decomposition.subdomains, cut, one.stop);
+      answer.no_bracket = of_load.obstacle;
+      if (!answer.no_bracket.empty()) continue;
       if (!of_load.boundary.empty())
         material.lifts = estimate::lifts(cut, of_load.boundary, material.u);
-      answer.no_bracket = obstacle_of(material.lifts);
-      if (!answer.no_bracket.empty()) continue;
       material.balance = std::move(of_load.balance);
       material.parts_energy = data.parts_energy;
       materials.push_back(std::move(material));

@@ -10,17 +10,7 @@
 namespace anticrack::operators {
 namespace {
 
-/// g_D in the copies of the Dirichlet boundary, 0 elsewhere.
-std::vector<double> on_boundary(const LoadOnTraces& load,
-                                const std::vector<ddm::Subdomain>& subdomains,
-                                const estimate::CutMesh& cut) {
-  std::vector<double> u(cut.at.size(), 0);
-  for (std::size_t s = 0; s < subdomains.size(); ++s) {
-    const Eigen::VectorXd& values = load.subdomains[s].dirichlet;
-    std::copy(values.begin(), values.end(), u.data() + cut.first_copy[s] + subdomains[s].free());
-  }
-  return u;
-}
+bool is_finite(double value) { return std::isfinite(value); }
 
 void add(std::vector<double>& sum, const std::vector<double>& values, double factor) {
   if (sum.empty()) sum.resize(values.size(), 0);
@@ -30,23 +20,25 @@ void add(std::vector<double>& sum, const std::vector<double>& values, double fac
 }  // namespace
 
 std::size_t BalancedLoad::bytes() const noexcept {
-  return sizeof(double) * (balance.force.capacity() + balance.traction.capacity() +
-                           balance.oscillation.capacity() + boundary.capacity());
-}
-
-std::string obstacle_of(std::span<const estimate::Lift> lifts) {
-  if (std::ranges::all_of(lifts, &estimate::Lift::smooth)) return "";
-  return "boundary_value jumps along an edge, or is too sharp for the mesh: make it continuous, or "
-         "the mesh finer";
+  return sizeof(double) *
+         (balance.force.capacity() + balance.traction.capacity() + balance.oscillation.capacity() +
+          boundary.values.capacity() + boundary.unknown.capacity());
 }
 
 BalancedLoad balanced(const LoadParts& parts, const std::vector<ddm::Subdomain>& subdomains,
                       const estimate::CutMesh& cut, const std::stop_token& stop) {
   BalancedLoad result;
   result.obstacle = parts.obstacle;
-  if (!parts.boundary_value.empty())
-    result.boundary =
-        fem::values_at(estimate::lift_points(cut), parts.boundary_value, "boundary_value");
+  if (!parts.boundary_value.empty()) {
+    const stop::Scope scope(stop);
+    result.boundary = estimate::boundary_samples(cut, parts.boundary_value);
+    if (result.obstacle.empty() && !std::ranges::all_of(result.boundary.unknown, is_finite)) {
+      result.obstacle =
+          "boundary_value jumps along an edge, or its slope has no bound there: make it "
+          "continuous, "
+          "or the mesh finer";
+    }
+  }
   std::vector<fem::ForceParts> force = parts.integrated;
   for (std::size_t s = 0; s < force.size(); ++s) {
     if (auto linear = fem::linear_parts(subdomains[s].part, parts.force, subdomains[s].name,
@@ -54,9 +46,7 @@ BalancedLoad balanced(const LoadParts& parts, const std::vector<ddm::Subdomain>&
       force[s] = std::move(*linear);
   }
   result.balance = estimate::load_balance(cut, force, parts.traction);
-  if (result.obstacle.empty() && !std::ranges::all_of(result.balance.oscillation, [](double one) {
-        return std::isfinite(one);
-      })) {
+  if (result.obstacle.empty() && !std::ranges::all_of(result.balance.oscillation, is_finite)) {
     result.obstacle =
         "a part of the membrane that cracks and inclusions enclose has a load that is not "
         "integrated "
@@ -77,10 +67,7 @@ std::vector<BalancedLoad> balanced(std::span<const fem::Load* const> loads,
     // A sum with one that is not linear needs the values of those that are.
     if (lifted) parts.boundary_value = loads[j]->boundary_value;
     try {
-      BalancedLoad& one = result.emplace_back(balanced(parts, subdomains, cut, stop));
-      if (one.boundary.empty() || !one.obstacle.empty()) continue;
-      one.obstacle = obstacle_of(
-          estimate::lifts(cut, one.boundary, on_boundary(condensed[j], subdomains, cut)));
+      result.push_back(balanced(parts, subdomains, cut, stop));
     } catch (errors::Error& error) {
       error.below("load_cases[" + std::to_string(j) + "]");
       throw;
@@ -98,7 +85,8 @@ BalancedLoad combine(std::span<const BalancedLoad> loads, std::span<const double
     add(sum.balance.force, loads[j].balance.force, c);
     add(sum.balance.traction, loads[j].balance.traction, c);
     add(sum.balance.oscillation, loads[j].balance.oscillation, std::abs(c));
-    add(sum.boundary, loads[j].boundary, c);
+    add(sum.boundary.values, loads[j].boundary.values, c);
+    add(sum.boundary.unknown, loads[j].boundary.unknown, std::abs(c));
     if (sum.obstacle.empty()) sum.obstacle = loads[j].obstacle;
   }
   return sum;

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "ddm/decomposition.hpp"
-#include "estimate/boundary_lift.hpp"
+#include "estimate/boundary_samples.hpp"
 #include "estimate/load_balance.hpp"
 #include "operators/condense_loads.hpp"
 
@@ -18,15 +18,12 @@ namespace anticrack::operators {
 /// Linear in the load but for the oscillation, whose bounds add up.
 struct BalancedLoad {
   estimate::LoadBalance balance;
-  std::vector<double> boundary;  ///< g_D at estimate::lift_points; empty: linear along edges
-  std::string obstacle;          ///< why there are no bounds, and the cure
+  estimate::BoundarySamples boundary;  ///< of g_D; empty: linear along edges
+  std::string obstacle;                ///< why there are no bounds, and the cure
 
   /// Memory of its arrays.
   std::size_t bytes() const noexcept;
 };
-
-/// Why there are no bounds with these; empty: there are.
-std::string obstacle_of(std::span<const estimate::Lift> lifts);
 
 /// Throws errors::Error (expression_invalid at "boundary_value", cancelled).
 BalancedLoad balanced(const LoadParts& parts, const std::vector<ddm::Subdomain>& subdomains,

@@ -192,7 +192,7 @@ void check_identities(unsigned seed, bool rich, Figures& tally) {
                                       {z, near, dual.value, c, on_inclusions}, 0);
       EXPECT_GT(truth, wider.lower - 1e-11 * size);
       EXPECT_LT(truth, wider.upper + 1e-11 * size);
-      EXPECT_LT(wider.width(), half_width(c, found.eta, found.rho) * 2 + 1e-9 * size);
+      EXPECT_LT(wider.width(), half_width(c, found.eta, found.rho) * 2 * (1 + 1e-6));
       ++tally.intervals;
     }
   }

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "estimate/boundary_samples.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+
+#include "estimate/edge_polynomial.hpp"
+#include "expression/enclosure.hpp"
+#include "expression/function.hpp"
+#include "fem/load_vector.hpp"
+#include "mesh/at.hpp"
+#include "stop/stop.hpp"
+
+namespace anticrack::estimate {
+namespace {
+
+using expression::Enclosure;
+using expression::Jet;
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr const char* field = "boundary_value";
+
+/// Greatest distance of an interval's values from one.
+double farthest(const expression::Interval& from, double value) {
+  return std::max(std::abs(from.low - value), std::abs(from.high - value));
+}
+
+/// g as a function of t = -1/2 ... 1/2 on a line, beside the polynomial p through its samples.
+class Line {
+ public:
+  Line(Enclosure& g, const Vector& start, const Vector& along, const EdgePolynomial& p)
+      : _g(g),
+        _middle{start[0] + 0.5 * along[0], start[1] + 0.5 * along[1]},
+        _along(along),
+        _p(p) {}
+
+  /// >= int (g' - p')^2 dt. Pieces are halved where it may be greatest, until it is small beside
+  /// that of p and its chord.
+  double missed() const {
+    const double chord = _p(0.5) - _p(-0.5);
+    double bend = 0, size = 0;
+    for (const double t : {-0.5, -0.25, 0.0, 0.25, 0.5}) {
+      bend = std::max(bend, std::abs(_p(t, 1) - chord));
+      size = std::max(size, std::abs(_p(t)));
+    }
+    const double enough = 1e-2 * bend + 1e-12 * size;
+    const double smooth = by_interpolation();
+    if (smooth <= enough * enough) return smooth;
+    std::priority_queue<Piece> pieces;
+    pieces.push(piece(-0.5, 0.5));
+    constexpr std::size_t most = 60;
+    for (std::size_t i = 0; i < most && pieces.top().missed > enough * enough / 16; ++i) {
+      const Piece one = pieces.top();
+      const double middle = 0.5 * (one.from + one.to);
+      if (!(one.from < middle && middle < one.to)) break;
+      pieces.pop();
+      pieces.push(piece(one.from, middle));
+      pieces.push(piece(middle, one.to));
+    }
+    double sum = 0;
+    for (; !pieces.empty(); pieces.pop()) sum += pieces.top().missed;
+    return std::min(smooth, sum);
+  }
+
+ private:
+  struct Piece {
+    double missed, from, to;
+    bool operator<(const Piece& other) const { return missed < other.missed; }
+  };
+
+  expression::Interval box(std::size_t d, double from, double to) const {
+    const double a = _middle[d] + from * _along[d], b = _middle[d] + to * _along[d];
+    return _along[d] == 0 ? expression::Interval{a, a}
+                          : expression::outward(std::min(a, b), std::max(a, b));
+  }
+  Jet enclose(double from, double to, int order) const {
+    return _g(box(0, from, to), box(1, from, to), order);
+  }
+  /// The coefficient of t^degree.
+  expression::Interval along(const Jet& jet, int degree) const {
+    expression::Interval sum;
+    const int first = degree * (degree + 1) / 2;
+    for (int j = 0; j <= degree; ++j) {
+      const double factor = std::pow(_along[0], degree - j) * std::pow(_along[1], j);
+      sum = sum + factor * jet.of[static_cast<std::size_t>(first + j)];
+    }
+    return sum;
+  }
+
+  /// Interpolation keeps Taylor's polynomial of degree k < 5 with the middle of the k-th
+  /// coefficient; the rest is r <= radius |t|^k, r' <= radius k |t|^(k-1).
+  double by_interpolation() const {
+    const Jet jet = enclose(-0.5, 0.5, Jet::most);
+    const double steepest = EdgePolynomial::steepest();
+    double least = infinite;
+    for (int k = 1; k <= jet.order; ++k) {
+      const double off = along(jet, k).radius() * std::pow(0.5, k) * (2 * k + steepest);
+      if (off < least) least = off;
+    }
+    return least * least;
+  }
+
+  /// By the values of g', or by g' in the middle and the values of g''.
+  Piece piece(double from, double to) const {
+    const double middle = 0.5 * (from + to), reach = 0.5 * (to - from);
+    const double slope = _p(middle, 1), bend = _p(middle, 2);
+    const double bend_varies = reach * (std::abs(_p(middle, 3)) + 0.5 * reach * std::abs(_p(0, 4)));
+    const Jet jet = enclose(from, to, 2);
+    double off = infinite;
+    if (jet.order >= 1) {
+      const double by_values =
+          farthest(along(jet, 1), slope) + reach * (std::abs(bend) + bend_varies);
+      if (by_values < off) off = by_values;
+    }
+    if (jet.order >= 2) {
+      const double by_middle = farthest(along(enclose(middle, middle, 1), 1), slope) +
+                               reach * (farthest(2 * along(jet, 2), bend) + bend_varies);
+      if (by_middle < off) off = by_middle;
+    }
+    return {off * off * (to - from), from, to};
+  }
+
+  Enclosure& _g;
+  Vector _middle, _along;
+  const EdgePolynomial& _p;
+};
+
+}  // namespace
+
+bool has_boundary_value(const Face& face) {
+  return face.condition == Condition::free && face.inclusion < 0;
+}
+
+std::array<std::size_t, 3> corners_of(const Face& face) {
+  const std::size_t t = at(face.side / 3), i = at(face.side % 3);
+  return {3 * t + (i + 1) % 3, 3 * t + (i + 2) % 3, 3 * t + i};
+}
+
+BoundarySamples boundary_samples(const CutMesh& cut, const std::string& text) {
+  std::vector<std::array<Vector, 2>> lines;  // start and way along, of each half
+  std::vector<double> xy;
+  for (const Face& face : cut.faces) {
+    if (!has_boundary_value(face)) continue;
+    const auto corners = corners_of(face);
+    const Vector &p = cut.at[at(cut.copy[corners[0]])], &q = cut.at[at(cut.copy[corners[1]])];
+    for (std::size_t half = 0; half < BoundarySamples::halves; ++half) {
+      const Vector along{(q[0] - p[0]) / BoundarySamples::halves,
+                         (q[1] - p[1]) / BoundarySamples::halves};
+      const auto before = static_cast<double>(half);
+      lines.push_back({Vector{p[0] + before * along[0], p[1] + before * along[1]}, along});
+      for (const double t : fem::line_5.at)
+        for (std::size_t d = 0; d < 2; ++d) xy.push_back(lines.back()[0][d] + t * along[d]);
+    }
+  }
+  BoundarySamples result{fem::values_at(xy, text, field), {}};
+  const expression::Function function(text, field);
+  Enclosure g(function.tape());
+  EdgePolynomial::Values values{};
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    stop::look_at_turn<64>(i, "computing bounds");
+    std::copy_n(&result.values[i * values.size()], values.size(), values.begin());
+    const double missed = Line(g, lines[i][0], lines[i][1], EdgePolynomial(values)).missed();
+    if (i % BoundarySamples::halves == 0) result.unknown.push_back(0);
+    // The derivative by s is twice that by t; dt is twice ds.
+    result.unknown.back() += BoundarySamples::halves * missed;
+  }
+  for (double& one : result.unknown) one = std::sqrt(one);
+  return result;
+}
+
+}  // namespace anticrack::estimate
