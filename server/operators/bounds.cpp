@@ -135,7 +135,7 @@ void MeshOperator::estimate(std::span<Estimate> all) const {
       if (!answer.no_bracket.empty()) continue;
       BalancedLoad of_load =
           data.balanced ? *data.balanced
-                        : balanced(load.parts, _parts->decomposition.subdomains, cut, one.stop);
+                        : balanced(load.parts, _parts->decomposition.subdomains, cut);
       if (!of_load.boundary.empty())
         material.lifts = estimate::lifts(cut, of_load.boundary, material.u);
       answer.no_bracket = obstacle_of(material.lifts);

@@ -41,7 +41,7 @@ std::string obstacle_of(std::span<const estimate::Lift> lifts) {
 }
 
 BalancedLoad balanced(const LoadParts& parts, const std::vector<ddm::Subdomain>& subdomains,
-                      const estimate::CutMesh& cut, const std::stop_token& stop) {
+                      const estimate::CutMesh& cut) {
   BalancedLoad result;
   result.obstacle = parts.obstacle;
   if (!parts.boundary_value.empty())
@@ -50,7 +50,7 @@ BalancedLoad balanced(const LoadParts& parts, const std::vector<ddm::Subdomain>&
   std::vector<fem::ForceParts> force = parts.integrated;
   for (std::size_t s = 0; s < force.size(); ++s) {
     if (auto linear = fem::linear_parts(subdomains[s].part, parts.force, subdomains[s].name,
-                                        {subdomains[s].node, subdomains[s].triangle, stop}))
+                                        {subdomains[s].node, subdomains[s].triangle}))
       force[s] = std::move(*linear);
   }
   result.balance = estimate::load_balance(cut, force, parts.traction);
@@ -68,7 +68,7 @@ BalancedLoad balanced(const LoadParts& parts, const std::vector<ddm::Subdomain>&
 std::vector<BalancedLoad> balanced(std::span<const fem::Load* const> loads,
                                    std::vector<LoadOnTraces>& condensed,
                                    const std::vector<ddm::Subdomain>& subdomains,
-                                   const estimate::CutMesh& cut, const std::stop_token& stop) {
+                                   const estimate::CutMesh& cut) {
   const bool lifted = std::ranges::any_of(
       condensed, [](const LoadOnTraces& load) { return !load.parts.boundary_value.empty(); });
   std::vector<BalancedLoad> result;
@@ -77,7 +77,7 @@ std::vector<BalancedLoad> balanced(std::span<const fem::Load* const> loads,
     // A sum with one that is not linear needs the values of those that are.
     if (lifted) parts.boundary_value = loads[j]->boundary_value;
     try {
-      BalancedLoad& one = result.emplace_back(balanced(parts, subdomains, cut, stop));
+      BalancedLoad& one = result.emplace_back(balanced(parts, subdomains, cut));
       if (one.boundary.empty() || !one.obstacle.empty()) continue;
       one.obstacle = obstacle_of(
           estimate::lifts(cut, one.boundary, on_boundary(condensed[j], subdomains, cut)));
