@@ -65,13 +65,13 @@ class Numbering {
     }
   }
 
-  void add_laws(const std::stop_token& stop) {
+  void add_laws() {
     for (std::size_t s = 0; s < _mesh.tension_laws.size(); ++s) {
       if (_mesh.tension_laws[s].along.empty()) continue;
       Subdomain& subdomain = _subdomains[s];
       try {
         subdomain.tension =
-            fem::tension(subdomain.part, _mesh.tension_laws[s], subdomain.name, stop);
+            fem::tension(subdomain.part, _mesh.tension_laws[s], subdomain.name);
       } catch (errors::Error& error) {
         throw error.below("tension_law");
       }
@@ -243,12 +243,12 @@ void place_held(const std::vector<Subdomain>& subdomains, std::vector<Held>& hel
 
 }  // namespace
 
-Decomposition cut(const mesh::Mesh& mesh, const std::stop_token& stop) {
+Decomposition cut(const mesh::Mesh& mesh) {
   const Sides sides = find_sides(mesh);
   Ties ties = tie(mesh, sides);
   Numbering numbering(mesh, sides);
   numbering.add_unknowns(ties);
-  numbering.add_laws(stop);
+  numbering.add_laws();
   Decomposition result;
   result.subdomains = numbering.take_subdomains();
   result.pairs = place_pairs(sides, ties, numbering.side_trace());

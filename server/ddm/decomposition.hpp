@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cstdint>
-#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -124,7 +123,7 @@ struct Decomposition {
 /// without a triangle on each side, an inclusion without edges, or a part of the membrane without
 /// Dirichlet node and interface; invalid_argument for inclusions that share nodes and are fixed at
 /// different values; numerical for a part that nothing holds; as fem::tension() at "tension_law".
-Decomposition cut(const mesh::Mesh& mesh, const std::stop_token& stop = {});
+Decomposition cut(const mesh::Mesh& mesh);
 
 /// Why Algorithm 2 of the paper does not apply, with the cure, or empty: a subdomain has a part
 /// without Dirichlet nodes, the rigid sides of an inclusion lie in two subdomains, or an inclusion

@@ -79,9 +79,9 @@ struct Terms {
 
 class LoadIntegrator {
  public:
-  LoadIntegrator(Integration& integration, const std::stop_token& stop)
+  LoadIntegrator(Integration& integration)
       : _integration(integration),
-        _cutter(integration, stop),
+        _cutter(integration),
         _count(integration.triangles.size() / 3),
         _exact(integration.exact) {}
 
@@ -309,10 +309,10 @@ class LoadIntegrator {
 IntegrationReport integrate_load(std::span<const double> xy,
                                  std::span<const std::int32_t> triangles,
                                  const expression::Function& f, std::span<double> load,
-                                 const IntegrationLimits& limits, std::stop_token stop,
+                                 const IntegrationLimits& limits,
                                  ForceParts* parts, std::vector<Spread>* spread) {
   std::fill(load.begin(), load.end(), 0.0);
-  Sampler sampler(f, stop);
+  Sampler sampler(f);
   ForceParts own;
   if (parts == nullptr) parts = &own;
   parts->load.assign(triangles.size(), 0);
@@ -320,7 +320,7 @@ IntegrationReport integrate_load(std::span<const double> xy,
   integration.parts = parts;
   const expression::Tape& tape = f.tape();
   integration.exact = tape.degree_between_switches(tape.result()) <= 4;
-  LoadIntegrator integrator(integration, stop);
+  LoadIntegrator integrator(integration);
   integrator(limits.first_work);
   IntegrationReport report;
   report.cut_triangles = integration.cut;
@@ -338,7 +338,7 @@ IntegrationReport integrate_load(std::span<const double> xy,
   options.interpolated = integration.interpolated;
   options.curved = integration.curved;
   options.spread = spread;
-  report.proof = prove_load(xy, triangles, f, *parts, load, options, stop);
+  report.proof = prove_load(xy, triangles, f, *parts, load, options);
   report.evaluations = sampler.count();
   return report;
 }

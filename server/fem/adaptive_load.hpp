@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <stop_token>
 
 #include "expression/function.hpp"
 #include "fem/load_proof.hpp"
@@ -63,13 +62,13 @@ struct IntegrationReport {
 /// Each triangle of area a is allowed relative_tolerance / 2 of (a mean|f| + its own int |f|).
 /// Reproducible on one kind of processor. Memory O(m). About n + 7 m evaluations if f is smooth.
 /// Triangles with zero area to rounding have no load. Throws errors::Error (expression_invalid if f
-/// is not finite inside a triangle; cancelled at most 10 ms of work after `stop` is requested).
+/// is not finite inside a triangle; cancelled: it looks every few milliseconds).
 /// What samples missed is added (load_proof.hpp). `parts`, if given, receives the load by triangles
 /// and what is proved of the rest; `spread` the values of f.
 IntegrationReport integrate_load(std::span<const double> xy,
                                  std::span<const std::int32_t> triangles,
                                  const expression::Function& f, std::span<double> load,
-                                 const IntegrationLimits& limits = {}, std::stop_token stop = {},
+                                 const IntegrationLimits& limits = {},
                                  ForceParts* parts = nullptr,
                                  std::vector<Spread>* spread = nullptr);
 

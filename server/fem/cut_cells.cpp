@@ -9,6 +9,7 @@
 
 #include "fem/switch_view.hpp"
 #include "fem/triangle_rules.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::fem {
 namespace {
@@ -87,9 +88,8 @@ std::vector<expression::Ref> refs(const std::vector<expression::Switch>& switche
 
 class Cutter::Work {
  public:
-  Work(Integration& integration, std::stop_token stop)
+  Work(Integration& integration)
       : _integration(integration),
-        _stop(std::move(stop)),
         _switches(in_order(integration.f.function().tape())),
         _arguments(integration.f.function().tape(), refs(_switches)),
         _curved(_switches.size()) {}
@@ -162,7 +162,7 @@ class Cutter::Work {
 
  private:
   void sample(std::span<const Cell> cells) {
-    look_at(_stop);
+    stop::look("integrating a load");
     for (std::size_t i = 0; i < width; ++i) {
       const Cell& cell = cells[std::min(i, cells.size() - 1)];
       const Frame frame = _integration.frame(cell.triangle);
@@ -363,7 +363,7 @@ class Cutter::Work {
       const std::size_t n = std::min(block, rays.size() - first);
       const auto some = rays.subspan(first, n);
       const auto measure = [&](auto&& part) {
-        look_at(_stop);
+        stop::look("integrating a load");
         for (std::size_t i = 0; i < n; ++i) {
           const Frame frame = _integration.frame(curved[(first + i) / each].cell.triangle);
           const Place at = between(some[i].from, some[i].to, part(i));
@@ -461,7 +461,6 @@ class Cutter::Work {
   }
 
   Integration& _integration;
-  std::stop_token _stop;
   std::vector<expression::Switch> _switches;
   expression::Evaluator _arguments;
   std::array<double, expression::Evaluator::block> _x{}, _y{};
@@ -472,8 +471,8 @@ class Cutter::Work {
   std::vector<Cell> _done;
 };
 
-Cutter::Cutter(Integration& integration, std::stop_token stop)
-    : _work(std::make_unique<Work>(integration, std::move(stop))) {}
+Cutter::Cutter(Integration& integration)
+    : _work(std::make_unique<Work>(integration)) {}
 Cutter::~Cutter() = default;
 
 bool Cutter::needed() const noexcept { return _work->needed(); }

@@ -4,7 +4,6 @@
 #include <array>
 #include <memory>
 #include <span>
-#include <stop_token>
 #include <vector>
 
 #include "fem/integration.hpp"
@@ -18,7 +17,7 @@ namespace anticrack::fem {
 /// with the end of one, are quartered until they are too small to matter.
 class Cutter {
  public:
-  explicit Cutter(Integration& integration, std::stop_token stop);
+  explicit Cutter(Integration& integration);
   ~Cutter();
 
   bool needed() const noexcept;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <queue>
 
-#include "fem/sampler.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::fem {
 namespace {
@@ -74,7 +74,7 @@ EnclosedPiece enclose(Enclosure& g, const Piece& piece) {
 
 Proof prove_traction(const Triangulation& part, std::span<const std::array<std::int32_t, 2>> edges,
                      const expression::Function& g, TractionParts& parts, std::span<double> load,
-                     double work, const std::stop_token& stop) {
+                     double work) {
   Enclosure enclosure(g.tape());
   std::vector<Half> halves;
   std::priority_queue<std::pair<double, std::size_t>> queue;
@@ -106,7 +106,7 @@ Proof prove_traction(const Triangulation& part, std::span<const std::array<std::
   for (std::size_t e = 0; e < edges.size(); ++e) add({e, 0, 1, 0, {}, 0});
   std::vector<char> divided(halves.size(), 0);
   while (!queue.empty() && work > 0 && (without > 0 || unknown > enough * absolute)) {
-    look_at(stop);
+    stop::look("integrating a load");
     const std::size_t i = queue.top().second;
     queue.pop();
     const Half one = halves[i];

@@ -6,7 +6,6 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <stop_token>
 #include <vector>
 
 #include "expression/enclosure.hpp"
@@ -38,6 +37,6 @@ EnclosedPiece enclose(expression::Enclosure& g, const Piece& piece);
 /// missed to `load` (n). Throws errors::Error (cancelled).
 Proof prove_traction(const Triangulation& part, std::span<const std::array<std::int32_t, 2>> edges,
                      const expression::Function& g, TractionParts& parts, std::span<double> load,
-                     double work, const std::stop_token& stop);
+                     double work);
 
 }  // namespace anticrack::fem

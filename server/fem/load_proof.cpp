@@ -10,6 +10,7 @@
 #include "fem/cell.hpp"
 #include "fem/cell_enclosure.hpp"
 #include "fem/sampler.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::fem {
 namespace {
@@ -62,14 +63,13 @@ class Prover {
  public:
   Prover(std::span<const double> xy, std::span<const std::int32_t> triangles,
          const expression::Function& f, ForceParts& parts, std::span<double> load,
-         const ProofOptions& options, const std::stop_token& stop)
+         const ProofOptions& options)
       : _xy(xy),
         _triangles(triangles),
         _enclosure(f.tape()),
         _parts(parts),
         _load(load),
         _options(options),
-        _stop(stop),
         _work(options.work),
         _order(triangles.size() / 3) {}
 
@@ -112,7 +112,7 @@ class Prover {
   void enclose_boxes() {
     std::vector<Range> ranges{{0, _order.size()}};
     while (!ranges.empty()) {
-      look_at(_stop);
+      stop::look("integrating a load");
       const Range range = ranges.back();
       ranges.pop_back();
       const std::span<std::int32_t> own(&_order[range.begin], range.end - range.begin);
@@ -321,7 +321,7 @@ class Prover {
     };
     for (std::size_t i = 0; i < _quarters.size(); ++i) offer(i);
     while (!queue.empty() && _work > 0 && !refused) {
-      look_at(_stop);
+      stop::look("integrating a load");
       const auto enough = [&] {
         _proof.absolute = std::max(_options.absolute, absolute);
         return without == 0 && urgent == 0 && unknown <= _options.tolerance * _proof.absolute;
@@ -490,7 +490,6 @@ class Prover {
   ForceParts& _parts;
   std::span<double> _load;
   const ProofOptions& _options;
-  const std::stop_token& _stop;
   double _work;
   std::vector<std::int32_t> _order;
   double _area = 0, _most_unknown = 0, _lowest = infinite;
@@ -503,8 +502,8 @@ class Prover {
 
 Proof prove_load(std::span<const double> xy, std::span<const std::int32_t> triangles,
                  const expression::Function& f, ForceParts& parts, std::span<double> load,
-                 const ProofOptions& options, const std::stop_token& stop) {
-  return Prover(xy, triangles, f, parts, load, options, stop)();
+                 const ProofOptions& options) {
+  return Prover(xy, triangles, f, parts, load, options)();
 }
 
 }  // namespace anticrack::fem

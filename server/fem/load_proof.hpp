@@ -7,7 +7,6 @@
 
 #include <cstdint>
 #include <span>
-#include <stop_token>
 #include <vector>
 
 #include "expression/function.hpp"
@@ -54,6 +53,6 @@ struct Proof {
 /// and quarters).
 Proof prove_load(std::span<const double> xy, std::span<const std::int32_t> triangles,
                  const expression::Function& f, ForceParts& parts, std::span<double> load,
-                 const ProofOptions& options, const std::stop_token& stop);
+                 const ProofOptions& options);
 
 }  // namespace anticrack::fem

@@ -10,7 +10,7 @@
 #include "fem/adaptive_load.hpp"
 #include "fem/cell.hpp"
 #include "fem/load_parts.hpp"
-#include "fem/sampler.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::fem {
 namespace {
@@ -69,8 +69,7 @@ void integrate_arrays(const Triangulation& part, std::span<const std::int32_t> n
 }
 
 /// Of a function at points (n,2).
-std::vector<double> at_points(std::span<const double> xy, const expression::Function& function,
-                              const std::stop_token& stop = {}) {
+std::vector<double> at_points(std::span<const double> xy, const expression::Function& function) {
   const std::size_t count = xy.size() / 2;
   constexpr std::size_t block = expression::Evaluator::block;
   const expression::Ref root = function.tape().result();
@@ -79,7 +78,7 @@ std::vector<double> at_points(std::span<const double> xy, const expression::Func
   std::vector<double> values(count);
   for (std::size_t begin = 0; begin < count; begin += block) {
     const std::size_t n = std::min(block, count - begin);
-    look_at(stop);
+    stop::look("integrating a load");
     for (std::size_t i = 0; i < n; ++i) {
       x[i] = xy[2 * (begin + i)];
       y[i] = xy[2 * (begin + i) + 1];
@@ -140,7 +139,7 @@ struct AssembleForce {
     if (degree == 0)
       return (*this)(tape.operations()[static_cast<std::size_t>(tape.result())].value);
     if (degree == 1) {
-      const std::vector<double> values = at_points(part.xy, force, context.stop);
+      const std::vector<double> values = at_points(part.xy, force);
       const double* const one[] = {values.data()};
       std::vector<std::int32_t> own(part.node_count());
       std::iota(own.begin(), own.end(), 0);
@@ -150,7 +149,7 @@ struct AssembleForce {
     const IntegrationReport report =
         integrate_load(part.xy, part.triangles, force, {load.data(), part.node_count()},
                        limits_of(force_tolerance(part.triangle_count()), part.triangle_count()),
-                       context.stop, context.parts);
+                       context.parts);
     if (context.report != nullptr) *context.report = report;
     return load;
   }
@@ -199,7 +198,7 @@ struct LinearParts {
     if (degree == 0)
       return (*this)(tape.operations()[static_cast<std::size_t>(tape.result())].value);
     if (degree != 1) return std::nullopt;
-    const std::vector<double> values = at_points(part.xy, force, context.stop);
+    const std::vector<double> values = at_points(part.xy, force);
     return linear([&](std::size_t corner) {
       return values[static_cast<std::size_t>(part.triangles[corner])];
     });

@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <span>
-#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -21,7 +20,6 @@ struct LoadContext {
   /// Mesh numbers of the subdomain's nodes and triangles: where its entries of an Array are.
   std::span<const std::int32_t> node = {};
   std::span<const std::int32_t> triangle = {};
-  std::stop_token stop = {};
   /// Receives how well an expression was integrated.
   IntegrationReport* report = nullptr;
   /// Receives the parts of an expression that is integrated (load_parts.hpp); of a force that is

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "errors/errors.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::fem {
 
@@ -46,18 +46,11 @@ std::vector<Branch> branches(const expression::Tape& tape) {
 
 }  // namespace
 
-void look_at(const std::stop_token& stop) {
-  if (stop.stop_requested())
-    throw errors::Error(errors::Reason::cancelled, "stopped while integrating a load");
-}
+Sampler::Sampler(const expression::Function& function, Jumps jumps)
+    : Sampler(function, watches(function.tape(), jumps)) {}
 
-Sampler::Sampler(const expression::Function& function, std::stop_token stop, Jumps jumps)
-    : Sampler(function, std::move(stop), watches(function.tape(), jumps)) {}
-
-Sampler::Sampler(const expression::Function& function, std::stop_token stop,
-                 std::vector<Watch> watches)
+Sampler::Sampler(const expression::Function& function, std::vector<Watch> watches)
     : _function(function),
-      _stop(std::move(stop)),
       _watches(std::move(watches)),
       _evaluator(function.tape(), roots(function.tape(), _watches)) {}
 
@@ -125,7 +118,7 @@ std::vector<Sampler::Watch> Sampler::watches(const expression::Tape& tape, Jumps
 }
 
 const double* Sampler::operator()(const double* x, const double* y, std::size_t n) {
-  look_at(_stop);
+  stop::look("integrating a load");
   _count += n;
   _evaluator(x, y, n);
   return _evaluator.values(0);

@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <limits>
-#include <stop_token>
 #include <vector>
 
 #include "expression/function.hpp"
@@ -35,7 +34,7 @@ void extremes(const double* values, std::size_t count, std::array<double, lanes>
   }
 }
 
-/// Evaluates a function in blocks of points, counts the points, and checks the stop token before
+/// Evaluates a function in blocks of points, counts the points, and looks (stop/stop.hpp) before
 /// every block. The arguments of steep functions (exp, sin, 1/u, ...) show whether samples can be
 /// trusted: an argument varies smoothly where its function has a peak that the samples miss.
 class Sampler {
@@ -45,10 +44,10 @@ class Sampler {
   /// Whether samples on both sides of a switch (Tape::switches) are unresolved.
   enum class Jumps { ignored, watched };
 
-  Sampler(const expression::Function& function, std::stop_token stop, Jumps jumps = Jumps::ignored);
+  explicit Sampler(const expression::Function& function, Jumps jumps = Jumps::ignored);
 
   /// Values at n <= block points; both arrays are read to the next multiple of 4. Not all need be
-  /// finite. Throws errors::Error (cancelled) soon after a stop was requested.
+  /// finite.
   const double* operator()(const double* x, const double* y, std::size_t n);
 
   /// Of the `count` points from `first` on of the last call; `room` widens what a rule of so many
@@ -106,16 +105,12 @@ class Sampler {
   /// The function, the arguments, then the guards, whose numbers are noted.
   static std::vector<expression::Ref> roots(const expression::Tape& tape,
                                             std::vector<Watch>& watches);
-  Sampler(const expression::Function& function, std::stop_token stop, std::vector<Watch> watches);
+  Sampler(const expression::Function& function, std::vector<Watch> watches);
 
   const expression::Function& _function;
-  std::stop_token _stop;
   std::vector<Watch> _watches;
   expression::Evaluator _evaluator;
   std::size_t _count = 0;
 };
-
-/// Throws errors::Error (cancelled) if a stop was requested.
-void look_at(const std::stop_token& stop);
 
 }  // namespace anticrack::fem

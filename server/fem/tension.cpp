@@ -54,12 +54,11 @@ void widen(Variation& to, const Variation& by) {
 class Direction {
  public:
   Direction(const Triangulation& part, const std::string& text, std::string field,
-            const std::string& region, const std::stop_token& stop)
+            const std::string& region)
       : _part(part),
         _function(text, field),
         _field(std::move(field)),
-        _region(region),
-        _stop(stop) {
+        _region(region) {
     const expression::Tape& tape = _function.tape();
     if (tape.degree(tape.result()) == 0) {
       const Frame frame = frame_of(part.xy, part.triangles, 0);
@@ -89,7 +88,7 @@ class Direction {
     // The energy is as wrong as T, and the error of linear elements about 1 / triangles of it.
     limits.proof_tolerance = 1e-2 / static_cast<double>(_part.triangle_count() + 100);
     const IntegrationReport report =
-        integrate_load(_part.xy, _part.triangles, _function, load, limits, _stop, &parts, &_spread);
+        integrate_load(_part.xy, _part.triangles, _function, load, limits, &parts, &_spread);
     mean.resize(_part.triangle_count());
     _unknown.resize(mean.size(), 0);
     for (std::size_t t = 0; t < mean.size(); ++t) {
@@ -131,7 +130,6 @@ class Direction {
   Function _function;
   std::string _field;
   const std::string& _region;
-  const std::stop_token& _stop;
   std::vector<Spread> _spread;   ///< (m) empty: T is constant
   std::vector<double> _unknown;  ///< (m) of the means, relative
 };
@@ -158,14 +156,13 @@ std::size_t Tension::bytes() const noexcept {
          variation.capacity() * sizeof(variation[0]);
 }
 
-Tension tension(const Triangulation& part, const mesh::TensionLaw& law, const std::string& region,
-                const std::stop_token& stop) {
-  const Direction along(part, law.along, "along", region, stop);
+Tension tension(const Triangulation& part, const mesh::TensionLaw& law, const std::string& region) {
+  const Direction along(part, law.along, "along", region);
   Tension result;
   along.add_variation(result.variation);
   std::vector<double> second;
   if (!law.across.empty()) {
-    Direction across(part, law.across, "across", region, stop);
+    Direction across(part, law.across, "across", region);
     across.add_variation(result.variation);
     second = std::move(across.mean);
   }

@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -56,8 +55,7 @@ constexpr double tension_tolerance = 1e-10;
 /// `region`: the subdomain's name, for errors. Throws errors::Error (expression_invalid at
 /// "along" or "across" where T is not finite and above 0, or not proved to be, with the point;
 /// cancelled). O(m), some 10 evaluations of each expression a triangle.
-Tension tension(const Triangulation& part, const mesh::TensionLaw& law, const std::string& region,
-                const std::stop_token& stop = {});
+Tension tension(const Triangulation& part, const mesh::TensionLaw& law, const std::string& region);
 
 /// Checks what can be checked without a mesh: syntax, symbols, lengths, constants above 0; T in a
 /// point, if there is one. Throws errors::Error (expression_invalid) at "along" or "across".

@@ -51,8 +51,8 @@ struct Segment {
 class EdgeIntegrator {
  public:
   EdgeIntegrator(const Triangulation& part, std::span<const std::array<std::int32_t, 2>> edges,
-                 const expression::Function& function, const std::stop_token& stop)
-      : _sampler(function, stop, Sampler::Jumps::watched),
+                 const expression::Function& function)
+      : _sampler(function, Sampler::Jumps::watched),
         _most_evaluations(static_cast<std::size_t>(most_work / (overhead + _sampler.cost()))) {
     for (const auto& nodes : edges) _edges.emplace_back(part, nodes);
   }
@@ -173,15 +173,15 @@ class EdgeIntegrator {
 TractionReport add_traction(const Triangulation& part,
                             std::span<const std::array<std::int32_t, 2>> edges,
                             const std::string& traction, Eigen::Ref<Eigen::VectorXd> load,
-                            const std::stop_token& stop, TractionParts* parts) {
+                            TractionParts* parts) {
   const expression::Function function(traction, "traction");
   TractionParts own;
   if (parts == nullptr) parts = &own;
   TractionReport report;
-  report.relative_error_estimate = EdgeIntegrator(part, edges, function, stop)(load, *parts);
+  report.relative_error_estimate = EdgeIntegrator(part, edges, function)(load, *parts);
   report.proof =
       prove_traction(part, edges, function, *parts,
-                     {load.data(), static_cast<std::size_t>(load.size())}, most_work, stop);
+                     {load.data(), static_cast<std::size_t>(load.size())}, most_work);
   return report;
 }
 

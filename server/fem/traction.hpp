@@ -5,7 +5,6 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <stop_token>
 #include <string>
 
 #include "fem/load_parts.hpp"
@@ -29,6 +28,6 @@ struct TractionReport {
 TractionReport add_traction(const Triangulation& part,
                             std::span<const std::array<std::int32_t, 2>> edges,
                             const std::string& traction, Eigen::Ref<Eigen::VectorXd> load,
-                            const std::stop_token& stop = {}, TractionParts* parts = nullptr);
+                            TractionParts* parts = nullptr);
 
 }  // namespace anticrack::fem

@@ -10,6 +10,7 @@
 #include "fem/load_vector.hpp"
 #include "fem/traction.hpp"
 #include "mesh/at.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::operators {
 namespace {
@@ -90,11 +91,10 @@ class Block {
  public:
   Block(std::span<const fem::Load* const> loads, const mesh::Mesh& mesh,
         const ddm::Decomposition& decomposition, const ddm::NeumannBoundary& neumann,
-        std::stop_token stop, bool parts)
+        bool parts)
       : _loads(loads),
         _decomposition(decomposition),
         _neumann(neumann),
-        _stop(std::move(stop)),
         _parts(parts),
         _placed(loads.size()),
         _outcomes(loads.size()) {
@@ -205,8 +205,7 @@ class Block {
   void attempt(std::size_t i, const Work& work) {
     if (auto* result = std::get_if<LoadOnTraces>(&_outcomes[i])) {
       try {
-        if (_stop.stop_requested())
-          throw errors::Error(errors::Reason::cancelled, "stopped while loads were integrated");
+        stop::look("integrating a load");
         work(*result);
       } catch (const errors::Error& error) {
         _outcomes[i] = error;
@@ -234,7 +233,7 @@ class Block {
     const ddm::Subdomain& subdomain = _decomposition.subdomains[s];
     fem::IntegrationReport report{};
     Eigen::VectorXd of_nodes = fem::load_vector(subdomain.part, _loads[i]->force, subdomain.name,
-                                                {subdomain.node, subdomain.triangle, _stop, &report,
+                                                {subdomain.node, subdomain.triangle, &report,
                                                  _parts ? &result.parts.integrated[s] : nullptr});
     const std::size_t triangles = subdomain.part.triangle_count();
     judge({"the force", subdomain.name, report.relative_error_estimate,
@@ -257,7 +256,7 @@ class Block {
     const fem::Load& load = *_loads[i];
     if (!load.traction.empty() && !_neumann.of(s).empty()) {
       const fem::TractionReport report =
-          fem::add_traction(subdomain.part, _neumann.of(s), load.traction, of_nodes, _stop,
+          fem::add_traction(subdomain.part, _neumann.of(s), load.traction, of_nodes,
                             _parts ? &result.parts.traction[s] : nullptr);
       constexpr double enough = 1e-4;
       judge({"the traction", subdomain.name, report.relative_error_estimate,
@@ -275,7 +274,6 @@ class Block {
   std::span<const fem::Load* const> _loads;
   const ddm::Decomposition& _decomposition;
   const ddm::NeumannBoundary& _neumann;
-  std::stop_token _stop;
   bool _parts;
   std::vector<PlacedForces> _placed;
   std::vector<CondensedOutcome> _outcomes;
@@ -296,13 +294,13 @@ std::vector<CondensedOutcome> condense_loads(std::span<const fem::Load* const> l
                                              const ddm::Decomposition& decomposition,
                                              const Condense& condense,
                                              const ddm::NeumannBoundary& neumann,
-                                             const std::stop_token& stop, bool parts) {
+                                             bool parts) {
   const auto at_once = at(ddm::columns_at_once(most_nodes(decomposition)));
   std::vector<CondensedOutcome> result;
   result.reserve(loads.size());
   for (std::size_t first = 0; first < loads.size(); first += at_once) {
     Block block(loads.subspan(first, std::min(at_once, loads.size() - first)), mesh, decomposition,
-                neumann, stop, parts);
+                neumann, parts);
     for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s)
       block.condense_on(s, condense);
     block.require_agreement(mesh);

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <functional>
 #include <span>
-#include <stop_token>
 #include <string>
 #include <variant>
 #include <vector>
@@ -51,14 +50,14 @@ using CondensedOutcome = std::variant<LoadOnTraces, errors::Error>;
 /// inclusions) and condenses them to the traces: one forward solve per subdomain and load, two
 /// where g_D is not zero, in blocks of loads. Entry i holds the result or error of loads[i]:
 /// invalid_argument (unknown subdomain or inclusion, array of another length, point force outside
-/// or on a crack, overflow), expression_invalid, or cancelled if `stop` came first. `parts`: with
+/// or on a crack, overflow), expression_invalid, or cancelled (stop/stop.hpp). `parts`: with
 /// LoadOnTraces::parts.
 std::vector<CondensedOutcome> condense_loads(std::span<const fem::Load* const> loads,
                                              const mesh::Mesh& mesh,
                                              const ddm::Decomposition& decomposition,
                                              const Condense& condense,
                                              const ddm::NeumannBoundary& neumann,
-                                             const std::stop_token& stop, bool parts = false);
+                                             bool parts = false);
 
 // Point forces and forces on inclusions as forces on nodes.
 

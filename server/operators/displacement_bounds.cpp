@@ -114,11 +114,10 @@ void advance(const MeshOperator::Parts& parts, const estimate::CutMesh& cut,
 
 class UntilStopped final : public contact::Observer {
  public:
-  explicit UntilStopped(const std::stop_token& stop) : _stop(stop) {}
-  bool on_iteration(const contact::Sample&) override { return !_stop.stop_requested(); }
-
- private:
-  const std::stop_token& _stop;
+  bool on_iteration(const contact::Sample&) override {
+    stop::look("computing bounds of A");
+    return true;
+  }
 };
 
 /// Pi is concave in the force F on a displacement A, and dPi/dF = -A, whatever the contact: with
@@ -130,19 +129,18 @@ class UntilStopped final : public contact::Observer {
 class Slopes {
  public:
   Slopes(const MeshOperator::Parts& parts, const LoadOnTraces& load, const estimate::Primal& primal,
-         double lower, double upper, const std::stop_token& stop)
+         double lower, double upper)
       : _parts(parts),
         _load(load),
         _primal(primal),
         _upper(upper),
-        _gap(upper - lower),
-        _stop(stop) {}
+        _gap(upper - lower) {}
 
   void find(const Aim& aim, contact::Answer& answer) const {
     const fem::Load load = aim.force(*_parts.mesh);
     const fem::Load* const force[] = {&load};
     const CondensedOutcome condensed = condense_loads(force, *_parts.mesh, _parts.decomposition,
-                                                      _parts.condense(), _parts.neumann, _stop)
+                                                      _parts.condense(), _parts.neumann)
                                            .front();
     const auto* unit = std::get_if<LoadOnTraces>(&condensed);
     if (unit == nullptr) return;
@@ -157,7 +155,7 @@ class Slopes {
 
  private:
   contact::Answer solve(const contact::CaseLoads& loads, bool fields) const {
-    UntilStopped observer(_stop);
+    UntilStopped observer;
     return _parts.with_problem([&](const auto& problem) {
       return contact::solve_active_set(problem, *_parts.mesh, loads, {}, fields, observer);
     });
@@ -191,7 +189,6 @@ class Slopes {
   const LoadOnTraces& _load;
   const estimate::Primal& _primal;
   double _upper, _gap;
-  const std::stop_token& _stop;
 };
 
 /// A_h +- |tau| |u - u_h|, tau the flux of a unit force with every contact open: A - A_h is
@@ -259,8 +256,7 @@ void bound_by_adjoints(const MeshOperator::Parts& parts, const std::vector<Aim>&
     if (of->stop.stop_requested()) continue;
     const stop::Scope scope(of->stop);
     try {
-      Slopes(parts, of->load, of->primal, *of->answer.energy_lower, *of->answer.energy_upper,
-             of->stop)
+      Slopes(parts, of->load, of->primal, *of->answer.energy_lower, *of->answer.energy_upper)
           .find(*aim, of->answer);
     } catch (const errors::Error& error) {
       if (error.reason() != errors::Reason::cancelled || !of->stop.stop_requested()) throw;

@@ -26,23 +26,21 @@ std::size_t BalancedLoad::bytes() const noexcept {
 }
 
 BalancedLoad balanced(const LoadParts& parts, const std::vector<ddm::Subdomain>& subdomains,
-                      const estimate::CutMesh& cut, const std::stop_token& stop) {
+                      const estimate::CutMesh& cut) {
   BalancedLoad result;
   result.obstacle = parts.obstacle;
   if (!parts.boundary_value.empty()) {
-    const stop::Scope scope(stop);
     result.boundary = estimate::boundary_samples(cut, parts.boundary_value);
     if (result.obstacle.empty() && !std::ranges::all_of(result.boundary.unknown, is_finite)) {
       result.obstacle =
           "boundary_value jumps along an edge, or its slope has no bound there: make it "
-          "continuous, "
-          "or the mesh finer";
+          "continuous, or the mesh finer";
     }
   }
   std::vector<fem::ForceParts> force = parts.integrated;
   for (std::size_t s = 0; s < force.size(); ++s) {
     if (auto linear = fem::linear_parts(subdomains[s].part, parts.force, subdomains[s].name,
-                                        {subdomains[s].node, subdomains[s].triangle, stop}))
+                                        {subdomains[s].node, subdomains[s].triangle}))
       force[s] = std::move(*linear);
   }
   result.balance = estimate::load_balance(cut, force, parts.traction);
@@ -58,7 +56,7 @@ BalancedLoad balanced(const LoadParts& parts, const std::vector<ddm::Subdomain>&
 std::vector<BalancedLoad> balanced(std::span<const fem::Load* const> loads,
                                    std::vector<LoadOnTraces>& condensed,
                                    const std::vector<ddm::Subdomain>& subdomains,
-                                   const estimate::CutMesh& cut, const std::stop_token& stop) {
+                                   const estimate::CutMesh& cut) {
   const bool lifted = std::ranges::any_of(
       condensed, [](const LoadOnTraces& load) { return !load.parts.boundary_value.empty(); });
   std::vector<BalancedLoad> result;
@@ -67,7 +65,7 @@ std::vector<BalancedLoad> balanced(std::span<const fem::Load* const> loads,
     // A sum with one that is not linear needs the values of those that are.
     if (lifted) parts.boundary_value = loads[j]->boundary_value;
     try {
-      result.push_back(balanced(parts, subdomains, cut, stop));
+      result.push_back(balanced(parts, subdomains, cut));
     } catch (errors::Error& error) {
       error.below("load_cases[" + std::to_string(j) + "]");
       throw;

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <span>
-#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -27,7 +26,7 @@ struct BalancedLoad {
 
 /// Throws errors::Error (expression_invalid at "boundary_value", cancelled).
 BalancedLoad balanced(const LoadParts& parts, const std::vector<ddm::Subdomain>& subdomains,
-                      const estimate::CutMesh& cut, const std::stop_token& stop);
+                      const estimate::CutMesh& cut);
 
 /// Of loads that are combined, each as it was asked for in `loads`; frees their parts. A load whose
 /// own boundary values have no bounds is an obstacle to all its combinations: in a sum with others
@@ -35,7 +34,7 @@ BalancedLoad balanced(const LoadParts& parts, const std::vector<ddm::Subdomain>&
 std::vector<BalancedLoad> balanced(std::span<const fem::Load* const> loads,
                                    std::vector<LoadOnTraces>& condensed,
                                    const std::vector<ddm::Subdomain>& subdomains,
-                                   const estimate::CutMesh& cut, const std::stop_token& stop);
+                                   const estimate::CutMesh& cut);
 
 /// sum_j c_j f_j, with the obstacles of those that are in it.
 BalancedLoad combine(std::span<const BalancedLoad> loads, std::span<const double> coefficients);

@@ -58,9 +58,9 @@ std::size_t bytes_of(const ddm::Decomposition& decomposition) {
 }  // namespace
 
 MeshOperator::Parts::Parts(std::shared_ptr<const mesh::Mesh> cut_mesh, int threads,
-                           const std::stop_token& stop, std::size_t most_dense)
+                           std::size_t most_dense)
     : mesh(std::move(cut_mesh)),
-      decomposition(ddm::cut(*mesh, stop)),
+      decomposition(ddm::cut(*mesh)),
       neumann(*mesh, decomposition),
       operators(contact::is_long(decomposition, most_dense)
                     ? std::vector<ddm::SubdomainOperator>()
@@ -90,7 +90,7 @@ std::shared_ptr<const MeshOperator> MeshOperator::factorise(std::shared_ptr<cons
   require_threadsafe_blas();
   const stop::Scope scope(stop);
   stop::look("factorising a mesh");
-  auto parts = std::make_shared<const Parts>(std::move(mesh), threads, stop, most_dense);
+  auto parts = std::make_shared<const Parts>(std::move(mesh), threads, most_dense);
   return std::shared_ptr<const MeshOperator>(new MeshOperator(std::move(parts)));
 }
 

@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -43,8 +42,7 @@ class Working {
 };
 
 struct MeshOperator::Parts {
-  Parts(std::shared_ptr<const mesh::Mesh> cut_mesh, int threads, const std::stop_token& stop,
-        std::size_t most_dense);
+  Parts(std::shared_ptr<const mesh::Mesh> cut_mesh, int threads, std::size_t most_dense);
 
   std::shared_ptr<const mesh::Mesh> mesh;
   ddm::Decomposition decomposition;

@@ -28,7 +28,7 @@ std::vector<std::variant<PreparedLoad, errors::Error>> MeshOperator::prepare(
     std::span<const fem::Load* const> loads, const std::stop_token& stop) const {
   const stop::Scope scope(stop);
   std::vector<CondensedOutcome> condensed = condense_loads(
-      loads, *_parts->mesh, _parts->decomposition, _parts->condense(), _parts->neumann, stop, true);
+      loads, *_parts->mesh, _parts->decomposition, _parts->condense(), _parts->neumann, true);
   std::vector<std::variant<PreparedLoad, errors::Error>> prepared;
   prepared.reserve(condensed.size());
   for (auto& one : condensed) {

@@ -36,13 +36,13 @@ struct Solved {
   /// is constant.
   Solved(const mesh::Mesh& given, fem::Load full, const std::vector<double>& values)
       : mesh(std::make_shared<const mesh::Mesh>(given)),
-        parts(mesh, 1, {}, operators::max_dense),
+        parts(mesh, 1, operators::max_dense),
         cut(cut_mesh(*mesh, parts.decomposition)) {
     const bool by_triangle = values.size() == mesh->triangle_count();
     full.force = fem::Array{"", by_triangle, std::make_shared<const std::vector<double>>(values)};
     const fem::Load* const one[] = {&full};
     auto condensed = operators::condense_loads(one, *mesh, parts.decomposition, parts.condense(),
-                                               parts.neumann, {}, true);
+                                               parts.neumann, true);
     if (const auto* error = std::get_if<errors::Error>(&condensed.front()))
       throw errors::Error(*error);
     load = std::get<operators::LoadOnTraces>(std::move(condensed.front()));

@@ -14,6 +14,7 @@
 
 #include "errors/errors.hpp"
 #include "fem/load_vector.hpp"
+#include "stop/stop.hpp"
 #include "support/errors.hpp"
 #include "support/exact_loads.hpp"
 #include "support/load_errors.hpp"
@@ -226,7 +227,8 @@ TEST(Stop, EndsTheWorkSoon) {
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
       stop.request_stop();
     });
-    EXPECT_TRUE(throws([&] { integrate(mesh, f, load, {.work = 1e14}, stop.get_token()); },
+    const stop::Scope scope(stop.get_token());
+    EXPECT_TRUE(throws([&] { integrate(mesh, f, load, {.work = 1e14}); },
                        errors::Reason::cancelled))
         << f;
   }

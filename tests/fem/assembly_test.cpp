@@ -10,6 +10,7 @@
 #include "fem/adaptive_load.hpp"
 #include "fem/load_vector.hpp"
 #include "fem/stiffness.hpp"
+#include "stop/stop.hpp"
 #include "support/crooked_square.hpp"
 #include "support/errors.hpp"
 #include "support/plain_stiffness.hpp"
@@ -194,9 +195,9 @@ TEST(LoadVector, TellsHowWrongItIsAndStopsWhenAsked) {
   EXPECT_LE(report.relative_error_estimate, 1e-10);
   std::stop_source stop;
   stop.request_stop();
+  const stop::Scope scope(stop.get_token());
   EXPECT_TRUE(anticrack::testing::throws(
-      [&] { load_vector(crooked_square(20), Expression{"x"}, "a", {.stop = stop.get_token()}); },
-      errors::Reason::cancelled));
+      [&] { load_vector(crooked_square(20), Expression{"x"}, "a"); }, errors::Reason::cancelled));
 }
 
 TEST(BoundaryValues, AreThoseOfTheNodesAskedFor) {

@@ -230,7 +230,7 @@ TEST(TractionProof, APeakOfAnyWidthIsFound) {
     const std::string g = "abs(x-0.213457) < " + text(r) + " ? " + text(1 / (2 * r)) + " : 0";
     Eigen::VectorXd load = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(mesh.node_count()));
     fem::TractionParts parts;
-    const auto report = fem::add_traction(triangulation(mesh), edges, g, load, {}, &parts);
+    const auto report = fem::add_traction(triangulation(mesh), edges, g, load, &parts);
     EXPECT_LE(std::abs(load.sum() - 1), report.proof.unknown + 1e-9) << g;
     EXPECT_LE(report.proof.relative(), 2e-8 + 1e-13 / r) << g;  // places are rounded
     double squared = 0;

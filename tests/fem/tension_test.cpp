@@ -12,6 +12,7 @@
 
 #include "fem/load_vector.hpp"
 #include "fem/stiffness.hpp"
+#include "stop/stop.hpp"
 #include "support/crooked_square.hpp"
 #include "support/errors.hpp"
 
@@ -194,9 +195,10 @@ TEST(Tension, IsRefusedWithThePointWhereItIsNotAboveZero) {
       errors::Reason::expression_invalid, "along", "at (x, y) = (-2, 0)");
   std::stop_source stop;
   stop.request_stop();
+  const stop::Scope scope(stop.get_token());
   expect_error(
       [&] {
-        tension(part, {"1 + x", "", 0}, "top", stop.get_token());
+        tension(part, {"1 + x", "", 0}, "top");
       },
       errors::Reason::cancelled, "", "");
 }

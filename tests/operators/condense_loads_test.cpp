@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "stop/stop.hpp"
 #include "support/errors.hpp"
 #include "support/structured_mesh.hpp"
 
@@ -51,7 +52,7 @@ class CondenseLoad : public ::testing::Test {
       operators.emplace_back(subdomain);
     }
   }
-  LoadOnTraces condense(const fem::Load& load, const std::stop_token& stop = {}) const {
+  LoadOnTraces condense(const fem::Load& load) const {
     const fem::Load* const one[] = {&load};
     CondensedOutcome outcome =
         std::move(condense_loads(
@@ -59,7 +60,7 @@ class CondenseLoad : public ::testing::Test {
                       [this](std::size_t s, const auto& of_nodes, const auto& dirichlet) {
                         return operators[s].condense(of_nodes, dirichlet);
                       },
-                      neumann, stop)
+                      neumann)
                       .front());
     if (const auto* error = std::get_if<errors::Error>(&outcome)) {
       throw errors::Error(*error);
@@ -283,7 +284,8 @@ TEST_F(CondenseLoad, WarnsWhereALimitWasMetAndStopsWhenAsked) {
   EXPECT_NE(loads.warnings[0].find("\"lower\""), std::string::npos);
   std::stop_source stop;
   stop.request_stop();
-  EXPECT_TRUE(throws([&] { condense(rough, stop.get_token()); }, Reason::cancelled));
+  const stop::Scope scope(stop.get_token());
+  EXPECT_TRUE(throws([&] { condense(rough); }, Reason::cancelled));
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include <iostream>
 #include <memory>
 #include <sstream>
-#include <stop_token>
 #include <string>
 #include <utility>
 #include <vector>
@@ -53,11 +52,9 @@ inline Field field(const std::string& f) {
 /// Loads of the text f.
 inline fem::IntegrationReport integrate(const PlaneMesh& mesh, const std::string& f,
                                         std::vector<double>& load,
-                                        const fem::IntegrationLimits& limits = {},
-                                        std::stop_token stop = {}) {
+                                        const fem::IntegrationLimits& limits = {}) {
   load.assign(mesh.node_count(), 7);
-  return fem::integrate_load(mesh.xy, mesh.triangles, expression::Function(f, "f"), load, limits,
-                             std::move(stop));
+  return fem::integrate_load(mesh.xy, mesh.triangles, expression::Function(f, "f"), load, limits);
 }
 
 /// Integrates f over the mesh, compares with the exact load, prints what it cost.
