@@ -20,8 +20,8 @@ class Lazy {
   template <class Compute>
   const Value& get(const Compute& compute) const {
     if (const Value* value = known()) return *value;
-    std::unique_lock lock(_mutex, std::try_to_lock);
-    for (; !lock.owns_lock(); lock.try_lock()) {
+    std::unique_lock lock(_mutex, std::defer_lock);
+    while (!lock.try_lock()) {
       stop::look("waiting for what another needs as well");
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
