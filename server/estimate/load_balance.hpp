@@ -11,8 +11,7 @@
 
 namespace anticrack::estimate {
 
-/// First zero of the Bessel function J_1.
-inline constexpr double j_11 = 3.8317059702075123;
+using fem::j_11;
 
 /// A load on all subdomains, in the order of CutMesh.
 struct LoadBalance {

@@ -203,11 +203,9 @@ class Sides {
                   above = polygon.below(away - value, -slope_x, -slope_y);
     const double strip = std::max(0.0, own.area - below.measure().area - above.measure().area);
     add_part({strip, 0, 0}, jet.value().middle(), jet.value().radius(), jet.value());
-    if (strip < 0.5 * own.area || below.measure().area > 0 || above.measure().area > 0) {
-      for (const bool side : {false, true}) {
-        _taken.back().above = side;
-        add(side ? above : below);
-      }
+    for (const bool side : {false, true}) {
+      _taken.back().above = side;
+      add(side ? above : below);
     }
     _taken.pop_back();
   }

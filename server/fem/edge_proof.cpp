@@ -5,6 +5,7 @@
 #include <cmath>
 #include <queue>
 
+#include "mesh/at.hpp"
 #include "stop/stop.hpp"
 
 namespace anticrack::fem {
@@ -30,6 +31,7 @@ struct Half {
   int depth;
   EnclosedPiece found;
   double length;
+  bool divided = false;
 };
 
 }  // namespace
@@ -72,109 +74,160 @@ EnclosedPiece enclose(Enclosure& g, const Piece& piece) {
   return result;
 }
 
-Proof prove_traction(const Triangulation& part, std::span<const std::array<std::int32_t, 2>> edges,
-                     const expression::Function& g, TractionParts& parts, std::span<double> load,
-                     double work) {
-  Enclosure enclosure(g.tape());
-  std::vector<Half> halves;
-  std::priority_queue<std::pair<double, std::size_t>> queue;
-  double unknown = 0, absolute = 0;
-  std::size_t without = 0;
-  const auto point = [&](std::int32_t node) {
-    return &part.xy[2 * static_cast<std::size_t>(node)];
+namespace {
+
+class EdgeProver {
+ public:
+  EdgeProver(const Triangulation& part, std::span<const std::array<std::int32_t, 2>> edges,
+             const expression::Function& g, TractionParts& parts, std::span<double> load,
+             double work)
+      : _part(part), _edges(edges), _enclosure(g.tape()), _parts(parts), _load(load), _work(work) {}
+
+  Proof operator()() {
+    for (std::size_t e = 0; e < _edges.size(); ++e) add({e, 0, 1, 0, {}, 0});
+    while (!_queue.empty() && _work > 0 && !enough_is_known()) {
+      stop::look("integrating a load");
+      const std::size_t i = _queue.top().second;
+      _queue.pop();
+      divide(i);
+    }
+    conclude();
+    bound_rest();
+    return _proof;
+  }
+
+ private:
+  /// What is known of some pieces.
+  struct Known {
+    double unknown = 0, absolute = 0;
+    std::size_t without = 0;  ///< of which nothing is known
+    void count(const Half& one, int sign) {
+      const double radius = one.length * one.found.radius;
+      if (std::isfinite(radius)) {
+        unknown += sign * radius;
+        absolute += sign * one.length * std::abs(one.found.mean);
+      } else {
+        without = sign > 0 ? without + 1 : without - 1;
+      }
+    }
+    bool suffices() const { return without == 0 && unknown <= enough * absolute; }
   };
-  const auto add = [&](Half one) {
-    const double *p = point(edges[one.edge][0]), *q = point(edges[one.edge][1]);
+
+  const double* point(std::int32_t node) const { return &_part.xy[2 * at(node)]; }
+  double length(std::size_t edge) const {
+    const double *p = point(_edges[edge][0]), *q = point(_edges[edge][1]);
+    return std::hypot(q[0] - p[0], q[1] - p[1]);
+  }
+
+  void add(Half one) {
+    const double *p = point(_edges[one.edge][0]), *q = point(_edges[one.edge][1]);
     const double dx = q[0] - p[0], dy = q[1] - p[1], middle = 0.5 * (one.from + one.to),
                  share = one.to - one.from;
     one.found =
-        enclose(enclosure, {p[0] + middle * dx, p[1] + middle * dy, share * dx, share * dy});
+        enclose(_enclosure, {p[0] + middle * dx, p[1] + middle * dy, share * dx, share * dy});
     one.length = share * std::hypot(dx, dy);
-    work -= 3 * enclosure.cost();
+    _work -= 3 * _enclosure.cost();
+    _known.count(one, 1);
     const double radius = one.length * one.found.radius;
-    if (std::isfinite(radius)) {
-      unknown += radius;
-      absolute += one.length * std::abs(one.found.mean);
-    } else {
-      ++without;
-    }
     const double resolved = 1e-13 * (std::abs(p[0]) + std::abs(p[1]));
     if (radius > 0 && one.depth < finest && one.length > resolved)
-      queue.emplace(radius, halves.size());
-    halves.push_back(one);
-  };
-  for (std::size_t e = 0; e < edges.size(); ++e) add({e, 0, 1, 0, {}, 0});
-  std::vector<char> divided(halves.size(), 0);
-  while (!queue.empty() && work > 0 && (without > 0 || unknown > enough * absolute)) {
-    stop::look("integrating a load");
-    const std::size_t i = queue.top().second;
-    queue.pop();
-    const Half one = halves[i];
-    const double radius = one.length * one.found.radius, middle = 0.5 * (one.from + one.to);
-    if (std::isfinite(radius)) {
-      unknown -= radius;
-      absolute -= one.length * std::abs(one.found.mean);
-    } else {
-      --without;
-    }
+      _queue.emplace(radius, _halves.size());
+    _halves.push_back(one);
+  }
+
+  void divide(std::size_t i) {
+    const Half one = _halves[i];
+    const double middle = 0.5 * (one.from + one.to);
+    _known.count(one, -1);
+    _halves[i].divided = true;
     add({one.edge, one.from, middle, one.depth + 1, {}, 0});
     add({one.edge, middle, one.to, one.depth + 1, {}, 0});
-    divided.resize(halves.size(), 0);
-    divided[i] = 1;
   }
-  struct Sum {
-    double integral = 0, radius = 0, at_second = 0;
-  };
-  std::vector<Sum> sums(edges.size());
-  for (std::size_t i = 0; i < halves.size(); ++i) {
-    if (divided[i] != 0) continue;
-    const Half& one = halves[i];
-    Sum& sum = sums[one.edge];
-    sum.integral += one.length * one.found.mean;
-    sum.at_second += one.length * one.found.mean * 0.5 * (one.from + one.to);
-    sum.radius += one.length * one.found.radius;
+
+  template <class Function>
+  void each_piece(const Function& function) const {
+    for (const Half& one : _halves)
+      if (!one.divided) function(one);
   }
-  Proof proof;
-  parts.unknown.assign(edges.size(), 0);
-  parts.beyond.assign(edges.size(), 0);
-  double most = 0;
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    const Sum& sum = sums[e];
-    double* own = &parts.load[2 * e];
-    const double slack = sum.radius + 1e-14 * std::abs(sum.integral);
-    const double doubt =
-        1e-9 * (std::abs(sum.integral) + absolute / static_cast<double>(edges.size()));
-    if (std::abs(own[0] + own[1] - sum.integral) > slack + doubt) {  // samples missed something
-      const double moments[] = {sum.integral - sum.at_second, sum.at_second};
-      for (std::size_t k = 0; k < 2; ++k) {
-        load[static_cast<std::size_t>(edges[e][k])] += moments[k] - own[k];
-        own[k] = moments[k];
-      }
+
+  bool enough_is_known() {
+    if (!_known.suffices()) return false;
+    _known = {};  // what was large before has left its rounding
+    each_piece([&](const Half& one) { _known.count(one, 1); });
+    return _known.suffices();
+  }
+
+  void conclude() {
+    struct Sum {
+      double integral = 0, radius = 0, at_second = 0;
+    };
+    std::vector<Sum> sums(_edges.size());
+    each_piece([&](const Half& one) {
+      Sum& sum = sums[one.edge];
+      sum.integral += one.length * one.found.mean;
+      sum.at_second += one.length * one.found.mean * 0.5 * (one.from + one.to);
+      sum.radius += one.length * one.found.radius;
+      _proof.absolute += one.length * std::abs(one.found.mean);
+    });
+    _parts.unknown.assign(_edges.size(), 0);
+    double most = 0;
+    for (std::size_t e = 0; e < _edges.size(); ++e) {
+      const Sum& sum = sums[e];
+      const double* own = &_parts.load[2 * e];
+      const double slack = sum.radius + 1e-14 * std::abs(sum.integral);
+      const double doubt =
+          1e-9 * (std::abs(sum.integral) + _known.absolute / static_cast<double>(_edges.size()));
+      if (std::abs(own[0] + own[1] - sum.integral) > slack + doubt)  // samples missed something
+        replace(e, {sum.integral - sum.at_second, sum.at_second});
+      _parts.unknown[e] = std::abs(own[0] + own[1] - sum.integral) + slack;
+      _proof.unknown += _parts.unknown[e];
+      if (!(_parts.unknown[e] > most)) continue;
+      most = _parts.unknown[e];
+      const double *p = point(_edges[e][0]), *q = point(_edges[e][1]);
+      _proof.worst_x = 0.5 * (p[0] + q[0]);
+      _proof.worst_y = 0.5 * (p[1] + q[1]);
     }
-    parts.unknown[e] = std::abs(own[0] + own[1] - sum.integral) + slack;
-    proof.unknown += parts.unknown[e];
-    if (!(parts.unknown[e] > most)) continue;
-    most = parts.unknown[e];
-    const double *p = point(edges[e][0]), *q = point(edges[e][1]);
-    proof.worst_x = 0.5 * (p[0] + q[0]);
-    proof.worst_y = 0.5 * (p[1] + q[1]);
   }
-  for (std::size_t i = 0; i < halves.size(); ++i) {
-    if (divided[i] != 0) continue;
-    const Half& one = halves[i];
-    const double *p = point(edges[one.edge][0]), *q = point(edges[one.edge][1]);
-    const double mean = (parts.load[2 * one.edge] + parts.load[2 * one.edge + 1]) /
-                        std::hypot(q[0] - p[0], q[1] - p[1]);
-    const double off = std::abs(one.found.middle - mean) + one.found.deviation;
-    parts.beyond[one.edge] += one.length * off * off;
-    proof.absolute += one.length * std::abs(one.found.mean);
+
+  void replace(std::size_t edge, const std::array<double, 2>& moments) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      double& own = _parts.load[2 * edge + k];
+      _load[at(_edges[edge][k])] += moments[k] - own;
+      own = moments[k];
+    }
   }
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    const double *p = point(edges[e][0]), *q = point(edges[e][1]);
-    parts.beyond[e] = std::sqrt(parts.beyond[e]) +
-                      4 * parts.unknown[e] / std::sqrt(std::hypot(q[0] - p[0], q[1] - p[1]));
+
+  /// Of g - g_h.
+  void bound_rest() {
+    _parts.beyond.assign(_edges.size(), 0);
+    each_piece([&](const Half& one) {
+      const double* own = &_parts.load[2 * one.edge];
+      const double mean = (own[0] + own[1]) / length(one.edge);
+      const double off = std::abs(one.found.middle - mean) + one.found.deviation;
+      _parts.beyond[one.edge] += one.length * off * off;
+    });
+    for (std::size_t e = 0; e < _edges.size(); ++e)
+      _parts.beyond[e] = std::sqrt(_parts.beyond[e]) + 4 * _parts.unknown[e] / std::sqrt(length(e));
   }
-  return proof;
+
+  const Triangulation& _part;
+  std::span<const std::array<std::int32_t, 2>> _edges;
+  Enclosure _enclosure;
+  TractionParts& _parts;
+  std::span<double> _load;
+  double _work;
+  std::vector<Half> _halves;
+  std::priority_queue<std::pair<double, std::size_t>> _queue;
+  Known _known;
+  Proof _proof;
+};
+
+}  // namespace
+
+Proof prove_traction(const Triangulation& part, std::span<const std::array<std::int32_t, 2>> edges,
+                     const expression::Function& g, TractionParts& parts, std::span<double> load,
+                     double work) {
+  return EdgeProver(part, edges, g, parts, load, work)();
 }
 
 }  // namespace anticrack::fem

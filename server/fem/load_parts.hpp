@@ -14,6 +14,10 @@
 
 namespace anticrack::fem {
 
+/// First zero of the Bessel function J_1: |v - mean v| <= diameter / j_11 |grad v| on a triangle
+/// (Laugesen & Siudeja, 2009).
+inline constexpr double j_11 = 3.8317059702075123;
+
 /// f on the triangles K of a subdomain.
 struct ForceParts {
   std::vector<double> load;  ///< (m,3) int_K f phi_i for the corners i, as they are in the load

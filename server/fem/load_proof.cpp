@@ -10,6 +10,7 @@
 #include "fem/cell.hpp"
 #include "fem/cell_enclosure.hpp"
 #include "fem/sampler.hpp"
+#include "mesh/at.hpp"
 #include "stop/stop.hpp"
 
 namespace anticrack::fem {
@@ -19,16 +20,11 @@ using expression::Enclosure;
 using expression::Jet;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-/// First zero of the Bessel function J_1: |v - mean v| <= diameter / j_11 |grad v| on a triangle
-/// (Laugesen & Siudeja, 2009).
-constexpr double j_11 = 3.8317059702075123;
 /// Boxes of no more triangles are not divided, but each triangle is looked at.
 constexpr std::size_t few = 12;
 constexpr std::int32_t deepest = 48;
 /// Of a sum of some terms of double precision.
 constexpr double rounding = 1e-14;
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 Centred centred(const Frame& frame, const Cell& cell) {
   std::array<double, 3> x{}, y{};
@@ -59,11 +55,11 @@ struct Quarter {
   std::int32_t children = -1;  ///< the first of four
 };
 
-class Prover {
+class ForceProver {
  public:
-  Prover(std::span<const double> xy, std::span<const std::int32_t> triangles,
-         const expression::Function& f, ForceParts& parts, std::span<double> load,
-         const ProofOptions& options)
+  ForceProver(std::span<const double> xy, std::span<const std::int32_t> triangles,
+              const expression::Function& f, ForceParts& parts, std::span<double> load,
+              const ProofOptions& options)
       : _xy(xy),
         _triangles(triangles),
         _enclosure(f.tape()),
@@ -503,7 +499,7 @@ class Prover {
 Proof prove_load(std::span<const double> xy, std::span<const std::int32_t> triangles,
                  const expression::Function& f, ForceParts& parts, std::span<double> load,
                  const ProofOptions& options) {
-  return Prover(xy, triangles, f, parts, load, options)();
+  return ForceProver(xy, triangles, f, parts, load, options)();
 }
 
 }  // namespace anticrack::fem

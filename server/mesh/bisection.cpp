@@ -236,20 +236,14 @@ bool Bisection::bisect(std::size_t triangle) {
 }
 
 Mesh Bisection::finish() && {
-  Mesh mesh;
+  Mesh mesh = without_triangles(_base);
   mesh.xy = std::move(_xy);
   mesh.triangles.reserve(3 * _corners.size());
   for (const auto& nodes : _corners)
     mesh.triangles.insert(mesh.triangles.end(), nodes.begin(), nodes.end());
   mesh.subdomain = std::move(_subdomain);
-  mesh.subdomains = _base.subdomains;
-  mesh.tension = _base.tension;
-  mesh.tension_laws = _base.tension_laws;
-  mesh.inclusions = _base.inclusions;
-  mesh.motions = _base.motions;
   mesh.interfaces = _base.interfaces;
   mesh.dirichlet = _base.dirichlet;
-  mesh.warnings = _base.warnings;
   mesh.bisection_bound = bisection_bound(_base);
   stop::look(bisecting);
   cut_lines(mesh, Midpoints(static_cast<std::int32_t>(_base.node_count()), _parents));

@@ -285,4 +285,15 @@ void validate(const Mesh& mesh) {
   check_boundary(mesh, edges);
 }
 
+Mesh without_triangles(const Mesh& mesh) {
+  Mesh result;
+  result.subdomains = mesh.subdomains;
+  result.tension = mesh.tension;
+  result.tension_laws = mesh.tension_laws;
+  result.inclusions = mesh.inclusions;
+  result.motions = mesh.motions;
+  result.warnings = mesh.warnings;
+  return result;
+}
+
 }  // namespace anticrack::mesh

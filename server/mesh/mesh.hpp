@@ -95,6 +95,10 @@ inline Point corner(const Mesh& mesh, std::size_t triangle, std::size_t i) noexc
   return position(mesh, mesh.triangles[3 * triangle + i]);
 }
 
+/// A mesh without nodes, triangles and lines that has the subdomains, inclusions and warnings of
+/// another.
+Mesh without_triangles(const Mesh& mesh);
+
 /// Arc length of each node of an interface from its first node, shape (k).
 std::vector<double> arc_length(const Mesh& mesh, const Interface& interface);
 

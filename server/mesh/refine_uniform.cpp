@@ -71,7 +71,7 @@ Mesh refine_uniform(const Mesh& base) {
                         "refining " + std::to_string(base.triangle_count()) +
                             " triangles would give more than can be numbered");
   }
-  Mesh fine;
+  Mesh fine = without_triangles(base);
   fine.xy.reserve(8 * base.node_count());
   fine.xy = base.xy;
   const Midpoints midpoint(base, fine.xy);
@@ -94,12 +94,6 @@ Mesh refine_uniform(const Mesh& base) {
     fine.dirichlet.push_back({a, middle});
     fine.dirichlet.push_back({middle, b});
   }
-  fine.subdomains = base.subdomains;
-  fine.tension = base.tension;
-  fine.tension_laws = base.tension_laws;
-  fine.inclusions = base.inclusions;
-  fine.motions = base.motions;
-  fine.warnings = base.warnings;
   // a quarter is similar to the whole, so the bound of all bisections holds for it
   fine.bisection_bound = base.bisection_bound;
   return fine;
