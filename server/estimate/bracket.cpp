@@ -56,7 +56,7 @@ Bracket bracket(const CutMesh& cut, const EquilibratedFlux& flux, const LoadBala
   double half_distance = 0;  // eta^2 / 2, less |w|^2 / 2, which Pi(v) has as well, if T is known
   double squared = 0, work = 0, lift_energy = 0, lift_norm = 0, unknown = 0;
   for (std::size_t t = 0; t < result.indicator.size(); ++t) {
-    stop::look_at_turn(t, "computing bounds");
+    stop::look_at_turn(t, "computing bounds of the energy");
     double& one = result.indicator[t];
     one = std::max(0.0, one);
     const double oscillation = load.oscillation.empty() ? 0 : load.oscillation[t];
@@ -93,8 +93,8 @@ Bracket bracket(const CutMesh& cut, const EquilibratedFlux& flux, const LoadBala
   }
   const double distance = std::sqrt(squared) + lack;
   half_distance += lack * (std::sqrt(squared) + lack / 2);
-  // Without interval arithmetic: rounding is some 1e-14, also of products of u that cancel, as where a
-  // membrane is lifted. Means of T are known less well.
+  // Without interval arithmetic: rounding is some 1e-14, also of products of u that cancel, as
+  // where a membrane is lifted. Means of T are known less well.
   double largest = 0;
   for (const double value : u) largest = std::max(largest, std::abs(value));
   const double rounding = 1e-12 * (std::abs(energy) + flux.norm_squared()) +
