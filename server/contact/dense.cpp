@@ -24,13 +24,23 @@ int stride(const Matrix& matrix) {
   return static_cast<int>(matrix.outerStride());
 }
 
-/// Columns at a time between two looks: about 1e9 operations, on `each` for one of them.
-int columns_between_looks(double each) {
-  constexpr double most = 1e9, fewest = 32, largest = 1 << 20;
+/// Columns or rows at a time between two looks: about 1e8 operations, on `each` for one of them.
+int between_looks(double each) {
+  constexpr double most = 1e8, fewest = 32, largest = 1 << 20;
   return static_cast<int>(std::clamp(most / std::max(each, 1.0), fewest, largest));
 }
 
 void look() { stop::look("working on dense matrices"); }
+
+/// Calls part(first, count) for so many columns or rows, and looks before each.
+template <class Part>
+void for_each_part(int all, double each, const Part& part) {
+  const int most = between_looks(each);
+  for (int first = 0; first < all; first += most) {
+    look();
+    part(first, std::min(most, all - first));
+  }
+}
 
 /// The same in blocks of columns, each ready before the next: what is right of it is reduced.
 bool cholesky_in_blocks(Ref<MatrixXd> matrix) {
@@ -44,16 +54,19 @@ bool cholesky_in_blocks(Ref<MatrixXd> matrix) {
     if (info != 0) return false;
     if (rest == 0) return true;
     double* const below = corner + width;
-    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, rest, width, 1,
-                corner, leading, below, leading);
+    for_each_part(rest, double(width) * width, [&](int row, int count) {
+      cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, count, width, 1,
+                  corner, leading, below + row, leading);
+    });
     for (int j = 0; j < rest; j += block) {
-      look();
       const int own = std::min(block, rest - j), under = rest - j - own;
       cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, own, width, -1, below + j, leading, 1,
                   &matrix(next + j, next + j), leading);
-      if (under == 0) continue;
-      cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, under, own, width, -1, below + j + own,
-                  leading, below + j, leading, 1, &matrix(next + j + own, next + j), leading);
+      for_each_part(under, 2.0 * own * width, [&](int row, int count) {
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, count, own, width, -1,
+                    below + j + own + row, leading, below + j, leading, 1,
+                    &matrix(next + j + own + row, next + j), leading);
+      });
     }
   }
   return true;
@@ -67,13 +80,10 @@ void solve(const Ref<const MatrixXd>& factor, CBLAS_TRANSPOSE transposed, Ref<Ma
                 stride(factor), b.data(), 1);
     return;
   }
-  const int most = columns_between_looks(double(rows) * rows);
-  for (int first = 0; first < columns; first += most) {
-    look();
-    cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, transposed, CblasNonUnit, rows,
-                std::min(most, columns - first), 1, factor.data(), stride(factor), &b(0, first),
-                stride(b));
-  }
+  for_each_part(columns, double(rows) * rows, [&](int first, int count) {
+    cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, transposed, CblasNonUnit, rows, count, 1,
+                factor.data(), stride(factor), &b(0, first), stride(b));
+  });
 }
 
 }  // namespace
@@ -96,7 +106,7 @@ void multiply_transposed(const Ref<const MatrixXd>& a, const Ref<const VectorXd>
 bool cholesky(Ref<MatrixXd> matrix) {
   const int size = static_cast<int>(matrix.rows()), leading = stride(matrix);
   if (size == 0) return true;
-  constexpr int large = 1500;
+  constexpr int large = 768;  // some milliseconds
   if (size >= large) return cholesky_in_blocks(matrix);
   int info = 0;
   dpotrf_("L", &size, matrix.data(), &leading, &info);
@@ -114,16 +124,14 @@ void solve_lower_transposed(const Ref<const MatrixXd>& factor, Ref<MatrixXd> b) 
 void subtract_square(const MatrixXd& x, Ref<MatrixXd> s) {
   const int rows = static_cast<int>(x.rows()), columns = static_cast<int>(x.cols());
   if (rows == 0) return;
-  const int most = columns_between_looks(double(rows) * columns);
-  for (int first = 0; first < columns; first += most) {
-    look();
-    const int own = std::min(most, columns - first), below = columns - first - own;
+  for_each_part(columns, 2.0 * rows * columns, [&](int first, int own) {
+    const int below = columns - first - own;
     cblas_dsyrk(CblasColMajor, CblasLower, CblasTrans, own, rows, -1, &x(0, first), stride(x), 1,
                 &s(first, first), stride(s));
-    if (below == 0) continue;
+    if (below == 0) return;
     cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, below, own, rows, -1, &x(0, first + own),
                 stride(x), &x(0, first), stride(x), 1, &s(first + own, first), stride(s));
-  }
+  });
 }
 
 void OpenFactor::reserve(Index contacts) {

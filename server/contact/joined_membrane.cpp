@@ -16,11 +16,18 @@ using Eigen::Index;
 using Eigen::VectorXd;
 using Sparse = Eigen::SparseMatrix<double>;
 
+constexpr const char* joining = "joining the sides of a mesh";
+
 Index index(std::size_t i) { return static_cast<Index>(i); }
 
 std::size_t bytes_of(const Sparse& matrix) {
   return at(matrix.nonZeros()) * (sizeof(double) + sizeof(int)) +
          at(matrix.cols() + 1) * sizeof(int);
+}
+
+Sparse block_of(const Sparse& matrix, Index row, Index column, Index rows, Index columns) {
+  stop::look(joining);
+  return matrix.block(row, column, rows, columns);
 }
 
 /// y += K x for the lower triangle of K.
@@ -34,22 +41,22 @@ JoinedMembrane::JoinedMembrane(const ddm::Decomposition& decomposition, int thre
     : _decomposition(decomposition),
       _stiffness(decomposition.subdomains.size()),
       _matrix(assemble()),
-      _a(_matrix.topLeftCorner(_interior + index(decomposition.skeleton.free),
-                               _interior + index(decomposition.skeleton.free))),
-      _b(_matrix.block(_a.rows(), 0, index(decomposition.skeleton.independent), _a.rows())),
-      _d(_matrix.block(_a.rows(), _a.rows(), _b.rows(), _b.rows())),
+      _a(block_of(_matrix, 0, 0, _interior + index(decomposition.skeleton.free),
+                  _interior + index(decomposition.skeleton.free))),
+      _b(block_of(_matrix, _a.rows(), 0, index(decomposition.skeleton.independent), _a.rows())),
+      _d(block_of(_matrix, _a.rows(), _a.rows(), _b.rows(), _b.rows())),
       _factor(_a, _a.rows(), ddm::elimination_order(_a, _a.rows(), _places), threads) {
   const Index held = index(decomposition.skeleton.held.size()), last = _a.rows() + _b.rows();
-  _xp = Sparse(_matrix.block(last, 0, held, _a.rows()).transpose());
-  _dp = Sparse(_matrix.block(last, _a.rows(), held, _b.rows()).transpose());
-  _pp = _matrix.block(last, last, held, held);
+  _xp = Sparse(block_of(_matrix, last, 0, held, _a.rows()).transpose());
+  _dp = Sparse(block_of(_matrix, last, _a.rows(), held, _b.rows()).transpose());
+  _pp = block_of(_matrix, last, last, held, held);
 }
 
 /// Sets _stiffness, _first, _interior and _places as well.
 Sparse JoinedMembrane::assemble() {
   const ddm::Skeleton& skeleton = _decomposition.skeleton;
   for (std::size_t s = 0; s < _stiffness.size(); ++s) {
-    stop::look("factorising a mesh");
+    stop::look(joining);
     const ddm::Subdomain& subdomain = _decomposition.subdomains[s];
     _stiffness[s] = fem::stiffness(subdomain.part, subdomain.tension, index(subdomain.free()));
     _first.push_back(_interior);
@@ -92,7 +99,7 @@ Sparse JoinedMembrane::assemble() {
     };
     const Sparse& lower = _stiffness[s].free;
     for (Index column = 0; column < lower.outerSize(); ++column) {
-      stop::look_at_turn<std::size_t{1} << 16>(at(column), "factorising a mesh");
+      stop::look_at_turn<stop::quick>(at(column), joining);
       ddm::Term own_column, own_row;
       const auto columns = terms_of(static_cast<std::int32_t>(column), own_column);
       for (Sparse::InnerIterator entry(lower, column); entry; ++entry) {
@@ -119,7 +126,7 @@ Sparse JoinedMembrane::assemble() {
             _places[2 * at(of.index) + 1] = motion.centre[1];
           }
   Sparse result(all, all);
-  stop::look("factorising a mesh");
+  stop::look(joining);
   result.setFromTriplets(entries.begin(), entries.end());
   return result;
 }

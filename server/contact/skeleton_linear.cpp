@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/linear_contact.hpp"
 
+#include "stop/stop.hpp"
+
 namespace anticrack::contact {
 namespace {
 
@@ -34,6 +36,7 @@ std::vector<Opened> solve_open(const SkeletonProblem& problem, const std::vector
   const OpenFactor& factor = closed.empty() ? problem.all_open() : own;
   std::vector<Opened> result;
   for (const VectorXd& one : r) {
+    stop::look("solving for contact");
     if (factor.regular()) {
       const VectorXd d = lcp.solve_open(factor, one);
       result.push_back({d, one - lcp.apply(d)});
@@ -48,8 +51,10 @@ std::vector<std::vector<double>> fields_of(const SkeletonProblem& problem,
                                            std::span<const Displaced> displaced) {
   const std::vector<ddm::Subdomain>& subdomains = problem.traces().decomposition().subdomains;
   std::vector<std::vector<VectorXd>> traces;
-  for (const Displaced& one : displaced)
+  for (const Displaced& one : displaced) {
+    stop::look("solving for contact");
     traces.push_back(problem.scatter(problem.unknowns(reduce(problem, *one.force), one.d)));
+  }
   std::vector<std::vector<double>> fields(displaced.size());
   for (std::size_t s = 0; s < subdomains.size(); ++s) {
     ddm::CondensedLoad none;

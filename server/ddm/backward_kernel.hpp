@@ -156,9 +156,11 @@ inline void for_supernodes(const Supernodes& factor, const Solve& solve) {
 }
 
 void solve_one_backward(const Supernodes& factor, double* y) {
+  Turns turns(factor, 1);
   for_supernodes(
-      factor, [y](const double* l, int height, int own, const int* rows, int first, int columns) {
+      factor, [&](const double* l, int height, int own, const int* rows, int first, int columns) {
         double* x = y + first;
+        turns.take(columns, height);
         for_panels(columns, [&](int begin, int count) {
           switch (count) {
             case 8:
@@ -176,10 +178,12 @@ void solve_one_backward(const Supernodes& factor, double* y) {
 
 template <int groups>
 void solve_block_backward(const Supernodes& factor, Lanes* y) {
+  Turns turns(factor, groups * lanes);
   for_supernodes(
-      factor, [y](const double* l, int height, int own, const int* rows, int first, int columns) {
+      factor, [&](const double* l, int height, int own, const int* rows, int first, int columns) {
         Lanes* x = y + static_cast<long>(first) * groups;
         for_panels(columns, [&](int begin, int count) {
+          turns.take(count, height);
           for (int k = begin + count; k-- > begin;) {
             const double* column = l + static_cast<long>(k) * height;
             Lanes sum[groups];

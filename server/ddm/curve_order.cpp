@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <limits>
 
+#include "stop/stop.hpp"
+
 namespace anticrack::ddm {
 namespace {
 
@@ -70,6 +72,7 @@ void sort_along_curve(std::vector<std::int32_t>& nodes, std::span<const double> 
     keyed.push_back({spread(box[0].cell(xy[i])) | spread(box[1].cell(xy[i + 1])) << 1, node});
   }
   for (unsigned shift = 0; shift < 2 * cell_bits; shift += digit_bits) {
+    stop::look("sorting the nodes of a mesh");
     sort_by_digit(keyed, shift, sorted);
     keyed.swap(sorted);
   }

@@ -16,6 +16,8 @@ namespace {
 
 using mesh::Kind;
 
+constexpr const char* cutting = "cutting a mesh along its interfaces";
+
 std::int32_t count_of(const std::vector<std::int32_t>& list) {
   return static_cast<std::int32_t>(list.size());
 }
@@ -26,12 +28,14 @@ void sort_by_first_node(Subdomain& subdomain) {
   const std::int32_t* corner = subdomain.part.triangles.data();
   std::vector<std::int32_t> first(count), end(subdomain.node.size(), 0);
   for (std::size_t k = 0; k < count; ++k) {
+    stop::look_at_turn<stop::quick>(k, cutting);
     first[k] = std::min({corner[3 * k], corner[3 * k + 1], corner[3 * k + 2]});
     ++end[at(first[k])];
   }
   std::partial_sum(end.begin(), end.end(), end.begin());
   std::vector<std::int32_t> triangle(count), corners(3 * count);
   for (std::size_t k = count; k-- > 0;) {
+    stop::look_at_turn<stop::quick>(k, cutting);
     const std::size_t place = at(--end[at(first[k])]);
     triangle[place] = subdomain.triangle[k];
     std::copy_n(corner + 3 * k, 3, &corners[3 * place]);
@@ -49,8 +53,10 @@ class Numbering {
         _side_trace(sides.sides.size()),
         _local(mesh.node_count(), -1),
         _subdomains(mesh.subdomains.size()) {
-    for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+      stop::look_at_turn<stop::quick>(t, cutting);
       _subdomains[at(mesh.subdomain[t])].triangle.push_back(static_cast<std::int32_t>(t));
+    }
     std::vector<std::vector<std::int32_t>> traces(_subdomains.size());
     for (std::size_t i = 0; i < sides.sides.size(); ++i) {
       std::vector<std::int32_t>& trace = traces[at(sides.sides[i].subdomain)];
@@ -70,8 +76,7 @@ class Numbering {
       if (_mesh.tension_laws[s].along.empty()) continue;
       Subdomain& subdomain = _subdomains[s];
       try {
-        subdomain.tension =
-            fem::tension(subdomain.part, _mesh.tension_laws[s], subdomain.name);
+        subdomain.tension = fem::tension(subdomain.part, _mesh.tension_laws[s], subdomain.name);
       } catch (errors::Error& error) {
         throw error.below("tension_law");
       }
@@ -96,8 +101,9 @@ class Numbering {
  private:
   void number(Subdomain& subdomain, const std::vector<std::int32_t>& trace) {
     std::vector<std::int32_t> dirichlet;
+    std::size_t turn = 0;
     for (const std::int32_t t : subdomain.triangle) {
-      stop::look_at_turn<std::size_t{1} << 16>(at(t), "factorising a mesh");
+      stop::look_at_turn<stop::quick>(turn++, cutting);
       for (std::size_t c = 3 * at(t); c < 3 * at(t) + 3; ++c) {
         const std::int32_t node = _mesh.triangles[c];
         if (_sides.corner[c] < 0 && _local[at(node)] < 0) {
@@ -127,15 +133,16 @@ class Numbering {
     }
     const auto first_trace = static_cast<std::int32_t>(subdomain.interior);
     subdomain.part.triangles.reserve(3 * subdomain.triangle.size());
+    std::size_t turn = 0;
     for (const std::int32_t t : subdomain.triangle) {
-      stop::look_at_turn<std::size_t{1} << 16>(at(t), "factorising a mesh");
+      stop::look_at_turn<stop::quick>(turn++, cutting);
       for (std::size_t c = 3 * at(t); c < 3 * at(t) + 3; ++c) {
         const std::int32_t side = _sides.corner[c];
         subdomain.part.triangles.push_back(side >= 0 ? first_trace + _side_trace[at(side)]
                                                      : _local[at(_mesh.triangles[c])]);
       }
     }
-    stop::look("factorising a mesh");
+    stop::look(cutting);
     sort_by_first_node(subdomain);
     for (const std::int32_t node : subdomain.node)
       _local[at(node)] = -1;  // a Dirichlet node may be in the next subdomain as well

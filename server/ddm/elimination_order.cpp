@@ -2,11 +2,14 @@
 #include "ddm/elimination_order.hpp"
 
 #include "mesh/at.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::ddm {
 namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
+
+constexpr const char* listing = "listing the neighbours of unknowns";
 
 /// Rows j+1..interior-1 of column j, as places in the matrix.
 struct Rows {
@@ -26,6 +29,7 @@ Graph graph_of(const Sparse& matrix, std::int32_t interior) {
   Graph graph;
   graph.begin.assign(at(interior) + 1, 0);
   for (std::int32_t j = 0; j < interior; ++j) {
+    stop::look_at_turn<stop::quick>(at(j), listing);
     const Rows rows = rows_below(matrix, interior, j);
     graph.begin[at(j)] += rows.end - rows.begin;
     for (std::int32_t i = rows.begin; i < rows.end; ++i) ++graph.begin[at(row[i])];
@@ -37,6 +41,7 @@ Graph graph_of(const Sparse& matrix, std::int32_t interior) {
   }
   graph.neighbour.resize(at(end));
   for (std::int32_t j = interior; j-- > 0;) {
+    stop::look_at_turn<stop::quick>(at(j), listing);
     const Rows rows = rows_below(matrix, interior, j);
     for (std::int32_t i = rows.end; i-- > rows.begin;) {
       graph.neighbour[at(--graph.begin[at(j)])] = row[i];

@@ -3,9 +3,9 @@
 
 #include <cblas.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 
+#include "ddm/multifrontal.hpp"
 #include "errors/errors.hpp"
 #include "mesh/at.hpp"
 #include "stop/stop.hpp"
@@ -52,18 +52,21 @@ Flexibility::Flexibility(const Eigen::MatrixXd& schur, std::span<const std::int3
   for (Eigen::Index j = 0; j < schur.cols(); ++j)
     for (Eigen::Index i = 0; i < schur.rows(); ++i)
       reduced(_column[at(i)], _column[at(j)]) += schur(i, j);
-  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> cholesky(reduced);
-  if (cholesky.info() != Eigen::Success) {
+  const int n = static_cast<int>(size);
+  if (!eliminate_front(n, n, reduced.data(), nullptr, false)) {
     throw errors::Error(errors::Reason::numerical,
                         "the Schur complement of a subdomain is not positive definite to rounding; "
                         "the mesh has triangles that are degenerate, or is badly scaled");
   }
   _inverse.setIdentity(size, size);
-  constexpr Eigen::Index at_once = 64;
-  for (Eigen::Index first = 0; first < size; first += at_once) {
+  constexpr double most = 5e7;  // operations between two looks
+  const int at_once = static_cast<int>(std::clamp(most / (double(n) * n), 8.0, 64.0));
+  for (int first = 0; first < n; first += at_once) {
     stop::look("inverting a dense matrix");
-    auto columns = _inverse.middleCols(first, std::min(at_once, size - first));
-    cholesky.solveInPlace(columns);
+    for (const CBLAS_TRANSPOSE transposed : {CblasNoTrans, CblasTrans})
+      cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, transposed, CblasNonUnit, n,
+                  std::min(at_once, n - first), 1, reduced.data(), n, _inverse.col(first).data(),
+                  n);
   }
   // dsymv reads a triangle, dgemm the whole matrix: make it symmetric to the bit.
   _inverse.triangularView<Eigen::StrictlyUpper>() = _inverse.transpose();

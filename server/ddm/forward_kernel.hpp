@@ -49,6 +49,7 @@ inline void solve_panel(const double* l, int height, int own, const int* rows, i
 }
 
 void solve_one(const Supernodes& factor, double* y) {
+  Turns turns(factor, 1);
   for (int s = 0; s < factor.count && factor.super[s] < factor.columns; ++s) {
     const int first = factor.super[s];
     const int end = factor.super[s + 1] < factor.columns ? factor.super[s + 1] : factor.columns;
@@ -57,6 +58,7 @@ void solve_one(const Supernodes& factor, double* y) {
     const int own = factor.super[s + 1] - first;  // rows that follow each other
     const double* l = factor.values + factor.value_begin[s];
     double* x = y + first;
+    turns.take(end - first, height);
     // Eight at once: to fetch and store the entries of y takes longer than a few columns do.
     int begin = 0;
     for (; begin + 8 <= end - first; begin += 8) solve_panel<8>(l, height, own, rows, begin, x, y);
@@ -100,6 +102,7 @@ inline void update_rows(const double* l, int height, int begin, int end, const L
 
 template <int groups>
 void solve_block(const Supernodes& factor, Lanes* y) {
+  Turns turns(factor, groups * lanes);
   for (int s = 0; s < factor.count && factor.super[s] < factor.columns; ++s) {
     const int first = factor.super[s];
     const int end = factor.super[s + 1] < factor.columns ? factor.super[s + 1] : factor.columns;
@@ -109,6 +112,7 @@ void solve_block(const Supernodes& factor, Lanes* y) {
     const double* l = factor.values + factor.value_begin[s];
     Lanes* x = y + static_cast<long>(first) * groups;
     for (int begin = 0; begin < end - first; begin += panel_columns) {
+      turns.take(panel_columns, height);
       const int stop = begin + panel_columns < end - first ? begin + panel_columns : end - first;
       for (int k = begin; k < stop; ++k) {
         const double* column = l + static_cast<long>(k) * height;

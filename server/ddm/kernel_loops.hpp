@@ -21,6 +21,28 @@ inline void fetch(const double* values, int count) {
 /// How far ahead, in values: some panels of a small supernode.
 constexpr int ahead = 1024;
 
+/// Calls Supernodes::look each time that so much of L has been used.
+class Turns {
+ public:
+  /// `width` of the block.
+  Turns(const Supernodes& factor, int width)
+      : _look(factor.look), _each(a_turn / (width / lanes + 1)), _left(_each) {}
+
+  /// Before `columns` of this height.
+  void take(long columns, int height) {
+    _left -= columns * height;
+    if (_left > 0) return;
+    _left = _each;
+    if (_look != nullptr) _look();
+  }
+
+ private:
+  static constexpr long a_turn = 1 << 19;  // values, for one column
+  void (*const _look)();
+  const long _each;
+  long _left;
+};
+
 }  // namespace
 }  // namespace anticrack::ddm
 

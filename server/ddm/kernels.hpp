@@ -18,6 +18,8 @@ struct Supernodes {
   const int* value_begin = nullptr;
   const int* rows = nullptr;
   const double* values = nullptr;
+  /// Called about each millisecond by the kernels, which pass on what it throws; null: nothing.
+  void (*look)() = nullptr;
 };
 
 /// A block has 1 column or a multiple of `lanes`, at most `most_lanes`.

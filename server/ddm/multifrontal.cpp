@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <utility>
@@ -22,6 +23,8 @@ namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
 
+constexpr const char* factorising = "factorising a mesh";
+
 /// Entries of the permuted K, by column; its G-G part is in S.
 struct SparseColumns {
   std::vector<int> begin;
@@ -35,6 +38,7 @@ void for_each_entry(const Sparse& stiffness, std::span<const int> place, const T
   const int *begin = stiffness.outerIndexPtr(), *row = stiffness.innerIndexPtr();
   const double* value = stiffness.valuePtr();
   for (int j = 0; j < static_cast<int>(stiffness.cols()); ++j) {
+    stop::look_at_turn<stop::quick>(at(j), factorising);
     for (int e = begin[j]; e < begin[j + 1]; ++e) {
       if (row[e] >= j) {
         const auto [column, below] = std::minmax(place[at(row[e])], place[at(j)]);
@@ -159,11 +163,12 @@ class Elimination {
     return std::min(_pattern.super[s + 1], _pattern.columns) - _pattern.super[s];
   }
   int height(int s) const { return _pattern.row_begin[s + 1] - _pattern.row_begin[s]; }
+  double work_of(int s) const { return double(own(s)) * height(s) * height(s); }
 
   EliminationTree tree() const {
     EliminationTree result{std::vector<int>(at(_count), -1), std::vector<double>(at(_count))};
     for (int s = 0; s < _count; ++s) {
-      result.work[at(s)] = double(own(s)) * height(s) * height(s);
+      result.work[at(s)] = work_of(s);
       if (own(s) == height(s)) continue;
       const int next = _pattern.rows[_pattern.row_begin[s] + own(s)];
       if (next < _pattern.columns) result.parent[at(s)] = _supernode[at(next)];
@@ -190,7 +195,7 @@ class Elimination {
 
   /// Leaves in _update what is left of it. On one thread with its children, or after them.
   bool eliminate(int s, Front& front) {
-    stop::look_at_turn<16>(at(s), "factorising a mesh");
+    if (s % 16 == 0 || work_of(s) > large) stop::look(factorising);
     const int first = _pattern.super[s], columns = own(s);
     front.rows = _pattern.rows + _pattern.row_begin[s];
     front.height = height(s);
@@ -246,6 +251,8 @@ class Elimination {
     update.values.reset();
   }
 
+  static constexpr double large = 1e6;  // work of a front that takes a tenth of a millisecond
+
   const Supernodes& _pattern;
   const SparseColumns _columns;
   double* _values;
@@ -266,20 +273,37 @@ bool positive_diagonal(int columns, const double* panel, int height) {
   return true;
 }
 
-/// C -= A A' below and on the diagonal of C, for A of `depth` columns; looks now and then. C begins
-/// at a row of A, and has at most as many columns as rows.
+/// Of a product, rows that take some milliseconds at `each` multiplications a row. A multiple of
+/// what BLAS takes at once.
+int rows_between_looks(double each) {
+  constexpr double most = 5e7, together = 96, largest = 1 << 20;
+  return static_cast<int>(together * std::clamp(std::floor(most / each / together), 1.0, largest));
+}
+
+/// Calls part(first, count) for the rows of a product, and looks before each.
+template <class Part>
+void for_rows(int rows, double each, const Part& part) {
+  const int most = rows_between_looks(each);
+  for (int first = 0; first < rows; first += most) {
+    stop::look(factorising);
+    part(first, std::min(most, rows - first));
+  }
+}
+
+/// C -= A A' below and on the diagonal of C, for A of `depth` columns. C begins at a row of A, and
+/// has at most as many columns as rows.
 void subtract_products(const double* a, int leading, int depth, int rows, int columns, double* c,
                        int leading_c) {
   constexpr int block = 256;
   for (int j = 0; j < columns; j += block) {
-    stop::look("factorising a mesh");
     const int own = std::min(block, columns - j), below = rows - j - own;
     double* const corner = c + std::ptrdiff_t{j} * leading_c + j;
     cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, own, depth, -1, a + j, leading, 1, corner,
                 leading_c);
-    if (below == 0) continue;
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, below, own, depth, -1, a + j + own,
-                leading, a + j, leading, 1, corner + own, leading_c);
+    for_rows(below, double(own) * depth, [&](int first, int count) {
+      cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, count, own, depth, -1,
+                  a + j + own + first, leading, a + j, leading, 1, corner + own + first, leading_c);
+    });
   }
 }
 
@@ -287,15 +311,17 @@ void subtract_products(const double* a, int leading, int depth, int rows, int co
 bool eliminate_large_front(int columns, int height, double* panel, double* update, bool add) {
   constexpr int block = 256;
   for (int first = 0; first < columns; first += block) {
-    stop::look("factorising a mesh");
+    stop::look(factorising);
     const int width = std::min(block, columns - first), next = first + width;
     double* const corner = panel + std::ptrdiff_t{first} * (height + 1);
     int info = 0;
     dpotrf_("L", &width, corner, &height, &info);
     if (info != 0 || !positive_diagonal(width, corner, height)) return false;
     if (next == height) return true;
-    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, height - next,
-                width, 1, corner, height, corner + width, height);
+    for_rows(height - next, double(width) * width, [&](int row, int count) {
+      cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, count, width, 1,
+                  corner, height, corner + width + row, height);
+    });
     subtract_products(corner + width, height, width, height - next, columns - next,
                       panel + std::ptrdiff_t{next} * (height + 1), height);
   }
@@ -313,7 +339,7 @@ bool eliminate_front(int columns, int height, double* panel, double* update, boo
   constexpr double few = 40'000;
   if (static_cast<double>(columns) * height * height < few)
     return best_kernels().eliminate_small_front(columns, height, panel, update, add);
-  constexpr double many = 1e9;  // a tenth of a second
+  constexpr double many = 1e8;  // some milliseconds
   if (static_cast<double>(columns) * height * height > many)
     return eliminate_large_front(columns, height, panel, update, add);
   int info = 0;

@@ -15,6 +15,8 @@
 namespace anticrack::ddm {
 namespace {
 
+constexpr const char* ordering = "ordering the unknowns of a mesh";
+
 struct Node {
   double x, y;
   float reach, reach_x, reach_y;  // no neighbour is farther away, in all and along each axis
@@ -86,7 +88,7 @@ class Dissection {
       : _graph(graph), _part(graph.size(), 0), _local(graph.size(), -1) {
     _nodes.reserve(graph.size());
     for (std::size_t v = 0; v < graph.size(); ++v) {
-      stop::look_at_turn<std::size_t{1} << 16>(v, "factorising a mesh");
+      stop::look_at_turn<stop::quick>(v, ordering);
       double square = 0, reach_x = 0, reach_y = 0;
       for (std::int32_t e = graph.begin[v]; e < graph.begin[v + 1]; ++e) {
         const std::size_t u = at(graph.neighbour[at(e)]);
@@ -105,7 +107,7 @@ class Dissection {
     std::vector<Set> open = {{0, _nodes.size(), 0, finest(_nodes)}};
     std::size_t turn = 0;
     while (!open.empty()) {
-      stop::look_at_turn<16>(turn++, "factorising a mesh");
+      stop::look_at_turn<16>(turn++, ordering);
       const Set set = open.back();
       open.pop_back();
       if (set.size() <= SmallGraph::most) {
@@ -162,6 +164,7 @@ class Dissection {
     const Circle circle(cuts[2]);
     std::array<std::ptrdiff_t, 3> met{};
     for (std::size_t i = set.first; i < set.last; ++i) {
+      stop::look_at_turn<stop::quick>(i, ordering);
       const Node& node = _nodes[i];
       const double x = node.x - cuts[0].middle, y = node.y - cuts[1].middle;
       met[0] += (x < 0) & (x + static_cast<double>(node.reach_x) >= 0);
@@ -179,6 +182,7 @@ class Dissection {
     std::ptrdiff_t in_first = 0;
     _near.clear();
     for (std::size_t i = set.first; i < set.last; ++i) {
+      stop::look_at_turn<stop::quick>(i, ordering);
       const Node& node = _nodes[i];
       const double distance = cut.distance(node);
       _part[at(node.vertex)] = distance < 0 ? first : second;
@@ -273,6 +277,7 @@ class Dissection {
     std::array<Node, 2> finest;
     finest[0].reach = finest[1].reach = std::numeric_limits<float>::infinity();
     for (std::size_t i = set.first; i < set.last; ++i) {
+      stop::look_at_turn<stop::quick>(i, ordering);
       const Node& node = _nodes[i];
       const std::int32_t part = _part[at(node.vertex)];
       if (part == first) {

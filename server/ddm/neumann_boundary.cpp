@@ -6,6 +6,7 @@
 
 #include "mesh/at.hpp"
 #include "mesh/edges.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::ddm {
 namespace {
@@ -35,7 +36,9 @@ const NeumannBoundary::Edges& NeumannBoundary::of(std::size_t subdomain) const {
     std::vector<bool> held(_mesh.triangles.size(), false);
     for (const auto& [a, b] : _mesh.dirichlet)
       for (const mesh::EdgeUse& use : table.find(a, b)) held[corner(_mesh, use)] = true;
+    std::size_t turn = 0;
     table.each([&](std::span<const mesh::EdgeUse> uses) {
+      stop::look_at_turn<stop::quick>(turn++, "finding the boundary that tractions act on");
       const std::size_t free = corner(_mesh, uses[0]);
       if (uses.size() != 1 || held[free]) return;
       const std::size_t s = at(_mesh.subdomain[free / 3]), k = free % 3;

@@ -10,6 +10,7 @@
 #include "mesh/at.hpp"
 #include "mesh/edges.hpp"
 #include "mesh/union_find.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::ddm {
 namespace {
@@ -76,6 +77,7 @@ class Neighbourhood {
       on_interface[at(edge.node[0])] = on_interface[at(edge.node[1])] = 1;
     std::vector<std::int32_t> triangles;
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+      stop::look_at_turn<stop::quick>(t, "finding the triangles at interfaces");
       const std::int32_t* node = &mesh.triangles[3 * t];
       if (on_interface[at(node[0])] + on_interface[at(node[1])] + on_interface[at(node[2])] > 0)
         triangles.push_back(static_cast<std::int32_t>(t));

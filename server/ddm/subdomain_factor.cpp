@@ -63,7 +63,8 @@ Supernodes pattern(const cholmod_factor& factor, Eigen::Index interior) {
           static_cast<const int*>(factor.pi),
           static_cast<const int*>(factor.px),
           static_cast<const int*>(factor.s),
-          nullptr};
+          nullptr,
+          [] { stop::look("solving on a mesh"); }};
 }
 
 /// Values of the supernodes that have columns of the interior.
@@ -78,8 +79,10 @@ std::size_t value_count(const Supernodes& l) {
 template <class Take>
 void for_tiles(int rows, int columns, const Take& take) {
   constexpr int tile = 256;
-  for (int begin = 0; begin < rows; begin += tile)
+  for (int begin = 0; begin < rows; begin += tile) {
+    stop::look_at_turn<std::size_t{1} << 14>(at(begin), "solving on a mesh");
     for (int j = 0; j < columns; ++j) take(begin, std::min(begin + tile, rows), j);
+  }
 }
 
 /// Solves columns in blocks of up to columns_at_once(rows): `solve(width, block)` works on a
@@ -93,7 +96,6 @@ void in_blocks(int rows, int columns, const Put& put, const Solve& solve, const 
   const int widest = whole(std::min(columns, most));
   const Values y = make_values(at(rows) * at(widest));
   for (int first = 0; first < columns; first += most) {
-    stop::look("solving on a mesh");
     const int count = std::min(most, columns - first);
     const std::ptrdiff_t width = whole(count);
     for_tiles(rows, count,
@@ -125,7 +127,7 @@ SubdomainFactor::SubdomainFactor(const Sparse& stiffness, Eigen::Index interior,
   std::iota(std::copy(order.begin(), order.end(), permutation.begin()), permutation.end(),
             static_cast<int>(interior));
   auto factor = std::make_unique<Factor>();
-  stop::look("factorising a mesh");
+  stop::look("analysing a factor");
   factor->analysis = analyse(stiffness, permutation, interior);
   factor->l = pattern(*factor->analysis, interior);
   const int* unknown = static_cast<const int*>(factor->analysis->Perm);

@@ -9,6 +9,7 @@
 #include "errors/errors.hpp"
 #include "mesh/at.hpp"
 #include "mesh/union_find.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::ddm {
 namespace {
@@ -16,6 +17,7 @@ namespace {
 mesh::UnionFind connected_parts(const Subdomain& subdomain) {
   mesh::UnionFind parts(subdomain.node.size());
   for (std::size_t t = 0; t < subdomain.part.triangle_count(); ++t) {
+    stop::look_at_turn<stop::quick>(t, "looking for parts that nothing holds");
     const std::int32_t* corner = &subdomain.part.triangles[3 * t];
     parts.unite(corner[0], corner[1]);
     parts.unite(corner[1], corner[2]);

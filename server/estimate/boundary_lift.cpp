@@ -34,7 +34,7 @@ std::vector<Lift> lifts(const CutMesh& cut, const BoundarySamples& samples,
   std::vector<Lift> result;
   const double* sample = samples.values.data();
   for (std::size_t f = 0; f < cut.faces.size(); ++f) {
-    stop::look_at_turn(f, "computing bounds");
+    stop::look_at_turn(f, "lifting the boundary");
     if (!has_boundary_value(cut.faces[f])) continue;
     const auto corners = corners_of(cut.faces[f]);
     // From P_1 to P_2, and from P_3 to P_1.

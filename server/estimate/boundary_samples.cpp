@@ -159,7 +159,7 @@ BoundarySamples boundary_samples(const CutMesh& cut, const std::string& text) {
   Enclosure g(function.tape());
   EdgePolynomial::Values values{};
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    stop::look_at_turn<64>(i, "computing bounds");
+    stop::look_at_turn<64>(i, "lifting the boundary");
     std::copy_n(&result.values[i * values.size()], values.size(), values.begin());
     const double missed = Line(g, lines[i][0], lines[i][1], EdgePolynomial(values)).missed();
     if (i % BoundarySamples::halves == 0) result.unknown.push_back(0);

@@ -61,7 +61,7 @@ Bracket bracket(const CutMesh& cut, const EquilibratedFlux& flux, const LoadBala
   double half_distance = 0;  // eta^2 / 2, less |w|^2 / 2, which Pi(v) has as well, if T is known
   double squared = 0, work = 0, lift_energy = 0, lift_norm = 0;
   for (std::size_t t = 0; t < result.indicator.size(); ++t) {
-    stop::look_at_turn(t, "computing bounds");
+    stop::look_at_turn(t, "computing bounds of the energy");
     double& one = result.indicator[t];
     one = std::max(0.0, one);
     const double oscillation = load.oscillation.empty() ? 0 : load.oscillation[t];

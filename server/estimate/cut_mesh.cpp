@@ -12,6 +12,8 @@
 namespace anticrack::estimate {
 namespace {
 
+constexpr const char* cutting = "preparing a mesh for bounds";
+
 constexpr std::int32_t next(std::int32_t corner) {
   return corner % 3 == 2 ? corner - 2 : corner + 1;
 }
@@ -46,13 +48,18 @@ class Cutting {
     _cut.first_triangle.push_back(0);
     _cut.first_copy.push_back(0);
     for (const ddm::Subdomain& subdomain : _decomposition.subdomains) {
-      stop::look("computing bounds");
+      stop::look(cutting);
       const std::int32_t copies = _cut.first_copy.back();
       for (const std::int32_t triangle : subdomain.triangle) {
+        stop::look_at_turn<stop::quick>(_cut.triangle.size(), cutting);
         _place[at(triangle)] = static_cast<std::int32_t>(_cut.triangle.size());
         _cut.triangle.push_back(triangle);
       }
-      for (const std::int32_t node : subdomain.part.triangles) _cut.copy.push_back(copies + node);
+      for (const std::int32_t node : subdomain.part.triangles) {
+        stop::look_at_turn<stop::quick>(_cut.copy.size(), cutting);
+        _cut.copy.push_back(copies + node);
+      }
+      stop::look(cutting);
       for (std::size_t i = 0; i < subdomain.part.node_count(); ++i)
         _cut.at.push_back({subdomain.part.xy[2 * i], subdomain.part.xy[2 * i + 1]});
       _cut.first_triangle.push_back(static_cast<std::int32_t>(_cut.triangle.size()));
@@ -85,7 +92,7 @@ class Cutting {
     std::vector<std::vector<std::int32_t>> neumann(_decomposition.subdomains.size());
     std::size_t turn = 0;
     _edges.each([&](std::span<const mesh::EdgeUse> uses) {
-      stop::look_at_turn(turn++, "computing bounds");
+      stop::look_at_turn(turn++, cutting);
       const std::int32_t side = side_of(uses[0]);
       if (_across[at(side)] != nothing) return;
       if (uses.size() == 1) {
@@ -113,6 +120,7 @@ class Cutting {
     for (const Face& face : _cut.faces)
       if (face.condition == Condition::free && face.inclusion < 0) lead(face.side, -1);
     for (std::size_t i = 0; i < _cut.ways_out.size(); ++i) {
+      stop::look_at_turn<stop::quick>(i, cutting);
       const std::int32_t first = _cut.ways_out[i].side / 3 * 3;
       for (std::int32_t side = first; side < first + 3; ++side)
         if (_across[at(side)] >= 0) lead(_across[at(side)], side);
@@ -188,7 +196,7 @@ class Cutting {
     _cut.first_corner.push_back(0);
     _cut.first_stop.push_back(0);
     for (std::size_t corner = 0; corner < seen.size(); ++corner) {
-      stop::look_at_turn(corner, "computing bounds");
+      stop::look_at_turn(corner, cutting);
       if (seen[corner]) continue;
       const std::int32_t begin = first_of(static_cast<std::int32_t>(corner));
       const std::size_t first = _cut.corners.size();
@@ -225,7 +233,7 @@ class Cutting {
   void find_obstacle() {
     std::vector<std::int32_t> ends(_mesh.node_count(), 0);
     for (std::size_t fan = 0; fan < _cut.fan_count() && _cut.obstacle.empty(); ++fan) {
-      stop::look_at_turn(fan, "computing bounds");
+      stop::look_at_turn(fan, cutting);
       const std::span<const Stop> stops(&_cut.stops[at(_cut.first_stop[fan])],
                                         at(_cut.first_stop[fan + 1] - _cut.first_stop[fan]));
       const auto has = [&](const auto& what) {

@@ -61,6 +61,8 @@ class Scratch {
   static inline thread_local std::size_t size = 0;
 };
 
+void look() { stop::look("computing a flux in equilibrium"); }
+
 FluxMesh flux_mesh(const CutMesh& cut) {
   std::int32_t largest = 0;
   for (std::size_t fan = 0; fan < cut.fan_count(); ++fan)
@@ -72,7 +74,7 @@ FluxMesh flux_mesh(const CutMesh& cut) {
           cut.first_stop.data(), shapes.edge.front().data(),
           shapes.tension.data(), shapes.softness.data(),
           shapes.around.data(),  cut.stops.data(),
-          cut.faces.data(),      [] { stop::look("computing bounds"); }};
+          cut.faces.data(),      look};
 }
 
 }  // namespace
@@ -99,7 +101,10 @@ std::vector<EquilibratedFlux> EquilibratedFlux::of_all(const CutMesh& cut,
                                                        int polish) {
   std::vector<EquilibratedFlux> fluxes;
   fluxes.reserve(loads.size());
-  for (const Balance& load : loads) fluxes.push_back(EquilibratedFlux(load, cut));
+  for (const Balance& load : loads) {
+    look();
+    fluxes.push_back(EquilibratedFlux(load, cut));
+  }
   for (std::size_t done = 0; done < loads.size(); done += flux_lanes) {
     const std::size_t count = std::min(loads.size() - done, flux_lanes);
     make(std::span(fluxes).subspan(done, count),
@@ -129,9 +134,11 @@ void EquilibratedFlux::make(std::span<EquilibratedFlux> fluxes, std::span<const 
                0,
                0};
   }
+  look();
   const Scratch scratch(lanes * scratch_of(mesh));
   (lanes == 1 ? kernels.one : kernels.several)(mesh, lane.data(), polish, scratch.values());
   for (std::size_t l = 0; l < fluxes.size(); ++l) {
+    look();
     fluxes[l]._norm_squared = lane[l].norm_squared;
     fluxes[l]._imbalance = lane[l].imbalance;
     fluxes[l].turn();

@@ -70,7 +70,7 @@ class Sum {
     const EquilibratedFlux& sigma = _primal.flux;
     const Shapes& shapes = _primal.cut.shapes;
     for (std::size_t t = 0; t < _primal.cut.triangle_count(); ++t) {
-      stop::look_at_turn(t, "computing bounds");
+      stop::look_at_turn(t, "computing bounds of A");
       const Products own = of_triangle(t);
       if (shapes.variation.empty())
         sum += own;

@@ -12,6 +12,7 @@ namespace anticrack::estimate {
 namespace {
 
 constexpr double trace_constant = 0.329;
+constexpr const char* balancing = "balancing a load";
 
 /// The diameter of a triangle over the root of its least tension, by which Poincare's and the trace
 /// inequality hold in the energy norm.
@@ -40,6 +41,7 @@ void carry_out(const CutMesh& cut, std::vector<double>& source, std::vector<doub
   std::vector<double> through(source.size(), 0);  // in and out
   std::vector<char> led(source.size(), 0);
   for (auto way = cut.ways_out.rbegin(); way != cut.ways_out.rend(); ++way) {
+    stop::look_at_turn<stop::quick>(at(way - cut.ways_out.rbegin()), balancing);
     const std::size_t t = at(way->side / 3);
     led[t] = 1;
     through[t] += source[t];
@@ -49,6 +51,7 @@ void carry_out(const CutMesh& cut, std::vector<double>& source, std::vector<doub
     source[next] += source[t];
   }
   for (std::size_t t = 0; t < source.size(); ++t) {
+    stop::look_at_turn<stop::quick>(t, balancing);
     if (source[t] == 0 && through[t] == 0) continue;
     if (led[t] == 0) {
       oscillation[t] = std::numeric_limits<double>::infinity();
@@ -83,7 +86,7 @@ LoadBalance load_balance(const CutMesh& cut, const std::vector<fem::ForceParts>&
     const auto first = at(cut.first_triangle[s]);
     balance.force.insert(balance.force.end(), force[s].load.begin(), force[s].load.end());
     for (std::size_t k = 0; k < force[s].beyond.size(); ++k) {
-      stop::look_at_turn(k, "computing bounds");
+      stop::look_at_turn(k, balancing);
       oscillation(first + k) += size_of(cut, first + k) / j_11 * force[s].beyond[k];
       unknown(first + k, force[s].unknown[k]);
     }

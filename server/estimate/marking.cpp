@@ -10,6 +10,8 @@
 namespace anticrack::estimate {
 namespace {
 
+constexpr const char* choosing = "choosing which triangles to bisect";
+
 /// Of one stage; more would trust the indicators of a coarse mesh too far.
 constexpr double most_levels = 8;
 
@@ -20,7 +22,7 @@ constexpr double doerfler = 0.5;
 /// which triangles stay whole decides the rest.
 double root_of_tau(std::span<const double> indicator, double target) {
   for (double root = 0;;) {
-    stop::look("choosing which triangles to bisect");
+    stop::look(choosing);
     double whole = 0;
     double roots = 0;
     for (const double one : indicator) {
@@ -41,15 +43,18 @@ std::vector<std::uint8_t> levels(std::span<const double> indicator, double reduc
   if (!(sum > 0)) return levels;
   const double root = root_of_tau(indicator, sum / reduction);
   for (std::size_t t = 0; t < levels.size(); ++t) {
+    stop::look_at_turn<stop::quick>(t, choosing);
     const double pieces = std::sqrt(indicator[t]) / root;
     const double wanted = pieces > 1 ? std::round(std::log2(pieces)) : 0;
     levels[t] = static_cast<std::uint8_t>(std::min(wanted, most_levels));
   }
   std::vector<std::int32_t> order(indicator.size());
   std::iota(order.begin(), order.end(), 0);
-  stop::look("choosing which triangles to bisect");
+  stop::look(choosing);
   const auto of = [&](std::int32_t t) { return indicator[static_cast<std::size_t>(t)]; };
+  std::size_t turn = 0;
   std::ranges::sort(order, [&](std::int32_t a, std::int32_t b) {
+    stop::look_at_turn<stop::quick>(turn++, choosing);
     return of(a) > of(b) || (of(a) == of(b) && a < b);
   });
   // Triangles that are each other's image under a symmetry differ by rounding only: all or none.

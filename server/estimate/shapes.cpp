@@ -4,8 +4,14 @@
 #include <algorithm>
 
 #include "mesh/at.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::estimate {
+namespace {
+
+constexpr const char* measuring = "measuring triangles for bounds";
+
+}  // namespace
 
 std::size_t Shapes::bytes() const noexcept {
   const auto of = [](const auto& list) { return list.capacity() * sizeof(list[0]); };
@@ -22,6 +28,7 @@ Shapes shapes(const Triangles& triangles, const Fans& fans) {
     const fem::Tension& tension = *triangles.tension[s];
     const auto first = at(triangles.first_triangle[s]);
     for (auto t = first; t < at(triangles.first_triangle[s + 1]); ++t) {
+      stop::look_at_turn<stop::quick>(t, measuring);
       maps.push_back(tension.isotropic(t - first));
       shapes.tension.push_back(maps.back().tension);
       shapes.largest_tension = std::max(shapes.largest_tension, maps.back().tension);
@@ -33,6 +40,7 @@ Shapes shapes(const Triangles& triangles, const Fans& fans) {
   shapes.area.resize(count);
   shapes.edge.resize(3 * count);
   for (std::size_t t = 0; t < count; ++t) {
+    stop::look_at_turn<stop::quick>(t, measuring);
     Vector* edge = &shapes.edge[3 * t];
     for (std::size_t i = 0; i < 3; ++i) {
       const Vector& from = triangles.at[at(triangles.copy[3 * t + (i + 1) % 3])];
@@ -46,6 +54,7 @@ Shapes shapes(const Triangles& triangles, const Fans& fans) {
   shapes.around.reserve(fans.corners.size());
   shapes.softness.reserve(fans.first_corner.size());
   for (std::size_t fan = 0; fan + 1 < fans.first_corner.size(); ++fan) {
+    stop::look_at_turn<stop::quick>(fan, measuring);
     double stiffness = 0;
     for (auto n = at(fans.first_corner[fan]); n < at(fans.first_corner[fan + 1]); ++n) {
       const std::int32_t corner = fans.corners[n], t = corner / 3, i = corner % 3;

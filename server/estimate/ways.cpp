@@ -6,6 +6,7 @@
 
 #include "estimate/cut_mesh.hpp"
 #include "mesh/at.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::estimate {
 namespace {
@@ -62,6 +63,7 @@ class Search {
 
   void spread(double base) {
     for (; _next < _queue.size(); ++_next) {
+      stop::look_at_turn<std::size_t{1} << 14>(_next, "looking for ways out of a membrane");
       const std::size_t t = _queue[_next];
       const double squared = _way[t];
       for (std::size_t side = 3 * t; side < 3 * t + 3; ++side)

@@ -115,8 +115,11 @@ class ForceProver {
       const Box box = box_of(own);
       const Jet jet = enclose_box(box);
       if (suffices(jet, box)) {
-        for (const std::int32_t t : own)
+        std::size_t turn = 0;
+        for (const std::int32_t t : own) {
+          stop::look_at_turn(++turn, "integrating a load");
           _options.curved.empty() || _options.curved[at(t)] == 0 ? settle(at(t), jet) : keep(at(t));
+        }
       } else if (own.size() <= few) {
         for (const std::int32_t t : own) enclose_alone(at(t));
       } else {
@@ -138,7 +141,9 @@ class ForceProver {
 
   Box box_of(std::span<const std::int32_t> own) const {
     Box box;
+    std::size_t turn = 0;
     for (const std::int32_t t : own) {
+      stop::look_at_turn<stop::quick>(++turn, "integrating a load");
       const Frame f = frame_of(_xy, _triangles, at(t));
       box.add(f.x, f.y);
       box.add(f.x + f.bx, f.y + f.by);

@@ -17,6 +17,8 @@ namespace {
 
 using CornerNodes = std::array<Eigen::Index, 3>;
 
+constexpr const char* summing = "summing loads over a mesh";
+
 CornerNodes corners(const Triangulation& part, std::size_t t) {
   return {part.triangles[3 * t], part.triangles[3 * t + 1], part.triangles[3 * t + 2]};
 }
@@ -35,6 +37,7 @@ void linear_on_triangles(const Triangulation& part, const Rows<width>& of_node, 
   using Values = Eigen::Array<double, width, 1>;
   load.setZero();
   for (std::size_t t = 0; t < part.triangle_count(); ++t) {
+    stop::look_at_turn<stop::quick>(t, summing);
     const CornerNodes nodes = corners(part, t);
     const Values p = of_node.col(nodes[0]), q = of_node.col(nodes[1]), r = of_node.col(nodes[2]);
     const double part_of_area = area(part, t) / 12;
@@ -54,12 +57,15 @@ void integrate_arrays(const Triangulation& part, std::span<const std::int32_t> n
   Rows<width> of_node = Rows<width>::Zero(width, loads.rows()), load(width, loads.rows());
   for (; !arrays.empty(); arrays = arrays.subspan(std::min<std::size_t>(width, arrays.size()))) {
     const auto count = std::min<Eigen::Index>(width, static_cast<Eigen::Index>(arrays.size()));
-    for (Eigen::Index i = 0; i < loads.rows(); ++i)
+    for (Eigen::Index i = 0; i < loads.rows(); ++i) {
+      stop::look_at_turn<stop::quick>(static_cast<std::size_t>(i), summing);
       for (Eigen::Index j = 0; j < count; ++j)
         of_node(j, i) = arrays[static_cast<std::size_t>(j)][node[static_cast<std::size_t>(i)]];
+    }
     linear_on_triangles<width>(part, of_node, load);
     constexpr Eigen::Index tile = 64;  // of the rows that stay in the first-level cache
     for (Eigen::Index begin = 0; begin < loads.rows(); begin += tile) {
+      stop::look_at_turn<stop::quick>(static_cast<std::size_t>(begin), summing);
       const Eigen::Index rows = std::min(tile, loads.rows() - begin);
       loads.block(begin, first, rows, count) =
           load.middleCols(begin, rows).topRows(count).transpose();
@@ -106,6 +112,7 @@ struct AssembleForce {
   Eigen::VectorXd constant_on_triangles(const Value& value) const {
     Eigen::VectorXd load = zero();
     for (std::size_t t = 0; t < part.triangle_count(); ++t) {
+      stop::look_at_turn<stop::quick>(t, summing);
       const CornerNodes nodes = corners(part, t);
       const double third = value(t) * area(part, t) / 3;
       for (const Eigen::Index node : nodes) load[node] += third;
@@ -146,10 +153,9 @@ struct AssembleForce {
       return load_vectors(part, own, one);
     }
     Eigen::VectorXd load = zero();
-    const IntegrationReport report =
-        integrate_load(part.xy, part.triangles, force, {load.data(), part.node_count()},
-                       limits_of(force_tolerance(part.triangle_count()), part.triangle_count()),
-                       context.parts);
+    const IntegrationReport report = integrate_load(
+        part.xy, part.triangles, force, {load.data(), part.node_count()},
+        limits_of(force_tolerance(part.triangle_count()), part.triangle_count()), context.parts);
     if (context.report != nullptr) *context.report = report;
     return load;
   }
@@ -167,6 +173,7 @@ struct LinearParts {
     ForceParts parts;
     parts.load.resize(part.triangles.size());
     for (std::size_t t = 0; t < part.triangle_count(); ++t) {
+      stop::look_at_turn<stop::quick>(t, summing);
       const double twelfth = area(part, t) / 12;
       const std::array<double, 3> f{value(3 * t), value(3 * t + 1), value(3 * t + 2)};
       for (std::size_t i = 0; i < 3; ++i)

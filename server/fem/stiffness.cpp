@@ -7,10 +7,14 @@
 #include <cstdint>
 #include <vector>
 
+#include "stop/stop.hpp"
+
 namespace anticrack::fem {
 namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
+
+constexpr const char* assembling = "assembling the stiffness of a mesh";
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
@@ -37,16 +41,23 @@ class Columns {
   Columns(const Triangulation& part, const Tension& tension, std::int32_t free)
       : _end(part.node_count() + 1, 0), _diagonal(part.node_count(), 0.0) {
     const std::vector<std::int32_t>& node = part.triangles;
-    for (std::size_t t = 0; t < node.size(); t += 3)
+    for (std::size_t t = 0; t < node.size(); t += 3) {
+      stop::look_at_turn<stop::quick>(t / 3, assembling);
       for (std::size_t a = 0; a < 3; ++a)
         ++_end[at(place_in(node[t + a], node[t + (a + 1) % 3], free).column) + 1];
+    }
     for (std::size_t j = 1; j < _end.size(); ++j) _end[j] += _end[j - 1];
     _entries.resize(node.size());
-    for (std::size_t t = 0; t < node.size(); t += 3)
+    for (std::size_t t = 0; t < node.size(); t += 3) {
+      stop::look_at_turn<stop::quick>(t / 3, assembling);
       add(part, &node[t], tension.isotropic(t / 3), free);
+    }
     // _end[j] has moved from where column j begins to where it ends.
     std::int32_t begin = 0;
-    for (std::size_t j = 0; j < _diagonal.size(); ++j) begin = merge(j, begin);
+    for (std::size_t j = 0; j < _diagonal.size(); ++j) {
+      stop::look_at_turn<stop::quick>(j, assembling);
+      begin = merge(j, begin);
+    }
   }
 
   /// Columns first..last-1 with their rows from..to-1; `diagonals` as the first of each.
@@ -63,6 +74,7 @@ class Columns {
     std::int32_t* row = result.innerIndexPtr();
     double* value = result.valuePtr();
     for (std::int32_t j = first; j < last; ++j) {
+      stop::look_at_turn<stop::quick>(at(j), assembling);
       if (diagonals) {
         *row++ = j - from;
         *value++ = _diagonal[at(j)];

@@ -8,6 +8,8 @@
 #include <utility>
 #include <variant>
 
+#include "stop/stop.hpp"
+
 namespace anticrack::jobs {
 
 namespace {
@@ -75,6 +77,7 @@ Condensed condense(const operators::MeshOperator& mesh_operator, const std::vect
   for (const Task& task : tasks) {
     try {
       LiveJob& job = *task.job;
+      const stop::Scope scope(job.stop.get_token());
       cases.emplace_back(task, job.arrays.resolve(job.spec->loads[task.index], store));
     } catch (...) {
       result.ended.push_back({task, failed_case(task, std::current_exception())});

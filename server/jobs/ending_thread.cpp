@@ -12,6 +12,7 @@
 #include "fields/walk.hpp"
 #include "jobs/result_block.hpp"
 #include "jobs/sweep_result.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::jobs {
 
@@ -47,6 +48,20 @@ void set_state(store::JobRecord& record, JobState state, const std::optional<Err
 
 }  // namespace
 
+void EndingThread::End::fail(const std::exception& why) {
+  const auto* error = dynamic_cast<const Error*>(&why);
+  if (error != nullptr && error->reason() == Reason::cancelled)
+    without_result(JobState::cancelled);
+  else
+    without_result(JobState::failed, lost(why));
+}
+
+void EndingThread::End::without_result(JobState state, const std::optional<Error>& error) {
+  set_state(record, state, error);
+  record.result_bytes = 0;
+  result.reset();
+}
+
 EndingThread::EndingThread(EngineCore& core)
     : _core(core), _thread(core.start(EngineCore::Lock(core.mutex), [this] { work(); })) {}
 
@@ -71,8 +86,9 @@ void EndingThread::work() {
 
 EndingThread::End EndingThread::conclude_job(Lock& lock, const JobPtr& job) {
   const Outcome outcome = conclude(*job);
+  const bool stopped = job->why != Stop::none;  // what it has is written, whoever stops it again
   if (job->state == JobState::running) add_step(job->timeline, JobState::running, writing);
-  End end{job, {}, nullptr};
+  End end{job, {}, nullptr, stopped ? std::stop_token() : job->writing.get_token()};
   const JobSnapshot snapshot(*job);
   lock.unlock();
   end.record = snapshot.record();
@@ -80,6 +96,7 @@ EndingThread::End EndingThread::conclude_job(Lock& lock, const JobPtr& job) {
   add_step(end.record.timeline, outcome.state, {});
   set_state(end.record, outcome.state, outcome.error);
   try {
+    const stop::Scope scope(end.stop);
     if (job->sweep) {
       const auto unsolved =
           outcome.state == JobState::failed ? contact::Status::failed : contact::Status::cancelled;
@@ -91,7 +108,7 @@ EndingThread::End EndingThread::conclude_job(Lock& lock, const JobPtr& job) {
     }
     end.record.result_bytes = end.result ? end.result->size() : 0;
   } catch (const std::exception& exception) {
-    set_state(end.record, JobState::failed, lost(exception));
+    end.fail(exception);
   }
   job->mesh_operator.reset();  // however long the disk takes
   job->spool.reset();
@@ -104,27 +121,9 @@ EndingThread::End EndingThread::conclude_job(Lock& lock, const JobPtr& job) {
 }
 
 void EndingThread::write(Lock& lock, End end) {
-  if (end.job->refused && end.job->why == Stop::cancelled) {
-    set_state(end.record, JobState::cancelled, std::nullopt);
-    end.record.result_bytes = 0;
-    end.result.reset();
-  }
+  if (end.job->refused && end.job->why == Stop::cancelled) end.without_result(JobState::cancelled);
   lock.unlock();
-  bool written = false;
-  try {
-    _core.store.finish(end.record, end.result);
-    written = true;
-  } catch (const std::bad_alloc&) {
-    written = false;  // like a disk that refuses
-  } catch (const std::exception& exception) {
-    const auto* error = dynamic_cast<const Error*>(&exception);
-    if (end.result && !(error && is_of_the_disk(*error))) {
-      // No later try would do better.
-      set_state(end.record, JobState::failed, lost(exception));
-      end.record.result_bytes = 0;
-      end.result.reset();
-    }
-  }
+  const bool written = finish(end);
   lock.lock();
   if (written)
     announce(lock, end);
@@ -132,6 +131,21 @@ void EndingThread::write(Lock& lock, End end) {
     leave_to_next_start(lock, end);
   else
     keep(lock, std::move(end));
+}
+
+bool EndingThread::finish(End& end) {
+  try {
+    const stop::Scope scope(end.result ? end.stop : std::stop_token());
+    _core.store.finish(end.record, end.result);
+    return true;
+  } catch (const std::bad_alloc&) {
+    return false;  // like a disk that refuses
+  } catch (const std::exception& exception) {
+    const auto* error = dynamic_cast<const Error*>(&exception);
+    if (!end.result || (error && is_of_the_disk(*error))) return false;
+    end.fail(exception);  // no later try would do better
+    return finish(end);
+  }
 }
 
 void EndingThread::announce(Lock& lock, const End& end) {

@@ -5,7 +5,10 @@
 
 #include <chrono>
 #include <deque>
+#include <exception>
 #include <memory>
+#include <optional>
+#include <stop_token>
 #include <thread>
 
 #include "jobs/engine_core.hpp"
@@ -14,8 +17,9 @@ namespace anticrack::jobs {
 
 /// Takes the jobs that have nothing left to solve, writes record and result to the store and tells
 /// the watchers. What the store cannot take is kept and tried again every second, without holding
-/// up other jobs, until it is written, the job is cancelled (then it ends without a result) or the
-/// engine stops (then the next start runs it again).
+/// up other jobs, until it is written, the job is cancelled (then it ends without a result, as it
+/// does where it is cancelled while a result is written) or the engine stops (then the next start
+/// runs it again).
 class EndingThread {
  public:
   /// Starts the thread; the core must outlive it.
@@ -34,12 +38,19 @@ class EndingThread {
     JobPtr job;
     store::JobRecord record;
     std::shared_ptr<const store::BlockSource> result;
+    std::stop_token stop = {};  ///< of the writing
     Clock::time_point next_try{};
+
+    /// Of a result that will never be written.
+    void fail(const std::exception& why);
+    void without_result(store::JobState state, const std::optional<errors::Error>& error = {});
   };
 
   void work();
   End conclude_job(Lock& lock, const JobPtr& job);
   void write(Lock& lock, End end);
+  /// False where the store could not take it now. Without the lock.
+  bool finish(End& end);
   /// Deletes the meshes that a job with an accuracy made, but that of its answers. Without the
   /// lock.
   void forget_meshes(const LiveJob& job);

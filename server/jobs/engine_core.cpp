@@ -271,10 +271,13 @@ void EngineCore::stop(const JobPtr& job, Stop why, const std::optional<Error>& f
   std::vector<EndedCase> stopped;
   Lock lock(mutex);
   if (job->ending) {
-    if (job->refused && why == Stop::cancelled) {
+    if (why != Stop::cancelled) return;
+    if (job->refused) {
       job->why = why;
       ending.notify_one();
     }
+    lock.unlock();
+    job->writing.request_stop();
     return;
   }
   if (job->why != Stop::none) return;

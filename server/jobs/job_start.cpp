@@ -11,6 +11,7 @@
 #include "jobs/sweep_check.hpp"
 #include "jobs/sweep_chunk.hpp"
 #include "jobs/sweep_plan.hpp"
+#include "stop/stop.hpp"
 #include "store/files.hpp"
 
 namespace anticrack::jobs {
@@ -115,6 +116,7 @@ void start_job(EngineCore& core, EngineCore::Lock& lock,
   std::optional<SweepPlan> plan;
   bool stored = false;
   try {
+    const stop::Scope scope(job->stop.get_token());
     require_result_arrays(*job->spec, mesh_operator->mesh().interfaces.size(),
                           mesh_operator->mesh().subdomains.size(), core.options.max_result_arrays);
     require_answers(*job->spec, mesh_operator->mesh().inclusions);

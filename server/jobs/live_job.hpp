@@ -80,6 +80,7 @@ struct LiveJob {
   const std::shared_ptr<EventLog> log;
   ForceArrays arrays;
   std::stop_source stop;
+  std::stop_source writing;  ///< of its end: cancelled when nothing was left to solve
 
   /// Of the job, as in its name.
   const std::string& id() const noexcept { return created.id; }

@@ -10,6 +10,7 @@
 #include "jobs/condensing.hpp"
 #include "jobs/exact_run.hpp"
 #include "jobs/job_start.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::jobs {
 
@@ -208,6 +209,10 @@ void SolverPool::admit(Lock& lock, const Mesh& mesh, Lane lane, std::shared_ptr<
   Condensed condensed;
   try {
     if (!block) {
+      const stop::Scope scope([&tasks](const stop::Look&) {  // theta* may take long
+        return std::ranges::all_of(
+            tasks, [](const Task& task) { return task.job->stop.stop_requested(); });
+      });
       block =
           std::make_shared<BlockRun>(mesh->mesh_operator, mass_of(lane), room, _core.iterations);
     }

@@ -98,32 +98,37 @@ void end_stage(EngineCore& core, EngineCore::Lock& lock, const JobPtr& job) {
   Verdict verdict = judge(records, cases, *job->spec, most, ended.seconds);
   LiveStages::Complete complete;
   std::shared_ptr<void> use;
+  std::string finer;   // the mesh that was made
+  bool begun = false;  // the next stage
   if (!verdict.over && !stages.no_finer.empty())
     verdict = {true, not_reached(*event, cases, *job->spec, stages.no_finer)};
   if (!verdict.over) {
     const stop::Scope scope(job->stop.get_token());
     try {
       const store::MeshRecord mesh = next_mesh(core, *job, indicator, most);
+      finer = mesh.id;
       use = core.catalogue.use(mesh.id);
       complete = {job->cases, result_block(*job), job->answer_bytes + job->spool->memory()};
       records.push_back({mesh.id, mesh.triangle_count});
+      begun = true;
       store_progress(core, snapshot, records);
     } catch (...) {
       const Error error = error_of(std::current_exception());
+      const bool stopped = error.reason() == Reason::cancelled && job->stop.stop_requested();
       const bool triangles = error.reason() == Reason::limit_exceeded && error.fields().empty();
       const std::string why = triangles ? limit_reached(*job->spec, most) : error.what();
-      verdict = {true, not_reached(*event, cases, *job->spec, why)};
+      if (!stopped) verdict = {true, not_reached(*event, cases, *job->spec, why)};
     }
   }
   job->log->append(StageEvent{event});
 
   lock.lock();
   --job->active;
-  if (!verdict.over) stages.made.push_back(records.back().mesh);
+  if (!finer.empty()) stages.made.push_back(finer);
   if (verdict.over || job->why != Stop::none) {
     // After a restart of the server they are gone.
     const bool fall_back = verdict.fall_back && !stages.last.cases.empty();
-    if (!verdict.over || fall_back) records.pop_back();
+    if (begun || fall_back) records.pop_back();
     if (fall_back)
       job->cases = std::exchange(stages.last.cases, {});
     else

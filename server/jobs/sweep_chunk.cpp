@@ -208,6 +208,7 @@ std::uint64_t steps_of(const SweepColumns& columns) {
 
 std::shared_ptr<const operators::LoadBasis> condense_basis(
     LiveJob& job, const operators::MeshOperator& mesh_operator, const store::Store& store) {
+  const stop::Scope scope(job.stop.get_token());
   std::vector<fem::Load> loads;
   std::vector<const fem::Load*> pointers;
   loads.reserve(job.spec->loads.size());

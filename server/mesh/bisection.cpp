@@ -42,11 +42,14 @@ std::uint64_t edge_key(std::int32_t a, std::int32_t b) noexcept {
   return low << 32U | high;
 }
 
-/// The nodes a refinement put on edges. Memory 16 bytes an edge cut.
+/// The nodes a refinement put on edges. Memory 16 bytes an edge of a line cut.
 class Midpoints {
  public:
-  /// Node `first + i` is the midpoint of the edge between the two nodes parents[i]. O(k log k).
-  Midpoints(std::int32_t first, std::span<const std::array<std::int32_t, 2>> parents);
+  /// Node `first + i` is the midpoint of the edge between the two nodes parents[i]. Keeps those of
+  /// edges between nodes `on_line`, and adds them there: all that lines are cut by. O(k + c log c)
+  /// for c of them.
+  Midpoints(std::int32_t first, std::span<const std::array<std::int32_t, 2>> parents,
+            std::vector<bool> on_line);
 
   /// The midpoint of the edge, in either direction; -1 if it was not cut. O(log k).
   std::int32_t find(std::int32_t a, std::int32_t b) const noexcept;
@@ -55,18 +58,33 @@ class Midpoints {
   std::vector<std::pair<std::uint64_t, std::int32_t>> _cuts;  ///< (edge, midpoint), ascending
 };
 
-Midpoints::Midpoints(std::int32_t first, std::span<const std::array<std::int32_t, 2>> parents) {
-  _cuts.reserve(parents.size());
+Midpoints::Midpoints(std::int32_t first, std::span<const std::array<std::int32_t, 2>> parents,
+                     std::vector<bool> on_line) {
   std::int32_t node = first;
-  for (const auto& [a, b] : parents) _cuts.emplace_back(edge_key(a, b), node++);
+  for (const auto& [a, b] : parents) {
+    stop::look_at_turn<stop::quick>(at(node), bisecting);
+    on_line.push_back(on_line[at(a)] && on_line[at(b)]);
+    if (on_line.back()) _cuts.emplace_back(edge_key(a, b), node);
+    ++node;
+  }
   std::sort(_cuts.begin(), _cuts.end());
 }
 
 std::int32_t Midpoints::find(std::int32_t a, std::int32_t b) const noexcept {
   const std::uint64_t key = edge_key(a, b);
-  const auto at = std::lower_bound(_cuts.begin(), _cuts.end(), key,
-                                   [](const auto& cut, auto wanted) { return cut.first < wanted; });
-  return at != _cuts.end() && at->first == key ? at->second : -1;
+  const auto cut =
+      std::lower_bound(_cuts.begin(), _cuts.end(), key,
+                       [](const auto& one, auto wanted) { return one.first < wanted; });
+  return cut != _cuts.end() && cut->first == key ? cut->second : -1;
+}
+
+std::vector<bool> nodes_of_lines(const Mesh& mesh) {
+  std::vector<bool> found(mesh.node_count(), false);
+  for (const Interface& line : mesh.interfaces)
+    for (const std::int32_t node : line.nodes) found[at(node)] = true;
+  for (const auto& edge : mesh.dirichlet)
+    for (const std::int32_t node : edge) found[at(node)] = true;
+  return found;
 }
 
 /// Calls `piece(from, to)` for the pieces of the edge a -> b, in order.
@@ -121,7 +139,7 @@ std::vector<std::uint8_t> reference_sides(const Mesh& mesh, const EdgeTable& edg
   std::vector<double> longest(mesh.triangle_count(), -1.0);
   std::size_t turn = 0;
   edges.each([&](std::span<const EdgeUse> uses) {
-    stop::look_at_turn<std::size_t{1} << 16>(turn++, bisecting);
+    stop::look_at_turn<stop::quick>(turn++, bisecting);
     const double length = squared_length(mesh, uses[0].low(), uses[0].high());
     for (const EdgeUse& use : uses) {
       const auto t = at(use.triangle);
@@ -141,13 +159,15 @@ Bisection::Bisection(const Mesh& base, std::size_t max_triangles)
   _origin.resize(base.triangle_count());
   std::iota(_origin.begin(), _origin.end(), 0);
   _corners.resize(base.triangle_count());
-  for (std::size_t t = 0; t < _corners.size(); ++t)
+  for (std::size_t t = 0; t < _corners.size(); ++t) {
+    stop::look_at_turn<std::size_t{1} << 17>(t, bisecting);
     for (std::size_t i = 0; i < 3; ++i)
       _corners[t][i] = base.triangles[3 * t + (reference[t] + i) % 3];
+  }
   _across.assign(base.triangle_count(), {-1, -1, -1});
   std::size_t turn = 0;
   edges.each([&](std::span<const EdgeUse> uses) {
-    stop::look_at_turn<std::size_t{1} << 16>(turn++, bisecting);
+    stop::look_at_turn<stop::quick>(turn++, bisecting);
     check_plane(uses);
     if (uses.size() < 2) return;
     for (std::size_t i = 0; i < 2; ++i) {
@@ -239,14 +259,17 @@ Mesh Bisection::finish() && {
   Mesh mesh = without_triangles(_base);
   mesh.xy = std::move(_xy);
   mesh.triangles.reserve(3 * _corners.size());
-  for (const auto& nodes : _corners)
-    mesh.triangles.insert(mesh.triangles.end(), nodes.begin(), nodes.end());
+  for (std::size_t t = 0; t < _corners.size(); ++t) {
+    stop::look_at_turn<std::size_t{1} << 17>(t, bisecting);
+    mesh.triangles.insert(mesh.triangles.end(), _corners[t].begin(), _corners[t].end());
+  }
   mesh.subdomain = std::move(_subdomain);
   mesh.interfaces = _base.interfaces;
   mesh.dirichlet = _base.dirichlet;
   mesh.bisection_bound = bisection_bound(_base);
   stop::look(bisecting);
-  cut_lines(mesh, Midpoints(static_cast<std::int32_t>(_base.node_count()), _parents));
+  cut_lines(mesh, Midpoints(static_cast<std::int32_t>(_base.node_count()), _parents,
+                            nodes_of_lines(_base)));
   return mesh;
 }
 

@@ -43,6 +43,14 @@ void put(Writer& out, const Mesh& mesh) {
   });
 }
 
+/// Of a mesh as bytes, about.
+std::size_t bytes_of(const Mesh& mesh) {
+  constexpr std::size_t lines = 64;  // interfaces, the boundary and names, of triangles: a few
+  return mesh.xy.size() * sizeof(double) +
+         (mesh.triangles.size() + mesh.subdomain.size()) * sizeof(std::int32_t) +
+         mesh.dirichlet.size() * lines + lines * lines;
+}
+
 Mesh get_mesh(Reader& in) {
   Mesh mesh;
   fields::for_each(mesh, [&](const auto& field) {
@@ -124,7 +132,7 @@ static Choices choices_of(Preset) {
 
 Bytes encode(const Mesh& mesh) {
   const bool moving = moves(mesh), laws = !mesh.tension_laws.empty();
-  Writer out(laws ? mesh_with_laws_tag : moving ? moving_mesh_tag : mesh_tag);
+  Writer out(laws ? mesh_with_laws_tag : moving ? moving_mesh_tag : mesh_tag, bytes_of(mesh));
   put(out, mesh);
   if (moving || laws) out.value(moving ? mesh.motions : std::vector<Motion>());
   if (laws) out.value(mesh.tension_laws);

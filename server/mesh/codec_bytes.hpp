@@ -20,6 +20,7 @@
 #include "errors/errors.hpp"
 #include "fields/walk.hpp"
 #include "mesh/codec.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::mesh {
 
@@ -28,7 +29,11 @@ static_assert(std::endian::native == std::endian::little,
 
 class Writer {
  public:
-  explicit Writer(std::string_view tag) { raw(tag.data(), tag.size()); }
+  /// `bytes`: about as many as will be written.
+  explicit Writer(std::string_view tag, std::size_t bytes = 0) {
+    _bytes.reserve(bytes);
+    raw(tag.data(), tag.size());
+  }
 
   /// Little-endian, as in memory.
   template <class T>
@@ -63,7 +68,11 @@ class Writer {
       if (from) value(*from);
     } else {
       if constexpr (requires { typename T::allocator_type; }) count(from.size());  // no std::array
-      for (const auto& item : from) value(item);
+      std::size_t turn = 0;
+      for (const auto& item : from) {
+        stop::look_at_turn<stop::quick>(++turn, "encoding a mesh");
+        value(item);
+      }
     }
   }
 
@@ -166,6 +175,7 @@ class Reader {
       using Item = typename T::value_type;
       to.resize(count(least_bytes<Item>()));
       if constexpr (std::is_arithmetic_v<Item>) {
+        if (to.size() > stop::quick) stop::look("decoding a mesh");
         const std::size_t bytes = to.size() * sizeof(Item);
         if (bytes > 0) std::memcpy(to.data(), _bytes.data() + _at, bytes);
         _at += bytes;

@@ -23,7 +23,10 @@ EdgeTable::EdgeTable(std::span<const std::int32_t> triangles) : _uses(triangles.
   // A counting sort by the lower node, then each node's few sides by the others.
   const std::size_t nodes = triangles.empty() ? 0 : at(std::ranges::max(triangles)) + 1;
   std::vector<std::size_t> end(nodes + 1, 0);
-  for (std::size_t c = 0; c < triangles.size(); ++c) ++end[at(use(c).low())];
+  for (std::size_t c = 0; c < triangles.size(); ++c) {
+    stop::look_at_turn<std::size_t{1} << 18>(c, listing);
+    ++end[at(use(c).low())];
+  }
   stop::look(listing);
   std::partial_sum(end.begin(), end.end(), end.begin());
   for (std::size_t c = triangles.size(); c-- > 0;) {
@@ -32,7 +35,7 @@ EdgeTable::EdgeTable(std::span<const std::int32_t> triangles) : _uses(triangles.
   }
   // end[n] is now where node n begins.
   for (std::size_t n = 0; n < nodes; ++n) {
-    stop::look_at_turn<std::size_t{1} << 16>(n, listing);
+    stop::look_at_turn<stop::quick>(n, listing);
     std::sort(_uses.begin() + static_cast<std::ptrdiff_t>(end[n]),
               _uses.begin() + static_cast<std::ptrdiff_t>(end[n + 1]),
               [](const EdgeUse& a, const EdgeUse& b) {

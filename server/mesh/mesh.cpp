@@ -56,9 +56,11 @@ void check_shapes(const Mesh& mesh) {
 }
 
 void check_nodes(const Mesh& mesh) {
-  for (std::size_t i = 0; i < mesh.xy.size(); ++i)
+  for (std::size_t i = 0; i < mesh.xy.size(); ++i) {
+    stop::look_at_turn<std::size_t{1} << 20>(i, "checking a mesh");
     if (!std::isfinite(mesh.xy[i]))
       fail(i % 2 == 0 ? "x" : "y", " of node ", i / 2, " is ", mesh.xy[i], ", not a finite number");
+  }
 }
 
 void check_triangles(const Mesh& mesh) {
@@ -67,7 +69,7 @@ void check_triangles(const Mesh& mesh) {
   std::vector<bool> node_used(mesh.node_count(), false);
   std::vector<bool> subdomain_used(mesh.subdomains.size(), false);
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-    stop::look_at_turn<std::size_t{1} << 16>(t, "checking a mesh");
+    stop::look_at_turn<stop::quick>(t, "checking a mesh");
     for (std::size_t corner = 0; corner < 3; ++corner) {
       const std::int32_t node = mesh.triangles[3 * t + corner];
       if (node < 0 || node >= nodes)
@@ -202,7 +204,7 @@ std::vector<EdgeKey> check_interfaces(const Mesh& mesh, const EdgeTable& edges) 
 void check_edges(const Mesh& mesh, const EdgeTable& edges, const std::vector<EdgeKey>& interfaces) {
   std::size_t turn = 0;
   edges.each([&](std::span<const EdgeUse> uses) {
-    stop::look_at_turn<std::size_t{1} << 16>(turn++, "checking a mesh");
+    stop::look_at_turn<stop::quick>(turn++, "checking a mesh");
     const EdgeUse& first = uses[0];
     if (uses.size() > 2)
       fail(where_edge(mesh, first.low(), first.high()), " belongs to ", uses.size(),

@@ -322,7 +322,10 @@ std::shared_ptr<const mesh::Mesh> Preparation::triangulate(Run& run) {
   }
   const MeshRecord record = stored(run.id);
   std::optional<Triangulation> made;
-  if (!twin.empty()) made = copy_of(twin, record, _store);
+  if (!twin.empty()) {
+    const stop::Scope scope(run.stop.get_token());
+    made = copy_of(twin, record, _store);
+  }
   const bool copied = made.has_value();
   if (!copied) {
     ++_meshings;
@@ -375,7 +378,10 @@ void Preparation::factorize(Run& run, std::shared_ptr<const mesh::Mesh> triangul
   held.unlock();
   Operator result = _cache.find(sha256, owner);
   if (!result) {
-    triangulation = triangulation ? std::move(triangulation) : _store.triangulation(sha256);
+    if (!triangulation) {
+      const stop::Scope scope(run.stop.get_token());
+      triangulation = _store.triangulation(sha256);
+    }
     if (!triangulation) {
       throw Error(Reason::storage, fmt::format("the triangulation of meshes/{} is not in the data "
                                                "folder: delete the mesh and create it again",

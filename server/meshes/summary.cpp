@@ -16,12 +16,15 @@
 #include "mesh/refine.hpp"
 #include "mesh/union_find.hpp"
 #include "meshes/tension_laws.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::meshes {
 
 namespace {
 
 using EdgeKey = std::pair<std::int32_t, std::int32_t>;
+
+constexpr const char* measuring = "measuring a mesh";
 
 EdgeKey key(std::int32_t a, std::int32_t b) noexcept { return std::minmax(a, b); }
 
@@ -42,6 +45,7 @@ void measure_triangles(const mesh::Mesh& mesh, std::vector<store::SubdomainSumma
     to.shortest_edge = std::numeric_limits<double>::infinity();
   }
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    stop::look_at_turn(t, measuring);
     store::SubdomainSummary& to = result[at(mesh.subdomain[t])];
     ++to.triangle_count;
     to.area += mesh::area(mesh, t);
@@ -61,6 +65,7 @@ void count_nodes(const mesh::Mesh& mesh, std::vector<store::SubdomainSummary>& r
   constexpr std::size_t nowhere = std::numeric_limits<std::size_t>::max();
   std::vector<std::size_t> last_seen_in(mesh.node_count(), nowhere);
   for (std::size_t i = 0; i < result.size(); ++i) {
+    stop::look(measuring);
     for (const std::size_t t : triangles[i]) {
       for (std::size_t corner = 3 * t; corner < 3 * t + 3; ++corner) {
         std::size_t& last = last_seen_in[at(mesh.triangles[corner])];
@@ -81,7 +86,9 @@ void find_floating(const mesh::Mesh& mesh, const mesh::EdgeTable& edges,
       cuts.push_back(key(interface.nodes[i], interface.nodes[i + 1]));
   std::sort(cuts.begin(), cuts.end());
   mesh::UnionFind parts(mesh.triangle_count());
+  std::size_t turn = 0;
   edges.each([&](std::span<const mesh::EdgeUse> uses) {
+    stop::look_at_turn<stop::quick>(turn++, measuring);
     const EdgeKey edge{uses[0].low(), uses[0].high()};
     if (uses.size() != 2 || std::binary_search(cuts.begin(), cuts.end(), edge)) return;
     parts.unite(uses[0].triangle, uses[1].triangle);

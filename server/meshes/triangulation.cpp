@@ -14,7 +14,6 @@
 #include "meshes/summary.hpp"
 #include "meshes/tension_laws.hpp"
 #include "stop/stop.hpp"
-#include "store/digest.hpp"
 #include "store/files.hpp"
 
 namespace anticrack::meshes {
@@ -92,14 +91,7 @@ void meshed(const mesh::Mesh& mesh, std::chrono::steady_clock::time_point start,
   record.mesh_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const mesh::Bytes encoded = mesh::encode(mesh);
-  constexpr std::size_t piece = std::size_t{4} << 20;
-  store::Sha256 sha256;
-  for (std::span<const std::byte> left(encoded); !left.empty();) {
-    stop::look("encoding a mesh");
-    sha256.add(left.first(std::min(piece, left.size())));
-    left = left.subspan(std::min(piece, left.size()));
-  }
-  record.sha256 = sha256.finish();
+  record.sha256 = store::sha256_of(encoded);
   record.state = store::MeshState::evicted;
   summarize(mesh, record);
 }
@@ -108,13 +100,13 @@ Triangulation triangulate(store::MeshRecord record, const CatalogueOptions& opti
                           const store::Store& store, const std::stop_token& stop,
                           const ProgressListener& progress) {
   const auto start = std::chrono::steady_clock::now();
+  const stop::Scope scope(stop);
   const mesh::MesherRequest request = request_for(record, options, store);
   const std::uint64_t expected = expected_of(request);
   auto mesh = std::make_shared<const mesh::Mesh>(
       mesher::run(options.helper, request, stop, [&](const mesher::Progress& now) {
         progress({now.doing, now.triangles, now.triangles < expected ? expected : 0});
       }));
-  const stop::Scope scope(stop);
   meshed(*mesh, start, record);
   return {std::move(mesh), std::move(record)};
 }

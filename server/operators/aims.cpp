@@ -7,6 +7,7 @@
 
 #include "contact/open_membrane.hpp"
 #include "estimate/interval.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::operators {
 
@@ -55,7 +56,10 @@ std::vector<contact::UnitForce> unit_forces(const MeshOperator::Parts& parts,
                                             std::span<const Aim> goals) {
   std::vector<contact::UnitForce> forces;
   parts.with_problem([&](const auto& problem) {
-    for (const Aim& aim : goals) forces.push_back(contact::unit_force(problem, aim.goal));
+    for (const Aim& aim : goals) {
+      stop::look("computing bounds of A");
+      forces.push_back(contact::unit_force(problem, aim.goal));
+    }
   });
   return forces;
 }

@@ -19,6 +19,8 @@
 namespace anticrack::operators {
 namespace {
 
+constexpr const char* bounding_a = "computing bounds of A";
+
 /// Bounds of the cone that are tried; most answers need two.
 constexpr int most_tries = 4;
 
@@ -90,6 +92,7 @@ class Search {
 void advance(const MeshOperator::Parts& parts, const estimate::CutMesh& cut,
              std::span<Search* const> searches) {
   std::vector<Eigen::VectorXd> loads;
+  stop::look(bounding_a);
   for (const Search* search : searches) loads.push_back(search->load());
   const std::vector<contact::Opened> opened = solve_open(parts, {}, loads);
   std::vector<contact::Displaced> displaced;
@@ -115,7 +118,7 @@ void advance(const MeshOperator::Parts& parts, const estimate::CutMesh& cut,
 class UntilStopped final : public contact::Observer {
  public:
   bool on_iteration(const contact::Sample&) override {
-    stop::look("computing bounds of A");
+    stop::look(bounding_a);
     return true;
   }
 };
@@ -130,18 +133,14 @@ class Slopes {
  public:
   Slopes(const MeshOperator::Parts& parts, const LoadOnTraces& load, const estimate::Primal& primal,
          double lower, double upper)
-      : _parts(parts),
-        _load(load),
-        _primal(primal),
-        _upper(upper),
-        _gap(upper - lower) {}
+      : _parts(parts), _load(load), _primal(primal), _upper(upper), _gap(upper - lower) {}
 
   void find(const Aim& aim, contact::Answer& answer) const {
     const fem::Load load = aim.force(*_parts.mesh);
     const fem::Load* const force[] = {&load};
-    const CondensedOutcome condensed = condense_loads(force, *_parts.mesh, _parts.decomposition,
-                                                      _parts.condense(), _parts.neumann)
-                                           .front();
+    const CondensedOutcome condensed =
+        condense_loads(force, *_parts.mesh, _parts.decomposition, _parts.condense(), _parts.neumann)
+            .front();
     const auto* unit = std::get_if<LoadOnTraces>(&condensed);
     if (unit == nullptr) return;
     const contact::Answer alone = solve({unit->subdomains, unit->inclusion_forces}, false);
@@ -229,6 +228,7 @@ void bound_by_adjoints(const MeshOperator::Parts& parts, const std::vector<Aim>&
   std::vector<std::pair<const Bounded*, const Aim*>> by_energy;
   for (const Bounded& of : answers) {
     if (of.stop.stop_requested()) continue;
+    stop::look(bounding_a);
     const contact::Adjoint& adjoint = adjoints.emplace_back(parts.problem, of.answer);
     const bool loaded_beyond = !of.primal.load.oscillation.empty();
     std::vector<contact::Opened> opened;

@@ -6,6 +6,7 @@
 #include "ddm/cut_steps.hpp"
 #include "mesh/at.hpp"
 #include "operators/mesh_operator.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::operators {
 namespace {
@@ -20,6 +21,7 @@ std::vector<Size> subdomain_sizes(const mesh::Mesh& mesh, const ddm::Sides& side
   std::vector<Size> sizes(mesh.subdomains.size());
   std::vector<char> seen(mesh.node_count(), 0);
   for (std::size_t c = 0; c < mesh.triangles.size(); ++c) {
+    stop::look_at_turn<stop::quick>(c, "estimating the memory of a mesh");
     const auto node = at(mesh.triangles[c]);
     if (sides.corner[c] < 0 && seen[node] == 0) {
       seen[node] = 1;

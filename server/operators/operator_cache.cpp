@@ -14,6 +14,7 @@
 #include "errors/errors.hpp"
 #include "operators/freed_memory.hpp"
 #include "operators/memory_shares.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::operators {
 namespace {
@@ -306,7 +307,10 @@ std::shared_ptr<const MeshOperator> OperatorCache::acquire(const std::string& ke
       return _state->fly(lock, key, std::move(mesh), owner, *estimate, stop);
     } else {
       lock.unlock();
-      estimate = estimate_bytes(*mesh);
+      {
+        const stop::Scope scope(stop);
+        estimate = estimate_bytes(*mesh);
+      }
       lock.lock();
     }
   }

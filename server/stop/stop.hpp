@@ -42,6 +42,9 @@ Asked asked();
 /// nanoseconds.
 void look(const char* doing, std::size_t done = 0);
 
+/// Turns of a loop over triangles, nodes or numbers that take about a millisecond.
+constexpr std::size_t quick = std::size_t{1} << 16;
+
 /// Looks each `every`-th turn of a loop, a power of two that takes about a millisecond.
 template <std::size_t every = 4096>
 void look_at_turn(std::size_t turn, const char* doing, std::size_t done = 0) {

@@ -3,6 +3,7 @@
 #include <utility>
 #include <variant>
 
+#include "stop/stop.hpp"
 #include "store/digest.hpp"
 #include "store/durable_store.hpp"
 #include "store/record_codec.hpp"
@@ -171,9 +172,11 @@ void DurableStore::finish(const JobRecord& record, std::shared_ptr<const BlockSo
       result->read(0, std::as_writable_bytes(std::span(columns.small)).subspan(header.size()));
     } else {
       columns.name = Sha256().add(header).finish();
-      file.emplace(_results.write(
-          std::as_bytes(std::span(header)), columns.bytes,
-          [&](std::uint64_t offset, std::span<std::byte> to) { result->read(offset, to); }));
+      file.emplace(_results.write(std::as_bytes(std::span(header)), columns.bytes,
+                                  [&](std::uint64_t offset, std::span<std::byte> to) {
+                                    stop::look("writing a result");
+                                    result->read(offset, to);
+                                  }));
     }
   }
   _writer.run([&](Connection& connection) {

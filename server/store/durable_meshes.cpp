@@ -3,7 +3,6 @@
 #include <variant>
 
 #include "mesh/codec.hpp"
-#include "store/digest.hpp"
 #include "store/durable_store.hpp"
 #include "store/record_codec.hpp"
 
@@ -50,7 +49,7 @@ void DurableStore::put(const MeshRecord& record) {
 
 void DurableStore::put(const MeshRecord& record, const mesh::Mesh& triangulation) {
   const mesh::Bytes encoded = mesh::encode(triangulation);
-  if (Sha256().add(encoded).finish() != record.sha256)
+  if (sha256_of(encoded) != record.sha256)
     throw Error(Reason::internal, "meshes/" + record.id + " comes with another triangulation");
   const std::string bytes = encode(record);
   const DiskUsage::Reservation reservation = reserve(encoded.size());
@@ -98,7 +97,7 @@ std::shared_ptr<const mesh::Mesh> DurableStore::triangulation(const std::string&
   const std::string path = _meshes.path(sha256);
   const auto bytes = read_file(path);
   if (!bytes) return nullptr;
-  if (Sha256().add(*bytes).finish() != sha256) {
+  if (sha256_of(*bytes) != sha256) {
     throw Error(Reason::storage,
                 "the triangulation in " + path + " is damaged: delete its mesh and make it again");
   }

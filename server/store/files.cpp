@@ -16,6 +16,7 @@
 #include <thread>
 #include <utility>
 
+#include "stop/stop.hpp"
 #include "store/digest.hpp"
 #include "store/disk_errors.hpp"
 
@@ -176,9 +177,21 @@ std::string sha256_of(const std::string& path) {
   const Descriptor file = open_to_read(path);
   return file ? sha256_of(file_size(file, path),
                           [&](std::uint64_t offset, std::span<std::byte> bytes) {
+                            stop::look("reading a file");
                             read_at(file, path, offset, bytes);
                           })
               : std::string();
+}
+
+std::string sha256_of(std::span<const std::byte> bytes) {
+  constexpr std::size_t piece = std::size_t{1} << 20U;
+  Sha256 hash;
+  while (!bytes.empty()) {
+    stop::look("hashing a mesh");
+    hash.add(bytes.first(std::min(piece, bytes.size())));
+    bytes = bytes.subspan(std::min(piece, bytes.size()));
+  }
+  return hash.finish();
 }
 
 void require_intact_upload(const std::string& path, const std::string& sha256) {

@@ -66,6 +66,8 @@ void write_at(const Descriptor& file, const std::string& path, std::uint64_t off
 std::optional<std::vector<std::byte>> read_file(const std::string& path);
 /// The hash of a file's content; empty where there is no such file. Throws as read_at does.
 std::string sha256_of(const std::string& path);
+/// Of a mesh in memory. Both look (stop/stop.hpp).
+std::string sha256_of(std::span<const std::byte> bytes);
 /// Reads the file. Throws errors::Error (storage) where it is not uploads/SHA256 any more.
 void require_intact_upload(const std::string& path, const std::string& sha256);
 /// Makes the file or gives it other bytes, on the disk: all or nothing. Throws as disk_error does.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "stop/stop.hpp"
 #include "store/digest.hpp"
 
 namespace anticrack::store {
@@ -65,8 +66,10 @@ class SpooledBlock::Source final : public BlockSource {
   /// Bytes of zeros up to the next array's place, which it returns.
   std::uint64_t align() { return _size = aligned(_size); }
   void hash() {
-    _sha256 = sha256_of(
-        _size, [this](std::uint64_t offset, std::span<std::byte> bytes) { read(offset, bytes); });
+    _sha256 = sha256_of(_size, [this](std::uint64_t offset, std::span<std::byte> bytes) {
+      stop::look("hashing a result");
+      read(offset, bytes);
+    });
   }
 
   const std::vector<ArrayLayout>& arrays() const noexcept override { return _arrays; }

@@ -10,9 +10,11 @@
 #include <memory>
 #include <numeric>
 #include <set>
+#include <variant>
 
 #include "errors/errors.hpp"
 #include "estimate/marking.hpp"
+#include "mesh/codec.hpp"
 #include "mesh/refine.hpp"
 #include "operators/mesh_operator.hpp"
 #include "support/grid_mesh.hpp"
@@ -45,6 +47,13 @@ mesh::Mesh with_inclusions(int count, int columns) {
 
 fem::Load pressure() { return {"pressure", fem::Expression{"1 + x*y"}, ""}; }
 
+PreparedLoad prepare(const MeshOperator& op, const fem::Load& load) {
+  const fem::Load* const one[] = {&load};
+  std::variant<PreparedLoad, errors::Error> made = std::move(op.prepare(one).front());
+  if (const auto* error = std::get_if<errors::Error>(&made)) throw errors::Error(*error);
+  return std::get<PreparedLoad>(std::move(made));
+}
+
 /// A job up to the stage that is stopped, which `run` is.
 struct Stage {
   const char* name;
@@ -62,9 +71,9 @@ void expect_stops(const Stage& stage) {
   }
   std::printf("%s: %zu looks, %.1f ms, at most %.2f ms without (before \"%s\")\n", stage.name,
               all.count(), 1e3 * all.seconds(), 1e3 * all.longest, all.longest_before.c_str());
-  ASSERT_GT(all.count(), 3U);
+  ASSERT_GE(all.count(), 3U);
   constexpr std::size_t places = 12;
-  std::set<std::size_t> looks{1, 2, 3};
+  std::set<std::size_t> looks{1, 2};
   for (std::size_t i = 1; i <= places; ++i) looks.insert(1 + (all.count() - 2) * i / places);
   for (const std::size_t look : looks) {
     SCOPED_TRACE(look);
@@ -81,7 +90,7 @@ void expect_stops(const Stage& stage) {
 }
 
 /// All that the server computes for a load on this mesh, stage after stage.
-void walk(mesh::Mesh made, std::size_t most_dense, std::size_t loads = 1) {
+void walk(mesh::Mesh made, std::size_t most_dense) {
   const auto mesh = std::make_shared<const mesh::Mesh>(std::move(made));
   const std::vector<std::uint8_t> twice(mesh->triangle_count(), 2);
   expect_stops({"checking", [&] { mesh::validate(*mesh); }});
@@ -89,17 +98,15 @@ void walk(mesh::Mesh made, std::size_t most_dense, std::size_t loads = 1) {
   expect_stops({"factorising", [&] { MeshOperator::factorise(mesh, 1, {}, most_dense); }});
   const auto op = MeshOperator::factorise(mesh, 1, {}, most_dense);
   const fem::Load load = pressure();
-  const std::vector<const fem::Load*> pointers(loads, &load);
   testing::Silent observer;
-  PreparedLoad prepared = std::get<PreparedLoad>(op->prepare({&pointers[0], 1}).front());
-  expect_stops(
-      {"solving and bounding", [&] {
-         // A mesh's own part of the bounds is made once: a new one each time.
-         const auto fresh = MeshOperator::factorise(mesh, 1, {}, most_dense);
-         const auto entry = std::get<PreparedLoad>(fresh->prepare({&pointers[0], 1}).front());
-         contact::Answer answer = fresh->solve(entry, {}, false, observer);
-         fresh->estimate(entry, answer);
-       }});
+  PreparedLoad prepared = prepare(*op, load);
+  expect_stops({"solving and bounding", [&] {
+                  // A mesh's own part of the bounds is made once: a new one each time.
+                  const auto fresh = MeshOperator::factorise(mesh, 1, {}, most_dense);
+                  const auto entry = prepare(*fresh, load);
+                  contact::Answer answer = fresh->solve(entry, {}, false, observer);
+                  fresh->estimate(entry, answer);
+                }});
   contact::Answer answer = op->solve(prepared, {}, false, observer);
   const std::vector<double> indicator = op->estimate(prepared, answer);
   ASSERT_EQ(answer.no_bracket, "");
@@ -109,17 +116,23 @@ void walk(mesh::Mesh made, std::size_t most_dense, std::size_t loads = 1) {
 
 TEST(Stops, ManyInclusionsOnASkeleton) { walk(with_inclusions(16, 128), skeleton); }
 
-TEST(Stops, ManyInclusionsOnAJoinedMembrane) { walk(with_inclusions(16, 128), joined); }
+TEST(Stops, ManyInclusionsOnAJoinedMembrane) { walk(with_inclusions(16, 64), joined); }
 
 TEST(Stops, MoreInclusionsThanAdjointsAreMadeFor) { walk(with_inclusions(32, 128), joined); }
+
+TEST(Stops, EncodingAndDecodingAMesh) {
+  const mesh::Mesh mesh = with_inclusions(4, 512);
+  mesh::Bytes bytes;
+  expect_stops({"encoding", [&] { bytes = mesh::encode(mesh); }});
+  expect_stops({"decoding", [&] { mesh::decode_mesh(bytes); }});
+}
 
 TEST(Stops, OneOfSeveralThatAreBoundedTogetherLeavesTheOthers) {
   const auto mesh = std::make_shared<const mesh::Mesh>(with_inclusions(4, 32));
   const auto op = MeshOperator::factorise(mesh, 1, {});
   const fem::Load load = pressure();
-  const std::vector<const fem::Load*> pointers{&load};
   testing::Silent observer;
-  const auto prepared = std::get<PreparedLoad>(op->prepare(pointers).front());
+  const auto prepared = prepare(*op, load);
   contact::Answer first = op->solve(prepared, {}, false, observer), second = first, alone = first;
   op->estimate(prepared, alone);
   // Stopped while both are bounded: at each of the looks in turn.
