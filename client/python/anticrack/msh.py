@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, cast
 
 from .arrays import Array, array_of
 from .errors import CaseError
@@ -54,7 +54,7 @@ class Msh:
             names = _names(self.groups.get(kind, [""] * len(nodes)), kind)
             if len(names) != len(nodes):
                 raise CaseError(f"groups of '{kind}' are {len(names)} names for {len(nodes)} cells")
-            rows: list[list[int]] = list(nodes.tolist())
+            rows = cast(list[list[int]], nodes.tolist())
             for name, cell in zip(names, rows):
                 tag = tags.setdefault((dimension, name), len(tags) + 1) if name else 0
                 entity = tag or 10**6 + dimension

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Sequence
-from typing import Any
+from typing import Any, cast
 
 from .arrays import Array, array_of, is_array
 from .errors import CaseError
@@ -63,7 +63,7 @@ def _kept(traces: Any, rows: int) -> list[int]:
     values = traces if is_array(traces) else list(traces)
     if hasattr(values, "__len__") and not len(values):
         return []
-    kept = sorted(set(array_of(values, ("rows",), fail, whole=True).tolist()))
+    kept = sorted(set(cast(list[int], array_of(values, ("rows",), fail, whole=True).tolist())))
     if kept and not 0 <= kept[0] <= kept[-1] < rows:
         raise fail(f"{kept[0] if kept[0] < 0 else kept[-1]} is no row; there are {rows}, counted from 0")
     return kept
