@@ -135,13 +135,9 @@ void MeshOperator::estimate(std::span<Estimate> all) const {
       if (!answer.no_bracket.empty()) continue;
       BalancedLoad of_load =
           data.balanced ? *data.balanced
-<<<<<<< HEAD
-                        : balanced(load.parts, _parts->decomposition.subdomains, cut, one.stop);
+                        : balanced(load.parts, _parts->decomposition.subdomains, cut);
       answer.no_bracket = of_load.obstacle;
       if (!answer.no_bracket.empty()) continue;
-=======
-                        : balanced(load.parts, _parts->decomposition.subdomains, cut);
->>>>>>> stops
       if (!of_load.boundary.empty())
         material.lifts = estimate::lifts(cut, of_load.boundary, material.u);
       material.balance = std::move(of_load.balance);
