@@ -88,14 +88,15 @@ class Plots(FolderTest):
         self.assertEqual(first, again)
 
     def test_without_titles_there_is_none(self):
-        for name in ("overview_picture", "traces_picture", "plan_picture"):
-            arguments = {"overview_picture": (0, 0), "traces_picture": (0,)}.get(name, ())
+        load = self.several["pulled"]
+        for draw in (lambda look: pictures.overview_picture(look, self.several, load, 0, 0),
+                     lambda look: pictures.traces_picture(look, self.several, load, 0),
+                     lambda look: pictures.picture("plan", look, self.several, load)):
             texts = {}
             for titles in (True, False):
                 look = Look(["svg"], 50, titles)
                 with look.applied():
-                    made = getattr(pictures, name)(look, self.several, self.several["pulled"], *arguments)
-                svg = made["svg"].decode()
+                    svg = draw(look)["svg"].decode()
                 texts[titles] = set(re.findall("<text[^>]*>([^<]*)</text>", svg))
             self.assertTrue(any("pulled" in text for text in texts[True]), texts)
             told = [text for text in texts[False] if re.search("pulled|fibres|amplified|lines of|A =", text)]
@@ -266,7 +267,7 @@ class Plots(FolderTest):
         with look.applied():
             made = {"overview": pictures.overview_picture(look, self.several, self.several["pulled"], 0, 0),
                     "accuracy": pictures.accuracy_picture(look, self.accurate, self.accurate["opening"]),
-                    "convergence": pictures.convergence_picture(look, self.uzawa, self.uzawa["example-2"]),
+                    "convergence": pictures.picture("convergence", look, self.uzawa, self.uzawa["example-2"]),
                     "together": pictures.together_picture(look, self.several, list(self.several.loads.values()), 0),
                     "sweep": pictures.sweep_picture(look, self.sweep),
                     "contact": pictures.contact_picture(look, self.sweep, 0),
@@ -282,6 +283,12 @@ class Plots(FolderTest):
 class Command(FolderTest):
     def plot(self, *words, **options):
         return run(sys.executable, "-P", "-m", "anticrack", *words, cwd=self.folder, **options)
+
+    def test_has_the_options_of_the_command(self):
+        said = self.plot("plot", "--help").stdout
+        of_python = set(re.findall("(?<![a-z])--[a-z-]+", said)) - {"--json", "--quiet", "--help"}
+        told = run(os.environ["ANTICRACK"], "plot", "--help").stdout
+        self.assertEqual(of_python, set(re.findall("  (?:-o,)?(--[a-z-]+)", told)) - {"--help"})
 
     def test_says_what_is_wrong_in_one_line(self):
         (self.folder / "no.h5").write_bytes(b"no")

@@ -151,8 +151,10 @@ def _curve(ax: Any, profile: Profile, values: Array, style: tuple[str, Any], lab
 
 
 def finish(ax: Any, profile: Profile, load: Load, values: list[Array], name: str, unit: str) -> None:
-    """The axes of heights; 0 is a line."""
-    ax.axhline(0, color="#888888", linewidth=0.6, zorder=0)
+    """The axes of heights; 0 is a line, unless all is far from it."""
+    low, high = ax.get_ylim()
+    if low - 0.5 * (high - low) <= 0 <= high + 0.5 * (high - low):
+        ax.axhline(0, color="#888888", linewidth=0.6, zorder=0)
     half = _typical(load, values)
     if half:
         ax.set_ylim(-half, half)

@@ -170,13 +170,11 @@ def _draw_load(choice: _Choice, load: Load, stem: str, into: _Folder, look: Look
         else:
             if wanted.has("overview") and result.interfaces:
                 into.add(stem, pictures.overview_picture(look, result, load, *choice.eventful([load])))
-            if wanted.has("membrane"):
-                into.add(f"{stem}-membrane", pictures.membrane_picture(look, result, load))
-            if wanted.has("plan"):
-                into.add(f"{stem}-plan", pictures.plan_picture(look, result, load))
+            for figure in filter(wanted.has, ("membrane", "plan")):
+                into.add(f"{stem}-{figure}", pictures.picture(figure, look, result, load))
     _draw_traces(choice, load, stem, into, look)
     if wanted.has("convergence") and _steps(load) >= (2 if "convergence" in wanted.only else 3):
-        into.add(f"{stem}-convergence", pictures.convergence_picture(look, result, load))
+        into.add(f"{stem}-convergence", pictures.picture("convergence", look, result, load))
     if not wanted.has("accuracy"):
         return
     if len(bounded(load)["triangles"]) > 1:

@@ -12,7 +12,7 @@ from ..errors import Error, package
 from ..result import BONDED, CRACK, DELAMINATED, FREE, GLUE, Load, Result
 from ..text import harmless
 
-package("matplotlib")  # which the modules beside this one import, too
+package("matplotlib.ticker")  # which the modules beside this one import, too
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter  # noqa: E402
 from matplotlib.transforms import ScaledTranslation  # noqa: E402
 

@@ -131,10 +131,10 @@ def membrane(result: Result, load: str | Load | None = None, ax: Any = None, cma
     for axis in (ax.xaxis, ax.yaxis, ax.zaxis):
         axis.set_pane_color((1, 1, 1, 0))
         axis.set_rotate_label(False)
-        axis.labelpad = -7 if axis is ax.zaxis else -4
+        axis.labelpad = -4 if axis is not ax.zaxis else -7 if around > -90 else -2
     ax.tick_params(pad=-2)
     ax.grid(False)
-    ax.set_box_aspect([*shown, np.ptp(heights)], zoom=1.08)
+    ax.set_box_aspect([*shown, np.ptp(heights)], zoom=1.05)
     ax.view_init(up, around)
     text = "u to scale" if factor == 1 else f"u {'amplified ' if factor > 1 else ''}\u00d7{number_text(factor, 6)}"
     ax.set_title(f"{named(load.name)}: {text.replace('u', 'u less a plane,', 1) if level else text}"

@@ -3,6 +3,7 @@
 a picture of one column or, of two columns, an overview. Each returns the picture by format."""
 from __future__ import annotations
 
+import functools
 from typing import Any
 
 import numpy as np
@@ -33,47 +34,41 @@ def _axes(sheet: Sheet, left: float, top: float, height: float, **options: Any) 
 
 
 def _legend(ax: Any, columns: int, handles: list[Any] | None = None, labels: list[str] | None = None) -> float:
-    """Below the axis; its height, mm."""
+    """Below the axis, in place of its own; its height, mm."""
     if handles is None or labels is None:
+        if ax.get_legend() is None:
+            return 0.0
         handles, labels = ax.get_legend_handles_labels()
-    if ax.get_legend() is not None:
-        ax.get_legend().remove()
-    if not handles:
-        return 0.0
     legend_below(ax, columns, (BELOW - 1) / 25.4, handles=handles, labels=labels)
-    return 1 + KEY * -(-len(handles) // columns)
+    rows: int = -(-len(labels or ()) // columns)
+    return 1 + KEY * rows
 
 
-def _draw_membrane(sheet: Sheet, result: Result, load: Load) -> float:
+def _draw_membrane(sheet: Sheet, result: Result, load: Load, *_: float) -> float:
     look, wide = sheet.look, sheet.look.width
     height = 0.7 * wide
     bar = sheet.panel(0.24 * wide, height + 2.5, 0.52 * wide, 1.8)
-    aside = (-0.05 if view(result)[1] > -90 else 0.05) * wide  # room for the numbers of u
+    aside = (-0.05 if view(result)[1] > -90 else 0.085) * wide  # room for the numbers of u
     ax = sheet.panel(aside, 0.5, wide, height + 1, projection="3d")
     membrane(result, load, ax, amplify=look.amplify, limits=look.limits, colorbar=bar)
     ax.set_title(ax.get_title().partition(": ")[2], y=1 - 2.5 / (height + 1))
     return height + 12.5
 
 
-def membrane_picture(look: Look, result: Result, load: Load) -> Files:
-    sheet = Sheet(look, title_of(result, load))
-    return sheet.files(_draw_membrane(sheet, result, load))
-
-
 def _map_size(sides: Any, width: float, most: float) -> tuple[float, float]:
-    """Of the axes of a map, mm, and whether it is so flat that a colour bar goes above it."""
+    """Of the axes of a map, mm."""
     shown = stretch_of(sides) * sides + 0.06 * sides.max()
     high = width * float(shown[1] / shown[0])
     return (width, high) if high <= most else (most * float(shown[0] / shown[1]), most)
 
 
-def _draw_plan(sheet: Sheet, result: Result, load: Load, top: float) -> float:
+def _draw_plan(sheet: Sheet, result: Result, load: Load, _: float, top: float) -> float:
     wide = sheet.look.width
     sides = np.ptp(result.mesh.nodes, axis=0)
     flat = sides[0] > 2 * sides[1]
     room = wide - LEFT - (RIGHT if flat else 17)
     width, high = _map_size(sides, room, 0.72 * wide)
-    left, down = LEFT + (room - width) / 2, top + ABOVE + (8.0 if flat else 0)
+    left, down = LEFT + (room - width) / 2, top + ABOVE + (12.0 if flat else 0)
     bar = (sheet.panel(left + 0.15 * width, top + ABOVE, 0.7 * width, 1.8) if flat else
            sheet.panel(left + width + 2.5, down, 1.8, high))
     ax = sheet.panel(left, down, width, high)
@@ -88,11 +83,6 @@ def _draw_plan(sheet: Sheet, result: Result, load: Load, top: float) -> float:
     handles = legend.legend_handles if hasattr(legend, "legend_handles") else legend.legendHandles  # before 3.7
     labels = [text.get_text() for text in legend.get_texts()]
     return down - top + high + BELOW + _legend(ax, 2, handles, labels)
-
-
-def plan_picture(look: Look, result: Result, load: Load) -> Files:
-    sheet = Sheet(look, title_of(result, load))
-    return sheet.files(_draw_plan(sheet, result, load, 0))
 
 
 def _draw_along(sheet: Sheet, result: Result, load: Load, index: int, left: float, heights: tuple[float, float, float],
@@ -131,7 +121,7 @@ def _over_one_axis(panels: list[Any]) -> None:
     figure = panels[0].figure
     width = panels[0].get_position().width * figure.get_size_inches()[0]
     for ax in panels:  # names in one line, wherever the numbers end
-        ax.yaxis.set_label_coords(-(LEFT - 3) / 25.4 / width, 0.5)
+        ax.yaxis.set_label_coords(-(LEFT - 4) / 25.4 / width, 0.5)
 
 
 def traces_picture(look: Look, result: Result, load: Load, index: int) -> Files:
@@ -183,17 +173,21 @@ def together_picture(look: Look, result: Result, loads: list[Load], index: int) 
     return sheet.files(top - _GAP + BELOW + key)
 
 
-def _draw_convergence(sheet: Sheet, result: Result, load: Load, left: float, top: float) -> float:
-    high = 0.47 * sheet.look.width
+def _draw_curves(draw: Any, sheet: Sheet, result: Result, load: Load, left: float, top: float) -> float:
+    """By one of the functions of this folder."""
+    high = 0.5 * sheet.look.width
     ax = _axes(sheet, left, top + ABOVE, high)
-    convergence(result, load, ax)
-    ax.set_title(ax.get_title().partition(": ")[2])
+    draw(result, load, ax=ax)
+    ax.set_title(ax.get_title().rpartition(": ")[2])
     return ABOVE + high + BELOW + _legend(ax, 1)
 
 
-def convergence_picture(look: Look, result: Result, load: Load) -> Files:
+def picture(figure: str, look: Look, result: Result, load: Load) -> Files:
+    """Of one panel: "membrane", "plan" or "convergence"."""
     sheet = Sheet(look, title_of(result, load))
-    return sheet.files(_draw_convergence(sheet, result, load, 0, 0))
+    draw: dict[str, Any] = {"membrane": _draw_membrane, "plan": _draw_plan,
+                            "convergence": functools.partial(_draw_curves, convergence)}
+    return sheet.files(draw[figure](sheet, result, load, 0, 0))
 
 
 def accuracy_picture(look: Look, result: Result, load: Load) -> Files:
@@ -201,9 +195,7 @@ def accuracy_picture(look: Look, result: Result, load: Load) -> Files:
     upper = _axes(sheet, 0, ABOVE, high)
     errors(result, load, upper)
     top = ABOVE + high + 2 + KEY * len(upper.get_legend_handles_labels()[0])
-    handles, labels = upper.get_legend_handles_labels()
-    upper.get_legend().remove()
-    legend_below(upper, 1, 1.2 / 25.4, handles=handles, labels=labels)
+    legend_below(upper, 1, 1.2 / 25.4)
     lower = _axes(sheet, 0, top + _GAP, high, sharex=upper)
     error_band(result, load, lower)
     lower.set_title("")
@@ -218,22 +210,16 @@ def overview_picture(look: Look, result: Result, load: Load, opened: int, closed
     sheet, scale = Sheet(look, title_of(result, load), 2), look.width / 85
     row = max(_draw_membrane(sheet, result, load), _draw_along(
         sheet, result, load, opened, look.width, (25 * scale, 13 * scale, 0), False))
-    line, trace = result.interfaces[closed], load.traces[closed]
-    high = 0.55 * look.width
-    if pressed(line, trace):
-        ax = _axes(sheet, look.width, row + ABOVE, high)
-        pressure(result, load, closed, ax)
-        ax.set_title(ax.get_title().partition(": ")[2])
-        right = ABOVE + high + BELOW
+    if pressed(result.interfaces[closed], load.traces[closed]):
+        draw: Any = functools.partial(pressure, interface=closed)
     elif len(bounded(load)["triangles"]) > 1:
-        ax = _axes(sheet, look.width, row + ABOVE, high)
-        errors(result, load, ax)
-        right = ABOVE + high + BELOW + _legend(ax, 1)
+        draw = errors
     elif load.history and len(load.history["iteration"]) > 2:
-        right = _draw_convergence(sheet, result, load, look.width, row)
+        draw = convergence
     else:
         return sheet.files(row)
-    return sheet.files(row + max(right, _draw_plan(sheet, result, load, row)))
+    right = _draw_curves(draw, sheet, result, load, look.width, row)
+    return sheet.files(row + max(right, _draw_plan(sheet, result, load, 0, row)))
 
 
 def _rows(result: Result) -> str:
@@ -251,13 +237,12 @@ def _stacked(look: Look, result: Result, draw: list[Any], bounds: bool = False) 
         panels.append(_axes(sheet, 0, ABOVE + i * (high + _GAP), high, **({"sharex": panels[0]} if panels else {})))
         each(ax=panels[-1])
     handles, labels = panels[0].get_legend_handles_labels()
-    several = panels[0].get_legend() is not None
-    for ax in panels:
-        if ax.get_legend() is not None:
-            ax.get_legend().remove()
+    legends = [ax.get_legend() for ax in panels if ax.get_legend() is not None]
+    for legend in legends:
+        legend.remove()
     panels[0].set_title(_rows(result) + ("; shaded: bounds" if bounds else ""))
     _over_one_axis(panels)
-    key = _legend(panels[-1], 3, handles[::-1], labels[::-1]) if several else 0.0
+    key = _legend(panels[-1], 3, handles[::-1], labels[::-1]) if legends else 0.0
     return sheet.files(ABOVE + len(draw) * (high + _GAP) - _GAP + BELOW + key)
 
 
@@ -300,8 +285,5 @@ def mesh_picture(look: Look, plan_of: Plan) -> tuple[Files, list[str]]:
     assert first is not None
     columns = 2 if tip is None else 4
     handles, labels = first.get_legend_handles_labels()
-    figure = first.figure
-    key = figure.legend(handles, labels, loc="lower center", ncol=columns, fontsize="small", frameon=False,
-                        borderaxespad=0.2)
-    key.set_zorder(0)
+    first.figure.legend(handles, labels, loc="lower center", ncol=columns, fontsize="small", borderaxespad=0.2)
     return sheet.files(ABOVE + bottom + BELOW + 1 + KEY * -(-len(handles) // columns)), notes

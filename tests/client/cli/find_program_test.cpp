@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "cli/local_server.hpp"
+#include "cli/find_program.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace anticrack::cli {
@@ -20,29 +20,30 @@ fs::path make_program(const fs::path& folder, bool executable = true) {
   return program;
 }
 
-TEST(FindServer, PrefersTheOneBesideTheClient) {
+TEST(FindProgram, PrefersTheOneBesideTheClient) {
   const anticrack::testing::TemporaryFolder folder;
   const fs::path beside = make_program(folder / "bin");
   make_program(folder / "other");
-  EXPECT_EQ(find_server(folder / "bin" / "anticrack", (folder / "other").string()), beside);
+  EXPECT_EQ(find_program("anticrackd", folder / "bin" / "anticrack", (folder / "other").string()),
+            beside);
 }
 
-TEST(FindServer, TakesTheFirstOnThePath) {
+TEST(FindProgram, TakesTheFirstOnThePath) {
   const anticrack::testing::TemporaryFolder folder;
   const fs::path first = make_program(folder / "first");
   make_program(folder / "second");
   const std::string path =
       folder.path() + ":" + (folder / "first").string() + ":" + (folder / "second").string();
-  EXPECT_EQ(find_server(folder / "anticrack", path), first);
+  EXPECT_EQ(find_program("anticrackd", folder / "anticrack", path), first);
 }
 
-TEST(FindServer, PassesOverFoldersAndFilesThatAreNoPrograms) {
+TEST(FindProgram, PassesOverFoldersAndFilesThatAreNoPrograms) {
   const anticrack::testing::TemporaryFolder folder;
   make_program(folder / "plain", false);
   fs::create_directories(folder / "folder" / "anticrackd");
   const std::string path = (folder / "plain").string() + ":" + (folder / "folder").string();
-  EXPECT_EQ(find_server(folder / "anticrack", path), fs::path());
-  EXPECT_EQ(find_server(folder / "anticrack", ""), fs::path());
+  EXPECT_EQ(find_program("anticrackd", folder / "anticrack", path), fs::path());
+  EXPECT_EQ(find_program("anticrackd", folder / "anticrack", ""), fs::path());
 }
 
 }  // namespace
