@@ -12,6 +12,7 @@
 #include "cli/commands.hpp"
 #include "cli/connection_flags.hpp"
 #include "cli/exit_codes.hpp"
+#include "cli/external.hpp"
 #include "cli/json.hpp"
 #include "cli/report.hpp"
 #include "guide/completion.hpp"
@@ -29,6 +30,9 @@ constexpr const char* footer =
     "  4    server unreachable or refusing\n"
     "  130  interrupted: detached from the job, or cancelled it\n"
     "  141  standard output was closed, as by | head; results are saved all the same\n\n"
+    "Other commands:\n"
+    "  anticrack NAME runs the program anticrack-NAME, if there is one beside anticrack or on "
+    "PATH\n\n"
     "Cases to begin with:\n"
     "  client/examples in the sources, /usr/share/anticrack/examples in the Debian package\n\n"
     "Example:\n  anticrack --local run paper.toml";
@@ -69,6 +73,12 @@ int parse_and_run(int argc, char** argv) {
   if (argc > 1 && std::string_view(argv[1]) == "--complete") {
     print_document(guide::completions(app, {argv + 2, argv + argc}));
     return exit_ok;
+  }
+  const std::string name = argc > 1 ? argv[1] : "";
+  const auto has_name = [&](const CLI::App* command) { return command->get_name() == name; };
+  if (name == "plot" || app.get_subcommands(has_name).empty()) {
+    if (const auto program = external_command(name); !program.empty())
+      return guarded(globals, [&]() -> int { become(program, {argv + 2, argv + argc}); });
   }
   try {
     app.parse(argc, argv);

@@ -1,51 +1,43 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/options.hpp"
-
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
-#include <sstream>
 #include <string>
-#include <vector>
+
+#include "cli/options.hpp"
 
 namespace anticrack::cli {
-namespace {
 
-using figures::Format;
-
-Format format_of(const std::string& name) {
-  if (name == "png") return Format::png;
-  if (name == "svg") return Format::svg;
-  if (name == "pdf") return Format::pdf;
-  throw CLI::ValidationError("--format", "\"" + name + "\" is none of png, svg and pdf");
-}
-
-/// "png,svg": each once.
-std::vector<Format> formats_of(const std::string& list) {
-  std::vector<Format> formats;
-  std::istringstream names(list);
-  for (std::string name; std::getline(names, name, ',');) {
-    const Format format = format_of(name);
-    if (std::count(formats.begin(), formats.end(), format) == 0) formats.push_back(format);
-  }
-  if (formats.empty()) format_of("");
-  return formats;
-}
-
-}  // namespace
-
-void add_figure_options(CLI::App& app, figures::Options& options) {
-  app.add_option_function<std::string>(
-         "--format", [&options](const std::string& list) { options.formats = formats_of(list); },
-         "Of png, svg and pdf those to write, separated by commas")
+void add_figure_options(CLI::App& app, FigureOptions& options) {
+  app.add_option("-o,--output", options.folder, options.folder_help)->type_name("DIR");
+  app.add_option("--format", options.format,
+                 "Of png, svg and pdf those to write, separated by commas")
       ->type_name("LIST")
       ->default_str("png,svg");
-  app.add_option("--dpi", options.dpi, "Dots an inch of PNG files; a single panel is 85 mm wide")
-      ->check(CLI::Range(50, 1200))
-      ->capture_default_str();
-  app.add_flag_callback(
-      "--no-titles", [&options] { options.titles = false; },
-      "Leave out the titles of case and load, for papers with captions");
+  app.add_option("--dpi", options.dpi,
+                 "Dots an inch of PNG files, and of images in the others, from 50 to 1200")
+      ->type_name("INT")
+      ->default_str("300");
+  app.add_option("--width", options.width,
+                 "Width of a panel, mm, a column of most journals; two are side by side in an "
+                 "overview")
+      ->type_name("MM")
+      ->default_str("85");
+  app.add_option("--font", options.font, "Family of the letters (default: DejaVu Sans)")
+      ->type_name("NAME");
+  app.add_flag("--no-titles", options.no_titles,
+               "Leave out the titles of case, load and panels, for papers with captions");
+}
+
+std::vector<std::string> words_of(const FigureOptions& options) {
+  std::vector<std::string> words;
+  for (const auto& [name, value] : {std::pair{"--output=", options.folder},
+                                    {"--format=", options.format},
+                                    {"--dpi=", options.dpi},
+                                    {"--width=", options.width},
+                                    {"--font=", options.font}})
+    if (value) words.push_back(name + *value);
+  if (options.no_titles) words.emplace_back("--no-titles");
+  return words;
 }
 
 }  // namespace anticrack::cli

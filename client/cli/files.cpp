@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -13,11 +14,11 @@
 #include "cli/commands.hpp"
 #include "cli/csv_file.hpp"
 #include "cli/exit_codes.hpp"
+#include "cli/external.hpp"
 #include "cli/json.hpp"
 #include "cli/options.hpp"
 #include "cli/stages_text.hpp"
 #include "cli/text.hpp"
-#include "figures/figures.hpp"
 #include "output/file.hpp"
 #include "results/error.hpp"
 #include "results/file.hpp"
@@ -33,8 +34,14 @@ struct FileOptions {
   std::vector<std::string> loads;  ///< none: all
   std::string csv;
   bool inclusions = false;
-  figures::Options figures;
-  bool together = false;
+};
+
+struct PlotOptions {
+  std::string file;
+  std::optional<std::string> only, interface, amplify, limits;
+  std::vector<std::string> loads;
+  bool together = false, all = false;
+  FigureOptions figures;
 };
 
 // The result with the loads that were asked for, in their order.
@@ -58,10 +65,11 @@ results::Result read_result(const FileOptions& options) {
   return result;
 }
 
-void add_file(CLI::App& command, FileOptions& options, const char* help) {
-  command.add_option("RESULT", options.file, help)->required()->type_name("FILE");
+void add_file(CLI::App& command, std::string& file, std::vector<std::string>& loads,
+              const char* help) {
+  command.add_option("RESULT", file, help)->required()->type_name("FILE");
   command
-      .add_option("--load", options.loads,
+      .add_option("--load", loads,
                   "This load only, of a sweep row-K; again for more (default: all)")
       ->allow_extra_args(false)
       ->type_name("NAME");
@@ -105,14 +113,19 @@ int tell_made(const std::vector<std::filesystem::path>& files,
   return exit_ok;
 }
 
-int plot(FileOptions options, const Globals& globals) {
-  results::Result result = read_result(options);
-  if (!options.loads.empty()) options.figures.all_loads = true;
-  const std::string folder = options.folder.empty() ? "figures" : options.folder;
-  const figures::Drawn drawn =
-      options.together ? figures::draw_together(std::move(result), folder, options.figures)
-                       : figures::draw(result, folder, options.figures);
-  return tell_made(drawn.files, drawn.notes, globals);
+int plot(const PlotOptions& options, const Globals& globals) {
+  std::vector<std::string> words = words_of(options.figures);
+  words.insert(words.begin(), "plot");
+  for (const std::string& load : options.loads) words.push_back("--load=" + load);
+  for (const auto& [name, value] : {std::pair{"--only=", options.only},
+                                    {"--interface=", options.interface},
+                                    {"--amplify=", options.amplify},
+                                    {"--limits=", options.limits}})
+    if (value) words.push_back(name + *value);
+  if (options.together) words.emplace_back("--together");
+  if (options.all) words.emplace_back("--all");
+  words.insert(words.end(), {"--", options.file});
+  return run_in_python(std::move(words), {}, globals, true);
 }
 
 int export_file(const FileOptions& options, const Globals& globals) {
@@ -121,12 +134,58 @@ int export_file(const FileOptions& options, const Globals& globals) {
   return tell_made(exported.files, exported.notes, globals);
 }
 
+void add_plot(CLI::App& app, const Globals& globals, Command& chosen) {
+  const auto options = std::make_shared<PlotOptions>();
+  CLI::App* command = app.add_subcommand("plot", "Draw the figures of a result file");
+  add_file(*command, options->file, options->loads, "Result file, HDF5");
+  add_figure_options(*command, options->figures);
+  CLI::Option* together =
+      command->add_flag("--together", options->together,
+                        "One figure, together, of up to 8 loads over each other on one interface");
+  command
+      ->add_option("--only", options->only,
+                   "Of overview, membrane, plan, traces, convergence and accuracy those to draw, "
+                   "separated by commas (default: all that have something to show)")
+      ->excludes(together)
+      ->type_name("LIST");
+  command
+      ->add_option("--interface", options->interface,
+                   "Draw the traces of this interface, also in the overview and with --together "
+                   "(default: of all that can open; in the overview of the one that opens most, "
+                   "and the pressure of one in contact)")
+      ->type_name("NAME");
+  command->add_flag("--all", options->all,
+                    "However many there are: without it, of more than 12 loads the first 12 are "
+                    "drawn, and of more than 12 interfaces the traces of the most eventful");
+  command
+      ->add_option("--amplify", options->amplify,
+                   "By how much u is amplified in the membrane, the same in all figures")
+      ->type_name("FACTOR");
+  command
+      ->add_option("--limits", options->limits,
+                   "Of the colours of u in the membrane, the same in all figures")
+      ->type_name("LOW,HIGH");
+  command->footer(
+      "Of every load: LOAD-membrane, LOAD-plan (from above, u and the flux), LOAD-traces (u-, u+\n"
+      "and [u] on the interface, and the contact pressure), LOAD-convergence and, of a job with "
+      "an\n"
+      "accuracy, LOAD-accuracy (error against triangles), 85 mm wide, a column of a journal; and\n"
+      "LOAD, an overview. Of a sweep: sweep (A and the contact length), sweep-contact (where the\n"
+      "cracks are closed) and the traces of rows that were kept.\n"
+      "The Python package anticrack draws them, with matplotlib.\n\n"
+      "Example:\n  anticrack plot paper.h5 -o figures\n"
+      "  anticrack plot paper.h5 -o figures --format pdf --no-titles\n"
+      "  anticrack plot several.h5 -o figures --together --interface middle\n"
+      "  anticrack plot several.h5 -o figures --only overview,traces --interface upper");
+  on(*command, options, globals, chosen, plot);
+}
+
 }  // namespace
 
 void add_files(CLI::App& app, const Globals& globals, Command& chosen) {
   const auto options = std::make_shared<FileOptions>();
   CLI::App* show_command = app.add_subcommand("show", "Show the answers of a result file");
-  add_file(*show_command, *options, "Result file, HDF5");
+  add_file(*show_command, options->file, options->loads, "Result file, HDF5");
   show_command->add_flag("--inclusions", options->inclusions,
                          "A row for each inclusion of each load case, also of many");
   show_command
@@ -142,56 +201,11 @@ void add_files(CLI::App& app, const Globals& globals, Command& chosen) {
     chosen = [options, &globals] { return show_file(*options, globals); };
   });
 
-  CLI::App* plot_command = app.add_subcommand("plot", "Draw the figures of a result file");
-  add_file(*plot_command, *options, "Result file, HDF5");
-  plot_command
-      ->add_option("-o,--output", options->folder, "Folder of the figures (default: figures)")
-      ->type_name("DIR");
-  add_figure_options(*plot_command, options->figures);
-  CLI::Option* together = plot_command->add_flag(
-      "--together", options->together,
-      "One figure, together, of up to 8 loads over each other on one interface");
-  plot_command
-      ->add_option("--only", options->figures.only,
-                   "Of overview, membrane, plan, traces, convergence and accuracy those to draw, "
-                   "separated by commas (default: all that have something to show)")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->check([](const std::string& name) {
-        return name == "pressure" ? "the pressure is a panel of traces; write that, or overview"
-                                  : "";
-      })
-      ->check(CLI::IsMember({"overview", "membrane", "plan", "traces", "convergence", "accuracy"}))
-      ->excludes(together)
-      ->type_name("LIST");
-  plot_command
-      ->add_option("--interface", options->figures.interface,
-                   "Draw the traces of this interface, also in the overview and with --together "
-                   "(default: of all that can open; in the overview of the one that opens most, "
-                   "and the pressure of one in contact)")
-      ->type_name("NAME");
-  plot_command->add_flag_callback(
-      "--all", [options] { options->figures.all_loads = options->figures.all_interfaces = true; },
-      "However many there are: without it, of more than 12 loads the first 12 are drawn, and of "
-      "more than 12 interfaces the traces of the most eventful");
-  plot_command->footer(
-      "Of every load: LOAD-membrane, LOAD-plan (from above, u and the flux), LOAD-traces (u-, u+\n"
-      "and [u] on the interface, and the contact pressure), LOAD-convergence and, of a job with "
-      "an\n"
-      "accuracy, LOAD-accuracy (error against triangles), 85 mm wide, a column of a journal; and\n"
-      "LOAD, an overview. Of a sweep: sweep (A and the contact length), sweep-contact (where the\n"
-      "cracks are closed) and the traces of rows that were kept.\n\n"
-      "Example:\n  anticrack plot paper.h5 -o figures\n"
-      "  anticrack plot paper.h5 -o figures --format pdf --no-titles\n"
-      "  anticrack plot several.h5 -o figures --together --interface middle\n"
-      "  anticrack plot several.h5 -o figures --only overview,traces --interface upper");
-  plot_command->callback([options, &globals, &chosen] {
-    chosen = [options, &globals] { return plot(*options, globals); };
-  });
+  add_plot(app, globals, chosen);
 
   CLI::App* export_command =
       app.add_subcommand("export", "Export a result file to .vtu and .pvd, for ParaView");
-  add_file(*export_command, *options, "Result file, HDF5, with fields");
+  add_file(*export_command, options->file, options->loads, "Result file, HDF5, with fields");
   export_command->add_option("-o,--output", options->folder, "Folder of the files")
       ->required()
       ->type_name("DIR");

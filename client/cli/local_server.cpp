@@ -18,6 +18,7 @@
 #include <thread>
 #include <vector>
 
+#include "cli/find_program.hpp"
 #include "cli/text.hpp"
 #include "client/error.hpp"
 
@@ -100,25 +101,8 @@ void remove_left(const std::string& address) noexcept {
 
 }  // namespace
 
-fs::path find_server(const fs::path& executable, const std::string& search_path) {
-  std::vector<fs::path> folders{executable.parent_path()};
-  std::istringstream path(search_path);
-  for (std::string folder; std::getline(path, folder, ':');)
-    folders.emplace_back(folder.empty() ? "." : folder);
-  for (const fs::path& folder : folders) {
-    fs::path candidate = folder / "anticrackd";
-    std::error_code error;
-    if (fs::is_regular_file(candidate, error) && access(candidate.c_str(), X_OK) == 0)
-      return candidate;
-  }
-  return {};
-}
-
 LocalServer::LocalServer(const std::stop_token& stop) {
-  std::error_code error;
-  const char* search_path = std::getenv("PATH");
-  const fs::path program =
-      find_server(fs::read_symlink("/proc/self/exe", error), search_path ? search_path : "");
+  const fs::path program = find_program("anticrackd");
   if (program.empty()) {
     throw LocalServerError(
         "--local needs anticrackd beside this program or on PATH, and it is in neither place");

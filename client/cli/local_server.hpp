@@ -53,8 +53,4 @@ class LocalServer {
   int _log = -1;  ///< a file in memory
 };
 
-/// The anticrackd beside `executable`, else the first on `search_path` (as PATH); empty for none.
-std::filesystem::path find_server(const std::filesystem::path& executable,
-                                  const std::string& search_path);
-
 }  // namespace anticrack::cli

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "cli/exit_codes.hpp"
+#include "cli/external.hpp"
 #include "cli/follow.hpp"
 #include "cli/json.hpp"
 #include "cli/mesh_text.hpp"
@@ -19,7 +20,6 @@
 #include "cli/submit.hpp"
 #include "cli/text.hpp"
 #include "cli/to_result.hpp"
-#include "figures/mesh_figure.hpp"
 
 namespace anticrack::cli {
 namespace {
@@ -28,13 +28,12 @@ struct MeshOptions {
   std::string file;
   std::string name;
   std::string title;
-  std::string folder;
   std::vector<std::string> overrides;
   bool no_wait = false;
   bool pin = false;
   int limit = 50;
   std::string owner;
-  figures::Options figures;
+  FigureOptions figures;
 };
 
 CaseFacts facts_of(const casefile::Case& the_case) {
@@ -101,27 +100,38 @@ std::optional<casefile::Case> case_of(const MeshOptions& options) {
   return std::nullopt;
 }
 
+/// For what draws it: the message, the layout of the arrays and their bytes, each behind its
+/// length.
+std::string drawn_mesh(const v1::Mesh& mesh, const client::Block& block) {
+  std::string all;
+  const auto add = [&all](std::string_view part) {
+    for (std::size_t i = 0, rest = part.size(); i < 8; ++i, rest >>= 8)
+      all += static_cast<char>(rest & 0xFFU);
+    all += part;
+  };
+  add(mesh.SerializeAsString());
+  add(block.layout.SerializeAsString());
+  add({reinterpret_cast<const char*>(block.bytes.data()), block.bytes.size()});
+  return all;
+}
+
 int show_mesh(const MeshOptions& options, const Globals& globals) {
   const auto the_case = case_of(options);
   const std::string given = the_case ? "" : full_name(Collection::meshes, options.name);
   Session session(globals);
   const std::string name = the_case ? create_mesh(session, *the_case).name() : given;
-  if (options.folder.empty() && !the_case) return show_mesh(globals, get_mesh(session, name));
+  if (!options.figures.folder && !the_case) return show_mesh(globals, get_mesh(session, name));
   const v1::Mesh mesh =
       about(session, Collection::meshes, name, [&] { return wait_for(session, name); });
   const CaseFacts facts = the_case ? facts_of(*the_case) : CaseFacts{};
   show_mesh(globals, mesh, facts);
-  if (options.folder.empty()) return exit_ok;
+  if (!options.figures.folder) return exit_ok;
   const client::Block block = client::read_mesh(session.connection(), name, session.stop());
-  const std::string stem = name.substr(std::string("meshes/").size());
-  results::MeshPlan plan = to_mesh_plan(mesh, block);
-  plan.units = facts.units;
-  plan.free = facts.free;
-  const figures::Drawn drawn =
-      figures::draw_mesh(plan, "mesh-" + stem, options.folder, options.figures);
-  for (const auto& file : drawn.files) say(globals, file.string());
-  for (const std::string& note : drawn.notes) say(globals, note);
-  return exit_ok;
+  std::vector<std::string> words = words_of(options.figures);
+  words.insert(words.begin(), "mesh");
+  words.push_back("--unit=" + facts.units.length);
+  if (facts.free) words.emplace_back("--free");
+  return run_in_python(std::move(words), drawn_mesh(mesh, block), globals, false);
 }
 
 int list_meshes(const MeshOptions& options, const Globals& globals) {
@@ -212,7 +222,9 @@ void add_mesh(CLI::App& app, const Globals& globals, Command& chosen) {
 
   CLI::App* upload_command = add("upload", "Create a mesh from a .msh file",
                                  "plate.msh --set mesh.preset=uniform", upload);
-  upload_command->add_option("MESH", options->file, "MSH 2.0 to 2.2 or 4.1, ascii or binary, or a mesh of FreeFEM")
+  upload_command
+      ->add_option("MESH", options->file,
+                   "MSH 2.0 to 2.2 or 4.1, ascii or binary, or a mesh of FreeFEM")
       ->required()
       ->type_name("FILE");
   upload_command->add_option("--title", options->title, "A title for people");
@@ -229,8 +241,7 @@ void add_mesh(CLI::App& app, const Globals& globals, Command& chosen) {
       ->add_option("MESH", options->name, "meshes/ID, or a case (.toml) or .msh file to mesh")
       ->required()
       ->type_name("FILE");
-  show_command->add_option("-o,--output", options->folder, "Folder for the figure")
-      ->type_name("DIR");
+  options->figures.folder_help = "Folder for the figure";
   add_figure_options(*show_command, options->figures);
   add_overrides(show_command);
 

@@ -6,11 +6,12 @@
 #include <CLI/CLI.hpp>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 #include "cli/commands.hpp"
-#include "figures/figures.hpp"
 
 namespace anticrack::cli {
 
@@ -40,7 +41,17 @@ inline void add_list_flags(CLI::App& command, const std::string& what, int& limi
       ->type_name("NAME");
 }
 
-/// The options of commands that draw. `options`, which must outlive the app, has their defaults.
-void add_figure_options(CLI::App& app, figures::Options& options);
+/// The options of commands that draw, as they are passed on to what draws, which checks them.
+struct FigureOptions {
+  std::optional<std::string> folder, format, dpi, width, font;
+  bool no_titles = false;
+  std::string folder_help = "Folder of the figures (default: figures)";
+};
+
+/// `options` must outlive the app.
+void add_figure_options(CLI::App& app, FigureOptions& options);
+
+/// Those that were given, as words of a command line.
+std::vector<std::string> words_of(const FigureOptions& options);
 
 }  // namespace anticrack::cli

@@ -7,8 +7,8 @@
 
 #include "casefile/error.hpp"
 #include "cli/exit_codes.hpp"
+#include "cli/external.hpp"
 #include "cli/json.hpp"
-#include "figures/figures.hpp"
 #include "results/error.hpp"
 
 namespace anticrack::cli {
@@ -41,7 +41,7 @@ Complaint current_complaint() {
     return {exit_usage, "CASE", error.what(), {}};
   } catch (const results::Error& error) {
     return {exit_usage, "RESULT_FILE", error.what(), {}};
-  } catch (const figures::Error& error) {
+  } catch (const FiguresError& error) {
     return {exit_usage, "FIGURES", error.what(), {}};
   } catch (const std::exception& error) {
     return {exit_usage, "ERROR", error.what(), {}};

@@ -205,17 +205,10 @@ std::vector<results::Load> to_loads(const v1::Job& job) {
   return loads;
 }
 
-results::MeshPlan to_mesh_plan(const v1::Mesh& mesh, const client::Block& block) {
-  results::MeshPlan plan;
-  plan.title = mesh.title().empty() ? mesh.name() : mesh.title();
-  add_names(mesh, plan.mesh);
-  plan.interfaces.reserve(static_cast<std::size_t>(mesh.interfaces_size()));
-  for (const v1::InterfaceInfo& interface : mesh.interfaces())
-    plan.interfaces.emplace_back().name = interface.name();
-  plan.tips.reserve(static_cast<std::size_t>(mesh.tips_size()));
-  for (const v1::TipInfo& tip : mesh.tips())
-    plan.tips.push_back({tip.at().x(), tip.at().y(), tip.smallest_edge()});
-  return results::assemble_mesh(std::move(plan), views_of(block));
+results::Mesh to_mesh(const v1::Mesh& mesh, const client::Block& block) {
+  results::Mesh named;
+  add_names(mesh, named);
+  return results::assemble_mesh(std::move(named), views_of(block));
 }
 
 results::Result to_result(const Fetched& fetched) {

@@ -10,7 +10,6 @@
 #include "anticrack/v1/server.pb.h"
 #include "anticrack/v1/solve.pb.h"
 #include "client/block.hpp"
-#include "results/mesh_plan.hpp"
 #include "results/result.hpp"
 
 namespace anticrack::cli {
@@ -34,7 +33,7 @@ results::Result to_result(const Fetched& fetched);
 /// The answers so far, without traces, fields, histories and contact intervals: one per load case.
 std::vector<results::Load> to_loads(const v1::Job& job);
 
-/// A mesh with what ReadMesh returned, for drawing. Throws as to_result.
-results::MeshPlan to_mesh_plan(const v1::Mesh& mesh, const client::Block& block);
+/// A mesh with what ReadMesh returned. Throws as to_result.
+results::Mesh to_mesh(const v1::Mesh& mesh, const client::Block& block);
 
 }  // namespace anticrack::cli

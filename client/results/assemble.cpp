@@ -121,4 +121,11 @@ Result assemble(Result answers, std::span<const ArrayView> mesh_block,
   return answers;
 }
 
+Mesh assemble_mesh(Mesh names, std::span<const ArrayView> mesh_block) {
+  const Block block("the mesh read from the server", mesh_block);
+  add_mesh(block, names);
+  block.require(first_mesh_fault(names));
+  return names;
+}
+
 }  // namespace anticrack::results

@@ -5,8 +5,8 @@
 #include <array>
 #include <utility>
 
-#include "figures/text.hpp"
 #include "output/file.hpp"
+#include "output/stems.hpp"
 
 namespace anticrack::vtk {
 namespace {
@@ -149,7 +149,7 @@ Exported export_result(const Result& result, const std::string& source, const fs
   std::vector<std::string> names;
   names.reserve(result.loads.size());
   for (const Load& load : result.loads) names.push_back(load.name);
-  const std::vector<std::string> stems = figures::file_stems(names, {"-interfaces"});
+  const std::vector<std::string> stems = output::file_stems(names, {"-interfaces"});
 
   Exported exported;
   std::vector<std::size_t> answered;

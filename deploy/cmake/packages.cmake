@@ -29,12 +29,12 @@ cracks and delaminated thin rigid inclusions, by domain decomposition.")
 
 set(CPACK_DEBIAN_CLIENT_PACKAGE_NAME anticrack-client)
 set(CPACK_DEBIAN_CLIENT_PACKAGE_SECTION science)
-set(CPACK_DEBIAN_CLIENT_PACKAGE_RECOMMENDS "gnuplot-nox | gnuplot, fonts-dejavu-core") # of anticrack plot
-set(CPACK_DEBIAN_CLIENT_PACKAGE_SUGGESTS "anticrack-server, python3-anticrack")
+set(CPACK_DEBIAN_CLIENT_PACKAGE_RECOMMENDS python3-anticrack) # draws for anticrack plot
+set(CPACK_DEBIAN_CLIENT_PACKAGE_SUGGESTS anticrack-server)
 set(CPACK_DEBIAN_CLIENT_DESCRIPTION "command of the membrane solver anticrack
 The command anticrack: submits cases to anticrackd, watches every iteration,
-saves the answers in HDF5, draws figures and exports to ParaView. With the
-API's proto files and example cases.")
+saves the answers in HDF5, draws figures with the Python package and exports
+to ParaView. With the API's proto files and example cases.")
 
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libanticrack-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import itertools
 import os
 import re
@@ -49,6 +50,19 @@ def write(path: str | os.PathLike[str], content: bytes | memoryview, keep: bool 
             _replace(target, content, keep)
     except OSError as error:
         raise _unwritable(path, error) from None
+
+
+def make_folder(path: str) -> None:
+    """Of files, unless it is there."""
+    if path == "-":
+        raise Error("-: is standard output, and several files are to be written; name a folder")
+    try:
+        os.makedirs(path, exist_ok=True)
+    except OSError as error:
+        what = NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR)) if os.path.exists(path) else error
+        raise Error(f"{path}: cannot be made a folder: {what.strerror}; choose another folder") from None
+    if not os.access(path, os.W_OK | os.X_OK):
+        raise Error(f"{path}: Permission denied; make the folder writable, or choose another one")
 
 
 def _same(one: str, other: str) -> bool:

@@ -377,6 +377,9 @@ class Result:
         except (OSError, KeyError) as error:
             if str(path).endswith(".toml"):
                 raise Error(f"{os.fspath(path)}: this is a case and no result; solve it, as with client.run") from None
+            if "truncated" in str(error):
+                raise Error(f"{os.fspath(path)}: is truncated or damaged; copy it again from where it was made, or run "
+                            "again") from None
             raise Error(f"{os.fspath(path)}: cannot be read as a result file: {error}") from None
 
     def save(self, path: str | os.PathLike[str]) -> None:

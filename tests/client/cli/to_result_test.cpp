@@ -229,22 +229,12 @@ TEST(ToResult, KeepsALoadThatFailedWithoutArrays) {
   EXPECT_TRUE(result.loads[1].traces.empty());
 }
 
-TEST(ToMeshPlan, KeepsWhichInclusionLiesWhere) {
+TEST(ToMesh, HasItsNamesAndRefusesATriangleOfNoSubdomain) {
   const Fetched sent = fetched();
-  const results::MeshPlan plan = to_mesh_plan(sent.mesh, sent.mesh_block);
-  EXPECT_EQ(plan.mesh.inclusions, std::vector<std::string>{"fibre"});
-  ASSERT_EQ(plan.interfaces.size(), 1U);
-  EXPECT_EQ(plan.interfaces[0].name, "sigma");
-  EXPECT_EQ(plan.interfaces[0].nodes, (Integers{0, 1}));
-  EXPECT_EQ(plan.interfaces[0].edges.kind, std::vector<results::Kind>{results::Kind::inclusion});
-  EXPECT_EQ(plan.interfaces[0].edges.inclusion, Integers{0});
-}
-
-TEST(ToMeshPlan, RefusesAnInclusionThatIsNone) {
-  const Fetched sent = fetched();
-  EXPECT_THROW(to_mesh_plan(sent.mesh, mesh_block(3, 1)), results::Error);
-  EXPECT_THROW(to_mesh_plan(sent.mesh, mesh_block(1, 0)), results::Error);
-  EXPECT_THROW(to_mesh_plan(sent.mesh, mesh_block(5, 0)), results::Error);
+  EXPECT_EQ(to_mesh(sent.mesh, sent.mesh_block).inclusions, std::vector<std::string>{"fibre"});
+  v1::Mesh nameless = sent.mesh;
+  nameless.clear_subdomains();
+  EXPECT_THROW(to_mesh(nameless, sent.mesh_block), results::Error);
 }
 
 TEST(ToResult, RefusesContactOnAnUnknownInterface) {

@@ -59,7 +59,7 @@ COMMANDS = [
     ("plot result.h5 -o figures --only membrane,pressure", 2,
      "--only: the pressure is a panel of traces; write that, or overview; see anticrack plot --help"),
     ("plot result.h5 -o figures --only tracks", 2,
-     "--only: tracks not in {overview,membrane,plan,traces,convergence,accuracy}; see anticrack plot --help"),
+     "--only: tracks is none of overview, membrane, plan, traces, convergence, accuracy; see anticrack plot --help"),
     ("sweep two.toml", 2,
      "give exactly one of --coefficients, --combinations, --nodal; see anticrack sweep --help"),
     ("sweep two.toml --coefficients a.csv --nodal b.h5:/f", 2,
@@ -150,6 +150,8 @@ COMMANDS = [
      "result.h5: there is no load openning; did you mean opening?"),
     ("plot truncated.h5 -o figures", 2,
      "truncated.h5: is truncated or damaged; copy it again from where it was made, or run again"),
+    ("plot result.h5 --dpi 20", 2,
+     "--dpi: 20 is no number from 50 to 1200; see anticrack plot --help"),
     ("export no-fields.h5 -o paraview", 2,
      'no-fields.h5: load "opening": the result has no fields: u is known only along the interfaces; to have '
      "them: anticrack job fetch jobs/ID --fields -o fields.h5, while the server keeps the job; else run the case again "

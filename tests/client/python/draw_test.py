@@ -15,11 +15,9 @@ from matplotlib import pyplot  # noqa: E402
 import anticrack  # noqa: E402
 from anticrack import draw  # noqa: E402
 from anticrack.draw.along import edge_pressure  # noqa: E402
-from anticrack.draw.plane import flux_peaks  # noqa: E402
 from processes import ANTICRACKD  # noqa: E402
 
 EXAMPLES = pathlib.Path(os.environ["EXAMPLES"])
-SAME = pathlib.Path(os.environ["SAME"])
 
 
 class Figures(unittest.TestCase):
@@ -45,8 +43,9 @@ class Figures(unittest.TestCase):
         factor = float(ax.get_title().rpartition("\u00d7")[2])
         fields = self.several["opening"].fields
         heights = numpy.concatenate([part.u for part in fields])
-        self.assertAlmostEqual(numpy.ptp(ax.collections[0]._vec[2]), factor * numpy.ptp(heights))
-        self.assertEqual(len(ax.collections[0]._facecolors), sum(len(part.triangles) for part in fields))
+        (surface,) = [each for each in ax.collections if hasattr(each, "triangles")]
+        self.assertAlmostEqual(numpy.ptp(surface.points[:, 2]), factor * numpy.ptp(heights))
+        self.assertEqual(len(surface.triangles), sum(len(part.triangles) for part in fields))
         self.assertLess(0.15, factor * numpy.ptp(heights) / 2)
         self.assertLessEqual(factor * numpy.ptp(heights) / 2, 0.3)
         ax.figure.canvas.draw()
@@ -58,6 +57,43 @@ class Figures(unittest.TestCase):
         for part in flat["example-2"].fields:
             part.u[:] = 0
         self.assertEqual(draw.membrane(flat).get_title(), "example-2: u to scale")
+
+    def test_membrane_is_seen_from_the_front(self):
+        for turned in (1, -1):
+            result = copy.deepcopy(self.skew)
+            for line in result.interfaces:
+                line.x = turned * line.x
+            ax = draw.membrane(result)
+            self.assertTrue(-180 < ax.azim < 0, "x to the right, as from above")
+        self.assertGreater(ax.elev, draw.membrane(self.skew).elev, "over the near side into the crack")
+
+    def test_a_plane_that_is_most_of_u_is_left_out(self):
+        tilted = copy.deepcopy(self.skew)
+        (a, b), lift = (30.0, -20.0), numpy.ptp(tilted["example-2"].fields[0].u)
+        for part in tilted["example-2"].fields:
+            part.u += tilted.mesh.nodes[part.nodes] @ (a, b)
+        ax = draw.membrane(tilted)
+        self.assertRegex(ax.get_title(), "u less a plane, amplified")
+        (surface,) = [each for each in ax.collections if hasattr(each, "triangles")]
+        self.assertGreater(numpy.ptp(surface.points[:, 2]), lift)
+        self.assertLess(numpy.ptp(surface.points[:, 2]), 0.3)
+
+    def test_colours_are_the_same_where_that_is_asked_for(self):
+        for figure in (draw.membrane, draw.displacement):
+            bar = figure(self.several, "opening", limits=(-3, 5)).figure.axes[1]
+            low, high = (bar.get_xlim if bar.get_xlim() != (0, 1) else bar.get_ylim)()
+            self.assertEqual((low, high), (-3, 5))
+        self.assertEqual(draw.membrane(self.several, "opening", amplify=7).get_title(), "opening: u amplified \u00d77")
+
+    def test_drawn_twice_there_is_one_colour_bar(self):
+        for figure in (draw.membrane, draw.displacement, draw.plan):
+            ax = figure(self.several, "opening")
+            before = ax.figure.axes[1].get_xlim(), ax.figure.axes[1].get_ylim()
+            ax.clear()
+            figure(self.several, "pulled", ax=ax)
+            self.assertEqual(len(ax.figure.axes), 2)
+            self.assertNotEqual((ax.figure.axes[1].get_xlim(), ax.figure.axes[1].get_ylim()), before)
+            self.assertEqual(len(figure(self.several, "pulled", colorbar=False).figure.axes), 1)
 
     def test_names_of_many_inclusions_are_left_out(self):
         many = copy.deepcopy(self.several)
@@ -79,10 +115,11 @@ class Figures(unittest.TestCase):
         ax = draw.traces(self.several, "pulled")
         jumps = [numpy.abs(trace.jump).max() for trace in self.several["pulled"].traces]
         name = self.several.interfaces[int(numpy.argmax(jumps))].name
-        self.assertTrue(ax.get_xlabel().startswith(f"arc length of {name} from ("), ax.get_xlabel())
+        self.assertTrue(ax.get_title().startswith(f"pulled: {name}, A = "), ax.get_title())
         other = draw.traces(self.several, "pulled", "upper")
         upper = self.several.interfaces["upper"]
-        self.assertEqual(other.get_xlabel(), f"arc length of upper from ({upper.x[0]:.4g}, {upper.y[0]:.4g})")
+        self.assertEqual(other.get_xlabel(), f"arc length s from ({upper.x[0]:.4g}, {upper.y[0]:.4g})")
+        self.assertEqual(draw.traces(self.several, "pulled", "middle").get_xlabel(), "x")
         with self.assertRaisesRegex(anticrack.Error, "no interface 'lower'; known are middle, upper"):
             draw.traces(self.several, "pulled", "lower")
         with self.assertRaisesRegex(anticrack.Error, "no load 'pushed'; did you mean pulled"):
@@ -92,14 +129,14 @@ class Figures(unittest.TestCase):
     def test_traces_of_loads_on_one_panel_are_told_apart(self):
         ax = draw.traces(self.several, "pulled", "middle")
         names = [text.get_text() for text in ax.texts]
-        bars = [patch.get_label() for patch in ax.patches if patch.get_alpha() is None]
-        self.assertEqual(bars[:2], ["delaminated inclusion", "bonded inclusion"])
+        said = [text.get_text() for text in ax.get_legend().get_texts()]
+        self.assertEqual(said[-2:], ["delaminated inclusion", "bonded inclusion"])
         draw.traces(self.several, "opening", "middle", ax)
         self.assertEqual((ax.get_title(), [text.get_text() for text in ax.texts]), ("", names))
         said = [text.get_text() for text in ax.get_legend().get_texts()]
         self.assertEqual(len(said), len(set(said)))
         for load in ("pulled", "opening"):
-            self.assertLessEqual({f"{load}: $u^-$", f"{load}: $u^+$", f"{load}: $[u]$"}, set(said))
+            self.assertLessEqual({f"{load}: u\u207b", f"{load}: u\u207a", f"{load}: [u]"}, set(said))
         shades = {patch.get_label(): patch.get_facecolor() for patch in ax.patches if "contact" in patch.get_label()}
         self.assertEqual(len(shades), len(set(shades.values())))
         self.assertIn("pulled: contact", shades)
@@ -118,19 +155,9 @@ class Figures(unittest.TestCase):
         ax.figure.canvas.draw()
         self.assertLessEqual({"long", "short"}, {text.get_text() for text in ax.texts})
         bar = ax.figure.axes[1]
-        self.assertIn("peaks cut off, up to", bar.get_ylabel())
+        self.assertEqual(bar.get_ylabel(), "|T \u2207u|")
         self.assertLess(bar.get_ylim()[1], max(size.max() for size in draw.flux(self.several, "pulled")) / 10)
-
-    def test_peaks_of_the_flux_are_those_of_the_command(self):
-        lines = [line.split() for line in (SAME / "flux.txt").read_text().splitlines() if not line.startswith("#")]
-        nodes, triangles, drawn = (numpy.array([line[1:] for line in lines if line[0] == what], dtype=float)
-                                   for what in ("node", "triangle", "drawn"))
-        result = copy.copy(self.skew)
-        result.mesh = copy.copy(result.mesh)
-        result.mesh.nodes, result.mesh.tension, result.mesh.tension_law = nodes[:, :2], numpy.array([2.0]), []
-        load = anticrack.result.Load("a", "converged")
-        load.fields = [anticrack.result.Field("", numpy.arange(len(nodes)), triangles.astype(int), nodes[:, 2])]
-        numpy.testing.assert_allclose(flux_peaks(result, load, draw.flux(result, load)), drawn[0], rtol=1e-9)
+        self.assertEqual(draw.plan(self.several, "pulled", limits=(0, 9)).figure.axes[1].get_ylim(), (0, 9))
 
     def test_flux_has_the_tension_of_its_subdomain(self):
         result = copy.deepcopy(self.several)
@@ -142,29 +169,28 @@ class Figures(unittest.TestCase):
         result.mesh.tension_law = ["", "1 + x^2"] + [""] * (len(result.mesh.tension) - 2)
         for size in draw.flux(result, "pulled"):  # |grad u|: T is not known
             numpy.testing.assert_allclose(size, 5, rtol=1e-3)
-        self.assertTrue(draw.plan(result, "pulled").figure.axes[1].get_ylabel().startswith(r"$|\nabla u|$"))
+        self.assertTrue(draw.plan(result, "pulled").figure.axes[1].get_ylabel().startswith("|\u2207u|"))
 
     def test_the_side_that_came_off_is_the_minus_side(self):
-        inclusion, *dots = draw.interfaces(self.skew, "example-2").lines
-        self.assertEqual(inclusion.get_color(), "#E69F00")  # as in the command's figures
-        self.assertEqual(len(dots), 1)
-        self.assertLess(dots[0].get_ydata().max(), 0)  # its interface runs along y = 0, the plus side above
+        lines = {line.get_color(): line for line in draw.interfaces(self.skew, "example-2").lines}
+        self.assertLess(lines["#D00000"].get_ydata().max(), 0)  # its interface runs along y = 0, the plus side above
+        self.assertEqual(numpy.abs(lines["#E69F00"].get_ydata()).max(), 0)
 
     def test_pressure_is_on_cracks_and_its_spikes_are_cut_off(self):
         ax = draw.pressure(self.several, "pulled")
-        self.assertRegex(ax.get_ylabel(), r"cut off at the tips, up to [\d$]")
+        self.assertEqual([text.get_text() for text in ax.texts], ["peaks at the tips are cut off"])
         (line,) = ax.lines
         self.assertLess(ax.get_ylim()[1], numpy.nanmax(line.get_ydata()) / 1000)
-        self.assertNotIn("cut off", draw.pressure(self.skew).get_ylabel())
+        self.assertEqual(list(draw.pressure(self.skew).texts), [])
 
-    def test_pressure_is_what_the_command_draws(self):
-        table = [line.split() for line in (SAME / "pressure.txt").read_text().splitlines() if not line.startswith("#")]
-        s, kind, values, contact = numpy.array([line[1:] for line in table if line[0] == "node"], dtype=float).T
-        drawn = numpy.array([line[1:] for line in table if line[0] == "drawn"], dtype=float).T
-        self.assertGreater(drawn.shape[1], 5)
-        line = anticrack.result.Interface("line", s, s, 0 * s, kind.astype(int), kind[:-1].astype(int), 0 * kind[:-1])
-        trace = anticrack.result.Trace(0 * s, 0 * s, 0 * s, values, contact.astype(int))
-        numpy.testing.assert_array_equal(edge_pressure(line, trace)[:3], drawn)
+    def test_pressure_is_drawn_in_contact_and_nowhere_else(self):
+        ax = draw.pressure(self.skew)
+        bands = [numpy.ptp(patch.get_path().vertices[:, 0]) for patch in ax.patches]
+        drawn = ax.lines[0].get_xdata()[numpy.isfinite(ax.lines[0].get_ydata())]
+        self.assertAlmostEqual(sum(bands), numpy.ptp(drawn), delta=0.05)
+        self.assertLess(numpy.ptp(ax.get_xlim()), 2 * sum(bands), "the axis is of the contact")
+        whole = draw.pressure(self.skew, whole=True)
+        self.assertEqual(whole.get_xlim(), (-1, 1))
 
     def test_pressure_keeps_the_force(self):
         for load in self.several.loads.values():
@@ -182,31 +208,32 @@ class Figures(unittest.TestCase):
             trace.jump[:] = 0
             trace.contact[:] = 0
         load.traces[1].contact[5] = 1
-        self.assertIn(closed.interfaces[1].name, draw.traces(closed, "pulled").get_xlabel())
+        self.assertIn(closed.interfaces[1].name, draw.traces(closed, "pulled").get_title())
 
     def test_pressure_is_of_the_interface_in_contact(self):
         result = copy.deepcopy(self.several)
         load = result["pulled"]
-        self.assertIn("of middle from", draw.traces(result, load).get_xlabel())
+        self.assertIn(": middle", draw.traces(result, load).get_title())
         for trace in load.traces:
             trace.contact[:] = 0
         self.assertEqual(draw.pressure(result, load).get_title(), "pulled: no contact")
-        load.traces["upper"].contact[5:9] = load.traces["upper"].pressure[5:9] = 1
-        self.assertIn("of upper from", draw.pressure(result, load).get_xlabel())
-        self.assertIn("of middle from", draw.traces(result, load).get_xlabel())
-        self.assertIn("of middle from", draw.pressure(result, load, interface="middle").get_xlabel())
+        cracked = numpy.flatnonzero(result.interfaces["upper"].kind == anticrack.result.CRACK)[:4]
+        load.traces["upper"].contact[cracked] = load.traces["upper"].pressure[cracked] = 1
+        self.assertIn("on upper", draw.pressure(result, load).get_title())
+        self.assertIn(": middle", draw.traces(result, load).get_title())
+        self.assertEqual(draw.pressure(result, load, interface="middle").get_title(), "pulled: no contact")
 
     def test_lines_have_a_legend_and_axes_units(self):
         result = copy.deepcopy(self.several)
         result.units.length, result.units.force = "mm", "N"
         for ax in (draw.plan(result, "pulled"), draw.displacement(result, "pulled")):
             said = [text.get_text() for text in ax.get_legend().get_texts()]
-            self.assertEqual(said, ["u given", "delaminated inclusion", "the side that came off", "bonded inclusion",
-                                    "crack, [u] \u2265 0"])
+            self.assertEqual(said, ["u = const", "u given", "glue, u\u207a = u\u207b", "bonded inclusion",
+                                    "delaminated inclusion", "the side that came off", "crack, [u] \u2265 0", "s = 0"])
             self.assertEqual((ax.get_xlabel(), ax.get_ylabel()), ("x [mm]", "y [mm]"))
-        self.assertEqual(draw.plan(result, "pulled").get_title(), "pulled: lines of u [mm]")
+        self.assertEqual(draw.plan(result, "pulled").get_title(), "pulled: lines of u")
         ax = draw.membrane(result, "pulled")
-        self.assertEqual((ax.get_xlabel(), ax.get_ylabel(), ax.figure.axes[1].get_ylabel()),
+        self.assertEqual((ax.get_xlabel(), ax.get_ylabel(), ax.figure.axes[1].get_xlabel()),
                          ("x [mm]", "y [mm]", "u [mm]"))
 
     def test_a_free_edge_has_no_traction(self):
@@ -216,17 +243,19 @@ class Figures(unittest.TestCase):
         for traction, name in ((False, "free"), (True, "free or traction"), (None, "free or traction")):
             result.traction = traction
             self.assertEqual(draw.interfaces(result).get_legend().get_texts()[1].get_text(), name)
-        edges = draw.interfaces(result).collections[1].get_segments()
-        self.assertEqual(len(edges), 3)
+        chains = draw.interfaces(result).collections[1].get_segments()
+        self.assertEqual(sum(len(chain) - 1 for chain in chains), 3)
 
-    def test_convergence_lies_over_others(self):
-        ax = draw.convergence(self.skew)
-        self.assertIs(draw.convergence(self.several, "opening", ax), ax)
-        self.assertEqual(len(ax.lines), 4)
-        self.assertTrue(ax.get_ylabel())
-        few = draw.convergence(self.several, "pulled")  # one step
+    def test_convergence_of_either_method(self):
+        ax = draw.convergence(self.skew)  # Algorithm 2
+        self.assertEqual(len(ax.lines), 2)
+        self.assertEqual(ax.lines[1].get_ydata()[0], self.skew["example-2"].epsilon)
+        few = draw.convergence(self.several, "pulled")  # one step of the active set
         self.assertTrue(all(tick == int(tick) for tick in few.get_xticks()))
-        self.assertIn("example-2: relative change per iteration", ax.get_legend_handles_labels()[1])
+        self.assertEqual([label.partition(":")[0] for label in few.get_legend_handles_labels()[1]],
+                         ["gap", "sign", "complementarity"])
+        self.assertIs(draw.convergence(self.skew, ax=few), few)
+        self.assertIn("example-2: of u in the energy norm, squared", few.get_legend_handles_labels()[1])
 
     def test_error_band(self):
         ax = draw.error_band(self.accurate, "opening")
@@ -241,8 +270,12 @@ class Figures(unittest.TestCase):
             low, high = ax.get_xlim()
             seen = [text.get_text() for text in ax.get_xticklabels() if low <= text.get_position()[0] <= high]
             self.assertGreaterEqual(len(list(filter(None, seen))), 2, (first, last))
-        with self.assertRaisesRegex(anticrack.Error, "accuracy"):
-            draw.error_band(self.skew)
+        for figure in (draw.error_band, draw.errors):
+            with self.assertRaisesRegex(anticrack.Error, "accuracy"):
+                figure(self.skew)
+        widths = draw.errors(self.accurate, "opening").lines[1].get_ydata()
+        stages = self.accurate["opening"].stages
+        numpy.testing.assert_allclose(widths, (stages["energy_upper"] - stages["energy_lower"]) / -stages["energy"])
 
     def test_sweep(self):
         (line,) = draw.sweep(self.sweep, "opening").lines
@@ -274,13 +307,21 @@ class Figures(unittest.TestCase):
             setattr(columns, name, numpy.tile(getattr(columns, name), 8))
         ax = draw.sweep(result)
         self.assertEqual((ax.get_xlabel(), ax.lines[0].get_xdata().tolist()), ("coefficient of opening", [0, 3]))
-        self.assertEqual([text.get_text() for text in ax.get_legend().get_texts()], [f"A of i{i}" for i in range(6)])
-        self.assertEqual(ax.get_legend().get_title().get_text(), "and 2 more")
+        self.assertEqual([text.get_text() for text in ax.get_legend().get_texts()],
+                         [f"i{i}" for i in range(6)] + ["2 more"])
         self.assertEqual(len(draw.sweep(result, inclusion="i7").lines), 1)
         columns.coefficients = None
         ax = draw.sweep(result)
         self.assertEqual((ax.get_xlabel(), ax.lines[0].get_linestyle()), ("row", "None"))
         self.assertTrue((ax.get_xticks() % 1 == 0).all(), ax.get_xticks())
+
+    def test_map_of_contact_is_that_of_the_rows(self):
+        columns = self.sweep.sweep
+        ax = draw.contact_map(self.sweep, 0)
+        values = ax.collections[0].get_array().reshape(2, -1)
+        order = numpy.argsort(draw.sweeps.Rows(columns).at)
+        for row, shades in zip(columns.contact[order], values):
+            self.assertEqual(numpy.nansum(shades), row.sum())
 
 
 FIBRE = "points = [[-0.5, 0], [0.5, 0]]"
@@ -365,11 +406,11 @@ class OddResults(unittest.TestCase):
             self.assertEqual(ax.xaxis.get_major_formatter()(6000040, 0), "40")
             ax = figure(self.results["far below"])
             self.assertEqual((ax.get_xlabel(), ax.get_ylabel()), ("x + 200000", "y + 300000"))
-        self.assertEqual(draw.traces(self.results["of a map"]).get_xlabel(), "arc length of fibre from (6000025, 50)")
+        self.assertEqual(draw.traces(self.results["of a map"]).get_xlabel(), "x \u2212 6000000")
         result = copy.copy(self.results["small"])
         result.units = anticrack.result.Units("m", "N")
         ax = draw.interfaces(result)
-        self.assertEqual(ax.get_xlabel(), "x [$10^{-12}$ m]")
+        self.assertEqual(ax.get_xlabel(), "x [10\u207b\u00b9\u00b2 m]")
         self.assertEqual(ax.xaxis.get_major_formatter()(-2e-10, 0), "\u2212200")
         self.assertEqual(ax.xaxis.get_major_formatter()(-1e-26, 0), "0")
 
@@ -384,14 +425,14 @@ class OddResults(unittest.TestCase):
             self.assertNotIn("stretched", draw.plan(self.results[name]).get_ylabel())
 
     def test_factors_are_for_people(self):
-        for name, said in (("small", "\u00d7$"), ("hardly loaded", "\u00d7$"), ("loaded beyond all", "\u00d7$"),
+        for name, said in (("small", "\u00d7"), ("hardly loaded", "\u00d710"), ("loaded beyond all", "\u00d710"),
                            ("without a load", "to scale")):
             self.assertIn(said, draw.membrane(self.results[name]).get_title())
 
     def test_curves_of_a_lifted_sheet_are_told_apart(self):
         ax = draw.traces(self.results["lifted"])
         said = [text.get_text() for text in ax.get_legend().get_texts()]
-        self.assertEqual(said[:3], ["a: $u^-$ \u2212 1000000", "a: $u^+$ \u2212 1000000", "a: $[u]$"])
+        self.assertEqual(said[:3], ["a: u\u207b \u2212 1000000", "a: u\u207a \u2212 1000000", "a: [u]"])
         low, high = ax.get_ylim()
         self.assertLess(high - low, 2)
 
@@ -413,13 +454,14 @@ class OddResults(unittest.TestCase):
         result["a"].history.update(iteration=numpy.arange(1, 4), criterion=numpy.array([1.0, 1e-8, 0]), **{
             f"kkt_{name}": numpy.array([1e-3, 0, 0]) for name in anticrack.result.KKT})
         ax = draw.convergence(result)
-        self.assertEqual((ax.get_yscale(), ax.get_ylim()[0]), ("symlog", 0))
-        self.assertIn("$\\mathdefault{0}$", [text.get_text() for text in ax.get_yticklabels()])
+        ax.figure.canvas.draw()
+        self.assertEqual([text.get_text() for text in ax.get_yticklabels()][0], "0")
+        self.assertLess(ax.get_ylim()[0], 0)
 
     def test_numbers_of_numpy_choose_interfaces(self):
         result = self.results["plain"]
-        self.assertEqual(draw.traces(result, "a", numpy.int64(0)).get_xlabel(),
-                         draw.traces(result, "a", "fibre").get_xlabel())
+        self.assertEqual(draw.traces(result, "a", numpy.int64(0)).get_title(),
+                         draw.traces(result, "a", "fibre").get_title())
         with self.assertRaisesRegex(anticrack.Error, "there is no interface 1; there is 1 interface"):
             draw.traces(result, "a", 1)
 

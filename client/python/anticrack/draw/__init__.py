@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Figures with matplotlib. Each function draws one panel, on `ax` or on a new figure, and returns its Axes: several
-load cases lie over each other when they are drawn on the same one. `load` is a name or an answer."""
-from .along import pressure, traces
-from .history import convergence, error_band, sweep
+load cases lie over each other when they are drawn on the same one. `load` is a name or an answer. `figures` makes files
+of all of them, as `anticrack plot` does, and `mesh` draws a mesh."""
+from .along import jump, pressure, traces
+from .history import convergence, error_band, errors
+from .meshes import mesh
 from .plane import displacement, flux, interfaces, plan
 from .perspective import membrane
+from .sweeps import contact_length, contact_map, slopes, sweep
 
-__all__ = ["convergence", "displacement", "error_band", "flux", "interfaces", "membrane", "plan", "pressure", "sweep",
-           "traces"]
+__all__ = ["contact_length", "contact_map", "convergence", "displacement", "error_band", "errors", "flux", "interfaces",
+           "jump", "membrane", "mesh", "plan", "pressure", "slopes", "sweep", "traces"]

@@ -1,34 +1,47 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Over the arc length of an interface."""
+"""Along an interface: u on both sides, the jump and the contact pressure."""
 from __future__ import annotations
 
 import operator
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from matplotlib.ticker import FuncFormatter
 
 from ..arrays import Array
 from ..result import CRACK, DELAMINATED, Interface, Load, Result, Trace, runs
-from ..text import harmless
-from .panel import (LINES, axes, cut, legend_below, load_of, named_without, number_text, offset_of, point_text,
-                    traces_of)
+from ..text import interval
+from .panel import (BOX, CONTACT, CURVES, LINES, MARKED, Scale, axes, cut, fit_axis, legend_below, load_of, named,
+                    named_without, offset_of, point_text, rounded, traces_of)
+
+
+def can_open(line: Interface) -> bool:
+    """Whether it has a crack or a delaminated part."""
+    return bool(np.isin(line.edge_kind, MARKED[:1] + MARKED[2:]).any())
+
+
+def eventful(result: Result, loads: list[Load]) -> tuple[int, int]:
+    """The interface whose jump is largest or, if nothing is open, whose contact is longest; and that whose contact is
+    longest, but the same one where its contact is at least half as long."""
+    jumps, contact, largest = np.zeros(len(result.interfaces)), np.zeros(len(result.interfaces)), 0.0
+    for load in loads:
+        for i, (line, trace) in enumerate(zip(result.interfaces, load.traces)):
+            jumps[i] = max(jumps[i], np.nanmax(np.abs(trace.jump), initial=0))
+            contact[i] = max(contact[i], _lengths(line) @ (trace.contact != 0))
+            largest = max(largest, np.nanmax(np.abs(trace.u_plus), initial=0))
+    longest, opened = int(np.argmax(contact)), int(np.argmax(jumps))
+    if jumps[opened] <= 1e-9 * largest:
+        opened = longest
+    return opened, opened if 2 * contact[opened] >= contact[longest] else longest
 
 
 def _interface(result: Result, load: Load, interface: int | str | None, pressed: bool = False) -> int:
-    """The one named, or the most eventful: whose jump is largest or, if nothing is open, whose contact is longest.
-    pressed: whose contact is longest, but the same one where its contact is at least half as long; as the command."""
+    """The one named, or the most eventful."""
     traces_of(result, load)
     if isinstance(interface, str):
         return result.interfaces.place(interface)
-    if interface is not None:
-        return operator.index(interface)
-    jumps = [np.abs(trace.jump).max(initial=0) for trace in load.traces]
-    largest = max(np.abs(trace.u_plus).max(initial=0) for trace in load.traces)
-    contact = [_lengths(line) @ (trace.contact != 0) for line, trace in zip(result.interfaces, load.traces)]
-    longest, opened = int(np.argmax(contact)), int(np.argmax(jumps))
-    if jumps[opened] <= 1e-9 * largest or (pressed and 2 * contact[opened] < contact[longest]):
-        return longest
-    return opened
+    return eventful(result, [load])[pressed] if interface is None else operator.index(interface)
 
 
 def _lengths(line: Interface) -> Array:
@@ -37,55 +50,74 @@ def _lengths(line: Interface) -> Array:
     return np.asarray((edges[:-1] + edges[1:]) / 2)
 
 
-def _arc_length(result: Result, line: Interface) -> str:
-    """For an axis."""
-    start = point_text(line.x[0], line.y[0], line.s[-1])
-    return f"arc length of {harmless(line.name)} from {start}{result.units.label('L')}"
+class Profile:
+    """An interface on a horizontal axis: x or y of one that runs along it, as in the paper, else the arc length from
+    its first node, which the label names. at (k): of the nodes."""
 
+    def __init__(self, result: Result, line: Interface) -> None:
+        self.line, small = line, 1e-9 * line.s[-1]
+        name = "arc length s"
+        self.at = line.s
+        for axis, values, other in (("x", line.x, line.y), ("y", line.y, line.x)):
+            steps = np.diff(values)
+            if np.ptp(other) <= small and ((steps >= 0).all() or (steps <= 0).all()):
+                name, self.at = axis, values
+                break
+        else:
+            name += f" from {point_text(line.x[0], line.y[0], line.s[-1])}"
+        self.ends = float(self.at.min()), float(self.at.max())
+        self.scale = Scale(*self.ends)
+        self.label = self.scale.label(name, result.units.behind("L").strip())
 
-def _show_zero(load: Load, trace: Trace, ax: Any) -> None:
-    """Where u is rounding against that of the membrane, estimated from its energy, zero looks like zero; as the
-    command's."""
-    typical = float(np.sqrt(abs(load.energy))) if np.isfinite(load.energy) else 0.0
-    largest = max(np.abs(values).max(initial=0) for values in (trace.u_plus, trace.u_minus, trace.jump))
-    if 0 < largest < 1e-9 * typical:
-        power = 10.0 ** np.floor(np.log10(typical))
-        ax.update_datalim([(0, -power), (0, power)], updatex=False)
-        ax.autoscale_view()
+    def place(self, s: Array) -> Array:
+        """Of arc lengths."""
+        return np.interp(s, self.line.s, self.at)
 
+    def axis(self, ax: Any) -> None:
+        ax.xaxis.set_major_formatter(FuncFormatter(self.scale.text))
+        ax.xaxis.set_major_locator(rounded(6))
+        ax.set_xlabel(self.label)
+        if self.ends[0] < self.ends[1]:
+            ax.set_xlim(*self.ends)
 
-def _shade_contact(line: Interface, trace: Trace, ax: Any, load: Load, curve: Any) -> None:
-    """In the colour of its curve, so that those of several loads are told apart. To the middles of the edges at its
-    ends: the bands add up to the contact length."""
-    middles = np.concatenate((line.s[:1], (line.s[:-1] + line.s[1:]) / 2, line.s[-1:]))
-    label: str | None = f"{harmless(load.name)}: contact"
-    for first, last in runs(trace.contact):
-        if trace.contact[first]:
-            ax.axvspan(middles[first], middles[last], color=curve.get_color(), alpha=0.2, linewidth=0, zorder=0,
-                       label=label)
-            label = None
+    def bands(self, flags: Array) -> list[tuple[float, float]]:
+        """Stretches around nodes with a flag (k), to the middles of the edges at their ends: those of contact add up
+        to its length."""
+        s = self.line.s
+        middles = self.place(np.concatenate((s[:1], (s[:-1] + s[1:]) / 2, s[-1:])))
+        return [(middles[first], middles[last]) for first, last in runs(flags) if flags[first]]
 
-
-def _bars(result: Result, line: Interface, ax: Any) -> None:
-    """At the foot: cracks and inclusions in the colours of `interfaces`, with the names of inclusions."""
-    ax.margins(y=0.12)
-    labels = {kind: name for kind, (name, _) in LINES.items()}
-    for begin, end in runs(line.edge_kind):
-        kind = int(line.edge_kind[begin])
-        if kind in LINES:
-            ax.axvspan(line.s[begin], line.s[end], 0, 0.03, color=LINES[kind][1], linewidth=0,
-                       label=labels.pop(kind, "_again"))
-    for inclusion in sorted({int(inclusion) for inclusion in line.edge_inclusion} - {-1}):
-        lies = line.edge_inclusion == inclusion
-        middle = (line.s[:-1][lies].min() + line.s[1:][lies].max()) / 2
-        ax.annotate(harmless(result.mesh.inclusions[inclusion]), (middle, 0.04), ha="center",
-                    xycoords=ax.get_xaxis_transform())
+    def bars(self, result: Result, ax: Any) -> None:
+        """At the foot of what is drawn: cracks and inclusions, with the names of inclusions as long as they do not
+        meet."""
+        low, high = ax.get_ylim()
+        inclusions = sorted({int(inclusion) for inclusion in self.line.edge_inclusion} - {-1})
+        ax.set_ylim(low - (0.16 if inclusions else 0.06) * (high - low), high)
+        labels = {kind: name for kind, (name, *_) in LINES.items()}
+        for first, last in runs(self.line.edge_kind):
+            kind = int(self.line.edge_kind[first])
+            if kind in MARKED:
+                ax.axvspan(*sorted((self.at[first], self.at[last])), 0, 0.035, color=LINES[kind][1], linewidth=0,
+                           zorder=3, label=labels.pop(kind, "_again"))
+        free = 0.0
+        size = (self.ends[1] - self.ends[0]) or 1.0
+        found = []
+        for inclusion in inclusions:
+            edges = np.flatnonzero(self.line.edge_inclusion == inclusion)
+            middle = (self.at[edges].min() + self.at[edges + 1].max()) / 2
+            found.append(((middle - self.ends[0]) / size, named(result.mesh.inclusions[inclusion], 24)))
+        for middle, name in sorted(found):
+            half = min(0.011 * len(name), 0.5)
+            middle = min(max(middle, half), 1 - half)
+            if middle - half >= free:
+                free = middle + half + 0.02
+                ax.text(middle, 0.05, name, ha="center", va="bottom", fontsize="small", transform=ax.transAxes)
 
 
 def edge_pressure(line: Interface, trace: Trace) -> tuple[Array, Array, Array, Array]:
     """Middles of the edges, the mean pressure over them, their lengths, and which are in contact; NaN between cracks.
     Half of an edge belongs to either node, at a tip its own half to none: the force is that of the nodes, without the
-    teeth of their pressures, which go up and down with the number of triangles there. As the command."""
+    teeth of their pressures, which go up and down with the number of triangles there."""
     opens = np.isin(line.kind, (CRACK, DELAMINATED))  # on glue it is a flux
     begins, ends, edges = opens[:-1], opens[1:], np.diff(line.s)
     count, cracked = begins.astype(int) + ends, begins | ends
@@ -101,50 +133,151 @@ def edge_pressure(line: Interface, trace: Trace) -> tuple[Array, Array, Array, A
     return s, values, lengths, closed
 
 
+def pressed(line: Interface, trace: Trace) -> bool:
+    """Whether there is a pressure to draw."""
+    return bool(edge_pressure(line, trace)[3].any())
+
+
+def _typical(load: Load, values: list[Array]) -> float:
+    """Where u is rounding against that of the membrane, estimated from its energy, half of an axis on which zero looks
+    like zero; else 0."""
+    typical = float(np.sqrt(abs(load.energy))) if np.isfinite(load.energy) else 0.0
+    largest = max((np.nanmax(np.abs(each), initial=0) for each in values), default=np.inf)
+    return float(10.0 ** np.floor(np.log10(typical))) if 0 <= largest < 1e-9 * typical else 0.0
+
+
+def _curve(ax: Any, profile: Profile, values: Array, style: tuple[str, Any], label: str) -> Any:
+    return ax.plot(profile.at, values, color=style[0], linestyle=style[1], label=label)[0]
+
+
+def finish(ax: Any, profile: Profile, load: Load, values: list[Array], name: str, unit: str) -> None:
+    """The axes of heights; 0 is a line, unless all is far from it."""
+    low, high = ax.get_ylim()
+    if low - 0.5 * (high - low) <= 0 <= high + 0.5 * (high - low):
+        ax.axhline(0, color="#888888", linewidth=0.6, zorder=0)
+    half = _typical(load, values)
+    if half:
+        ax.set_ylim(-half, half)
+    profile.axis(ax)
+    ax.yaxis.set_major_locator(rounded(6))
+    fit_axis(ax.yaxis, name, unit)
+
+
+def shade(profile: Profile, trace: Trace, ax: Any, color: str = CONTACT, alpha: float = 1,
+          label: str = "contact") -> None:
+    """Where it is in contact."""
+    for begin, end in profile.bands(trace.contact != 0):
+        ax.axvspan(*sorted((begin, end)), color=color, alpha=alpha, linewidth=0, zorder=-1, label=label)
+        label = "_again"
+
+
+def heading(result: Result, load: Load, line: Interface) -> str:
+    """The interface and A of its inclusions, as exactly as there is room."""
+    unit, where = result.units.behind("L"), named(line.name, 20) if len(result.interfaces) > 1 else ""
+    here = [result.mesh.inclusions[i] for i in sorted({int(i) for i in line.edge_inclusion} - {-1})]
+    for bounds in (True, False):
+        parts = [where] if where else []
+        for name in here:
+            if name not in load.inclusions:
+                continue
+            part = load.inclusions[name]
+            known = bounds and np.isfinite(part.A_lower)
+            text = interval(part.A_lower, part.A_upper, part.A).partition(" (")[0] if known else f"{part.A:.4g}"
+            slopes = f", B = ({part.Bx:.4g}, {part.By:.4g})" if part.Bx or part.By else ""
+            behind = f" ({named(name, 12)})" if len(load.inclusions) > 1 and name != line.name else ""
+            parts.append(f"A = {text.replace('+-', chr(177))}{unit}{slopes}{behind}".replace("-", chr(8722)))
+        if len(", ".join(parts)) <= 56:
+            break
+    return ", ".join(parts)
+
+
 def traces(result: Result, load: str | Load | None = None, interface: int | str | None = None, ax: Any = None) -> Any:
-    """u on both sides of an interface and the jump [u] = u+ - u-; contact is shaded, cracks and
-    inclusions are bars. Unless it is named, the interface with the largest jump."""
+    """u on both sides of an interface and the jump [u] = u+ - u-; contact is shaded, cracks and inclusions are bars.
+    Unless it is named, the interface with the largest jump."""
     ax, load = axes(ax), load_of(result, load)
-    index = _interface(result, load, interface)
+    index, first = _interface(result, load, interface), not ax.lines
     line, trace = result.interfaces[index], load.traces[index]
-    first = not ax.lines
-    values = np.concatenate((trace.u_minus, trace.u_plus))
-    offset = offset_of(values.min(), values.max(), np.ptp(trace.jump))  # else [u] would be 0 against a lifted sheet
-    name = harmless(load.name)
-    (curve,) = ax.plot(line.s, trace.u_minus - offset, label=f"{name}: {named_without('$u^-$', offset)}")
-    ax.plot(line.s, trace.u_plus - offset, "--", label=f"{name}: {named_without('$u^+$', offset)}")
-    ax.plot(line.s, trace.jump, ":", label=f"{name}: $[u]$")
-    _show_zero(load, trace, ax)
-    _shade_contact(line, trace, ax, load, curve)
+    name = named(load.name)
+    color = CURVES[sum(str(curve.get_label()).endswith(": [u]") for curve in ax.lines) % len(CURVES)][0]
+    draw_traces(result, load, index, ax, (color,) * 3, f"{name}: ")
+    _curve(ax, Profile(result, line), trace.jump, (color, CURVES[2][1]), f"{name}: [u]")
+    shade(Profile(result, line), trace, ax, color, 0.2, f"{name}: contact")
+    ax.relim()
+    ax.autoscale(axis="y")
+    finish(ax, Profile(result, line), load, [trace.u_minus, trace.u_plus, trace.jump], "displacement",
+           result.units.behind("L").strip())
     if first:
-        _bars(result, line, ax)
-    ax.set(xlabel=_arc_length(result, line), ylabel="displacement" + result.units.label("L"),
-           title=harmless(load.name) if first else "")
-    legend_below(ax)  # several loads leave no room between their curves
+        Profile(result, line).bars(result, ax)
+    ax.set_title(f"{name}: {heading(result, load, line)}" if first else "")
+    legend_below(ax)
     return ax
 
 
-def pressure(result: Result, load: str | Load | None = None, interface: int | str | None = None, ax: Any = None) -> Any:
-    """The contact pressure on the cracks of an interface, the mean over each edge in its middle; contact is shaded.
+def draw_traces(result: Result, load: Load, index: int, ax: Any, colors: Sequence[str], prefix: str = "") -> None:
+    """u- and u+, of a lifted sheet without what they have in common."""
+    trace, profile = load.traces[index], Profile(result, result.interfaces[index])
+    values = np.concatenate((trace.u_minus, trace.u_plus))
+    values = values[np.isfinite(values)]
+    offset = offset_of(values.min(), values.max(), np.ptp(trace.jump)) if len(values) else 0.0
+    for each, color, curve, name in zip((trace.u_minus, trace.u_plus), colors, CURVES, ("u\u207b", "u\u207a")):
+        _curve(ax, profile, each - offset, (color, curve[1]), prefix + named_without(name, offset))
+
+
+def jump(result: Result, load: str | Load | None = None, interface: int | str | None = None, ax: Any = None) -> Any:
+    """The jump [u] = u+ - u- along an interface, which may be too small to be seen beside u; contact is shaded. Unless
+    it is named, the interface with the largest jump."""
+    ax, load = axes(ax), load_of(result, load)
+    index = _interface(result, load, interface)
+    line, trace = result.interfaces[index], load.traces[index]
+    profile, count = Profile(result, line), sum(not each.get_label().startswith("_") for each in ax.lines)
+    _curve(ax, profile, trace.jump, CURVES[count % len(CURVES)], named(load.name))
+    if not count:
+        shade(profile, trace, ax)
+    size = np.nanmax(np.abs((*trace.u_plus, *trace.u_minus)), initial=0)
+    if np.nanmax(np.abs(trace.jump), initial=0) <= 1e-9 * size > 0:
+        ax.set_ylim(-size, size)
+    finish(ax, profile, load, [trace.u_minus, trace.u_plus, trace.jump], "[u]", result.units.behind("L").strip())
+    ax.set_title(named(load.name) if not count else "")
+    return ax
+
+
+def pressure(result: Result, load: str | Load | None = None, interface: int | str | None = None, ax: Any = None,
+             whole: bool = False) -> Any:
+    """The contact pressure where an interface is in contact, which is shaded, the mean over each edge in its middle.
     Unless it is named, the interface of `traces` or, where its contact is less than half as long as another's, the one
-    with the longest contact. The pressure grows without bound at tips: its spikes are cut off, and the label of the
-    axis says so."""
+    with the longest contact. The pressure grows without bound at tips: its axis ends below its peaks, and the panel
+    says so. whole: over all of the interface."""
     ax, load = axes(ax), load_of(result, load)
     index = _interface(result, load, interface, pressed=True)
     line, trace = result.interfaces[index], load.traces[index]
+    profile, count = Profile(result, line), sum(not each.get_label().startswith("_") for each in ax.lines)
     s, values, lengths, closed = edge_pressure(line, trace)
-    first = not ax.lines
-    name = harmless(load.name) if closed.any() else f"{harmless(load.name)}: no contact"
-    (curve,) = ax.plot(s, values, label=name)
-    unit = result.units.label("F/L")
-    label = ax.get_ylabel() or "contact pressure" + unit
+    before = ax.get_ylim()[1] if count else 0.0
+    style = CURVES[count % len(CURVES)] if count else ("#009E73", "-")
+    name = named(load.name) + ("" if closed.any() else ": no contact")
+    ax.plot(profile.place(s), np.where(closed, values, np.nan), color=style[0], linestyle=style[1], label=name)
+    profile.axis(ax)
     if closed.any():
-        _shade_contact(line, trace, ax, load, curve)
+        if not count:
+            shade(profile, trace, ax)
         shown, highest = cut(values[closed], lengths[closed], 0.9, 1.5)
-        ax.set_ylim(0, max(1.05 * shown, 0 if first else ax.get_ylim()[1]))
-        if shown < highest:
-            label = f"contact pressure{unit}, cut off at the tips, up to {number_text(highest, 2)}"
-    ax.set(xlabel=_arc_length(result, line), ylabel=label, title=name if first else "")
-    if not first:
+        ax.set_ylim(0, max(1.06 * min(shown, highest), before))
+        if shown < highest and not ax.texts:
+            left = profile.place(np.mean(s[closed])) > np.mean(profile.ends) and whole
+            ax.text(0.01 if left else 0.99, 0.97, "peaks at the tips are cut off", ha="left" if left else "right",
+                    va="top", fontsize="small", transform=ax.transAxes, bbox={**BOX, "boxstyle": "square,pad=0.1"})
+        if not whole and not count:  # no empty axes
+            here = s[closed]
+            margin = 0.15 * np.ptp(here) + 0.02 * np.ptp(line.s)
+            ends = profile.place(np.clip((here.min() - margin, here.max() + margin), 0, line.s[-1]))
+            ax.set_xlim(*sorted(ends))
+    elif not count:
+        ax.set_ylim(0, 1)
+    ax.yaxis.set_major_locator(rounded(4))
+    fit_axis(ax.yaxis, "pressure", result.units.behind("F/L").strip())
+    on = f" on {named(line.name, 30)}" if len(result.interfaces) > 1 else ""
+    ax.set_title(f"{named(load.name)}: contact pressure{on}" if closed.any() else name)
+    if count:
         ax.legend(loc="best", fontsize="small")
+        ax.set_title("")
     return ax

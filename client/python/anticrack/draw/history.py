@@ -1,126 +1,149 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Over iterations, stages and the rows of a sweep."""
+"""Over iterations and stages."""
 from __future__ import annotations
 
-from numbers import Integral
 from typing import Any
 
 import numpy as np
+from matplotlib.ticker import FuncFormatter, SymmetricalLogLocator
 
-from ..arrays import Array, array_of
+from ..arrays import Array
 from ..errors import Error
-from ..names import place
-from ..result import Load, Result, Sweep
-from ..text import harmless
-from .panel import axes, load_of
+from ..result import Load, Result
+from ..text import counted, harmless
+from .panel import CONTACT, CURVES, axes, fit_axis, load_of, log_axis, named, number_text, rounded
 
-_CURVES = 6  # of a sweep, at most
+_FEW = 60  # iterations that are points, too
+
+
+def _series(load: Load) -> list[tuple[str, str]]:
+    """Algorithm 2 has its criterion; the active set has none, it is done when the conditions hold."""
+    if load.method == "uzawa":
+        return [("criterion", "of u in the energy norm, squared")]
+    return [("kkt_gap", "gap: faces overlap"), ("kkt_sign", "sign: closed faces pull"),
+            ("kkt_complementarity", "complementarity: pressure where open")]
 
 
 def convergence(result: Result, load: str | Load | None = None, ax: Any = None) -> Any:
-    """Over the iterations: the relative change, and the residuals of the optimality conditions."""
+    """Of Algorithm 2 the relative change per iteration, and epsilon; of the active set its KKT residuals, a curve for
+    each, over the steps. What is exactly 0 has a place at the foot."""
     ax, load = axes(ax), load_of(result, load)
     if not load.history:
         raise Error(f"{harmless(load.name)} has no history of iterations")
+    steps = load.method != "uzawa"
+    name = f"{named(load.name)}: " if ax.lines else ""
     iterations = load.history["iteration"]
-    ax.plot(iterations, load.history["criterion"], ".-", label=f"{harmless(load.name)}: relative change per iteration")
-    residuals = [load.history[name] for name in ("kkt_equilibrium", "kkt_gap", "kkt_sign", "kkt_complementarity")]
-    ax.plot(iterations, np.max(residuals, axis=0), ".--", label=f"{harmless(load.name)}: largest KKT residual")
-    ax.set(xlabel="iteration", ylabel="relative change, KKT residual")
+    few = {"marker": "o", "markersize": 2.5} if len(iterations) <= _FEW else {}
+    first = len(ax.lines)
+    for i, (column, label) in enumerate(_series(load)):
+        color, dash = CURVES[(first + i) % len(CURVES)]
+        values = np.asarray(load.history[column], dtype=float)
+        ax.plot(iterations, np.where(values >= 0, values, np.nan), color=color, linestyle=dash, label=name + label,
+                **few)
+    if load.epsilon > 0:
+        ax.axhline(load.epsilon, color=CURVES[1][0], linestyle=CURVES[1][1], linewidth=1,
+                   label=f"\u03b5 = {number_text(load.epsilon)}")
+    ax.set(xlabel="step of the active set" if steps else "iteration",
+           ylabel="KKT residual" if steps else "relative change per iteration")
     _log_with_zero(ax)
-    ax.xaxis.get_major_locator().set_params(integer=True, min_n_ticks=1)
-    ax.legend()
+    ax.xaxis.set_major_locator(rounded(6, integer=True, min_n_ticks=1))
+    told = [f"{load.status.replace('_', ' ')} after {counted(load.iterations, 'step' if steps else 'iteration')}"]
+    told += [f"{sign} = {number_text(value)}" for sign, value in (("\u03b8", load.theta), ("\u03b8*", load.theta_star))
+             if np.isfinite(value)]
+    ax.set_title(f"{named(load.name)}: {', '.join(told)}" if not first else "")
+    ax.legend(fontsize="small")
     return ax
 
 
 def _log_with_zero(ax: Any) -> None:
-    """What is exactly 0 has a place at the foot."""
     values = np.concatenate([np.asarray(line.get_ydata(), dtype=float) for line in ax.lines])
     above = values[values > 0]
-    if len(above) and (values == 0).any():
-        ax.set_yscale("symlog", linthresh=10.0 ** np.floor(np.log10(above.min())))
-        ax.set_ylim(bottom=0)
-    elif len(above):
+    if not len(above):
+        return
+    low = 10.0 ** np.floor(np.log10(above.min()))
+    if not (values == 0).any():
         ax.set_yscale("log")
+        log_axis(ax.yaxis)
+        return
+    ax.set_yscale("symlog", linthresh=low)
+    ax.set_ylim(-0.05 * low, 2 * above.max())
+    every = max(1, int(np.ceil(np.log10(above.max() / low) / 6)))
+    powers = np.arange(round(np.log10(low)), np.ceil(np.log10(above.max())) + 1, every)
+    ax.set_yticks([0, *(10.0 ** powers)])
+    ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: number_text(value, 3)))
+    ax.yaxis.set_minor_locator(SymmetricalLogLocator(base=10, linthresh=low, subs=(1,)))
+
+
+def bounded(load: Load) -> dict[str, Array]:
+    """Of the stages those whose bounds have a place on a log axis: triangles, energy, energy_lower, energy_upper,
+    error and displacement_error, both relative; an error of A of 0 is NaN."""
+    stages = load.stages
+    if not stages:
+        return {"triangles": np.empty(0)}
+    with np.errstate(divide="ignore", invalid="ignore"):
+        error = (stages["energy_upper"] - stages["energy_lower"]) / np.abs(stages["energy"])
+    kept = (stages["triangles"] > 0) & (error > 0) & np.isfinite(error)
+    names = ("triangles", "energy", "energy_lower", "energy_upper", "displacement_error")
+    found = {name: np.asarray(stages[name], dtype=float)[kept] for name in names if name in stages}
+    found["error"] = error[kept]
+    of_a = found.setdefault("displacement_error", np.full(kept.sum(), np.nan))
+    found["displacement_error"] = np.where(of_a > 0, of_a, np.nan)
+    return found
+
+
+def _stages(load: Load) -> dict[str, Array]:
+    if not load.stages:
+        raise Error(f"{harmless(load.name)} has no stages; solve with Case(accuracy=Accuracy(energy=1e-3)), in TOML "
+                    "[accuracy]")
+    return load.stages
+
+
+def _over_triangles(ax: Any) -> None:
+    ax.set(xscale="log", xlabel="triangles")
+    ax.margins(x=0.04)
+    log_axis(ax.xaxis)
+
+
+def errors(result: Result, load: str | Load | None = None, ax: Any = None) -> Any:
+    """How wide the bounds of the energy and of A are, over the triangles of the stages; takes a case with an
+    accuracy."""
+    ax, load = axes(ax), load_of(result, load)
+    _stages(load)
+    at = bounded(load)
+    if not len(at["triangles"]):
+        raise Error(f"no stage of {harmless(load.name)} has bounds")
+    ax.plot(at["triangles"], at["error"][-1] * at["triangles"][-1] / at["triangles"], color="#888888", linewidth=0.7,
+            label="as 1 / triangles")
+    points = {"marker": "o", "markersize": 2.5}
+    ax.plot(at["triangles"], at["error"], color=CURVES[0][0], label="energy, width of its bounds", **points)
+    last = at["displacement_error"][-1]
+    if np.isfinite(at["displacement_error"]).any():
+        ax.plot(at["triangles"], at["displacement_error"], color=CURVES[1][0], linestyle=CURVES[1][1],
+                label="A, half the width of its bounds", **points)
+    _over_triangles(ax)
+    ax.set(yscale="log", ylabel="relative error bound")
+    log_axis(ax.yaxis)
+    of_a = f", A {number_text(100 * last, 2)} %" if np.isfinite(last) else ""
+    ax.set_title(f"energy {number_text(100 * at['error'][-1], 2)} %{of_a} on {at['triangles'][-1]:.0f} triangles, "
+                 + counted(len(at["triangles"]), "stage"))
+    ax.legend(fontsize="small")
+    return ax
 
 
 def error_band(result: Result, load: str | Load | None = None, ax: Any = None) -> Any:
     """The energy of each stage and the band in which the membrane's own lies; takes a case with an accuracy."""
     ax, load = axes(ax), load_of(result, load)
-    if not load.stages:
-        raise Error(f"{harmless(load.name)} has no stages; solve with Case(accuracy=Accuracy(energy=1e-3)), in TOML "
-                    "[accuracy]")
-    stages = load.stages
-    ax.fill_between(stages["triangles"], stages["energy_lower"], stages["energy_upper"], alpha=0.3,
-                    label=f"{harmless(load.name)}: bounds of the membrane's energy")
-    ax.plot(stages["triangles"], stages["energy"], ".-", label=f"{harmless(load.name)}: energy of the stage")
-    ax.set(xscale="log", xlabel="triangles", ylabel="energy" + result.units.label("F L"))
-    from matplotlib.ticker import LogLocator, NullFormatter
-    ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))  # of few decades, of which 1 alone is too few
-    ax.xaxis.set_major_formatter("{x:.0f}")
-    ax.xaxis.set_minor_formatter(NullFormatter())
-    ax.legend()
-    return ax
-
-
-def _sweep_axis(columns: Sweep) -> tuple[str, Array, str]:
-    """As the command: label, values and line: over the coefficient that varies, the angle of two that lie on a circle
-    around 0, or else the rows, whose points are not joined."""
-    rows = np.arange(len(columns.status))
-    given = columns.coefficients if columns.coefficients is not None else np.empty((len(rows), 0))
-    varying = np.flatnonzero((given != given[:1]).any(axis=0))
-    if len(varying) == 1:
-        return f"coefficient of {columns.loads[varying[0]]}", given[:, varying[0]], ".-"
-    if len(varying) == 2:
-        x, y = given[:, varying].T
-        radius = np.hypot(x, y)
-        if np.allclose(radius, radius[0], rtol=1e-6, atol=0):
-            plain = np.arctan2(y, x)
-            angle = np.unwrap(plain)
-            first, second = (columns.loads[i] for i in varying)
-            one_turn = np.ptp(angle) <= 2 * np.pi * (1 + 1e-6)
-            return f"angle from {first} to {second} [\u00b0]", np.degrees(angle if one_turn else plain), ".-"
-    return "row", rows, "."
-
-
-def sweep(result: Result, x: str | int | Array | None = None, inclusion: str | int | None = None,
-          ax: Any = None) -> Any:
-    """A of the first six inclusions, or of one by name or index (where there is none: the contact length), over the
-    coefficient that varies, of a load by name or index, or over values (rows) of one's own, with bands where rows have
-    bounds. Rows that did not converge are left out."""
-    ax = axes(ax)
-    columns = result.sweep
-    if columns is None:
-        raise Error("this is not the result of a sweep")
-    line = ".-"
-    if x is None:
-        label, values, line = _sweep_axis(columns)
-    elif isinstance(x, (str, Integral)):
-        if columns.coefficients is None:
-            raise Error("the coefficients are not known; give x, a value for every row")
-        index = place("load", x, columns.loads) if isinstance(x, str) else int(x)
-        label, values = f"coefficient of {columns.loads[index]}", columns.coefficients[:, index]
-    else:
-        label, values = "", array_of(x, (len(columns.status),), lambda problem: Error(f"x: {problem}"))
-    rows = np.flatnonzero(columns.converged)
-    rows = rows[np.argsort(values[rows], kind="stable")]
-    chosen = list(range(len(columns.inclusions)))
-    if inclusion is not None and chosen:
-        chosen = [place("inclusion", inclusion, columns.inclusions) if isinstance(inclusion, str) else inclusion]
-    for i in chosen[:_CURVES]:
-        (curve,) = ax.plot(values[rows], columns.displacement[rows, i], line,
-                           label=f"A of {harmless(columns.inclusions[i])}")
-        if line == ".-" and columns.displacement_lower is not None and columns.displacement_upper is not None:
-            ax.fill_between(values[rows], columns.displacement_lower[rows, i], columns.displacement_upper[rows, i],
-                            color=curve.get_color(), alpha=0.3, linewidth=0)
-    if not chosen:
-        ax.plot(values[rows], columns.contact_length[rows], line, label="contact length")
-    one = len(chosen) == 1
-    name = f"A of {harmless(columns.inclusions[chosen[0]])}" if one else "A" if chosen else "contact length"
-    ax.set(xlabel=label, ylabel=name + result.units.label("L"))
-    if label == "row":
-        ax.xaxis.get_major_locator().set_params(integer=True)
-    if len(ax.get_lines()) > 1:
-        more = len(chosen) - _CURVES
-        ax.legend(loc="best", fontsize="small", title=f"and {more} more" if more > 0 else None)
+    stages, first = _stages(load), not ax.lines
+    color = CURVES[len(ax.lines) % len(CURVES)][0]
+    name = "" if first else f"{named(load.name)}: "
+    ax.fill_between(stages["triangles"], stages["energy_lower"], stages["energy_upper"], linewidth=0,
+                    color=CONTACT if first else color, alpha=1 if first else 0.3,
+                    label=name + "bounds of the membrane\u2019s energy")
+    ax.plot(stages["triangles"], stages["energy"], color=color, marker="o", markersize=2.5,
+            label=name + "energy on the mesh of the stage")
+    _over_triangles(ax)
+    ax.yaxis.set_major_locator(rounded(5))
+    fit_axis(ax.yaxis, "energy", result.units.behind("F L").strip())
+    ax.set_title(named(load.name) if first else "")
+    ax.legend(fontsize="small")
     return ax

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What figures share: where they are drawn, of what, and in which colours."""
+"""What panels share: where they are drawn, of what, in which colours, and their numbers and names."""
 from __future__ import annotations
 
 import math
@@ -9,14 +9,27 @@ import numpy as np
 
 from ..arrays import Array
 from ..errors import Error, package
-from ..result import BONDED, CRACK, DELAMINATED, FREE, Load, Result
+from ..result import BONDED, CRACK, DELAMINATED, FREE, GLUE, Load, Result
 from ..text import harmless
 
-# Of kinds of edges: name and colour, as in the command's figures.
-LINES = {BONDED: ("bonded inclusion", "#000000"), DELAMINATED: ("delaminated inclusion", "#E69F00"),
-         CRACK: ("crack, [u] \u2265 0", "#B04A8A"), FREE: ("free crack", "#8CD17D")}
-_MINUS = "\u2212"
-BOX = {"boxstyle": "round,pad=0.1", "facecolor": "white", "alpha": 0.6, "linewidth": 0}  # under a name
+package("matplotlib.ticker")  # which the modules beside this one import, too
+from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter  # noqa: E402
+from matplotlib.transforms import ScaledTranslation  # noqa: E402
+
+# Of kinds of edges of an interface: name, colour, width and dash, so that they differ in print without colour.
+LINES: dict[int, tuple[str, str, float, Any]] = {
+    GLUE: ("glue, u\u207a = u\u207b", "#0072B2", 1.0, (0, (5, 3))), BONDED: ("bonded inclusion", "#000000", 2.5, "-"),
+    DELAMINATED: ("delaminated inclusion", "#E69F00", 2.5, "-"), FREE: ("free crack", "#8CD17D", 1.8, "-"),
+    CRACK: ("crack, [u] \u2265 0", "#B04A8A", 1.8, "-")}
+MARKED = (DELAMINATED, BONDED, CRACK, FREE)
+# Of Okabe and Ito, for colour-blind readers; no two of a panel have one colour, nor neighbours one dash.
+CURVES: list[tuple[str, Any]] = [
+    ("#0072B2", "-"), ("#D55E00", (0, (5, 2))), ("#009E73", (0, (1, 1.2))), ("#CC79A7", (0, (7, 1.5, 1.5, 1.5))),
+    ("#222222", (0, (3, 2))), ("#E69F00", "-"), ("#56B4E9", (0, (5, 2))), ("#8C6D31", (0, (1, 1.2)))]
+CONTACT = "#C9E4F4"
+MINUS = "\u2212"
+BOX: dict[str, Any] = {"boxstyle": "round,pad=0.1", "facecolor": "white", "alpha": 0.7, "linewidth": 0}  # under a name
+_RAISED = str.maketrans("-0123456789", "\u207b\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079")
 
 
 def axes(ax: Any, projection: str = "rectilinear") -> Any:
@@ -49,8 +62,16 @@ def traces_of(result: Result, load: Load) -> None:
         raise Error(f"{harmless(load.name)} has no traces: it is {load.status.replace('_', ' ')}")
 
 
+def named(text: object, most: int = 60) -> str:
+    """Of others, as it is: matplotlib takes what is between two $ for a formula."""
+    shown = harmless(text)
+    return (shown if len(shown) <= most else shown[:most - 1] + "\u2026").replace("$", r"\$")
+
+
 def widened(low: float, high: float) -> tuple[float, float]:
-    """The range of an axis or of colours: around a single value, as the command's."""
+    """The range of an axis or of colours, around a single value."""
+    if not (math.isfinite(low) and math.isfinite(high)):
+        return 0.0, 1.0
     half = 0.0 if high > low else abs(low) / 2 or 1.0
     return low - half, high + half
 
@@ -60,20 +81,25 @@ def stretch_of(sides: Array) -> Array:
     return np.asarray(np.maximum(sides, sides.max() / 8) / sides)
 
 
-def number_text(value: float, digits: int) -> str:
-    """Without an "e"."""
+def signed(text: str) -> str:
+    return text.replace("-", MINUS)
+
+
+def power_of_ten(exponent: int) -> str:
+    return "10" + str(exponent).translate(_RAISED)
+
+
+def number_text(value: float, digits: int = 4) -> str:
+    """For people: \u22121.5\u00d710\u207b\u00b9\u00b2."""
     leading, e, exponent = f"{float(f'{value:.{digits}g}'):.{max(digits, 6)}g}".partition("e")
-    return f"${leading} \\cdot 10^{{{int(exponent)}}}$" if e else leading
-
-
-def factor_text(factor: float) -> str:
-    """×2000, behind what is multiplied."""
-    return "×" + number_text(factor, 6)
+    if not e:
+        return signed(leading)
+    return ("" if leading == "1" else f"{signed(leading)}\u00d7") + power_of_ten(int(exponent))
 
 
 def offset_of(low: float, high: float, extent: float = 0) -> float:
-    """What the labels of an axis leave out, as the command's: a round number where all is far from 0 against its range,
-    or against the longer `extent` of all that is drawn to one scale; else 0."""
+    """What the labels of an axis leave out: a round number where all is far from 0 against its range, or against the
+    longer `extent` of all that is drawn to one scale; else 0."""
     size = max(high - low, extent)
     if not size > 0 or not max(abs(low), abs(high)) > 1e3 * size:
         return 0.0
@@ -83,55 +109,101 @@ def offset_of(low: float, high: float, extent: float = 0) -> float:
 
 def named_without(name: str, offset: float) -> str:
     """Of what is drawn without an offset."""
-    return f"{name} {_MINUS if offset > 0 else '+'} {abs(offset):.15g}" if offset else name
+    return f"{name} {MINUS if offset > 0 else '+'} {abs(offset):.15g}" if offset else name
+
+
+def rounded(most: int, **options: Any) -> MaxNLocator:
+    """Of an axis: about so many round numbers."""
+    return MaxNLocator(most, steps=[1, 2, 5, 10], **options)
 
 
 class Scale:
-    """Of numbers from low to high: their texts leave an offset and a power of ten out, which the label says."""
+    """Of numbers from low to high: their texts leave an offset and a power of ten out, which the label says. factor:
+    by how much they are drawn larger."""
 
-    def __init__(self, low: float, high: float, extent: float = 0) -> None:
-        self.offset = offset_of(low, high, extent)
+    def __init__(self, low: float, high: float, extent: float = 0, factor: float = 1) -> None:
+        self.offset, self.factor = offset_of(low, high, extent), factor
         self._largest = max(abs(low - self.offset), abs(high - self.offset))
-        plain = self._largest == 0 or 1e-3 <= self._largest < 1e5
+        plain = self._largest == 0 or 2e-3 <= self._largest < 1e5 or not math.isfinite(self._largest)
         self._exponent = 0 if plain else 3 * math.floor(math.log10(self._largest) / 3)
 
     def text(self, value: float, _: Any = None) -> str:
+        value /= self.factor
         shown = 0.0 if abs(value - self.offset) < 1e-9 * self._largest else value - self.offset
-        return f"{shown / 10.0 ** self._exponent:.6g}".replace("-", _MINUS)
+        return signed(f"{shown / 10.0 ** self._exponent:.6g}")
 
     def label(self, name: str, unit: str) -> str:
         """unit: "mm", empty where there is none."""
         name = named_without(name, self.offset) + (f" {unit}" if self.offset and unit and self._exponent else "")
-        inside = " ".join(part for part in (f"$10^{{{self._exponent}}}$" if self._exponent else "", unit) if part)
+        inside = " ".join(part for part in (power_of_ten(self._exponent) if self._exponent else "", unit) if part)
         return name + (f" [{inside}]" if inside else "")
 
 
 def label_axis(axis: Any, name: str, unit: str, scale: Scale, stretched: float = 1) -> None:
     """stretched: by how much it is drawn longer than others to one scale, which the label says too."""
-    from matplotlib.ticker import FuncFormatter
     axis.set_major_formatter(FuncFormatter(scale.text))
-    axis.set_label_text(scale.label(name, unit) + (f", stretched {factor_text(stretched)}" if stretched != 1 else ""))
+    axis.set_label_text(scale.label(name, unit) + (
+        f", stretched \u00d7{number_text(stretched, 6)}" if stretched != 1 else ""))
 
 
-def point_text(x: float, y: float, size: float) -> str:
+def fit_axis(axis: Any, name: str, unit: str) -> None:
+    """Of what has been drawn."""
+    label_axis(axis, name, unit, Scale(*sorted(axis.get_view_interval())))
+
+
+def log_axis(axis: Any) -> None:
+    """Labels at powers of ten or, of few decades, at 1, 2 and 5 as well; marks between them where there is room."""
+    low, high = sorted(axis.get_view_interval())
+    decades = math.log10(high / low) if low > 0 else 0
+    axis.set_major_locator(rounded(5) if decades < 0.7 else
+                           LogLocator(subs=(1, 2, 5) if decades < 2 else (1,), numticks=7))
+    axis.set_minor_locator(LogLocator(subs=range(1, 10) if decades <= 4 else (1,), numticks=50))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: number_text(value, 5) if decades <= 2 or value == 0 else
+                                           power_of_ten(round(math.log10(value)))))
+    axis.set_minor_formatter(NullFormatter())
+
+
+def point_text(x: float, y: float, size: float, digits: int = 4) -> str:
     """A point, with the digits that tell it from others of a line of this size."""
     def text(value: float) -> str:
         more = math.ceil(math.log10(abs(value) / size)) if value and size > 0 else 0
-        return number_text(value, min(max(4 + more, 4), 15))
+        return number_text(value, min(max(digits + more, digits), 15))
     return f"({text(x)}, {text(y)})"
 
 
-def legend_below(ax: Any, *entries: Any) -> None:
-    """At a distance of the labels of the axis, however flat it is drawn."""
-    from matplotlib.transforms import ScaledTranslation
-    down = ScaledTranslation(0, -0.5, ax.figure.dpi_scale_trans)
-    ax.legend(*entries, loc="upper center", bbox_to_anchor=(0.5, 0), bbox_transform=ax.transAxes + down, ncol=2,
-              fontsize="small", frameon=False)
+def legend_below(ax: Any, columns: int = 2, down: float = 0.5, **options: Any) -> Any:
+    """`down` inches below the axes, clear of its labels, however flat it is drawn."""
+    moved = ax.transAxes + ScaledTranslation(0, -down, ax.figure.dpi_scale_trans)
+    return ax.legend(loc="upper center", bbox_to_anchor=(0.5, 0), bbox_transform=moved, ncol=columns,
+                     fontsize="small", frameon=False, **options)
+
+
+def colour_bar(ax: Any, shades: Any, label: str, scale: Scale, colorbar: Any, **options: Any) -> None:
+    """colorbar: False for none, or axes to draw it in; beside `ax` unless said otherwise. Drawn again on the same axes
+    it is changed and not another one added."""
+    if colorbar is False:
+        return
+    made = getattr(ax, "anticrack_colour_bar", None)
+    if made is not None and made.ax.figure is ax.figure:
+        made.update_normal(shades)
+    else:
+        place = {"ax": ax} if colorbar is True else {"cax": colorbar}
+        if colorbar is not True:
+            box = colorbar.get_window_extent()
+            options = {"orientation": "horizontal" if box.width > box.height else "vertical",
+                       "extend": options.get("extend", "neither")}
+        made = ax.anticrack_colour_bar = ax.figure.colorbar(shades, **place, **options)
+    made.locator, made.formatter = rounded(4), FuncFormatter(scale.text)
+    made.update_ticks()
+    made.outline.set_linewidth(0.4)
+    made.set_label(label)
 
 
 def cut(values: Array, weights: Array, part: float, room: float) -> tuple[float, float]:
     """The end of an axis for values that are singular at tips, and the highest of them: `room` times what `part` of the
-    weight stays below, or the highest if that is little more."""
+    weight stays below, or the highest if that is little more. (0, 0) of none."""
+    if not len(values):
+        return 0.0, 0.0
     order = np.argsort(values)
     below = np.cumsum(weights[order])
     highest = float(values[order[-1]])

@@ -9,14 +9,16 @@ import numpy as np
 from ..arrays import Array
 from ..errors import Error
 from ..result import Load, Result, runs
-from ..text import harmless
-from .panel import BOX, LINES, Scale, axes, factor_text, fields, label_axis, load_of, stretch_of, widened
+from .panel import (BOX, LINES, MARKED, Scale, axes, colour_bar, label_axis, load_of, named, number_text, rounded,
+                    stretch_of, widened)
+from .surface import Heights, Surface
 
 _NAMES = 6  # of inclusions: more would cover each other
+_ELEVATION = 38
 
 
 def _amplification(extent: float, size: float) -> float:
-    """A round factor by which u is up to 0.3 of the size; as in the command's figure."""
+    """A round factor by which u is up to 0.3 of the size."""
     if not extent > 0:
         return 1.0
     wanted = 0.3 * size / extent
@@ -24,69 +26,130 @@ def _amplification(extent: float, size: float) -> float:
     return float(power * max(step for step in (1, 1.5, 2, 3, 4, 5, 6, 8) if step * power <= wanted))
 
 
-def _azimuth(result: Result) -> float:
-    """Over the minus side of the first interface: its cracks open upwards on the far side."""
+def view(result: Result) -> tuple[float, float]:
+    """Degrees up and around. From the front, x to the right as from above, and over the minus side of the first
+    interface if that can be: its cracks open upwards on the far side. Else from higher up."""
     along = [(line.x[-1] - line.x[0], line.y[-1] - line.y[0]) for line in result.interfaces[:1]]
-    return -62 + float(np.degrees(np.arctan2(*reversed(along[0])))) if along else -62
+    across = np.array([-along[0][1], along[0][0]]) if along else np.array([0.0, 1.0])
+    across = across / (np.hypot(*across) or 1)
+    towards = {around: float(across @ (np.cos(np.radians(around)), np.sin(np.radians(around))))
+               for around in (-62, -118)}
+    around = min(towards, key=lambda angle: towards[angle])
+    return (_ELEVATION if towards[around] < 0.3 else 55), around
 
 
-def _mark(result: Result, load: Load, factor: float, ax: Any) -> None:
-    """Inclusions and cracks on their plus faces, which inclusions hold, and the names of a few inclusions."""
-    named: set[int] = set()
+def _plane(surface: Surface) -> Array:
+    """(n) of the nodes: the plane through u where that is most of it, as of a sheet whose edges are held at different
+    heights; else 0."""
+    if len(surface.known) != len(surface.u) or not np.ptp(surface.u) > 0:
+        return np.zeros(len(surface.u))
+    middle, size = surface.nodes.mean(axis=0), np.ptp(surface.nodes, axis=0).max()
+    columns = np.c_[(surface.nodes - middle) / size, np.ones(len(surface.u))]
+    weights = np.bincount(surface.triangles.ravel(), np.repeat(surface.areas, 3), len(surface.u))[:, None]
+    plane = columns @ np.linalg.lstsq((columns * weights).T @ columns, (columns * weights).T @ surface.u, None)[0]
+    return np.asarray(plane * (np.ptp(surface.u - plane) < 0.3 * np.ptp(surface.u)))
+
+
+def _lit(surface: Surface, slopes: Array, around: float) -> Array:
+    """(n) brightness of the nodes. The light comes from the upper left of the viewer."""
+    angle = np.radians(around + 90)
+    right, away = np.array((np.cos(angle), np.sin(angle))), np.array((-np.sin(angle), np.cos(angle)))
+    with np.errstate(over="ignore", invalid="ignore"):
+        lit = (slopes @ (0.5 * right + 0.3 * away) + 0.81) / np.sqrt((slopes ** 2).sum(axis=1) + 1)
+    return np.where(np.isfinite(lit), 0.65 + 0.35 * np.clip(lit, 0, 1), 1)
+
+
+def _mark(result: Result, load: Load, height: Any, above: float, ax: Any) -> None:
+    """Inclusions and cracks on their plus faces, which inclusions hold, and the names of a few inclusions above
+    them."""
+    known: set[int] = set()
+    thin = min(1.0, (12 / max(len(result.interfaces), 1)) ** 0.5)
     for interface, trace in zip(result.interfaces, load.traces):
         for first, last in runs(interface.edge_kind * 100_000 + interface.edge_inclusion):
             kind, inclusion = int(interface.edge_kind[first]), int(interface.edge_inclusion[first])
-            if kind not in LINES:
+            if kind not in MARKED:
                 continue
-            line = np.stack((interface.x, interface.y, factor * trace.u_plus))[:, first:last + 1]
-            ax.plot(*line, color=LINES[kind][1], linewidth=1.5, zorder=100)
-            if inclusion >= 0 and inclusion not in named and len(result.mesh.inclusions) <= _NAMES:
-                named.add(inclusion)
-                ax.text(*line[:, line.shape[1] // 2], harmless(result.mesh.inclusions[inclusion]), ha="center",
-                        va="bottom", fontsize="small", bbox=BOX, zorder=101)
+            x, y, u, low = (values[first:last + 1] for values in (interface.x, interface.y, trace.u_plus,
+                                                                  trace.u_minus))
+            up = height(x, y, u)
+            ax.plot(x, y, up, color=LINES[kind][1], linewidth=1.5 * thin, zorder=100)
+            if inclusion >= 0 and inclusion not in known and len(result.mesh.inclusions) <= _NAMES:
+                known.add(inclusion)
+                middle = len(x) // 2
+                if np.isfinite(up[middle]):
+                    ax.text(x[middle], y[middle], max(up[middle], height(x, y, low)[middle]) + above,
+                            named(result.mesh.inclusions[inclusion], 18), ha="center", va="bottom", fontsize="small",
+                            bbox=BOX, zorder=101)
 
 
-def _corners(result: Result, load: Load) -> tuple[Array, Array, Array]:
-    """Nodes (n, 2), u (n) and triangles (m, 3) of all subdomains: both faces of an open crack have their own nodes."""
-    parts = fields(load)
-    firsts = np.cumsum([0, *(len(part.nodes) for part in parts)])
-    return (result.mesh.nodes[np.concatenate([part.nodes for part in parts])],
-            np.concatenate([part.u for part in parts]),
-            np.concatenate([part.triangles + first for part, first in zip(parts, firsts)]))
-
-
-def membrane(result: Result, load: str | Load | None = None, ax: Any = None, cmap: str = "viridis") -> Any:
-    """The deformed membrane in perspective, its cracks open, u amplified as the title says and in colours, with cracks
-    and inclusions; takes a case with fields. `ax` has three dimensions: subplots(subplot_kw={"projection": "3d"});
+def membrane(result: Result, load: str | Load | None = None, ax: Any = None, cmap: Any = None,
+             amplify: float | None = None, limits: tuple[float, float] | None = None, colorbar: Any = True) -> Any:
+    """The deformed membrane in perspective, its cracks open, u amplified as the title says (or by `amplify`) and in
+    colours, with cracks and inclusions; takes a case with fields. Of a sheet whose edges are held at different heights
+    the plane through it is left out. limits: (lowest, highest) u of the colours, the same for several figures.
+    colorbar: False, or axes to draw it in. `ax` has three dimensions: subplots(subplot_kw={"projection": "3d"});
     `displacement` draws u on an `ax` of two."""
     load = load_of(result, load)
-    nodes, u, triangles = _corners(result, load)
+    surface = Surface(result, load)
     ax = axes(ax, "3d")
     if ax.name != "3d":
         raise Error('the membrane is drawn in perspective; give ax of subplots(subplot_kw={"projection": "3d"}), or '
                     "draw.displacement, which is from above")
-    from matplotlib.cm import ScalarMappable
-    from matplotlib.colors import Normalize
-    sides = np.ptp(nodes, axis=0)
+    up, around = view(result)
+    plane = _plane(surface)
+    level = plane.any()
+    low, high = surface.nodes.min(axis=0), surface.nodes.max(axis=0)
     # Of a long sheet neither its length, or it would stand like a curtain, nor its width.
-    stretched = stretch_of(sides)
-    shown = stretched * sides
-    factor = _amplification(np.ptp(u), np.sqrt(shown.prod()))
-    colours = Normalize(*widened(u.min(), u.max()))
-    shades = ScalarMappable(colours, cmap)
-    faces = ax.plot_trisurf(*nodes.T, factor * u, triangles=triangles, linewidth=0.2, antialiased=False)
-    of_faces = shades.to_rgba(u[triangles].mean(axis=1))
-    faces.set(facecolors=of_faces, edgecolors=of_faces)
-    place = {"location": "bottom", "pad": 0.05} if (stretched != 1).any() else {"pad": 0.1}  # beside the names of axes
-    ax.figure.colorbar(shades, ax=ax, label="u" + result.units.label("L"), shrink=0.6, **place)
-    _mark(result, load, factor, ax)
-    low, high = nodes.min(axis=0), nodes.max(axis=0)
-    scale = "to scale" if factor == 1 else f"amplified {factor_text(factor)}"
-    ax.set(zticks=[], title=f"{harmless(load.name)}: u {scale}", xlim=(low[0], high[0]), ylim=(low[1], high[1]))
+    stretched = stretch_of(high - low)
+    shown = stretched * (high - low)
+    size = float(np.sqrt(shown.prod()))
+    rest = np.where(np.isfinite(surface.u), surface.u - plane, 0)
+    factor = amplify or _amplification(np.ptp(rest), 0.4 * size if level else size)
+    shades = surface.shades(limits, cmap)
+    tilt = np.linalg.lstsq(surface.nodes - surface.nodes.mean(axis=0), plane - plane.mean(), None)[0]
+    colours = shades.to_rgba(surface.u)
+    colours[:, :3] *= _lit(surface, factor * (surface.slopes - tilt), around)[:, None]
+    points = np.c_[surface.nodes, factor * rest]
+    ax.add_collection(Heights(points, surface.triangles, colours, bool(load.stages)), autolim=False)
+
+    def height(x: Array, y: Array, u: Array) -> Array:
+        here = np.c_[x, y] - surface.nodes.mean(axis=0)
+        return np.asarray(factor * (u - here @ tilt - plane.mean()))
+    _mark(result, load, height, 0.06 * size, ax)
+    heights = widen_to(factor * rest.min(), factor * rest.max(), 0.15 * size)
+    ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=heights)
+    scales = [Scale(low[i], high[i], shown.max() / stretched[i]) for i in (0, 1)]
     for i, axis in enumerate((ax.xaxis, ax.yaxis)):
-        axis.get_major_locator().set_params(nbins=5 if shown[i] > shown.max() / 3 else 2)
-        label_axis(axis, "xy"[i], result.units.behind("L").strip(),
-                   Scale(low[i], high[i], shown.max() / stretched[i]), stretched[i])
-    ax.set_box_aspect([*(np.ptp((ax.get_xlim(), ax.get_ylim()), axis=1) * stretched), np.ptp(ax.get_zlim())])
-    ax.view_init(38, _azimuth(result))
+        axis.set_major_locator(rounded(5 if shown[i] > shown.max() / 3 else 2))
+        label_axis(axis, "xy"[i], result.units.behind("L").strip(), scales[i], stretched[i])
+    ends = rest.min(), rest.max()
+    tall = Scale(*ends, factor=factor)
+    steps = rounded(2).tick_values(*widened(*ends))
+    ticks = [factor * step for step in steps if heights[0] <= factor * step <= heights[1]]
+    ax.set_zticks(ticks if np.ptp(heights) > 0.25 * size else sorted({*ticks[:1], *ticks[-1:]}))
+    label_axis(ax.zaxis, "" if level else "u", result.units.behind("L").strip(), tall)
+    for axis in (ax.xaxis, ax.yaxis, ax.zaxis):
+        axis.set_pane_color((1, 1, 1, 0))
+        axis.set_rotate_label(False)
+        axis.labelpad = -4 if axis is not ax.zaxis else -7 if around > -90 else -2
+    ax.tick_params(pad=-2)
+    ax.grid(False)
+    ax.set_box_aspect([*shown, np.ptp(heights)], zoom=1.05)
+    ax.view_init(up, around)
+    text = "u to scale" if factor == 1 else f"u {'amplified ' if factor > 1 else ''}\u00d7{number_text(factor, 6)}"
+    ax.set_title(f"{named(load.name)}: {text.replace('u', 'u less a plane,', 1) if level else text}"
+                 + not_converged(load))
+    of_u = Scale(*shades.get_clim())
+    place = {"pad": 0.02, "shrink": 0.6, "aspect": 30, "orientation": "horizontal"}
+    colour_bar(ax, shades, of_u.label("u", result.units.behind("L").strip()), of_u, colorbar, **place)
     return ax
+
+
+def not_converged(load: Load) -> str:
+    return ", not converged" if load.status == "not_converged" else ""
+
+
+def widen_to(low: float, high: float, least: float) -> tuple[float, float]:
+    """Around its middle."""
+    more = max(0.0, least - (high - low)) / 2
+    return low - more, high + more

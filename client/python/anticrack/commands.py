@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The commands that draw. `anticrack` has the same options, for its help and completion, and runs these."""
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import signal
+import struct
+import sys
+from collections.abc import Sequence
+from typing import Any
+
+from .blocks import BlockReceiver
+from .errors import Error, package
+from .result import Result, Units
+from .text import harmless
+from .v1 import mesh_pb2
+
+USAGE, CLOSED = 2, 141  # exit codes, as the command's
+
+
+class _Usage(Error):
+    """A command line that is wrong."""
+
+
+class _Parser(argparse.ArgumentParser):
+    def error(self, message: str) -> Any:
+        raise _Usage(f"{message.replace('argument ', '')}; see {self.prog} --help")
+
+
+def _formats(text: str) -> list[str]:
+    found = list(dict.fromkeys(text.split(",")))
+    for name in found:
+        if name not in ("png", "svg", "pdf"):
+            raise argparse.ArgumentTypeError(f'"{name}" is none of png, svg and pdf')
+    return found
+
+
+def _figures(text: str) -> list[str]:
+    from .draw.files import FIGURES
+    for name in text.split(","):
+        if name == "pressure":
+            raise argparse.ArgumentTypeError("the pressure is a panel of traces; write that, or overview")
+        if name not in FIGURES:
+            raise argparse.ArgumentTypeError(f"{name} is none of {', '.join(FIGURES)}")
+    return text.split(",")
+
+
+def _number(low: float, high: float, kind: Any) -> Any:
+    def number(text: str) -> Any:
+        try:
+            value = kind(text)
+        except ValueError:
+            value = None
+        if value is None or not low <= value <= high:
+            raise argparse.ArgumentTypeError(f"{text} is no number from {low:g} to {high:g}")
+        return value
+    return number
+
+
+def _limits(text: str) -> tuple[float, float]:
+    try:
+        low, high = map(float, text.split(","))
+        if low < high:
+            return low, high
+    except ValueError:
+        pass
+    raise argparse.ArgumentTypeError(f"{text} is not LOW,HIGH, as -0.1,0.4")
+
+
+def _parser() -> _Parser:
+    parser = _Parser("anticrack", description="Draws results and meshes of anticrack.", allow_abbrev=False)
+    commands = parser.add_subparsers(dest="command", required=True, parser_class=_Parser)
+    plot = commands.add_parser("plot", allow_abbrev=False, help="draw the figures of a result file")
+    plot.add_argument("file", metavar="RESULT", help="result file, HDF5")
+    plot.add_argument("--load", action="append", default=[], help="this load only, of a sweep row-K; again for more")
+    plot.add_argument("--together", action="store_true", help="up to 8 loads over each other on one interface")
+    plot.add_argument("--only", type=_figures, action="extend", default=[], metavar="LIST",
+                      help="of overview, membrane, plan, traces, convergence and accuracy those to draw")
+    plot.add_argument("--interface", default="", metavar="NAME", help="draw the traces of this one")
+    plot.add_argument("--all", action="store_true", help="of loads and interfaces, however many there are")
+    plot.add_argument("--amplify", type=_number(1e-300, 1e300, float), metavar="FACTOR", help="of u in the membrane")
+    plot.add_argument("--limits", type=_limits, metavar="LOW,HIGH", help="of the colours of u in the membrane")
+    mesh = commands.add_parser("mesh", allow_abbrev=False, help="draw the mesh that anticrack mesh show reads: on "
+                               "standard input Mesh, BlockLayout and the bytes of ReadMesh, with its length (8 bytes, "
+                               "little-endian) before each")
+    mesh.add_argument("--unit", default="", help="of length")
+    mesh.add_argument("--free", action="store_true", help="no traction acts where u is not given")
+    for command in (plot, mesh):
+        command.add_argument("-o", "--output", default="figures", metavar="DIR", help="folder of the figures")
+        command.add_argument("--format", type=_formats, default=["png", "svg"], metavar="LIST",
+                             help="of png, svg and pdf those to write")
+        command.add_argument("--dpi", type=_number(50, 1200, int), default=300, help="dots an inch of PNG files")
+        command.add_argument("--width", type=_number(40, 400, float), default=85.0, metavar="MM", help="of a panel")
+        command.add_argument("--font", default="", metavar="NAME", help="family of the letters")
+        command.add_argument("--no-titles", action="store_true", help="no titles of case, load and panels")
+        command.add_argument("--json", action="store_true", help="one JSON document on standard output")
+        command.add_argument("--quiet", action="store_true", help="nothing but errors")
+    return parser
+
+
+def _draw(given: argparse.Namespace) -> Any:
+    package("matplotlib").use("Agg")
+    from .draw import files
+    from .draw.sheet import Look
+    look = Look(given.format, given.dpi, not given.no_titles, given.width, given.font)
+    if given.command == "mesh":
+        return files.draw_mesh(_read_mesh(given), given.output, look)
+    look.amplify, look.limits = given.amplify, given.limits
+    if given.together and given.only:
+        raise _Usage("--together and --only exclude each other; leave one out; see anticrack plot --help")
+    result = Result.read(given.file)
+    wanted = files.Wanted(given.only, given.interface, given.load, given.all)
+    draw = files.draw_together if given.together else files.draw_figures
+    try:
+        return draw(result, given.output, wanted, look)
+    except (IndexError, ValueError, KeyError) as error:
+        if isinstance(error, Error):
+            raise
+        raise Error(f"{given.file} cannot be drawn, as if it were damaged: {error}") from error
+
+
+def _read_mesh(given: argparse.Namespace) -> Any:
+    from .draw.meshes import Plan
+    parts = []
+    for _ in range(3):
+        size, = struct.unpack("<Q", sys.stdin.buffer.read(8))
+        parts.append(sys.stdin.buffer.read(size))
+    receiver = BlockReceiver()
+    receiver.accept(mesh_pb2.ReadMeshResponse(layout=mesh_pb2.BlockLayout.FromString(parts[1])))
+    receiver.accept(mesh_pb2.ReadMeshResponse(chunk=mesh_pb2.BlockChunk(data=parts[2])))
+    return Plan(mesh_pb2.Mesh.FromString(parts[0]), receiver.finish(), Units(given.unit), given.free)
+
+
+def plot() -> int:
+    """The program anticrack-plot, which `anticrack plot` runs where it is on PATH."""
+    return main(["plot", *sys.argv[1:]])
+
+
+def main(words: Sequence[str]) -> int:
+    """The exit code: 0, 2 with a line on standard error, or 141 where nobody reads what is printed."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)  # an error of the write, and not a signal
+    code, document, lines = 0, {}, []
+    try:
+        given = _parser().parse_args(words)
+        drawn = _draw(given)
+        document = {"files": drawn.files, "notes": drawn.notes}
+        lines = [] if given.quiet else [*drawn.files, *drawn.notes]
+    except Error as error:
+        code, kind = USAGE, "USAGE" if isinstance(error, _Usage) else "FIGURES"
+        document = {"error": {"code": kind, "reason": "", "message": str(error), "fields": []}}
+        for line in str(error).splitlines():
+            print("anticrack:", harmless(line), file=sys.stderr)
+    if "--json" in words:
+        lines = [json.dumps(document, indent=1, ensure_ascii=False)]
+    try:
+        for line in lines:
+            print(line if "--json" in words else harmless(line))
+        sys.stdout.flush()
+    except OSError as error:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # nothing more at exit
+        if isinstance(error, BrokenPipeError):
+            return code or CLOSED
+        print(f"anticrack: standard output cannot be written: {error.strerror}", file=sys.stderr)
+        return USAGE
+    return code

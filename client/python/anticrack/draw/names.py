@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Names on a map, none of which covers another."""
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..arrays import Array
+from .panel import BOX, named
+
+_SIZE = 7.0  # of the letters, points
+_LONGEST = 24
+
+
+class Names:
+    """Of axes with their limits, on which `lines` (n, 2) are drawn."""
+
+    def __init__(self, ax: Any, lines: Array) -> None:
+        ax.apply_aspect()
+        box = ax.get_window_extent()
+        self._ax = ax
+        self._low = np.array((ax.get_xlim()[0], ax.get_ylim()[0]))
+        self._scale = np.array((box.width, box.height)) * 72 / ax.figure.dpi / np.ptp((ax.get_xlim(), ax.get_ylim()), 1)
+        self._room = np.array((box.width, box.height)) * 72 / ax.figure.dpi
+        self._lines = self._points(lines[::max(1, len(lines) // 2000)])
+        self._taken = np.empty((0, 4))
+        self._middles = np.empty((0, 2))
+
+    def _points(self, spots: Array) -> Array:
+        """On paper."""
+        return np.asarray((np.asarray(spots, dtype=float).reshape(-1, 2) - self._low) * self._scale)
+
+    def _box(self, text: str, at: Array, towards: tuple[float, float] = (0, 0)) -> Array:
+        """Left, low, right, high of a text beside a point, which lies in this direction of it."""
+        half = np.array((0.31 * _SIZE * (min(len(text), _LONGEST) + 0.5), 0.65 * _SIZE))
+        middle = at + half * towards
+        return np.concatenate((middle - half, middle + half))
+
+    def _free(self, box: Array) -> bool:
+        inside = (box[:2] >= 0).all() and (box[2:] <= self._room).all()
+        apart = (self._taken[:, :2] > box[2:]) | (self._taken[:, 2:] < box[:2])
+        return bool(inside and apart.any(axis=1).all())
+
+    def _take(self, box: Array) -> None:
+        self._taken = np.vstack((self._taken, box))
+        self._middles = np.vstack((self._middles, (box[:2] + box[2:]) / 2))
+
+    def beside(self, text: str, choices: list[tuple[float, float, float, float]], arrow: bool = False) -> bool:
+        """At the one of some places (x, y, and a direction of length 1) where it covers nothing, and the least of the
+        lines. arrow: to it. False: there is no room."""
+        best: Any = None
+        for x, y, right, up in choices:
+            direction = np.array((right, up))
+            side = tuple(float(np.sign(part)) if abs(part) > 0.38 else 0.0 for part in direction)
+            at = self._points(np.array((x, y)))[0]
+            end = at + direction * (11 if arrow else 4)
+            box = self._box(text, end, side)  # type: ignore[arg-type]
+            if not self._free(box):
+                continue
+            covered = int(((self._lines > box[:2]) & (self._lines < box[2:])).all(axis=1).sum())
+            if best is None or covered < best[0]:
+                best = covered, box, (x, y), tuple(end - at), side
+        if best is None:
+            return False
+        _, box, spot, offset, side = best
+        self._take(box)
+        if arrow:
+            self._ax.annotate("", spot, offset, textcoords="offset points", zorder=6, arrowprops={
+                "arrowstyle": "<|-", "linewidth": 0.8, "shrinkA": 0, "shrinkB": 0, "mutation_scale": 6, "color": "k"})
+        self._ax.annotate(named(text, _LONGEST), spot, offset, textcoords="offset points", fontsize=_SIZE, bbox=BOX,
+                          zorder=7, ha=("center", "left", "right")[int(side[0])],
+                          va=("center", "bottom", "top")[int(side[1])])
+        return True
+
+    def on(self, text: str, spots: Array, least: float) -> bool:
+        """On the one of the spots (n, 2) with the most room around it, `least` points; farther from other names."""
+        spots = spots[::max(1, len(spots) // 200)]
+        points = self._points(spots)
+        if not len(points):
+            return False
+        room = np.full(len(points), np.inf)
+        for others, part in ((self._lines, 1), (self._middles, 3)):
+            if len(others):
+                room = np.minimum(room, np.hypot(*(points[:, None] - others).transpose(2, 0, 1)).min(axis=1) / part)
+        for best in np.argsort(-room)[:20]:
+            box = self._box(text, points[best])
+            if room[best] >= least and self._free(box):
+                self._take(box)
+                self._ax.text(*spots[best], named(text, _LONGEST), fontsize=_SIZE, color="#444444", bbox=BOX,
+                              ha="center", va="center", zorder=5)
+                return True
+        return False

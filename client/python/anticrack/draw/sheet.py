@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pictures for print: panels with their places in millimetres, and the files made of them."""
+from __future__ import annotations
+
+import contextlib
+import io
+import textwrap
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Any
+
+import matplotlib
+from matplotlib import font_manager
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+from ..errors import Error
+from ..text import suggestion
+from .panel import named
+
+_INCH = 25.4
+_LINE = 4.2  # of the title, mm
+LEFT, RIGHT = 16.0, 3.5  # of axes: room for numbers and a name, mm
+ABOVE, BELOW = 6.5, 10.5  # room for a heading, and for numbers and a name
+KEY = 3.7  # a row of a legend
+_ROOM = 400.0  # a height that no picture reaches; its own is set in the end
+
+_LOOKS: dict[str, Any] = {
+    "font.size": 8, "axes.titlesize": 8, "axes.labelsize": 8, "figure.titlesize": 9, "legend.fontsize": 7,
+    "xtick.labelsize": 7, "ytick.labelsize": 7, "axes.linewidth": 0.6, "lines.linewidth": 1.2, "axes.titlepad": 4,
+    "axes.labelpad": 2, "xtick.major.width": 0.5, "ytick.major.width": 0.5, "xtick.minor.width": 0.4,
+    "ytick.minor.width": 0.4, "xtick.major.size": 2.5, "ytick.major.size": 2.5, "xtick.minor.size": 1.5,
+    "ytick.minor.size": 1.5, "axes.spines.top": False, "axes.spines.right": False, "axes.edgecolor": "#555555",
+    "xtick.color": "#333333", "ytick.color": "#333333", "axes.grid": True, "grid.color": "#e4e4e4",
+    "grid.linewidth": 0.5, "axes.axisbelow": True, "legend.frameon": False, "legend.borderaxespad": 0.3,
+    "legend.handlelength": 2.2, "legend.labelspacing": 0.25, "svg.fonttype": "none", "svg.hashsalt": "anticrack",
+    "pdf.fonttype": 42, "patch.linewidth": 0, "axes.xmargin": 0, "axes.titlecolor": "#222222"}
+
+
+@dataclass
+class Look:
+    """width: of a panel, mm, two of which are side by side in an overview; titles: of case and load, and headings of
+    panels; font: a family, empty for matplotlib's own; limits and amplify: as of draw.membrane."""
+    formats: list[str] = field(default_factory=lambda: ["png", "svg"])
+    dpi: int = 300
+    titles: bool = True
+    width: float = 85.0
+    font: str = ""
+    amplify: float | None = None
+    limits: tuple[float, float] | None = None
+
+    @contextlib.contextmanager
+    def applied(self) -> Iterator[None]:
+        """While figures are made. Raises Error where the font is not there."""
+        looks = dict(_LOOKS)
+        if self.font:
+            known = sorted({font.name for font in font_manager.fontManager.ttflist})
+            if self.font not in known:
+                raise Error(f"there is no font {self.font}; {suggestion(self.font, known)}")
+            looks["font.family"] = [self.font, "DejaVu Sans"]
+        with matplotlib.rc_context({**matplotlib.rcParamsDefault, "backend": matplotlib.rcParams["backend"]}):
+            matplotlib.rcParams.update(looks)
+            yield
+
+
+class Sheet:
+    """A picture of `columns` panels side by side. Heights are given from below the title."""
+
+    def __init__(self, look: Look, title: str, columns: int = 1) -> None:
+        self.look, self.width = look, columns * look.width
+        self._figure = Figure(figsize=(self.width / _INCH, _ROOM / _INCH), dpi=100)
+        FigureCanvasAgg(self._figure)
+        # A character is about 1.75 mm wide.
+        lines = textwrap.wrap(named(title, 200), max(10, int(self.width / 1.75)), max_lines=3,
+                              placeholder=" \u2026") if look.titles else []
+        self._head = 1 + _LINE * len(lines) if lines else 0.0
+        self._lines = [self._figure.text(0.5, 0, line, ha="center", va="center", fontsize=9, color="#222222")
+                       for line in lines]
+        self._places: list[tuple[Any, float, float, float, float]] = []
+
+    def panel(self, left: float, top: float, width: float, height: float, **options: Any) -> Any:
+        """Axes, in mm from the left and from below the title."""
+        place = (left / self.width, 1 - (self._head + top + height) / _ROOM, width / self.width, height / _ROOM)
+        ax = self._figure.add_axes(place, **options)
+        self._places.append((ax, left, top, width, height))
+        return ax
+
+    def files(self, height: float) -> dict[str, bytes]:
+        """By format; the picture ends at this height."""
+        high = self._head + height
+        self._figure.set_size_inches(self.width / _INCH, high / _INCH)
+        for ax, left, top, wide, tall in self._places:
+            ax.set_position((left / self.width, 1 - (self._head + top + tall) / high, wide / self.width, tall / high))
+            room = (wide + 2 * RIGHT) / 1.6  # characters
+            ax.title.set_fontsize(8 * min(1, max(0.8, room / max(len(ax.get_title()), 1))))
+            if not self.look.titles:
+                ax.set_title("")
+        for i, line in enumerate(self._lines):
+            line.set_y(1 - (1 + _LINE * (i + 0.5)) / high)
+        made = {}
+        for kind in self.look.formats:
+            buffer = io.BytesIO()
+            # The same result gives the same bytes.
+            metadata: dict[str, Any] = {"png": {"Software": None}, "svg": {"Date": None, "Creator": None},
+                                        "pdf": {"CreationDate": None, "Creator": None, "Producer": None}}[kind]
+            self._figure.savefig(buffer, format=kind, dpi=self.look.dpi, metadata=metadata, facecolor="white")
+            made[kind] = buffer.getvalue()
+        return made

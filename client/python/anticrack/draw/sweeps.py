@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Over the rows of a sweep."""
+from __future__ import annotations
+
+from numbers import Integral
+from typing import Any
+
+import numpy as np
+from matplotlib.colors import LinearSegmentedColormap
+from matplotlib.patches import Patch
+from matplotlib.ticker import MultipleLocator
+
+from ..arrays import Array, array_of
+from ..errors import Error
+from ..names import place
+from ..result import Result, Sweep
+from .along import Profile
+from .panel import CURVES, axes, fit_axis, legend_below, named, rounded
+
+_NAMED = 6  # curves; what is beyond is drawn alike and counted
+_STRIPS = 400  # of rows, of a map: more would not be seen
+_OPEN, _CLOSED = "#e4e4e4", "#0072B2"
+
+
+class Rows:
+    """The horizontal axis: the coefficient that varies, the angle of two that lie on a circle around 0, or else the
+    rows, whose points are not joined. at: (rows)."""
+
+    def __init__(self, columns: Sweep) -> None:
+        rows = np.arange(len(columns.status))
+        self.label, self.at, self.joined, self.turn = "row", rows.astype(float), False, False
+        given = columns.coefficients if columns.coefficients is not None else np.empty((len(rows), 0))
+        varying = np.flatnonzero((given != given[:1]).any(axis=0))
+        if len(varying) == 1:
+            self.label, self.at = f"coefficient of {named(columns.loads[varying[0]], 20)}", given[:, varying[0]]
+            self.joined = True
+        elif len(varying) == 2:
+            x, y = given[:, varying].T
+            radius = np.hypot(x, y)
+            if np.allclose(radius, radius[0], rtol=1e-6, atol=0):
+                plain = np.arctan2(y, x)
+                angle = np.unwrap(plain)
+                one_turn = np.ptp(angle) <= 2 * np.pi * (1 + 1e-6)
+                first, second = (named(columns.loads[i], 10) for i in varying)
+                self.label = f"angle from {first} to {second} [\u00b0]"
+                self.at, self.joined, self.turn = np.degrees(angle if one_turn else plain), True, True
+
+    def axis(self, axis: Any) -> None:
+        size = float(np.ptp(self.at)) if len(self.at) else 0.0
+        if self.label == "row":
+            axis.set_major_locator(rounded(6, integer=True))
+        elif self.turn and size > 5:  # a turn has quarters
+            step = next((step for step in (5, 15, 30, 45, 90) if size <= 6 * step), 180)
+            axis.set_major_locator(MultipleLocator(step))
+        else:
+            axis.set_major_locator(rounded(6))
+        fit_axis(axis, self.label, "")
+
+
+def columns_of(result: Result) -> Sweep:
+    if result.sweep is None:
+        raise Error("this is not the result of a sweep")
+    return result.sweep
+
+
+def curves(ax: Any, result: Result, over: Rows, names: list[str], values: Array, label: str, unit: str,
+           bounds: tuple[Array, Array] | None = None) -> int:
+    """Of values (rows, names) of the rows that converged, with bands; how many names have no colour of their own."""
+    rows = np.flatnonzero(columns_of(result).converged)
+    rows = rows[np.argsort(over.at[rows], kind="stable")]
+    options: dict[str, Any] = {"marker": "o", "markersize": 2.2 if len(rows) <= 60 else 1.2} if (
+        len(rows) <= 60 or not over.joined) else {}
+    for i in reversed(range(len(names))):
+        color, dash = CURVES[i] if i < _NAMED else ("#bbbbbb", "-")
+        more = "_" if i > _NAMED else f"{len(names) - _NAMED} more" if i == _NAMED else named(names[i], 18)
+        ax.plot(over.at[rows], values[rows, i], color=color, linestyle=dash if over.joined else "none", label=more,
+                zorder=3 if i < _NAMED else 2, **options)
+        if over.joined and bounds is not None:
+            ax.fill_between(over.at[rows], bounds[0][rows, i], bounds[1][rows, i], color=color, alpha=0.25, linewidth=0)
+    over.axis(ax.xaxis)
+    ax.yaxis.set_major_locator(rounded(6))
+    fit_axis(ax.yaxis, label, unit)
+    return max(0, len(names) - _NAMED)
+
+
+def _bounds(columns: Sweep) -> tuple[Array, Array] | None:
+    lower, upper = columns.displacement_lower, columns.displacement_upper
+    return None if lower is None or upper is None else (lower, upper)
+
+
+def sweep(result: Result, x: str | int | Array | None = None, inclusion: str | int | None = None,
+          ax: Any = None) -> Any:
+    """A of the inclusions, the first six in colours of their own, or of one by name or index (where there is none: the
+    contact length), over the coefficient that varies, of a load by name or index, or over values (rows) of one's own,
+    with bands where rows have bounds. Rows that did not converge are left out."""
+    ax, columns = axes(ax), columns_of(result)
+    over = Rows(columns)
+    if isinstance(x, (str, Integral)):
+        if columns.coefficients is None:
+            raise Error("the coefficients are not known; give x, a value for every row")
+        index = place("load", x, columns.loads) if isinstance(x, str) else int(x)
+        over.label, over.joined = f"coefficient of {named(columns.loads[index])}", True
+        over.at = columns.coefficients[:, index]
+    elif x is not None:
+        over.label, over.joined = "", True
+        over.at = array_of(x, (len(columns.status),), lambda problem: Error(f"x: {problem}"))
+    if not columns.inclusions:
+        return contact_length(result, ax, over)
+    chosen = list(range(len(columns.inclusions)))
+    if inclusion is not None:
+        chosen = [place("inclusion", inclusion, columns.inclusions) if isinstance(inclusion, str) else inclusion]
+    bounds = _bounds(columns)
+    curves(ax, result, over, [columns.inclusions[i] for i in chosen], columns.displacement[:, chosen],
+           f"A of {named(columns.inclusions[chosen[0]])}" if len(chosen) == 1 else "A",
+           result.units.behind("L").strip(), bounds and (bounds[0][:, chosen], bounds[1][:, chosen]))
+    if len(chosen) > 1:
+        _legend(ax)
+    return ax
+
+
+def _legend(ax: Any, **options: Any) -> None:
+    handles, labels = ax.get_legend_handles_labels()
+    order = sorted(range(len(labels)), key=lambda i: -i)  # the first has been drawn last
+    ax.legend([handles[i] for i in order], [labels[i] for i in order], loc="best", fontsize="small", **options)
+
+
+def contact_length(result: Result, ax: Any = None, over: Rows | None = None) -> Any:
+    """Of the cracks of every row, over what `sweep` is drawn over."""
+    ax, columns = axes(ax), columns_of(result)
+    curves(ax, result, over or Rows(columns), [""], columns.contact_length[:, None], "contact length",
+           result.units.behind("L").strip())
+    low, high = ax.get_ylim()
+    if high > 0 and not columns.contact_length[columns.converged].any():
+        ax.set_ylim(0, 1)
+    return ax
+
+
+def slopes(result: Result, part: int, ax: Any = None) -> Any:
+    """Bx (part 0) or By (1) of every inclusion, over what `sweep` is drawn over."""
+    ax, columns = axes(ax), columns_of(result)
+    if columns.slope is None:
+        raise Error("no inclusion of this sweep tilts")
+    curves(ax, result, Rows(columns), columns.inclusions, columns.slope[:, :, part], ("Bx", "By")[part], "")
+    if len(columns.inclusions) > 1:
+        _legend(ax)
+    return ax
+
+
+def _ends(values: Array) -> Array:
+    """Half-way to the neighbours; of one value half a unit around it."""
+    if len(values) == 1:
+        return np.array((values[0] - 0.5, values[0] + 0.5))
+    middles = (values[:-1] + values[1:]) / 2
+    return np.concatenate((2 * values[:1] - middles[:1], middles, 2 * values[-1:] - middles[-1:]))
+
+
+def contact_map(result: Result, interface: int | str, ax: Any = None) -> Any:
+    """Where the cracks of an interface are closed, row by row; of many rows the part of them that is. Raises Error
+    where it has none."""
+    ax, columns = axes(ax), columns_of(result)
+    index = result.interfaces.place(interface) if isinstance(interface, str) else interface
+    over, profile = Rows(columns), Profile(result, result.interfaces[index])
+    here = np.flatnonzero(columns.contact_nodes[:, 0] == index)
+    if not len(here):
+        raise Error(f"{named(profile.line.name)} has no crack")
+    nodes = np.full(len(profile.at), -1)
+    nodes[columns.contact_nodes[here, 1]] = here
+    order = np.argsort(over.at, kind="stable")
+    strips = [strip for strip in np.array_split(order, min(len(order), _STRIPS)) if len(strip)]
+    shades = np.full((len(strips), len(nodes)), np.nan)
+    for i, strip in enumerate(strips):
+        rows = strip[columns.converged[strip]]
+        if len(rows):
+            shades[i, nodes >= 0] = columns.contact[np.ix_(rows, nodes[nodes >= 0])].mean(axis=0)
+    many = len(strips) < len(order)
+    at = over.at[order]
+    borders = _ends(at)[[*np.cumsum([0, *map(len, strips)])]] if many else _ends(at)
+    middles = (profile.at[:-1] + profile.at[1:]) / 2
+    ends = np.concatenate((profile.at[:1], middles, profile.at[-1:]))
+    ax.pcolormesh(ends, borders, shades, vmin=0, vmax=1, rasterized=True,
+                  cmap=LinearSegmentedColormap.from_list("", [_OPEN, _CLOSED]))
+    profile.axis(ax)
+    seen = profile.at[nodes >= 0]
+    if np.ptp(seen) > 0:
+        ax.set_xlim(seen.min(), seen.max())
+    over.axis(ax.yaxis)
+    ax.grid(False)
+    ax.set_title(f"where {named(profile.line.name, 30) if len(result.interfaces) > 1 else 'the crack'} is closed")
+    legend_below(ax, handles=[Patch(color=_OPEN), Patch(color=_CLOSED)],
+                 labels=["open", "closed (pale: in some rows)" if many else "closed"])
+    return ax
