@@ -74,7 +74,7 @@ class Session {
   void notice(const std::string& message);
 
   Globals _globals;
-  Signals _signals;                   // first: all threads inherit its mask
+  Signals _signals;  // first: all threads inherit its mask
   std::optional<LocalServer> _local;
   std::optional<client::Connection> _connection;
   std::mutex _mutex;  ///< of the two below: calls are made on several threads

@@ -58,7 +58,8 @@ void add_span(const std::string& name, const std::string& unit, const SweepSumma
 void add_inclusions(const results::Sweep& sweep, const SweepSummary& counts,
                     const results::Units& units, Rows& rows) {
   for (std::size_t i = 0; i < sweep.inclusions.size(); ++i) {
-    add_span(name_of("A", sweep, i), sanitise(units.label("L")), counts.displacement_bounds[i], rows);
+    add_span(name_of("A", sweep, i), sanitise(units.label("L")), counts.displacement_bounds[i],
+             rows);
     for (std::size_t part = 0; part < slope_parts.size() && counts.tilted(i); ++part)
       add_span(name_of(slope_parts[part], sweep, i), "", counts.slope[i][part], rows);
   }
@@ -86,7 +87,8 @@ void add_extremes(const results::Sweep& sweep, const SweepSummary& counts,
                     end_of(range_of(least).low, -1), sanitise(sweep.inclusions[least]),
                     end_of(range_of(most).high, 1), sanitise(sweep.inclusions[most])});
   };
-  add_one("A", sanitise(units.label("L")), [&](std::size_t i) { return counts.displacement_bounds[i]; });
+  add_one("A", sanitise(units.label("L")),
+          [&](std::size_t i) { return counts.displacement_bounds[i]; });
   for (std::size_t part = 0; part < slope_parts.size() && counts.tilted(); ++part)
     add_one(slope_parts[part], "", [&](std::size_t i) { return counts.slope[i][part]; });
 }

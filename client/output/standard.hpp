@@ -12,8 +12,8 @@ namespace anticrack::output {
 
 /// To be called before anything else is opened. A standard stream that is closed is put in place as
 /// one that cannot be used, lest the next file that is opened be taken for it. A file too large for
-/// the limit of this process (ulimit -f) is an error of the write and not a signal; the ends of child
-/// processes can be waited for, whatever the parent of this one chose.
+/// the limit of this process (ulimit -f) is an error of the write and not a signal; the ends of
+/// child processes can be waited for, whatever the parent of this one chose.
 void prepare_process() noexcept;
 
 /// Writes all of it and flushes; nothing once a write has failed. Thread-safe.

@@ -14,8 +14,8 @@ Jet exactly(double value) { return constant_jet({value, value}); }
 }  // namespace
 
 bool Enclosure::slopes(const Jet& a) const noexcept {
-  return a.order >= 1 && ((_x.low < _x.high && !a.of[1].holds(0)) ||
-                          (_y.low < _y.high && !a.of[2].holds(0)));
+  return a.order >= 1 &&
+         ((_x.low < _x.high && !a.of[1].holds(0)) || (_y.low < _y.high && !a.of[2].holds(0)));
 }
 
 Enclosure::Truth Enclosure::truth(const Jet& a) const noexcept {

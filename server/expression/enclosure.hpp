@@ -61,8 +61,8 @@ class Enclosure {
 
  private:
   Jet apply(Ref number, const Operation& operation);
-  /// Whether it is not constant on any line along a side of the box: then it has any given value on a
-  /// set without area, or without length where the box is a line.
+  /// Whether it is not constant on any line along a side of the box: then it has any given value on
+  /// a set without area, or without length where the box is a line.
   bool slopes(const Jet& a) const noexcept;
   /// Whether an operand counts as true. What is 0 on a set without area does.
   enum class Truth { no, yes, unknown };

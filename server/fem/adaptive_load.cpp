@@ -309,8 +309,8 @@ class LoadIntegrator {
 IntegrationReport integrate_load(std::span<const double> xy,
                                  std::span<const std::int32_t> triangles,
                                  const expression::Function& f, std::span<double> load,
-                                 const IntegrationLimits& limits,
-                                 ForceParts* parts, std::vector<Spread>* spread) {
+                                 const IntegrationLimits& limits, ForceParts* parts,
+                                 std::vector<Spread>* spread) {
   std::fill(load.begin(), load.end(), 0.0);
   Sampler sampler(f);
   ForceParts own;

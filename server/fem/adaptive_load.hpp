@@ -68,8 +68,7 @@ struct IntegrationReport {
 IntegrationReport integrate_load(std::span<const double> xy,
                                  std::span<const std::int32_t> triangles,
                                  const expression::Function& f, std::span<double> load,
-                                 const IntegrationLimits& limits = {},
-                                 ForceParts* parts = nullptr,
+                                 const IntegrationLimits& limits = {}, ForceParts* parts = nullptr,
                                  std::vector<Spread>* spread = nullptr);
 
 }  // namespace anticrack::fem

@@ -471,8 +471,7 @@ class Cutter::Work {
   std::vector<Cell> _done;
 };
 
-Cutter::Cutter(Integration& integration)
-    : _work(std::make_unique<Work>(integration)) {}
+Cutter::Cutter(Integration& integration) : _work(std::make_unique<Work>(integration)) {}
 Cutter::~Cutter() = default;
 
 bool Cutter::needed() const noexcept { return _work->needed(); }

@@ -55,10 +55,7 @@ class Direction {
  public:
   Direction(const Triangulation& part, const std::string& text, std::string field,
             const std::string& region)
-      : _part(part),
-        _function(text, field),
-        _field(std::move(field)),
-        _region(region) {
+      : _part(part), _function(text, field), _field(std::move(field)), _region(region) {
     const expression::Tape& tape = _function.tape();
     if (tape.degree(tape.result()) == 0) {
       const Frame frame = frame_of(part.xy, part.triangles, 0);

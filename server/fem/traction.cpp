@@ -179,9 +179,8 @@ TractionReport add_traction(const Triangulation& part,
   if (parts == nullptr) parts = &own;
   TractionReport report;
   report.relative_error_estimate = EdgeIntegrator(part, edges, function)(load, *parts);
-  report.proof =
-      prove_traction(part, edges, function, *parts,
-                     {load.data(), static_cast<std::size_t>(load.size())}, most_work);
+  report.proof = prove_traction(part, edges, function, *parts,
+                                {load.data(), static_cast<std::size_t>(load.size())}, most_work);
   return report;
 }
 

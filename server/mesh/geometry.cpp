@@ -232,7 +232,8 @@ Plan plan(const Geometry& given, const MeshOptions& options, std::size_t max_tri
   Drawn geometry = draw(given);
   Network network = lay_lines(geometry, options, curve_limit);
   Plan plan;
-  if (snap_ends(network, geometry, plan.warnings)) network = lay_lines(geometry, options, curve_limit);
+  if (snap_ends(network, geometry, plan.warnings))
+    network = lay_lines(geometry, options, curve_limit);
   const std::vector<std::string> names = check_names(geometry);
   const double area = area_of(network);
   const double across = diagonal(outer_polygon(network));

@@ -133,9 +133,9 @@ void MeshOperator::estimate(std::span<Estimate> all) const {
       }
       answer.no_bracket = obstacle_of(material.u, cut.shapes.largest_tension);
       if (!answer.no_bracket.empty()) continue;
-      BalancedLoad of_load =
-          data.balanced ? *data.balanced
-                        : balanced(load.parts, _parts->decomposition.subdomains, cut);
+      BalancedLoad of_load = data.balanced
+                                 ? *data.balanced
+                                 : balanced(load.parts, _parts->decomposition.subdomains, cut);
       answer.no_bracket = of_load.obstacle;
       if (!answer.no_bracket.empty()) continue;
       if (!of_load.boundary.empty())

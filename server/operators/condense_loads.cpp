@@ -90,8 +90,7 @@ std::string no_proof(const Integrated& one) {
 class Block {
  public:
   Block(std::span<const fem::Load* const> loads, const mesh::Mesh& mesh,
-        const ddm::Decomposition& decomposition, const ddm::NeumannBoundary& neumann,
-        bool parts)
+        const ddm::Decomposition& decomposition, const ddm::NeumannBoundary& neumann, bool parts)
       : _loads(loads),
         _decomposition(decomposition),
         _neumann(neumann),
@@ -293,8 +292,7 @@ std::vector<CondensedOutcome> condense_loads(std::span<const fem::Load* const> l
                                              const mesh::Mesh& mesh,
                                              const ddm::Decomposition& decomposition,
                                              const Condense& condense,
-                                             const ddm::NeumannBoundary& neumann,
-                                             bool parts) {
+                                             const ddm::NeumannBoundary& neumann, bool parts) {
   const auto at_once = at(ddm::columns_at_once(most_nodes(decomposition)));
   std::vector<CondensedOutcome> result;
   result.reserve(loads.size());

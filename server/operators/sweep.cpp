@@ -105,13 +105,11 @@ std::shared_ptr<const LoadBasis> MeshOperator::basis(std::span<const fem::Load* 
   const stop::Scope scope(stop);
   require_memory(loads.size(), _parts->decomposition, bounds);
   const auto make = [&]() -> BasisCache::Basis {
-    std::vector<LoadOnTraces> condensed =
-        sound(condense_loads(loads, *_parts->mesh, _parts->decomposition, _parts->condense(),
-                             _parts->neumann, bounds));
+    std::vector<LoadOnTraces> condensed = sound(condense_loads(
+        loads, *_parts->mesh, _parts->decomposition, _parts->condense(), _parts->neumann, bounds));
     std::vector<BalancedLoad> of_bounds;
     if (bounds)
-      of_bounds =
-          balanced(loads, condensed, _parts->decomposition.subdomains, _parts->cut_mesh());
+      of_bounds = balanced(loads, condensed, _parts->decomposition.subdomains, _parts->cut_mesh());
     return std::make_shared<const CondensedBasis>(
         basis_of(std::move(condensed), std::move(of_bounds), *_parts));
   };

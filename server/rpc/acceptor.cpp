@@ -32,8 +32,8 @@ constexpr auto breath = 100ms;
 /// A peer that does not acknowledge what was sent is gone after this.
 constexpr unsigned unacknowledged_ms = 10'000;
 
-/// What gRPC complains of goes to the log, but for connections that are reset before it looks at them:
-/// strangers could fill the log with those.
+/// What gRPC complains of goes to the log, but for connections that are reset before it looks at
+/// them: strangers could fill the log with those.
 void complain(gpr_log_func_args* said) {
   if (std::strstr(said->message, "getpeername") == nullptr)
     log::error("grpc", {{"message", said->message}});

@@ -228,8 +228,8 @@ TEST(Stop, EndsTheWorkSoon) {
       stop.request_stop();
     });
     const stop::Scope scope(stop.get_token());
-    EXPECT_TRUE(throws([&] { integrate(mesh, f, load, {.work = 1e14}); },
-                       errors::Reason::cancelled))
+    EXPECT_TRUE(
+        throws([&] { integrate(mesh, f, load, {.work = 1e14}); }, errors::Reason::cancelled))
         << f;
   }
 }

@@ -21,7 +21,6 @@
 namespace anticrack::testing {
 namespace {
 
-
 std::string text(double value) {
   char digits[40];
   std::snprintf(digits, sizeof digits, "(%.17g)", value);
@@ -60,8 +59,8 @@ class RandomShapes {
         return where("abs" + dx + " < " + text(r), 4 * r);
       case 5: {  // a spike
         if (r > 0.05) return next();
-        return {text(rest) + "+" + text(force / (std::numbers::pi * r * r)) + "*exp(-" + squared + "/" +
-                    text(r * r) + ")",
+        return {text(rest) + "+" + text(force / (std::numbers::pi * r * r)) + "*exp(-" + squared +
+                    "/" + text(r * r) + ")",
                 force + 4 * rest};
       }
       case 6:  // nested
@@ -69,8 +68,8 @@ class RandomShapes {
                          text(r) + " && " + dx + " > -" + text(r) + ")",
                      std::numbers::pi * r * r / 2 + 2 * r * r);
       default:  // a cone, and its foot
-        return {text(rest) + "+" + text(3 * force / (std::numbers::pi * r * r)) + "*max(0, 1-sqrt(" + squared +
-                    ")/" + text(r) + ")",
+        return {text(rest) + "+" + text(3 * force / (std::numbers::pi * r * r)) +
+                    "*max(0, 1-sqrt(" + squared + ")/" + text(r) + ")",
                 force + 4 * rest};
     }
   }
@@ -119,9 +118,9 @@ TEST(LoadProof, TheEffectOfASmallDiscIsBoundedByALogarithm) {
   const PlaneMesh mesh = square_mesh(9, 0, 5);
   double before = 0;
   for (const double r : {1e-2, 1e-3, 1e-4, 1e-5}) {
-    const Known disc{
-        "(x-0.213457)^2+(y-0.412345)^2 < " + text(r * r) + " ? " + text(1 / (std::numbers::pi * r * r)) + " : 0",
-        1};
+    const Known disc{"(x-0.213457)^2+(y-0.412345)^2 < " + text(r * r) + " ? " +
+                         text(1 / (std::numbers::pi * r * r)) + " : 0",
+                     1};
     std::vector<double> load(mesh.node_count());
     fem::ForceParts parts;
     fem::integrate_load(mesh.xy, mesh.triangles, expression::Function(disc.f, "f"), load,

@@ -196,11 +196,7 @@ TEST(Tension, IsRefusedWithThePointWhereItIsNotAboveZero) {
   std::stop_source stop;
   stop.request_stop();
   const stop::Scope scope(stop.get_token());
-  expect_error(
-      [&] {
-        tension(part, {"1 + x", "", 0}, "top");
-      },
-      errors::Reason::cancelled, "", "");
+  expect_error([&] { tension(part, {"1 + x", "", 0}, "top"); }, errors::Reason::cancelled, "", "");
 }
 
 }  // namespace

@@ -129,8 +129,7 @@ TEST(FreefemFile, SaysWhatIsWrong) {
               "Tetrahedra are not read"},
         Wrong{"MeshVersionFormatted 2\nDimension 7\n", "7 dimensions"},
         Wrong{"MeshVersionFormatted 2\nDimension 2\nEnd\n", "no triangle"}}) {
-    const auto error =
-        testing::error_of([&, text = file] { mesher::import_msh(text, {}, many); });
+    const auto error = testing::error_of([&, text = file] { mesher::import_msh(text, {}, many); });
     ASSERT_TRUE(error) << file;
     EXPECT_EQ(error->reason(), errors::Reason::mesh_invalid);
     EXPECT_THAT(error->what(), HasSubstr(says));

@@ -162,7 +162,7 @@ TEST_F(Output, IsStandardOutputByEachOfItsNames) {
   ASSERT_EQ(dup2(number, STDOUT_FILENO), STDOUT_FILENO);
   fs::create_symlink("/dev/stdout", _folder / "link");
   for (const fs::path& path : {fs::path("-"), fs::path("/dev/stdout"), fs::path("/proc/self/fd/1"),
-                              _folder / "link", file}) {
+                               _folder / "link", file}) {
     check_writable(path);
     EXPECT_TRUE(target_of(path).is_standard_output()) << path;
     write_file(path, "x");
