@@ -162,8 +162,9 @@ void add_plot(CLI::App& app, const Globals& globals, Command& chosen) {
                    "By how much u is amplified in the membrane, the same in all figures")
       ->type_name("FACTOR");
   command
-      ->add_option("--limits", options->limits,
-                   "Of the colours of u in the membrane, the same in all figures")
+      ->add_option(
+          "--limits", options->limits,
+          "Of the colours of u in the membrane, the same in all figures, as --limits=-0.1,0.4")
       ->type_name("LOW,HIGH");
   command->footer(
       "Of every load: LOAD-membrane, LOAD-plan (from above, u and the flux), LOAD-traces (u-, u+\n"
