@@ -93,7 +93,7 @@ TEST(LoadProof, HoldsTheIntegralsOfRandomShapesOfAnySize) {
     fem::ForceParts parts;
     const auto report =
         fem::integrate_load(mesh.xy, mesh.triangles, expression::Function(known.f, "f"), load,
-                            fem::limits_of(1e-5, mesh.triangle_count()), {}, &parts);
+                            fem::limits_of(1e-5, mesh.triangle_count()), &parts);
     const double found = std::accumulate(load.begin(), load.end(), 0.0);
     ASSERT_LE(std::abs(found - known.integral), report.proof.unknown + 1e-9 * report.proof.absolute)
         << i << ": " << known.f;
@@ -124,7 +124,7 @@ TEST(LoadProof, TheEffectOfASmallDiscIsBoundedByALogarithm) {
     std::vector<double> load(mesh.node_count());
     fem::ForceParts parts;
     fem::integrate_load(mesh.xy, mesh.triangles, expression::Function(disc.f, "f"), load,
-                        fem::limits_of(1e-5, mesh.triangle_count()), {}, &parts);
+                        fem::limits_of(1e-5, mesh.triangle_count()), &parts);
     double squared = 0;
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
       const auto p = corners(mesh, t);
@@ -162,7 +162,7 @@ TEST(LoadProof, CostsAFewBoxesWhereTheForceIsSmooth) {
   fem::ForceParts parts;
   const auto report = fem::integrate_load(mesh.xy, mesh.triangles,
                                           expression::Function("2 + sin(2*x)*cos(3*y)", "f"), load,
-                                          fem::limits_of(1e-5, mesh.triangle_count()), {}, &parts);
+                                          fem::limits_of(1e-5, mesh.triangle_count()), &parts);
   EXPECT_LE(report.proof.relative(), fem::proof_tolerance(mesh.triangle_count()));
   EXPECT_LE(report.proof.boxes, mesh.triangle_count() / 20);
 }
