@@ -143,7 +143,7 @@ WRONG = {
     "far too large": (lambda v: objects(v, 10**400), "larger than any of float64"),
     "None": (lambda v: objects(v, None), r"None at \[(2|1, 0)\] \(NoneType\)"),
     "missing": (lambda v: pandas.DataFrame(masked(v, 2)).astype("Float64") if v.ndim == 2 else
-                pandas.Series(objects(v, None), dtype="Float64"), r"<NA> at "),
+                pandas.Series(objects(v, None), dtype="Float64"), r"(<NA>|nan) at "),
     "decimals": (lambda v: objects(v, decimal.Decimal(1)), r"Decimal\('1'\) at "),
     "a truth in it": (lambda v: objects(v, True), r"True at "),
     "lists of several lengths": (lambda v: [[1, 2], [3]], "not all of one length"),
