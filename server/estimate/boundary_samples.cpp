@@ -27,18 +27,28 @@ double farthest(const expression::Interval& from, double value) {
   return std::max(std::abs(from.low - value), std::abs(from.high - value));
 }
 
-/// g as a function of t = -1/2 ... 1/2 on a line, beside the polynomial p through its samples.
+/// Half an edge, from one of its nodes.
+struct Half {
+  Vector node, along;
+  bool from_node;  ///< else it ends there
+};
+
+/// g as a function of t = -1/2 ... 1/2 on half an edge, beside the polynomial p through its
+/// samples.
 class Line {
  public:
-  Line(Enclosure& g, const Vector& start, const Vector& along, const EdgePolynomial& p)
+  Line(Enclosure& g, double in_node, const Half& half, const EdgePolynomial& p)
       : _g(g),
-        _middle{start[0] + 0.5 * along[0], start[1] + 0.5 * along[1]},
-        _along(along),
+        _in_node(in_node),
+        _node(half.node),
+        _along(half.along),
+        _at_node(half.from_node ? -0.5 : 0.5),
         _p(p) {}
 
   /// >= int (g' - p')^2 dt. Pieces are halved where it may be greatest, until it is small beside
-  /// that of p and its chord.
+  /// that of p and its chord. Infinite where g is not proved to be continuous, also in the node.
   double missed() const {
+    if (!meets_node()) return infinite;
     const double chord = _p(0.5) - _p(-0.5);
     double bend = 0, size = 0;
     for (const double t : {-0.5, -0.25, 0.0, 0.25, 0.5}) {
@@ -70,10 +80,25 @@ class Line {
     bool operator<(const Piece& other) const { return missed < other.missed; }
   };
 
+  /// Ends are rounded outwards, so that a jump in the end of a piece lies in two pieces, but not in
+  /// the node: what begins there is on one side of it.
   expression::Interval box(std::size_t d, double from, double to) const {
-    const double a = _middle[d] + from * _along[d], b = _middle[d] + to * _along[d];
-    return _along[d] == 0 ? expression::Interval{a, a}
-                          : expression::outward(std::min(a, b), std::max(a, b));
+    const auto place = [&](double t) { return _node[d] + (t - _at_node) * _along[d]; };
+    const double a = place(from), b = place(to);
+    if (_along[d] == 0) return {a, a};
+    expression::Interval result = expression::outward(std::min(a, b), std::max(a, b));
+    if (from == _at_node || to == _at_node)
+      (_node[d] < place(-_at_node) ? result.low : result.high) = _node[d];
+    return result;
+  }
+  /// Whether what g tends to in the node is its value there, which u_h has.
+  bool meets_node() const {
+    constexpr double near = 1e-9, rounding = 1e-12;
+    const double to = _at_node * (1 - near);
+    const Jet jet = enclose(std::min(_at_node, to), std::max(_at_node, to), 1);
+    const double off = rounding * jet.value().magnitude();
+    return jet.order >= 1 && jet.value().low - off <= _in_node &&
+           _in_node <= jet.value().high + off;
   }
   Jet enclose(double from, double to, int order) const {
     return _g(box(0, from, to), box(1, from, to), order);
@@ -123,7 +148,9 @@ class Line {
   }
 
   Enclosure& _g;
-  Vector _middle, _along;
+  const double _in_node;  // g there
+  const Vector _node, _along;
+  const double _at_node;
   const EdgePolynomial& _p;
 };
 
@@ -139,19 +166,18 @@ std::array<std::size_t, 3> corners_of(const Face& face) {
 }
 
 BoundarySamples boundary_samples(const CutMesh& cut, const std::string& text) {
-  std::vector<std::array<Vector, 2>> lines;  // start and way along, of each half
+  std::vector<Half> lines;
   std::vector<double> xy;
   for (const Face& face : cut.faces) {
     if (!has_boundary_value(face)) continue;
     const auto corners = corners_of(face);
     const Vector &p = cut.at[at(cut.copy[corners[0]])], &q = cut.at[at(cut.copy[corners[1]])];
-    for (std::size_t half = 0; half < BoundarySamples::halves; ++half) {
-      const Vector along{(q[0] - p[0]) / BoundarySamples::halves,
-                         (q[1] - p[1]) / BoundarySamples::halves};
-      const auto before = static_cast<double>(half);
-      lines.push_back({Vector{p[0] + before * along[0], p[1] + before * along[1]}, along});
+    const Vector along{0.5 * (q[0] - p[0]), 0.5 * (q[1] - p[1])};
+    for (const bool first : {true, false}) {
+      lines.push_back({first ? p : q, along, first});
       for (const double t : fem::line_5.at)
-        for (std::size_t d = 0; d < 2; ++d) xy.push_back(lines.back()[0][d] + t * along[d]);
+        for (std::size_t d = 0; d < 2; ++d)
+          xy.push_back(first ? p[d] + t * along[d] : q[d] - (1 - t) * along[d]);
     }
   }
   BoundarySamples result{fem::values_at(xy, text, field), {}};
@@ -161,7 +187,8 @@ BoundarySamples boundary_samples(const CutMesh& cut, const std::string& text) {
   for (std::size_t i = 0; i < lines.size(); ++i) {
     stop::look_at_turn<64>(i, "lifting the boundary");
     std::copy_n(&result.values[i * values.size()], values.size(), values.begin());
-    const double missed = Line(g, lines[i][0], lines[i][1], EdgePolynomial(values)).missed();
+    const double in_node = function(lines[i].node[0], lines[i].node[1]);
+    const double missed = Line(g, in_node, lines[i], EdgePolynomial(values)).missed();
     if (i % BoundarySamples::halves == 0) result.unknown.push_back(0);
     // The derivative by s is twice that by t; dt is twice ds.
     result.unknown.back() += BoundarySamples::halves * missed;

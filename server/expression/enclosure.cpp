@@ -156,6 +156,10 @@ Jet Enclosure::quadrant(Ref number, const Jet& y, const Jet& x) {
   if (x.value().low > 0) return turned(y, x, {});
   if (y.value().low > 0) return -turned(x, y, -half);
   if (y.value().high < 0) return -turned(x, y, half);
+  if (x.value().high < 0 && slopes(y)) {  // y is 0, perhaps -0, on a set without area at most
+    if (y.value().low >= 0) return turned(y, x, whole);
+    if (y.value().high <= 0) return turned(y, x, -whole);
+  }
   if (x.value().high < 0) return two_ways(number, turned(y, x, -whole), turned(y, x, whole), false);
   return undecided(number, {-whole.high, whole.high});
 }

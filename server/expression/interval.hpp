@@ -45,7 +45,11 @@ inline Interval operator-(const Interval& a) { return {-a.high, -a.low}; }
 inline Interval operator+(const Interval& a, const Interval& b) {
   if (a.is(0)) return b;
   if (b.is(0)) return a;
-  return outward(a.low + b.low, a.high + b.high);
+  const double low = a.low + b.low, high = a.high + b.high;
+  Interval result = outward(low, high);
+  if (low == 0) result.low = 0;  // a sum that rounds to 0 is 0
+  if (high == 0) result.high = 0;
+  return result;
 }
 inline Interval operator-(const Interval& a, const Interval& b) { return a + -b; }
 inline Interval operator*(const Interval& a, const Interval& b) {

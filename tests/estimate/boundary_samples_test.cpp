@@ -105,12 +105,17 @@ TEST(BoundarySamples, KnowAlmostAllOfWhatIsSmoothOrHasItsKinksInNodes) {
   for (const char* text :
        {"sin(x)*exp(y/4)", "x^2 - x*y", "abs(x - 1)", "max(x, 3)*y", "min(y, 2.5)"})
     for (const double one : boundary_samples(cut, text).unknown) EXPECT_LT(one, 4e-3) << text;
-  for (const char* text : {"sqrt(x)", "x > 1.3 ? 1 : 0", "sqrt(abs(x - 0.3))"}) {
-    bool known = true;
-    for (const double one : boundary_samples(cut, text).unknown)
-      known = known && std::isfinite(one);
-    EXPECT_FALSE(known) << text;
-  }
+  const auto known = [&](const char* text) {
+    return std::ranges::all_of(boundary_samples(cut, text).unknown,
+                               [](double one) { return std::isfinite(one); });
+  };
+  for (const char* text :
+       {"sqrt(x)", "x > 1.3 ? 1 : 0", "sqrt(abs(x - 0.3))", "x > 2 ? 1 : 0", "y >= 2 ? 1 : 0",
+        "x == 2 ? 1 : 0", "x > 1.5 ? 1 : 0", "x >= 1.25 ? 1 : 0", "atan2(y - 2, x - 2)"})
+    EXPECT_FALSE(known(text)) << text;
+  // Both angles jump where the edges meet at (0, 2), and the sine of their mean does not.
+  EXPECT_TRUE(known("sin(0.5*atan2(y - 2, x - 1) + 0.5*atan2(y - 2, x - 3))"));
+  EXPECT_TRUE(known("x >= 2 ? x - 2 : 2 - x"));
 }
 
 /// Lowest and highest energy, if there are bounds.
