@@ -2,8 +2,6 @@
 #include "cli/external.hpp"
 
 #include <fcntl.h>
-#include <signal.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -17,6 +15,7 @@
 #include "cli/exit_codes.hpp"
 #include "cli/find_program.hpp"
 #include "cli/json.hpp"
+#include "cli/spawn.hpp"
 #include "output/write_all.hpp"
 
 namespace anticrack::cli {
@@ -70,13 +69,6 @@ std::string read_all(int descriptor) {
   }
 }
 
-std::vector<char*> pointers_to(std::vector<std::string>& words) {
-  std::vector<char*> pointers;
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-  return pointers;
-}
-
 std::string interpreter() {
   if (const char* given = std::getenv("ANTICRACK_PYTHON"); given != nullptr && *given != '\0')
     return given;
@@ -105,24 +97,10 @@ std::vector<std::string> environment() {
 }
 
 pid_t start(std::vector<std::string> words, int in, int out) {
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, in, STDIN_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, out, STDOUT_FILENO);
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  sigset_t none, all;
-  sigemptyset(&none);
-  sigfillset(&all);
-  posix_spawnattr_setsigmask(&attributes, &none);
-  posix_spawnattr_setsigdefault(&attributes, &all);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
   std::vector<std::string> variables = environment();
-  pid_t process = -1;
-  const int error = posix_spawn(&process, words[0].c_str(), &actions, &attributes,
-                                pointers_to(words).data(), pointers_to(variables).data());
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&actions);
+  int error = 0;
+  const int descriptors[] = {in, out};
+  const pid_t process = spawn(words, descriptors, pointers_to(variables).data(), 0, error);
   if (error != 0)
     throw FiguresError("cannot start " + words[0] + ": " + std::generic_category().message(error));
   return process;

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "cli/find_program.hpp"
+#include "cli/spawn.hpp"
 #include "cli/text.hpp"
 #include "client/error.hpp"
 
@@ -45,31 +46,12 @@ void close_once(int& descriptor) noexcept {
 
 /// Starts it with default signals, in a session of its own: Ctrl-C and the end of the terminal are
 /// for the client, with which it ends.
-pid_t spawn(const fs::path& program, int in, int out, int err) {
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, in, STDIN_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, out, STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, err, STDERR_FILENO);
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  sigset_t none, all;
-  sigemptyset(&none);
-  sigfillset(&all);
-  posix_spawnattr_setsigmask(&attributes, &none);
-  posix_spawnattr_setsigdefault(&attributes, &all);
-  posix_spawnattr_setflags(&attributes,
-                           POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSID);
-  std::string name = program;
-  std::array<std::string, 3> flags{"--private", "--log-level", "warn"};
-  const std::array<char*, 5> arguments{name.data(), flags[0].data(), flags[1].data(),
-                                       flags[2].data(), nullptr};
-  pid_t process = -1;
-  const int error =
-      posix_spawn(&process, name.c_str(), &actions, &attributes, arguments.data(), environ);
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) fail("cannot start " + name, error);
+pid_t start_server(const fs::path& program, int in, int out, int err) {
+  int error = 0;
+  const int descriptors[] = {in, out, err};
+  const pid_t process = spawn({program.string(), "--private", "--log-level", "warn"}, descriptors,
+                              environ, POSIX_SPAWN_SETSID, error);
+  if (error != 0) fail("cannot start " + program.string(), error);
   return process;
 }
 
@@ -129,7 +111,7 @@ void LocalServer::start(const fs::path& program) {
     _log = memfd_create("anticrackd-log", MFD_CLOEXEC);
     if (_log < 0) fail("cannot make a file in memory", errno);
     fcntl(_log, F_SETFL, O_APPEND);
-    _process = spawn(program, in[0], out[1], _log);
+    _process = start_server(program, in[0], out[1], _log);
   } catch (...) {
     close_once(in[0]);
     close_once(out[1]);
