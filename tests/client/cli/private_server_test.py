@@ -76,8 +76,7 @@ class PrivateServer(FolderTest):
 
     def test_that_dies_ends_the_command_with_the_reason(self):
         for number, name in ((signal.SIGKILL, r"signal 9 \(Killed\), perhaps because memory ran out"),
-                             (signal.SIGSEGV, r"signal 11 \(Segmentation fault\)"),
-                             (signal.SIGABRT, r"signal 6")):
+                             (signal.SIGABRT, r"signal 6 \(Aborted\)")):  # none that AddressSanitizer takes
             client, server = self.start("run", "long.toml", "-o", "r.h5")
             os.kill(server, number)
             output, error = client.communicate()
