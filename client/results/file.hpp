@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The result file, HDF5, format "anticrack-result/1": client/RESULT.md lists its contents, from
+// The result file, HDF5, format "anticrack-result/2": client/RESULT.md lists its contents, from
 // tables.hpp. Every dataset has the attribute `units`, some have a `meaning`. Numbers are float64,
 // int32 and uint8, little-endian; text is variable-length UTF-8. Readable with HDF5 1.10 or later.
 #pragma once
@@ -16,7 +16,7 @@
 
 namespace anticrack::results {
 
-inline constexpr std::string_view format = "anticrack-result/1";
+inline constexpr std::string_view format = "anticrack-result/2";
 
 /// The arrays of a mesh as HDF5 keeps them, compressed, by the name of the dataset; small arrays
 /// are left out.

@@ -71,7 +71,7 @@ def _put_attributes(group: Any, record: Any, names: list[str]) -> None:
 
 def _put_result(file: Any, result: Result) -> None:
     from . import __version__
-    file.attrs.update({"format": "anticrack-result/1", "client_version": __version__, "mesh": result.mesh_name,
+    file.attrs.update({"format": "anticrack-result/2", "client_version": __version__, "mesh": result.mesh_name,
                        "unit_length": result.units.length, "unit_force": result.units.force})
     _put_attributes(file, result, ["title", "case", "server_version", "job", "mesh_sha256", "not_reached", *(
         name + "_seconds" for name in ("mesh", "factorize", "solve", "total"))])

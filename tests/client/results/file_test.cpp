@@ -187,22 +187,6 @@ TEST(File, keeps_how_inclusions_tilt) {
   expect_same(read(folder / "a.h5"), result);
 }
 
-TEST(File, from_before_inclusions_tilted_has_none_that_does) {
-  const TemporaryFolder folder;
-  Result result = sample_result(2);
-  write(folder / "a.h5", result);
-  const hid_t file = H5Fopen((folder / "a.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
-  for (Load& load : result.loads) {
-    for (const char* column : {"Bx", "By", "Mx", "My"}) {
-      const std::string path = "/loads/" + load.name + "/inclusions/" + column;
-      ASSERT_GE(H5Ldelete(file, path.c_str(), H5P_DEFAULT), 0) << path;
-    }
-    load.inclusions[0].moment_x = load.inclusions[0].moment_y = 0;
-  }
-  H5Fclose(file);
-  expect_same(read(folder / "a.h5"), result);
-}
-
 TEST(File, keeps_stages_and_indicators) {
   const TemporaryFolder folder;
   Result result = with_stages(sample_result(40));
@@ -211,21 +195,6 @@ TEST(File, keeps_stages_and_indicators) {
   result.loads[0].stages.triangles.back() = std::int64_t{1} << 40;
   write(folder / "a.h5", result);
   expect_same(read(folder / "a.h5"), result);
-}
-
-TEST(File, from_before_jobs_had_an_accuracy_has_no_stages) {
-  const TemporaryFolder folder;
-  write(folder / "a.h5", with_stages(sample_result(2)));
-  const hid_t file = H5Fopen((folder / "a.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
-  ASSERT_GE(H5Adelete(file, "not_reached"), 0);
-  for (const char* load : {"opening", "partly closed"}) {
-    for (const char* name : {"/stages", "/indicator"}) {
-      const std::string path = std::string("/loads/") + load + name;
-      ASSERT_GE(H5Ldelete(file, path.c_str(), H5P_DEFAULT), 0) << path;
-    }
-  }
-  H5Fclose(file);
-  expect_same(read(folder / "a.h5"), sample_result(2));
 }
 
 TEST(File, keeps_unknown_numbers_as_nan) {
