@@ -42,7 +42,7 @@ void put_row(const Handle& group, const Units& units, const Row& row, const std:
              std::size_t columns) {
   const Handle dataset =
       put_array(group, std::string(row.name), value_type<T>, values.data(), values.size(),
-                {columns, arrays::depth_of(row.shape)}, {}, units.of(row.unit));
+                {columns, arrays::depth_of(row.shape)}, units.of(row.unit));
   if (row.explained) put(dataset, "meaning", std::string(row.what));
 }
 

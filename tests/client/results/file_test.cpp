@@ -88,31 +88,6 @@ void expect_same(const Result& a_result, const Result& b_result) {
   EXPECT_TRUE(a == b);
 }
 
-TEST(File, is_the_same_with_a_mesh_that_was_compressed_before) {
-  const TemporaryFolder folder;
-  // None, less than a chunk, a chunk, and more than HDF5's cache of chunks holds.
-  for (const std::size_t triangles : {1, 1'000, 21'845, 21'846, 70'000, 200'000}) {
-    Result result = sample_result();
-    for (Load& load : result.loads) load.fields.clear();
-    Mesh& mesh = result.mesh;
-    const std::vector<std::int32_t> sample = mesh.triangles;
-    const std::int32_t subdomain = mesh.subdomain.front();
-    mesh.subdomain.resize(triangles, subdomain);
-    mesh.triangles.resize(3 * triangles);
-    for (std::size_t i = sample.size(); i < mesh.triangles.size(); ++i) {
-      mesh.triangles[i] = sample[i % 3];
-    }
-    for (std::size_t i = mesh.node_count(); i < triangles / 2; ++i) {
-      mesh.xy.insert(mesh.xy.end(),
-                     {std::sin(static_cast<double>(i)), 1. / static_cast<double>(i)});
-    }
-    write(folder / "plain.h5", result);
-    write(folder / "ahead.h5", result, compress(mesh));
-    EXPECT_TRUE(bytes_of(folder / "plain.h5") == bytes_of(folder / "ahead.h5")) << triangles;
-    expect_same(read(folder / "ahead.h5"), result);
-  }
-}
-
 TEST(File, comes_back_as_it_was_written) {
   const TemporaryFolder folder;
   const Result result = sample_result(40);  // large enough for compressed datasets
