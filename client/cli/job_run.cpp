@@ -149,8 +149,7 @@ std::optional<results::Result> results_of(Session& session, const casefile::Case
   return result;
 }
 
-void save(const fs::path& file, const results::Result& result, const Session& session,
-          const Followed& followed) {
+void save(const fs::path& file, const results::Result& result, const Session& session) {
   try {
     const std::string kept = results::write(file, result);
     if (!kept.empty()) say(session.globals(), kept);
