@@ -38,10 +38,10 @@ struct EngineOptions {
   int max_crashes = 3;  ///< a job during whose runs the server crashed so often fails; 0: never
   std::chrono::milliseconds ageing{30'000};  ///< waiting this long is worth one class of priority
   /// What a solver thread gives one mesh before it looks at the others.
-  std::chrono::milliseconds turn{50};
+  std::chrono::milliseconds turn{20};
   /// Where every solver thread has been at one step for so long (loads with expressions that take
   /// long to integrate, the bounds on a large mesh), another thread serves those who have none.
-  std::chrono::milliseconds long_step{100};
+  std::chrono::milliseconds long_step{10};
   std::size_t event_log_bytes = 16u << 20;  ///< a job
   /// Traces, fields and history of one job; load cases that would come after it is reached fail. A
   /// sweep whose answers would be larger fails at its start.

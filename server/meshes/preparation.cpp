@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "access/give_way.hpp"
 #include "meshes/mesh_index.hpp"
 #include "meshes/size_class.hpp"
 #include "meshes/triangulation.hpp"
@@ -226,6 +227,7 @@ LiveMesh* Preparation::mesh_of(const Run& run) {
 }
 
 void Preparation::work() {
+  access::give_way();
   const std::stop_token stop = _stopping.get_token();
   Lock held = lock();
   for (;;) {
