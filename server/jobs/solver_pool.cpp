@@ -7,7 +7,6 @@
 #include <system_error>
 #include <utility>
 
-#include "access/give_way.hpp"
 #include "jobs/condensing.hpp"
 #include "jobs/exact_run.hpp"
 #include "jobs/job_start.hpp"
@@ -95,7 +94,6 @@ void SolverPool::rest(Lock& lock) {
 }
 
 void SolverPool::work() {
-  access::give_way();
   Lock lock(_core.mutex);
   while (!_core.quitting) {
     const std::optional<Turn> turn = next_turn();

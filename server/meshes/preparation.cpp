@@ -2,6 +2,8 @@
 #include "meshes/preparation.hpp"
 
 #include <fmt/core.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -9,7 +11,6 @@
 #include <system_error>
 #include <utility>
 
-#include "access/give_way.hpp"
 #include "meshes/mesh_index.hpp"
 #include "meshes/size_class.hpp"
 #include "meshes/triangulation.hpp"
@@ -24,6 +25,15 @@ using errors::Reason;
 using store::MeshRecord;
 using store::MeshState;
 using Steady = std::chrono::steady_clock;
+
+/// The calling thread, and what it starts, gets a third of the share of others where both want a
+/// processor, and all that they leave. For good: nobody needs a privilege to give way, but one to
+/// take it back.
+void give_way() {
+  constexpr int niceness = 5;
+  const auto self = static_cast<id_t>(::gettid());
+  if (::getpriority(PRIO_PROCESS, self) < niceness) ::setpriority(PRIO_PROCESS, self, niceness);
+}
 
 constexpr int runs_at_once = 2;  // of one class of sizes
 constexpr std::size_t records_a_page = 100;
@@ -227,7 +237,7 @@ LiveMesh* Preparation::mesh_of(const Run& run) {
 }
 
 void Preparation::work() {
-  access::give_way();
+  give_way();
   const std::stop_token stop = _stopping.get_token();
   Lock held = lock();
   for (;;) {
