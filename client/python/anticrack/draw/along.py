@@ -13,7 +13,7 @@ from ..arrays import Array
 from ..result import CRACK, DELAMINATED, Interface, Load, Result, Trace, runs
 from ..text import interval
 from .panel import (BOX, CONTACT, CURVES, LINES, MARKED, Scale, axes, cut, fit_axis, legend_below, load_of, named,
-                    named_without, offset_of, point_text, rounded, traces_of)
+                    named_without, offset_of, point_text, rounded, traces_of, unit_of)
 
 
 def can_open(line: Interface) -> bool:
@@ -36,12 +36,17 @@ def eventful(result: Result, loads: list[Load]) -> tuple[int, int]:
     return opened, opened if 2 * contact[opened] >= contact[longest] else longest
 
 
-def _interface(result: Result, load: Load, interface: int | str | None, pressed: bool = False) -> int:
-    """The one named, or the most eventful."""
+def _begin(result: Result, load: str | Load | None, interface: int | str | None, ax: Any,
+           pressed: bool = False) -> tuple[Any, Load, int, Profile, Trace, int]:
+    """Of the interface named, or the most eventful: the axes, the load, its index, itself, the trace, and the number of
+    curves that are there already."""
+    ax, load = axes(ax), load_of(result, load)
     traces_of(result, load)
     if isinstance(interface, str):
-        return result.interfaces.place(interface)
-    return eventful(result, [load])[pressed] if interface is None else operator.index(interface)
+        interface = result.interfaces.place(interface)
+    index = eventful(result, [load])[pressed] if interface is None else operator.index(interface)
+    count = sum(not line.get_label().startswith("_") for line in ax.lines)
+    return ax, load, index, Profile(result, result.interfaces[index]), load.traces[index], count
 
 
 def _lengths(line: Interface) -> Array:
@@ -67,7 +72,7 @@ class Profile:
             name += f" from {point_text(line.x[0], line.y[0], line.s[-1])}"
         self.ends = float(self.at.min()), float(self.at.max())
         self.scale = Scale(*self.ends)
-        self.label = self.scale.label(name, result.units.behind("L").strip())
+        self.label = self.scale.label(name, unit_of(result))
 
     def place(self, s: Array) -> Array:
         """Of arc lengths."""
@@ -80,12 +85,9 @@ class Profile:
         if self.ends[0] < self.ends[1]:
             ax.set_xlim(*self.ends)
 
-    def bands(self, flags: Array) -> list[tuple[float, float]]:
-        """Stretches around nodes with a flag (k), to the middles of the edges at their ends: those of contact add up
-        to its length."""
-        s = self.line.s
-        middles = self.place(np.concatenate((s[:1], (s[:-1] + s[1:]) / 2, s[-1:])))
-        return [(middles[first], middles[last]) for first, last in runs(flags) if flags[first]]
+    def middles(self) -> Array:
+        """(k+1) of the edges, and the ends."""
+        return np.concatenate((self.at[:1], (self.at[:-1] + self.at[1:]) / 2, self.at[-1:]))
 
     def bars(self, result: Result, ax: Any) -> None:
         """At the foot of what is drawn: cracks and inclusions, with the names of inclusions as long as they do not
@@ -115,22 +117,17 @@ class Profile:
 
 
 def edge_pressure(line: Interface, trace: Trace) -> tuple[Array, Array, Array, Array]:
-    """Middles of the edges, the mean pressure over them, their lengths, and which are in contact; NaN between cracks.
-    Half of an edge belongs to either node, at a tip its own half to none: the force is that of the nodes, without the
-    teeth of their pressures, which go up and down with the number of triangles there."""
+    """Middles of the edges, the mean pressure over them, their lengths, and which are in contact; of length 0 off
+    cracks. Half of an edge belongs to either node, at a tip its own half to none: the force is that of the nodes,
+    without the teeth of their pressures, which go up and down with the number of triangles there."""
     opens = np.isin(line.kind, (CRACK, DELAMINATED))  # on glue it is a flux
     begins, ends, edges = opens[:-1], opens[1:], np.diff(line.s)
-    count, cracked = begins.astype(int) + ends, begins | ends
+    count = begins.astype(int) + ends
     pressures = np.where(opens, trace.pressure, 0)
     closed = trace.contact != 0
     middles = line.s[:-1] + np.where(begins & ends, 0.5, np.where(begins, 0.25, 0.75)) * edges
     means = (pressures[:-1] + pressures[1:]) / np.maximum(count, 1)
-    found = [column[cracked] for column in (middles, means, edges * count / 2,
-                                            (means > 0) & (closed[:-1] | closed[1:]))]
-    gaps = [i for i in np.flatnonzero(~begins[cracked]) if i > 0]
-    s, values, lengths, closed = (np.insert(column, gaps, nothing)
-                                  for column, nothing in zip(found, (np.nan, np.nan, 0, False)))
-    return s, values, lengths, closed
+    return middles, means, edges * count / 2, (means > 0) & (closed[:-1] | closed[1:])
 
 
 def pressed(line: Interface, trace: Trace) -> bool:
@@ -138,26 +135,26 @@ def pressed(line: Interface, trace: Trace) -> bool:
     return bool(edge_pressure(line, trace)[3].any())
 
 
-def _typical(load: Load, values: list[Array]) -> float:
-    """Where u is rounding against that of the membrane, estimated from its energy, half of an axis on which zero looks
-    like zero; else 0."""
-    typical = float(np.sqrt(abs(load.energy))) if np.isfinite(load.energy) else 0.0
-    largest = max((np.nanmax(np.abs(each), initial=0) for each in values), default=np.inf)
-    return float(10.0 ** np.floor(np.log10(typical))) if 0 <= largest < 1e-9 * typical else 0.0
+def _largest(*values: Array) -> float:
+    return float(np.nanmax(np.abs(np.concatenate(values)), initial=0))
 
 
-def _curve(ax: Any, profile: Profile, values: Array, style: tuple[str, Any], label: str) -> Any:
-    return ax.plot(profile.at, values, color=style[0], linestyle=style[1], label=label)[0]
-
-
-def finish(ax: Any, profile: Profile, load: Load, values: list[Array], name: str, unit: str) -> None:
-    """The axes of heights; 0 is a line, unless all is far from it."""
+def finish(ax: Any, profile: Profile, loads: list[Load], index: int, name: str, unit: str) -> None:
+    """The axes of heights; 0 is a line, unless all is far from it, and looks like it where u is rounding against that
+    of the membrane, estimated from its energy, or the jump against u. loads: none of what is no displacement."""
     low, high = ax.get_ylim()
     if low - 0.5 * (high - low) <= 0 <= high + 0.5 * (high - low):
         ax.axhline(0, color="#888888", linewidth=0.6, zorder=0)
-    half = _typical(load, values)
-    if half:
-        ax.set_ylim(-half, half)
+    if loads:
+        u = _largest(*(each for load in loads for each in (load.traces[index].u_minus, load.traces[index].u_plus)))
+        opened = _largest(*(load.traces[index].jump for load in loads))
+        typical = max(abs(load.energy) if np.isfinite(load.energy) else 0 for load in loads) ** 0.5
+        if max(u, opened) < 1e-9 * typical:
+            u, opened = 10.0 ** np.floor(np.log10(typical)), 0.0
+        elif name != "[u]":
+            opened = u
+        if opened <= 1e-9 * u > 0:
+            ax.set_ylim(-u, u)
     profile.axis(ax)
     ax.yaxis.set_major_locator(rounded(6))
     fit_axis(ax.yaxis, name, unit)
@@ -165,10 +162,12 @@ def finish(ax: Any, profile: Profile, load: Load, values: list[Array], name: str
 
 def shade(profile: Profile, trace: Trace, ax: Any, color: str = CONTACT, alpha: float = 1,
           label: str = "contact") -> None:
-    """Where it is in contact."""
-    for begin, end in profile.bands(trace.contact != 0):
-        ax.axvspan(*sorted((begin, end)), color=color, alpha=alpha, linewidth=0, zorder=-1, label=label)
-        label = "_again"
+    """Where it is in contact, to the middles of the edges at the ends: the stretches add up to its length."""
+    middles, closed = profile.middles(), trace.contact != 0
+    for first, last in runs(closed):
+        if closed[first]:
+            ax.axvspan(*sorted(middles[[first, last]]), color=color, alpha=alpha, linewidth=0, zorder=-1, label=label)
+            label = "_again"
 
 
 def heading(result: Result, load: Load, line: Interface) -> str:
@@ -194,49 +193,47 @@ def heading(result: Result, load: Load, line: Interface) -> str:
 def traces(result: Result, load: str | Load | None = None, interface: int | str | None = None, ax: Any = None) -> Any:
     """u on both sides of an interface and the jump [u] = u+ - u-; contact is shaded, cracks and inclusions are bars.
     Unless it is named, the interface with the largest jump."""
-    ax, load = axes(ax), load_of(result, load)
-    index, first = _interface(result, load, interface), not ax.lines
-    line, trace = result.interfaces[index], load.traces[index]
+    ax, load, index, profile, trace, count = _begin(result, load, interface, ax)
     name = named(load.name)
     color = CURVES[sum(str(curve.get_label()).endswith(": [u]") for curve in ax.lines) % len(CURVES)][0]
     draw_traces(result, load, index, ax, (color,) * 3, f"{name}: ")
-    _curve(ax, Profile(result, line), trace.jump, (color, CURVES[2][1]), f"{name}: [u]")
-    shade(Profile(result, line), trace, ax, color, 0.2, f"{name}: contact")
+    ax.plot(profile.at, trace.jump, color=color, linestyle=CURVES[2][1], label=f"{name}: [u]")
+    shade(profile, trace, ax, color, 0.2, f"{name}: contact")
     ax.relim()
     ax.autoscale(axis="y")
-    finish(ax, Profile(result, line), load, [trace.u_minus, trace.u_plus, trace.jump], "displacement",
-           result.units.behind("L").strip())
-    if first:
-        Profile(result, line).bars(result, ax)
-    ax.set_title(f"{name}: {heading(result, load, line)}" if first else "")
+    finish(ax, profile, [load], index, "displacement", unit_of(result))
+    if not count:
+        profile.bars(result, ax)
+    ax.set_title("" if count else f"{name}: {heading(result, load, profile.line)}")
     legend_below(ax)
     return ax
 
 
-def draw_traces(result: Result, load: Load, index: int, ax: Any, colors: Sequence[str], prefix: str = "") -> None:
-    """u- and u+, of a lifted sheet without what they have in common."""
-    trace, profile = load.traces[index], Profile(result, result.interfaces[index])
-    values = np.concatenate((trace.u_minus, trace.u_plus))
+def common(shown: list[Trace]) -> float:
+    """What u on both sides leaves out, as of a lifted sheet."""
+    values = np.concatenate([side for trace in shown for side in (trace.u_minus, trace.u_plus)])
     values = values[np.isfinite(values)]
-    offset = offset_of(values.min(), values.max(), np.ptp(trace.jump)) if len(values) else 0.0
+    return offset_of(values.min(), values.max(), max(np.ptp(trace.jump) for trace in shown)) if len(values) else 0.0
+
+
+def draw_traces(result: Result, load: Load, index: int, ax: Any, colors: Sequence[str], prefix: str = "") -> None:
+    """u- and u+, without what they have in common."""
+    trace, profile = load.traces[index], Profile(result, result.interfaces[index])
+    offset = common([trace])
     for each, color, curve, name in zip((trace.u_minus, trace.u_plus), colors, CURVES, ("u\u207b", "u\u207a")):
-        _curve(ax, profile, each - offset, (color, curve[1]), prefix + named_without(name, offset))
+        ax.plot(profile.at, each - offset, color=color, linestyle=curve[1],
+                label=prefix + named_without(name, offset))
 
 
 def jump(result: Result, load: str | Load | None = None, interface: int | str | None = None, ax: Any = None) -> Any:
     """The jump [u] = u+ - u- along an interface, which may be too small to be seen beside u; contact is shaded. Unless
     it is named, the interface with the largest jump."""
-    ax, load = axes(ax), load_of(result, load)
-    index = _interface(result, load, interface)
-    line, trace = result.interfaces[index], load.traces[index]
-    profile, count = Profile(result, line), sum(not each.get_label().startswith("_") for each in ax.lines)
-    _curve(ax, profile, trace.jump, CURVES[count % len(CURVES)], named(load.name))
+    ax, load, index, profile, trace, count = _begin(result, load, interface, ax)
+    color, dash = CURVES[count % len(CURVES)]
+    ax.plot(profile.at, trace.jump, color=color, linestyle=dash, label=named(load.name))
     if not count:
         shade(profile, trace, ax)
-    size = np.nanmax(np.abs((*trace.u_plus, *trace.u_minus)), initial=0)
-    if np.nanmax(np.abs(trace.jump), initial=0) <= 1e-9 * size > 0:
-        ax.set_ylim(-size, size)
-    finish(ax, profile, load, [trace.u_minus, trace.u_plus, trace.jump], "[u]", result.units.behind("L").strip())
+    finish(ax, profile, [load], index, "[u]", unit_of(result))
     ax.set_title(named(load.name) if not count else "")
     return ax
 
@@ -247,15 +244,12 @@ def pressure(result: Result, load: str | Load | None = None, interface: int | st
     Unless it is named, the interface of `traces` or, where its contact is less than half as long as another's, the one
     with the longest contact. The pressure grows without bound at tips: its axis ends below its peaks, and the panel
     says so. whole: over all of the interface."""
-    ax, load = axes(ax), load_of(result, load)
-    index = _interface(result, load, interface, pressed=True)
-    line, trace = result.interfaces[index], load.traces[index]
-    profile, count = Profile(result, line), sum(not each.get_label().startswith("_") for each in ax.lines)
-    s, values, lengths, closed = edge_pressure(line, trace)
+    ax, load, _, profile, trace, count = _begin(result, load, interface, ax, pressed=True)
+    s, values, lengths, closed = edge_pressure(profile.line, trace)
     before = ax.get_ylim()[1] if count else 0.0
-    style = CURVES[count % len(CURVES)] if count else ("#009E73", "-")
+    color, dash = CURVES[count % len(CURVES)] if count else ("#009E73", "-")
     name = named(load.name) + ("" if closed.any() else ": no contact")
-    ax.plot(profile.place(s), np.where(closed, values, np.nan), color=style[0], linestyle=style[1], label=name)
+    ax.plot(profile.place(s), np.where(closed, values, np.nan), color=color, linestyle=dash, label=name)
     profile.axis(ax)
     if closed.any():
         if not count:
@@ -268,16 +262,15 @@ def pressure(result: Result, load: str | Load | None = None, interface: int | st
                     va="top", fontsize="small", transform=ax.transAxes, bbox={**BOX, "boxstyle": "square,pad=0.1"})
         if not whole and not count:  # no empty axes
             here = s[closed]
-            margin = 0.15 * np.ptp(here) + 0.02 * np.ptp(line.s)
-            ends = profile.place(np.clip((here.min() - margin, here.max() + margin), 0, line.s[-1]))
-            ax.set_xlim(*sorted(ends))
+            margin = 0.15 * np.ptp(here) + 0.02 * np.ptp(profile.line.s)
+            ax.set_xlim(*sorted(profile.place(np.clip((here.min() - margin, here.max() + margin), 0,
+                                                      profile.line.s[-1]))))
     elif not count:
         ax.set_ylim(0, 1)
     ax.yaxis.set_major_locator(rounded(4))
-    fit_axis(ax.yaxis, "pressure", result.units.behind("F/L").strip())
-    on = f" on {named(line.name, 30)}" if len(result.interfaces) > 1 else ""
-    ax.set_title(f"{named(load.name)}: contact pressure{on}" if closed.any() else name)
+    fit_axis(ax.yaxis, "pressure", unit_of(result, "F/L"))
+    on = f" on {named(profile.line.name, 30)}" if len(result.interfaces) > 1 else ""
+    ax.set_title("" if count else f"{name}: contact pressure{on}" if closed.any() else name)
     if count:
         ax.legend(loc="best", fontsize="small")
-        ax.set_title("")
     return ax

@@ -47,6 +47,11 @@ def load_of(result: Result, load: str | Load | None) -> Load:
     return result.loads[next(iter(result.loads), "") if load is None else load]
 
 
+def unit_of(result: Result, dimension: str = "L") -> str:
+    """Of an axis; empty where there is none."""
+    return result.units.behind(dimension).strip()
+
+
 def fields(load: Load) -> list[Any]:
     if not load.fields:
         raise Error(f"{harmless(load.name)} has no fields; solve with Case(fields=True), in TOML [output] "

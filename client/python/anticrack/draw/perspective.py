@@ -10,7 +10,7 @@ from ..arrays import Array
 from ..errors import Error
 from ..result import Load, Result, runs
 from .panel import (BOX, LINES, MARKED, Scale, axes, colour_bar, label_axis, load_of, named, number_text, rounded,
-                    stretch_of, widened)
+                    stretch_of, unit_of, widened)
 from .surface import Heights, Surface
 
 _NAMES = 6  # of inclusions: more would cover each other
@@ -116,18 +116,17 @@ def membrane(result: Result, load: str | Load | None = None, ax: Any = None, cma
         here = np.c_[x, y] - surface.nodes.mean(axis=0)
         return np.asarray(factor * (u - here @ tilt - plane.mean()))
     _mark(result, load, height, 0.06 * size, ax)
-    heights = widen_to(factor * rest.min(), factor * rest.max(), 0.15 * size)
+    ends = rest.min(), rest.max()
+    heights = factor * np.mean(ends) + np.array((-0.5, 0.5)) * max(factor * np.ptp(ends), 0.15 * size)
     ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=heights)
-    scales = [Scale(low[i], high[i], shown.max() / stretched[i]) for i in (0, 1)]
     for i, axis in enumerate((ax.xaxis, ax.yaxis)):
         axis.set_major_locator(rounded(5 if shown[i] > shown.max() / 3 else 2))
-        label_axis(axis, "xy"[i], result.units.behind("L").strip(), scales[i], stretched[i])
-    ends = rest.min(), rest.max()
+        label_axis(axis, "xy"[i], unit_of(result), Scale(low[i], high[i], shown.max() / stretched[i]))
     tall = Scale(*ends, factor=factor)
     steps = rounded(2).tick_values(*widened(*ends))
     ticks = [factor * step for step in steps if heights[0] <= factor * step <= heights[1]]
     ax.set_zticks(ticks if np.ptp(heights) > 0.25 * size else sorted({*ticks[:1], *ticks[-1:]}))
-    label_axis(ax.zaxis, "" if level else "u", result.units.behind("L").strip(), tall)
+    label_axis(ax.zaxis, "" if level else "u", unit_of(result), tall)
     for axis in (ax.xaxis, ax.yaxis, ax.zaxis):
         axis.set_pane_color((1, 1, 1, 0))
         axis.set_rotate_label(False)
@@ -137,19 +136,14 @@ def membrane(result: Result, load: str | Load | None = None, ax: Any = None, cma
     ax.set_box_aspect([*shown, np.ptp(heights)], zoom=1.05)
     ax.view_init(up, around)
     text = "u to scale" if factor == 1 else f"u {'amplified ' if factor > 1 else ''}\u00d7{number_text(factor, 6)}"
+    wider = [f", {name} stretched \u00d7{number_text(by, 6)}" for name, by in zip("xy", stretched) if by != 1]
     ax.set_title(f"{named(load.name)}: {text.replace('u', 'u less a plane,', 1) if level else text}"
-                 + not_converged(load))
+                 + "".join(wider) + not_converged(load))
     of_u = Scale(*shades.get_clim())
-    place = {"pad": 0.02, "shrink": 0.6, "aspect": 30, "orientation": "horizontal"}
-    colour_bar(ax, shades, of_u.label("u", result.units.behind("L").strip()), of_u, colorbar, **place)
+    colour_bar(ax, shades, of_u.label("u", unit_of(result)), of_u, colorbar, pad=0.02, shrink=0.6, aspect=30,
+               orientation="horizontal")
     return ax
 
 
 def not_converged(load: Load) -> str:
     return ", not converged" if load.status == "not_converged" else ""
-
-
-def widen_to(low: float, high: float, least: float) -> tuple[float, float]:
-    """Around its middle."""
-    more = max(0.0, least - (high - low)) / 2
-    return low - more, high + more

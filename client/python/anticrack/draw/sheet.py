@@ -10,19 +10,22 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import matplotlib
+import numpy as np
 from matplotlib import font_manager
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.transforms import Bbox
 
 from ..errors import Error
 from ..text import suggestion
 from .panel import named
 
-_INCH = 25.4
+INCH = 25.4
 _LINE = 4.2  # of the title, mm
 LEFT, RIGHT = 16.0, 3.5  # of axes: room for numbers and a name, mm
 ABOVE, BELOW = 6.5, 10.5  # room for a heading, and for numbers and a name
 KEY = 3.7  # a row of a legend
+_GAP = 3.0  # between panels over one axis
 _ROOM = 400.0  # a height that no picture reaches; its own is set in the end
 
 _LOOKS: dict[str, Any] = {
@@ -68,7 +71,7 @@ class Sheet:
 
     def __init__(self, look: Look, title: str, columns: int = 1) -> None:
         self.look, self.width = look, columns * look.width
-        self._figure = Figure(figsize=(self.width / _INCH, _ROOM / _INCH), dpi=100)
+        self._figure = Figure(figsize=(self.width / INCH, _ROOM / INCH), dpi=100)
         FigureCanvasAgg(self._figure)
         # A character is about 1.75 mm wide.
         lines = textwrap.wrap(named(title, 200), max(10, int(self.width / 1.75)), max_lines=3,
@@ -76,21 +79,55 @@ class Sheet:
         self._head = 1 + _LINE * len(lines) if lines else 0.0
         self._lines = [self._figure.text(0.5, 0, line, ha="center", va="center", fontsize=9, color="#222222")
                        for line in lines]
-        self._places: list[tuple[Any, float, float, float, float]] = []
+        self._places: dict[Any, tuple[float, float, float, float]] = {}
+
+    def _place(self, ax: Any, high: float) -> None:
+        left, top, wide, tall = self._places[ax]
+        ax.set_position((left / self.width, 1 - (self._head + top + tall) / high, wide / self.width, tall / high))
 
     def panel(self, left: float, top: float, width: float, height: float, **options: Any) -> Any:
         """Axes, in mm from the left and from below the title."""
-        place = (left / self.width, 1 - (self._head + top + height) / _ROOM, width / self.width, height / _ROOM)
-        ax = self._figure.add_axes(place, **options)
-        self._places.append((ax, left, top, width, height))
+        ax = self._figure.add_axes((0, 0, 1, 1), **options)
+        self._places[ax] = left, top, width, height
+        self._place(ax, _ROOM)
         return ax
+
+    def centre(self, ax: Any) -> None:
+        """Axes of three dimensions: their names are inside their place, in which they become smaller if need be."""
+        left, _, room, _ = self._places[ax]
+        for _ in range(3):  # letters stay as large as they are
+            self._figure.draw_without_rendering()  # which places the names
+            renderer = self._figure.canvas.get_renderer()
+            names = Bbox.union([axis.get_tightbbox(renderer) for axis in (ax.xaxis, ax.yaxis, ax.zaxis)])
+            begin, end = np.array((names.x0, names.x1)) * INCH / self._figure.dpi
+            at, top, wide, tall = self._places[ax]
+            smaller = max(0.0, end - begin + 3 - room) / room
+            self._places[ax] = (at + left + room / 2 - (begin + end) / 2 + wide * smaller / 2, top + tall * smaller / 2,
+                                wide * (1 - smaller), tall * (1 - smaller))
+            self._place(ax, _ROOM)
+            if not smaller:
+                break
+        at, _, wide, _ = self._places[ax]
+        ax.title.set_x((left + room / 2 - at) / wide)
+
+    def axes(self, left: float, top: float, height: float, **options: Any) -> Any:
+        """Of a column, without what its numbers and names take."""
+        return self.panel(left + LEFT, top, self.look.width - LEFT - RIGHT, height, **options)
+
+    def stack(self, left: float, heights: list[float]) -> tuple[list[Any], float]:
+        """Axes of a column below each other over one axis, and where they end with its numbers and name."""
+        panels, top = list[Any](), ABOVE
+        for height in heights:
+            panels.append(self.axes(left, top, height, sharex=panels[0] if panels else None))
+            top += height + _GAP
+        return panels, top - _GAP + BELOW
 
     def files(self, height: float) -> dict[str, bytes]:
         """By format; the picture ends at this height."""
         high = self._head + height
-        self._figure.set_size_inches(self.width / _INCH, high / _INCH)
-        for ax, left, top, wide, tall in self._places:
-            ax.set_position((left / self.width, 1 - (self._head + top + tall) / high, wide / self.width, tall / high))
+        self._figure.set_size_inches(self.width / INCH, high / INCH)
+        for ax, (_, _, wide, _) in self._places.items():
+            self._place(ax, high)
             room = (wide + 2 * RIGHT) / 1.6  # characters
             ax.title.set_fontsize(8 * min(1, max(0.8, room / max(len(ax.get_title()), 1))))
             if not self.look.titles:

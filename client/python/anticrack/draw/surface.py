@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The membrane as triangles, and collections that draw hundreds of thousands of them."""
+"""The membrane as triangles, and what draws hundreds of thousands of them in space."""
 from __future__ import annotations
 
 from typing import Any
@@ -68,53 +68,33 @@ class Surface:
         return ScalarMappable(Normalize(*widened(low, high)), cmap or (DIVERGING if both else "viridis"))
 
 
-class Smooth(PolyCollection):  # type: ignore[misc]
-    """Triangles in colours that run into each other, an image in files of lines: a million of them take a second."""
-
-    def __init__(self, points: Array, triangles: Array, colours: Array) -> None:
-        """points (n, 2); triangles (m, 3); colours (n, 4) of the points, or (m, 3, 4) of the corners."""
-        super().__init__([], linewidths=0.15, edgecolors=(0, 0, 0, 0.3), rasterized=True, zorder=0)
-        self.points, self.triangles, self.colours = points, triangles, colours
-
-    def colours_of(self, order: Any = slice(None)) -> Array:
-        """(m, 3, 4)"""
-        return np.asarray(self.colours[order] if self.colours.ndim == 3 else self.colours[self.triangles[order]])
-
-    @allow_rasterization  # type: ignore[misc]
-    def draw(self, renderer: Any) -> None:
-        self.draw_smooth(renderer, self.points[self.triangles], self.colours_of())
-
-    def draw_smooth(self, renderer: Any, corners: Array, colours: Array) -> None:
-        if len(corners) and self.get_visible():
-            gc = renderer.new_gc()
-            self._set_gc_clip(gc)
-            renderer.draw_gouraud_triangles(gc, corners, colours, self.get_transform().frozen())
-            gc.restore()
-
-
-class Heights(Smooth):
-    """Triangles in space, drawn from the farthest to the nearest on axes of three dimensions. edges: those of the
-    triangles, unless they are many."""
+class Heights(PolyCollection):  # type: ignore[misc]
+    """Triangles in space, drawn from the farthest to the nearest on axes of three dimensions, in colours that run into
+    each other, an image in files of lines: a million of them take a second. edges: those of the triangles, unless they
+    are many. points (n, 3); triangles (m, 3); colours (n, 4) of the points."""
 
     def __init__(self, points: Array, triangles: Array, colours: Array, edges: bool) -> None:
-        """points (n, 3); otherwise as of Smooth."""
-        super().__init__(points, triangles, colours)
+        super().__init__([], linewidths=0.15, edgecolors=(0, 0, 0, 0.3), rasterized=True, zorder=0)
+        self.points, self.triangles, self.colours = points, triangles, colours
         self._edged = edges and len(triangles) <= _EDGED
 
     def do_3d_projection(self) -> float:
         projected = np.c_[self.points, np.ones(len(self.points))] @ np.asarray(self.axes.M).T
         projected = projected[:, :3] / projected[:, 3:]
         depths = projected[:, 2][self.triangles].sum(axis=1)
-        self._order = np.argsort(-depths)
-        self._flat = projected[:, :2]
+        self._shown = self.triangles[np.argsort(-depths)]
+        self._corners = projected[:, :2][self._shown]
         return float(depths.min()) if len(depths) else 0.0
 
     @allow_rasterization  # type: ignore[misc]
     def draw(self, renderer: Any) -> None:
-        corners, colours = self._flat[self.triangles[self._order]], self.colours_of(self._order)
+        colours = self.colours[self._shown]
         if self._edged:
-            self.set_verts(corners)
+            self.set_verts(self._corners)
             self.set_facecolors(colours.mean(axis=1))
-            super(Smooth, self).draw(renderer)
-        else:
-            self.draw_smooth(renderer, corners, colours)
+            super().draw(renderer)
+        elif len(colours) and self.get_visible():
+            gc = renderer.new_gc()
+            self._set_gc_clip(gc)
+            renderer.draw_gouraud_triangles(gc, self._corners, colours, self.get_transform().frozen())
+            gc.restore()
