@@ -106,10 +106,10 @@ def _errors(stage: solve_pb2.Stage, asked: solve_pb2.Accuracy) -> str:
 class Progress:
     """out: where it is shown; a notebook is noticed."""
 
-    def __init__(self, job: solve_pb2.Job, out: TextIO | None = None) -> None:
+    def __init__(self, job: solve_pb2.Job, out: TextIO | None = None, shown: bool = True) -> None:
         self._state, self._name = State(job), job.name
-        self._out: TextIO | None = out or sys.stderr  # which a program without a terminal may lack
-        self._handle = _notebook_handle() if out is None else None
+        self._out: TextIO | None = (out or sys.stderr) if shown else None  # a program without a terminal may lack it
+        self._handle = _notebook_handle() if shown and out is None else None
         self._bar = self._handle is None and _is_terminal(self._out)
         self._shown, self._next = 0, 0.0
 
