@@ -149,12 +149,9 @@ std::optional<results::Result> results_of(Session& session, const casefile::Case
   return result;
 }
 
-void save(const fs::path& file, const results::Result& result, const Session& session,
-          const Followed& followed) {
+void save(const fs::path& file, const results::Result& result, const Session& session) {
   try {
-    const auto ahead = followed.ahead.get();
-    const std::string kept =
-        results::write(file, result, ahead ? ahead->compressed : results::CompressedMesh());
+    const std::string kept = results::write(file, result);
     if (!kept.empty()) say(session.globals(), kept);
   } catch (const results::Error&) {
     tell_fetch(session, result.job_name);

@@ -37,8 +37,7 @@ std::optional<results::Result> results_of(Session& session, const casefile::Case
 
 /// Writes the result file of a job that was followed; where that fails says how to fetch the
 /// results again.
-void save(const std::filesystem::path& file, const results::Result& result, const Session& session,
-          const Followed& followed);
+void save(const std::filesystem::path& file, const results::Result& result, const Session& session);
 
 /// The answers, and where they were saved; with --quiet only what is wrong with them.
 void print_answers(const Globals& globals, const v1::Job& job, const results::Result& result,

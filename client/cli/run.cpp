@@ -36,7 +36,7 @@ int run(const RunOptions& options, const Globals& given) {
   if (followed.how == Followed::How::detached) return job_code;
   const auto result = results_of(session, the_case, followed, begin);
   if (!result) return job_code;
-  save(output, *result, session, followed);
+  save(output, *result, session);
   print_answers(globals, followed.job, *result, output);
   return job_code;
 }

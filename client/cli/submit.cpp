@@ -68,7 +68,6 @@ std::shared_ptr<Ahead> fetch_now(Session& session, const std::string& mesh) {
   if (ahead->mesh.state() != v1::Mesh::STATE_READY) return nullptr;
   ahead->server = client::server_info(connection, stop);
   ahead->mesh_block = client::read_mesh(connection, mesh, stop);
-  ahead->compressed = results::compress(to_mesh(ahead->mesh, ahead->mesh_block));
   return ahead;
 }
 

@@ -60,12 +60,11 @@ v1::Job submit(Session& session, const casefile::Case& the_case, const std::stri
 /// What a command that submits and does not wait says.
 void tell_submitted(const Session& session, const v1::Job& job);
 
-/// What a result file needs besides the answers: fetched and compressed while the job is solved.
+/// What a result file needs besides the answers: fetched while the job is solved.
 struct Ahead {
   v1::Mesh mesh;
   v1::ServerInfo server;
   client::Block mesh_block;
-  results::CompressedMesh compressed;
 };
 
 /// Null if the mesh was not READY yet or something failed. Everything is then fetched at the end,

@@ -100,7 +100,7 @@ int follow_sweep(Session& session, const Targets& targets, const casefile::Case&
   if (!result) return job_code;
   result->sweep.value().source = input.source;
   if (!input.nodal) result->sweep->coefficients = std::move(input.values);
-  save(targets.result, *result, session, followed);
+  save(targets.result, *result, session);
   save_csv(targets.csv, *result->sweep, globals);
   for (const std::string& warning : followed.job.sweep_answer().warnings())
     say(globals, "warning: " + sanitise(warning));

@@ -20,13 +20,9 @@ class Memory {
     return {allocate, copy, reallocate, release, same, forget, this};
   }
 
-  /// The closed file. It ends where its superblock says; the memory is a little larger.
-  std::vector<std::byte> bytes() const {
-    constexpr std::size_t end_of_file = 28;  // in a superblock of version 2 or 3, eight bytes
-    std::uint64_t end = 0;
-    if (_kept == nullptr || _size < end_of_file + sizeof(end)) throw Fault("HDF5 made no file");
-    std::memcpy(&end, static_cast<const std::byte*>(_kept) + end_of_file, sizeof(end));
-    if (end > _size) throw Fault("HDF5 made a file that is not whole");
+  /// The closed file, `end` bytes; the memory is a little larger.
+  std::vector<std::byte> bytes(std::size_t end) const {
+    if (_kept == nullptr || end > _size) throw Fault("HDF5 made a file that is not whole");
     const auto* first = static_cast<const std::byte*>(_kept);
     return {first, first + end};
   }
@@ -80,6 +76,7 @@ void set_small_cache(const Handle& access) {
 std::vector<std::byte> file_image(const std::function<void(const Handle& root)>& fill) {
   constexpr std::size_t increment = 1 << 20;
   Memory memory;
+  hsize_t end = 0;
   {
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "HDF5 does not start");
     H5FD_file_image_callbacks_t callbacks = memory.callbacks();
@@ -95,9 +92,11 @@ std::vector<std::byte> file_image(const std::function<void(const Handle& root)>&
     Handle file(H5Fcreate("result", H5F_ACC_TRUNC, creation.get(), access.get()), H5Fclose,
                 "HDF5 cannot create a file in memory");
     fill({H5Gopen2(file.get(), "/", H5P_DEFAULT), H5Gclose, "has no root group"});
+    if (H5Fflush(file.get(), H5F_SCOPE_LOCAL) < 0 || H5Fget_filesize(file.get(), &end) < 0)
+      throw Fault("HDF5 cannot write the file");
     file.close_now("HDF5 cannot finish the file");
   }
-  return memory.bytes();
+  return memory.bytes(end);
 }
 
 }  // namespace anticrack::results::hdf5

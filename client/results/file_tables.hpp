@@ -42,11 +42,11 @@ void put_row(const Handle& group, const Units& units, const Row& row, const std:
              std::size_t columns) {
   const Handle dataset =
       put_array(group, std::string(row.name), value_type<T>, values.data(), values.size(),
-                {columns, arrays::depth_of(row.shape)}, {}, units.of(row.unit));
+                {columns, arrays::depth_of(row.shape)}, units.of(row.unit));
   if (row.explained) put(dataset, "meaning", std::string(row.what));
 }
 
-/// Attributes of an object. What is optional and missing stays as it is.
+/// Attributes of an object.
 template <class Record, class Table>
 void put_values(const Handle& object, const Record& record, const Table& table) {
   arrays::for_each(
@@ -56,11 +56,7 @@ void put_values(const Handle& object, const Record& record, const Table& table) 
 template <class Record, class Table>
 void get_values(const Handle& object, Record& record, const Table& table) {
   arrays::for_each(
-      [&](const auto& row) {
-        const std::string name(row.name);
-        if (row.optional && !has_attribute(object, name)) return;
-        get(object, name, std::invoke(row.member, record));
-      },
+      [&](const auto& row) { get(object, std::string(row.name), std::invoke(row.member, record)); },
       table);
 }
 
@@ -114,8 +110,7 @@ void put_list(const Handle& group, const Units& units, const std::vector<Record>
       },
       table);
 }
-/// What is optional and missing stays as it is. Throws Fault where the datasets differ in length;
-/// `what` names the list.
+/// Throws Fault where the datasets differ in length; `what` names the list.
 template <class Record, class Table>
 std::vector<Record> get_list(const Handle& group, std::uint64_t budget, const char* what,
                              const Table& table) {
@@ -125,7 +120,6 @@ std::vector<Record> get_list(const Handle& group, std::uint64_t budget, const ch
       [&](const auto& row) {
         using Value = arrays::MemberOf<Record, decltype(row.member)>;
         const std::string name(row.name);
-        if (row.optional && !has(group, name)) return;
         std::vector<Stored<Value>> column;
         get_array(group, name, budget, {}, column);
         if (first) records.resize(column.size());

@@ -16,7 +16,6 @@
 #include <utility>
 #include <vector>
 
-#include "results/filtered_chunks.hpp"
 #include "results/value_type.hpp"
 
 namespace anticrack::results::hdf5 {
@@ -104,11 +103,10 @@ inline void put(const Handle& object, const std::string& attribute,
   put_attribute(object, attribute, ValueType::text, texts.data(), texts.size());
 }
 
-/// Dataset of `count` values. Numbers carry a checksum; large datasets are compressed, unless their
-/// chunks come `filtered`. An empty unit is that of the case. Returned for further attributes.
+/// Dataset of `count` values. Numbers carry a checksum; large datasets are compressed. An empty
+/// unit is that of the case. Returned for further attributes.
 Handle put_array(const Handle& group, const std::string& name, ValueType type, const void* values,
-                 std::size_t count, const Row& row, const FilteredChunks& filtered = {},
-                 const std::string& unit = "-");
+                 std::size_t count, const Row& row, const std::string& unit = "-");
 
 // Reading. Only hard links are followed and only data inside the file is read, so a file from
 // elsewhere cannot pull in others.

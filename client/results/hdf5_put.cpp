@@ -12,7 +12,11 @@ namespace {
 /// Arrays up to this lie in their dataset's header, under its checksum: HDF5 writes them in half
 /// the time of a chunk.
 constexpr std::size_t compact_entries = 1024;
-constexpr std::size_t chunk_cache_bytes = std::size_t{1} << 20;  // HDF5's default
+/// Below this many entries compression saves nothing to speak of.
+constexpr std::size_t compressed_from = 2048;
+constexpr std::size_t chunk_entries = 65536;
+/// Higher levels take several times as long and save a twentieth.
+constexpr unsigned deflate_level = 1;
 
 void require(herr_t status, const std::string& what) {
   if (status < 0) throw Fault(what);
@@ -73,7 +77,8 @@ Handle new_creation_properties(std::size_t rows, const Row& row) {
     require(H5Pset_layout(properties.get(), H5D_COMPACT), what);
     return properties;
   }
-  const std::array<hsize_t, 3> chunk{chunk_rows(rows, width), row.columns, row.depth};
+  const std::size_t chunk_rows = std::min(rows, std::max<std::size_t>(chunk_entries / width, 1));
+  const std::array<hsize_t, 3> chunk{chunk_rows, row.columns, row.depth};
   require(H5Pset_chunk(properties.get(), row.rank(), chunk.data()), what);
   if (rows * width >= compressed_from) {
     require(H5Pset_shuffle(properties.get()), what);
@@ -113,16 +118,6 @@ hid_t text_transfer() {
     return transfer.release();
   }();
   return id;
-}
-
-void write_chunks(const Handle& dataset, const FilteredChunks& chunks, std::size_t begin,
-                  std::size_t end, std::size_t rows, const std::string& what) {
-  for (std::size_t i = begin; i < end; ++i) {
-    const std::array<hsize_t, 2> offset{i * rows, 0};
-    require(H5Dwrite_chunk(dataset.get(), H5P_DEFAULT, 0, offset.data(), chunks[i].size(),
-                           chunks[i].data()),
-            what);
-  }
 }
 
 }  // namespace
@@ -171,8 +166,7 @@ void put_attribute(const Handle& object, const std::string& name, ValueType type
 }
 
 Handle put_array(const Handle& group, const std::string& name, ValueType type, const void* values,
-                 std::size_t count, const Row& row, const FilteredChunks& filtered,
-                 const std::string& unit) {
+                 std::size_t count, const Row& row, const std::string& unit) {
   const std::string what = "cannot write dataset " + name;
   const std::size_t width = row.width();
   if (count % width != 0) throw Fault(what + ": not whole rows");
@@ -187,21 +181,12 @@ Handle put_array(const Handle& group, const std::string& name, ValueType type, c
                  creation_properties(is_text ? 0 : rows, row),
                  count > compact_entries && count <= chunk_entries ? one_chunk() : H5P_DEFAULT),
       H5Dclose, what);
-  // HDF5 writes a chunk when its cache of 1 MB is full, and those left when the dataset is closed,
-  // behind its attributes: the same order gives the same file.
-  const std::size_t chunk = chunk_rows(rows, width);
-  std::size_t before = 0;
-  if (!filtered.empty()) {
-    const std::size_t left = chunk_cache_bytes / (chunk * width * bytes_of(type));
-    before = filtered.size() - std::min(filtered.size(), left);
-    write_chunks(dataset, filtered, 0, before, chunk, what);
-  } else if (count != 0) {
+  if (count != 0) {
     require(H5Dwrite(dataset.get(), source.in_memory, H5S_ALL, H5S_ALL,
                      is_text ? text_transfer() : H5P_DEFAULT, source.data),
             what);
   }
   put(dataset, "units", unit);
-  write_chunks(dataset, filtered, before, filtered.size(), chunk, what);
   return dataset;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <charconv>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -102,6 +103,17 @@ Result get_result(const Handle& root, std::uint64_t budget) {
   return result;
 }
 
+/// The number behind the slash; empty where the text before it is not that of `format`.
+std::optional<int> version_of(std::string_view text) {
+  const std::string_view family = format.substr(0, format.find('/') + 1);
+  int version = 0;
+  if (!text.starts_with(family) ||
+      std::from_chars(text.data() + family.size(), text.data() + text.size(), version).ptr !=
+          text.data() + text.size())
+    return {};
+  return version;
+}
+
 /// Throws Error unless the root says `format`.
 void check_format(const fs::path& path, const Handle& root) {
   const char* cure = "name a file that `anticrack run -o` wrote";
@@ -111,14 +123,11 @@ void check_format(const fs::path& path, const Handle& root) {
   hdf5::get(root, "format", found);
   if (found == format) return;
 
-  const std::string_view family = format.substr(0, format.find('/') + 1);
-  int version = 0;
-  const char* end = found.data() + found.size();
-  if (found.compare(0, family.size(), family) == 0 &&
-      std::from_chars(found.data() + family.size(), end, version).ptr == end) {
+  const std::optional<int> version = version_of(found);
+  if (version) {
     throw Error(path.string(),
                 "has format \"" + found + "\", this client reads \"" + std::string(format) + "\"",
-                version > 1 ? "use a newer anticrack" : "run the case again");
+                version > version_of(format) ? "use a newer anticrack" : "run the case again");
   }
   throw Error(path.string(), "has format \"" + found + "\", no result of anticrack", cure);
 }

@@ -25,14 +25,12 @@ inline constexpr auto result = std::tuple{
     scalar("mesh", &Result::mesh_name, ""),
     scalar("job", &Result::job_name, "names on the server"),
     scalar("mesh_sha256", &Result::mesh_sha256, "of the mesh's arrays"),
-    // Files from before jobs had an accuracy lack it.
-    optional(scalar("not_reached", &Result::not_reached,
-                    "which accuracy of the job, what stopped it, and the cure")),
+    scalar("not_reached", &Result::not_reached,
+           "which accuracy of the job, what stopped it, and the cure"),
 };
-/// Files from before cases had units lack these.
 inline constexpr auto units = std::tuple{
-    optional(scalar("unit_length", &Units::length, "")),
-    optional(scalar("unit_force", &Units::force, "names of L and F below, if the case gives them")),
+    scalar("unit_length", &Units::length, ""),
+    scalar("unit_force", &Units::force, "names of L and F below, if the case gives them"),
 };
 inline constexpr auto timings = std::tuple{
     scalar("mesh_seconds", &Timings::mesh_seconds, "meshing", "s"),
@@ -93,14 +91,11 @@ inline constexpr auto load_solver = std::tuple{
 };
 inline constexpr auto load_answer = std::tuple{
     scalar("energy", &Load::energy, "Pi(u)", "F L"),
-    // Files from before answers had bounds lack these.
-    optional(scalar("energy_lower", &Load::energy_lower, "", "F L")),
-    optional(scalar("energy_upper", &Load::energy_upper, "the membrane's own Pi lies between them",
-                    "F L")),
-    optional(scalar("error_bound", &Load::error_bound, "of u in the energy norm", "(F L)^(1/2)")),
-    optional(
-        scalar("error_bound_relative", &Load::error_bound_relative, "the same over the norm of u")),
-    optional(scalar("no_bracket", &Load::no_bracket, "why there are no bounds")),
+    scalar("energy_lower", &Load::energy_lower, "", "F L"),
+    scalar("energy_upper", &Load::energy_upper, "the membrane's own Pi lies between them", "F L"),
+    scalar("error_bound", &Load::error_bound, "of u in the energy norm", "(F L)^(1/2)"),
+    scalar("error_bound_relative", &Load::error_bound_relative, "the same over the norm of u"),
+    scalar("no_bracket", &Load::no_bracket, "why there are no bounds"),
     scalar("contact_length", &Load::contact_length, "of all cracks and delaminated parts", "L"),
     scalar("weakly_active", &Load::weakly_active, "crack nodes with neither jump nor pressure"),
 };
@@ -146,24 +141,22 @@ inline constexpr auto inclusions = std::tuple{
     array("A", "i", &Inclusion::displacement, "equation (5)", "L"),
     array("resultant", "i", &Inclusion::resultant, "the force on it, equation (6)", "F"),
     array("contact_length", "i", &Inclusion::contact_length, "of its delaminated part", "L"),
-    // Files from before inclusions could tilt lack what follows.
-    optional(array("Bx", "i", &Inclusion::slope_x, "")),
-    optional(array("By", "i", &Inclusion::slope_y,
-                   "u = A + Bx (x - x0) + By (y - y0) along it, (x0, y0) the middle of its "
-                   "bounding box; 0 unless it tilts")),
-    optional(array("Mx", "i", &Inclusion::moment_x, "", "F L")),
-    optional(array("My", "i", &Inclusion::moment_y, "the moment on it about (x0, y0)", "F L")),
-    // Files from before answers had bounds lack these.
-    optional(array("A_lower", "i", &Inclusion::displacement_lower, "", "L")),
-    optional(array("A_upper", "i", &Inclusion::displacement_upper,
-                   "the membrane's own A lies between them", "L")),
-    optional(array("A_estimated_error", "i", &Inclusion::displacement_estimated_error,
-                   "estimate of the membrane's own A minus A, no bound", "L")),
-    optional(array("Bx_lower", "i", &Inclusion::slope_x_lower, "")),
-    optional(array("Bx_upper", "i", &Inclusion::slope_x_upper, "")),
-    optional(array("By_lower", "i", &Inclusion::slope_y_lower, "")),
-    optional(array("By_upper", "i", &Inclusion::slope_y_upper,
-                   "bounds of the membrane's own slope, of one that tilts")),
+    array("Bx", "i", &Inclusion::slope_x, ""),
+    array("By", "i", &Inclusion::slope_y,
+          "u = A + Bx (x - x0) + By (y - y0) along it, (x0, y0) the middle of its "
+          "bounding box; 0 unless it tilts"),
+    array("Mx", "i", &Inclusion::moment_x, "", "F L"),
+    array("My", "i", &Inclusion::moment_y, "the moment on it about (x0, y0)", "F L"),
+    array("A_lower", "i", &Inclusion::displacement_lower, "", "L"),
+    array("A_upper", "i", &Inclusion::displacement_upper, "the membrane's own A lies between them",
+          "L"),
+    array("A_estimated_error", "i", &Inclusion::displacement_estimated_error,
+          "estimate of the membrane's own A minus A, no bound", "L"),
+    array("Bx_lower", "i", &Inclusion::slope_x_lower, ""),
+    array("Bx_upper", "i", &Inclusion::slope_x_upper, ""),
+    array("By_lower", "i", &Inclusion::slope_y_lower, ""),
+    array("By_upper", "i", &Inclusion::slope_y_upper,
+          "bounds of the membrane's own slope, of one that tilts"),
 };
 inline constexpr auto contact_intervals = std::tuple{
     array("interface", "c", &ContactInterval::interface, "index into /interfaces"),

@@ -66,29 +66,17 @@ void put_sweep(const Handle& root, const Sweep& sweep, const Units& units) {
   put_arrays(group, units, sweep, tables::sweep_arrays);
 }
 
-void put_mesh(const Handle& root, const Mesh& mesh, const Units& units,
-              const CompressedMesh& compressed) {
+void put_mesh(const Handle& root, const Mesh& mesh, const Units& units) {
   const Handle group = create_group(root, "mesh");
-  arrays::for_each(
-      [&](const auto& row) {
-        const auto& values = std::invoke(row.member, mesh);
-        const auto chunks = compressed.find(std::string(row.name));
-        hdf5::put_array(group, std::string(row.name),
-                        value_type<std::ranges::range_value_t<decltype(values)>>, values.data(),
-                        values.size(), {arrays::columns_of(row.shape)},
-                        chunks == compressed.end() ? hdf5::FilteredChunks() : chunks->second,
-                        units.of(row.unit));
-      },
-      tables::mesh);
-  put_arrays(group, units, mesh, tables::mesh_names);
+  put_arrays(group, units, mesh, tables::mesh, tables::mesh_names);
 }
 
-void put_all(const Handle& root, const Result& result, const CompressedMesh& compressed) {
+void put_all(const Handle& root, const Result& result) {
   put(root, "format", std::string(format));
   put_values(root, result, tables::result);
   put_values(root, result.units, tables::units);
   put_values(root, result.timings, tables::timings);
-  put_mesh(root, result.mesh, result.units, compressed);
+  put_mesh(root, result.mesh, result.units);
   const Handle interfaces = create_group(root, "interfaces");
   for (std::size_t i = 0; i < result.interfaces.size(); ++i)
     put_interface(interfaces, i, result.interfaces[i], result.units);
@@ -116,27 +104,13 @@ bool holds_the_same(const std::filesystem::path& path, const Result& result) {
 
 }  // namespace
 
-CompressedMesh compress(const Mesh& mesh) {
-  CompressedMesh compressed;
-  arrays::for_each(
-      [&](const auto& row) {
-        const auto& values = std::invoke(row.member, mesh);
-        hdf5::FilteredChunks chunks = hdf5::filtered_chunks(
-            std::as_bytes(std::span(values)), sizeof(values[0]), arrays::columns_of(row.shape));
-        if (!chunks.empty()) compressed.emplace(row.name, std::move(chunks));
-      },
-      tables::mesh);
-  return compressed;
-}
-
-std::string write(const std::filesystem::path& path, const Result& result,
-                  const CompressedMesh& compressed) {
+std::string write(const std::filesystem::path& path, const Result& result) {
   const std::string fault = first_fault(result);
   if (!fault.empty()) throw Error(path.string(), "the result is inconsistent: " + fault, "");
   const hdf5::Quiet quiet;
   std::vector<std::byte> bytes;
   try {
-    bytes = hdf5::file_image([&](const Handle& root) { put_all(root, result, compressed); });
+    bytes = hdf5::file_image([&](const Handle& root) { put_all(root, result); });
   } catch (const hdf5::Fault& error) {
     throw Error(path.string(), error.what(), "");
   }

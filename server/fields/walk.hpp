@@ -30,33 +30,6 @@ inline constexpr bool is_a<Container<Items...>, Container> = true;
 template <class T>
 concept Whole = std::is_integral_v<T> || std::is_enum_v<T>;
 
-/// A struct with fields that came after its hashes were kept: added_fields(value), beside its list,
-/// ties them. At its default such a field has no leaves, so that the old hashes hold; else they
-/// follow its name with a "+", which no user's name has.
-template <class T>
-concept Grown = Listed<const T> && requires(const T& value) {
-  added_fields(value);
-};
-
-enum class Added { no, at_default, changed };
-
-/// Whether a field of a Grown value is among the added ones, and at its default.
-template <class T>
-Added added(const void* field, const T& value) {
-  const T initial{};
-  Added result = Added::no;
-  const auto look = [&]<std::size_t... i>(const auto& own, const auto& defaults,
-                                          std::index_sequence<i...>) {
-    ((result = field != static_cast<const void*>(&std::get<i>(own)) ? result
-               : std::get<i>(own) == std::get<i>(defaults)          ? Added::at_default
-                                                                    : Added::changed),
-     ...);
-  };
-  const auto own = added_fields(value);
-  look(own, added_fields(initial), std::make_index_sequence<std::tuple_size_v<decltype(own)>>());
-  return result;
-}
-
 /// Calls sink(leaf) in order with every std::uint64_t (integers, enums, times, lengths of lists,
 /// indices of alternatives), double and std::string. Different values give different leaves;
 /// targets of shared pointers do not count. O(size).
@@ -88,14 +61,7 @@ void walk(const T& value, Sink&& sink) {
       walk(item, sink);
     }
   } else if constexpr (Listed<const T>) {
-    for_each(value, [&](const auto& field) {
-      if constexpr (Grown<T>) {
-        const Added is = added(&field.value, value);
-        if (is == Added::at_default) return;
-        if (is == Added::changed) sink("+" + std::string(field.name));
-      }
-      walk(field.value, sink);
-    });
+    for_each(value, [&sink](const auto& field) { walk(field.value, sink); });
   } else if constexpr (!is_a<T, std::shared_ptr>) {
     each(value);  // a std::array, whose length is known
   }

@@ -76,9 +76,6 @@ struct InclusionSpec {
   LineSide delaminated_side = LineSide::unspecified;  ///< that comes off; unset: the minus side
 };
 ANTICRACK_FIELDS(InclusionSpec, name, part, delaminated, motion, line, stretches, delaminated_side)
-inline auto added_fields(const InclusionSpec& of) {
-  return std::tie(of.motion, of.line, of.stretches, of.delaminated_side);
-}
 
 struct CrackSpec {
   std::string name;
@@ -87,7 +84,6 @@ struct CrackSpec {
   std::optional<LineSpec> line{};  ///< as of an inclusion
 };
 ANTICRACK_FIELDS(CrackSpec, name, part, contact, line)
-inline auto added_fields(const CrackSpec& of) { return std::tie(of.contact, of.line); }
 
 struct RegionSpec {
   std::string name;
@@ -97,7 +93,6 @@ struct RegionSpec {
   std::optional<TensionLaw> tension_law{};  ///< in place of `tension`
 };
 ANTICRACK_FIELDS(RegionSpec, name, at, tension, outline, tension_law)
-inline auto added_fields(const RegionSpec& of) { return std::tie(of.outline, of.tension_law); }
 
 /// A side of the boundary. Begins where the one before it ends.
 struct SideSpec {
@@ -128,9 +123,6 @@ struct Geometry {
 };
 ANTICRACK_FIELDS(Geometry, boundary, interfaces, inclusions, cracks, neumann, regions, sides, holes,
                  neumann_sides)
-inline auto added_fields(const Geometry& of) {
-  return std::tie(of.sides, of.holes, of.neumann_sides);
-}
 
 /// Coarse: graded, from a default size four times as large.
 enum class Preset { graded, paper, uniform, coarse };
@@ -155,9 +147,6 @@ struct MeshOptions {
 };
 ANTICRACK_FIELDS(MeshOptions, preset, size, tip_size, grading, align, curve_groups, surface_groups,
                  tension, inclusion_motions, tension_laws, chord_angle)
-inline auto added_fields(const MeshOptions& of) {
-  return std::tie(of.inclusion_motions, of.tension_laws, of.chord_angle);
-}
 
 /// What a straight curve of the plan is.
 enum class Role : std::int32_t { dirichlet, neumann, interface, align };

@@ -101,6 +101,7 @@ class Block {
       attempt(i, [&](LoadOnTraces& result) {
         require_known_regions(*loads[i], mesh);
         require_array_fits(*loads[i], mesh);
+        require_traction_acts(*loads[i]);
         _placed[i] = place_forces(*loads[i], mesh, decomposition);
         result.subdomains.reserve(decomposition.subdomains.size());
         result.inclusion_forces = _placed[i].inclusions;
@@ -246,6 +247,18 @@ class Block {
       result.warnings.push_back(std::move(warning));
     if (std::string obstacle = no_proof(one); !obstacle.empty())
       result.parts.obstacle = std::move(obstacle);
+  }
+
+  /// Throws where a traction was given and no edge takes it.
+  void require_traction_acts(const fem::Load& load) const {
+    if (load.traction.empty() || load.traction == "0") return;
+    for (std::size_t s = 0; s < _decomposition.subdomains.size(); ++s)
+      if (!_neumann.of(s).empty()) return;
+    throw errors::Error(errors::Reason::invalid_argument,
+                        "nothing has a traction, as no part of the boundary is a Neumann boundary; "
+                        "name its sides or holes in the geometry's neumann, or the curves of an "
+                        "uploaded mesh neumann")
+        .at("traction");
   }
 
   /// Traction and point forces.

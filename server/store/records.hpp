@@ -139,7 +139,7 @@ enum class JobState {
   succeeded,
   failed,
   cancelled,
-  not_converged = 8,  ///< ran to its end, but some cases did not converge or failed
+  not_converged,  ///< ran to its end, but some cases did not converge or failed
 };
 
 /// Whether the job will not change any more, except that its result may be removed.

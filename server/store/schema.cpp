@@ -12,11 +12,8 @@ using errors::Error;
 using errors::Reason;
 
 /// Raised with every change of the tables or of what records are (records.proto), since a database
-/// of another version is refused, except that of the version before, which is read (record_codec)
-/// and becomes one of this version. Versions 1 to 3 had records of their own form, 4 no checksums,
-/// 5 no end NOT_CONVERGED, 6 no meshes that jobs made.
-constexpr std::int64_t schema_version = 7;
-constexpr std::int64_t updated_version = 6;
+/// of another version is refused.
+constexpr std::int64_t schema_version = 8;
 
 /// Columns beside a record are those that are searched for. `number` is the order of creation;
 /// AUTOINCREMENT gives none twice, so that a page stays where it is when records are erased.
@@ -86,13 +83,11 @@ void make_tables(Connection& connection) {
     transaction.commit();
   }
   require_version(connection);
-  if (connection.integer("PRAGMA user_version") != schema_version)
-    connection.execute("PRAGMA user_version = " + std::to_string(schema_version));
 }
 
 void require_version(Connection& connection) {
   const std::int64_t version = connection.integer("PRAGMA user_version");
-  if (version != schema_version && version != updated_version) {
+  if (version != schema_version) {
     throw Error(Reason::storage,
                 "the database " + connection.path() + " has version " + std::to_string(version) +
                     ", this anticrack reads version " + std::to_string(schema_version) +

@@ -7,8 +7,8 @@
 
 namespace anticrack::store {
 
-/// Makes the tables in an empty database, in one transaction, and makes a database of the version
-/// before one of this version. Throws as require_version does; nothing has changed then.
+/// Makes the tables in an empty database, in one transaction. Throws as require_version does;
+/// nothing has changed then.
 void make_tables(Connection& connection);
 
 /// Throws errors::Error (storage) where an anticrack with other tables or records made the

@@ -68,6 +68,18 @@ fem::Load load_number(int i) {
   return load;
 }
 
+TEST(PreparedLoad, IsNoneOfATractionThatNoSideTakes) {
+  const Operator op = MeshOperator::factorise(
+      std::make_shared<const mesh::Mesh>(structured_mesh({32, 8, {}, {}, {"bar"}})), 1, {});
+  std::vector<fem::Load> loads(2);
+  loads[0].traction = "5";
+  loads[1].traction = "0";
+  const std::vector<Outcome> outcomes = prepare(*op, loads);
+  EXPECT_TRUE(throws([&] { throw std::get<errors::Error>(outcomes[0]); }, Reason::invalid_argument,
+                     "traction"));
+  EXPECT_TRUE(std::holds_alternative<PreparedLoad>(outcomes[1]));
+}
+
 TEST(PreparedLoad, FortyAtOnceAreWhatEachIsAlone) {
   const Operator op = factorised();
   std::vector<fem::Load> loads;

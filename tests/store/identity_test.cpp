@@ -48,7 +48,7 @@ class Identity : public StoreTest {
     EXPECT_EQ(files("uploads"), 1U);
   }
 
-  /// Of the version before databases had an identity.
+  /// Of a version whose databases had no identity.
   void make_older() {
     store.reset();
     Connection database((folder / "anticrack.db").string());

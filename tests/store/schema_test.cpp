@@ -42,13 +42,5 @@ TEST_F(Schema, OfAnotherVersionIsRefusedAndLeftAsItIs) {
   }
 }
 
-TEST_F(Schema, OfTheVersionBeforeBecomesOneOfThisVersion) {
-  open({folder.path(), 0})->put(mesh_record("m"));
-  const std::int64_t own = Connection(path).integer("PRAGMA user_version");
-  Connection(path).execute("PRAGMA user_version = " + std::to_string(own - 1));
-  EXPECT_TRUE(open({folder.path(), 0})->mesh("m"));
-  EXPECT_EQ(Connection(path).integer("PRAGMA user_version"), own);
-}
-
 }  // namespace
 }  // namespace anticrack::store

@@ -362,11 +362,11 @@ class Result:
 
     @classmethod
     def read(cls, path: str | os.PathLike[str]) -> Result:
-        """Of a result file, "anticrack-result/1"."""
+        """Of a result file, "anticrack-result/2"."""
         h5py = package("h5py")
         try:
             with h5py.File(path) as file:
-                if file.attrs.get("format") != "anticrack-result/1":
+                if file.attrs.get("format") != "anticrack-result/2":
                     raise Error(f"{os.fspath(path)}: is no result file of anticrack")
                 return _told(_of_file(file))
         except FileNotFoundError:

@@ -69,7 +69,7 @@ def _put_record(group: Any, record: Any) -> None:
 
 def _put_result(file: Any, result: Result) -> None:
     from . import __version__
-    file.attrs.update({"format": "anticrack-result/1", "client_version": __version__, "mesh": result.mesh_name,
+    file.attrs.update({"format": "anticrack-result/2", "client_version": __version__, "mesh": result.mesh_name,
                        "unit_length": result.units.length, "unit_force": result.units.force})
     _put_record(file, result)
     del file.attrs["mesh_name"]

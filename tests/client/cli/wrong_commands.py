@@ -142,7 +142,7 @@ COMMANDS = [
     ("show plain.h5", 2,
      "plain.h5: is HDF5, but no result of anticrack; name a file that `anticrack run -o` wrote"),
     ("show other.h5", 2,
-     'other.h5: has format "anticrack-result/9", this client reads "anticrack-result/1"; use a newer '
+     'other.h5: has format "anticrack-result/9", this client reads "anticrack-result/2"; use a newer '
      "anticrack"),
     ("show truncated.h5", 2,
      "truncated.h5: is truncated or damaged; copy it again from where it was made, or run again"),

@@ -88,31 +88,6 @@ void expect_same(const Result& a_result, const Result& b_result) {
   EXPECT_TRUE(a == b);
 }
 
-TEST(File, is_the_same_with_a_mesh_that_was_compressed_before) {
-  const TemporaryFolder folder;
-  // None, less than a chunk, a chunk, and more than HDF5's cache of chunks holds.
-  for (const std::size_t triangles : {1, 1'000, 21'845, 21'846, 70'000, 200'000}) {
-    Result result = sample_result();
-    for (Load& load : result.loads) load.fields.clear();
-    Mesh& mesh = result.mesh;
-    const std::vector<std::int32_t> sample = mesh.triangles;
-    const std::int32_t subdomain = mesh.subdomain.front();
-    mesh.subdomain.resize(triangles, subdomain);
-    mesh.triangles.resize(3 * triangles);
-    for (std::size_t i = sample.size(); i < mesh.triangles.size(); ++i) {
-      mesh.triangles[i] = sample[i % 3];
-    }
-    for (std::size_t i = mesh.node_count(); i < triangles / 2; ++i) {
-      mesh.xy.insert(mesh.xy.end(),
-                     {std::sin(static_cast<double>(i)), 1. / static_cast<double>(i)});
-    }
-    write(folder / "plain.h5", result);
-    write(folder / "ahead.h5", result, compress(mesh));
-    EXPECT_TRUE(bytes_of(folder / "plain.h5") == bytes_of(folder / "ahead.h5")) << triangles;
-    expect_same(read(folder / "ahead.h5"), result);
-  }
-}
-
 TEST(File, comes_back_as_it_was_written) {
   const TemporaryFolder folder;
   const Result result = sample_result(40);  // large enough for compressed datasets
@@ -187,22 +162,6 @@ TEST(File, keeps_how_inclusions_tilt) {
   expect_same(read(folder / "a.h5"), result);
 }
 
-TEST(File, from_before_inclusions_tilted_has_none_that_does) {
-  const TemporaryFolder folder;
-  Result result = sample_result(2);
-  write(folder / "a.h5", result);
-  const hid_t file = H5Fopen((folder / "a.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
-  for (Load& load : result.loads) {
-    for (const char* column : {"Bx", "By", "Mx", "My"}) {
-      const std::string path = "/loads/" + load.name + "/inclusions/" + column;
-      ASSERT_GE(H5Ldelete(file, path.c_str(), H5P_DEFAULT), 0) << path;
-    }
-    load.inclusions[0].moment_x = load.inclusions[0].moment_y = 0;
-  }
-  H5Fclose(file);
-  expect_same(read(folder / "a.h5"), result);
-}
-
 TEST(File, keeps_stages_and_indicators) {
   const TemporaryFolder folder;
   Result result = with_stages(sample_result(40));
@@ -211,21 +170,6 @@ TEST(File, keeps_stages_and_indicators) {
   result.loads[0].stages.triangles.back() = std::int64_t{1} << 40;
   write(folder / "a.h5", result);
   expect_same(read(folder / "a.h5"), result);
-}
-
-TEST(File, from_before_jobs_had_an_accuracy_has_no_stages) {
-  const TemporaryFolder folder;
-  write(folder / "a.h5", with_stages(sample_result(2)));
-  const hid_t file = H5Fopen((folder / "a.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
-  ASSERT_GE(H5Adelete(file, "not_reached"), 0);
-  for (const char* load : {"opening", "partly closed"}) {
-    for (const char* name : {"/stages", "/indicator"}) {
-      const std::string path = std::string("/loads/") + load + name;
-      ASSERT_GE(H5Ldelete(file, path.c_str(), H5P_DEFAULT), 0) << path;
-    }
-  }
-  H5Fclose(file);
-  expect_same(read(folder / "a.h5"), sample_result(2));
 }
 
 TEST(File, keeps_unknown_numbers_as_nan) {

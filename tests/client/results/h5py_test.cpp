@@ -61,7 +61,7 @@ TEST_F(H5py, sees_attributes_units_and_text) {
              "print(f['mesh/nodes'].shape, f['mesh/nodes'].attrs['units'],\n"
              "      f['mesh/triangles'].dtype, f['mesh/nodes'].compression)\n"
              "print(ascii(f.attrs['case'].splitlines()[1]))\n"),
-      "anticrack-result/1 A made-up membrane\n"
+      "anticrack-result/2 A made-up membrane\n"
       "converged 180 1.74\n"
       "fibre 0.0863\n"
       "(1681, 2) mm int32 gzip\n"
