@@ -62,7 +62,7 @@ def _put_record(group: Any, record: Any) -> None:
         value = getattr(record, field.name)
         if isinstance(value, (str, int, float)) and not isinstance(value, bool):
             group.attrs[field.name] = np.int32(value) if isinstance(value, int) else value
-        elif isinstance(value, np.ndarray) and (value.size or value.ndim == 1) or (
+        elif isinstance(value, np.ndarray) and (value.size or value.ndim == 1 or not isinstance(record, Sweep)) or (
                 isinstance(value, list) and str(field.type) == "list[str]"):
             _put(group, field.name, value)
 

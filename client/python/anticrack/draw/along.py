@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import operator
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -13,7 +13,7 @@ from ..arrays import Array
 from ..result import CRACK, DELAMINATED, Interface, Load, Result, Trace, runs
 from ..text import interval
 from .panel import (BOX, CONTACT, CURVES, LINES, MARKED, Scale, axes, cut, fit_axis, legend_below, load_of, named,
-                    named_without, offset_of, point_text, rounded, traces_of, unit_of)
+                    named_without, offset_of, point_text, rounded, signed, traces_of, unit_of)
 
 
 def can_open(line: Interface) -> bool:
@@ -24,12 +24,11 @@ def can_open(line: Interface) -> bool:
 def eventful(result: Result, loads: list[Load]) -> tuple[int, int]:
     """The interface whose jump is largest or, if nothing is open, whose contact is longest; and that whose contact is
     longest, but the same one where its contact is at least half as long."""
-    jumps, contact, largest = np.zeros(len(result.interfaces)), np.zeros(len(result.interfaces)), 0.0
-    for load in loads:
-        for i, (line, trace) in enumerate(zip(result.interfaces, load.traces)):
-            jumps[i] = max(jumps[i], np.nanmax(np.abs(trace.jump), initial=0))
-            contact[i] = max(contact[i], _lengths(line) @ (trace.contact != 0))
-            largest = max(largest, np.nanmax(np.abs(trace.u_plus), initial=0))
+    def most(of: Callable[[Interface, Trace], float]) -> list[float]:
+        return [max(of(line, load.traces[i]) for load in loads) for i, line in enumerate(result.interfaces)]
+    jumps = most(lambda _, trace: _largest(trace.jump))
+    contact = most(lambda line, trace: np.diff(middles(line.s)) @ (trace.contact != 0))
+    largest = max(most(lambda _, trace: _largest(trace.u_plus)))
     longest, opened = int(np.argmax(contact)), int(np.argmax(jumps))
     if jumps[opened] <= 1e-9 * largest:
         opened = longest
@@ -49,10 +48,13 @@ def _begin(result: Result, load: str | Load | None, interface: int | str | None,
     return ax, load, index, Profile(result, result.interfaces[index]), load.traces[index], count
 
 
-def _lengths(line: Interface) -> Array:
-    """Half of the edges at each node."""
-    edges = np.diff(line.s, prepend=line.s[:1], append=line.s[-1:])
-    return np.asarray((edges[:-1] + edges[1:]) / 2)
+def _largest(*values: Array) -> float:
+    return float(np.nanmax(np.abs(np.concatenate(values)), initial=0))
+
+
+def middles(values: Array) -> Array:
+    """Between neighbours, and the ends (k+1): around a node is half of the edges at it."""
+    return np.concatenate((values[:1], (values[:-1] + values[1:]) / 2, values[-1:]))
 
 
 class Profile:
@@ -85,10 +87,6 @@ class Profile:
         if self.ends[0] < self.ends[1]:
             ax.set_xlim(*self.ends)
 
-    def middles(self) -> Array:
-        """(k+1) of the edges, and the ends."""
-        return np.concatenate((self.at[:1], (self.at[:-1] + self.at[1:]) / 2, self.at[-1:]))
-
     def bars(self, result: Result, ax: Any) -> None:
         """At the foot of what is drawn: cracks and inclusions, with the names of inclusions as long as they do not
         meet."""
@@ -101,16 +99,14 @@ class Profile:
             if kind in MARKED:
                 ax.axvspan(*sorted((self.at[first], self.at[last])), 0, 0.035, color=LINES[kind][1], linewidth=0,
                            zorder=3, label=labels.pop(kind, "_again"))
-        free = 0.0
-        size = (self.ends[1] - self.ends[0]) or 1.0
-        found = []
+        free, size, found = 0.0, (self.ends[1] - self.ends[0]) or 1.0, []
         for inclusion in inclusions:
             edges = np.flatnonzero(self.line.edge_inclusion == inclusion)
             middle = (self.at[edges].min() + self.at[edges + 1].max()) / 2
             found.append(((middle - self.ends[0]) / size, named(result.mesh.inclusions[inclusion], 24)))
         for middle, name in sorted(found):
             half = min(0.011 * len(name), 0.5)
-            middle = min(max(middle, half), 1 - half)
+            middle = float(np.clip(middle, half, 1 - half))
             if middle - half >= free:
                 free = middle + half + 0.02
                 ax.text(middle, 0.05, name, ha="center", va="bottom", fontsize="small", transform=ax.transAxes)
@@ -133,10 +129,6 @@ def edge_pressure(line: Interface, trace: Trace) -> tuple[Array, Array, Array, A
 def pressed(line: Interface, trace: Trace) -> bool:
     """Whether there is a pressure to draw."""
     return bool(edge_pressure(line, trace)[3].any())
-
-
-def _largest(*values: Array) -> float:
-    return float(np.nanmax(np.abs(np.concatenate(values)), initial=0))
 
 
 def finish(ax: Any, profile: Profile, loads: list[Load], index: int, name: str, unit: str) -> None:
@@ -163,10 +155,10 @@ def finish(ax: Any, profile: Profile, loads: list[Load], index: int, name: str, 
 def shade(profile: Profile, trace: Trace, ax: Any, color: str = CONTACT, alpha: float = 1,
           label: str = "contact") -> None:
     """Where it is in contact, to the middles of the edges at the ends: the stretches add up to its length."""
-    middles, closed = profile.middles(), trace.contact != 0
+    ends, closed = middles(profile.at), trace.contact != 0
     for first, last in runs(closed):
         if closed[first]:
-            ax.axvspan(*sorted(middles[[first, last]]), color=color, alpha=alpha, linewidth=0, zorder=-1, label=label)
+            ax.axvspan(*sorted(ends[[first, last]]), color=color, alpha=alpha, linewidth=0, zorder=-1, label=label)
             label = "_again"
 
 
@@ -176,15 +168,12 @@ def heading(result: Result, load: Load, line: Interface) -> str:
     here = [result.mesh.inclusions[i] for i in sorted({int(i) for i in line.edge_inclusion} - {-1})]
     for bounds in (True, False):
         parts = [where] if where else []
-        for name in here:
-            if name not in load.inclusions:
-                continue
-            part = load.inclusions[name]
+        for part in (load.inclusions[name] for name in here if name in load.inclusions):
             known = bounds and np.isfinite(part.A_lower)
             text = interval(part.A_lower, part.A_upper, part.A).partition(" (")[0] if known else f"{part.A:.4g}"
             slopes = f", B = ({part.Bx:.4g}, {part.By:.4g})" if part.Bx or part.By else ""
-            behind = f" ({named(name, 12)})" if len(load.inclusions) > 1 and name != line.name else ""
-            parts.append(f"A = {text.replace('+-', chr(177))}{unit}{slopes}{behind}".replace("-", chr(8722)))
+            behind = f" ({named(part.name, 12)})" if len(load.inclusions) > 1 and part.name != line.name else ""
+            parts.append(signed(f"A = {text.replace('+-', chr(177))}{unit}{slopes}{behind}"))
         if len(", ".join(parts)) <= 56:
             break
     return ", ".join(parts)

@@ -13,7 +13,7 @@ from ..arrays import Array, array_of
 from ..errors import Error
 from ..names import place
 from ..result import Result, Sweep
-from .along import Profile
+from .along import Profile, middles
 from .panel import CURVES, axes, fit_axis, legend_below, named, rounded, unit_of
 
 _NAMED = 6  # curves; what is beyond is drawn alike and counted
@@ -126,11 +126,10 @@ def slopes(result: Result, part: int, ax: Any = None) -> Any:
 
 
 def _ends(values: Array) -> Array:
-    """Half-way to the neighbours; of one value half a unit around it."""
+    """Half-way to the neighbours, and as far beyond the ends; of one value half a unit around it."""
     if len(values) == 1:
-        return np.array((values[0] - 0.5, values[0] + 0.5))
-    middles = (values[:-1] + values[1:]) / 2
-    return np.concatenate((2 * values[:1] - middles[:1], middles, 2 * values[-1:] - middles[-1:]))
+        return values[0] + np.array((-0.5, 0.5))
+    return middles(np.concatenate((2 * values[:1] - values[1:2], values, 2 * values[-1:] - values[-2:-1])))[1:-1]
 
 
 def contact_map(result: Result, interface: int | str, ax: Any = None) -> Any:
@@ -154,7 +153,7 @@ def contact_map(result: Result, interface: int | str, ax: Any = None) -> Any:
     many = len(strips) < len(order)
     at = over.at[order]
     borders = _ends(at)[[*np.cumsum([0, *map(len, strips)])]] if many else _ends(at)
-    ax.pcolormesh(profile.middles(), borders, shades, vmin=0, vmax=1, rasterized=True,
+    ax.pcolormesh(middles(profile.at), borders, shades, vmin=0, vmax=1, rasterized=True,
                   cmap=LinearSegmentedColormap.from_list("", [_OPEN, _CLOSED]))
     profile.axis(ax)
     seen = profile.at[nodes >= 0]
