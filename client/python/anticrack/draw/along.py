@@ -27,7 +27,7 @@ def eventful(result: Result, loads: list[Load]) -> tuple[int, int]:
     def most(of: Callable[[Interface, Trace], float]) -> list[float]:
         return [max(of(line, load.traces[i]) for load in loads) for i, line in enumerate(result.interfaces)]
     jumps = most(lambda _, trace: _largest(trace.jump))
-    contact = most(lambda line, trace: np.diff(middles(line.s)) @ (trace.contact != 0))
+    contact = most(lambda line, trace: float(np.diff(middles(line.s)) @ (trace.contact != 0)))
     largest = max(most(lambda _, trace: _largest(trace.u_plus)))
     longest, opened = int(np.argmax(contact)), int(np.argmax(jumps))
     if jumps[opened] <= 1e-9 * largest:

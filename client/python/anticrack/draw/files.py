@@ -20,16 +20,15 @@ from .meshes import Plan
 from .sheet import Look
 from .sweeps import Rows
 
-FIGURES = ("overview", "membrane", "plan", "traces", "convergence", "accuracy")
 _MANY = 12  # more loads, rows and interfaces are drawn where they are asked for
 _TOGETHER = 8  # loads over each other
 
 
 @dataclass
 class Wanted:
-    """only: of FIGURES, none: all that have something to show; interface: the one of the traces, the overview and
-    together, empty: the most eventful, and traces of all that can open; loads: names, none: the first twelve; all: of
-    loads and interfaces, however many."""
+    """only: of commands.FIGURES, none: all that have something to show; interface: the one of the traces, the overview
+    and together, empty: the most eventful, and traces of all that can open; loads: names, none: the first twelve; all:
+    of loads and interfaces, however many."""
     only: list[str] = field(default_factory=list)
     interface: str = ""
     loads: list[str] = field(default_factory=list)

@@ -52,13 +52,6 @@ def unit_of(result: Result, dimension: str = "L") -> str:
     return result.units.behind(dimension).strip()
 
 
-def fields(load: Load) -> list[Any]:
-    if not load.fields:
-        raise Error(f"{harmless(load.name)} has no fields; solve with Case(fields=True), in TOML [output] "
-                    "fields = true")
-    return load.fields
-
-
 def traces_of(result: Result, load: Load) -> None:
     """Raises Error where there is none to draw."""
     if not result.interfaces:
@@ -158,8 +151,8 @@ def fit_axis(axis: Any, name: str, unit: str) -> None:
 
 def log_axis(axis: Any) -> None:
     """Labels at powers of ten or, of few decades, at 1, 2 and 5 as well; marks between them where there is room."""
-    low, high = sorted(axis.get_view_interval())
-    decades = math.log10(high / low) if low > 0 else 0
+    low, high = axis.get_view_interval()
+    decades = abs(math.log10(high / low)) if low > 0 else 0
     axis.set_major_locator(rounded(5) if decades < 0.7 else
                            LogLocator(subs=(1, 2, 5) if decades < 2 else (1,), numticks=7))
     axis.set_minor_locator(LogLocator(subs=range(1, 10) if decades <= 4 else (1,), numticks=50))

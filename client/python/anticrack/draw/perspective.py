@@ -29,13 +29,13 @@ def _amplification(extent: float, size: float) -> float:
 def view(result: Result) -> tuple[float, float]:
     """Degrees up and around. From the front, x to the right as from above, and over the minus side of the first
     interface if that can be: its cracks open upwards on the far side. Else from higher up."""
-    along = [(line.x[-1] - line.x[0], line.y[-1] - line.y[0]) for line in result.interfaces[:1]]
-    across = np.array([-along[0][1], along[0][0]]) if along else np.array([0.0, 1.0])
+    across = np.array((0.0, 1.0))
+    for line in result.interfaces[:1]:
+        across = np.array((line.y[0] - line.y[-1], line.x[-1] - line.x[0]))
     across = across / (np.hypot(*across) or 1)
-    towards = {around: float(across @ (np.cos(np.radians(around)), np.sin(np.radians(around))))
-               for around in (-62, -118)}
-    around = min(towards, key=lambda angle: towards[angle])
-    return (_ELEVATION if towards[around] < 0.3 else 55), around
+    towards, around = min(((float(across @ (np.cos(np.radians(angle)), np.sin(np.radians(angle)))), angle)
+                           for angle in (-62, -118)), key=lambda found: found[0])
+    return (_ELEVATION if towards < 0.3 else 55), around
 
 
 def _plane(surface: Surface) -> Array:
@@ -45,8 +45,8 @@ def _plane(surface: Surface) -> Array:
         return np.zeros(len(surface.u))
     middle, size = surface.nodes.mean(axis=0), np.ptp(surface.nodes, axis=0).max()
     columns = np.c_[(surface.nodes - middle) / size, np.ones(len(surface.u))]
-    weights = np.bincount(surface.triangles.ravel(), np.repeat(surface.areas, 3), len(surface.u))[:, None]
-    plane = columns @ np.linalg.lstsq((columns * weights).T @ columns, (columns * weights).T @ surface.u, None)[0]
+    weighted = (columns * surface.around[:, None]).T
+    plane = columns @ np.linalg.lstsq(weighted @ columns, weighted @ surface.u, None)[0]
     return np.asarray(plane * (np.ptp(surface.u - plane) < 0.3 * np.ptp(surface.u)))
 
 
@@ -106,15 +106,15 @@ def membrane(result: Result, load: str | Load | None = None, ax: Any = None, cma
     rest = np.where(np.isfinite(surface.u), surface.u - plane, 0)
     factor = amplify or _amplification(np.ptp(rest), 0.4 * size if level else size)
     shades = surface.shades(limits, cmap)
-    tilt = np.linalg.lstsq(surface.nodes - surface.nodes.mean(axis=0), plane - plane.mean(), None)[0]
+    middle = surface.nodes.mean(axis=0)
+    tilt = np.linalg.lstsq(surface.nodes - middle, plane - plane.mean(), None)[0]
     colours = shades.to_rgba(surface.u)
     colours[:, :3] *= _lit(surface, factor * (surface.slopes - tilt), around)[:, None]
     points = np.c_[surface.nodes, factor * rest]
     ax.add_collection(Heights(points, surface.triangles, colours, bool(load.stages)), autolim=False)
 
     def height(x: Array, y: Array, u: Array) -> Array:
-        here = np.c_[x, y] - surface.nodes.mean(axis=0)
-        return np.asarray(factor * (u - here @ tilt - plane.mean()))
+        return np.asarray(factor * (u - (np.c_[x, y] - middle) @ tilt - plane.mean()))
     _mark(result, load, height, 0.06 * size, ax)
     ends = rest.min(), rest.max()
     heights = factor * np.mean(ends) + np.array((-0.5, 0.5)) * max(factor * np.ptp(ends), 0.15 * size)

@@ -10,8 +10,10 @@ from matplotlib.colors import LinearSegmentedColormap, Normalize
 from matplotlib.artist import allow_rasterization
 
 from ..arrays import Array
+from ..errors import Error
 from ..result import Load, Result
-from .panel import fields, widened
+from ..text import harmless
+from .panel import widened
 
 # Light grey, and not white, in the middle: the membrane is seen on paper.
 DIVERGING = LinearSegmentedColormap.from_list("anticrack", [
@@ -26,7 +28,10 @@ class Surface:
     which a result has the mean alone, |grad u|; flux_of_nodes (n) and slopes (n, 2): grad u, means by area."""
 
     def __init__(self, result: Result, load: Load) -> None:
-        parts = fields(load)
+        parts = load.fields
+        if not parts:
+            raise Error(f"{harmless(load.name)} has no fields; solve with Case(fields=True), in TOML [output] "
+                        "fields = true")
         firsts = np.cumsum([0, *(len(part.nodes) for part in parts)])
         self.nodes = result.mesh.nodes[np.concatenate([part.nodes for part in parts])]
         self.u = np.concatenate([part.u for part in parts])
@@ -35,22 +40,21 @@ class Surface:
         tension = np.repeat(tensions, [len(part.triangles) for part in parts])
         known = np.isfinite(self.u[self.triangles]).all(axis=1)
         self.triangles, tension = self.triangles[known], tension[known]
-        (ax, ay), (bx, by), (cx, cy) = np.moveaxis(self.nodes[self.triangles], 1, 0).transpose(0, 2, 1)
-        a, b, c = self.u[self.triangles].T
-        bx, by, cx, cy, b, c = bx - ax, by - ay, cx - ax, cy - ay, b - a, c - a
+        # Of the second and third corner against the first.
+        (bx, cx), (by, cy), (b, c) = ((values[:, 1:] - values[:, :1]).T for values in (
+            *np.moveaxis(self.nodes[self.triangles], 2, 0), self.u[self.triangles]))
         twice = bx * cy - cx * by
         self.areas = np.abs(twice) / 2
         with np.errstate(divide="ignore", invalid="ignore"):
             slopes = np.nan_to_num(np.stack((b * cy - c * by, c * bx - b * cx)) / twice, posinf=0, neginf=0)
         self.flux = tension * np.hypot(*slopes)
-        around = self._of_nodes(np.ones_like(self.flux))
-        around[around == 0] = 1
-        self.flux_of_nodes = self._of_nodes(self.flux) / around
-        self.slopes = np.stack([self._of_nodes(slope) for slope in slopes], axis=1) / around[:, None]
+        self.around = self._of_nodes(np.ones_like(self.flux))  # the area of the triangles at a node, three times
+        self.flux_of_nodes, *means = (self._of_nodes(each) / np.where(self.around == 0, 1, self.around)
+                                      for each in (self.flux, *slopes))
+        self.slopes = np.stack(means, axis=1)
 
     def _of_nodes(self, values: Array) -> Array:
-        weights = np.repeat(values * self.areas, 3)
-        return np.asarray(np.bincount(self.triangles.ravel(), weights, len(self.u)), dtype=float)
+        return np.bincount(self.triangles.ravel(), np.repeat(values * self.areas, 3), len(self.u)).astype(float)
 
     @property
     def known(self) -> Array:

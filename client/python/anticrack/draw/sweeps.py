@@ -128,7 +128,7 @@ def slopes(result: Result, part: int, ax: Any = None) -> Any:
 def _ends(values: Array) -> Array:
     """Half-way to the neighbours, and as far beyond the ends; of one value half a unit around it."""
     if len(values) == 1:
-        return values[0] + np.array((-0.5, 0.5))
+        return np.array((values[0] - 0.5, values[0] + 0.5))
     return middles(np.concatenate((2 * values[:1] - values[1:2], values, 2 * values[-1:] - values[-2:-1])))[1:-1]
 
 
