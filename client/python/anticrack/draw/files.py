@@ -6,6 +6,7 @@ import os
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -102,18 +103,22 @@ class _Drawing:
     def eventful(self, loads: list[Load]) -> tuple[int, int]:
         return (self.asked, self.asked) if self.asked is not None else eventful(self.result, loads)
 
-    def first(self, what: str, other: str) -> list[Load]:
-        if self.wanted.all or self.wanted.loads or len(self.loads) <= _MANY:
+    def first(self, every: list[Any], what: str) -> list[Any]:
+        if self.wanted.all or len(every) <= _MANY:
+            return every
+        self.note(f"the first {_MANY} of {len(every)} {what}, --all draws all")
+        return every[:_MANY]
+
+    def shown(self, what: str, other: str) -> list[Load]:
+        if self.wanted.loads:
             return self.loads
-        self.note(f"the first {_MANY} of {len(self.loads)} {what} drawn; --load {other} chooses others, --all draws "
-                  "all")
-        return self.loads[:_MANY]
+        return self.first(self.loads, f"{what} drawn; --load {other} chooses others")
 
     def draw_loads(self) -> None:
         suffixes = ["-membrane", "-plan", "-convergence", "-accuracy",
                     *(_traces_suffix(i) for i in range(len(self.result.interfaces)))]
         # Of all loads, drawn or not: a load has the same name however many are drawn.
-        for load, stem in zip(self.first("loads", "NAME"), stems((load.name for load in self.loads), suffixes)):
+        for load, stem in zip(self.shown("loads", "NAME"), stems((load.name for load in self.loads), suffixes)):
             self.draw_load(load, stem)
         self.note_interfaces()
         few = sum(1 for load in self.loads if load.traces and _steps(load) < self.fewest)
@@ -169,7 +174,7 @@ class _Drawing:
     def draw_sweep(self) -> None:
         if not self.wanted.only:
             self.draw_rows()
-        for load in self.first("rows with traces", "row-K"):
+        for load in self.shown("rows with traces", "row-K"):
             self.draw_traces(load, load.name)
         if self.loads:
             self.note_interfaces()
@@ -186,12 +191,8 @@ class _Drawing:
         self.drawn.add("sweep", pictures.sweep_picture(self.look, result))
         if sweep.slope is not None and np.any(sweep.slope[sweep.converged]):
             self.drawn.add("sweep-slope", pictures.slope_picture(self.look, result))
-        maps = self.opening if self.asked is None else [self.asked]
-        if len(maps) > _MANY and not self.wanted.all:
-            self.note(f"contact is drawn on the first {_MANY} of {len(maps)} interfaces that can open; --interface "
-                      "NAME chooses another, --all draws all")
-            maps = maps[:_MANY]
-        for index in maps:
+        told = "interfaces that can open drawn with their contact; --interface NAME chooses another"
+        for index in self.first(self.opening, told) if self.asked is None else [self.asked]:
             if (sweep.contact_nodes[:, 0] == index).any():
                 self.drawn.add("sweep-contact" + (f"-{index + 1}" if index else ""),
                                pictures.contact_picture(self.look, result, index))

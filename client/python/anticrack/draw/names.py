@@ -54,7 +54,7 @@ class Names:
                 free.append((covered, box, (x, y), tuple(end - at), side))
         if not free:
             return False
-        _, box, spot, offset, side = min(free, key=lambda found: found[0])
+        _, box, spot, offset, side = min(free, key=lambda found: int(found[0]))
         self._taken = np.vstack((self._taken, box))
         if arrow:
             self._ax.annotate("", spot, offset, textcoords="offset points", zorder=6, arrowprops={
