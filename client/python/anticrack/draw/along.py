@@ -10,10 +10,11 @@ import numpy as np
 from matplotlib.ticker import FuncFormatter
 
 from ..arrays import Array
+from ..errors import Error
 from ..result import CRACK, DELAMINATED, Interface, Load, Result, Trace, runs
-from ..text import interval
+from ..text import harmless, interval
 from .panel import (BOX, CONTACT, CURVES, LINES, MARKED, Scale, axes, cut, fit_axis, legend_below, load_of, named,
-                    named_without, offset_of, point_text, rounded, signed, traces_of, unit_of)
+                    named_without, offset_of, point_text, rounded, signed, unit_of)
 
 
 def can_open(line: Interface) -> bool:
@@ -40,7 +41,10 @@ def _begin(result: Result, load: str | Load | None, interface: int | str | None,
     """Of the interface named, or the most eventful: the axes, the load, its index, itself, the trace, and the number of
     curves that are there already."""
     ax, load = axes(ax), load_of(result, load)
-    traces_of(result, load)
+    if not result.interfaces:
+        raise Error("the sheet has no interface, so there is nothing to draw along one")
+    if not load.traces:
+        raise Error(f"{harmless(load.name)} has no traces: it is {load.status.replace('_', ' ')}")
     if isinstance(interface, str):
         interface = result.interfaces.place(interface)
     index = eventful(result, [load])[pressed] if interface is None else operator.index(interface)

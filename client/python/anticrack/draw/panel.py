@@ -52,14 +52,6 @@ def unit_of(result: Result, dimension: str = "L") -> str:
     return result.units.behind(dimension).strip()
 
 
-def traces_of(result: Result, load: Load) -> None:
-    """Raises Error where there is none to draw."""
-    if not result.interfaces:
-        raise Error("the sheet has no interface, so there is nothing to draw along one")
-    if not load.traces:
-        raise Error(f"{harmless(load.name)} has no traces: it is {load.status.replace('_', ' ')}")
-
-
 def named(text: object, most: int = 60) -> str:
     """Of others, as it is: matplotlib takes what is between two $ for a formula."""
     shown = harmless(text)
@@ -176,25 +168,25 @@ def legend_below(ax: Any, columns: int = 2, down: float = 0.5, **options: Any) -
                      fontsize="small", frameon=False, **options)
 
 
-def colour_bar(ax: Any, shades: Any, label: str, scale: Scale, colorbar: Any, **options: Any) -> None:
+def colour_bar(ax: Any, shades: Any, name: str, unit: str, colorbar: Any, **options: Any) -> None:
     """colorbar: False for none, or axes to draw it in; beside `ax` unless said otherwise. Drawn again on the same axes
     it is changed and not another one added."""
     if colorbar is False:
         return
-    made = getattr(ax, "anticrack_colour_bar", None)
+    scale, made = Scale(*shades.get_clim()), getattr(ax, "anticrack_colour_bar", None)
     if made is not None and made.ax.figure is ax.figure:
         made.update_normal(shades)
+    elif colorbar is True:
+        made = ax.figure.colorbar(shades, ax=ax, **options)
     else:
-        place = {"ax": ax} if colorbar is True else {"cax": colorbar}
-        if colorbar is not True:
-            box = colorbar.get_window_extent()
-            options = {"orientation": "horizontal" if box.width > box.height else "vertical",
-                       "extend": options.get("extend", "neither")}
-        made = ax.anticrack_colour_bar = ax.figure.colorbar(shades, **place, **options)
+        box = colorbar.get_window_extent()
+        made = ax.figure.colorbar(shades, cax=colorbar, extend=options.get("extend", "neither"),
+                                  orientation="horizontal" if box.width > box.height else "vertical")
+    ax.anticrack_colour_bar = made
     made.locator, made.formatter = rounded(4), FuncFormatter(scale.text)
     made.update_ticks()
     made.outline.set_linewidth(0.4)
-    made.set_label(label)
+    made.set_label(scale.label(name, unit))
 
 
 def cut(values: Array, weights: Array, part: float, room: float) -> tuple[float, float]:

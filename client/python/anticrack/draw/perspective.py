@@ -139,9 +139,7 @@ def membrane(result: Result, load: str | Load | None = None, ax: Any = None, cma
     wider = [f", {name} stretched \u00d7{number_text(by, 6)}" for name, by in zip("xy", stretched) if by != 1]
     ax.set_title(f"{named(load.name)}: {text.replace('u', 'u less a plane,', 1) if level else text}"
                  + "".join(wider) + not_converged(load))
-    of_u = Scale(*shades.get_clim())
-    colour_bar(ax, shades, of_u.label("u", unit_of(result)), of_u, colorbar, pad=0.02, shrink=0.6, aspect=30,
-               orientation="horizontal")
+    colour_bar(ax, shades, "u", unit_of(result), colorbar, pad=0.02, shrink=0.6, aspect=30, orientation="horizontal")
     return ax
 
 

@@ -204,8 +204,7 @@ def displacement(result: Result, load: str | Load | None = None, ax: Any = None,
     if lines:
         _lines_of_u(ax, surface, levels)
     _parts(result, ax)
-    scale = Scale(*shades.get_clim())
-    colour_bar(ax, shades, scale.label("u", unit_of(result)), scale, colorbar, **_beside(result))
+    colour_bar(ax, shades, "u", unit_of(result), colorbar, **_beside(result))
     ax.set_title(named(load.name) + not_converged(load))
     return ax
 
@@ -236,9 +235,7 @@ def plan(result: Result, load: str | Load | None = None, ax: Any = None, levels:
         for level, segments in zip(lines.levels, lines.allsegs):
             if len(segments):
                 names.on(of_u.text(level), np.concatenate(segments), 8)
-    scale = Scale(low, high)
-    law = result.mesh.tension_law
-    label = scale.label("|\u2207u|" if law else "|T \u2207u|", "" if law else unit_of(result, "F/L"))
-    colour_bar(ax, shades, label, scale, colorbar, extend="max" if high < highest else "neither", **_beside(result))
+    label = ("|\u2207u|", "") if result.mesh.tension_law else ("|T \u2207u|", unit_of(result, "F/L"))
+    colour_bar(ax, shades, *label, colorbar, extend="max" if high < highest else "neither", **_beside(result))
     ax.set_title(f"{named(load.name)}: lines of u{left_out}{not_converged(load)}")
     return ax
