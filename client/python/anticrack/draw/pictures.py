@@ -248,6 +248,7 @@ def mesh_picture(look: Look, plan_of: Plan) -> tuple[Files, list[str]]:
             notes.append(f"no triangles drawn {where}: {left_out} of them could not be told apart")
         bottom = max(bottom, high)
     columns = 2 if tip is None else 4
-    handles, labels = panels[0].get_legend_handles_labels()
-    panels[0].figure.legend(handles, labels, loc="lower center", ncol=columns, fontsize="small", borderaxespad=0.2)
+    handles = _handles(panels[0])
+    panels[0].figure.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, sheet.height(
+        ABOVE + bottom + BELOW)), ncol=columns, fontsize="small", borderaxespad=0.2)
     return sheet.files(ABOVE + bottom + BELOW + 1 + KEY * -(-len(handles) // columns)), notes

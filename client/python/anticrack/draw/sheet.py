@@ -10,7 +10,6 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import matplotlib
-import numpy as np
 from matplotlib import font_manager
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
@@ -77,38 +76,33 @@ class Sheet:
         lines = textwrap.wrap(named(title, 200), max(10, int(self.width / 1.75)), max_lines=3,
                               placeholder=" \u2026") if look.titles else []
         self._head = 1 + _LINE * len(lines) if lines else 0.0
-        self._lines = [self._figure.text(0.5, 0, line, ha="center", va="center", fontsize=9, color="#222222")
-                       for line in lines]
-        self._places: dict[Any, tuple[float, float, float, float]] = {}
+        for i, line in enumerate(lines):
+            self._figure.text(0.5, 1 - (1 + _LINE * (i + 0.5)) / _ROOM, line, ha="center", va="center", fontsize=9,
+                              color="#222222")
 
-    def _place(self, ax: Any, high: float) -> None:
-        left, top, wide, tall = self._places[ax]
-        ax.set_position((left / self.width, 1 - (self._head + top + tall) / high, wide / self.width, tall / high))
+    def height(self, down: float) -> float:
+        """Of what is so many mm below the title, as a part of the figure's."""
+        return 1 - (self._head + down) / _ROOM
 
     def panel(self, left: float, top: float, width: float, height: float, **options: Any) -> Any:
         """Axes, in mm from the left and from below the title."""
-        ax = self._figure.add_axes((0, 0, 1, 1), **options)
-        self._places[ax] = left, top, width, height
-        self._place(ax, _ROOM)
-        return ax
+        return self._figure.add_axes((left / self.width, self.height(top + height), width / self.width,
+                                      height / _ROOM), **options)
 
     def centre(self, ax: Any) -> None:
         """Axes of three dimensions: their names are inside their place, in which they become smaller if need be."""
-        left, _, room, _ = self._places[ax]
+        room, smaller = ax.get_position(original=True), 1.0
         for _ in range(3):  # letters stay as large as they are
-            self._figure.draw_without_rendering()  # which places the names
-            renderer = self._figure.canvas.get_renderer()
-            names = Bbox.union([axis.get_tightbbox(renderer) for axis in (ax.xaxis, ax.yaxis, ax.zaxis)])
-            begin, end = np.array((names.x0, names.x1)) * INCH / self._figure.dpi
-            at, top, wide, tall = self._places[ax]
-            smaller = max(0.0, end - begin + 3 - room) / room
-            self._places[ax] = (at + left + room / 2 - (begin + end) / 2 + wide * smaller / 2, top + tall * smaller / 2,
-                                wide * (1 - smaller), tall * (1 - smaller))
-            self._place(ax, _ROOM)
-            if not smaller:
-                break
-        at, _, wide, _ = self._places[ax]
-        ax.title.set_x((left + room / 2 - at) / wide)
+            if smaller:
+                self._figure.draw_without_rendering()  # which places the names
+                renderer, now = self._figure.canvas.get_renderer(), ax.get_position(original=True)
+                names = Bbox.union([axis.get_tightbbox(renderer) for axis in (ax.xaxis, ax.yaxis, ax.zaxis)])
+                names = names.transformed(self._figure.transFigure.inverted())
+                smaller = max(0.0, (names.width + 3 / self.width) / room.width - 1)
+                ax.set_position(now.shrunk(1 - smaller, 1 - smaller).anchored("C", now).translated(
+                    (room.x0 + room.x1 - names.x0 - names.x1) / 2, 0))
+        ax.apply_aspect()
+        ax.title.set_x(((room.x0 + room.x1) / 2 - ax.get_position().x0) / ax.get_position().width)
 
     def axes(self, left: float, top: float, height: float, **options: Any) -> Any:
         """Of a column, without what its numbers and names take."""
@@ -124,22 +118,19 @@ class Sheet:
 
     def files(self, height: float) -> dict[str, bytes]:
         """By format; the picture ends at this height."""
-        high = self._head + height
-        self._figure.set_size_inches(self.width / INCH, high / INCH)
-        for ax, (_, _, wide, _) in self._places.items():
-            self._place(ax, high)
-            room = (wide + 2 * RIGHT) / 1.6  # characters
+        for ax in self._figure.axes:
+            room = (ax.get_position().width * self.width + 2 * RIGHT) / 1.6  # characters
             ax.title.set_fontsize(8 * min(1, max(0.8, room / max(len(ax.get_title()), 1))))
             if not self.look.titles:
                 ax.set_title("")
-        for i, line in enumerate(self._lines):
-            line.set_y(1 - (1 + _LINE * (i + 0.5)) / high)
+        shown = Bbox.from_bounds(0, _ROOM * self.height(height) / INCH, self.width / INCH, (self._head + height) / INCH)
         made = {}
         for kind in self.look.formats:
             buffer = io.BytesIO()
             # The same result gives the same bytes.
             metadata: dict[str, Any] = {"png": {"Software": None}, "svg": {"Date": None, "Creator": None},
                                         "pdf": {"CreationDate": None, "Creator": None, "Producer": None}}[kind]
-            self._figure.savefig(buffer, format=kind, dpi=self.look.dpi, metadata=metadata, facecolor="white")
+            self._figure.savefig(buffer, format=kind, dpi=self.look.dpi, metadata=metadata, facecolor="white",
+                                 bbox_inches=shown)
             made[kind] = buffer.getvalue()
         return made
