@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import contextlib
+import functools
 import hashlib
 import logging
 import os
 import pathlib
 import uuid
-from collections.abc import AsyncIterator, Callable, Iterable, Iterator, Sequence
+from collections.abc import AsyncIterator, Callable, Iterator, Sequence
 from typing import Any
 
 from .arrays import Array
@@ -129,19 +130,9 @@ class Session:
         """Their names."""
         names: list[str] = []
         for begin in range(0, len(contents), FILES_A_STREAM):
-            names += await self._upload(contents[begin:begin + FILES_A_STREAM], kind)
+            parts = functools.partial(_parts, contents[begin:begin + FILES_A_STREAM], kind)
+            names += [made.name for made in (await self._tried(self.transport.upload, parts)).uploads]
         return names
-
-    async def _upload(self, contents: Sequence[bytes], kind: upload_pb2.Upload.Kind) -> list[str]:
-        def parts() -> Iterable[upload_pb2.CreateUploadsRequest]:
-            for content in contents:
-                header = upload_pb2.CreateUploadsRequest.Header(
-                    size=len(content), sha256=hashlib.sha256(content).hexdigest(), kind=kind)
-                yield upload_pb2.CreateUploadsRequest(header=header)
-                for begin in range(0, len(content), CHUNK):
-                    yield upload_pb2.CreateUploadsRequest(chunk=content[begin:begin + CHUNK])
-        response = await self._tried(self.transport.upload, parts)
-        return [upload.name for upload in response.uploads]
 
     async def _create_mesh(self, requests: Requests) -> mesh_pb2.Mesh:
         if requests.msh is not None:
@@ -162,27 +153,21 @@ class Session:
     async def submit(self, case: Case | str | os.PathLike[str], coefficients: Any = None, nodal_forces: Any = None,
                      traces: Sequence[int] = (), bounds: bool = False) -> solve_pb2.Job:
         case = as_case(case)
-        sweep = coefficients is not None or nodal_forces is not None
-        with _in_terms_of(case):
-            return await self._submit(case.requests(nodal_forces is None, sweep), coefficients, nodal_forces, traces,
-                                      bounds)
-
-    async def _submit(self, requests: Requests, coefficients: Any, nodal_forces: Any,
-                      traces: Sequence[int], bounds: bool) -> solve_pb2.Job:
+        requests = case.requests(nodal_forces is None, coefficients is not None or nodal_forces is not None)
         job = requests.job
-        if requests.arrays:
+        with _in_terms_of(case):
             names = await self.upload([values.tobytes() for _, values in requests.arrays],
                                       upload_pb2.Upload.KIND_ARRAY)
             for (index, _), name in zip(requests.arrays, names):
                 job.load_cases[index].force.array.upload = name
-        matrix = sweep_of(job, coefficients, nodal_forces, traces, bounds)
-        if matrix is not None:
-            target = job.sweep.coefficients if coefficients is not None else job.sweep.nodal_forces
-            target.upload = (await self.upload([matrix], upload_pb2.Upload.KIND_ARRAY))[0]
-        requests.mesh.for_job = True
-        job.mesh = (await self._create_mesh(requests)).name
-        request = solve_pb2.CreateJobRequest(job=job, request_id=str(uuid.uuid4()))
-        return await self.call(self.transport.jobs.CreateJob, request)  # type: ignore[no-any-return]
+            matrix = sweep_of(job, coefficients, nodal_forces, traces, bounds)
+            if matrix is not None:
+                target = job.sweep.coefficients if coefficients is not None else job.sweep.nodal_forces
+                target.upload = (await self.upload([matrix], upload_pb2.Upload.KIND_ARRAY))[0]
+            requests.mesh.for_job = True
+            job.mesh = (await self._create_mesh(requests)).name
+            request = solve_pb2.CreateJobRequest(job=job, request_id=str(uuid.uuid4()))
+            return await self.call(self.transport.jobs.CreateJob, request)  # type: ignore[no-any-return]
 
     async def mesh(self, name: str) -> mesh_pb2.Mesh:
         """Once it is meshed, or has failed."""
@@ -240,6 +225,14 @@ def _in_terms_of(case: Case) -> Iterator[None]:
         yield
     except ServerError as error:
         raise in_terms_of(case.source, case.tables, error) from None
+
+
+def _parts(contents: Sequence[bytes], kind: upload_pb2.Upload.Kind) -> Iterator[upload_pb2.CreateUploadsRequest]:
+    for content in contents:
+        yield upload_pb2.CreateUploadsRequest(header=upload_pb2.CreateUploadsRequest.Header(
+            size=len(content), sha256=hashlib.sha256(content).hexdigest(), kind=kind))
+        for begin in range(0, len(content), CHUNK):
+            yield upload_pb2.CreateUploadsRequest(chunk=content[begin:begin + CHUNK])
 
 
 def _content(path: pathlib.Path) -> bytes:
