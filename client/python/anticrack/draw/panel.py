@@ -161,10 +161,10 @@ def point_text(x: float, y: float, size: float, digits: int = 4) -> str:
     return f"({text(x)}, {text(y)})"
 
 
-def legend_below(ax: Any, columns: int = 2, down: float = 0.5, **options: Any) -> Any:
+def legend_below(ax: Any, columns: int = 2, down: float = 0.5, middle: float = 0.5, **options: Any) -> Any:
     """`down` inches below the axes, clear of its labels, however flat it is drawn."""
     moved = ax.transAxes + ScaledTranslation(0, -down, ax.figure.dpi_scale_trans)
-    return ax.legend(loc="upper center", bbox_to_anchor=(0.5, 0), bbox_transform=moved, ncol=columns,
+    return ax.legend(loc="upper center", bbox_to_anchor=(middle, 0), bbox_transform=moved, ncol=columns,
                      fontsize="small", frameon=False, **options)
 
 

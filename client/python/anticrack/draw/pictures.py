@@ -32,14 +32,6 @@ def _handles(*panels: Any) -> list[Any]:
     return [*{handle.get_label(): handle for ax in panels for handle in ax.get_legend_handles_labels()[0]}.values()]
 
 
-def _legend(ax: Any, columns: int, handles: list[Any]) -> float:
-    """Below the axis, in place of its own; its height, mm."""
-    if not handles:
-        return 0.0
-    legend_below(ax, columns, (BELOW - 1) / INCH, handles=handles)
-    return 1 + KEY * -(-len(handles) // columns)
-
-
 def _over_one_axis(panels: list[Any]) -> None:
     for ax in panels[:-1]:
         ax.tick_params(labelbottom=False)
@@ -48,7 +40,7 @@ def _over_one_axis(panels: list[Any]) -> None:
         ax.set_title("")
     width = panels[0].get_position().width * panels[0].figure.get_size_inches()[0]
     for ax in panels:  # names in one line, wherever the numbers end
-        ax.yaxis.set_label_coords(-(LEFT - 4) / INCH / width, 0.5)
+        ax.yaxis.set_label_coords(-(LEFT - 5) / INCH / width, 0.5)
 
 
 def draw_membrane(sheet: Sheet, result: Result, load: Load, *_: float) -> float:
@@ -85,7 +77,7 @@ def draw_plan(sheet: Sheet, result: Result, load: Load, _: float = 0, top: float
     (bar if flat else ax).set_title(heading_of_map)
     if flat:
         bar.xaxis.set_ticks_position("bottom")
-    return down - top + high + BELOW + _legend(ax, 2, _handles(ax))
+    return down - top + high + BELOW + sheet.legend(ax, 2, _handles(ax))
 
 
 def draw_curves(draw: Any, sheet: Sheet, result: Result, load: Load, left: float = 0, top: float = 0) -> float:
@@ -94,7 +86,7 @@ def draw_curves(draw: Any, sheet: Sheet, result: Result, load: Load, left: float
     ax = sheet.axes(left, top + ABOVE, high)
     draw(result, load, ax=ax)
     ax.set_title(ax.get_title().rpartition(": ")[2])
-    return ABOVE + high + BELOW + (_legend(ax, 1, _handles(ax)) if ax.get_legend() else 0)
+    return ABOVE + high + BELOW + (sheet.legend(ax, 1, _handles(ax)) if ax.get_legend() else 0)
 
 
 def _draw_along(sheet: Sheet, result: Result, load: Load, index: int, left: float, heights: tuple[float, ...]) -> float:
@@ -116,7 +108,7 @@ def _draw_along(sheet: Sheet, result: Result, load: Load, index: int, left: floa
     for ax in below:
         pressure(result, load, index, ax, whole=True)
     _over_one_axis(panels)
-    return bottom + _legend(panels[-1], 2, _handles(panels[0]))
+    return bottom + sheet.legend(panels[-1], 2, _handles(panels[0]))
 
 
 def traces_picture(look: Look, result: Result, load: Load, index: int) -> Files:
@@ -150,7 +142,7 @@ def together_picture(look: Look, result: Result, loads: list[Load], index: int) 
     panels[0].set_title(f"interface {named(line.name, 30)}" if len(result.interfaces) > 1 else
                         "the interface under each load")
     _over_one_axis(panels)
-    return sheet.files(bottom + _legend(panels[-1], 2, curves + _handles(panels[2])))
+    return sheet.files(bottom + sheet.legend(panels[-1], 2, curves + _handles(panels[2])))
 
 
 def picture(draw: Any, look: Look, result: Result, load: Load) -> Files:
@@ -192,7 +184,7 @@ def _stacked(look: Look, result: Result, draw: list[Any], more: str = "") -> Fil
         ax.legend_ = None
     panels[0].set_title(_rows(result) + more)
     _over_one_axis(panels)
-    return sheet.files(bottom + _legend(panels[-1], 3, handles))
+    return sheet.files(bottom + sheet.legend(panels[-1], 3, handles))
 
 
 def accuracy_picture(look: Look, result: Result, load: Load) -> Files:
@@ -204,7 +196,7 @@ def accuracy_picture(look: Look, result: Result, load: Load) -> Files:
     lower = sheet.axes(0, top, high, sharex=upper)
     error_band(result, load, lower)
     _over_one_axis([upper, lower])
-    return sheet.files(top + high + BELOW + _legend(lower, 1, _handles(lower)))
+    return sheet.files(top + high + BELOW + sheet.legend(lower, 1, _handles(lower)))
 
 
 def _rows(result: Result) -> str:
@@ -231,7 +223,7 @@ def contact_picture(look: Look, result: Result, index: int) -> Files:
     ax = sheet.axes(0, ABOVE, high)
     contact_map(result, index, ax)
     ax.set_title(f"{ax.get_title()}, {_rows(result)}")
-    return sheet.files(ABOVE + high + BELOW + _legend(ax, 2, _handles(ax)))
+    return sheet.files(ABOVE + high + BELOW + sheet.legend(ax, 2, _handles(ax)))
 
 
 def mesh_picture(look: Look, plan_of: Plan) -> tuple[Files, list[str]]:

@@ -17,7 +17,7 @@ from matplotlib.transforms import Bbox
 
 from ..errors import Error
 from ..text import suggestion
-from .panel import named
+from .panel import legend_below, named
 
 INCH = 25.4
 _LINE = 4.2  # of the title, mm
@@ -115,6 +115,15 @@ class Sheet:
             panels.append(self.axes(left, top, height, sharex=panels[0] if panels else None))
             top += height + _GAP
         return panels, top - _GAP + BELOW
+
+    def legend(self, ax: Any, columns: int, handles: list[Any]) -> float:
+        """Below the axis, in place of its own, in the middle of the column; its height, mm."""
+        if not handles:
+            return 0.0
+        box, column = ax.get_position(), self.look.width / self.width
+        middle = ((box.x0 + box.x1) / 2 // column + 0.5) * column
+        legend_below(ax, columns, (BELOW - 1) / INCH, (middle - box.x0) / box.width, handles=handles)
+        return 1 + KEY * -(-len(handles) // columns)
 
     def files(self, height: float) -> dict[str, bytes]:
         """By format; the picture ends at this height."""
