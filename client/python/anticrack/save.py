@@ -55,15 +55,17 @@ def _put(group: Any, name: str, values: Any) -> None:
     group[name].attrs["units"] = units.of(_DIMENSIONS.get(name.rpartition("/")[2], ""))
 
 
-def _put_record(group: Any, record: Any) -> None:
-    """Its texts and numbers as attributes, its arrays and lists of texts as datasets; what is empty in more than one
-    dimension is left out."""
+def _put_record(group: Any, record: Any, *but: str) -> None:
+    """Its texts and numbers as attributes, its arrays and lists of texts as datasets, of a sweep without columns of
+    nothing; fields `but` are left out."""
     for field in fields(record):
         value = getattr(record, field.name)
-        if isinstance(value, (str, int, float)) and not isinstance(value, bool):
+        if field.name in but or isinstance(value, bool):
+            continue
+        if isinstance(value, (str, int, float)):
             group.attrs[field.name] = np.int32(value) if isinstance(value, int) else value
         elif isinstance(value, np.ndarray) and (value.size or value.ndim == 1 or not isinstance(record, Sweep)) or (
-                isinstance(value, list) and str(field.type) == "list[str]"):
+                str(field.type) == "list[str]"):
             _put(group, field.name, value)
 
 
@@ -71,11 +73,8 @@ def _put_result(file: Any, result: Result) -> None:
     from . import __version__
     file.attrs.update({"format": "anticrack-result/2", "client_version": __version__, "mesh": result.mesh_name,
                        "unit_length": result.units.length, "unit_force": result.units.force})
-    _put_record(file, result)
-    del file.attrs["mesh_name"]
-    _put_record(file.create_group("mesh"), result.mesh)
-    if not result.mesh.tension_law:
-        del file["mesh/tension_law"]
+    _put_record(file, result, "mesh_name")
+    _put_record(file.create_group("mesh"), result.mesh, *["tension_law"] * (not result.mesh.tension_law))
     file.create_group("interfaces")
     for i, interface in enumerate(result.interfaces):
         _put_record(file.create_group(f"interfaces/{i}"), interface)
@@ -89,8 +88,7 @@ def _put_result(file: Any, result: Result) -> None:
 
 
 def _put_load(group: Any, load: Load) -> None:
-    _put_record(group, load)
-    del group.attrs["name"]
+    _put_record(group, load, "name")
     for name in KKT:
         group.attrs["kkt_" + name], group.attrs["kkt_relative_" + name] = load.kkt_absolute[name], load.kkt[name]
     inclusions = group.create_group("inclusions")
@@ -108,14 +106,14 @@ def _put_load(group: Any, load: Load) -> None:
                          **{f"stages/{name}": values for name, values in load.stages.items()}}.items():
         _put(group, name, values)
     for i, part in enumerate(load.fields):
-        _put_record(group.create_group(f"fields/{i}"), part)
-        group[f"fields/{i}"].attrs["name"] = group[f"fields/{i}"].attrs.pop("subdomain")
+        field_group = group.create_group(f"fields/{i}")
+        field_group.attrs["name"] = part.subdomain
+        _put_record(field_group, part, "subdomain")
 
 
 def _put_sweep(group: Any, sweep: Sweep) -> None:
-    _put_record(group, sweep)
+    _put_record(group, sweep, "loads", "inclusions")
     for name in ("loads", "inclusions"):
-        del group[name]
         group.attrs[name] = np.array(getattr(sweep, name), dtype=_TEXT)
     counts = np.bincount(sweep.status, minlength=6)
     group.attrs.update({"description": "row k of every dataset belongs to load case k", "source": "",
