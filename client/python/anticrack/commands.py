@@ -31,14 +31,15 @@ class _Parser(argparse.ArgumentParser):
         raise _Usage(f"{message.replace('argument ', '')}; see {self.prog} --help")
 
 
-def _some(*known: str) -> Any:
+def _some(known: Sequence[str], wrong: str) -> Any:
+    """wrong: what is said of a word that is not known, as the command does."""
     def some(text: str) -> list[str]:
         found = list(dict.fromkeys(text.split(",")))
         for name in found:
             if name == "pressure":
                 raise argparse.ArgumentTypeError("the pressure is a panel of traces; write that, or overview")
             if name not in known:
-                raise argparse.ArgumentTypeError(f'"{name}" is none of {", ".join(known[:-1])} and {known[-1]}')
+                raise argparse.ArgumentTypeError(wrong.format(name))
         return found
     return some
 
@@ -67,7 +68,8 @@ def _parser() -> _Parser:
     plot.add_argument("file", metavar="RESULT", help="result file, HDF5")
     plot.add_argument("--load", action="append", default=[], help="this load only, of a sweep row-K; again for more")
     plot.add_argument("--together", action="store_true", help="up to 8 loads over each other on one interface")
-    plot.add_argument("--only", type=_some(*FIGURES), action="extend", default=[], metavar="LIST",
+    plot.add_argument("--only", type=_some(FIGURES, "{} is none of " + ", ".join(FIGURES)),
+                      action="extend", default=[], metavar="LIST",
                       help=f"of {', '.join(FIGURES[:-1])} and {FIGURES[-1]} those to draw")
     plot.add_argument("--interface", default="", metavar="NAME", help="draw the traces of this one")
     plot.add_argument("--all", action="store_true", help="of loads and interfaces, however many there are")
@@ -80,8 +82,9 @@ def _parser() -> _Parser:
     mesh.add_argument("--free", action="store_true", help="no traction acts where u is not given")
     for command in (plot, mesh):
         command.add_argument("-o", "--output", default="figures", metavar="DIR", help="folder of the figures")
-        command.add_argument("--format", type=_some("png", "svg", "pdf"), default=["png", "svg"], metavar="LIST",
-                             help="of png, svg and pdf those to write")
+        command.add_argument("--format", metavar="LIST", help="of png, svg and pdf those to write",
+                             default=["png", "svg"], type=_some(("png", "svg", "pdf"),
+                                                                '"{}" is none of png, svg and pdf'))
         command.add_argument("--dpi", type=_number(50, 1200, int), default=300, help="dots an inch of PNG files")
         command.add_argument("--width", type=_number(40, 400, float), default=85.0, metavar="MM", help="of a panel")
         command.add_argument("--font", default="", metavar="NAME", help="family of the letters")
