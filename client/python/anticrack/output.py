@@ -32,9 +32,9 @@ def target_of(path: str | os.PathLike[str]) -> tuple[str, bool]:
         return found, False
     except OSError as error:
         raise _unwritable(path, error) from None
-    if stat.S_ISDIR(mode) or stat.S_ISBLK(mode) or stat.S_ISSOCK(mode):
-        what = "folder" if stat.S_ISDIR(mode) else "disk" if stat.S_ISBLK(mode) else "socket"
-        raise Error(f"{os.fsdecode(path)} is a {what}; name a file")
+    for is_one, what in ((stat.S_ISDIR, "folder"), (stat.S_ISBLK, "disk"), (stat.S_ISSOCK, "socket")):
+        if is_one(mode):
+            raise Error(f"{os.fsdecode(path)} is a {what}; name a file")
     return found, not stat.S_ISREG(mode)
 
 
