@@ -119,7 +119,8 @@ class Scale:
 
     def text(self, value: float, _: Any = None) -> str:
         value /= self.factor
-        shown = 0.0 if abs(value - self.offset) < 1e-9 * self._largest else value - self.offset
+        rounding = 1e-9 * self._largest + 2 * math.ulp(self.offset)
+        shown = 0.0 if abs(value - self.offset) < rounding else value - self.offset
         return signed(f"{shown / 10.0 ** self._exponent:.6g}")
 
     def label(self, name: str, unit: str) -> str:
