@@ -4,65 +4,35 @@ from __future__ import annotations
 
 import asyncio
 import os
-from collections.abc import AsyncIterator, Callable, Iterable, Sequence
+from collections.abc import AsyncIterator, Sequence
 from typing import Any, TextIO
 
 import grpc
 
 from .arrays import Array
-from . import private_server
 from .case import Case, as_case
 from .client import JobState, noted
-from .credentials import Credentials, Path, address_of, token_of
-from .errors import of_call, of_status
+from .credentials import Credentials, Path, token_of
 from .progress import Progress
 from .result import Result
 from .retry import Backoff
-from .session import Session
-from .transport import DEADLINE, Transport
+from .session import Session, session_of_own, session_to
+from .transport import Transport
 from .v1 import mesh_pb2, server_pb2, solve_pb2
 
 
 class AsyncTransport(Transport):
     """The same calls on grpc.aio."""
+    calls = grpc.aio
 
-    def _open(self, address: str, secrets: Any) -> Any:
-        if secrets is None:
-            return grpc.aio.insecure_channel(address, self.options)
-        return grpc.aio.secure_channel(address, secrets, self.options)
+    async def answer(self, call: Any) -> Any:
+        return await call
 
-    async def unary(self, method: Callable[..., Any], request: Any) -> Any:
-        self.require_owner()
-        try:
-            return await method(request, timeout=DEADLINE, metadata=self.metadata)
-        except grpc.RpcError as error:
-            raise of_call(error) from None
-
-    async def upload(self, parts: Callable[[], Iterable[Any]]) -> Any:
-        self.require_owner()
-        try:
-            return await self.uploads.CreateUploads(iter(parts()), metadata=self.metadata)
-        except grpc.RpcError as error:
-            raise of_call(error) from None
-
-    async def stream(self, method: Callable[..., Any], request: Any) -> AsyncIterator[Any]:
-        self.require_owner()
-        call = method(request, metadata=self.metadata)
-        try:
-            async for message in call:
-                yield message
-        except grpc.RpcError as error:
-            raise of_call(error) from None
-        finally:
-            call.cancel()
+    def messages(self, call: Any) -> Any:
+        return call
 
     async def sleep(self, seconds: float) -> None:
         await asyncio.sleep(seconds)
-
-    async def close(self) -> None:
-        self._end()
-        await self.channel.close()
-        self.stop_server()
 
 
 class AsyncJob(JobState):
@@ -79,10 +49,9 @@ class AsyncJob(JobState):
             yield message
 
     async def wait(self, progress: bool = False, out: TextIO | None = None) -> AsyncJob:
-        shown = Progress(self.message, out) if progress else None
+        shown = Progress(self.message, out, progress)
         async for message in self.events():
-            if shown is not None:
-                shown.take(message)
+            shown.take(message)
         return self
 
     async def cancel(self) -> AsyncJob:
@@ -96,8 +65,7 @@ class AsyncJob(JobState):
         await self.refresh()
         if not self.ended:
             await self.wait()
-        self._raise_if_nothing_came()
-        return self._complete(await self._session.result(self.name, self._case_text))
+        return await self._result()
 
 
 class AsyncClient:
@@ -118,10 +86,7 @@ class AsyncClient:
         return noted(await (await job.wait(progress)).result())
 
     async def mesh(self, case: Case | str | os.PathLike[str]) -> mesh_pb2.Mesh:
-        mesh = await self._session.mesh((await self._session.create_mesh(case)).name)
-        if mesh.HasField("error"):
-            raise of_status(mesh.error)
-        return mesh
+        return await self._session.mesh_of(case)
 
     async def mesh_arrays(self, mesh: mesh_pb2.Mesh | str) -> dict[str, Array]:
         return await self._session.mesh_arrays(mesh if isinstance(mesh, str) else mesh.name)
@@ -149,13 +114,10 @@ def connect(address: str | None = None, *, tls: bool = False, ca: Path | None = 
             key: Path | None = None, token: str | None = None, token_file: Path | None = None,
             patience: float = 300.0, first_contact: float = 3.0) -> AsyncClient:
     """As anticrack.connect; call it where a loop runs."""
-    address = address_of(address)
-    credentials = Credentials(tls, ca, cert, key, token_of(token, token_file))
-    return AsyncClient(Session(AsyncTransport(address, credentials), address, Backoff(patience, first_contact)))
+    return AsyncClient(session_to(AsyncTransport, address, Credentials(tls, ca, cert, key, token_of(token, token_file)),
+                                  Backoff(patience, first_contact)))
 
 
 def local(*flags: str, program: Path | None = None) -> AsyncClient:
     """As anticrack.local, and as connect called where a loop runs."""
-    server = private_server.Server(*flags, program=program)
-    transport = AsyncTransport(server.address, Credentials(), server)
-    return AsyncClient(Session(transport, server.address, Backoff(300.0, 3.0)))
+    return AsyncClient(session_of_own(AsyncTransport, *flags, program=program))

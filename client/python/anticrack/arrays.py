@@ -3,6 +3,7 @@
 numpy would read as something else than it means - masked entries, units, times, records - is refused."""
 from __future__ import annotations
 
+import contextlib
 import math
 import numbers
 import os
@@ -100,15 +101,11 @@ def _of_objects(array: Array, values: Any, fail: Fail) -> Array:
     for at, value in np.ndenumerate(array):
         if not is_number(value):
             raise fail(f"{value!r} at {list(at)} ({type(value).__name__}) is not a number; give one for each entry")
-    try:
-        if all(isinstance(value, numbers.Integral) for value in array.flat):
-            return array.astype(np.int64)
-    except OverflowError:
-        pass
-    try:
-        return array.astype(np.float64)
-    except OverflowError:
-        raise fail("a number is larger than any of float64; give numbers below 1e308") from None
+    whole = all(isinstance(value, numbers.Integral) for value in array.flat)
+    for kind in (np.int64, np.float64) if whole else (np.float64,):
+        with contextlib.suppress(OverflowError):
+            return array.astype(kind)
+    raise fail("a number is larger than any of float64; give numbers below 1e308")
 
 
 def _checked(values: Any, fail: Fail, in_order: bool = False) -> Any:
@@ -147,11 +144,11 @@ def _refuse_units(values: Any, fail: Fail) -> None:
 
 def _refuse_labels(values: Any, fail: Fail, in_order: bool) -> None:
     """Of pandas: labels that say another order than that of the entries."""
-    axes = [("index", values.index)] + ([("columns", values.columns)] if hasattr(values, "columns") else [])
-    for axis, labels in axes:
+    axes = {axis: getattr(values, axis) for axis in ("index", "columns") if hasattr(values, axis)}
+    for axis, labels in axes.items():
         if in_order and np.asarray(labels).dtype.kind in "iuf" and not labels.is_monotonic_increasing:
             raise fail(f"the {axis} of {_kind(values)} is not in the order of the mesh; write .sort_index("
                        f"{'axis=1' if axis == 'columns' else ''}), or .to_numpy() if the entries are")
-    labels = list(axes[-1][1])
+    labels = list(axes.get("columns", axes["index"]))
     if sorted(map(str, labels)) == ["x", "y"] and labels != ["x", "y"]:
         raise fail(f"{_kind(values)} has y before x; write [['x', 'y']] behind it")

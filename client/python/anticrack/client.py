@@ -8,16 +8,15 @@ from collections.abc import Iterator, Sequence
 from typing import Any, TextIO
 
 from .arrays import Array
-from . import private_server
 from .case import Case, as_case
-from .credentials import Credentials, Path, address_of, token_of
+from .credentials import Credentials, Path, token_of
 from .errors import ServerError, of_status
 from .notes import notes_on
 from .places import in_terms_of
 from .progress import Progress
 from .result import Result
 from .retry import Backoff
-from .session import ENDED, Session
+from .session import ENDED, Session, session_of_own, session_to
 from .sweeps import coefficients_of
 from .text import harmless
 from .transport import Transport, each, finished
@@ -54,20 +53,14 @@ class JobState:
         """Of one that failed."""
         if not self.message.HasField("error"):
             return None
-        if self._case:
-            return in_terms_of(self._case.source, self._case.tables, of_status(self.message.error))
-        loads = [{"name": load.name} for load in self.message.load_cases]
-        return in_terms_of("", {"load": loads}, of_status(self.message.error))
+        error, loads = of_status(self.message.error), [{"name": load.name} for load in self.message.load_cases]
+        return in_terms_of(self._case.source, self._case.tables, error) if self._case else (
+            in_terms_of("", {"load": loads}, error))
 
-    @property
-    def _case_text(self) -> str:
-        return self._case.text if self._case else ""
-
-    def _raise_if_nothing_came(self) -> None:
+    async def _result(self) -> Result:
         if self.message.result_state != solve_pb2.Job.RESULT_STATE_AVAILABLE:
             raise self.error or ServerError("FAILED_PRECONDITION", f"{self.name} is {self.state} and has no answers")
-
-    def _complete(self, result: Result) -> Result:
+        result = await self._session.result(self.name, self._case.text if self._case else "")
         if result.sweep is not None and self._coefficients is not None:
             result.sweep.coefficients = self._coefficients
         return result
@@ -99,10 +92,9 @@ class Job(JobState):
 
     def wait(self, progress: bool = True, out: TextIO | None = None) -> Job:
         """Until it has ended; an interrupt leaves it running. progress: shown on `out`, standard error by default."""
-        shown = Progress(self.message, out) if progress else None
+        shown = Progress(self.message, out, progress)
         for message in self.events():
-            if shown is not None:
-                shown.take(message)
+            shown.take(message)
         return self
 
     def cancel(self) -> Job:
@@ -120,8 +112,7 @@ class Job(JobState):
         self.refresh()
         if not self.ended:
             self.wait(progress)
-        self._raise_if_nothing_came()
-        return self._complete(finished(self._session.result(self.name, self._case_text)))
+        return finished(self._result())
 
 
 class Client:
@@ -151,11 +142,7 @@ class Client:
 
     def mesh(self, case: Case | str | os.PathLike[str]) -> mesh_pb2.Mesh:
         """The mesh of a case, once it is meshed: its counts, subdomains and interfaces (Mesh in mesh.proto)."""
-        mesh = finished(self._session.create_mesh(case))
-        mesh = finished(self._session.mesh(mesh.name))
-        if mesh.HasField("error"):
-            raise of_status(mesh.error)
-        return mesh
+        return finished(self._session.mesh_of(case))
 
     def mesh_arrays(self, mesh: mesh_pb2.Mesh | str) -> dict[str, Array]:
         """nodes (n, 2), triangles (m, 3), subdomain (m), boundary (b, 2), interfaces/I/...: see ReadMeshResponse."""
@@ -191,13 +178,11 @@ def connect(address: str | None = None, *, tls: bool = False, ca: Path | None = 
     tls: with the system's authorities; ca: with this one. cert, key: of this client. token, or its file (or
     ANTICRACK_TOKEN): never sent over a network unencrypted. A lost connection is restored for up to `patience`
     seconds, before the first answer for `first_contact`."""
-    address = address_of(address)
-    credentials = Credentials(tls, ca, cert, key, token_of(token, token_file))
-    return Client(Session(Transport(address, credentials), address, Backoff(patience, first_contact)))
+    return Client(session_to(Transport, address, Credentials(tls, ca, cert, key, token_of(token, token_file)),
+                             Backoff(patience, first_contact)))
 
 
 def local(*flags: str, program: Path | None = None) -> Client:
     """A client of a private server, which ends at the end of `with`, by close(), or when nobody has the client or a job
     of it any more. flags: of anticrackd, as "--threads", "2"; program: that on PATH unless named."""
-    server = private_server.Server(*flags, program=program)
-    return Client(Session(Transport(server.address, Credentials(), server), server.address, Backoff(300.0, 3.0)))
+    return Client(session_of_own(Transport, *flags, program=program))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import json
 import os
 import signal
@@ -17,6 +18,7 @@ from .result import Result, Units
 from .text import harmless
 from .v1 import mesh_pb2
 
+FIGURES = ("overview", "membrane", "plan", "traces", "convergence", "accuracy")
 USAGE, CLOSED = 2, 141  # exit codes, as the command's
 
 
@@ -29,43 +31,33 @@ class _Parser(argparse.ArgumentParser):
         raise _Usage(f"{message.replace('argument ', '')}; see {self.prog} --help")
 
 
-def _formats(text: str) -> list[str]:
-    found = list(dict.fromkeys(text.split(",")))
-    for name in found:
-        if name not in ("png", "svg", "pdf"):
-            raise argparse.ArgumentTypeError(f'"{name}" is none of png, svg and pdf')
-    return found
-
-
-def _figures(text: str) -> list[str]:
-    from .draw.files import FIGURES
-    for name in text.split(","):
-        if name == "pressure":
-            raise argparse.ArgumentTypeError("the pressure is a panel of traces; write that, or overview")
-        if name not in FIGURES:
-            raise argparse.ArgumentTypeError(f"{name} is none of {', '.join(FIGURES)}")
-    return text.split(",")
+def _some(known: Sequence[str], wrong: str) -> Any:
+    """wrong: what is said of a word that is not known, as the command does."""
+    def some(text: str) -> list[str]:
+        found = list(dict.fromkeys(text.split(",")))
+        for name in found:
+            if name == "pressure":
+                raise argparse.ArgumentTypeError("the pressure is a panel of traces; write that, or overview")
+            if name not in known:
+                raise argparse.ArgumentTypeError(wrong.format(name))
+        return found
+    return some
 
 
 def _number(low: float, high: float, kind: Any) -> Any:
     def number(text: str) -> Any:
-        try:
-            value = kind(text)
-        except ValueError:
-            value = None
-        if value is None or not low <= value <= high:
-            raise argparse.ArgumentTypeError(f"{text} is no number from {low:g} to {high:g}")
-        return value
+        with contextlib.suppress(ValueError):
+            if low <= kind(text) <= high:
+                return kind(text)
+        raise argparse.ArgumentTypeError(f"{text} is no number from {low:g} to {high:g}")
     return number
 
 
 def _limits(text: str) -> tuple[float, float]:
-    try:
+    with contextlib.suppress(ValueError):
         low, high = map(float, text.split(","))
         if low < high:
             return low, high
-    except ValueError:
-        pass
     raise argparse.ArgumentTypeError(f"{text} is not LOW,HIGH, as -0.1,0.4")
 
 
@@ -76,8 +68,9 @@ def _parser() -> _Parser:
     plot.add_argument("file", metavar="RESULT", help="result file, HDF5")
     plot.add_argument("--load", action="append", default=[], help="this load only, of a sweep row-K; again for more")
     plot.add_argument("--together", action="store_true", help="up to 8 loads over each other on one interface")
-    plot.add_argument("--only", type=_figures, action="extend", default=[], metavar="LIST",
-                      help="of overview, membrane, plan, traces, convergence and accuracy those to draw")
+    plot.add_argument("--only", type=_some(FIGURES, "{} is none of " + ", ".join(FIGURES)),
+                      action="extend", default=[], metavar="LIST",
+                      help=f"of {', '.join(FIGURES[:-1])} and {FIGURES[-1]} those to draw")
     plot.add_argument("--interface", default="", metavar="NAME", help="draw the traces of this one")
     plot.add_argument("--all", action="store_true", help="of loads and interfaces, however many there are")
     plot.add_argument("--amplify", type=_number(1e-300, 1e300, float), metavar="FACTOR", help="of u in the membrane")
@@ -89,8 +82,9 @@ def _parser() -> _Parser:
     mesh.add_argument("--free", action="store_true", help="no traction acts where u is not given")
     for command in (plot, mesh):
         command.add_argument("-o", "--output", default="figures", metavar="DIR", help="folder of the figures")
-        command.add_argument("--format", type=_formats, default=["png", "svg"], metavar="LIST",
-                             help="of png, svg and pdf those to write")
+        command.add_argument("--format", metavar="LIST", help="of png, svg and pdf those to write",
+                             default=["png", "svg"], type=_some(("png", "svg", "pdf"),
+                                                                '"{}" is none of png, svg and pdf'))
         command.add_argument("--dpi", type=_number(50, 1200, int), default=300, help="dots an inch of PNG files")
         command.add_argument("--width", type=_number(40, 400, float), default=85.0, metavar="MM", help="of a panel")
         command.add_argument("--font", default="", metavar="NAME", help="family of the letters")

@@ -20,13 +20,17 @@ CHANNEL = [("grpc.keepalive_time_ms", 30_000), ("grpc.keepalive_timeout_ms", 10_
            ("grpc.max_reconnect_backoff_ms", 1_000), ("grpc.max_receive_message_length", -1)]
 
 
+def host_and_port(address: str) -> tuple[str, str]:
+    """Of HOST, HOST:PORT, [IPV6]:PORT or IPV6, in lower case, without the resolver's name."""
+    text = re.sub(r"^(dns:///|dns:|ipv4:|ipv6:)", "", address.lower())
+    found = re.fullmatch(r"\[(.*)\]:?(.*)|([^:]*):?([^:]*)", text)
+    return (found[1] or found[3] or "", found[2] or found[4] or "") if found else (text, "")
+
+
 def is_loopback(address: str) -> bool:
     """Whether what is sent there stays on the machine."""
-    if address.startswith(("unix:", "unix-abstract:")):
-        return True
-    address = re.sub(r"^(dns:///|dns:|ipv4:|ipv6:)", "", address.lower())
-    host = address.partition(":")[0]
-    return (address in ("::1", "[::1]") or address.startswith("[::1]:") or host in ("localhost", "localhost.")
+    host, _ = host_and_port(address)
+    return (address.startswith(("unix:", "unix-abstract:")) or host in ("localhost", "localhost.", "::1")
             or re.fullmatch(r"127\.[0-9.]*", host) is not None)
 
 

@@ -51,7 +51,7 @@ class Msh:
             nodes = array_of(array, ("n", corners), lambda problem: CaseError(f"cells '{kind}': {problem}"), whole=True)
             if not 0 <= int(nodes.min()) <= int(nodes.max()) < len(points):
                 raise CaseError(f"cells '{kind}' name points that are not there; they count from 0")
-            names = _names(self.groups.get(kind, [""] * len(nodes)), kind)
+            names = _names(list(self.groups.get(kind, [""] * len(nodes))), kind)
             if len(names) != len(nodes):
                 raise CaseError(f"groups of '{kind}' are {len(names)} names for {len(nodes)} cells")
             rows = cast(list[list[int]], nodes.tolist())
@@ -59,15 +59,13 @@ class Msh:
                 tag = tags.setdefault((dimension, name), len(tags) + 1) if name else 0
                 entity = tag or 10**6 + dimension
                 elements.append(f"{len(elements) + 1} {code} 2 {tag} {entity} " + " ".join(str(i + 1) for i in cell))
+        groups = [f'{dimension} {tag} "{name}"' for (dimension, name), tag in tags.items()]
+        nodes_of = [f"{i} {x!r} {y!r} 0" for i, (x, y, *_) in enumerate(points.tolist(), 1)]
         lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat"]
-        if tags:
-            lines += ["$PhysicalNames", str(len(tags))]
-            lines += [f'{dimension} {tag} "{name}"' for (dimension, name), tag in tags.items()]
-            lines += ["$EndPhysicalNames"]
-        lines += ["$Nodes", str(len(points))]
-        lines += [f"{i} {x!r} {y!r} 0" for i, (x, y, *_) in enumerate(points.tolist(), 1)]
-        lines += ["$EndNodes", "$Elements", str(len(elements)), *elements, "$EndElements", ""]
-        return "\n".join(lines).encode()
+        for what, entries in (("PhysicalNames", groups), ("Nodes", nodes_of), ("Elements", elements)):
+            if entries or what != "PhysicalNames":
+                lines += [f"${what}", str(len(entries)), *entries, f"$End{what}"]
+        return "\n".join([*lines, ""]).encode()
 
 
 def _points(values: Any) -> Array:
@@ -85,8 +83,7 @@ def _points(values: Any) -> Array:
 
 def _names(values: Any, kind: str) -> list[str]:
     """Of groups; "" for none."""
-    names = list(values)
-    for i, name in enumerate(names):
+    for i, name in enumerate(values):
         if not isinstance(name, str):
             raise CaseError(f"groups of '{kind}': {name!r} at [{i}] is not text; write a name, or '' for none")
-    return [str(name) for name in names]
+    return [str(name) for name in values]

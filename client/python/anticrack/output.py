@@ -20,11 +20,10 @@ def target_of(path: str | os.PathLike[str]) -> tuple[str, bool]:
     its end."""
     found = os.fsdecode(path)
     for _ in range(40):  # as the kernel
-        parent = os.path.dirname(found) or "."
-        if re.fullmatch("[0-9]+", os.path.basename(found)) and _same(parent, "/proc/self/fd"):
-            return found, True  # a descriptor: its link leads to a name that need not be the open file's
+        if _descriptor(found) is not None:  # whose link leads to a name that need not be the open file's
+            return found, True
         try:
-            found = os.path.join(parent, os.readlink(found))
+            found = os.path.join(os.path.dirname(found), os.readlink(found))
         except OSError:  # no link
             break
     try:
@@ -33,9 +32,9 @@ def target_of(path: str | os.PathLike[str]) -> tuple[str, bool]:
         return found, False
     except OSError as error:
         raise _unwritable(path, error) from None
-    if stat.S_ISDIR(mode) or stat.S_ISBLK(mode) or stat.S_ISSOCK(mode):
-        what = "folder" if stat.S_ISDIR(mode) else "disk" if stat.S_ISBLK(mode) else "socket"
-        raise Error(f"{os.fsdecode(path)} is a {what}; name a file")
+    for is_one, what in ((stat.S_ISDIR, "folder"), (stat.S_ISBLK, "disk"), (stat.S_ISSOCK, "socket")):
+        if is_one(mode):
+            raise Error(f"{os.fsdecode(path)} is a {what}; name a file")
     return found, not stat.S_ISREG(mode)
 
 
@@ -65,11 +64,13 @@ def make_folder(path: str) -> None:
         raise Error(f"{path}: Permission denied; make the folder writable, or choose another one")
 
 
-def _same(one: str, other: str) -> bool:
-    try:
-        return os.path.samefile(one, other)
-    except OSError:
-        return False
+def _descriptor(path: str) -> int | None:
+    """Of this process, which the path names."""
+    with contextlib.suppress(OSError):
+        if re.fullmatch("[0-9]+", os.path.basename(path)) and os.path.samefile(
+                os.path.dirname(path) or ".", "/proc/self/fd"):
+            return int(os.path.basename(path))
+    return None
 
 
 def _unwritable(path: str | os.PathLike[str], error: OSError) -> Error:
@@ -83,9 +84,8 @@ def _write_stream(target: str, content: bytes | memoryview) -> None:
     for text in (sys.stdout, sys.stderr):  # what was printed before comes before
         if text is not None:
             text.flush()
-    number = re.fullmatch("[0-9]+", os.path.basename(target)) and _same(os.path.dirname(target), "/proc/self/fd")
-    descriptor = os.dup(int(os.path.basename(target))) if number else os.open(target, os.O_WRONLY)
-    with open(descriptor, "wb", buffering=0) as file:
+    number = _descriptor(target)
+    with open(os.open(target, os.O_WRONLY) if number is None else os.dup(number), "wb", buffering=0) as file:
         rest = memoryview(content)
         while rest:
             rest = rest[file.write(rest):]

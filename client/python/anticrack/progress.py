@@ -106,10 +106,10 @@ def _errors(stage: solve_pb2.Stage, asked: solve_pb2.Accuracy) -> str:
 class Progress:
     """out: where it is shown; a notebook is noticed."""
 
-    def __init__(self, job: solve_pb2.Job, out: TextIO | None = None) -> None:
+    def __init__(self, job: solve_pb2.Job, out: TextIO | None = None, shown: bool = True) -> None:
         self._state, self._name = State(job), job.name
-        self._out: TextIO | None = out or sys.stderr  # which a program without a terminal may lack
-        self._handle = _notebook_handle() if out is None else None
+        self._out: TextIO | None = (out or sys.stderr) if shown else None  # a program without a terminal may lack it
+        self._handle = _notebook_handle() if shown and out is None else None
         self._bar = self._handle is None and _is_terminal(self._out)
         self._shown, self._next = 0, 0.0
 
@@ -117,45 +117,38 @@ class Progress:
         if self._out is None:
             return
         try:
-            self._show(message)
+            self._show(message, self._out)
         except (OSError, ValueError):  # closed, or full: no reason to lose the job
             self._out = None
 
-    def _show(self, message: solve_pb2.WatchJobResponse) -> None:
-        assert self._out is not None
+    def _show(self, message: solve_pb2.WatchJobResponse, out: TextIO) -> None:
         before = len(self._state.stages)
         lines = self._state.take(message)
-        stages = list(self._state.stages.values())[before:]
-        drawn = self._handle is not None or self._bar
-        if drawn and not stages and not message.HasField("ended"):
-            if time.monotonic() < self._next:
-                return
-            self._next = time.monotonic() + PAUSE
-        if self._handle is not None:
-            text = "\n".join([*self._state.stages.values(), self._text()])
-            self._handle.update({"text/plain": text}, raw=True)
-        elif self._bar:
-            self._out.write("".join("\r" + stage.ljust(self._shown) + "\n" for stage in stages))
-            text = self._text()[:self._columns()]
-            self._out.write("\r" + text.ljust(self._shown))
+        stages = list(self._state.stages.values())
+        text, ended = harmless(f"{self._name} {self._state.bar()}"), message.HasField("ended")
+        if self._handle is None and not self._bar:
+            out.write("".join(harmless(f"{self._name}: {part}") + "\n" for part in lines))
+        elif len(stages) == before and not ended and time.monotonic() < self._next:
+            return
+        elif self._handle is not None:
+            self._handle.update({"text/plain": "\n".join([*stages, text])}, raw=True)
+        else:
+            text = text[:_columns(out)]
+            out.write("".join("\r" + stage.ljust(self._shown) + "\n" for stage in stages[before:]))
+            out.write("\r" + text.ljust(self._shown) + "\n" * ended)
             self._shown = len(text)
-            if message.HasField("ended"):
-                self._out.write("\n")
-            self._out.flush()
-        elif lines:
-            self._out.write("".join(harmless(f"{self._name}: {part}") + "\n" for part in lines))
-            self._out.flush()
+        if self._handle is None:
+            out.flush()
+        if len(stages) == before and not ended:
+            self._next = time.monotonic() + PAUSE
 
-    def _columns(self) -> int:
-        """A longer text would go on in a second line, which stays."""
-        assert self._out is not None
-        try:
-            return os.get_terminal_size(self._out.fileno()).columns - 1
-        except OSError:
-            return 100
 
-    def _text(self) -> str:
-        return harmless(f"{self._name} {self._state.bar()}")
+def _columns(out: TextIO) -> int:
+    """A longer text would go on in a second line, which stays."""
+    try:
+        return os.get_terminal_size(out.fileno()).columns - 1
+    except OSError:
+        return 100
 
 
 def _is_terminal(out: TextIO | None) -> bool:

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import ipaddress
 import os
-import re
 
-from .credentials import is_loopback
+from .credentials import host_and_port, is_loopback
 
 
 def proxy_for(address: str) -> tuple[str, str] | None:
@@ -16,7 +15,7 @@ def proxy_for(address: str) -> tuple[str, str] | None:
     name = _first_set("grpc_proxy", "https_proxy", "http_proxy")
     if name is None or not os.environ[name] or is_loopback(address):
         return None
-    server = _split(re.sub(r"^(dns:///|dns:|ipv4:|ipv6:)", "", address))
+    server = host_and_port(address)
     exempt = _first_set("no_grpc_proxy", "no_proxy", "NO_PROXY")
     if exempt is not None and any(_exempts(entry.strip(), *server) for entry in os.environ[exempt].split(",")):
         return None
@@ -30,16 +29,6 @@ def remark(proxy: tuple[str, str]) -> str:
 
 def _first_set(*names: str) -> str | None:
     return next((name for name in names if name in os.environ), None)
-
-
-def _split(text: str) -> tuple[str, str]:
-    """Host and port of HOST, HOST:PORT, [IPV6]:PORT or IPV6, in lower case."""
-    text = text.lower()
-    if text.startswith("["):
-        host, _, rest = text[1:].partition("]")
-        return host, rest.removeprefix(":")
-    host, _, port = text.partition(":")
-    return (text, "") if ":" in port else (host, port)
 
 
 def _ip(host: str) -> ipaddress.IPv4Address | ipaddress.IPv6Address | None:
@@ -59,7 +48,7 @@ def _exempts(entry: str, host: str, port: str) -> bool:
             return ip is not None and ip in ipaddress.ip_network(entry, strict=False)
         except ValueError:
             return False
-    wanted, wanted_port = _split(entry[1:] if entry.startswith("*.") else entry)
+    wanted, wanted_port = host_and_port(entry[1:] if entry.startswith("*.") else entry)
     if not wanted or wanted_port not in ("", port):
         return False
     other = _ip(wanted)

@@ -278,16 +278,14 @@ class Sweep:
         if self.coefficients is not None:
             columns.update((name, self.coefficients[:, i]) for i, name in enumerate(self.loads))
         columns["status"] = [_status(code) for code in self.status]
-        bounds = ("energy_lower", "energy_upper") if self.energy_lower is not None else ()
-        for name in ("steps", "energy", *bounds, "contact_length", "kkt"):
+        for name in ("steps", "energy", "energy_lower", "energy_upper", "contact_length", "kkt"):
             columns[name] = getattr(self, name)
+        slopes: Any = (None, None) if self.slope is None else np.moveaxis(self.slope, 2, 0)
         for i, name in enumerate(self.inclusions):
-            columns[f"A of {name}"] = self.displacement[:, i]
-            if self.displacement_lower is not None and self.displacement_upper is not None:
-                columns[f"A_lower of {name}"] = self.displacement_lower[:, i]
-                columns[f"A_upper of {name}"] = self.displacement_upper[:, i]
-            if self.slope is not None:
-                columns[f"Bx of {name}"], columns[f"By of {name}"] = self.slope[:, i, 0], self.slope[:, i, 1]
+            for what, values in (("A", self.displacement), ("A_lower", self.displacement_lower),
+                                 ("A_upper", self.displacement_upper), ("Bx", slopes[0]), ("By", slopes[1])):
+                columns[f"{what} of {name}"] = None if values is None else values[:, i]
+        columns = {name: column for name, column in columns.items() if column is not None}
         return pandas.DataFrame(columns).rename_axis("row")
 
     def __repr__(self) -> str:
@@ -394,26 +392,39 @@ class Result:
     def of_job(cls, job: solve_pb2.Job, mesh: mesh_pb2.Mesh, mesh_arrays: Mapping[str, Array],
                arrays: Mapping[str, Array], case: str = "", server_version: str = "") -> Result:
         """Of what the server streams."""
-        result = _of_job(job, mesh, mesh_arrays, arrays, case)
-        result.server_version, result.mesh_sha256 = server_version, mesh.sha256
-        result.traction = any(load.traction for load in job.load_cases)
-        result.mesh_seconds, result.factorize_seconds = mesh.mesh_seconds, mesh.factorize_seconds
-        result.solve_seconds = _seconds(job.sweep_answer.solve_time) if result.sweep is not None else sum(
-            load.solve_seconds for load in result.loads.values())
+        interfaces = Parts("interface", [Interface(info.name, **_below(arrays, f"interfaces/{i}/"), **{
+            name: mesh_arrays[f"interfaces/{i}/{name}"] for name in ("edge_kind", "edge_inclusion")})
+            for i, info in enumerate(mesh.interfaces)])
+        shape = Mesh(**{name: mesh_arrays[name] for name in ("nodes", "triangles", "subdomain", "boundary")},
+                     subdomain_names=[subdomain.name for subdomain in mesh.subdomains],
+                     tension=np.array([subdomain.tension or 1.0 for subdomain in mesh.subdomains]),
+                     inclusions=list(mesh.inclusions), tension_law=_laws(mesh))
+        result = cls(job.title, job.name, mesh.name, shape, interfaces, Named("load"), None, job.not_reached, case,
+                     server_version, mesh.sha256, mesh.mesh_seconds, mesh.factorize_seconds,
+                     units=Units(job.units.length, job.units.force),
+                     traction=any(load.traction for load in job.load_cases))
+        if job.HasField("sweep"):
+            result.solve_seconds = _seconds(job.sweep_answer.solve_time)
+            traces = {int(row): _traces(arrays, f"traces/{row}", len(interfaces)) for row in job.sweep.traces}
+            kept = [row for row, found in traces.items() if found]  # the others did not end
+            result.sweep = _sweep([load.name for load in job.load_cases], shape.inclusions, _below(arrays, "sweep/"),
+                                  kept, job.error.message, result.solve_seconds)
+            result.loads.update((f"row-{row}", _row(result.sweep, row, traces[row], interfaces)) for row in kept)
+        else:
+            result.loads.update((answer.name, _load_of(job, i, arrays, result)) for i, answer in enumerate(job.answers))
+            result.solve_seconds = sum(load.solve_seconds for load in result.loads.values())
         return _told(result)
 
 
 def _told(result: Result) -> Result:
     """Its parts know their units, and traces their interfaces."""
-    for line in result.interfaces:
-        line.units = result.units
+    parts: list[Any] = [*result.interfaces, *result.loads.values()]
     for load in result.loads.values():
-        load.units = result.units
-        parts: list[Any] = [*load.inclusions.values(), *load.traces, *load.fields]
-        for part in parts:
-            part.units = result.units
+        parts += [*load.inclusions.values(), *load.traces, *load.fields]
         for line, trace in zip(result.interfaces, load.traces):
             trace.name = line.name
+    for part in parts:
+        part.units = result.units
     return result
 
 
@@ -435,47 +446,6 @@ def _laws(mesh: mesh_pb2.Mesh) -> list[str]:
     return laws if any(laws) else []
 
 
-def _of_job(job: solve_pb2.Job, mesh: mesh_pb2.Mesh, mesh_arrays: Mapping[str, Array],
-            arrays: Mapping[str, Array], case: str) -> Result:
-    interfaces = Parts("interface", [Interface(info.name, **_below(arrays, f"interfaces/{i}/"), **{
-        name: mesh_arrays[f"interfaces/{i}/{name}"] for name in ("edge_kind", "edge_inclusion")})
-        for i, info in enumerate(mesh.interfaces)])
-    names = [subdomain.name for subdomain in mesh.subdomains]
-    result = Result(job.title, job.name, mesh.name, Mesh(
-        **{name: mesh_arrays[name] for name in ("nodes", "triangles", "subdomain", "boundary")}, subdomain_names=names,
-        tension=np.array([subdomain.tension or 1.0 for subdomain in mesh.subdomains]),
-        inclusions=list(mesh.inclusions), tension_law=_laws(mesh)), interfaces, Named("load"),
-        not_reached=job.not_reached, case=case)
-    result.units = Units(job.units.length, job.units.force)
-    if job.HasField("sweep"):
-        traces = {int(row): _traces(arrays, f"traces/{row}", len(interfaces)) for row in job.sweep.traces}
-        kept = [row for row, found in traces.items() if found]  # the others did not end
-        result.sweep = _sweep([load.name for load in job.load_cases], list(mesh.inclusions), _below(arrays, "sweep/"),
-                              kept, job.error.message, _seconds(job.sweep_answer.solve_time))
-        result.loads = Named("load", ((f"row-{row}", _row(result.sweep, row, traces[row], interfaces))
-                                      for row in kept))
-        return result
-    indices = {interface.name: i for i, interface in enumerate(interfaces)}
-    for i, answer in enumerate(job.answers):
-        load = _load_of(answer, job.solver)
-        prefix = f"loads/{i}/"
-        load.traces = _traces(arrays, prefix + "traces", len(interfaces))
-        load.history = _below(arrays, prefix + "history/")
-        load.indicator = arrays.get(prefix + "indicator")
-        load.contact_intervals = [(indices[part.interface], part.begin, part.end) for part in answer.contact_intervals]
-        load.fields += [Field(name, arrays[f"fields/{k}/nodes"], arrays[f"fields/{k}/triangles"],
-                              arrays[f"{prefix}fields/{k}"])
-                        for k, name in enumerate(names) if f"{prefix}fields/{k}" in arrays]
-        stages = [stage for stage in job.stages if i < len(stage.answers)]
-        if stages:
-            load.stages = {"triangles": np.array([stage.triangles for stage in stages]),
-                           "seconds": np.array([stage.seconds for stage in stages])}
-            for name in ("energy", "energy_lower", "energy_upper", "error_bound_relative", "displacement_error"):
-                load.stages[name] = np.array([known(stage.answers[i], name) for stage in stages])
-        result.loads[load.name] = load
-    return result
-
-
 def _status(code: int) -> str:
     return str(solve_pb2.LoadCaseAnswer.Status.Name(int(code))).removeprefix("STATUS_").lower()
 
@@ -491,20 +461,19 @@ def _sweep(loads: list[str], inclusions: list[str], columns: Arrays, kept: list[
 def _row(sweep: Sweep, row: int, traces: Parts[Trace], interfaces: list[Interface]) -> Load:
     """The answer to a row whose traces were kept."""
     load = Load(f"row-{row}", _status(sweep.status[row]), method="active-set", iterations=int(sweep.steps[row]),
-                energy=float(sweep.energy[row]), contact_length=float(sweep.contact_length[row]), traces=traces)
+                traces=traces)
+    for key in ("energy", "energy_lower", "energy_upper", "contact_length"):
+        if getattr(sweep, key) is not None:
+            setattr(load, key, float(getattr(sweep, key)[row]))
+    columns = {"A": sweep.displacement, "A_lower": sweep.displacement_lower, "A_upper": sweep.displacement_upper}
+    if sweep.slope is not None:
+        columns.update(Bx=sweep.slope[:, :, 0], By=sweep.slope[:, :, 1])
     for i, name in enumerate(sweep.inclusions):
-        slope = sweep.slope[row, i].tolist() if sweep.slope is not None else (0.0, 0.0)
-        load.inclusions[name] = Inclusion(name, float(sweep.displacement[row, i]), Bx=slope[0], By=slope[1])
-        if sweep.displacement_lower is not None and sweep.displacement_upper is not None:
-            load.inclusions[name].A_lower = float(sweep.displacement_lower[row, i])
-            load.inclusions[name].A_upper = float(sweep.displacement_upper[row, i])
-    if sweep.energy_lower is not None and sweep.energy_upper is not None:
-        load.energy_lower, load.energy_upper = float(sweep.energy_lower[row]), float(sweep.energy_upper[row])
-    for i, trace in enumerate(traces):
-        for first, last in runs(trace.contact):
-            if trace.contact[first]:
-                s = interfaces[i].s
-                load.contact_intervals.append((i, float(s[first]), float(s[last - 1])))
+        load.inclusions[name] = Inclusion(name, **{key: float(column[row, i]) for key, column in columns.items()
+                                                   if column is not None})
+    for i, (line, trace) in enumerate(zip(interfaces, traces)):
+        load.contact_intervals += [(i, float(line.s[first]), float(line.s[last - 1]))
+                                   for first, last in runs(trace.contact) if trace.contact[first]]
     return load
 
 
@@ -524,38 +493,45 @@ def _seconds(duration: Any) -> float:
     return float(duration.seconds + duration.nanos * 1e-9)
 
 
-def _asked(load: Load, solver: solve_pb2.Solver) -> None:
-    """Of the method, with the defaults of the API."""
+def _load_of(job: solve_pb2.Job, index: int, arrays: Mapping[str, Array], result: Result) -> Load:
+    """With what was asked of the method, with the defaults of the API."""
+    answer, solver = job.answers[index], job.solver
+
     def given(message: Any, name: str, default: float) -> float:
         return float(getattr(message, name)) if message.HasField(name) else default
-    load.method = "uzawa" if solver.HasField("uzawa") else "active-set"
-    if load.method == "active-set":
+    load = Load(answer.name, _status(answer.status), answer.reason, answer.error.message, "active-set",
+                iterations=answer.iterations, solve_seconds=_seconds(answer.solve_time))
+    if not solver.HasField("uzawa"):
         load.tolerance = given(solver.active_set, "tolerance", 1e-12)
-        return
-    load.mass = "consistent" if solver.uzawa.mass == solve_pb2.MASS_CONSISTENT else "lumped"
-    load.p = given(solver.uzawa, "p", 1e5)
-    load.kkt_tolerance = given(solver.uzawa, "kkt_tolerance", NAN)
-    if not solver.uzawa.HasField("kkt_tolerance"):
-        load.epsilon = given(solver.uzawa, "epsilon", 1e-12)
-
-
-def _load_of(answer: solve_pb2.LoadCaseAnswer, solver: solve_pb2.Solver) -> Load:
-    status = _status(answer.status)
-    load = Load(answer.name, status, answer.reason, answer.error.message, iterations=answer.iterations,
-                solve_seconds=_seconds(answer.solve_time))
-    _asked(load, solver)
-    if status not in ("converged", "not_converged"):
-        return load
-    for name in SCALARS:
-        if name in answer.DESCRIPTOR.fields_by_name and name not in ("status", "reason", "error"):
-            setattr(load, name, known(answer, name))
-    load.warnings = list(answer.warnings)
-    load.kkt = {name: getattr(answer.kkt, name + "_relative") for name in KKT}
-    load.kkt_absolute = {name: getattr(answer.kkt, name) for name in KKT}
-    for part in answer.inclusions:
-        load.inclusions[part.name] = Inclusion(part.name, **{
+    else:
+        load.method, load.p = "uzawa", given(solver.uzawa, "p", 1e5)
+        load.mass = "consistent" if solver.uzawa.mass == solve_pb2.MASS_CONSISTENT else "lumped"
+        load.kkt_tolerance = given(solver.uzawa, "kkt_tolerance", NAN)
+        if not solver.uzawa.HasField("kkt_tolerance"):
+            load.epsilon = given(solver.uzawa, "epsilon", 1e-12)
+    if load.status in ("converged", "not_converged"):
+        for name in SCALARS:
+            if name in answer.DESCRIPTOR.fields_by_name and name not in ("status", "reason", "error"):
+                setattr(load, name, known(answer, name))
+        load.warnings = list(answer.warnings)
+        load.kkt = {name: getattr(answer.kkt, name + "_relative") for name in KKT}
+        load.kkt_absolute = {name: getattr(answer.kkt, name) for name in KKT}
+        load.inclusions.update((part.name, Inclusion(part.name, **{
             entry.name: known(part, _INCLUSION.get(entry.name, entry.name))
-            for entry in fields(Inclusion) if entry.name != "name"})
+            for entry in fields(Inclusion) if entry.name != "name"})) for part in answer.inclusions)
+    prefix = f"loads/{index}/"
+    load.traces = _traces(arrays, prefix + "traces", len(result.interfaces))
+    load.history, load.indicator = _below(arrays, prefix + "history/"), arrays.get(prefix + "indicator")
+    load.contact_intervals = [(result.interfaces.place(part.interface), part.begin, part.end)
+                              for part in answer.contact_intervals]
+    load.fields += [Field(name, arrays[f"fields/{k}/nodes"], arrays[f"fields/{k}/triangles"],
+                          arrays[f"{prefix}fields/{k}"])
+                    for k, name in enumerate(result.mesh.subdomain_names) if f"{prefix}fields/{k}" in arrays]
+    stages = [stage for stage in job.stages if index < len(stage.answers)]
+    if stages:
+        load.stages = {name: np.array([getattr(stage, name) for stage in stages]) for name in ("triangles", "seconds")}
+        for name in ("energy", "energy_lower", "energy_upper", "error_bound_relative", "displacement_error"):
+            load.stages[name] = np.array([known(stage.answers[index], name) for stage in stages])
     return load
 
 
@@ -568,23 +544,20 @@ def _texts(dataset: Any) -> list[str]:
 
 
 def _of_file(file: Any) -> Result:
-    group = file["mesh"]
-    mesh = Mesh(**{name: group[name][()] for name in ("nodes", "triangles", "subdomain", "boundary", "tension")},
-                subdomain_names=_texts(group["subdomain_names"]), inclusions=_texts(group["inclusions"]),
-                tension_law=_texts(group["tension_law"]) if "tension_law" in group else [])
+    group, told = file["mesh"], file.attrs
+    mesh: dict[str, Any] = {**_arrays(group), **{
+        name: _texts(group[name]) for name in ("subdomain_names", "inclusions", "tension_law") if name in group}}
     lines_in = [file[f"interfaces/{i}"] for i in range(len(file["interfaces"]))]
-    interfaces = Parts("interface", [Interface(line.attrs["name"], **_arrays(line)) for line in lines_in])
     groups = sorted(file["loads"].items(), key=lambda item: int(item[1].attrs.get("index", 0)))
-    attributes = file.attrs
-    result = Result(attributes["title"], attributes["job"], attributes["mesh"], mesh, interfaces,
-                    Named("load", ((name, _load_in(name, item)) for name, item in groups)), None,
-                    attributes.get("not_reached", ""), attributes["case"], attributes["server_version"],
-                    attributes["mesh_sha256"],
-                    units=Units(attributes.get("unit_length", ""), attributes.get("unit_force", "")))
+    result = Result(told["title"], told["job"], told["mesh"], Mesh(**mesh),
+                    Parts("interface", [Interface(line.attrs["name"], **_arrays(line)) for line in lines_in]),
+                    Named("load", ((name, _load_in(name, item)) for name, item in groups)), None, told["not_reached"],
+                    told["case"], told["server_version"], told["mesh_sha256"],
+                    units=Units(told["unit_length"], told["unit_force"]))
+    for name in ("mesh_seconds", "factorize_seconds", "solve_seconds", "total_seconds"):
+        setattr(result, name, float(told[name]))
     if result.case:
         result.traction = re.search("""traction[ \\t"']*=""", result.case) is not None
-    for name in ("mesh_seconds", "factorize_seconds", "solve_seconds", "total_seconds"):
-        setattr(result, name, float(attributes[name]))
     if "sweep" in file:
         sweep = file["sweep"]
         arrays = _arrays(sweep)
@@ -601,24 +574,25 @@ def _load_in(name: str, group: Any) -> Load:
         if key in group.attrs:
             value = group.attrs[key]
             setattr(load, key, value if isinstance(value, str) else value.item())
+
+    def arrays(part: str) -> Arrays:
+        return _arrays(group[part]) if part in group else {}
+
+    def numbered(part: str) -> list[Any]:
+        return [group[part][str(i)] for i in range(len(group[part]))] if part in group else []
     load.warnings = _texts(group["warnings"]) if "warnings" in group else []
-    parts = group["inclusions"]
     known = {entry.name for entry in fields(Inclusion)} - {"name"}
-    columns = {key: parts[key][()] for key in parts if key in known}
+    columns = {key: column for key, column in arrays("inclusions").items() if key in known}
     load.inclusions.update((part, Inclusion(part, **{key: float(column[i]) for key, column in columns.items()}))
-                           for i, part in enumerate(_texts(parts["name"])))
-    traces = group["traces"] if "traces" in group else {}
-    load.traces += [Trace(**_arrays(traces[str(i)])) for i in range(len(traces))]
-    history = _arrays(group["history"]) if "history" in group else {}
-    if any(values.size for values in history.values()):
-        load.history = history
+                           for i, part in enumerate(_texts(group["inclusions/name"])))
+    load.traces += [Trace(**_arrays(part)) for part in numbered("traces")]
+    if any(values.size for values in arrays("history").values()):
+        load.history = arrays("history")
         load.kkt = {key: float(group.attrs["kkt_relative_" + key]) for key in KKT}
         load.kkt_absolute = {key: float(group.attrs["kkt_" + key]) for key in KKT}
-    load.stages = _arrays(group["stages"]) if "stages" in group else {}
-    contact = _arrays(group["contact_intervals"])
+    load.stages, contact = arrays("stages"), arrays("contact_intervals")
     load.contact_intervals = [(int(i), float(begin), float(end)) for i, begin, end in
                               zip(contact["interface"], contact["begin"], contact["end"])]
-    found = group["fields"] if "fields" in group else {}
-    load.fields += [Field(found[str(i)].attrs["name"], **_arrays(found[str(i)])) for i in range(len(found))]
+    load.fields += [Field(part.attrs["name"], **_arrays(part)) for part in numbered("fields")]
     load.indicator = group["indicator"][()] if "indicator" in group else None
     return load

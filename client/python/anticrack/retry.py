@@ -5,26 +5,26 @@ from __future__ import annotations
 
 import random
 import time
+from dataclasses import dataclass
 
 from .errors import ServerError
 
 FIRST, LONGEST = 0.1, 1.0  # delays before the second try and at most [s]
 
 
+@dataclass
 class Backoff:
     """Delays that double, each drawn from its upper half. patience: gives up when failing for longer [s];
-    first_contact: the same before the server has answered once, since a wrong address should fail soon."""
-
-    def __init__(self, patience: float, first_contact: float) -> None:
-        self.patience, self.first_contact = patience, first_contact
-        self.met = False
-        self._delay, self._since = FIRST, 0.0
+    first_contact: the same before the server has answered once (met), since a wrong address should fail soon."""
+    patience: float
+    first_contact: float
+    met: bool = False
+    _delay: float = FIRST
+    _since: float = 0.0
 
     def fresh(self) -> Backoff:
         """For another call to the same server."""
-        other = Backoff(self.patience, self.first_contact)
-        other.met = self.met
-        return other
+        return Backoff(self.patience, self.first_contact, self.met)
 
     @property
     def failing(self) -> bool:

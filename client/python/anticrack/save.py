@@ -11,7 +11,7 @@ import h5py
 import numpy as np
 
 from . import output
-from .result import KKT, SCALARS, Inclusion, Load, Result, Sweep, Units
+from .result import KKT, Inclusion, Load, Result, Sweep, Units
 
 _TEXT = h5py.string_dtype()
 _HISTORY = {"iteration": "i4", "contact_count": "i4", "criterion": "f8", "energy": "f8",
@@ -48,44 +48,36 @@ def _holds_the_same(path: str | os.PathLike[str], result: Result) -> bool:
 
 
 def _put(group: Any, name: str, values: Any) -> None:
-    texts = isinstance(values, list) and (not values or isinstance(values[0], str))
+    texts = isinstance(values, list)
     array = np.array(values, dtype=_TEXT if texts else None)
     group.create_dataset(name, data=array, **({"compression": "gzip", "shuffle": True} if array.size > 1000 else {}))
     units = Units(group.file.attrs["unit_length"], group.file.attrs["unit_force"])
-    group[name].attrs["units"] = units.of(_DIMENSIONS.get(name, ""))
+    group[name].attrs["units"] = units.of(_DIMENSIONS.get(name.rpartition("/")[2], ""))
 
 
-def _put_arrays(group: Any, record: Any) -> None:
-    """All that a record has."""
+def _put_record(group: Any, record: Any, *but: str) -> None:
+    """Its texts and numbers as attributes, its arrays and lists of texts as datasets, of a sweep without columns of
+    nothing; fields `but` are left out."""
     for field in fields(record):
         value = getattr(record, field.name)
-        if isinstance(value, np.ndarray):
+        if field.name in but or isinstance(value, bool):
+            continue
+        if isinstance(value, (str, int, float)):
+            group.attrs[field.name] = np.int32(value) if isinstance(value, int) else value
+        elif isinstance(value, np.ndarray) and (value.size or value.ndim == 1 or not isinstance(record, Sweep)) or (
+                str(field.type) == "list[str]"):
             _put(group, field.name, value)
-
-
-def _put_attributes(group: Any, record: Any, names: list[str]) -> None:
-    for name in names:
-        value = getattr(record, name)
-        group.attrs[name] = np.int32(value) if isinstance(value, int) else value
 
 
 def _put_result(file: Any, result: Result) -> None:
     from . import __version__
     file.attrs.update({"format": "anticrack-result/2", "client_version": __version__, "mesh": result.mesh_name,
                        "unit_length": result.units.length, "unit_force": result.units.force})
-    _put_attributes(file, result, ["title", "case", "server_version", "job", "mesh_sha256", "not_reached", *(
-        name + "_seconds" for name in ("mesh", "factorize", "solve", "total"))])
-    mesh = file.create_group("mesh")
-    _put_arrays(mesh, result.mesh)
-    for name in ("subdomain_names", "inclusions"):
-        _put(mesh, name, getattr(result.mesh, name))
-    if result.mesh.tension_law:
-        _put(mesh, "tension_law", result.mesh.tension_law)
+    _put_record(file, result, "mesh_name")
+    _put_record(file.create_group("mesh"), result.mesh, *["tension_law"] * (not result.mesh.tension_law))
     file.create_group("interfaces")
     for i, interface in enumerate(result.interfaces):
-        group = file.create_group(f"interfaces/{i}")
-        group.attrs["name"] = interface.name
-        _put_arrays(group, interface)
+        _put_record(file.create_group(f"interfaces/{i}"), interface)
     file.create_group("loads")
     for i, load in enumerate(result.loads.values()):
         group = file.create_group(f"loads/{load.name}")
@@ -96,43 +88,35 @@ def _put_result(file: Any, result: Result) -> None:
 
 
 def _put_load(group: Any, load: Load) -> None:
-    _put_attributes(group, load, SCALARS)
+    _put_record(group, load, "name")
     for name in KKT:
         group.attrs["kkt_" + name], group.attrs["kkt_relative_" + name] = load.kkt_absolute[name], load.kkt[name]
-    _put(group, "warnings", load.warnings)
     inclusions = group.create_group("inclusions")
-    for field in fields(Inclusion):
-        column = [getattr(inclusion, field.name) for inclusion in load.inclusions.values()]
-        _put(inclusions, field.name, column if field.name == "name" else np.array(column, dtype=float))
+    _put(inclusions, "name", list(load.inclusions))
+    for field in fields(Inclusion)[1:]:
+        _put(inclusions, field.name, np.array([getattr(part, field.name) for part in load.inclusions.values()], float))
     contact = group.create_group("contact_intervals")
     for i, (name, kind) in enumerate((("interface", np.int32), ("begin", float), ("end", float))):
         _put(contact, name, np.array([part[i] for part in load.contact_intervals], dtype=kind))
-    traces, history = group.create_group("traces"), group.create_group("history")
+    group.create_group("traces")
     for i, trace in enumerate(load.traces):
-        _put_arrays(traces.create_group(str(i)), trace)
-    for name, dtype in _HISTORY.items():
-        _put(history, name, load.history.get(name, np.empty(0, dtype)))
-    if load.stages:
-        stages = group.create_group("stages")
-        for name, values in load.stages.items():
-            _put(stages, name, values)
+        _put_record(group.create_group(f"traces/{i}"), trace)
+    history = {name: load.history.get(name, np.empty(0, dtype)) for name, dtype in _HISTORY.items()}
+    for name, values in {**{f"history/{name}": values for name, values in history.items()},
+                         **{f"stages/{name}": values for name, values in load.stages.items()}}.items():
+        _put(group, name, values)
     for i, part in enumerate(load.fields):
-        field_group = group.require_group(f"fields/{i}")
+        field_group = group.create_group(f"fields/{i}")
         field_group.attrs["name"] = part.subdomain
-        _put_arrays(field_group, part)
-    if load.indicator is not None:
-        _put(group, "indicator", load.indicator)
+        _put_record(field_group, part, "subdomain")
 
 
 def _put_sweep(group: Any, sweep: Sweep) -> None:
-    counts = np.bincount(sweep.status, minlength=6)
-    group.attrs.update({"description": "row k of every dataset belongs to load case k", "source": "",
-                        "error": sweep.error, "solve_seconds": sweep.solve_seconds, "converged": np.int32(counts[3]),
-                        "not_converged": np.int32(counts[4]), "failed": np.int32(counts[5])})
+    _put_record(group, sweep, "loads", "inclusions")
     for name in ("loads", "inclusions"):
         group.attrs[name] = np.array(getattr(sweep, name), dtype=_TEXT)
-    for field in fields(sweep):
-        value = getattr(sweep, field.name)
-        if isinstance(value, np.ndarray) and (value.size or value.ndim == 1):  # columns of nothing are left out
-            _put(group, field.name, value)
+    counts = np.bincount(sweep.status, minlength=6)
+    group.attrs.update({"description": "row k of every dataset belongs to load case k", "source": "",
+                        "converged": np.int32(counts[3]), "not_converged": np.int32(counts[4]),
+                        "failed": np.int32(counts[5])})
     _put(group, "kept", np.array(sweep.kept, dtype=np.int32))

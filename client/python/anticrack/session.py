@@ -2,20 +2,23 @@
 """What one does with a server, written once for blocking and asynchronous clients. Lost connections are retried."""
 from __future__ import annotations
 
+import contextlib
+import functools
 import hashlib
 import logging
 import os
 import pathlib
 import uuid
-from collections.abc import AsyncIterator, Callable, Iterable, Sequence
+from collections.abc import AsyncIterator, Callable, Iterator, Sequence
 from typing import Any
-
 
 from .arrays import Array
 from .blocks import BlockReceiver
 from .case import Case, as_case
-from .errors import CaseError, ServerError
+from .credentials import Credentials, Path, address_of
+from .errors import CaseError, ServerError, of_status
 from .places import in_terms_of
+from .private_server import Server
 from .proxies import remark
 from .result import Result
 from .retry import Backoff
@@ -57,12 +60,12 @@ class Session:
         backoff.succeeded()
         self.backoff.met = True
 
-    async def call(self, method: Any, request: Any, deletes: bool = False) -> Any:
-        """deletes: NOT_FOUND after a lost answer is success, None."""
+    async def _tried(self, call: Callable[..., Any], *arguments: Any, deletes: bool = False) -> Any:
+        """Until there is an answer. deletes: NOT_FOUND after a lost answer is success, None."""
         backoff, lost = self.backoff.fresh(), False
         while True:
             try:
-                response = await self.transport.unary(method, request)
+                response = await call(*arguments)
             except ServerError as error:
                 if deletes and lost and error.code == "NOT_FOUND":
                     return None
@@ -71,6 +74,9 @@ class Session:
             else:
                 self._succeeded(backoff)
                 return response
+
+    async def call(self, method: Any, request: Any) -> Any:
+        return await self._tried(self.transport.unary, method, request)
 
     async def events(self, name: str, after: int = 0) -> AsyncIterator[solve_pb2.WatchJobResponse]:
         """Every event of a job after a number, in order and once each, up to the one that ends it; goes on behind the
@@ -124,26 +130,9 @@ class Session:
         """Their names."""
         names: list[str] = []
         for begin in range(0, len(contents), FILES_A_STREAM):
-            names += await self._upload(contents[begin:begin + FILES_A_STREAM], kind)
+            parts = functools.partial(_parts, contents[begin:begin + FILES_A_STREAM], kind)
+            names += [made.name for made in (await self._tried(self.transport.upload, parts)).uploads]
         return names
-
-    async def _upload(self, contents: Sequence[bytes], kind: upload_pb2.Upload.Kind) -> list[str]:
-        def parts() -> Iterable[upload_pb2.CreateUploadsRequest]:
-            for content in contents:
-                header = upload_pb2.CreateUploadsRequest.Header(
-                    size=len(content), sha256=hashlib.sha256(content).hexdigest(), kind=kind)
-                yield upload_pb2.CreateUploadsRequest(header=header)
-                for begin in range(0, len(content), CHUNK):
-                    yield upload_pb2.CreateUploadsRequest(chunk=content[begin:begin + CHUNK])
-        backoff = self.backoff.fresh()
-        while True:
-            try:
-                response = await self.transport.upload(parts)
-            except ServerError as error:
-                await self._wait(backoff, error)
-            else:
-                self._succeeded(backoff)
-                return [upload.name for upload in response.uploads]
 
     async def _create_mesh(self, requests: Requests) -> mesh_pb2.Mesh:
         if requests.msh is not None:
@@ -151,39 +140,34 @@ class Session:
             requests.mesh.upload = (await self.upload([content], upload_pb2.Upload.KIND_MSH))[0]
         return await self.call(self.transport.meshes.CreateMesh, requests.mesh)  # type: ignore[no-any-return]
 
-    async def create_mesh(self, case: Case | str | os.PathLike[str]) -> mesh_pb2.Mesh:
+    async def mesh_of(self, case: Case | str | os.PathLike[str]) -> mesh_pb2.Mesh:
+        """Once it is meshed. Raises ServerError where it cannot be."""
         case = as_case(case)
-        try:
-            return await self._create_mesh(case.requests(loads_needed=False))
-        except ServerError as error:
-            raise in_terms_of(case.source, case.tables, error) from None
+        with _in_terms_of(case):
+            mesh = await self._create_mesh(case.requests(loads_needed=False))
+        mesh = await self.mesh(mesh.name)
+        if mesh.HasField("error"):
+            raise of_status(mesh.error)
+        return mesh
 
     async def submit(self, case: Case | str | os.PathLike[str], coefficients: Any = None, nodal_forces: Any = None,
                      traces: Sequence[int] = (), bounds: bool = False) -> solve_pb2.Job:
         case = as_case(case)
-        sweep = coefficients is not None or nodal_forces is not None
-        try:
-            return await self._submit(case.requests(nodal_forces is None, sweep), coefficients, nodal_forces, traces,
-                                      bounds)
-        except ServerError as error:
-            raise in_terms_of(case.source, case.tables, error) from None
-
-    async def _submit(self, requests: Requests, coefficients: Any, nodal_forces: Any,
-                      traces: Sequence[int], bounds: bool) -> solve_pb2.Job:
+        requests = case.requests(nodal_forces is None, coefficients is not None or nodal_forces is not None)
         job = requests.job
-        if requests.arrays:
+        with _in_terms_of(case):
             names = await self.upload([values.tobytes() for _, values in requests.arrays],
                                       upload_pb2.Upload.KIND_ARRAY)
             for (index, _), name in zip(requests.arrays, names):
                 job.load_cases[index].force.array.upload = name
-        matrix = sweep_of(job, coefficients, nodal_forces, traces, bounds)
-        if matrix is not None:
-            target = job.sweep.coefficients if coefficients is not None else job.sweep.nodal_forces
-            target.upload = (await self.upload([matrix], upload_pb2.Upload.KIND_ARRAY))[0]
-        requests.mesh.for_job = True
-        job.mesh = (await self._create_mesh(requests)).name
-        request = solve_pb2.CreateJobRequest(job=job, request_id=str(uuid.uuid4()))
-        return await self.call(self.transport.jobs.CreateJob, request)  # type: ignore[no-any-return]
+            matrix = sweep_of(job, coefficients, nodal_forces, traces, bounds)
+            if matrix is not None:
+                target = job.sweep.coefficients if coefficients is not None else job.sweep.nodal_forces
+                target.upload = (await self.upload([matrix], upload_pb2.Upload.KIND_ARRAY))[0]
+            requests.mesh.for_job = True
+            job.mesh = (await self._create_mesh(requests)).name
+            request = solve_pb2.CreateJobRequest(job=job, request_id=str(uuid.uuid4()))
+            return await self.call(self.transport.jobs.CreateJob, request)  # type: ignore[no-any-return]
 
     async def mesh(self, name: str) -> mesh_pb2.Mesh:
         """Once it is meshed, or has failed."""
@@ -218,7 +202,8 @@ class Session:
         return await self.call(self.transport.jobs.CancelJob, solve_pb2.CancelJobRequest(name=name))  # type: ignore
 
     async def delete(self, name: str) -> None:
-        await self.call(self.transport.jobs.DeleteJob, solve_pb2.DeleteJobRequest(name=name), deletes=True)
+        await self._tried(self.transport.unary, self.transport.jobs.DeleteJob, solve_pb2.DeleteJobRequest(name=name),
+                          deletes=True)
 
     async def info(self) -> server_pb2.ServerInfo:
         return await self.call(self.transport.server.GetServerInfo, server_pb2.GetServerInfoRequest())  # type: ignore
@@ -233,8 +218,36 @@ class Session:
         return Result.of_job(job, mesh, mesh_arrays, arrays, case_text, info.version)
 
 
+@contextlib.contextmanager
+def _in_terms_of(case: Case) -> Iterator[None]:
+    """What the server refuses is told with the case's keys."""
+    try:
+        yield
+    except ServerError as error:
+        raise in_terms_of(case.source, case.tables, error) from None
+
+
+def _parts(contents: Sequence[bytes], kind: upload_pb2.Upload.Kind) -> Iterator[upload_pb2.CreateUploadsRequest]:
+    for content in contents:
+        yield upload_pb2.CreateUploadsRequest(header=upload_pb2.CreateUploadsRequest.Header(
+            size=len(content), sha256=hashlib.sha256(content).hexdigest(), kind=kind))
+        for begin in range(0, len(content), CHUNK):
+            yield upload_pb2.CreateUploadsRequest(chunk=content[begin:begin + CHUNK])
+
+
 def _content(path: pathlib.Path) -> bytes:
     try:
         return path.read_bytes()
     except OSError as error:
         raise CaseError(f"mesh.file: {path}: {error.strerror}; name a .msh file") from None
+
+
+def session_to(transport: type[Transport], address: str | None, credentials: Credentials, backoff: Backoff) -> Session:
+    address = address_of(address)
+    return Session(transport(address, credentials), address, backoff)
+
+
+def session_of_own(transport: type[Transport], *flags: str, program: Path | None) -> Session:
+    """With a private server."""
+    server = Server(*flags, program=program)
+    return Session(transport(server.address, Credentials(), server), server.address, Backoff(300.0, 3.0))

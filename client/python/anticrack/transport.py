@@ -21,10 +21,6 @@ T = TypeVar("T")
 DEADLINE = 30.0  # of a try of a unary call [s]
 
 
-def _nothing() -> None:
-    """In place of the end of a private server."""
-
-
 class _Closed:
     """In place of the methods of a server."""
 
@@ -34,27 +30,22 @@ class _Closed:
 
 class Transport:
     """Blocking."""
+    calls: Any = grpc
 
     def __init__(self, address: str, credentials: Credentials, server: Server | None = None) -> None:
         """server: a private one, which ends with this."""
         self.server_process, self._owner = server, os.getpid()
-        self.stop_server: Callable[[], Any] = _nothing
-        if server is not None:
-            self.stop_server = weakref.finalize(self, server.stop)
+        self.stop_server: Any = weakref.finalize(self, server.stop) if server else lambda: None
         secrets = credentials.of_channel(address)
         self.proxy = proxy_for(address)
         self.options = [*CHANNEL, ("grpc.enable_http_proxy", int(self.proxy is not None))]
         self.metadata = credentials.metadata()
-        self.channel = self._open(address, secrets)
+        self.channel = (self.calls.insecure_channel(address, self.options) if secrets is None else
+                        self.calls.secure_channel(address, secrets, self.options))
         self.meshes: Any = mesh_pb2_grpc.MeshServiceStub(self.channel)  # type: ignore[no-untyped-call]
         self.jobs: Any = solve_pb2_grpc.SolveServiceStub(self.channel)  # type: ignore[no-untyped-call]
         self.server: Any = server_pb2_grpc.ServerServiceStub(self.channel)  # type: ignore[no-untyped-call]
         self.uploads: Any = upload_pb2_grpc.UploadServiceStub(self.channel)  # type: ignore[no-untyped-call]
-
-    def _open(self, address: str, secrets: Any) -> Any:
-        if secrets is None:
-            return grpc.insecure_channel(address, self.options)
-        return grpc.secure_channel(address, secrets, self.options)
 
     def require_owner(self) -> None:
         """gRPC's connections do not survive a fork: calls of the child would wait for ever."""
@@ -67,40 +58,40 @@ class Transport:
         if self.server_process is not None:
             self.server_process.require_alive()
 
-    async def unary(self, method: Callable[..., Any], request: Any) -> Any:
+    async def answer(self, call: Any) -> Any:
+        return call
+
+    async def messages(self, call: Any) -> AsyncIterator[Any]:
+        for message in call:
+            yield message
+
+    async def sleep(self, seconds: float) -> None:
+        time.sleep(seconds)
+
+    async def unary(self, method: Callable[..., Any], request: Any, deadline: float | None = DEADLINE) -> Any:
         self.require_owner()
         try:
-            return method(request, timeout=DEADLINE, metadata=self.metadata)
+            return await self.answer(method(request, timeout=deadline, metadata=self.metadata))
         except grpc.RpcError as error:
             raise of_call(error) from None
 
     async def upload(self, parts: Callable[[], Iterable[Any]]) -> Any:
-        self.require_owner()
-        try:
-            return self.uploads.CreateUploads(iter(parts()), metadata=self.metadata)
-        except grpc.RpcError as error:
-            raise of_call(error) from None
+        return await self.unary(self.uploads.CreateUploads, iter(parts()), None)
 
     async def stream(self, method: Callable[..., Any], request: Any) -> AsyncIterator[Any]:
         self.require_owner()
         call = method(request, metadata=self.metadata)
         try:
-            for message in call:
+            async for message in self.messages(call):
                 yield message
         except grpc.RpcError as error:
             raise of_call(error) from None
         finally:
             call.cancel()
 
-    async def sleep(self, seconds: float) -> None:
-        time.sleep(seconds)
-
-    def _end(self) -> None:
-        self.meshes = self.jobs = self.server = self.uploads = _Closed()
-
     async def close(self) -> None:
-        self._end()
-        self.channel.close()
+        self.meshes = self.jobs = self.server = self.uploads = _Closed()
+        await self.answer(self.channel.close())
         self.stop_server()
 
 
@@ -117,15 +108,10 @@ def each(messages: AsyncIterator[T]) -> Iterator[T]:
     """The same of an iterator."""
     async def following() -> T:
         return await messages.__anext__()
-
-    async def close() -> None:
-        await messages.aclose()  # type: ignore[attr-defined]
     try:
         while True:
-            try:
-                message = finished(following())
-            except StopAsyncIteration:
-                return
-            yield message
+            yield finished(following())
+    except StopAsyncIteration:
+        return
     finally:
-        finished(close())
+        finished(messages.aclose())  # type: ignore[attr-defined]

@@ -11,6 +11,7 @@ import warnings
 
 import matplotlib
 import numpy
+from matplotlib.image import imread
 from matplotlib.testing.compare import compare_images
 
 matplotlib.use("Agg")
@@ -91,7 +92,7 @@ class Plots(FolderTest):
         load = self.several["pulled"]
         for draw in (lambda look: pictures.overview_picture(look, self.several, load, 0, 0),
                      lambda look: pictures.traces_picture(look, self.several, load, 0),
-                     lambda look: pictures.picture("plan", look, self.several, load)):
+                     lambda look: pictures.picture(pictures.draw_plan, look, self.several, load)):
             texts = {}
             for titles in (True, False):
                 look = Look(["svg"], 50, titles)
@@ -237,12 +238,15 @@ class Plots(FolderTest):
                                     (1e-9, 1e-9, 0, 0), (1e9, 1e-3, 5e8, 1e5), (1, 1, 5e5, -6e6),
                                     (1e-3, 1e-3, -1e6, 0)):
             result = copy.deepcopy(self.uzawa)
+            result.units = anticrack.result.Units("mm", "N")
             size = numpy.array((width, height)) / 2
             result.mesh.nodes = result.mesh.nodes * size + (x, y)
             for line in result.interfaces:
                 line.x, line.y, line.s = line.x * size[0] + x, line.y * size[1] + y, line.s * size[0]
             with self.subTest(width=width, height=height, x=x, y=y):
                 self.assertEqual(len(self.names(result)[0]), 5)
+                for file in (self.folder / str(self.count)).iterdir():
+                    self.assertEqual(imread(file)[:, [0, -1]].min(), 1, f"{file.name}: a name is cut off at the edge")
                 draw_together(result, str(self.folder / "t"), Wanted(), FEW)
 
     def test_together_a_load_has_one_colour_and_dash(self):
@@ -267,7 +271,8 @@ class Plots(FolderTest):
         with look.applied():
             made = {"overview": pictures.overview_picture(look, self.several, self.several["pulled"], 0, 0),
                     "accuracy": pictures.accuracy_picture(look, self.accurate, self.accurate["opening"]),
-                    "convergence": pictures.picture("convergence", look, self.uzawa, self.uzawa["example-2"]),
+                    "convergence": pictures.picture(pictures.draw_convergence, look, self.uzawa,
+                                                    self.uzawa["example-2"]),
                     "together": pictures.together_picture(look, self.several, list(self.several.loads.values()), 0),
                     "sweep": pictures.sweep_picture(look, self.sweep),
                     "contact": pictures.contact_picture(look, self.sweep, 0),

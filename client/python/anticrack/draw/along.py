@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import operator
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 from matplotlib.ticker import FuncFormatter
 
 from ..arrays import Array
+from ..errors import Error
 from ..result import CRACK, DELAMINATED, Interface, Load, Result, Trace, runs
-from ..text import interval
+from ..text import harmless, interval
 from .panel import (BOX, CONTACT, CURVES, LINES, MARKED, Scale, axes, cut, fit_axis, legend_below, load_of, named,
-                    named_without, offset_of, point_text, rounded, traces_of)
+                    named_without, offset_of, point_text, rounded, signed, unit_of)
 
 
 def can_open(line: Interface) -> bool:
@@ -24,30 +25,40 @@ def can_open(line: Interface) -> bool:
 def eventful(result: Result, loads: list[Load]) -> tuple[int, int]:
     """The interface whose jump is largest or, if nothing is open, whose contact is longest; and that whose contact is
     longest, but the same one where its contact is at least half as long."""
-    jumps, contact, largest = np.zeros(len(result.interfaces)), np.zeros(len(result.interfaces)), 0.0
-    for load in loads:
-        for i, (line, trace) in enumerate(zip(result.interfaces, load.traces)):
-            jumps[i] = max(jumps[i], np.nanmax(np.abs(trace.jump), initial=0))
-            contact[i] = max(contact[i], _lengths(line) @ (trace.contact != 0))
-            largest = max(largest, np.nanmax(np.abs(trace.u_plus), initial=0))
+    def most(of: Callable[[Interface, Trace], float]) -> list[float]:
+        return [max(of(line, load.traces[i]) for load in loads) for i, line in enumerate(result.interfaces)]
+    jumps = most(lambda _, trace: _largest(trace.jump))
+    contact = most(lambda line, trace: float(np.diff(middles(line.s)) @ (trace.contact != 0)))
+    largest = max(most(lambda _, trace: _largest(trace.u_plus)))
     longest, opened = int(np.argmax(contact)), int(np.argmax(jumps))
     if jumps[opened] <= 1e-9 * largest:
         opened = longest
     return opened, opened if 2 * contact[opened] >= contact[longest] else longest
 
 
-def _interface(result: Result, load: Load, interface: int | str | None, pressed: bool = False) -> int:
-    """The one named, or the most eventful."""
-    traces_of(result, load)
+def _begin(result: Result, load: str | Load | None, interface: int | str | None, ax: Any,
+           pressed: bool = False) -> tuple[Any, Load, int, Profile, Trace, int]:
+    """Of the interface named, or the most eventful: the axes, the load, its index, itself, the trace, and the number of
+    curves that are there already."""
+    ax, load = axes(ax), load_of(result, load)
+    if not result.interfaces:
+        raise Error("the sheet has no interface, so there is nothing to draw along one")
+    if not load.traces:
+        raise Error(f"{harmless(load.name)} has no traces: it is {load.status.replace('_', ' ')}")
     if isinstance(interface, str):
-        return result.interfaces.place(interface)
-    return eventful(result, [load])[pressed] if interface is None else operator.index(interface)
+        interface = result.interfaces.place(interface)
+    index = eventful(result, [load])[pressed] if interface is None else operator.index(interface)
+    count = sum(not line.get_label().startswith("_") for line in ax.lines)
+    return ax, load, index, Profile(result, result.interfaces[index]), load.traces[index], count
 
 
-def _lengths(line: Interface) -> Array:
-    """Half of the edges at each node."""
-    edges = np.diff(line.s, prepend=line.s[:1], append=line.s[-1:])
-    return np.asarray((edges[:-1] + edges[1:]) / 2)
+def _largest(*values: Array) -> float:
+    return float(np.nanmax(np.abs(np.concatenate(values)), initial=0))
+
+
+def middles(values: Array) -> Array:
+    """Between neighbours, and the ends (k+1): around a node is half of the edges at it."""
+    return np.concatenate((values[:1], (values[:-1] + values[1:]) / 2, values[-1:]))
 
 
 class Profile:
@@ -67,7 +78,7 @@ class Profile:
             name += f" from {point_text(line.x[0], line.y[0], line.s[-1])}"
         self.ends = float(self.at.min()), float(self.at.max())
         self.scale = Scale(*self.ends)
-        self.label = self.scale.label(name, result.units.behind("L").strip())
+        self.label = self.scale.label(name, unit_of(result))
 
     def place(self, s: Array) -> Array:
         """Of arc lengths."""
@@ -79,13 +90,6 @@ class Profile:
         ax.set_xlabel(self.label)
         if self.ends[0] < self.ends[1]:
             ax.set_xlim(*self.ends)
-
-    def bands(self, flags: Array) -> list[tuple[float, float]]:
-        """Stretches around nodes with a flag (k), to the middles of the edges at their ends: those of contact add up
-        to its length."""
-        s = self.line.s
-        middles = self.place(np.concatenate((s[:1], (s[:-1] + s[1:]) / 2, s[-1:])))
-        return [(middles[first], middles[last]) for first, last in runs(flags) if flags[first]]
 
     def bars(self, result: Result, ax: Any) -> None:
         """At the foot of what is drawn: cracks and inclusions, with the names of inclusions as long as they do not
@@ -99,38 +103,31 @@ class Profile:
             if kind in MARKED:
                 ax.axvspan(*sorted((self.at[first], self.at[last])), 0, 0.035, color=LINES[kind][1], linewidth=0,
                            zorder=3, label=labels.pop(kind, "_again"))
-        free = 0.0
-        size = (self.ends[1] - self.ends[0]) or 1.0
-        found = []
+        free, size, found = 0.0, (self.ends[1] - self.ends[0]) or 1.0, []
         for inclusion in inclusions:
             edges = np.flatnonzero(self.line.edge_inclusion == inclusion)
             middle = (self.at[edges].min() + self.at[edges + 1].max()) / 2
             found.append(((middle - self.ends[0]) / size, named(result.mesh.inclusions[inclusion], 24)))
         for middle, name in sorted(found):
             half = min(0.011 * len(name), 0.5)
-            middle = min(max(middle, half), 1 - half)
+            middle = float(np.clip(middle, half, 1 - half))
             if middle - half >= free:
                 free = middle + half + 0.02
                 ax.text(middle, 0.05, name, ha="center", va="bottom", fontsize="small", transform=ax.transAxes)
 
 
 def edge_pressure(line: Interface, trace: Trace) -> tuple[Array, Array, Array, Array]:
-    """Middles of the edges, the mean pressure over them, their lengths, and which are in contact; NaN between cracks.
-    Half of an edge belongs to either node, at a tip its own half to none: the force is that of the nodes, without the
-    teeth of their pressures, which go up and down with the number of triangles there."""
+    """Middles of the edges, the mean pressure over them, their lengths, and which are in contact; of length 0 off
+    cracks. Half of an edge belongs to either node, at a tip its own half to none: the force is that of the nodes,
+    without the teeth of their pressures, which go up and down with the number of triangles there."""
     opens = np.isin(line.kind, (CRACK, DELAMINATED))  # on glue it is a flux
     begins, ends, edges = opens[:-1], opens[1:], np.diff(line.s)
-    count, cracked = begins.astype(int) + ends, begins | ends
+    count = begins.astype(int) + ends
     pressures = np.where(opens, trace.pressure, 0)
     closed = trace.contact != 0
     middles = line.s[:-1] + np.where(begins & ends, 0.5, np.where(begins, 0.25, 0.75)) * edges
     means = (pressures[:-1] + pressures[1:]) / np.maximum(count, 1)
-    found = [column[cracked] for column in (middles, means, edges * count / 2,
-                                            (means > 0) & (closed[:-1] | closed[1:]))]
-    gaps = [i for i in np.flatnonzero(~begins[cracked]) if i > 0]
-    s, values, lengths, closed = (np.insert(column, gaps, nothing)
-                                  for column, nothing in zip(found, (np.nan, np.nan, 0, False)))
-    return s, values, lengths, closed
+    return middles, means, edges * count / 2, (means > 0) & (closed[:-1] | closed[1:])
 
 
 def pressed(line: Interface, trace: Trace) -> bool:
@@ -138,26 +135,22 @@ def pressed(line: Interface, trace: Trace) -> bool:
     return bool(edge_pressure(line, trace)[3].any())
 
 
-def _typical(load: Load, values: list[Array]) -> float:
-    """Where u is rounding against that of the membrane, estimated from its energy, half of an axis on which zero looks
-    like zero; else 0."""
-    typical = float(np.sqrt(abs(load.energy))) if np.isfinite(load.energy) else 0.0
-    largest = max((np.nanmax(np.abs(each), initial=0) for each in values), default=np.inf)
-    return float(10.0 ** np.floor(np.log10(typical))) if 0 <= largest < 1e-9 * typical else 0.0
-
-
-def _curve(ax: Any, profile: Profile, values: Array, style: tuple[str, Any], label: str) -> Any:
-    return ax.plot(profile.at, values, color=style[0], linestyle=style[1], label=label)[0]
-
-
-def finish(ax: Any, profile: Profile, load: Load, values: list[Array], name: str, unit: str) -> None:
-    """The axes of heights; 0 is a line, unless all is far from it."""
+def finish(ax: Any, profile: Profile, loads: list[Load], index: int, name: str, unit: str) -> None:
+    """The axes of heights; 0 is a line, unless all is far from it, and looks like it where u is rounding against that
+    of the membrane, estimated from its energy, or the jump against u. loads: none of what is no displacement."""
     low, high = ax.get_ylim()
     if low - 0.5 * (high - low) <= 0 <= high + 0.5 * (high - low):
         ax.axhline(0, color="#888888", linewidth=0.6, zorder=0)
-    half = _typical(load, values)
-    if half:
-        ax.set_ylim(-half, half)
+    if loads:
+        u = _largest(*(each for load in loads for each in (load.traces[index].u_minus, load.traces[index].u_plus)))
+        opened = _largest(*(load.traces[index].jump for load in loads))
+        typical = max(abs(load.energy) if np.isfinite(load.energy) else 0 for load in loads) ** 0.5
+        if max(u, opened) < 1e-9 * typical:
+            u, opened = 10.0 ** np.floor(np.log10(typical)), 0.0
+        elif name != "[u]":
+            opened = u
+        if opened <= 1e-9 * u > 0:
+            ax.set_ylim(-u, u)
     profile.axis(ax)
     ax.yaxis.set_major_locator(rounded(6))
     fit_axis(ax.yaxis, name, unit)
@@ -165,10 +158,12 @@ def finish(ax: Any, profile: Profile, load: Load, values: list[Array], name: str
 
 def shade(profile: Profile, trace: Trace, ax: Any, color: str = CONTACT, alpha: float = 1,
           label: str = "contact") -> None:
-    """Where it is in contact."""
-    for begin, end in profile.bands(trace.contact != 0):
-        ax.axvspan(*sorted((begin, end)), color=color, alpha=alpha, linewidth=0, zorder=-1, label=label)
-        label = "_again"
+    """Where it is in contact, to the middles of the edges at the ends: the stretches add up to its length."""
+    ends, closed = middles(profile.at), trace.contact != 0
+    for first, last in runs(closed):
+        if closed[first]:
+            ax.axvspan(*sorted(ends[[first, last]]), color=color, alpha=alpha, linewidth=0, zorder=-1, label=label)
+            label = "_again"
 
 
 def heading(result: Result, load: Load, line: Interface) -> str:
@@ -177,15 +172,12 @@ def heading(result: Result, load: Load, line: Interface) -> str:
     here = [result.mesh.inclusions[i] for i in sorted({int(i) for i in line.edge_inclusion} - {-1})]
     for bounds in (True, False):
         parts = [where] if where else []
-        for name in here:
-            if name not in load.inclusions:
-                continue
-            part = load.inclusions[name]
+        for part in (load.inclusions[name] for name in here if name in load.inclusions):
             known = bounds and np.isfinite(part.A_lower)
             text = interval(part.A_lower, part.A_upper, part.A).partition(" (")[0] if known else f"{part.A:.4g}"
             slopes = f", B = ({part.Bx:.4g}, {part.By:.4g})" if part.Bx or part.By else ""
-            behind = f" ({named(name, 12)})" if len(load.inclusions) > 1 and name != line.name else ""
-            parts.append(f"A = {text.replace('+-', chr(177))}{unit}{slopes}{behind}".replace("-", chr(8722)))
+            behind = f" ({named(part.name, 12)})" if len(load.inclusions) > 1 and part.name != line.name else ""
+            parts.append(signed(f"A = {text.replace('+-', chr(177))}{unit}{slopes}{behind}"))
         if len(", ".join(parts)) <= 56:
             break
     return ", ".join(parts)
@@ -194,49 +186,47 @@ def heading(result: Result, load: Load, line: Interface) -> str:
 def traces(result: Result, load: str | Load | None = None, interface: int | str | None = None, ax: Any = None) -> Any:
     """u on both sides of an interface and the jump [u] = u+ - u-; contact is shaded, cracks and inclusions are bars.
     Unless it is named, the interface with the largest jump."""
-    ax, load = axes(ax), load_of(result, load)
-    index, first = _interface(result, load, interface), not ax.lines
-    line, trace = result.interfaces[index], load.traces[index]
+    ax, load, index, profile, trace, count = _begin(result, load, interface, ax)
     name = named(load.name)
     color = CURVES[sum(str(curve.get_label()).endswith(": [u]") for curve in ax.lines) % len(CURVES)][0]
     draw_traces(result, load, index, ax, (color,) * 3, f"{name}: ")
-    _curve(ax, Profile(result, line), trace.jump, (color, CURVES[2][1]), f"{name}: [u]")
-    shade(Profile(result, line), trace, ax, color, 0.2, f"{name}: contact")
+    ax.plot(profile.at, trace.jump, color=color, linestyle=CURVES[2][1], label=f"{name}: [u]")
+    shade(profile, trace, ax, color, 0.2, f"{name}: contact")
     ax.relim()
     ax.autoscale(axis="y")
-    finish(ax, Profile(result, line), load, [trace.u_minus, trace.u_plus, trace.jump], "displacement",
-           result.units.behind("L").strip())
-    if first:
-        Profile(result, line).bars(result, ax)
-    ax.set_title(f"{name}: {heading(result, load, line)}" if first else "")
+    finish(ax, profile, [load], index, "displacement", unit_of(result))
+    if not count:
+        profile.bars(result, ax)
+    ax.set_title("" if count else f"{name}: {heading(result, load, profile.line)}")
     legend_below(ax)
     return ax
 
 
-def draw_traces(result: Result, load: Load, index: int, ax: Any, colors: Sequence[str], prefix: str = "") -> None:
-    """u- and u+, of a lifted sheet without what they have in common."""
-    trace, profile = load.traces[index], Profile(result, result.interfaces[index])
-    values = np.concatenate((trace.u_minus, trace.u_plus))
+def common(shown: list[Trace]) -> float:
+    """What u on both sides leaves out, as of a lifted sheet."""
+    values = np.concatenate([side for trace in shown for side in (trace.u_minus, trace.u_plus)])
     values = values[np.isfinite(values)]
-    offset = offset_of(values.min(), values.max(), np.ptp(trace.jump)) if len(values) else 0.0
+    return offset_of(values.min(), values.max(), max(np.ptp(trace.jump) for trace in shown)) if len(values) else 0.0
+
+
+def draw_traces(result: Result, load: Load, index: int, ax: Any, colors: Sequence[str], prefix: str = "") -> None:
+    """u- and u+, without what they have in common."""
+    trace, profile = load.traces[index], Profile(result, result.interfaces[index])
+    offset = common([trace])
     for each, color, curve, name in zip((trace.u_minus, trace.u_plus), colors, CURVES, ("u\u207b", "u\u207a")):
-        _curve(ax, profile, each - offset, (color, curve[1]), prefix + named_without(name, offset))
+        ax.plot(profile.at, each - offset, color=color, linestyle=curve[1],
+                label=prefix + named_without(name, offset))
 
 
 def jump(result: Result, load: str | Load | None = None, interface: int | str | None = None, ax: Any = None) -> Any:
     """The jump [u] = u+ - u- along an interface, which may be too small to be seen beside u; contact is shaded. Unless
     it is named, the interface with the largest jump."""
-    ax, load = axes(ax), load_of(result, load)
-    index = _interface(result, load, interface)
-    line, trace = result.interfaces[index], load.traces[index]
-    profile, count = Profile(result, line), sum(not each.get_label().startswith("_") for each in ax.lines)
-    _curve(ax, profile, trace.jump, CURVES[count % len(CURVES)], named(load.name))
+    ax, load, index, profile, trace, count = _begin(result, load, interface, ax)
+    color, dash = CURVES[count % len(CURVES)]
+    ax.plot(profile.at, trace.jump, color=color, linestyle=dash, label=named(load.name))
     if not count:
         shade(profile, trace, ax)
-    size = np.nanmax(np.abs((*trace.u_plus, *trace.u_minus)), initial=0)
-    if np.nanmax(np.abs(trace.jump), initial=0) <= 1e-9 * size > 0:
-        ax.set_ylim(-size, size)
-    finish(ax, profile, load, [trace.u_minus, trace.u_plus, trace.jump], "[u]", result.units.behind("L").strip())
+    finish(ax, profile, [load], index, "[u]", unit_of(result))
     ax.set_title(named(load.name) if not count else "")
     return ax
 
@@ -247,15 +237,12 @@ def pressure(result: Result, load: str | Load | None = None, interface: int | st
     Unless it is named, the interface of `traces` or, where its contact is less than half as long as another's, the one
     with the longest contact. The pressure grows without bound at tips: its axis ends below its peaks, and the panel
     says so. whole: over all of the interface."""
-    ax, load = axes(ax), load_of(result, load)
-    index = _interface(result, load, interface, pressed=True)
-    line, trace = result.interfaces[index], load.traces[index]
-    profile, count = Profile(result, line), sum(not each.get_label().startswith("_") for each in ax.lines)
-    s, values, lengths, closed = edge_pressure(line, trace)
+    ax, load, _, profile, trace, count = _begin(result, load, interface, ax, pressed=True)
+    s, values, lengths, closed = edge_pressure(profile.line, trace)
     before = ax.get_ylim()[1] if count else 0.0
-    style = CURVES[count % len(CURVES)] if count else ("#009E73", "-")
+    color, dash = CURVES[count % len(CURVES)] if count else ("#009E73", "-")
     name = named(load.name) + ("" if closed.any() else ": no contact")
-    ax.plot(profile.place(s), np.where(closed, values, np.nan), color=style[0], linestyle=style[1], label=name)
+    ax.plot(profile.place(s), np.where(closed, values, np.nan), color=color, linestyle=dash, label=name)
     profile.axis(ax)
     if closed.any():
         if not count:
@@ -268,16 +255,15 @@ def pressure(result: Result, load: str | Load | None = None, interface: int | st
                     va="top", fontsize="small", transform=ax.transAxes, bbox={**BOX, "boxstyle": "square,pad=0.1"})
         if not whole and not count:  # no empty axes
             here = s[closed]
-            margin = 0.15 * np.ptp(here) + 0.02 * np.ptp(line.s)
-            ends = profile.place(np.clip((here.min() - margin, here.max() + margin), 0, line.s[-1]))
-            ax.set_xlim(*sorted(ends))
+            margin = 0.15 * np.ptp(here) + 0.02 * np.ptp(profile.line.s)
+            ax.set_xlim(*sorted(profile.place(np.clip((here.min() - margin, here.max() + margin), 0,
+                                                      profile.line.s[-1]))))
     elif not count:
         ax.set_ylim(0, 1)
     ax.yaxis.set_major_locator(rounded(4))
-    fit_axis(ax.yaxis, "pressure", result.units.behind("F/L").strip())
-    on = f" on {named(line.name, 30)}" if len(result.interfaces) > 1 else ""
-    ax.set_title(f"{named(load.name)}: contact pressure{on}" if closed.any() else name)
+    fit_axis(ax.yaxis, "pressure", unit_of(result, "F/L"))
+    on = f" on {named(profile.line.name, 30)}" if len(result.interfaces) > 1 else ""
+    ax.set_title("" if count else f"{name}: contact pressure{on}" if closed.any() else name)
     if count:
         ax.legend(loc="best", fontsize="small")
-        ax.set_title("")
     return ax

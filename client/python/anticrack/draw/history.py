@@ -11,17 +11,14 @@ from ..arrays import Array
 from ..errors import Error
 from ..result import Load, Result
 from ..text import counted, harmless
-from .panel import CONTACT, CURVES, axes, fit_axis, load_of, log_axis, named, number_text, rounded
+from .panel import CONTACT, CURVES, axes, fit_axis, load_of, log_axis, named, number_text, rounded, unit_of
 
 _FEW = 60  # iterations that are points, too
 
 
-def _series(load: Load) -> list[tuple[str, str]]:
-    """Algorithm 2 has its criterion; the active set has none, it is done when the conditions hold."""
-    if load.method == "uzawa":
-        return [("criterion", "of u in the energy norm, squared")]
-    return [("kkt_gap", "gap: faces overlap"), ("kkt_sign", "sign: closed faces pull"),
-            ("kkt_complementarity", "complementarity: pressure where open")]
+# Of the active set, which has no criterion: it is done when the conditions hold.
+_CONDITIONS = [("kkt_gap", "gap: faces overlap"), ("kkt_sign", "sign: closed faces pull"),
+               ("kkt_complementarity", "complementarity: pressure where open")]
 
 
 def convergence(result: Result, load: str | Load | None = None, ax: Any = None) -> Any:
@@ -35,8 +32,8 @@ def convergence(result: Result, load: str | Load | None = None, ax: Any = None) 
     iterations = load.history["iteration"]
     few = {"marker": "o", "markersize": 2.5} if len(iterations) <= _FEW else {}
     first = len(ax.lines)
-    for i, (column, label) in enumerate(_series(load)):
-        color, dash = CURVES[(first + i) % len(CURVES)]
+    series = _CONDITIONS if steps else [("criterion", "of u in the energy norm, squared")]
+    for (column, label), (color, dash) in zip(series, (2 * CURVES)[first % len(CURVES):]):
         values = np.asarray(load.history[column], dtype=float)
         ax.plot(iterations, np.where(values >= 0, values, np.nan), color=color, linestyle=dash, label=name + label,
                 **few)
@@ -68,47 +65,39 @@ def _log_with_zero(ax: Any) -> None:
     ax.set_yscale("symlog", linthresh=low)
     ax.set_ylim(-0.05 * low, 2 * above.max())
     every = max(1, int(np.ceil(np.log10(above.max() / low) / 6)))
-    powers = np.arange(round(np.log10(low)), np.ceil(np.log10(above.max())) + 1, every)
-    ax.set_yticks([0, *(10.0 ** powers)])
+    ax.set_yticks([0, *10.0 ** np.arange(np.log10(low), np.ceil(np.log10(above.max())) + 1, every).round()])
     ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: number_text(value, 3)))
     ax.yaxis.set_minor_locator(SymmetricalLogLocator(base=10, linthresh=low, subs=(1,)))
 
 
 def bounded(load: Load) -> dict[str, Array]:
-    """Of the stages those whose bounds have a place on a log axis: triangles, energy, energy_lower, energy_upper,
-    error and displacement_error, both relative; an error of A of 0 is NaN."""
+    """Of the stages those whose bounds have a place on a log axis: triangles, error and displacement_error, both
+    relative; an error of A of 0 is NaN."""
     stages = load.stages
     if not stages:
         return {"triangles": np.empty(0)}
     with np.errstate(divide="ignore", invalid="ignore"):
         error = (stages["energy_upper"] - stages["energy_lower"]) / np.abs(stages["energy"])
     kept = (stages["triangles"] > 0) & (error > 0) & np.isfinite(error)
-    names = ("triangles", "energy", "energy_lower", "energy_upper", "displacement_error")
-    found = {name: np.asarray(stages[name], dtype=float)[kept] for name in names if name in stages}
-    found["error"] = error[kept]
-    of_a = found.setdefault("displacement_error", np.full(kept.sum(), np.nan))
-    found["displacement_error"] = np.where(of_a > 0, of_a, np.nan)
-    return found
+    moved = stages.get("displacement_error", np.full(len(error), np.nan))
+    return {"triangles": stages["triangles"][kept].astype(float), "error": error[kept],
+            "displacement_error": np.where(moved > 0, moved, np.nan)[kept]}
 
 
-def _stages(load: Load) -> dict[str, Array]:
+def _begin(result: Result, load: str | Load | None, ax: Any) -> tuple[Any, Load]:
+    ax, load = axes(ax), load_of(result, load)
     if not load.stages:
         raise Error(f"{harmless(load.name)} has no stages; solve with Case(accuracy=Accuracy(energy=1e-3)), in TOML "
                     "[accuracy]")
-    return load.stages
-
-
-def _over_triangles(ax: Any) -> None:
     ax.set(xscale="log", xlabel="triangles")
     ax.margins(x=0.04)
-    log_axis(ax.xaxis)
+    return ax, load
 
 
 def errors(result: Result, load: str | Load | None = None, ax: Any = None) -> Any:
     """How wide the bounds of the energy and of A are, over the triangles of the stages; takes a case with an
     accuracy."""
-    ax, load = axes(ax), load_of(result, load)
-    _stages(load)
+    ax, load = _begin(result, load, ax)
     at = bounded(load)
     if not len(at["triangles"]):
         raise Error(f"no stage of {harmless(load.name)} has bounds")
@@ -120,8 +109,8 @@ def errors(result: Result, load: str | Load | None = None, ax: Any = None) -> An
     if np.isfinite(at["displacement_error"]).any():
         ax.plot(at["triangles"], at["displacement_error"], color=CURVES[1][0], linestyle=CURVES[1][1],
                 label="A, half the width of its bounds", **points)
-    _over_triangles(ax)
     ax.set(yscale="log", ylabel="relative error bound")
+    log_axis(ax.xaxis)
     log_axis(ax.yaxis)
     of_a = f", A {number_text(100 * last, 2)} %" if np.isfinite(last) else ""
     ax.set_title(f"energy {number_text(100 * at['error'][-1], 2)} %{of_a} on {at['triangles'][-1]:.0f} triangles, "
@@ -132,8 +121,8 @@ def errors(result: Result, load: str | Load | None = None, ax: Any = None) -> An
 
 def error_band(result: Result, load: str | Load | None = None, ax: Any = None) -> Any:
     """The energy of each stage and the band in which the membrane's own lies; takes a case with an accuracy."""
-    ax, load = axes(ax), load_of(result, load)
-    stages, first = _stages(load), not ax.lines
+    ax, load = _begin(result, load, ax)
+    stages, first = load.stages, not ax.lines
     color = CURVES[len(ax.lines) % len(CURVES)][0]
     name = "" if first else f"{named(load.name)}: "
     ax.fill_between(stages["triangles"], stages["energy_lower"], stages["energy_upper"], linewidth=0,
@@ -141,9 +130,9 @@ def error_band(result: Result, load: str | Load | None = None, ax: Any = None) -
                     label=name + "bounds of the membrane\u2019s energy")
     ax.plot(stages["triangles"], stages["energy"], color=color, marker="o", markersize=2.5,
             label=name + "energy on the mesh of the stage")
-    _over_triangles(ax)
+    log_axis(ax.xaxis)
     ax.yaxis.set_major_locator(rounded(5))
-    fit_axis(ax.yaxis, "energy", result.units.behind("F L").strip())
+    fit_axis(ax.yaxis, "energy", unit_of(result, "F L"))
     ax.set_title(named(load.name) if first else "")
     ax.legend(fontsize="small")
     return ax

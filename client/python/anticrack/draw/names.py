@@ -18,20 +18,17 @@ class Names:
 
     def __init__(self, ax: Any, lines: Array) -> None:
         ax.apply_aspect()
-        box = ax.get_window_extent()
-        self._ax = ax
-        self._low = np.array((ax.get_xlim()[0], ax.get_ylim()[0]))
-        self._scale = np.array((box.width, box.height)) * 72 / ax.figure.dpi / np.ptp((ax.get_xlim(), ax.get_ylim()), 1)
-        self._room = np.array((box.width, box.height)) * 72 / ax.figure.dpi
+        self._ax, self._points_a_dot = ax, 72 / ax.figure.dpi
+        self._room = np.array(ax.bbox.size) * self._points_a_dot
         self._lines = self._points(lines[::max(1, len(lines) // 2000)])
         self._taken = np.empty((0, 4))
-        self._middles = np.empty((0, 2))
 
     def _points(self, spots: Array) -> Array:
         """On paper."""
-        return np.asarray((np.asarray(spots, dtype=float).reshape(-1, 2) - self._low) * self._scale)
+        return np.asarray((self._ax.transData.transform(np.reshape(spots, (-1, 2))) - self._ax.bbox.p0)
+                          * self._points_a_dot)
 
-    def _box(self, text: str, at: Array, towards: tuple[float, float] = (0, 0)) -> Array:
+    def _box(self, text: str, at: Array, towards: Any = (0, 0)) -> Array:
         """Left, low, right, high of a text beside a point, which lies in this direction of it."""
         half = np.array((0.31 * _SIZE * (min(len(text), _LONGEST) + 0.5), 0.65 * _SIZE))
         middle = at + half * towards
@@ -42,29 +39,23 @@ class Names:
         apart = (self._taken[:, :2] > box[2:]) | (self._taken[:, 2:] < box[:2])
         return bool(inside and apart.any(axis=1).all())
 
-    def _take(self, box: Array) -> None:
-        self._taken = np.vstack((self._taken, box))
-        self._middles = np.vstack((self._middles, (box[:2] + box[2:]) / 2))
-
     def beside(self, text: str, choices: list[tuple[float, float, float, float]], arrow: bool = False) -> bool:
         """At the one of some places (x, y, and a direction of length 1) where it covers nothing, and the least of the
         lines. arrow: to it. False: there is no room."""
-        best: Any = None
+        free: list[Any] = []
         for x, y, right, up in choices:
             direction = np.array((right, up))
-            side = tuple(float(np.sign(part)) if abs(part) > 0.38 else 0.0 for part in direction)
+            side = np.sign(direction) * (np.abs(direction) > 0.38)
             at = self._points(np.array((x, y)))[0]
             end = at + direction * (11 if arrow else 4)
-            box = self._box(text, end, side)  # type: ignore[arg-type]
-            if not self._free(box):
-                continue
-            covered = int(((self._lines > box[:2]) & (self._lines < box[2:])).all(axis=1).sum())
-            if best is None or covered < best[0]:
-                best = covered, box, (x, y), tuple(end - at), side
-        if best is None:
+            box = self._box(text, end, side)
+            if self._free(box):
+                covered = int(((self._lines > box[:2]) & (self._lines < box[2:])).all(axis=1).sum())
+                free.append((covered, box, (x, y), tuple(end - at), side))
+        if not free:
             return False
-        _, box, spot, offset, side = best
-        self._take(box)
+        _, box, spot, offset, side = min(free, key=lambda found: int(found[0]))
+        self._taken = np.vstack((self._taken, box))
         if arrow:
             self._ax.annotate("", spot, offset, textcoords="offset points", zorder=6, arrowprops={
                 "arrowstyle": "<|-", "linewidth": 0.8, "shrinkA": 0, "shrinkB": 0, "mutation_scale": 6, "color": "k"})
@@ -80,13 +71,13 @@ class Names:
         if not len(points):
             return False
         room = np.full(len(points), np.inf)
-        for others, part in ((self._lines, 1), (self._middles, 3)):
+        for others, part in ((self._lines, 1), ((self._taken[:, :2] + self._taken[:, 2:]) / 2, 3)):
             if len(others):
                 room = np.minimum(room, np.hypot(*(points[:, None] - others).transpose(2, 0, 1)).min(axis=1) / part)
         for best in np.argsort(-room)[:20]:
             box = self._box(text, points[best])
             if room[best] >= least and self._free(box):
-                self._take(box)
+                self._taken = np.vstack((self._taken, box))
                 self._ax.text(*spots[best], named(text, _LONGEST), fontsize=_SIZE, color="#444444", bbox=BOX,
                               ha="center", va="center", zorder=5)
                 return True

@@ -47,19 +47,9 @@ def load_of(result: Result, load: str | Load | None) -> Load:
     return result.loads[next(iter(result.loads), "") if load is None else load]
 
 
-def fields(load: Load) -> list[Any]:
-    if not load.fields:
-        raise Error(f"{harmless(load.name)} has no fields; solve with Case(fields=True), in TOML [output] "
-                    "fields = true")
-    return load.fields
-
-
-def traces_of(result: Result, load: Load) -> None:
-    """Raises Error where there is none to draw."""
-    if not result.interfaces:
-        raise Error("the sheet has no interface, so there is nothing to draw along one")
-    if not load.traces:
-        raise Error(f"{harmless(load.name)} has no traces: it is {load.status.replace('_', ' ')}")
+def unit_of(result: Result, dimension: str = "L") -> str:
+    """Of an axis; empty where there is none."""
+    return result.units.behind(dimension).strip()
 
 
 def named(text: object, most: int = 60) -> str:
@@ -129,7 +119,8 @@ class Scale:
 
     def text(self, value: float, _: Any = None) -> str:
         value /= self.factor
-        shown = 0.0 if abs(value - self.offset) < 1e-9 * self._largest else value - self.offset
+        rounding = 1e-9 * self._largest + 2 * math.ulp(self.offset)
+        shown = 0.0 if abs(value - self.offset) < rounding else value - self.offset
         return signed(f"{shown / 10.0 ** self._exponent:.6g}")
 
     def label(self, name: str, unit: str) -> str:
@@ -153,8 +144,8 @@ def fit_axis(axis: Any, name: str, unit: str) -> None:
 
 def log_axis(axis: Any) -> None:
     """Labels at powers of ten or, of few decades, at 1, 2 and 5 as well; marks between them where there is room."""
-    low, high = sorted(axis.get_view_interval())
-    decades = math.log10(high / low) if low > 0 else 0
+    low, high = axis.get_view_interval()
+    decades = abs(math.log10(high / low)) if low > 0 else 0
     axis.set_major_locator(rounded(5) if decades < 0.7 else
                            LogLocator(subs=(1, 2, 5) if decades < 2 else (1,), numticks=7))
     axis.set_minor_locator(LogLocator(subs=range(1, 10) if decades <= 4 else (1,), numticks=50))
@@ -171,32 +162,32 @@ def point_text(x: float, y: float, size: float, digits: int = 4) -> str:
     return f"({text(x)}, {text(y)})"
 
 
-def legend_below(ax: Any, columns: int = 2, down: float = 0.5, **options: Any) -> Any:
+def legend_below(ax: Any, columns: int = 2, down: float = 0.5, middle: float = 0.5, **options: Any) -> Any:
     """`down` inches below the axes, clear of its labels, however flat it is drawn."""
     moved = ax.transAxes + ScaledTranslation(0, -down, ax.figure.dpi_scale_trans)
-    return ax.legend(loc="upper center", bbox_to_anchor=(0.5, 0), bbox_transform=moved, ncol=columns,
+    return ax.legend(loc="upper center", bbox_to_anchor=(middle, 0), bbox_transform=moved, ncol=columns,
                      fontsize="small", frameon=False, **options)
 
 
-def colour_bar(ax: Any, shades: Any, label: str, scale: Scale, colorbar: Any, **options: Any) -> None:
+def colour_bar(ax: Any, shades: Any, name: str, unit: str, colorbar: Any, **options: Any) -> None:
     """colorbar: False for none, or axes to draw it in; beside `ax` unless said otherwise. Drawn again on the same axes
     it is changed and not another one added."""
     if colorbar is False:
         return
-    made = getattr(ax, "anticrack_colour_bar", None)
+    scale, made = Scale(*shades.get_clim()), getattr(ax, "anticrack_colour_bar", None)
     if made is not None and made.ax.figure is ax.figure:
         made.update_normal(shades)
+    elif colorbar is True:
+        made = ax.figure.colorbar(shades, ax=ax, **options)
     else:
-        place = {"ax": ax} if colorbar is True else {"cax": colorbar}
-        if colorbar is not True:
-            box = colorbar.get_window_extent()
-            options = {"orientation": "horizontal" if box.width > box.height else "vertical",
-                       "extend": options.get("extend", "neither")}
-        made = ax.anticrack_colour_bar = ax.figure.colorbar(shades, **place, **options)
+        box = colorbar.get_window_extent()
+        made = ax.figure.colorbar(shades, cax=colorbar, extend=options.get("extend", "neither"),
+                                  orientation="horizontal" if box.width > box.height else "vertical")
+    ax.anticrack_colour_bar = made
     made.locator, made.formatter = rounded(4), FuncFormatter(scale.text)
     made.update_ticks()
     made.outline.set_linewidth(0.4)
-    made.set_label(label)
+    made.set_label(scale.label(name, unit))
 
 
 def cut(values: Array, weights: Array, part: float, room: float) -> tuple[float, float]:

@@ -10,7 +10,7 @@ from ..arrays import Array
 from ..errors import Error
 from ..result import Load, Result, runs
 from .panel import (BOX, LINES, MARKED, Scale, axes, colour_bar, label_axis, load_of, named, number_text, rounded,
-                    stretch_of, widened)
+                    stretch_of, unit_of, widened)
 from .surface import Heights, Surface
 
 _NAMES = 6  # of inclusions: more would cover each other
@@ -29,13 +29,13 @@ def _amplification(extent: float, size: float) -> float:
 def view(result: Result) -> tuple[float, float]:
     """Degrees up and around. From the front, x to the right as from above, and over the minus side of the first
     interface if that can be: its cracks open upwards on the far side. Else from higher up."""
-    along = [(line.x[-1] - line.x[0], line.y[-1] - line.y[0]) for line in result.interfaces[:1]]
-    across = np.array([-along[0][1], along[0][0]]) if along else np.array([0.0, 1.0])
+    across = np.array((0.0, 1.0))
+    for line in result.interfaces[:1]:
+        across = np.array((line.y[0] - line.y[-1], line.x[-1] - line.x[0]))
     across = across / (np.hypot(*across) or 1)
-    towards = {around: float(across @ (np.cos(np.radians(around)), np.sin(np.radians(around))))
-               for around in (-62, -118)}
-    around = min(towards, key=lambda angle: towards[angle])
-    return (_ELEVATION if towards[around] < 0.3 else 55), around
+    towards, around = min(((float(across @ (np.cos(np.radians(angle)), np.sin(np.radians(angle)))), angle)
+                           for angle in (-62, -118)), key=lambda found: found[0])
+    return (_ELEVATION if towards < 0.3 else 55), around
 
 
 def _plane(surface: Surface) -> Array:
@@ -45,8 +45,8 @@ def _plane(surface: Surface) -> Array:
         return np.zeros(len(surface.u))
     middle, size = surface.nodes.mean(axis=0), np.ptp(surface.nodes, axis=0).max()
     columns = np.c_[(surface.nodes - middle) / size, np.ones(len(surface.u))]
-    weights = np.bincount(surface.triangles.ravel(), np.repeat(surface.areas, 3), len(surface.u))[:, None]
-    plane = columns @ np.linalg.lstsq((columns * weights).T @ columns, (columns * weights).T @ surface.u, None)[0]
+    weighted = (columns * surface.around[:, None]).T
+    plane = columns @ np.linalg.lstsq(weighted @ columns, weighted @ surface.u, None)[0]
     return np.asarray(plane * (np.ptp(surface.u - plane) < 0.3 * np.ptp(surface.u)))
 
 
@@ -106,28 +106,27 @@ def membrane(result: Result, load: str | Load | None = None, ax: Any = None, cma
     rest = np.where(np.isfinite(surface.u), surface.u - plane, 0)
     factor = amplify or _amplification(np.ptp(rest), 0.4 * size if level else size)
     shades = surface.shades(limits, cmap)
-    tilt = np.linalg.lstsq(surface.nodes - surface.nodes.mean(axis=0), plane - plane.mean(), None)[0]
+    middle = surface.nodes.mean(axis=0)
+    tilt = np.linalg.lstsq(surface.nodes - middle, plane - plane.mean(), None)[0]
     colours = shades.to_rgba(surface.u)
     colours[:, :3] *= _lit(surface, factor * (surface.slopes - tilt), around)[:, None]
     points = np.c_[surface.nodes, factor * rest]
     ax.add_collection(Heights(points, surface.triangles, colours, bool(load.stages)), autolim=False)
 
     def height(x: Array, y: Array, u: Array) -> Array:
-        here = np.c_[x, y] - surface.nodes.mean(axis=0)
-        return np.asarray(factor * (u - here @ tilt - plane.mean()))
+        return np.asarray(factor * (u - (np.c_[x, y] - middle) @ tilt - plane.mean()))
     _mark(result, load, height, 0.06 * size, ax)
-    heights = widen_to(factor * rest.min(), factor * rest.max(), 0.15 * size)
+    ends = rest.min(), rest.max()
+    heights = factor * np.mean(ends) + np.array((-0.5, 0.5)) * max(factor * np.ptp(ends), 0.15 * size)
     ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=heights)
-    scales = [Scale(low[i], high[i], shown.max() / stretched[i]) for i in (0, 1)]
     for i, axis in enumerate((ax.xaxis, ax.yaxis)):
         axis.set_major_locator(rounded(5 if shown[i] > shown.max() / 3 else 2))
-        label_axis(axis, "xy"[i], result.units.behind("L").strip(), scales[i], stretched[i])
-    ends = rest.min(), rest.max()
+        label_axis(axis, "xy"[i], unit_of(result), Scale(low[i], high[i], shown.max() / stretched[i]))
     tall = Scale(*ends, factor=factor)
     steps = rounded(2).tick_values(*widened(*ends))
     ticks = [factor * step for step in steps if heights[0] <= factor * step <= heights[1]]
     ax.set_zticks(ticks if np.ptp(heights) > 0.25 * size else sorted({*ticks[:1], *ticks[-1:]}))
-    label_axis(ax.zaxis, "" if level else "u", result.units.behind("L").strip(), tall)
+    label_axis(ax.zaxis, "" if level else "u", unit_of(result), tall)
     for axis in (ax.xaxis, ax.yaxis, ax.zaxis):
         axis.set_pane_color((1, 1, 1, 0))
         axis.set_rotate_label(False)
@@ -137,19 +136,12 @@ def membrane(result: Result, load: str | Load | None = None, ax: Any = None, cma
     ax.set_box_aspect([*shown, np.ptp(heights)], zoom=1.05)
     ax.view_init(up, around)
     text = "u to scale" if factor == 1 else f"u {'amplified ' if factor > 1 else ''}\u00d7{number_text(factor, 6)}"
+    wider = [f", {name} stretched \u00d7{number_text(by, 6)}" for name, by in zip("xy", stretched) if by != 1]
     ax.set_title(f"{named(load.name)}: {text.replace('u', 'u less a plane,', 1) if level else text}"
-                 + not_converged(load))
-    of_u = Scale(*shades.get_clim())
-    place = {"pad": 0.02, "shrink": 0.6, "aspect": 30, "orientation": "horizontal"}
-    colour_bar(ax, shades, of_u.label("u", result.units.behind("L").strip()), of_u, colorbar, **place)
+                 + "".join(wider) + not_converged(load))
+    colour_bar(ax, shades, "u", unit_of(result), colorbar, pad=0.02, shrink=0.6, aspect=30, orientation="horizontal")
     return ax
 
 
 def not_converged(load: Load) -> str:
     return ", not converged" if load.status == "not_converged" else ""
-
-
-def widen_to(low: float, high: float, least: float) -> tuple[float, float]:
-    """Around its middle."""
-    more = max(0.0, least - (high - low)) / 2
-    return low - more, high + more

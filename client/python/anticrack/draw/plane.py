@@ -2,6 +2,7 @@
 """From above: the parts of a membrane, u, and its flux."""
 from __future__ import annotations
 
+from collections.abc import Collection
 from typing import Any
 
 import numpy as np
@@ -14,30 +15,79 @@ from ..arrays import Array
 from ..result import DELAMINATED, GLUE, Load, Result, runs
 from .names import Names
 from .panel import (LINES, Scale, axes, colour_bar, cut, label_axis, legend_below, load_of, named, rounded,
-                    stretch_of, widened)
+                    stretch_of, unit_of, widened)
 from .perspective import not_converged
-from .surface import Smooth, Surface
+from .surface import Surface
 
-_NAMED = 16  # inclusions: more names would cover the lines
+NAMED = 16  # inclusions: more names would cover the lines
 Limits = tuple[float, float]
 
 
-def outer_edges(triangles: Array) -> Array:
-    """Edges (n, 2), the lower node first, of only one triangle."""
-    ends = np.sort(np.concatenate([triangles[:, [i, (i + 1) % 3]] for i in range(3)]), axis=1).astype(np.int64)
-    count = int(triangles.max(initial=0)) + 1
-    keys = np.sort(ends[:, 0] * count + ends[:, 1])
-    different = np.r_[True, keys[1:] != keys[:-1], True]
-    outer = keys[different[1:] & different[:-1]]
-    return np.stack((outer // count, outer % count), axis=1)
+class Plane:
+    """What a map shows of a mesh. held (b, 2): edges where u is given; traction: whether one acts on some of the other
+    outer edges, None: not known; lines: of each interface its points (k, 2) and the kinds and inclusions (k-1) of its
+    edges, the plus side on its left."""
 
+    def __init__(self, nodes: Array, triangles: Array, held: Array, traction: bool | None,
+                 lines: list[tuple[Array, Array, Array]], inclusions: list[str], unit: str) -> None:
+        self.nodes, self.triangles, self.lines, self.inclusions, self.unit = nodes, triangles, lines, inclusions, unit
+        code = np.array((1 << 32, 1))  # of an edge's nodes, the lower one first, in one number
+        edges = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
+        keys, counts = np.unique(edges @ code, return_counts=True)
+        outer = keys[counts == 1]
+        given = np.isin(outer, np.sort(held, axis=1) @ code)
+        free = "free" if traction is False else "free or traction"
+        self.boundary = {what: np.stack(np.divmod(those, code[0]), axis=1)
+                         for what, those in (("u given", outer[given]), (free, outer[~given]))}
+        self.low, self.high = nodes.min(axis=0), nodes.max(axis=0)
 
-def boundary(nodes: Array, triangles: Array, given: Array, traction: bool | None) -> dict[str, Array]:
-    """Edges (n, 2) of a mesh's boundary by what is given on them; given (b, 2): those where u is."""
-    outer, count = outer_edges(triangles), len(nodes)
-    keys, given = (edges.min(axis=1).astype(np.int64) * count + edges.max(axis=1) for edges in (outer, given))
-    held = np.isin(keys, given)
-    return {"u given": outer[held], "free" if traction is False else "free or traction": outer[~held]}
+    def draw(self, ax: Any, low: Array, high: Array, margin: float = 0.03) -> Names:
+        """Between these corners, with labels for a legend; what finds room for names beside it."""
+        stretched = frame(ax, low, high, self.unit, margin)
+        self._away = 0.012 * (stretched * (high - low)).max() / stretched
+        for (what, edges), (color, width, dash) in zip(self.boundary.items(), (("#444444", 1.4, "-"),
+                                                                               ("#009E73", 1.6, (0, (1.2, 1.2))))):
+            if len(edges):
+                ax.add_collection(LineCollection(
+                    [self.nodes[chain] for chain in _chains(edges)], linewidth=width, color=color, linestyle=dash,
+                    capstyle="butt", joinstyle="round", label=what), autolim=False)
+        draw_lines(ax, [(points, kinds) for points, kinds, _ in self.lines if (
+            (points.max(axis=0) >= low) & (points.min(axis=0) <= high)).all()], self._away)
+        if 0 < len(self.lines) <= NAMED:
+            ax.plot(*np.array([points[0] for points, *_ in self.lines]).T, "s", markersize=3.5, markerfacecolor="none",
+                    markeredgewidth=0.8, color="#0072B2", zorder=4, label="s = 0")
+        self._low, self._high = low, high
+        every = np.concatenate([points for points, *_ in self.lines]
+                               + [self.nodes[edges].mean(axis=1) for edges in self.boundary.values()])
+        return Names(ax, every[self._inside(every)])
+
+    def _inside(self, points: Array) -> Array:
+        return np.asarray(((points >= self._low) & (points <= self._high)).all(axis=1))
+
+    def beside(self, points: Array, chosen: Array, wheres: tuple[float, ...], sides: tuple[int, ...]) -> list[
+            tuple[float, float, float, float]]:
+        """Places on both sides (1: plus) at these parts of the length of the edges of a line that are chosen and
+        seen."""
+        inside = self._inside(points)
+        edges = np.flatnonzero(chosen & inside[1:] & inside[:-1])
+        lengths = np.cumsum(np.hypot(*(np.diff(points, axis=0) / self._away)[edges].T))
+        found = []
+        for where in wheres if len(edges) else ():
+            edge = edges[min(int(np.searchsorted(lengths, where * lengths[-1])), len(edges) - 1)]
+            (x, y), (right, up) = points[edge:edge + 2].mean(axis=0), (points[edge + 1] - points[edge]) / self._away
+            size = np.hypot(right, up) or 1.0
+            found += [(float(x), float(y), float(-side * up / size), float(side * right / size)) for side in sides]
+        return found
+
+    def name_inclusions(self, names: Names, told: Collection[str] = ()) -> None:
+        """But for those of interfaces that are told already."""
+        for index, name in enumerate(self.inclusions):
+            for points, kinds, inclusions in self.lines:
+                places = self.beside(points, (inclusions == index) & (kinds != GLUE), (0.5, 0.25, 0.75, 0.1, 0.9),
+                                     (-1, 1))
+                if places and name not in told:
+                    names.beside(name, places)
+                    break
 
 
 def frame(ax: Any, low: Array, high: Array, unit: str, margin: float = 0.03) -> Array:
@@ -74,50 +124,25 @@ def _chains(edges: Array) -> list[list[int]]:
     return chains
 
 
-def draw_boundary(ax: Any, nodes: Array, edges: dict[str, Array], drawn: dict[str, Any]) -> None:
-    for (what, those), (color, width, dash) in zip(edges.items(), (("#444444", 1.4, "-"),
-                                                                   ("#009E73", 1.6, (0, (1.2, 1.2))))):
-        if len(those):
-            lines = LineCollection([nodes[chain] for chain in _chains(those)], linewidth=width, color=color,
-                                   linestyle=dash, capstyle="butt", joinstyle="round")
-            drawn[what] = ax.add_collection(lines, autolim=False)
-
-
-def draw_lines(ax: Any, lines: list[tuple[Array, Array]], away: Array, drawn: dict[str, Any]) -> None:
+def draw_lines(ax: Any, lines: list[tuple[Array, Array]], away: Array) -> None:
     """lines: points (k, 2) and kinds (k-1) of the edges of each interface, plus side on its left; away (2): from a
     delaminated inclusion to the dots on its other side."""
     thin = float(np.clip((16 / max(len(lines), 1)) ** 0.5, 0.35, 1))
     for kind, (what, color, width, dash) in LINES.items():
-        for points, kinds in lines:
-            for first, last in runs(kinds):
-                if kinds[first] != kind:
-                    continue
-                x, y = points[first:last + 1].T
-                edged = kind != GLUE and thin == 1
-                if edged:  # against dark triangles
-                    ax.plot(x, y, color="white", linewidth=width + 1.2, solid_capstyle="butt", label="_")
-                (drawn[what],) = ax.plot(x, y, color=color, linewidth=thin * width, linestyle=dash,
-                                         solid_capstyle="butt")
-                if kind == DELAMINATED:
-                    along = np.gradient(np.stack((x, y)), axis=1) / away[:, None]
-                    with np.errstate(invalid="ignore"):
-                        across = np.stack((-along[1], along[0])) / np.hypot(*along)
-                    (drawn["the side that came off"],) = ax.plot(
-                        x - away[0] * across[0], y - away[1] * across[1], color="#D00000", linewidth=1.1 * thin,
-                        linestyle=(0, (1, 1)))
-
-
-def beside(points: Array, edges: Array, away: Array, wheres: tuple[float, ...], sides: tuple[int, ...]) -> list[
-        tuple[float, float, float, float]]:
-    """Places on both sides (1: plus) at these parts of the length of some edges (indices) of a line."""
-    found = []
-    lengths = np.cumsum(np.hypot(*(np.diff(points, axis=0) / away)[edges].T))
-    for where in wheres if len(edges) else ():
-        edge = edges[min(int(np.searchsorted(lengths, where * lengths[-1])), len(edges) - 1)]
-        (x, y), (right, up) = points[edge:edge + 2].mean(axis=0), (points[edge + 1] - points[edge]) / away
-        size = np.hypot(right, up) or 1.0
-        found += [(float(x), float(y), float(-side * up / size), float(side * right / size)) for side in sides]
-    return found
+        labels = {"line": what, "side": "the side that came off"}
+        for (first, last), points in [(run, points) for points, kinds in lines for run in runs(kinds)
+                                      if kinds[run[0]] == kind]:
+            x, y = points[first:last + 1].T
+            if kind != GLUE and thin == 1:  # against dark triangles
+                ax.plot(x, y, color="white", linewidth=width + 1.2, solid_capstyle="butt", label="_")
+            ax.plot(x, y, color=color, linewidth=thin * width, linestyle=dash, solid_capstyle="butt",
+                    label=labels.pop("line", "_"))
+            if kind == DELAMINATED:
+                along = np.gradient(np.stack((x, y)), axis=1) / away[:, None]
+                with np.errstate(invalid="ignore"):
+                    across = np.stack((-along[1], along[0])) / np.hypot(*along)
+                ax.plot(x - away[0] * across[0], y - away[1] * across[1], color="#D00000", linewidth=1.1 * thin,
+                        linestyle=(0, (1, 1)), label=labels.pop("side", "_"))
 
 
 def interfaces(result: Result, load: str | Load | None = None, ax: Any = None, labels: bool = True) -> Any:
@@ -126,34 +151,20 @@ def interfaces(result: Result, load: str | Load | None = None, ax: Any = None, l
     ax = axes(ax)
     if load is not None:
         load_of(result, load)
-    _parts(result, ax, labels, {})
+    _parts(result, ax, labels)
     return ax
 
 
-def _parts(result: Result, ax: Any, labels: bool, drawn: dict[str, Any]) -> Names:
-    nodes = result.mesh.nodes
-    edges = boundary(nodes, result.mesh.triangles, result.mesh.boundary, result.traction)
-    draw_boundary(ax, nodes, edges, drawn)
-    low, high = nodes.min(axis=0), nodes.max(axis=0)
-    stretched = frame(ax, low, high, result.units.behind("L").strip())
-    away = 0.012 * (stretched * (high - low)).max() / stretched
-    lines = [(np.stack((line.x, line.y), axis=1), line.edge_kind) for line in result.interfaces]
-    draw_lines(ax, lines, away, drawn)
-    if len(lines) <= _NAMED and lines:
-        begins = np.array([points[0] for points, _ in lines])
-        (drawn["s = 0"],) = ax.plot(*begins.T, "s", markersize=3, markerfacecolor="none", markeredgewidth=0.8,
-                                    color="#0072B2")
-    every = [points for points, _ in lines] + [nodes[ends].mean(axis=1) for ends in edges.values()]
-    names = Names(ax, np.concatenate(every) if every else np.empty((0, 2)))
-    if labels and len(result.mesh.inclusions) <= _NAMED:
-        for inclusion, name in enumerate(result.mesh.inclusions):
-            for (points, _), line in zip(lines, result.interfaces):
-                of_it = np.flatnonzero(line.edge_inclusion == inclusion)
-                if len(of_it):
-                    names.beside(name, beside(points, of_it, away, (0.5, 0.25, 0.75, 0.1, 0.9), (-1, 1)))
-                    break
-    if labels and drawn:
-        legend_below(ax, handles=list(drawn.values()), labels=list(drawn))
+def _parts(result: Result, ax: Any, labels: bool = True) -> Names:
+    mesh = result.mesh
+    plane = Plane(mesh.nodes, mesh.triangles, mesh.boundary, result.traction,
+                  [(np.c_[line.x, line.y], line.edge_kind, line.edge_inclusion) for line in result.interfaces],
+                  mesh.inclusions, unit_of(result))
+    names = plane.draw(ax, plane.low, plane.high)
+    if labels and len(plane.inclusions) <= NAMED:
+        plane.name_inclusions(names)
+    if labels:
+        legend_below(ax)
     return names
 
 
@@ -164,10 +175,12 @@ def _beside(result: Result) -> dict[str, Any]:
 
 
 def _smooth(ax: Any, surface: Surface, values: Array, shades: Any) -> None:
-    ax.add_collection(Smooth(surface.nodes, surface.triangles, shades.to_rgba(values)), autolim=False)
+    if len(surface.triangles):
+        ax.tripcolor(*surface.nodes.T, surface.triangles, values, shading="gouraud", norm=shades.norm,
+                     cmap=shades.cmap, rasterized=True, zorder=0)
 
 
-def _lines_of_u(ax: Any, surface: Surface, levels: int, drawn: dict[str, Any]) -> Any:
+def _lines_of_u(ax: Any, surface: Surface, levels: int) -> Any:
     """At round numbers, about so many; None where u is one number."""
     low, high = float(surface.known.min()), float(surface.known.max())
     steps = np.asarray(rounded(levels).tick_values(*widened(low, high)))
@@ -176,7 +189,7 @@ def _lines_of_u(ax: Any, surface: Surface, levels: int, drawn: dict[str, Any]) -
         return None
     lines = ax.tricontour(Triangulation(*surface.nodes.T, surface.triangles), np.nan_to_num(surface.u), steps,
                           colors="#333333", linewidths=0.5, linestyles="solid")
-    (drawn["u = const"],) = ax.plot([], [], color="#333333", linewidth=0.5)
+    ax.plot([], [], color="#333333", linewidth=0.5, label="u = const")
     return lines
 
 
@@ -188,12 +201,10 @@ def displacement(result: Result, load: str | Load | None = None, ax: Any = None,
     surface, ax = Surface(result, load), axes(ax)
     shades = surface.shades(limits, cmap)
     _smooth(ax, surface, surface.u, shades)
-    drawn: dict[str, Any] = {}
     if lines:
-        _lines_of_u(ax, surface, levels, drawn)
-    _parts(result, ax, True, drawn)
-    scale = Scale(*shades.get_clim())
-    colour_bar(ax, shades, scale.label("u", result.units.behind("L").strip()), scale, colorbar, **_beside(result))
+        _lines_of_u(ax, surface, levels)
+    _parts(result, ax)
+    colour_bar(ax, shades, "u", unit_of(result), colorbar, **_beside(result))
     ax.set_title(named(load.name) + not_converged(load))
     return ax
 
@@ -217,25 +228,14 @@ def plan(result: Result, load: str | Load | None = None, ax: Any = None, levels:
     low, high = limits or (0, shown if shown > 0 else 1)
     shades = ScalarMappable(Normalize(low, high), cmap)
     _smooth(ax, surface, surface.flux_of_nodes, shades)
-    drawn: dict[str, Any] = {}
-    lines = _lines_of_u(ax, surface, levels, drawn)
-    names = _parts(result, ax, True, drawn)
+    lines, names, left_out = _lines_of_u(ax, surface, levels), _parts(result, ax), ""
     if lines is not None:
         of_u = Scale(*widened(surface.known.min(), surface.known.max()))
+        left_out = of_u.label("u", "")[1:]
         for level, segments in zip(lines.levels, lines.allsegs):
             if len(segments):
                 names.on(of_u.text(level), np.concatenate(segments), 8)
-    scale = Scale(low, high)
-    law = result.mesh.tension_law
-    label = scale.label("|\u2207u|" if law else "|T \u2207u|", "" if law else result.units.behind("F/L").strip())
-    colour_bar(ax, shades, label, scale, colorbar, extend="max" if high < highest else "neither", **_beside(result))
-    ax.set_title(f"{named(load.name)}: lines of u{_left_out(lines, surface)}{not_converged(load)}")
+    label = ("|\u2207u|", "") if result.mesh.tension_law else ("|T \u2207u|", unit_of(result, "F/L"))
+    colour_bar(ax, shades, *label, colorbar, extend="max" if high < highest else "neither", **_beside(result))
+    ax.set_title(f"{named(load.name)}: lines of u{left_out}{not_converged(load)}")
     return ax
-
-
-def _left_out(lines: Any, surface: Surface) -> str:
-    """What the numbers at lines leave out."""
-    if lines is None:
-        return ""
-    label = Scale(*widened(surface.known.min(), surface.known.max())).label("u", "")
-    return label[1:]

@@ -13,16 +13,18 @@ import matplotlib
 from matplotlib import font_manager
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.transforms import Bbox
 
 from ..errors import Error
 from ..text import suggestion
-from .panel import named
+from .panel import legend_below, named
 
-_INCH = 25.4
+INCH = 25.4
 _LINE = 4.2  # of the title, mm
 LEFT, RIGHT = 16.0, 3.5  # of axes: room for numbers and a name, mm
 ABOVE, BELOW = 6.5, 10.5  # room for a heading, and for numbers and a name
 KEY = 3.7  # a row of a legend
+_GAP = 3.0  # between panels over one axis
 _ROOM = 400.0  # a height that no picture reaches; its own is set in the end
 
 _LOOKS: dict[str, Any] = {
@@ -68,41 +70,76 @@ class Sheet:
 
     def __init__(self, look: Look, title: str, columns: int = 1) -> None:
         self.look, self.width = look, columns * look.width
-        self._figure = Figure(figsize=(self.width / _INCH, _ROOM / _INCH), dpi=100)
+        self._figure = Figure(figsize=(self.width / INCH, _ROOM / INCH), dpi=100)
         FigureCanvasAgg(self._figure)
         # A character is about 1.75 mm wide.
         lines = textwrap.wrap(named(title, 200), max(10, int(self.width / 1.75)), max_lines=3,
                               placeholder=" \u2026") if look.titles else []
         self._head = 1 + _LINE * len(lines) if lines else 0.0
-        self._lines = [self._figure.text(0.5, 0, line, ha="center", va="center", fontsize=9, color="#222222")
-                       for line in lines]
-        self._places: list[tuple[Any, float, float, float, float]] = []
+        for i, line in enumerate(lines):
+            self._figure.text(0.5, 1 - (1 + _LINE * (i + 0.5)) / _ROOM, line, ha="center", va="center", fontsize=9,
+                              color="#222222")
+
+    def height(self, down: float) -> float:
+        """Of what is so many mm below the title, as a part of the figure's."""
+        return 1 - (self._head + down) / _ROOM
 
     def panel(self, left: float, top: float, width: float, height: float, **options: Any) -> Any:
         """Axes, in mm from the left and from below the title."""
-        place = (left / self.width, 1 - (self._head + top + height) / _ROOM, width / self.width, height / _ROOM)
-        ax = self._figure.add_axes(place, **options)
-        self._places.append((ax, left, top, width, height))
-        return ax
+        return self._figure.add_axes((left / self.width, self.height(top + height), width / self.width,
+                                      height / _ROOM), **options)
+
+    def centre(self, ax: Any) -> None:
+        """Axes of three dimensions: their names are inside their place, in which they become smaller if need be."""
+        room, smaller = ax.get_position(original=True), 1.0
+        for _ in range(3):  # letters stay as large as they are
+            if smaller:
+                self._figure.draw_without_rendering()  # which places the names
+                renderer, now = self._figure.canvas.get_renderer(), ax.get_position(original=True)
+                names = Bbox.union([axis.get_tightbbox(renderer) for axis in (ax.xaxis, ax.yaxis, ax.zaxis)])
+                names = names.transformed(self._figure.transFigure.inverted())
+                smaller = max(0.0, (names.width + 3 / self.width) / room.width - 1)
+                ax.set_position(now.shrunk(1 - smaller, 1 - smaller).anchored("C", now).translated(
+                    (room.x0 + room.x1 - names.x0 - names.x1) / 2, 0))
+        ax.apply_aspect()
+        ax.title.set_x(((room.x0 + room.x1) / 2 - ax.get_position().x0) / ax.get_position().width)
+
+    def axes(self, left: float, top: float, height: float, **options: Any) -> Any:
+        """Of a column, without what its numbers and names take."""
+        return self.panel(left + LEFT, top, self.look.width - LEFT - RIGHT, height, **options)
+
+    def stack(self, left: float, heights: list[float]) -> tuple[list[Any], float]:
+        """Axes of a column below each other over one axis, and where they end with its numbers and name."""
+        panels, top = list[Any](), ABOVE
+        for height in heights:
+            panels.append(self.axes(left, top, height, sharex=panels[0] if panels else None))
+            top += height + _GAP
+        return panels, top - _GAP + BELOW
+
+    def legend(self, ax: Any, columns: int, handles: list[Any]) -> float:
+        """Below the axis, in place of its own, in the middle of the column; its height, mm."""
+        if not handles:
+            return 0.0
+        box, column = ax.get_position(), self.look.width / self.width
+        middle = ((box.x0 + box.x1) / 2 // column + 0.5) * column
+        legend_below(ax, columns, (BELOW - 1) / INCH, (middle - box.x0) / box.width, handles=handles)
+        return 1 + KEY * -(-len(handles) // columns)
 
     def files(self, height: float) -> dict[str, bytes]:
         """By format; the picture ends at this height."""
-        high = self._head + height
-        self._figure.set_size_inches(self.width / _INCH, high / _INCH)
-        for ax, left, top, wide, tall in self._places:
-            ax.set_position((left / self.width, 1 - (self._head + top + tall) / high, wide / self.width, tall / high))
-            room = (wide + 2 * RIGHT) / 1.6  # characters
+        for ax in self._figure.axes:
+            room = (ax.get_position().width * self.width + 2 * RIGHT) / 1.6  # characters
             ax.title.set_fontsize(8 * min(1, max(0.8, room / max(len(ax.get_title()), 1))))
             if not self.look.titles:
                 ax.set_title("")
-        for i, line in enumerate(self._lines):
-            line.set_y(1 - (1 + _LINE * (i + 0.5)) / high)
+        shown = Bbox.from_bounds(0, _ROOM * self.height(height) / INCH, self.width / INCH, (self._head + height) / INCH)
         made = {}
         for kind in self.look.formats:
             buffer = io.BytesIO()
             # The same result gives the same bytes.
             metadata: dict[str, Any] = {"png": {"Software": None}, "svg": {"Date": None, "Creator": None},
                                         "pdf": {"CreationDate": None, "Creator": None, "Producer": None}}[kind]
-            self._figure.savefig(buffer, format=kind, dpi=self.look.dpi, metadata=metadata, facecolor="white")
+            self._figure.savefig(buffer, format=kind, dpi=self.look.dpi, metadata=metadata, facecolor="white",
+                                 bbox_inches=shown)
             made[kind] = buffer.getvalue()
         return made

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The membrane as triangles, and collections that draw hundreds of thousands of them."""
+"""The membrane as triangles, and what draws hundreds of thousands of them in space."""
 from __future__ import annotations
 
 from typing import Any
@@ -10,8 +10,10 @@ from matplotlib.colors import LinearSegmentedColormap, Normalize
 from matplotlib.artist import allow_rasterization
 
 from ..arrays import Array
+from ..errors import Error
 from ..result import Load, Result
-from .panel import fields, widened
+from ..text import harmless
+from .panel import widened
 
 # Light grey, and not white, in the middle: the membrane is seen on paper.
 DIVERGING = LinearSegmentedColormap.from_list("anticrack", [
@@ -26,7 +28,10 @@ class Surface:
     which a result has the mean alone, |grad u|; flux_of_nodes (n) and slopes (n, 2): grad u, means by area."""
 
     def __init__(self, result: Result, load: Load) -> None:
-        parts = fields(load)
+        parts = load.fields
+        if not parts:
+            raise Error(f"{harmless(load.name)} has no fields; solve with Case(fields=True), in TOML [output] "
+                        "fields = true")
         firsts = np.cumsum([0, *(len(part.nodes) for part in parts)])
         self.nodes = result.mesh.nodes[np.concatenate([part.nodes for part in parts])]
         self.u = np.concatenate([part.u for part in parts])
@@ -35,22 +40,21 @@ class Surface:
         tension = np.repeat(tensions, [len(part.triangles) for part in parts])
         known = np.isfinite(self.u[self.triangles]).all(axis=1)
         self.triangles, tension = self.triangles[known], tension[known]
-        (ax, ay), (bx, by), (cx, cy) = np.moveaxis(self.nodes[self.triangles], 1, 0).transpose(0, 2, 1)
-        a, b, c = self.u[self.triangles].T
-        bx, by, cx, cy, b, c = bx - ax, by - ay, cx - ax, cy - ay, b - a, c - a
+        # Of the second and third corner against the first.
+        (bx, cx), (by, cy), (b, c) = ((values[:, 1:] - values[:, :1]).T for values in (
+            *np.moveaxis(self.nodes[self.triangles], 2, 0), self.u[self.triangles]))
         twice = bx * cy - cx * by
         self.areas = np.abs(twice) / 2
         with np.errstate(divide="ignore", invalid="ignore"):
             slopes = np.nan_to_num(np.stack((b * cy - c * by, c * bx - b * cx)) / twice, posinf=0, neginf=0)
         self.flux = tension * np.hypot(*slopes)
-        around = self._of_nodes(np.ones_like(self.flux))
-        around[around == 0] = 1
-        self.flux_of_nodes = self._of_nodes(self.flux) / around
-        self.slopes = np.stack([self._of_nodes(slope) for slope in slopes], axis=1) / around[:, None]
+        self.around = self._of_nodes(np.ones_like(self.flux))  # the area of the triangles at a node, three times
+        self.flux_of_nodes, *means = (self._of_nodes(each) / np.where(self.around == 0, 1, self.around)
+                                      for each in (self.flux, *slopes))
+        self.slopes = np.stack(means, axis=1)
 
     def _of_nodes(self, values: Array) -> Array:
-        weights = np.repeat(values * self.areas, 3)
-        return np.asarray(np.bincount(self.triangles.ravel(), weights, len(self.u)), dtype=float)
+        return np.bincount(self.triangles.ravel(), np.repeat(values * self.areas, 3), len(self.u)).astype(float)
 
     @property
     def known(self) -> Array:
@@ -68,53 +72,33 @@ class Surface:
         return ScalarMappable(Normalize(*widened(low, high)), cmap or (DIVERGING if both else "viridis"))
 
 
-class Smooth(PolyCollection):  # type: ignore[misc]
-    """Triangles in colours that run into each other, an image in files of lines: a million of them take a second."""
-
-    def __init__(self, points: Array, triangles: Array, colours: Array) -> None:
-        """points (n, 2); triangles (m, 3); colours (n, 4) of the points, or (m, 3, 4) of the corners."""
-        super().__init__([], linewidths=0.15, edgecolors=(0, 0, 0, 0.3), rasterized=True, zorder=0)
-        self.points, self.triangles, self.colours = points, triangles, colours
-
-    def colours_of(self, order: Any = slice(None)) -> Array:
-        """(m, 3, 4)"""
-        return np.asarray(self.colours[order] if self.colours.ndim == 3 else self.colours[self.triangles[order]])
-
-    @allow_rasterization  # type: ignore[misc]
-    def draw(self, renderer: Any) -> None:
-        self.draw_smooth(renderer, self.points[self.triangles], self.colours_of())
-
-    def draw_smooth(self, renderer: Any, corners: Array, colours: Array) -> None:
-        if len(corners) and self.get_visible():
-            gc = renderer.new_gc()
-            self._set_gc_clip(gc)
-            renderer.draw_gouraud_triangles(gc, corners, colours, self.get_transform().frozen())
-            gc.restore()
-
-
-class Heights(Smooth):
-    """Triangles in space, drawn from the farthest to the nearest on axes of three dimensions. edges: those of the
-    triangles, unless they are many."""
+class Heights(PolyCollection):  # type: ignore[misc]
+    """Triangles in space, drawn from the farthest to the nearest on axes of three dimensions, in colours that run into
+    each other, an image in files of lines: a million of them take a second. edges: those of the triangles, unless they
+    are many. points (n, 3); triangles (m, 3); colours (n, 4) of the points."""
 
     def __init__(self, points: Array, triangles: Array, colours: Array, edges: bool) -> None:
-        """points (n, 3); otherwise as of Smooth."""
-        super().__init__(points, triangles, colours)
+        super().__init__([], linewidths=0.15, edgecolors=(0, 0, 0, 0.3), rasterized=True, zorder=0)
+        self.points, self.triangles, self.colours = points, triangles, colours
         self._edged = edges and len(triangles) <= _EDGED
 
     def do_3d_projection(self) -> float:
         projected = np.c_[self.points, np.ones(len(self.points))] @ np.asarray(self.axes.M).T
         projected = projected[:, :3] / projected[:, 3:]
         depths = projected[:, 2][self.triangles].sum(axis=1)
-        self._order = np.argsort(-depths)
-        self._flat = projected[:, :2]
+        self._shown = self.triangles[np.argsort(-depths)]
+        self._corners = projected[:, :2][self._shown]
         return float(depths.min()) if len(depths) else 0.0
 
     @allow_rasterization  # type: ignore[misc]
     def draw(self, renderer: Any) -> None:
-        corners, colours = self._flat[self.triangles[self._order]], self.colours_of(self._order)
+        colours = self.colours[self._shown]
         if self._edged:
-            self.set_verts(corners)
+            self.set_verts(self._corners)
             self.set_facecolors(colours.mean(axis=1))
-            super(Smooth, self).draw(renderer)
-        else:
-            self.draw_smooth(renderer, corners, colours)
+            super().draw(renderer)
+        elif len(colours) and self.get_visible():
+            gc = renderer.new_gc()
+            self._set_gc_clip(gc)
+            renderer.draw_gouraud_triangles(gc, self._corners, colours, self.get_transform().frozen())
+            gc.restore()

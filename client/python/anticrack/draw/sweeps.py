@@ -7,15 +7,14 @@ from typing import Any
 
 import numpy as np
 from matplotlib.colors import LinearSegmentedColormap
-from matplotlib.patches import Patch
 from matplotlib.ticker import MultipleLocator
 
 from ..arrays import Array, array_of
 from ..errors import Error
 from ..names import place
 from ..result import Result, Sweep
-from .along import Profile
-from .panel import CURVES, axes, fit_axis, legend_below, named, rounded
+from .along import Profile, middles
+from .panel import CURVES, axes, fit_axis, legend_below, named, rounded, unit_of
 
 _NAMED = 6  # curves; what is beyond is drawn alike and counted
 _STRIPS = 400  # of rows, of a map: more would not be seen
@@ -47,13 +46,9 @@ class Rows:
 
     def axis(self, axis: Any) -> None:
         size = float(np.ptp(self.at)) if len(self.at) else 0.0
-        if self.label == "row":
-            axis.set_major_locator(rounded(6, integer=True))
-        elif self.turn and size > 5:  # a turn has quarters
-            step = next((step for step in (5, 15, 30, 45, 90) if size <= 6 * step), 180)
-            axis.set_major_locator(MultipleLocator(step))
-        else:
-            axis.set_major_locator(rounded(6))
+        quarters = [step for step in (5, 15, 30, 45, 90, 180) if size <= 6 * step or step == 180]  # a turn has them
+        axis.set_major_locator(MultipleLocator(quarters[0]) if self.turn and size > 5 else
+                               rounded(6, integer=self.label == "row"))
         fit_axis(axis, self.label, "")
 
 
@@ -64,28 +59,24 @@ def columns_of(result: Result) -> Sweep:
 
 
 def curves(ax: Any, result: Result, over: Rows, names: list[str], values: Array, label: str, unit: str,
-           bounds: tuple[Array, Array] | None = None) -> int:
-    """Of values (rows, names) of the rows that converged, with bands; how many names have no colour of their own."""
+           bounds: tuple[Array, Array] | None = None) -> None:
+    """Of values (rows, names) of the rows that converged, with bands."""
     rows = np.flatnonzero(columns_of(result).converged)
     rows = rows[np.argsort(over.at[rows], kind="stable")]
     options: dict[str, Any] = {"marker": "o", "markersize": 2.2 if len(rows) <= 60 else 1.2} if (
         len(rows) <= 60 or not over.joined) else {}
-    for i in reversed(range(len(names))):
+    for i in range(len(names)):  # the first above the others
         color, dash = CURVES[i] if i < _NAMED else ("#bbbbbb", "-")
         more = "_" if i > _NAMED else f"{len(names) - _NAMED} more" if i == _NAMED else named(names[i], 18)
         ax.plot(over.at[rows], values[rows, i], color=color, linestyle=dash if over.joined else "none", label=more,
-                zorder=3 if i < _NAMED else 2, **options)
+                zorder=3 - i / len(names), **options)
         if over.joined and bounds is not None:
             ax.fill_between(over.at[rows], bounds[0][rows, i], bounds[1][rows, i], color=color, alpha=0.25, linewidth=0)
     over.axis(ax.xaxis)
     ax.yaxis.set_major_locator(rounded(6))
     fit_axis(ax.yaxis, label, unit)
-    return max(0, len(names) - _NAMED)
-
-
-def _bounds(columns: Sweep) -> tuple[Array, Array] | None:
-    lower, upper = columns.displacement_lower, columns.displacement_upper
-    return None if lower is None or upper is None else (lower, upper)
+    if len(names) > 1:
+        ax.legend(loc="best", fontsize="small")
 
 
 def sweep(result: Result, x: str | int | Array | None = None, inclusion: str | int | None = None,
@@ -109,28 +100,18 @@ def sweep(result: Result, x: str | int | Array | None = None, inclusion: str | i
     chosen = list(range(len(columns.inclusions)))
     if inclusion is not None:
         chosen = [place("inclusion", inclusion, columns.inclusions) if isinstance(inclusion, str) else inclusion]
-    bounds = _bounds(columns)
+    lower, upper = columns.displacement_lower, columns.displacement_upper
     curves(ax, result, over, [columns.inclusions[i] for i in chosen], columns.displacement[:, chosen],
            f"A of {named(columns.inclusions[chosen[0]])}" if len(chosen) == 1 else "A",
-           result.units.behind("L").strip(), bounds and (bounds[0][:, chosen], bounds[1][:, chosen]))
-    if len(chosen) > 1:
-        _legend(ax)
+           unit_of(result), None if lower is None or upper is None else (lower[:, chosen], upper[:, chosen]))
     return ax
-
-
-def _legend(ax: Any, **options: Any) -> None:
-    handles, labels = ax.get_legend_handles_labels()
-    order = sorted(range(len(labels)), key=lambda i: -i)  # the first has been drawn last
-    ax.legend([handles[i] for i in order], [labels[i] for i in order], loc="best", fontsize="small", **options)
 
 
 def contact_length(result: Result, ax: Any = None, over: Rows | None = None) -> Any:
     """Of the cracks of every row, over what `sweep` is drawn over."""
     ax, columns = axes(ax), columns_of(result)
-    curves(ax, result, over or Rows(columns), [""], columns.contact_length[:, None], "contact length",
-           result.units.behind("L").strip())
-    low, high = ax.get_ylim()
-    if high > 0 and not columns.contact_length[columns.converged].any():
+    curves(ax, result, over or Rows(columns), [""], columns.contact_length[:, None], "contact length", unit_of(result))
+    if ax.get_ylim()[1] > 0 and not columns.contact_length[columns.converged].any():
         ax.set_ylim(0, 1)
     return ax
 
@@ -141,17 +122,14 @@ def slopes(result: Result, part: int, ax: Any = None) -> Any:
     if columns.slope is None:
         raise Error("no inclusion of this sweep tilts")
     curves(ax, result, Rows(columns), columns.inclusions, columns.slope[:, :, part], ("Bx", "By")[part], "")
-    if len(columns.inclusions) > 1:
-        _legend(ax)
     return ax
 
 
 def _ends(values: Array) -> Array:
-    """Half-way to the neighbours; of one value half a unit around it."""
+    """Half-way to the neighbours, and as far beyond the ends; of one value half a unit around it."""
     if len(values) == 1:
         return np.array((values[0] - 0.5, values[0] + 0.5))
-    middles = (values[:-1] + values[1:]) / 2
-    return np.concatenate((2 * values[:1] - middles[:1], middles, 2 * values[-1:] - middles[-1:]))
+    return middles(np.concatenate((2 * values[:1] - values[1:2], values, 2 * values[-1:] - values[-2:-1])))[1:-1]
 
 
 def contact_map(result: Result, interface: int | str, ax: Any = None) -> Any:
@@ -175,9 +153,7 @@ def contact_map(result: Result, interface: int | str, ax: Any = None) -> Any:
     many = len(strips) < len(order)
     at = over.at[order]
     borders = _ends(at)[[*np.cumsum([0, *map(len, strips)])]] if many else _ends(at)
-    middles = (profile.at[:-1] + profile.at[1:]) / 2
-    ends = np.concatenate((profile.at[:1], middles, profile.at[-1:]))
-    ax.pcolormesh(ends, borders, shades, vmin=0, vmax=1, rasterized=True,
+    ax.pcolormesh(middles(profile.at), borders, shades, vmin=0, vmax=1, rasterized=True,
                   cmap=LinearSegmentedColormap.from_list("", [_OPEN, _CLOSED]))
     profile.axis(ax)
     seen = profile.at[nodes >= 0]
@@ -186,6 +162,7 @@ def contact_map(result: Result, interface: int | str, ax: Any = None) -> Any:
     over.axis(ax.yaxis)
     ax.grid(False)
     ax.set_title(f"where {named(profile.line.name, 30) if len(result.interfaces) > 1 else 'the crack'} is closed")
-    legend_below(ax, handles=[Patch(color=_OPEN), Patch(color=_CLOSED)],
-                 labels=["open", "closed (pale: in some rows)" if many else "closed"])
+    for color, label in ((_OPEN, "open"), (_CLOSED, "closed (pale: in some rows)" if many else "closed")):
+        ax.fill([], [], color=color, label=label)
+    legend_below(ax)
     return ax
