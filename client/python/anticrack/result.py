@@ -18,6 +18,7 @@ from .names import Named, Parts
 from .text import counted, harmless, html_table, interval, lines, listed, short_length
 from .v1 import mesh_pb2, solve_pb2
 
+FORMAT = "anticrack-result/2"
 NAN = float("nan")
 Arrays = dict[str, Array]
 KKT = ("equilibrium", "gap", "sign", "complementarity")
@@ -362,12 +363,15 @@ class Result:
 
     @classmethod
     def read(cls, path: str | os.PathLike[str]) -> Result:
-        """Of a result file, "anticrack-result/2"."""
+        """Of a result file of FORMAT."""
         h5py = package("h5py")
         try:
             with h5py.File(path) as file:
-                if file.attrs.get("format") != "anticrack-result/2":
-                    raise Error(f"{os.fspath(path)}: is no result file of anticrack")
+                found = str(file.attrs.get("format"))
+                if found != FORMAT:
+                    raise Error(f"{os.fspath(path)}: is no result file of anticrack"
+                                if found[:-1] != FORMAT[:-1] else f"{os.fspath(path)}: has format {found}, this package "
+                                f"reads {FORMAT}: " + ("run the case again" if found < FORMAT else "use a newer one"))
                 return _told(_of_file(file))
         except FileNotFoundError:
             raise Error(f"there is no file {os.fspath(path)}; name a result file, as Result.save or the command's -o "

@@ -11,7 +11,7 @@ import h5py
 import numpy as np
 
 from . import output
-from .result import KKT, Inclusion, Load, Result, Sweep, Units
+from .result import FORMAT, KKT, Inclusion, Load, Result, Sweep, Units
 
 _TEXT = h5py.string_dtype()
 _HISTORY = {"iteration": "i4", "contact_count": "i4", "criterion": "f8", "energy": "f8",
@@ -71,7 +71,7 @@ def _put_record(group: Any, record: Any, *but: str) -> None:
 
 def _put_result(file: Any, result: Result) -> None:
     from . import __version__
-    file.attrs.update({"format": "anticrack-result/2", "client_version": __version__, "mesh": result.mesh_name,
+    file.attrs.update({"format": FORMAT, "client_version": __version__, "mesh": result.mesh_name,
                        "unit_length": result.units.length, "unit_force": result.units.force})
     _put_record(file, result, "mesh_name")
     _put_record(file.create_group("mesh"), result.mesh, *["tension_law"] * (not result.mesh.tension_law))

@@ -259,10 +259,12 @@ for name, use in (("pandas", result.frame), ("matplotlib", lambda: anticrack.dra
 
     def test_other_files_are_refused(self):
         other = self.folder / "other.h5"
-        with h5py.File(other, "w") as file:
-            file.attrs["format"] = "other"
-        with self.assertRaisesRegex(anticrack.Error, "other.h5: is no result file"):
-            anticrack.read(other)
+        for form, said in (("other", "is no result file"), ("anticrack-result/1", "run the case again"),
+                           ("anticrack-result/9", "use a newer one")):
+            with h5py.File(other, "w") as file:
+                file.attrs["format"] = form
+            with self.assertRaisesRegex(anticrack.Error, f"other.h5: .*{said}"):
+                anticrack.read(other)
         for path, said in ((self.folder / "none.h5", "^there is no file .*none.h5; "),
                            (EXAMPLES / "arc.toml", "arc.toml: this is a case and no result; solve it"),
                            (EXAMPLES / "load-ratio.csv", "load-ratio.csv: cannot be read")):
