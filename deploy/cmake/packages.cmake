@@ -7,7 +7,7 @@ set(CPACK_INSTALL_COMMANDS "\"${CMAKE_COMMAND}\" --build \"${CMAKE_BINARY_DIR}\"
 set(CPACK_COMPONENTS_ALL server client library python)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_PACKAGE_VENDOR anticrack)
-set(CPACK_PACKAGE_CONTACT "The anticrack maintainers <anticrack@localhost>")
+set(CPACK_PACKAGE_CONTACT ${maintainer})
 set(CPACK_STRIP_FILES ON)
 set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_CURRENT_LIST_DIR}/open-folders.cmake)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
