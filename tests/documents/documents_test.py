@@ -154,6 +154,18 @@ class Words(FolderTest):
         version = re.search(r"project\(anticrack VERSION ([\d.]+)", (PROJECT / "CMakeLists.txt").read_text(encoding="utf-8")).group(1)
         self.assertIn(f"\nversion: {version}\n", (PROJECT / ".github/CITATION.cff").read_text(encoding="utf-8"))
 
+    def test_options_of_the_tests_and_releases_of_debian_are_what_there_is(self):
+        workflow = PROJECT / ".github/workflows/test.yml"
+        script = (PROJECT / "deploy/test").read_text(encoding="utf-8")
+        named = [(place, option) for place in (*DOCUMENTS, workflow, PROJECT / ".ci/run")
+                 for option in re.findall(r'deploy/test"? (--[a-z-]+)', place.read_text(encoding="utf-8"))]
+        self.assertIn((workflow, "--lint-changed"), named)
+        for place, option in named:
+            self.assertRegex(script, rf'(?m)^  {option}\)|"\$\{{1:-\}}" = {option} \]', place)
+        releases = re.findall(r"^  (\d+)\) codename=", (PROJECT / "deploy/fresh-debian").read_text(encoding="utf-8"), re.M)
+        self.assertEqual(re.findall(r'"(\d+)"', re.search(r"debian: \[(.*)\]", workflow.read_text(encoding="utf-8")).group(1)),
+                         releases)
+
     def test_what_is_run_elsewhere_is_run_there(self):
         for command, place in ELSEWHERE.items():
             self.assertIn(command.removeprefix("./"), (PROJECT / place).read_text(encoding="utf-8"))
