@@ -25,7 +25,6 @@ TABLE = re.compile(r"^<!-- printed above -->\n\|.*\n\|-.*\n((?:\|.*\n)+)", re.M)
 # Commands that build, install or want root: what runs them instead.
 ELSEWHERE = {
     "./deploy/quickstart": ".ci/run",
-    "./deploy/test": ".ci/run",
 }
 
 # One command after another in one shell, so that export, cd and & mean what they mean for who types them.
