@@ -4,10 +4,10 @@ set(CPACK_VERBATIM_VARIABLES ON)
 set(CPACK_GENERATOR DEB)
 # Of a build that made programs only, as that of quickstart, the library is missing.
 set(CPACK_INSTALL_COMMANDS "\"${CMAKE_COMMAND}\" --build \"${CMAKE_BINARY_DIR}\" --target product")
-set(CPACK_COMPONENTS_ALL server client library python)
+set(CPACK_COMPONENTS_ALL server client library python doc)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_PACKAGE_VENDOR anticrack)
-set(CPACK_PACKAGE_CONTACT "The anticrack maintainers <anticrack@localhost>")
+set(CPACK_PACKAGE_CONTACT ${maintainer})
 set(CPACK_STRIP_FILES ON)
 set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_CURRENT_LIST_DIR}/open-folders.cmake)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
@@ -17,7 +17,7 @@ set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
 set(CPACK_DEBIAN_SERVER_PACKAGE_NAME anticrack-server)
 set(CPACK_DEBIAN_SERVER_PACKAGE_SECTION science)
-set(CPACK_DEBIAN_SERVER_PACKAGE_RECOMMENDS openssl) # of make-certificates
+set(CPACK_DEBIAN_SERVER_PACKAGE_RECOMMENDS "anticrack-doc, openssl") # openssl is of make-certificates
 set(CPACK_DEBIAN_SERVER_PACKAGE_SUGGESTS "anticrack-client, prometheus")
 set(debian ${CMAKE_CURRENT_SOURCE_DIR}/debian)
 set(CPACK_DEBIAN_SERVER_PACKAGE_CONTROL_EXTRA
@@ -29,7 +29,7 @@ cracks and delaminated thin rigid inclusions, by domain decomposition.")
 
 set(CPACK_DEBIAN_CLIENT_PACKAGE_NAME anticrack-client)
 set(CPACK_DEBIAN_CLIENT_PACKAGE_SECTION science)
-set(CPACK_DEBIAN_CLIENT_PACKAGE_RECOMMENDS python3-anticrack) # draws for anticrack plot
+set(CPACK_DEBIAN_CLIENT_PACKAGE_RECOMMENDS "anticrack-doc, python3-anticrack") # the latter draws for anticrack plot
 set(CPACK_DEBIAN_CLIENT_PACKAGE_SUGGESTS anticrack-server)
 set(CPACK_DEBIAN_CLIENT_DESCRIPTION "command of the membrane solver anticrack
 The command anticrack: submits cases to anticrackd, watches every iteration,
@@ -58,4 +58,13 @@ set(CPACK_DEBIAN_PYTHON_DESCRIPTION "Python client of the membrane solver anticr
 The module anticrack: starts or connects to anticrackd, submits cases from TOML
 or from Python objects, watches them, and gives the answers as numpy arrays.
 Draws them with matplotlib, and works with asyncio.")
+
+set(CPACK_DEBIAN_DOC_PACKAGE_NAME anticrack-doc)
+set(CPACK_DEBIAN_DOC_PACKAGE_SECTION doc)
+set(CPACK_DEBIAN_DOC_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_DOC_PACKAGE_SHLIBDEPS OFF)
+set(CPACK_DEBIAN_DOC_PACKAGE_RECOMMENDS anticrack-client) # has the examples that they show
+set(CPACK_DEBIAN_DOC_DESCRIPTION "documents of the membrane solver anticrack
+In /usr/share/doc/anticrack: the tutorial, the guide, the theory in one page,
+result files and JSON, running a server, and the reference of the API.")
 include(CPack)

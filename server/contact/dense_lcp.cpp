@@ -42,7 +42,7 @@ struct Problem {
     }
   }
 
-  /// lambda of nodes and rows from S d - r in the nodes: what a row takes the nodes are spared.
+  /// lambda of nodes and rows from S d - r in the nodes. What a row carries is taken off its nodes.
   void split(const std::vector<char>& closed, VectorXd& lambda) const {
     for (std::size_t k = 0; k < rows.size(); ++k) {
       const bool open = any_open(k, closed);
@@ -56,7 +56,7 @@ struct Problem {
     }
   }
 
-  /// With which nothing is left on the open nodes.
+  /// The multiplier of a row that leaves none on its open nodes.
   double balancing(std::size_t k, const std::vector<char>& closed, const VectorXd& lambda) const {
     double sum = 0, size = 0;
     for (const ddm::Term& term : rows[k]) {

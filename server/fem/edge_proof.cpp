@@ -37,7 +37,7 @@ struct Half {
 }  // namespace
 
 EnclosedPiece enclose(Enclosure& g, const Piece& piece) {
-  const auto& [x, y, dx, dy] = piece;
+  const double x = piece.x, y = piece.y, dx = piece.dx, dy = piece.dy;
   const Jet jet = g(along(x, dx), along(y, dy), 3);
   EnclosedPiece result;
   result.values = jet.value();

@@ -216,12 +216,13 @@ void note_chords(const Network& network, std::vector<std::string>& warnings) {
   if (most == 0) return;
   const auto curves = std::ranges::count_if(pieces, [](int count) { return count > 0; });
   std::ostringstream note;
-  note << std::setprecision(2) << (curves == 1 ? "a curve counts" : "curves count")
-       << " as chords: " << network.lines[worst].field
-       << (curves == 1 ? "" : ", the coarsest of " + std::to_string(curves) + ",") << " is "
-       << pieces[worst] << " of them, up to " << most
-       << " off the curve; bounds hold for the chords, and mesh.chord_angle = 1.25 (5 unless "
-          "given) brings them 16 times closer";
+  note << std::setprecision(2)
+       << (curves == 1 ? "a curve is replaced by chords: " : "curves are replaced by chords: ")
+       << network.lines[worst].field
+       << (curves == 1 ? "" : ", the coarsest of " + std::to_string(curves) + " curves,") << " by "
+       << pieces[worst] << ", up to " << most
+       << " off the curve; bounds are those of the membrane with chords, and mesh.chord_angle = "
+          "1.25 (default 5) brings chords and curves 16 times closer";
   warnings.push_back(note.str());
 }
 

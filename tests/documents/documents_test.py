@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the documents say, tried: every command of their shell blocks is typed as it stands, every case is
-solved, every line of a stage is one that the commands print, every link and every name of the code leads
-somewhere.
+solved, every line of output and every row of a table marked "printed above" is one that the commands print, every
+link and every name of the code leads somewhere.
 
 In a document `jobs/ID` and `meshes/ID` stand for the last one that a command printed, `exit code N` in the
 comment of a command for how it ends (0 otherwise)."""
@@ -17,14 +17,14 @@ from processes import FolderTest
 PROJECT = pathlib.Path(os.environ["PROJECT"])
 BIN = pathlib.Path(os.environ["BIN"])
 PYTHON = pathlib.Path(os.environ["PYTHON"])
-DOCUMENTS = [PROJECT / "README.md", *sorted(document for folder in ("client", "server", "proto", "deploy", "tests")
+DOCUMENTS = [PROJECT / "README.md", *sorted(document for folder in (".github", "client", "server", "proto", "deploy", "tests")
                                             for document in (PROJECT / folder).rglob("*.md"))]
 BLOCK = re.compile(r"^```(\w*)\n(.*?)^```$", re.M | re.S)
+TABLE = re.compile(r"^<!-- printed above -->\n\|.*\n\|-.*\n((?:\|.*\n)+)", re.M)
 
 # Commands that build, install or want root: what runs them instead.
 ELSEWHERE = {
     "./deploy/quickstart": ".ci/run",
-    "./deploy/test": ".ci/run",
 }
 
 # One command after another in one shell, so that export, cd and & mean what they mean for who types them.
@@ -57,6 +57,12 @@ def commands(block):
             yield command.strip(), comment
 
 
+def steady(line):
+    """A line of output without what differs from run to run: columns' widths, KKT and wall time of an answer."""
+    words = [re.sub(r"^\d\.\d+e-1\d$", "KKT", word) for word in line.split()]
+    return " ".join(words[:-1] if words[1:2] == ["converged"] else words)
+
+
 class Commands(FolderTest):
     """One test a document, made below."""
     maxDiff = None
@@ -77,15 +83,16 @@ class Commands(FolderTest):
                           f'exec {BIN}/anticrackd "$@"\n', encoding="utf-8")
         daemon.chmod(0o755)
 
-        script, stages = [SHELL], []
-        for kind, block in BLOCK.findall(document.read_text(encoding="utf-8")):
+        text = document.read_text(encoding="utf-8")
+        script, output = [SHELL], []
+        for kind, block in BLOCK.findall(text):
             if kind == "sh":
                 for command, comment in commands(block):
                     if not any(command.startswith(name) for name in ELSEWHERE):
                         code = re.search(r"exit code (\d+)", comment)
                         script.append(f"step {code.group(1) if code else 0} {quoted(command)}")
-            elif kind == "text":
-                stages += re.findall(r"^stage \d+: .*$", block, re.M)
+            elif kind == "text" and len(script) > 1:  # what begins with a space is a live view, or units
+                output += re.findall(r"^\S.*$", block, re.M)
             elif kind == "python":
                 script.append(f"step 0 {quoted(sys.executable + ' -c ' + quoted(block))}")
             elif kind == "toml" and "[geometry]" in block and "[[load]]" in block:  # all of a case
@@ -104,7 +111,11 @@ class Commands(FolderTest):
                                capture_output=True, check=False)
         self.assertEqual((ended.returncode, ended.stderr), (0, ""))
         printed = pathlib.Path(environment["OUTPUT"]).read_text(encoding="utf-8").splitlines()
-        self.assertEqual([line for line in stages if line not in printed], [])
+        shown = {steady(line) for line in printed}
+        self.assertEqual([line for line in output if steady(line) not in shown], [])
+        # The last column of such a table is not computed.
+        rows = {re.sub(r"\|[^|]*\|$", "|", row) for table in TABLE.findall(text) for row in table.splitlines()}
+        self.assertEqual(rows, {line for line in printed if line.startswith("| ")})
 
 
 def of(document):
@@ -112,7 +123,7 @@ def of(document):
 
 
 for each in DOCUMENTS:
-    name = "_".join(each.relative_to(PROJECT).with_suffix("").parts).replace("-", "_").lower()
+    name = re.sub(r"\W", "_", "_".join(each.relative_to(PROJECT).with_suffix("").parts)).lower()
     setattr(Commands, f"test_{name}", of(each))
 
 
@@ -122,6 +133,37 @@ class Words(FolderTest):
         typed = "".join(block for kind, block in blocks if kind == "toml")
         self.assertEqual(tomllib.loads(typed),
                          tomllib.loads((PROJECT / "client/examples/sheet.toml").read_text(encoding="utf-8")))
+
+    def test_figures_of_the_paper_are_those_of_its_page(self):
+        """Which the commands of that page print. Examples and the first pages quote them."""
+        page = (PROJECT / "client/PAPER.md").read_text(encoding="utf-8")
+        theirs, triangles, ours, more = re.search(
+            r"Example 3: (\d+) % off on (\d+) triangles .*, ([\d.]+) % on (\d+)", page).groups()
+        lower, upper = re.search(r"\| example-3 .*?\| ([\d.]+) to ([\d.]+) \|", page).groups()
+        for place, figures in {
+                "README.md": (f"{theirs} % off", f"{int(triangles):,}", f"{ours} % off", f"{int(more):,}", f"{lower} and {upper}"),
+                "client/BASICS.md": (f"{int(triangles):,}", f"by {theirs} %"),
+                "client/examples/paper-3.toml": (f"{theirs} % off",),
+                "client/examples/accuracy.toml": (f"{theirs} % off",)}.items():
+            text = " ".join((PROJECT / place).read_text(encoding="utf-8").replace("\n#", "\n").split())
+            for figure in figures:
+                self.assertIn(figure, text, place)
+
+    def test_cited_is_this_version(self):
+        version = re.search(r"project\(anticrack VERSION ([\d.]+)", (PROJECT / "CMakeLists.txt").read_text(encoding="utf-8")).group(1)
+        self.assertIn(f"\nversion: {version}\n", (PROJECT / ".github/CITATION.cff").read_text(encoding="utf-8"))
+
+    def test_options_of_the_tests_and_releases_of_debian_are_what_there_is(self):
+        workflow = PROJECT / ".github/workflows/test.yml"
+        script = (PROJECT / "deploy/test").read_text(encoding="utf-8")
+        named = [(place, option) for place in (*DOCUMENTS, workflow, PROJECT / ".ci/run")
+                 for option in re.findall(r'deploy/test"? (--[a-z-]+)', place.read_text(encoding="utf-8"))]
+        self.assertIn((workflow, "--lint-changed"), named)
+        for place, option in named:
+            self.assertRegex(script, rf'(?m)^  {option}\)|"\$\{{1:-\}}" = {option} \]', place)
+        releases = re.findall(r"^  (\d+)\) codename=", (PROJECT / "deploy/fresh-debian").read_text(encoding="utf-8"), re.M)
+        self.assertEqual(re.findall(r'"(\d+)"', re.search(r"debian: \[(.*)\]", workflow.read_text(encoding="utf-8")).group(1)),
+                         releases)
 
     def test_what_is_run_elsewhere_is_run_there(self):
         for command, place in ELSEWHERE.items():

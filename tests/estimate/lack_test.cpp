@@ -123,8 +123,8 @@ void check_lack(const Nested& nested, const Trial& trial, double dual_off, unsig
       std::vector<ForceOn> unit(motions.size());
       unit[j].force = 1;
       const auto found = [&](const Lack& of) {
-        return interval({coarse.cut, sigma, load, none, v, of},
-                        {fields[0], fields[1], motions[j].displacement, c, unit}, 0);
+        return interval({coarse.cut, sigma, load, none, trial.v, of},
+                        {fields[0], fields[1], trial.motions[j].displacement, c, unit}, 0);
       };
       const Interval wide = found(lack), narrow = found({});
       if (!std::isfinite(wide.width())) continue;

@@ -83,7 +83,7 @@ TEST(Sides, InterfacesEndOnThem) {
   const Plan plan = plan_of(geometry, 0.05);
   EXPECT_EQ(areas(plan).size(), 2U);
   ASSERT_EQ(plan.warnings.size(), 1U) << "no end was moved";
-  EXPECT_TRUE(plan.warnings[0].starts_with("curves count as chords")) << plan.warnings[0];
+  EXPECT_TRUE(plan.warnings[0].starts_with("curves are replaced by chords: ")) << plan.warnings[0];
 }
 
 // a circle of n chords has the area r^2 n sin(2 pi / n) / 2
@@ -100,7 +100,7 @@ TEST(Holes, CirclesHaveAsManyChordsAsTheAngleAsks) {
     if (angle > 0) continue;
     // 0.3 (1 - cos 2.5 degrees) = 0.000286
     EXPECT_NE(plan.warnings[0].find(
-                  R"(hole "large", the coarsest of 2, is 72 of them, up to 0.00029 off)"),
+                  R"(hole "large", the coarsest of 2 curves, by 72, up to 0.00029 off)"),
               std::string::npos)
         << plan.warnings[0];
   }

@@ -12,7 +12,7 @@ from processes import FolderTest, run
 DOC = "usr/share/doc"
 SHARE = "usr/share"
 PYTHON = "usr/lib/python3/dist-packages"
-EXECUTABLE, PLAIN = "-rwxr-xr-x", "-rw-r--r--"
+EXECUTABLE, PLAIN, LINK = "-rwxr-xr-x", "-rw-r--r--", "lrwxrwxrwx"
 
 # Every file of a package has its pattern, every pattern its file.
 FILES = {
@@ -20,8 +20,7 @@ FILES = {
         EXECUTABLE: ["usr/bin/anticrackd", "usr/libexec/anticrack/anticrack-mesher", f"{SHARE}/anticrack/make-certificates"],
         PLAIN: ["etc/anticrack/anticrackd.toml", "usr/lib/systemd/system/anticrackd.service",
                 f"{SHARE}/man/man5/anticrackd.toml.5.gz", f"{SHARE}/man/man8/anticrackd.8.gz",
-                f"{DOC}/anticrack-server/copyright", f"{DOC}/anticrack-server/PROMISES.md",
-                f"{DOC}/anticrack-server/COMPATIBILITY.md", f"{DOC}/anticrack-server/changelog.gz",
+                f"{DOC}/anticrack-server/copyright", f"{DOC}/anticrack-server/changelog.gz",
                 f"{DOC}/anticrack-server/examples/prometheus-alerts.yaml",
                 f"{DOC}/anticrack-server/examples/grafana-dashboard.json"],
     },
@@ -32,8 +31,7 @@ FILES = {
                 f"{SHARE}/zsh/vendor-completions/_anticrack", f"{SHARE}/fish/vendor_completions.d/anticrack.fish",
                 f"{SHARE}/anticrack/proto/anticrack/v1/*.proto", f"{SHARE}/anticrack/examples/paper.toml",
                 f"{SHARE}/anticrack/examples/*.toml", f"{SHARE}/anticrack/examples/load-ratio.csv",
-                f"{SHARE}/anticrack/examples/*", f"{DOC}/anticrack-client/copyright", f"{DOC}/anticrack-client/README.md",
-                f"{DOC}/anticrack-client/changelog.gz"],
+                f"{SHARE}/anticrack/examples/*", f"{DOC}/anticrack-client/copyright", f"{DOC}/anticrack-client/changelog.gz"],
     },
     "libanticrack-dev": {
         EXECUTABLE: [],
@@ -54,6 +52,15 @@ FILES = {
                                                                "*_pb2*.py*")),
                 *(f"{PYTHON}/anticrack.egg-info/{part}" for part in ("PKG-INFO", "*.txt")),
                 f"{DOC}/python3-anticrack/copyright", f"{DOC}/python3-anticrack/changelog.gz"],
+    },
+    "anticrack-doc": {
+        LINK: ["../../../anticrack/examples"],
+        PLAIN: [*(f"{DOC}/anticrack/{path}" for path in (
+                    "README.md", ".github/CONTRIBUTING.md", ".github/CITATION.cff", "client/README.md",
+                    "client/TUTORIAL.md", "client/BASICS.md", "client/PAPER.md", "client/RESULT.md", "client/JSON.md",
+                    "deploy/README.md", "deploy/CHANGELOG.md", "deploy/packages.txt", "deploy/COPYING", "proto/REFERENCE.md",
+                    "server/PROMISES.md", "server/COMPATIBILITY.md", "server/README.md", "server/THEORY.md")),
+                f"{DOC}/anticrack-doc/copyright", f"{DOC}/anticrack-doc/changelog.gz"],
     },
 }
 
@@ -110,6 +117,17 @@ class Packages(FolderTest):
                 used |= fitting
             self.assertEqual(used, set(patterns), package)
 
+    def test_have_what_links_of_the_documents_lead_to(self):
+        for package in self.packages.values():
+            self.assertEqual(run("dpkg-deb", "-x", package, self.folder).returncode, 0)
+        ours = self.folder / DOC / "anticrack"
+        documents = [*ours.rglob("*.md"), *(ours / "client/examples").glob("*.md")]
+        self.assertGreater(len(documents), 10)
+        for document in documents:
+            for target in re.findall(r'(?:\]\(|src=")([^)#\s"]+)', document.read_text(encoding="utf-8")):
+                if "://" not in target:
+                    self.assertTrue(os.path.exists(os.path.normpath(document.parent / target)), f"{document}: {target}")
+
     def test_share_no_file(self):
         listed = [line.split()[-1] for package in FILES
                   for line in run("dpkg-deb", "-c", self.packages[package]).stdout.splitlines() if line.startswith("-")]
@@ -135,10 +153,11 @@ class Packages(FolderTest):
             self.assertNotRegex(library, "gmsh|cholmod|blas|lapack|muparser")
         self.assertEqual(needs("libanticrack-dev"), {"libgrpc++-dev", "libprotobuf-dev", "libisal-dev", "libssl-dev",
                                                      "pkg-config", "protobuf-compiler-grpc"})
-        self.assertEqual(self.field("anticrack-client", "Recommends"), "python3-anticrack")
+        self.assertEqual(self.field("anticrack-client", "Recommends"), "anticrack-doc, python3-anticrack")
         self.assertEqual(needs("python3-anticrack"), {"python3", "python3-grpcio", "python3-h5py", "python3-numpy",
                                                       "python3-protobuf"})
-        self.assertEqual(self.field("python3-anticrack", "Architecture"), "all")
+        for package in ("anticrack-doc", "python3-anticrack"):
+            self.assertEqual(self.field(package, "Architecture"), "all")
 
     def test_of_the_server_keeps_its_configuration_and_starts_its_unit(self):
         control, files = self.folder / "control", self.folder / "files"

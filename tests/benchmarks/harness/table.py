@@ -152,6 +152,3 @@ def markdown(results, rows):
     if results["skipped"]:
         text += ["## Left out", ""] + [f"- {group}: {why}" for group, why in results["skipped"].items()] + [""]
     return "\n".join(text)
-
-
-

@@ -73,7 +73,9 @@ class Paper(GalleryTest):
             self.assertEqual(len(answers.file["mesh/triangles"]), answer["stages"][-1]["triangles"])
         answers = results["accuracy.h5"]
         self.assertLessEqual(len(answers.loads["example-3"]["stages"]), 6)
-        middle = lambda of, name: (of[f"{name}_lower"] + of[f"{name}_upper"]) / 2
+
+        def middle(of, name):
+            return (of[f"{name}_lower"] + of[f"{name}_upper"]) / 2
         self.assert_told(("0.1700", -middle(answers.loads["example-3"], "energy")),
                          ("0.1038", middle(answers.loads["example-3"]["inclusions"][0], "A")))
         self.assertLessEqual(len(results["short.h5"].file["mesh/triangles"]), 9000)

@@ -26,4 +26,3 @@ def options_of(*path):
     """Long options of a command's --help."""
     return set(re.findall(r"--[a-z][a-z-]*(?=[ ,\n]|$)", "\n".join(
         line.strip().split("  ")[0] for line in help_of(*path).splitlines() if line.startswith(("  -", "    -")))))
-
