@@ -76,7 +76,7 @@ void set_small_cache(const Handle& access) {
 std::vector<std::byte> file_image(const std::function<void(const Handle& root)>& fill) {
   constexpr std::size_t increment = 1 << 20;
   Memory memory;
-  hsize_t end = 0;
+  ssize_t end = 0;
   {
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "HDF5 does not start");
     H5FD_file_image_callbacks_t callbacks = memory.callbacks();
@@ -92,11 +92,12 @@ std::vector<std::byte> file_image(const std::function<void(const Handle& root)>&
     Handle file(H5Fcreate("result", H5F_ACC_TRUNC, creation.get(), access.get()), H5Fclose,
                 "HDF5 cannot create a file in memory");
     fill({H5Gopen2(file.get(), "/", H5P_DEFAULT), H5Gclose, "has no root group"});
-    if (H5Fflush(file.get(), H5F_SCOPE_LOCAL) < 0 || H5Fget_filesize(file.get(), &end) < 0)
+    if (H5Fflush(file.get(), H5F_SCOPE_LOCAL) < 0 ||
+        (end = H5Fget_file_image(file.get(), nullptr, 0)) < 0)
       throw Fault("HDF5 cannot write the file");
     file.close_now("HDF5 cannot finish the file");
   }
-  return memory.bytes(end);
+  return memory.bytes(static_cast<std::size_t>(end));
 }
 
 }  // namespace anticrack::results::hdf5
