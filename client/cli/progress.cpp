@@ -145,9 +145,9 @@ std::string_view word(Status status) noexcept {
 }
 
 std::string_view word(v1::Job::State state) noexcept {
-  constexpr std::array<std::string_view, 9> words{"submitted", "queued",  "waiting for the mesh",
-                                                  "running",   "done",    "failed",
-                                                  "cancelled", "unknown", "not converged"};
+  constexpr std::array<std::string_view, 8> words{
+      "submitted", "queued",    "waiting for the mesh", "running", "done",
+      "failed",    "cancelled", "not converged"};
   return word_of(words, state);
 }
 
