@@ -20,17 +20,18 @@ struct EveryLook::State {
   std::vector<std::string> after;
 
   void look(const char* what) {
+    const stop::Asked asked = stop::asked();
     {
       const std::lock_guard lock(mutex);
       if (acted) {
-        after.emplace_back(what);
+        // A thread that comes to something new and is sent home there has not begun it.
+        if (before.count(what) > 0 || !(asked && asked({what, 0}))) after.emplace_back(what);
         return;
       }
       if (++before[what] != number || doing != what || std::exchange(acts, true)) return;
     }
     std::thread(act).join();
     // A stop may reach this thread by way of others.
-    const stop::Asked asked = stop::asked();
     const auto most = std::chrono::steady_clock::now() + std::chrono::seconds(30);
     while (!(asked && asked({what, 0})) && std::chrono::steady_clock::now() < most)
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
