@@ -22,10 +22,13 @@ struct EveryLook::State {
   void look(const char* what) {
     const stop::Asked asked = stop::asked();
     {
-      const std::lock_guard lock(mutex);
+      std::unique_lock lock(mutex);
       if (acted) {
+        lock.unlock();
+        const bool stopped = asked && asked({what, 0});
+        lock.lock();
         // A thread that comes to something new and is sent home there has not begun it.
-        if (before.count(what) > 0 || !(asked && asked({what, 0}))) after.emplace_back(what);
+        if (before.count(what) > 0 || !stopped) after.emplace_back(what);
         return;
       }
       if (++before[what] != number || doing != what || std::exchange(acts, true)) return;
