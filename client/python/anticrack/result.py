@@ -369,9 +369,11 @@ class Result:
             with h5py.File(path) as file:
                 found = str(file.attrs.get("format"))
                 if found != FORMAT:
-                    raise Error(f"{os.fspath(path)}: is no result file of anticrack"
-                                if found[:-1] != FORMAT[:-1] else f"{os.fspath(path)}: has format {found}, this package "
-                                f"reads {FORMAT}: " + ("run the case again" if found < FORMAT else "use a newer one"))
+                    wrong = "is no result file of anticrack"
+                    if found[:-1] == FORMAT[:-1]:
+                        cure = "run the case again" if found < FORMAT else "use a newer one"
+                        wrong = f"has format {found}, this package reads {FORMAT}: {cure}"
+                    raise Error(f"{os.fspath(path)}: {wrong}")
                 return _told(_of_file(file))
         except FileNotFoundError:
             raise Error(f"there is no file {os.fspath(path)}; name a result file, as Result.save or the command's -o "
