@@ -131,7 +131,8 @@ struct Nested {
     }
     load.name = "random";
     load.boundary_value = std::to_string(membrane.uniform(-1, 1)) + "*x - 0.4*y";
-    load.traction = std::to_string(membrane.uniform(-1, 1));
+    const std::string traction = std::to_string(membrane.uniform(-1, 1));
+    if (reference::has_neumann(mesh)) load.traction = traction;
     const std::vector<char> tilts = reference::tilting(mesh);
     for (std::size_t j = 0; j < mesh.inclusions.size(); ++j) {
       load.inclusion_forces[mesh.inclusions[j]] = membrane.uniform(-3, 3);

@@ -10,9 +10,11 @@
 #include <map>
 #include <optional>
 #include <random>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "mesh/edges.hpp"
 #include "support/grid_mesh.hpp"
 
 namespace anticrack::reference {
@@ -41,6 +43,15 @@ inline std::vector<char> tilting(const mesh::Mesh& mesh) {
     }
   }
   return tilts;
+}
+
+/// Whether a part of its boundary can carry a traction.
+inline bool has_neumann(const mesh::Mesh& mesh) {
+  std::size_t boundary = 0;
+  mesh::EdgeTable(mesh.triangles).each([&](std::span<const mesh::EdgeUse> uses) {
+    boundary += uses.size() == 1 ? 1 : 0;
+  });
+  return boundary > mesh.dirichlet.size();
 }
 
 class RandomMembrane {

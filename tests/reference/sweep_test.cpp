@@ -53,6 +53,7 @@ class Loads {
     }
     const mesh::Mesh& mesh = membrane.mesh();
     _inclusion = mesh.inclusions.empty() ? "" : mesh.inclusions[0];
+    _neumann = has_neumann(mesh);
     const std::vector<char> tilts = tilting(mesh);
     if (const auto first = std::ranges::find(tilts, 1); first != tilts.end())
       _tilting = mesh.inclusions[static_cast<std::size_t>(first - tilts.begin())];
@@ -69,7 +70,7 @@ class Loads {
                                  text(c[1] * _numbers[1]) + " + " + text(c[3]) + "*(x - y)"};
     load.boundary_value =
         text(c[0]) + "*(0.3*x - 0.1*y + 2) + " + text(c[2] * _numbers[2]) + "*y*y";
-    load.traction = text(c[1]) + "*(x - y) + " + text(c[2]);
+    if (_neumann) load.traction = text(c[1]) + "*(x - y) + " + text(c[2]);
     load.point_forces = {{1.3, 1.2, c[2] * _numbers[3]}, {0.4, 2.1, c[3] * _numbers[4]}};
     if (!_inclusion.empty()) {
       load.inclusion_forces[_inclusion] = c[3] * _numbers[5] + c[1];
@@ -84,6 +85,7 @@ class Loads {
  private:
   double _numbers[6] = {};
   std::string _inclusion, _tilting;
+  bool _neumann = false;
 };
 
 /// What the differences of a load's numbers are relative to: rounding is relative to the terms a
