@@ -119,7 +119,7 @@ Jet compose_any(const Jet& a, const Series& f, int known) {
 Jet compose(const Jet& a, const Series& f, int order) {
   const int wanted = std::min(a.order, order);
   int known = 0;
-  while (known < wanted && f[static_cast<std::size_t>(known + 1)].finite()) ++known;
+  while (known < wanted && f[static_cast<std::size_t>(known) + 1].finite()) ++known;
   Jet result;
   if (a.degree > 0) {
     result = a.degree == 1 ? compose_linear(a.of[1], a.of[2], f, known) : compose_any(a, f, known);
