@@ -2,8 +2,6 @@
 #include <cstddef>
 #include <exception>
 #include <filesystem>
-#include <functional>
-#include <ranges>
 #include <string>
 #include <vector>
 
