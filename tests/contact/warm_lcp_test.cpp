@@ -8,6 +8,7 @@
 #include <random>
 
 #include "contact/random_problems.hpp"
+#include "support/random_seed.hpp"
 
 namespace anticrack::contact {
 namespace {
@@ -40,7 +41,7 @@ void expect_same(const WarmLcp& warm, const LcpAnswer& wanted) {
 
 /// A walk through loads near each other and far apart, with zero and repeated ones.
 TEST(WarmLcp, IsThePlainAnswerWhateverCameBefore) {
-  const unsigned seed = std::random_device{}();
+  const unsigned seed = testing::random_seed();
   std::printf("[ seed     ] %u\n", seed);
   std::mt19937 random(seed);
   long steps = 0, cold = 0;
@@ -77,7 +78,7 @@ TEST(WarmLcp, IsThePlainAnswerWhateverCameBefore) {
 }
 
 TEST(WarmLcp, StartsChangeNoBit) {
-  const unsigned seed = std::random_device{}();
+  const unsigned seed = testing::random_seed();
   std::printf("[ seed     ] %u\n", seed);
   std::mt19937 random(seed);
   for (int k = 0; k < 200; ++k) {

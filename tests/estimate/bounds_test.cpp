@@ -11,7 +11,6 @@
 #include <cstdlib>
 #include <memory>
 #include <optional>
-#include <random>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -22,6 +21,7 @@
 #include "reference/random_laws.hpp"
 #include "reference/random_membrane.hpp"
 #include "support/grid_mesh.hpp"
+#include "support/random_seed.hpp"
 #include "support/silent_observer.hpp"
 #include "support/solve.hpp"
 
@@ -141,8 +141,7 @@ void check_bounds(Membrane membrane, const Variant& variant, Contained& tally) {
 class Bounds : public ::testing::TestWithParam<Variant> {};
 
 TEST_P(Bounds, ContainTheAnswersOfAMeshTwoLevelsFiner) {
-  const auto given = static_cast<unsigned>(::testing::GTEST_FLAG(random_seed));
-  const unsigned first = given > 0 ? given : std::random_device{}() % 99'000 + 1;
+  const unsigned first = testing::random_seed();
   const char* seeds = std::getenv("ANTICRACK_SEEDS");
   const unsigned count = seeds != nullptr ? static_cast<unsigned>(std::atoi(seeds)) : 300;
   Contained tally;

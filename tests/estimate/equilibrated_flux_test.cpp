@@ -10,10 +10,10 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
-#include <random>
 #include <utility>
 
 #include "estimate/solved.hpp"
+#include "support/random_seed.hpp"
 
 namespace anticrack::estimate {
 namespace {
@@ -201,8 +201,7 @@ void check(unsigned seed, bool rich, Tally& tally) {
 class Fluxes : public ::testing::TestWithParam<bool> {};
 
 TEST_P(Fluxes, AreInEquilibriumOnRandomMembranes) {
-  const auto given = static_cast<unsigned>(::testing::GTEST_FLAG(random_seed));
-  const unsigned first = given > 0 ? given : std::random_device{}() % 99'000 + 1;
+  const unsigned first = testing::random_seed();
   Tally tally;
   for (unsigned k = 0; k < 200; ++k) check(first + k, GetParam(), tally);
   std::printf(

@@ -19,6 +19,7 @@
 #include "estimate/bracket.hpp"
 #include "estimate/interval.hpp"
 #include "estimate/solved.hpp"
+#include "support/random_seed.hpp"
 
 namespace anticrack::estimate {
 namespace {
@@ -180,8 +181,7 @@ void check_lack(unsigned seed, bool rich, LackTally& tally) {
 class WhatIsLacking : public ::testing::TestWithParam<bool> {};
 
 TEST_P(WhatIsLacking, WidensTheBounds) {
-  const auto given = static_cast<unsigned>(::testing::GTEST_FLAG(random_seed));
-  const unsigned first = given > 0 ? given : std::random_device{}() % 99'000 + 1;
+  const unsigned first = testing::random_seed();
   LackTally tally;
   for (unsigned k = 0; k < 100; ++k) check_lack(first + k, GetParam(), tally);
   std::printf(

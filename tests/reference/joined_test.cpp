@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -15,6 +14,7 @@
 #include "operators/mesh_operator.hpp"
 #include "reference/random_fibres.hpp"
 #include "reference/random_membrane.hpp"
+#include "support/random_seed.hpp"
 #include "support/silent_observer.hpp"
 #include "support/solve.hpp"
 
@@ -147,10 +147,8 @@ void compare_paths(unsigned seed, JoinedTally& tally) {
   EXPECT_LT(std::max({kkt.equilibrium, kkt.gap, kkt.sign, kkt.complementarity}), 1e-10);
 }
 
-/// --gtest_random_seed=N repeats a run.
 TEST(JoinedMembrane, HasTheAnswersOfDenseMatricesOnManyInclusions) {
-  const auto given = static_cast<unsigned>(::testing::GTEST_FLAG(random_seed));
-  const unsigned seed = given > 0 ? given : std::random_device{}() % 99'000 + 1;
+  const unsigned seed = testing::random_seed();
   constexpr unsigned tries = 300;
   std::printf("[ seed     ] %u to %u\n", seed, seed + tries - 1);
   JoinedTally tally;

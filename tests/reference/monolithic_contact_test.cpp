@@ -11,12 +11,12 @@
 #include <cstdio>
 #include <limits>
 #include <map>
-#include <random>
 
 #include "errors/errors.hpp"
 #include "operators/mesh_operator.hpp"
 #include "reference/random_laws.hpp"
 #include "reference/random_membrane.hpp"
+#include "support/random_seed.hpp"
 #include "support/silent_observer.hpp"
 #include "support/solve.hpp"
 
@@ -199,15 +199,9 @@ void compare(unsigned seed, bool rich, std::size_t most_dense, Tally& tally) {
   EXPECT_EQ(answer.kkt.complementarity, 0);
 }
 
-/// --gtest_random_seed=N repeats a run.
-unsigned first_seed() {
-  const auto given = static_cast<unsigned>(::testing::GTEST_FLAG(random_seed));
-  return given > 0 ? given : std::random_device{}() % 99'000 + 1;
-}
-
 /// Algorithm 2 on the same membranes, to its own accuracy.
 TEST(MonolithicContact, AgreesWithUzawaOnRandomMembranes) {
-  const unsigned seed = first_seed();
+  const unsigned seed = testing::random_seed();
   constexpr unsigned tries = 40;
   std::printf("[ seed     ] %u to %u\n", seed, seed + tries - 1);
   int compared = 0, iterations = 0;
@@ -258,7 +252,7 @@ class RandomMembranes : public ::testing::TestWithParam<std::tuple<bool, std::si
 
 TEST_P(RandomMembranes, AgreeWithTheActiveSet) {
   const auto [rich, most_dense] = GetParam();
-  const unsigned seed = first_seed();
+  const unsigned seed = testing::random_seed();
   constexpr unsigned tries = 300;
   std::printf("[ seed     ] %u to %u\n", seed, seed + tries - 1);
   Tally tally;
