@@ -140,12 +140,12 @@ class Told {
     const auto add_one = [&row](const results::Inclusion& inclusion, std::string value) {
       row.insert(row.end(), {std::move(value), fit(sanitise(inclusion.name), widest_name)});
     };
-    const Column& moved = told_of({}).front();
+    const Column* const moved = told_of({}).data();
     row.push_back(std::to_string(load.inclusions.size()));
     const auto [least, greatest] =
         std::ranges::minmax_element(load.inclusions, {}, &results::Inclusion::displacement);
-    add_one(*least, moved.of(*least));
-    add_one(*greatest, moved.of(*greatest));
+    add_one(*least, moved->of(*least));
+    add_one(*greatest, moved->of(*greatest));
     if (!_tilt) return;
     const auto slope = [](const results::Inclusion& inclusion) {
       return std::hypot(inclusion.slope_x, inclusion.slope_y);
