@@ -10,8 +10,8 @@
 #include <string_view>
 #include <utility>
 
-#include "casefile/duration.hpp"
 #include "cli/report.hpp"
+#include "words/duration.hpp"
 
 namespace anticrack::cli {
 namespace {
@@ -67,7 +67,7 @@ void add_connection_flags(CLI::App& app, ConnectionFlags& flags) {
   app.add_option_function<std::string>(
          "--retry-for",
          [&flags](const std::string& text) {
-           flags.retry_for = casefile::parse_duration(text);
+           flags.retry_for = words::parse_duration(text);
            if (!flags.retry_for) {
              throw CLI::ValidationError("--retry-for",
                                         text + " is not a time; write 30s, 10min or 2h");

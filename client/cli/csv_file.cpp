@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/csv_file.hpp"
 
-#include "casefile/error.hpp"
+#include "cli/case_error.hpp"
 #include "output/file.hpp"
 #include "output/target.hpp"
 
@@ -16,8 +16,7 @@ fs::path csv_file(const std::string& csv, const fs::path& result_file) {
   if (target.kind == output::Target::Kind::file &&
       fs::weakly_canonical(target.path) ==
           fs::weakly_canonical(output::target_of(result_file).path)) {
-    throw casefile::Error({"", "--csv " + csv, 0},
-                          "this is also the result file; name another one");
+    throw CaseError("--csv " + csv, "this is also the result file; name another one");
   }
   return csv;
 }

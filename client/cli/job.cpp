@@ -51,9 +51,9 @@ void print_job(const Globals& globals, const v1::Job& job) {
 bool prints_outcome(const Globals& globals) { return globals.json || !globals.quiet; }
 
 int submit_case(const JobOptions& options, const Globals& globals) {
-  const casefile::Case the_case = casefile::read_case(options.case_file, options.overrides,
-                                                      casefile::Loads::needed, options.loads);
   Session session(globals);
+  const Case the_case =
+      read_case(session, options.case_file, options.overrides, Loads::needed, options.loads);
   const v1::Job job = submit(session, the_case, client::make_uuid());
   tell_submitted(session, job);
   return exit_ok;

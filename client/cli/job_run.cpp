@@ -37,7 +37,7 @@ std::string summary(const results::Result& result, const fs::path& file) {
 }
 
 // Why a job came to nothing, line by line, in terms of its case.
-std::vector<std::string> causes(const casefile::Case& the_case, const v1::Job& job) {
+std::vector<std::string> causes(const Case& the_case, const v1::Job& job) {
   const auto text_of = [&the_case](const v1::Status& error) {
     return std::string(in_terms_of(the_case, client::decode_error(error)).what());
   };
@@ -96,7 +96,7 @@ fs::path result_file(const std::string& case_file, const std::string& output) {
   return file;
 }
 
-Followed submit_and_follow(Session& session, const casefile::Case& the_case, const Prepare& prepare,
+Followed submit_and_follow(Session& session, const Case& the_case, const Prepare& prepare,
                            std::uint64_t rows) {
   constexpr int tries = 3;
   const std::string request_id = client::make_uuid();
@@ -128,7 +128,7 @@ int exit_code_of(const Globals& globals, const Followed& followed) {
   return exit_job_failed;
 }
 
-std::optional<results::Result> results_of(Session& session, const casefile::Case& the_case,
+std::optional<results::Result> results_of(Session& session, const Case& the_case,
                                           const Followed& followed,
                                           std::chrono::steady_clock::time_point begin) {
   const v1::Job& job = followed.job;

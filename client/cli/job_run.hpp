@@ -22,8 +22,8 @@ std::filesystem::path result_file(const std::string& case_file, const std::strin
 
 /// Submits a case and shows its progress. A server that comes back without its jobs is handed the
 /// same job, under the same id, again. `rows`: of a sweep.
-Followed submit_and_follow(Session& session, const casefile::Case& the_case,
-                           const Prepare& prepare = {}, std::uint64_t rows = 0);
+Followed submit_and_follow(Session& session, const Case& the_case, const Prepare& prepare = {},
+                           std::uint64_t rows = 0);
 
 /// What the shell is told of a job that was followed, before one looks at its answers. Prints the
 /// job for --json where the command detached from it.
@@ -31,7 +31,7 @@ int exit_code_of(const Globals& globals, const Followed& followed);
 
 /// The results of a job that has ended, with the text of its case and the time since `begin`. Empty
 /// where it has none: then people are told why.
-std::optional<results::Result> results_of(Session& session, const casefile::Case& the_case,
+std::optional<results::Result> results_of(Session& session, const Case& the_case,
                                           const Followed& followed,
                                           std::chrono::steady_clock::time_point begin);
 

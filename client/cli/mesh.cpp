@@ -36,7 +36,7 @@ struct MeshOptions {
   FigureOptions figures;
 };
 
-CaseFacts facts_of(const casefile::Case& the_case) {
+CaseFacts facts_of(const Case& the_case) {
   const auto& loads = the_case.job.load_cases();
   const bool free = !loads.empty() && std::ranges::all_of(loads, [](const v1::LoadCase& load) {
     return load.traction().empty();
@@ -71,8 +71,8 @@ v1::Mesh wait_for(Session& session, const std::string& name) {
   return checked(follow_mesh(session, name));
 }
 
-int create(const casefile::Case& the_case, const MeshOptions& options, const Globals& globals) {
-  Session session(globals);
+int create(Session& session, const Case& the_case, const MeshOptions& options) {
+  const Globals& globals = session.globals();
   const v1::Mesh mesh = create_mesh(session, the_case);
   return translated(the_case, [&] {
     checked(mesh);
@@ -82,22 +82,26 @@ int create(const casefile::Case& the_case, const MeshOptions& options, const Glo
 }
 
 int create_of_case(const MeshOptions& options, const Globals& globals) {
-  return create(casefile::read_case(options.file, options.overrides), options, globals);
+  Session session(globals);
+  return create(session, read_case(session, options.file, options.overrides), options);
 }
 
 int upload(const MeshOptions& options, const Globals& globals) {
-  return create(casefile::mesh_file_case(options.file, options.title, options.overrides), options,
-                globals);
+  Session session(globals);
+  return create(session, msh_case(session, options.file, options.title, options.overrides),
+                options);
 }
 
-/// The case of a .toml or .msh file; empty for the name of a mesh.
-std::optional<casefile::Case> case_of(const MeshOptions& options) {
-  const std::string extension = std::filesystem::path(options.name).extension();
-  if (extension == ".msh") return casefile::mesh_file_case(options.name, "", options.overrides);
-  if (extension == ".toml") return casefile::read_case(options.name, options.overrides);
-  if (!options.overrides.empty())
-    throw UsageError("--set does not apply to a mesh on the server; name a case");
-  return std::nullopt;
+/// Whether it is a .toml or .msh file, and not the name of a mesh.
+bool is_file(const std::string& name) {
+  const std::string extension = std::filesystem::path(name).extension();
+  return extension == ".msh" || extension == ".toml";
+}
+
+Case case_of(Session& session, const MeshOptions& options) {
+  return std::filesystem::path(options.name).extension() == ".msh"
+             ? msh_case(session, options.name, "", options.overrides)
+             : read_case(session, options.name, options.overrides);
 }
 
 /// For what draws it: the message, the layout of the arrays and their bytes, each behind its
@@ -116,9 +120,13 @@ std::string drawn_mesh(const v1::Mesh& mesh, const client::Block& block) {
 }
 
 int show_mesh(const MeshOptions& options, const Globals& globals) {
-  const auto the_case = case_of(options);
-  const std::string given = the_case ? "" : full_name(Collection::meshes, options.name);
+  const bool file = is_file(options.name);
+  if (!file && !options.overrides.empty())
+    throw UsageError("--set does not apply to a mesh on the server; name a case");
+  const std::string given = file ? "" : full_name(Collection::meshes, options.name);
   Session session(globals);
+  const std::optional<Case> the_case =
+      file ? std::optional(case_of(session, options)) : std::nullopt;
   const std::string name = the_case ? create_mesh(session, *the_case).name() : given;
   if (!options.figures.folder && !the_case) return show_mesh(globals, get_mesh(session, name));
   const v1::Mesh mesh =

@@ -5,7 +5,7 @@
 #include <sstream>
 #include <string>
 
-#include "casefile/error.hpp"
+#include "cli/case_error.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/external.hpp"
 #include "cli/json.hpp"
@@ -37,7 +37,7 @@ Complaint current_complaint() {
     return {exit_server, "LOCAL_SERVER", error.what(), {}};
   } catch (const UsageError& error) {
     return {exit_usage, "USAGE", error.what(), {}};
-  } catch (const casefile::Error& error) {
+  } catch (const CaseError& error) {
     return {exit_usage, "CASE", error.what(), {}};
   } catch (const results::Error& error) {
     return {exit_usage, "RESULT_FILE", error.what(), {}};

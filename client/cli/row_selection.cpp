@@ -6,7 +6,7 @@
 #include <limits>
 #include <string_view>
 
-#include "casefile/error.hpp"
+#include "cli/case_error.hpp"
 
 namespace anticrack::cli {
 namespace {
@@ -21,7 +21,7 @@ class Selection {
   Selection(const std::string& text, std::uint64_t rows) : _text(text), _rows(rows) {}
 
   [[noreturn]] void fail(const std::string& problem) const {
-    throw casefile::Error({"", "--traces " + _text, 0}, problem);
+    throw CaseError("--traces " + _text, problem);
   }
 
   /// Sorted, without overlaps.

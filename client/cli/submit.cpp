@@ -23,21 +23,21 @@ namespace anticrack::cli {
 namespace {
 
 // The server names the upload that it refuses; the user knows the load that it is for.
-void upload_forces(Session& session, const casefile::Case& the_case, v1::Job& job) {
+void upload_forces(Session& session, const Case& the_case, v1::Job& job) {
   // One upload for every content: loads often share a file.
   std::map<std::pair<std::filesystem::path, std::string>, std::size_t> indices;
-  std::vector<const casefile::ForceFile*> files;
-  for (const casefile::ForceFile& file : the_case.force_files)
+  std::vector<const ForceFile*> files;
+  for (const ForceFile& file : the_case.force_files)
     if (indices.try_emplace({file.path, file.dataset}, files.size()).second) files.push_back(&file);
-  const auto spot_of = [&](std::size_t index) {
-    return the_case.locate("load_cases[" + std::to_string(files[index]->load_case) + "].force")
-        .value();
+  const auto place_of = [&](std::size_t index) {
+    return told(
+        *the_case.locate("load_cases[" + std::to_string(files[index]->load_case) + "].force"));
   };
   const auto read = [&, read_array = results::array_reader()](std::size_t index) {
     try {
       return read_array(files[index]->path, files[index]->dataset);
     } catch (const results::Error& error) {
-      throw casefile::Error(spot_of(index), error.what());
+      throw CaseError(place_of(index), error.what());
     }
   };
   std::vector<std::string> uploads;
@@ -46,13 +46,12 @@ void upload_forces(Session& session, const casefile::Case& the_case, v1::Job& jo
   } catch (const client::Error& error) {
     const auto& metadata = error.details().metadata;
     if (const auto file = metadata.find("file"); file != metadata.end()) {
-      throw client::Error(error.code(),
-                          casefile::prefix(spot_of(std::stoul(file->second))) + error.what(),
+      throw client::Error(error.code(), place_of(std::stoul(file->second)) + ": " + error.what(),
                           error.details());
     }
     throw;
   }
-  for (const casefile::ForceFile& file : the_case.force_files) {
+  for (const ForceFile& file : the_case.force_files) {
     job.mutable_load_cases(file.load_case)
         ->mutable_force()
         ->mutable_array()
@@ -108,17 +107,17 @@ void add_load_flag(CLI::App& command, std::vector<std::string>& loads) {
       ->type_name("NAME");
 }
 
-client::Error in_terms_of(const casefile::Case& the_case, const client::Error& error) {
-  std::string message, told_of, told;
+client::Error in_terms_of(const Case& the_case, const client::Error& error) {
+  std::string message, told_of, description;
   for (const client::FieldViolation& violation : error.details().fields) {
-    const std::optional<casefile::Spot> spot = the_case.locate(violation.field);
+    const v1::CasePlace* place = the_case.locate(violation.field);
     // Of two keys that cause it together, the one that the case leaves out.
-    if (spot && violation.description == told && told_of.starts_with(spot->key + ".")) continue;
-    told_of = spot ? spot->key : "";
-    told = violation.description;
+    if (place && violation.description == description && told_of.starts_with(place->key() + "."))
+      continue;
+    told_of = place ? place->key() : "";
+    description = violation.description;
     message += message.empty() ? "" : "\n";
-    message += spot ? casefile::prefix(*spot) : violation.field + ": ";
-    message += violation.description;
+    message += (place ? told(*place) : violation.field) + ": " + violation.description;
   }
   return client::Error(error.code(), message.empty() ? error.what() : message, error.details());
 }
@@ -126,19 +125,19 @@ client::Error in_terms_of(const casefile::Case& the_case, const client::Error& e
 namespace {
 
 // Once nothing is refused: of a case with an error the error is told alone.
-void tell_notes(const Session& session, const casefile::Case& the_case) {
+void tell_notes(const Session& session, const Case& the_case) {
   // standard output may be for the name alone
   for (const std::string& note : the_case.notes)
     if (!session.globals().quiet) complain("note: " + note);
 }
 
-v1::Mesh send_mesh(Session& session, const casefile::Case& the_case, bool for_job) {
+v1::Mesh send_mesh(Session& session, const Case& the_case, bool for_job) {
   if (the_case.mesh_file && !std::filesystem::is_regular_file(*the_case.mesh_file)) {
     const bool folder = std::filesystem::is_directory(*the_case.mesh_file);
-    const casefile::Spot spot = *the_case.locate("upload");
-    throw casefile::Error(spot, (spot.key.empty() ? "" : the_case.mesh_file->string() + ": ") +
-                                    (folder ? "is a folder" : "there is no such file") +
-                                    "; name a .msh file");
+    const v1::CasePlace& place = *the_case.locate("upload");
+    throw CaseError(told(place), (place.key().empty() ? "" : the_case.mesh_file->string() + ": ") +
+                                     (folder ? "is a folder" : "there is no such file") +
+                                     "; name a .msh file");
   }
   return translated(the_case, [&] {
     v1::CreateMeshRequest request = the_case.mesh;
@@ -152,13 +151,13 @@ v1::Mesh send_mesh(Session& session, const casefile::Case& the_case, bool for_jo
 
 }  // namespace
 
-v1::Mesh create_mesh(Session& session, const casefile::Case& the_case) {
+v1::Mesh create_mesh(Session& session, const Case& the_case) {
   v1::Mesh mesh = send_mesh(session, the_case, false);
   tell_notes(session, the_case);
   return mesh;
 }
 
-v1::Job submit(Session& session, const casefile::Case& the_case, const std::string& request_id,
+v1::Job submit(Session& session, const Case& the_case, const std::string& request_id,
                const Prepare& prepare) {
   v1::Job job = the_case.job;
   upload_forces(session, the_case, job);  // first: a file that cannot be read starts nothing

@@ -14,7 +14,7 @@
 #include "anticrack/v1/mesh.pb.h"
 #include "anticrack/v1/server.pb.h"
 #include "anticrack/v1/solve.pb.h"
-#include "casefile/case.hpp"
+#include "cli/case.hpp"
 #include "cli/session.hpp"
 #include "client/block.hpp"
 #include "results/file.hpp"
@@ -33,11 +33,11 @@ void add_case_flags(CLI::App& command, std::vector<std::string>& overrides);
 void add_load_flag(CLI::App& command, std::vector<std::string>& loads);
 
 /// The server names fields of a request; the user knows lines of a file.
-client::Error in_terms_of(const casefile::Case& the_case, const client::Error& error);
+client::Error in_terms_of(const Case& the_case, const client::Error& error);
 
 /// Does what the server may refuse; its error is then in terms of the case.
 template <class Call>
-auto translated(const casefile::Case& the_case, const Call& call) -> decltype(call()) {
+auto translated(const Case& the_case, const Call& call) -> decltype(call()) {
   try {
     return call();
   } catch (const client::Error& error) {
@@ -47,14 +47,14 @@ auto translated(const casefile::Case& the_case, const Call& call) -> decltype(ca
 
 /// Uploads the case's .msh if it has one, and creates its mesh. A refusal names the lines of the
 /// case it is about; else what the case notes is told.
-v1::Mesh create_mesh(Session& session, const casefile::Case& the_case);
+v1::Mesh create_mesh(Session& session, const Case& the_case);
 
 /// Completes a job before it is submitted: what it needs besides the case has to be uploaded first,
 /// and again for a server that has lost it.
 using Prepare = std::function<void(v1::Job&)>;
 
 /// create_mesh, then the job. Repeating it with the same id is harmless.
-v1::Job submit(Session& session, const casefile::Case& the_case, const std::string& request_id,
+v1::Job submit(Session& session, const Case& the_case, const std::string& request_id,
                const Prepare& prepare = {});
 
 /// What a command that submits and does not wait says.

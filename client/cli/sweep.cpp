@@ -34,17 +34,16 @@ struct SweepOptions {
   std::vector<std::string> overrides;
 };
 
-casefile::Case read_case(const SweepOptions& options, const Globals& globals) {
+Case read_case(Session& session, const SweepOptions& options) {
   const bool nodal = !options.files.nodal.empty();
-  casefile::Case the_case =
-      casefile::read_case(options.case_file, options.overrides,
-                          nodal ? casefile::Loads::optional : casefile::Loads::needed);
+  Case the_case = read_case(session, options.case_file, options.overrides,
+                            nodal ? Loads::optional : Loads::needed);
   if (nodal && the_case.job.load_cases_size() > 0) {
-    say(globals,
+    say(session.globals(),
         "The loads of the case are not used: each row of " + options.files.nodal + " is a load");
   }
   if (leave_out_accuracy(the_case)) {
-    say(globals,
+    say(session.globals(),
         "[accuracy] is not used: a sweep has one mesh, of mesh.size; --bounds tells how far each "
         "row is from the membrane. For closer bounds take a smaller mesh.size, or write few rows "
         "as [[load]]s and use run");
@@ -53,7 +52,7 @@ casefile::Case read_case(const SweepOptions& options, const Globals& globals) {
 }
 
 // Nodal rows can only be checked against an existing mesh.
-void check_mesh(Session& session, const casefile::Case& the_case, const SweepInput& input) {
+void check_mesh(Session& session, const Case& the_case, const SweepInput& input) {
   if (!input.nodal) return;
   const v1::Mesh mesh = follow_mesh(session, create_mesh(session, the_case).name());
   if (mesh.state() != v1::Mesh::STATE_FAILED)  // else the job gives the reason
@@ -89,8 +88,8 @@ Targets check_targets(const SweepOptions& options) {
   return targets;
 }
 
-int follow_sweep(Session& session, const Targets& targets, const casefile::Case& the_case,
-                 SweepInput input, std::chrono::steady_clock::time_point begin) {
+int follow_sweep(Session& session, const Targets& targets, const Case& the_case, SweepInput input,
+                 std::chrono::steady_clock::time_point begin) {
   const Globals& globals = session.globals();
   const Followed followed = submit_and_follow(
       session, the_case, [&](v1::Job& job) { add_matrix(session, input, job); }, input.rows);
@@ -111,10 +110,10 @@ int follow_sweep(Session& session, const Targets& targets, const casefile::Case&
 int sweep(const SweepOptions& options, const Globals& given) {
   const Globals globals = with_outputs(given, {options.output, options.csv});
   const auto begin = std::chrono::steady_clock::now();
-  casefile::Case the_case = read_case(options, globals);
-  SweepInput input = read_sweep_input(options.files, the_case);
   const Targets targets = check_targets(options);
   Session session(globals);
+  Case the_case = read_case(session, options);
+  SweepInput input = read_sweep_input(options.files, the_case);
   make_sweep(input, client::server_info(session.connection(), session.stop()).limits(), the_case);
   check_mesh(session, the_case, input);
   if (options.detach) {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "casefile/coefficients.hpp"
+#include "cli/coefficients.hpp"
 #include "cli/text.hpp"
 #include "results/array_file.hpp"
 #include "words/nearest.hpp"
@@ -15,7 +15,7 @@ namespace anticrack::cli {
 namespace {
 
 [[noreturn]] void fail(const std::string& source, const std::string& problem) {
-  throw casefile::Error({"", source, 0}, problem);
+  throw CaseError(source, problem);
 }
 
 struct Dataset {
@@ -80,11 +80,11 @@ void sort_columns(const std::vector<std::size_t>& loads_of, SweepInput& input) {
   }
 }
 
-void read_combinations(const SweepFiles& files, const casefile::Case& the_case, SweepInput& input) {
+void read_combinations(const SweepFiles& files, const Case& the_case, SweepInput& input) {
   std::vector<std::string> loads;
   for (const v1::LoadCase& load : the_case.job.load_cases()) loads.push_back(load.name());
   if (!dataset_of(files.coefficients) && !is_hdf5_name(files.coefficients)) {
-    input.values = casefile::read_coefficients(files.coefficients, loads);
+    input.values = read_coefficients(files.coefficients, loads);
     input.columns = loads.size();
     input.rows = input.values.size() / input.columns;
     return;
@@ -110,10 +110,11 @@ void read_combinations(const SweepFiles& files, const casefile::Case& the_case, 
   }
 }
 
-void check_task(const casefile::Case& the_case) {
+void check_task(const Case& the_case) {
   if (the_case.job.solver().has_uzawa()) {
-    throw casefile::Error(
-        the_case.locate("solver.method").value_or(casefile::Spot{}),
+    const v1::CasePlace* place = the_case.locate("solver.method");
+    throw CaseError(
+        place ? told(*place) : "solver",
         "a sweep is solved by the active set; take [solver] out of the case, or add --set "
         "'solver={method=\"active-set\"}'");
   }
@@ -142,15 +143,15 @@ void check_limits(const SweepInput& input, const v1::ServerLimits& limits) {
 
 }  // namespace
 
-bool leave_out_accuracy(casefile::Case& the_case) {
+bool leave_out_accuracy(Case& the_case) {
   if (!the_case.job.has_accuracy()) return false;
   the_case.job.clear_accuracy();
-  if (!the_case.spots.contains("options.preset"))
+  if (!the_case.places.contains("options.preset"))
     the_case.mesh.mutable_options()->set_preset(v1::MESH_PRESET_GRADED);
   return true;
 }
 
-SweepInput read_sweep_input(const SweepFiles& files, const casefile::Case& the_case) {
+SweepInput read_sweep_input(const SweepFiles& files, const Case& the_case) {
   check_task(the_case);
   SweepInput input;
   input.nodal = !files.nodal.empty();
@@ -164,7 +165,7 @@ SweepInput read_sweep_input(const SweepFiles& files, const casefile::Case& the_c
   return input;
 }
 
-void make_sweep(const SweepInput& input, const v1::ServerLimits& limits, casefile::Case& the_case) {
+void make_sweep(const SweepInput& input, const v1::ServerLimits& limits, Case& the_case) {
   check_limits(input, limits);
   const auto most = static_cast<std::uint64_t>(limits.load_cases());
   const std::vector<std::uint32_t> traces = select_rows(input.traces, input.rows, most);
@@ -178,8 +179,8 @@ void make_sweep(const SweepInput& input, const v1::ServerLimits& limits, casefil
     job.clear_load_cases();
     the_case.force_files.clear();
   }
-  the_case.spots["sweep"] = {"", input.source, 0};
-  the_case.spots["sweep.traces"] = {"", "--traces " + input.traces, 0};
+  the_case.places["sweep"].set_where(input.source);
+  the_case.places["sweep.traces"].set_where("--traces " + input.traces);
 }
 
 void check_nodes(const SweepInput& input, std::uint64_t node_count) {

@@ -10,7 +10,7 @@
 
 #include "anticrack/v1/server.pb.h"
 #include "anticrack/v1/solve.pb.h"
-#include "casefile/case.hpp"
+#include "cli/case.hpp"
 
 namespace anticrack::cli {
 
@@ -40,24 +40,24 @@ inline constexpr std::size_t inline_matrix_bytes = std::size_t{1} << 20;
 
 /// A sweep has one mesh: takes the accuracy out of the case, and the coarse mesh that only it would
 /// begin on. False where there is none.
-bool leave_out_accuracy(casefile::Case& the_case);
+bool leave_out_accuracy(Case& the_case);
 
-/// Reads the matrix and checks it against the case. Throws casefile::Error and results::Error, with
+/// Reads the matrix and checks it against the case. Throws CaseError and results::Error, with
 /// file, line and cure.
-SweepInput read_sweep_input(const SweepFiles& files, const casefile::Case& the_case);
+SweepInput read_sweep_input(const SweepFiles& files, const Case& the_case);
 
 /// Makes the case's job a sweep: all of it but the matrix. Checks against what the server allows;
-/// throws casefile::Error with the cure.
-void make_sweep(const SweepInput& input, const v1::ServerLimits& limits, casefile::Case& the_case);
+/// throws CaseError with the cure.
+void make_sweep(const SweepInput& input, const v1::ServerLimits& limits, Case& the_case);
 
-/// Throws casefile::Error unless there is a column for each node of the mesh.
+/// Throws CaseError unless there is a column for each node of the mesh.
 void check_nodes(const SweepInput& input, std::uint64_t node_count);
 
 /// Where the job keeps the matrix.
 v1::Sweep::Matrix& matrix_of(const SweepInput& input, v1::Job& job);
 
 /// "all", "none", or numbers from 0 and inclusive ranges, "0,10,20-30", in any order, possibly
-/// overlapping. Returns each row once, ascending. Throws casefile::Error for anything else, for a
+/// overlapping. Returns each row once, ascending. Throws CaseError for anything else, for a
 /// row outside 0..rows, and for more than `most` rows. O(rows returned).
 std::vector<std::uint32_t> select_rows(const std::string& text, std::uint64_t rows,
                                        std::uint64_t most);

@@ -12,6 +12,7 @@
 #include <stop_token>
 #include <string>
 
+#include "anticrack/v1/case.grpc.pb.h"
 #include "anticrack/v1/mesh.grpc.pb.h"
 #include "anticrack/v1/server.grpc.pb.h"
 #include "anticrack/v1/solve.grpc.pb.h"
@@ -30,6 +31,7 @@ struct Connection::State {
   std::optional<Proxy> proxy;  ///< between here and the server
   std::shared_ptr<grpc::Channel> channel;
   std::shared_ptr<grpc::Channel> bulk;  ///< of bulk reads
+  std::unique_ptr<v1::CaseService::Stub> cases;
   std::unique_ptr<v1::UploadService::Stub> uploads;
   std::unique_ptr<v1::MeshService::Stub> meshes;
   std::unique_ptr<v1::SolveService::Stub> jobs;

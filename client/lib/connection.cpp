@@ -35,6 +35,8 @@ std::shared_ptr<grpc::Channel> make_channel(const ConnectionOptions& options, bo
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 100);
   arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 1'000);
   arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, longest);
+  // A case may stand for two requests of the size that the server takes.
+  arguments.SetMaxReceiveMessageSize(-1);
   // Channels of equal arguments share one connection.
   arguments.SetInt("anticrack.bulk", bulk ? 1 : 0);
   return grpc::CreateCustomChannel(options.address, credentials_of(options.credentials), arguments);
@@ -139,6 +141,7 @@ Connection::State::State(ConnectionOptions chosen) : options(std::move(chosen)) 
   proxy = proxy_for(options.address, [](const char* name) { return std::getenv(name); });
   channel = make_channel(options, proxy.has_value(), false);
   uploads = v1::UploadService::NewStub(channel);
+  cases = v1::CaseService::NewStub(channel);
   meshes = v1::MeshService::NewStub(channel);
   jobs = v1::SolveService::NewStub(channel);
   server = v1::ServerService::NewStub(channel);

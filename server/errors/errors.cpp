@@ -7,7 +7,8 @@
 namespace anticrack::errors {
 
 std::string_view name(Reason reason) noexcept {
-  constexpr std::array<std::string_view, 25> names{"INVALID_ARGUMENT",
+  constexpr std::array<std::string_view, 26> names{"INVALID_ARGUMENT",
+                                                   "CASE_INVALID",
                                                    "GEOMETRY_INVALID",
                                                    "MESH_INVALID",
                                                    "EXPRESSION_INVALID",

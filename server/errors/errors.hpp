@@ -17,6 +17,7 @@ namespace anticrack::errors {
 /// The kind of an error, as far as callers can react to it.
 enum class Reason {
   invalid_argument,     ///< a value that is never accepted
+  case_invalid,         ///< a case with a key or value that is not possible
   geometry_invalid,     ///< not a membrane cut by interfaces
   mesh_invalid,         ///< a .msh that cannot be read or is not a cut membrane
   expression_invalid,   ///< syntax error, unknown symbol, or a value that is not finite

@@ -31,6 +31,7 @@ void log_unexpected(std::string_view where, std::string_view what) {
 grpc::StatusCode code(Reason reason) noexcept {
   switch (reason) {
     case Reason::invalid_argument:
+    case Reason::case_invalid:
     case Reason::geometry_invalid:
     case Reason::mesh_invalid:
     case Reason::expression_invalid:

@@ -14,6 +14,7 @@
 #include "jobs/job_engine.hpp"
 #include "rpc/acceptor.hpp"
 #include "rpc/call_meter.hpp"
+#include "rpc/case_service.hpp"
 #include "rpc/edge.hpp"
 #include "rpc/mesh_service.hpp"
 #include "rpc/server_service.hpp"
@@ -27,8 +28,9 @@ namespace {
 using namespace std::chrono_literals;
 using External = grpc::experimental::ExternalConnectionAcceptor;
 
-constexpr std::array service_names{"anticrack.v1.UploadService", "anticrack.v1.MeshService",
-                                   "anticrack.v1.SolveService", "anticrack.v1.ServerService"};
+constexpr std::array service_names{"anticrack.v1.CaseService", "anticrack.v1.UploadService",
+                                   "anticrack.v1.MeshService", "anticrack.v1.SolveService",
+                                   "anticrack.v1.ServerService"};
 
 /// What a client may have under way on one stream: a chunk. 20 MB/s at 50 ms.
 constexpr int receive_window_bytes = 1 << 20;
@@ -70,6 +72,7 @@ struct Server::State {
       : acceptor(options.listen,
                  {options.limits.connections, options.limits.connections_an_address}),
         edge(options, backend),
+        cases(edge),
         uploads(edge),
         meshes(edge),
         solves(edge),
@@ -90,6 +93,7 @@ struct Server::State {
   /// Ours: gRPC 1.51 listens no more after a moment without descriptors.
   Acceptor acceptor;
   Edge edge;
+  CaseService cases;
   UploadService uploads;
   MeshService meshes;
   SolveService solves;
@@ -109,6 +113,7 @@ Server::Server(const ServerOptions& options, const Backend& backend)
   const std::shared_ptr<External> external = builder.experimental().AddExternalConnectionAcceptor(
       grpc::ServerBuilder::experimental_type::ExternalConnectionType::FROM_FD,
       _state->credentials());
+  builder.RegisterService(&_state->cases);
   builder.RegisterService(&_state->uploads);
   builder.RegisterService(&_state->meshes);
   builder.RegisterService(&_state->solves);

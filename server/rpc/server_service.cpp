@@ -18,6 +18,7 @@ constexpr std::array features{
     "active_set",
     "batching",
     "boundary_value",
+    "cases",
     "durable",
     "fields",
     "force.array",

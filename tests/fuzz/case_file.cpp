@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The client's case parser: pieces of overrides are lines of the form "#set KEY=VALUE" at the head
-// of the text.
+// The reader of cases: TOML, or JSON where the text begins with a brace; overrides are lines of the
+// form
+// "#set KEY=VALUE" at its head.
 #include <google/protobuf/util/message_differencer.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "casefile/case.hpp"
+#include "casefile/read_case.hpp"
+#include "errors/errors.hpp"
 #include "fuzz/input.hpp"
 
 namespace {
@@ -37,18 +40,25 @@ std::vector<std::string> take_overrides(std::string& text) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   std::string text(fuzz::text_of(data, size));
-  const std::vector<std::string> overrides = take_overrides(text);
-  casefile::Case read;
+  v1::ReadCaseRequest request;
+  for (std::string& override : take_overrides(text)) request.add_overrides(std::move(override));
+  request.set_source("case");
+  if (text.starts_with('{'))
+    request.set_json(text);
+  else
+    request.set_toml(text);
+  v1::ReadCaseResponse read;
   try {
-    read = casefile::parse_case(text, "case.toml", overrides);
-  } catch (const casefile::Error&) {
+    read = casefile::read_case(request, {});
+  } catch (const errors::Error&) {
     return 0;
   }
-  read.locate("geometry.interfaces[0].points[1]");
-  read.locate("load_cases[0].force.expression");
+  if (read.toml().empty()) return 0;
   // what is kept in the result file is the case as it was run
-  const casefile::Case again = casefile::parse_case(read.text, "case.toml");
-  fuzz::require(same(read.mesh, again.mesh), "the mesh request of the text kept is another");
-  fuzz::require(same(read.job, again.job), "the job of the text kept is another");
+  v1::ReadCaseRequest again;
+  again.set_toml(read.toml());
+  const v1::ReadCaseResponse kept = casefile::read_case(again, {});
+  fuzz::require(same(read.mesh(), kept.mesh()), "the mesh request of the text kept is another");
+  fuzz::require(same(read.job(), kept.job()), "the job of the text kept is another");
   return 0;
 }

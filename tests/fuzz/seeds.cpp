@@ -17,7 +17,6 @@
 #include "anticrack/v1/solve.pb.h"
 #include "anticrack/v1/upload.pb.h"
 #include "api/requests.hpp"
-#include "casefile/case.hpp"
 #include "fuzz/input.hpp"
 #include "fuzz/small_result.hpp"
 #include "mesh/codec.hpp"
@@ -27,6 +26,7 @@
 #include "results/result.hpp"
 #include "store/digest.hpp"
 #include "store/record_codec.hpp"
+#include "support/case_file.hpp"
 
 namespace {
 
@@ -87,9 +87,14 @@ void save_job_request(const std::string& name, const v1::Job& job) {
 }
 
 void save_cases(const fs::path& examples) {
+  save(
+      "case_file", "json",
+      R"({"geometry": {"boundary": [[0, 0], [1, 0], [1, 1]], "interface": [[0, 0], [1, 1]],)"
+      R"( "crack": [{"name": "c", "from": [0.2, 0.2], "to": [0.5, 0.5]}]},)"
+      R"( "load": [{"name": "a", "f": "x*y", "point_forces": [{"at": [0.5, 0.1], "value": 1}]}]})");
   for (const auto& entry : fs::directory_iterator(examples)) {
     if (entry.path().extension() != ".toml") continue;
-    const casefile::Case example = casefile::read_case(entry.path());
+    const casefile::Case example = anticrack::testing::read_case_file(entry.path());
     const std::string name = entry.path().stem();
     save("case_file", name, example.text);
     save("case_file", name + "-set", "#set mesh.size=0.1\n#set title=another\n" + example.text);

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "casefile/case.hpp"
 #include "service/processes.hpp"
+#include "support/case_file.hpp"
 
 namespace anticrack::service_test {
 namespace {
@@ -44,7 +44,7 @@ bool compared(const std::string& name) {
 }  // namespace
 
 Work work(const std::string& name, const std::vector<std::string>& overrides) {
-  const casefile::Case the_case = casefile::read_case(example(name), overrides);
+  const casefile::Case the_case = testing::read_case_file(example(name), overrides);
   return {name, the_case.mesh, the_case.job};
 }
 

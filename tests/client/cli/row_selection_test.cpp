@@ -6,7 +6,7 @@
 
 #include <utility>
 
-#include "casefile/error.hpp"
+#include "cli/case_error.hpp"
 
 namespace anticrack::cli {
 namespace {
@@ -55,7 +55,7 @@ TEST(SelectRows, RefusesWhatIsNoSelectionWithTheCure) {
     try {
       select_rows(text, 100, 50);
       ADD_FAILURE() << "accepted " << text;
-    } catch (const casefile::Error& error) {
+    } catch (const CaseError& error) {
       EXPECT_THAT(error.what(), HasSubstr(complaint));
       EXPECT_THAT(error.what(), HasSubstr("--traces " + text)) << "where it was written";
     }
@@ -63,7 +63,7 @@ TEST(SelectRows, RefusesWhatIsNoSelectionWithTheCure) {
 }
 
 TEST(SelectRows, TakesNoMemoryForWhatIsRefused) {
-  EXPECT_THROW(select_rows("all", std::uint64_t{1} << 60, 1000), casefile::Error);
+  EXPECT_THROW(select_rows("all", std::uint64_t{1} << 60, 1000), CaseError);
 }
 
 }  // namespace

@@ -23,8 +23,8 @@ using ::testing::HasSubstr;
 using ::testing::internal::CaptureStderr;
 using ::testing::internal::GetCapturedStderr;
 
-casefile::Case two_load_case() {
-  casefile::Case the_case;
+Case two_load_case() {
+  Case the_case;
   the_case.job.add_load_cases()->set_name("skew");
   the_case.job.add_load_cases()->set_name("opening");
   the_case.job.add_outputs(v1::OUTPUT_FIELDS);
@@ -100,9 +100,10 @@ TEST(SweepInput, RefusesWhatCannotBeReadWithFileAndCure) {
 }
 
 TEST(SweepInput, IsOfTheActiveSetOnly) {
-  casefile::Case the_case = two_load_case();
+  Case the_case = two_load_case();
   the_case.job.mutable_solver()->mutable_uzawa();
-  the_case.spots["solver.method"] = {"solver.method", "plate.toml", 7};
+  the_case.places["solver.method"].set_where("plate.toml:7");
+  the_case.places["solver.method"].set_key("solver.method");
   EXPECT_THAT(complaint_of([&] {
                 read_sweep_input({"c.csv", "", "none"}, the_case);
               }),
@@ -110,12 +111,12 @@ TEST(SweepInput, IsOfTheActiveSetOnly) {
 }
 
 TEST(SweepInput, LeavesOutTheAccuracyAndItsCoarseMesh) {
-  casefile::Case the_case = two_load_case();
+  Case the_case = two_load_case();
   EXPECT_FALSE(leave_out_accuracy(the_case));
   for (const bool given : {false, true}) {
     the_case.job.mutable_accuracy()->set_energy(1e-3);
     the_case.mesh.mutable_options()->set_preset(v1::MESH_PRESET_COARSE);
-    if (given) the_case.spots["options.preset"] = {"mesh.preset", "plate.toml", 7};
+    if (given) the_case.places["options.preset"].set_where("plate.toml:7");
     EXPECT_TRUE(leave_out_accuracy(the_case));
     EXPECT_FALSE(the_case.job.has_accuracy());
     EXPECT_EQ(the_case.mesh.options().preset(),
@@ -134,7 +135,7 @@ SweepInput rows_of_two(std::size_t rows) {
 }
 
 TEST(MakeSweep, LeavesAJobWithoutFieldsAndWithTheRowsToKeep) {
-  casefile::Case the_case = two_load_case();
+  Case the_case = two_load_case();
   SweepInput input = rows_of_two(10);
   input.traces = "7,1-2";
   input.bounds = true;
@@ -144,13 +145,13 @@ TEST(MakeSweep, LeavesAJobWithoutFieldsAndWithTheRowsToKeep) {
   EXPECT_TRUE(the_case.job.sweep().has_coefficients());
   EXPECT_TRUE(the_case.job.outputs().empty());
   EXPECT_EQ(the_case.job.load_cases_size(), 2);
-  EXPECT_EQ(the_case.locate("job.sweep.coefficients.upload")->source, "c.csv");
-  EXPECT_EQ(the_case.locate("job.sweep.traces[3]")->source, "--traces 7,1-2");
+  EXPECT_EQ(the_case.locate("job.sweep.coefficients.upload")->where(), "c.csv");
+  EXPECT_EQ(the_case.locate("job.sweep.traces[3]")->where(), "--traces 7,1-2");
 }
 
 TEST(MakeSweep, OfNodalForcesHasNoLoads) {
-  casefile::Case the_case = two_load_case();
-  the_case.force_files.push_back({0, "f.h5", "/f", false});
+  Case the_case = two_load_case();
+  the_case.force_files.push_back({0, "f.h5", "/f"});
   SweepInput input = rows_of_two(10);
   input.nodal = true;
   make_sweep(input, limits(), the_case);
@@ -164,7 +165,7 @@ TEST(MakeSweep, ChecksTheLimitsOfTheServer) {
                           const std::function<void(v1::ServerLimits&)>& set) {
     v1::ServerLimits allowed = limits();
     set(allowed);
-    casefile::Case the_case = two_load_case();
+    Case the_case = two_load_case();
     return complaint_of([&] { make_sweep(input, allowed, the_case); });
   };
   const SweepInput input = rows_of_two(10);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "casefile/duration.hpp"
 #include "casefile/sections.hpp"
+#include "words/duration.hpp"
 
 namespace anticrack::casefile {
 
@@ -8,7 +8,8 @@ std::optional<google::protobuf::Duration> read_time(const Section& section, cons
   const toml::node* node = section.find(key);
   if (!node) return std::nullopt;
   const std::string text = node->value_exact<std::string>().value_or(shown(*node));
-  const auto time = node->is_string() || node->is_number() ? parse_duration(text) : std::nullopt;
+  const auto time =
+      node->is_string() || node->is_number() ? words::parse_duration(text) : std::nullopt;
   if (!time) {
     throw Error(section.spot_of(key), shown(*node) +
                                           " is not a time above 0; write seconds, or \"90s\", "

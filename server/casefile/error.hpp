@@ -13,6 +13,9 @@ struct Spot {
   unsigned line = 0;   ///< from 1; 0: no line (a --set, or the whole file)
 };
 
+/// "case.toml:12", without the line where there is none.
+std::string where(const Spot& spot);
+
 /// "case.toml:12: solver.theta: ", without the parts that are unknown.
 std::string prefix(const Spot& spot);
 

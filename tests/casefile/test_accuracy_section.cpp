@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "client/casefile/sample_case.hpp"
+#include "casefile/sample_case.hpp"
 
 namespace anticrack::casefile {
 namespace {
@@ -33,8 +33,8 @@ each_inclusion = true
   EXPECT_TRUE(accuracy.keep_stages());
   EXPECT_TRUE(accuracy.each_inclusion());
   EXPECT_THAT(the_case.job.outputs(), ElementsAre(v1::OUTPUT_INDICATORS));
-  EXPECT_EQ(the_case.locate("job.accuracy.energy")->line, 20U);
-  EXPECT_EQ(the_case.locate("job.accuracy.displacement")->line, 21U);
+  EXPECT_EQ(locate(the_case, "job.accuracy.energy")->line, 20U);
+  EXPECT_EQ(locate(the_case, "job.accuracy.displacement")->line, 21U);
 }
 
 TEST(OutputSection, HasIndicatorsBesideFieldsThatAreBounded) {

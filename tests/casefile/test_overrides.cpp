@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "client/casefile/sample_case.hpp"
+#include "casefile/sample_case.hpp"
 
 namespace anticrack::casefile {
 namespace {

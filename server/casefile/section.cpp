@@ -24,9 +24,12 @@ std::string entry_key(const std::string& list, std::size_t index) {
   return list + "." + std::to_string(index);
 }
 
+std::string where(const Spot& spot) {
+  return spot.line > 0 ? spot.source + ":" + std::to_string(spot.line) : spot.source;
+}
+
 std::string prefix(const Spot& spot) {
-  std::string text = spot.source;
-  if (spot.line > 0) text += ":" + std::to_string(spot.line);
+  std::string text = where(spot);
   if (!spot.key.empty()) text += (text.empty() ? "" : ": ") + spot.key;
   return text.empty() ? text : text + ": ";
 }

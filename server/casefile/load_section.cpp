@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <unordered_set>
 
 #include "words/nearest.hpp"
 
@@ -19,9 +20,9 @@ bool names_a_file(const toml::table& table) {
   return table.contains("dataset") || table.contains("per") || (file && !file->is_number());
 }
 
-ForceFile read_force_file(const Section& section, const std::filesystem::path& folder) {
+ForceFile read_force_file(const Section& section) {
   ForceFile file;
-  file.path = folder / section.need_text("file", "name an HDF5 file");
+  file.path = section.need_text("file", "name an HDF5 file");
   file.dataset = section.need_text("dataset", "name the dataset in the file, as \"/f\"");
   section.need("per", "write per = \"triangle\" or per = \"node\"");
   file.per_triangle = *section.choice("per", {"triangle", "node"}) == 0;
@@ -29,12 +30,11 @@ ForceFile read_force_file(const Section& section, const std::filesystem::path& f
 }
 
 // Empty where the values are not in a file.
-std::optional<ForceFile> read_force(const Section& section, const std::filesystem::path& folder,
-                                    v1::Force& force) {
+std::optional<ForceFile> read_force(const Section& section, v1::Force& force) {
   const toml::node& node = section.need("f", force_cure);
   const toml::table* table = node.as_table();
   if (table && names_a_file(*table)) {
-    ForceFile file = read_force_file(*section.section("f", {"file", "dataset", "per"}), folder);
+    ForceFile file = read_force_file(*section.section("f", {"file", "dataset", "per"}));
     force.mutable_array()->set_per_triangle(file.per_triangle);
     return file;
   }
@@ -75,60 +75,87 @@ void read_moments(const Section& section, const std::string& field, v1::LoadCase
   }
 }
 
-// What a load names must be in the geometry; what is in a .msh file the server says.
+/// Names that loads of a geometry may use.
+struct Names {
+  template <class Owners>
+  explicit Names(const Owners& owners) {
+    for (const auto& owner : owners) list.push_back(owner.name());
+    set.insert(list.begin(), list.end());
+  }
+
+  std::vector<std::string> list;
+  std::unordered_set<std::string> set;
+};
+
+// What a load names must be in the geometry; what is in a .msh file is known later.
 void check_names(const Section& section, const char* key, const std::string& what,
-                 const std::vector<std::string>& known) {
+                 const Names& known) {
   for (const auto& [name, entry] : section.entries(key, "")) {
-    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-    std::vector<std::string> sorted = known;
+    // Where a subdomain has no region it is omega1, omega2, ...: only its mesh tells how many.
+    if (known.set.contains(name) || (what == "region" && name.starts_with("omega"))) continue;
+    std::vector<std::string> sorted = known.list;
     std::ranges::sort(sorted);
     const auto twice = std::ranges::adjacent_find(sorted);
     throw Error(spot_of(*entry, section.path_of(key, name)),
                 "there is no " + what + " of this name; " +
-                    (known.empty() ? "name one by [[geometry." + what + "]]"
+                    (sorted.empty() ? "name one by [[geometry." + what + "]]"
                      : twice != sorted.end()
                          ? "two " + what + "s are called \"" + *twice + "\": give each its own name"
-                         : words::suggestion(name, known)));
+                         : words::suggestion(name, known.list)));
   }
 }
 
-void check_names(const Section& section, const v1::LoadCase& load, const v1::Geometry& geometry) {
-  std::vector<std::string> regions, inclusions;
-  for (const v1::Region& region : geometry.regions()) regions.push_back(region.name());
-  for (const v1::Inclusion& inclusion : geometry.inclusions())
-    inclusions.push_back(inclusion.name());
-  // Where a subdomain has no region it is omega1, omega2, ...: only the server knows how many.
-  for (const auto& [region, value] : load.force().per_region().values())
-    if (region.starts_with("omega")) regions.push_back(region);
+/// What of a geometry or a mesh's options loads are checked against.
+struct Subjects {
+  explicit Subjects(const v1::CreateMeshRequest& mesh)
+      : geometry(mesh.has_geometry() ? &mesh.geometry() : nullptr),
+        regions(mesh.geometry().regions()),
+        inclusions(mesh.geometry().inclusions()) {
+    for (const v1::Inclusion& inclusion : mesh.geometry().inclusions()) {
+      if (inclusion.has_fixed()) held.insert(inclusion.name());
+      if (!inclusion.tilt()) level.insert(inclusion.name());
+    }
+    for (const auto& [name, motion] : mesh.options().inclusion_motions())
+      if (motion.has_fixed()) held.insert(name);
+  }
+
+  const v1::Geometry* geometry;  ///< null for a mesh from a file
+  Names regions, inclusions;
+  std::unordered_set<std::string> held, level;  ///< by fixed; without tilt
+};
+
+void check_names(const Section& section, const v1::LoadCase& load, const Subjects& subjects) {
+  const v1::Geometry& geometry = *subjects.geometry;
   if (!load.traction().empty() && load.traction() != "0" && geometry.neumann().empty() &&
       geometry.neumann_sides().empty()) {
     throw Error(section.spot_of("traction"),
                 "nothing has a traction, as no part of the boundary is in geometry.neumann; name "
                 "its sides or holes there");
   }
-  if (load.force().has_per_region()) check_names(section, "f", "region", regions);
-  check_names(section, "inclusion_forces", "inclusion", inclusions);
-  check_names(section, "inclusion_moments", "inclusion", inclusions);
-  for (const v1::Inclusion& inclusion : geometry.inclusions()) {
-    if (inclusion.tilt() || !load.inclusion_moments().contains(inclusion.name())) continue;
+  if (load.force().has_per_region()) check_names(section, "f", "region", subjects.regions);
+  check_names(section, "inclusion_forces", "inclusion", subjects.inclusions);
+  check_names(section, "inclusion_moments", "inclusion", subjects.inclusions);
+  for (const auto& [name, entry] : section.entries("inclusion_moments", "")) {
+    if (!subjects.level.contains(name)) continue;
     throw Error(section.spot_of("inclusion_moments"),
-                "the inclusion \"" + inclusion.name() +
+                "the inclusion \"" + name +
                     "\" does not tilt, so a moment on it does nothing; write tilt = true in its "
                     "[[geometry.inclusion]], or leave the moment out");
   }
 }
 
 // The server takes it, as its work belongs to the energy, but nothing moves by it.
-void refuse_force_on_held(const std::string& name, const v1::LoadCase& load,
-                          const std::string& field, const Spots& spots) {
-  if (!load.inclusion_forces().contains(name)) return;
-  throw Error(
-      spots.at(field + ".inclusion_forces." + name),
-      "the inclusion is held by its key fixed, so a force on it moves nothing; leave one of "
-      "the two out");
+void refuse_force_on_held(const Section& section, const Subjects& subjects) {
+  for (const auto& [name, entry] : section.entries("inclusion_forces", "")) {
+    if (!subjects.held.contains(name)) continue;
+    throw Error(
+        spot_of(*entry, section.path_of("inclusion_forces", name)),
+        "the inclusion is held by its key fixed, so a force on it moves nothing; leave one of "
+        "the two out");
+  }
 }
 
-void read_load(const Section& section, std::size_t index, Case& result) {
+void read_load(const Section& section, std::size_t index, const Subjects& subjects, Case& result) {
   const std::string field = entry_field("load_cases", index);
   Spots& spots = result.spots;
   v1::LoadCase& load = *result.job.add_load_cases();
@@ -146,18 +173,15 @@ void read_load(const Section& section, std::size_t index, Case& result) {
                       !load.point_forces().empty() || !load.inclusion_forces().empty() ||
                       !load.inclusion_moments().empty();
   if (section.find("f") || !loaded) {
-    auto file = read_force(section, result.path.parent_path(), *load.mutable_force());
+    auto file = read_force(section, *load.mutable_force());
     spots[field + ".force"] = section.spot_of("f");
     if (file) {
       file->load_case = static_cast<int>(index);
       result.force_files.push_back(*std::move(file));
     }
   }
-  if (result.mesh.has_geometry()) check_names(section, load, result.mesh.geometry());
-  for (const v1::Inclusion& inclusion : result.mesh.geometry().inclusions())
-    if (inclusion.has_fixed()) refuse_force_on_held(inclusion.name(), load, field, spots);
-  for (const auto& [name, motion] : result.mesh.options().inclusion_motions())
-    if (motion.has_fixed()) refuse_force_on_held(name, load, field, spots);
+  if (subjects.geometry) check_names(section, load, subjects);
+  refuse_force_on_held(section, subjects);
 }
 
 }  // namespace
@@ -167,7 +191,8 @@ void read_loads(const Section& root, Case& result) {
   const std::vector<Section> loads =
       root.sections("load", {"name", "f", "boundary_value", "traction", "point_forces",
                              "inclusion_forces", "inclusion_moments"});
-  for (std::size_t i = 0; i < loads.size(); ++i) read_load(loads[i], i, result);
+  const Subjects subjects(result.mesh);
+  for (std::size_t i = 0; i < loads.size(); ++i) read_load(loads[i], i, subjects, result);
 }
 
 }  // namespace anticrack::casefile

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "client/casefile/sample_case.hpp"
+#include "casefile/sample_case.hpp"
 
 namespace anticrack::casefile {
 namespace {
@@ -23,7 +23,7 @@ run_timeout = "2h"
   EXPECT_EQ(the_case.job.queue_timeout().seconds(), 90);
   EXPECT_EQ(the_case.job.queue_timeout().nanos(), 500'000'000);
   EXPECT_EQ(the_case.job.run_timeout().seconds(), 7200);
-  EXPECT_EQ(the_case.locate("job.run_timeout")->line, 24U);
+  EXPECT_EQ(locate(the_case, "job.run_timeout")->line, 24U);
 }
 
 TEST(UnitsSection, NamesUnits) {
@@ -31,7 +31,7 @@ TEST(UnitsSection, NamesUnits) {
   const Case the_case = parse(sample_text + "[units]\nlength = \"mm\"\nforce = \"N\"\n");
   EXPECT_EQ(the_case.job.units().length(), "mm");
   EXPECT_EQ(the_case.job.units().force(), "N");
-  EXPECT_EQ(the_case.locate("job.units.force")->line, 23U);
+  EXPECT_EQ(locate(the_case, "job.units.force")->line, 23U);
   EXPECT_THAT(complaint(sample_text + "[units]\nlenght = \"mm\"\n"),
               HasSubstr("did you mean length?"));
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <optional>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -167,16 +168,24 @@ void apply_override(toml::table& root, const std::string& assignment) {
 void keep_loads(toml::table& root, const std::vector<std::string>& names) {
   toml::array* loads = root["load"].as_array();
   const std::vector<std::string> there = loads ? names_in(*loads) : std::vector<std::string>();
+  const std::unordered_set<std::string> found(there.begin(), there.end()),
+      wanted(names.begin(), names.end());
   for (const std::string& name : names) {
-    if (std::ranges::find(there, name) != there.end()) continue;
+    if (found.contains(name)) continue;
     throw Error({"load", "--load " + name.substr(0, 80), 0},
                 there.empty() ? "the case has no loads with names; write name = \"...\" in [[load]]"
                               : "no load is called " + name.substr(0, 80) + "; " +
                                     words::suggestion(name, there));
   }
-  for (std::size_t i = there.size(); i-- > 0;)
-    if (std::ranges::find(names, there[i]) == names.end())
-      loads->erase(loads->cbegin() + static_cast<std::ptrdiff_t>(i));
+  toml::array kept;
+  for (std::size_t i = 0; i < there.size(); ++i) {
+    if (!wanted.contains(there[i])) continue;
+    // Moved, not copied: only a moved node keeps its source.
+    std::move(*loads->get(i)).visit([&](auto&& node) {
+      kept.push_back(std::forward<decltype(node)>(node));
+    });
+  }
+  *loads = std::move(kept);
 }
 
 }  // namespace anticrack::casefile

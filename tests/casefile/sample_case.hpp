@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "casefile/case.hpp"
+#include "words/nearest_field.hpp"
 
 namespace anticrack::casefile {
 
@@ -39,6 +40,10 @@ inline Case parse(const std::string& text, const std::vector<std::string>& overr
 inline std::string sample_with(const std::string& from, const std::string& to) {
   std::string text = sample_text;
   return text.replace(text.find(from), from.size(), to);
+}
+
+inline const Spot* locate(const Case& the_case, const std::string& field) {
+  return words::nearest_field(the_case.spots, field);
 }
 
 /// The message of the error that reading gives; empty when there is none.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "casefile/coefficients.hpp"
+#include "cli/coefficients.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -13,7 +13,7 @@
 
 #include "words/nearest.hpp"
 
-namespace anticrack::casefile {
+namespace anticrack::cli {
 namespace {
 
 std::string_view trimmed(std::string_view text) {
@@ -94,19 +94,19 @@ class Reader {
 
   std::vector<double> finish() {
     if (_values.empty()) {
-      throw Error({"", _source, 0}, "there is no row; write a line of " +
-                                        counted(_loads.size(), "coefficient") +
-                                        " for each load case of the sweep");
+      throw CaseError(_source, "there is no row; write a line of " +
+                                   counted(_loads.size(), "coefficient") +
+                                   " for each load case of the sweep");
     }
     return std::move(_values);
   }
 
  private:
-  [[noreturn]] void fail(const std::string& problem) const {
-    throw Error({"", _source, _line}, problem);
-  }
+  std::string at_line() const { return _source + ":" + std::to_string(_line); }
+
+  [[noreturn]] void fail(const std::string& problem) const { throw CaseError(at_line(), problem); }
   [[noreturn]] void fail(std::size_t column, const std::string& problem) const {
-    throw Error({"column " + std::to_string(column + 1), _source, _line}, problem);
+    throw CaseError(at_line() + ": column " + std::to_string(column + 1), problem);
   }
 
   /// The first line is a header if all its fields are names of loads (which may look like numbers)
@@ -215,8 +215,7 @@ std::vector<double> parse_coefficients(std::istream& text, const std::string& so
   Reader reader(source, loads);
   std::string line;
   for (unsigned number = 1; std::getline(text, line); ++number) reader.line(line, number);
-  if (text.bad())
-    throw Error({"", source, 0}, "cannot be read to its end; the disk reports an error");
+  if (text.bad()) throw CaseError(source, "cannot be read to its end; the disk reports an error");
   return reader.finish();
 }
 
@@ -224,10 +223,10 @@ std::vector<double> read_coefficients(const std::filesystem::path& file,
                                       const std::vector<std::string>& loads) {
   std::ifstream text(file, std::ios::binary);
   if (std::filesystem::is_directory(file) || !text) {
-    throw Error({"", file.string(), 0},
-                "cannot be read; name a .csv file, or a dataset as FILE.h5:/PATH");
+    throw CaseError(file.string(),
+                    "cannot be read; name a .csv file, or a dataset as FILE.h5:/PATH");
   }
   return parse_coefficients(text, file.string(), loads);
 }
 
-}  // namespace anticrack::casefile
+}  // namespace anticrack::cli

@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "casefile/sections.hpp"
+#include "words/nearest_field.hpp"
 
 namespace anticrack::casefile {
 namespace {
@@ -47,7 +48,7 @@ void read_accuracy(const Section& root, Case& result) {
   accuracy.set_each_inclusion(section->boolean("each_inclusion").value_or(false));
   accuracy.set_keep_stages(section->boolean("keep_stages").value_or(false));
   if (result.job.solver().has_uzawa()) {
-    throw Error(*result.locate("solver.uzawa"),
+    throw Error(*words::nearest_field(result.spots, "solver.uzawa"),
                 "the answers of \"uzawa\" have no bounds; with [accuracy] write method = "
                 "\"active-set\"");
   }

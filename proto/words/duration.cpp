@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "casefile/duration.hpp"
+#include "words/duration.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <system_error>
 
-namespace anticrack::casefile {
+namespace anticrack::words {
 namespace {
 
 struct Unit {
@@ -35,4 +35,4 @@ std::optional<std::chrono::milliseconds> parse_duration(std::string_view text) {
   return std::chrono::milliseconds(static_cast<std::int64_t>(time));
 }
 
-}  // namespace anticrack::casefile
+}  // namespace anticrack::words

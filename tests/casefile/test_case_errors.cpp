@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "client/casefile/sample_case.hpp"
+#include "casefile/sample_case.hpp"
 
 namespace anticrack::casefile {
 namespace {
@@ -436,18 +436,6 @@ TEST(CaseErrors, ForceOnAHeldInclusionOfAFile) {
                       "[[load]]\nname = \"a\"\ninclusion_forces = {rod = 1}\n"),
             "plate.toml:5: load.a.inclusion_forces.rod: the inclusion is held by its key fixed, so "
             "a force on it moves nothing; leave one of the two out");
-}
-
-TEST(CaseErrors, FileThatIsNotThere) {
-  try {
-    read_case("no/such/case.toml");
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_STREQ(
-        error.what(),
-        "no/such/case.toml: cannot be read: No such file or directory; name a case, a TOML file");
-  }
-  EXPECT_THROW(read_case(std::filesystem::temp_directory_path()), Error);
 }
 
 TEST(Complaint, OfAKeyOfManyParts) {

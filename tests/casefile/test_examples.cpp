@@ -4,8 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "casefile/case.hpp"
-#include "casefile/coefficients.hpp"
+#include "support/case_file.hpp"
 
 namespace anticrack::casefile {
 namespace {
@@ -13,7 +12,7 @@ namespace {
 const std::string folder = ANTICRACK_EXAMPLES;
 
 TEST(Examples, PaperHasItsFourLoadsAndParameters) {
-  const Case the_case = read_case(folder + "/paper.toml");
+  const Case the_case = testing::read_case_file(folder + "/paper.toml");
   ASSERT_EQ(the_case.job.load_cases_size(), 4);
   EXPECT_EQ(the_case.mesh.options().preset(), v1::MESH_PRESET_PAPER);
   ASSERT_TRUE(the_case.job.solver().has_uzawa());
@@ -24,9 +23,9 @@ TEST(Examples, PaperHasItsFourLoadsAndParameters) {
 }
 
 TEST(Examples, EachOfTheFourIsOneLoadOfThePaperOnTheSameMesh) {
-  const Case all = read_case(folder + "/paper.toml");
+  const Case all = testing::read_case_file(folder + "/paper.toml");
   for (int i = 0; i < 4; ++i) {
-    const Case one = read_case(folder + "/paper-" + std::to_string(i + 1) + ".toml");
+    const Case one = testing::read_case_file(folder + "/paper-" + std::to_string(i + 1) + ".toml");
     ASSERT_EQ(one.job.load_cases_size(), 1);
     EXPECT_EQ(one.job.load_cases(0).SerializeAsString(), all.job.load_cases(i).SerializeAsString());
     EXPECT_EQ(one.job.load_cases(0).name(), "example-" + std::to_string(i + 1));
@@ -38,7 +37,7 @@ TEST(Examples, EachOfTheFourIsOneLoadOfThePaperOnTheSameMesh) {
 TEST(Examples, OfOtherGeometriesUseTheDefaults) {
   for (const char* name :
        {"several-inclusions", "slit", "arc", "floating", "partly-delaminated", "shear", "tilt"}) {
-    const Case the_case = read_case(folder + "/" + name + ".toml");
+    const Case the_case = testing::read_case_file(folder + "/" + name + ".toml");
     EXPECT_EQ(the_case.mesh.options().preset(), v1::MESH_PRESET_GRADED) << name;
     EXPECT_TRUE(the_case.job.solver().has_active_set()) << name;
     EXPECT_GE(the_case.job.load_cases_size(), 2) << name;
@@ -48,24 +47,10 @@ TEST(Examples, OfOtherGeometriesUseTheDefaults) {
 
 TEST(Examples, OfAMeshFileNameOneThatIsThere) {
   for (const char* name : {"plate", "section-6"}) {
-    const Case the_case = read_case(folder + "/" + name + ".toml");
+    const Case the_case = testing::read_case_file(folder + "/" + name + ".toml");
     ASSERT_TRUE(the_case.mesh_file.has_value()) << name;
-    EXPECT_TRUE(std::filesystem::exists(*the_case.mesh_file)) << *the_case.mesh_file;
+    EXPECT_TRUE(std::filesystem::exists(folder + "/" + *the_case.mesh_file)) << *the_case.mesh_file;
     EXPECT_FALSE(the_case.mesh.has_geometry()) << name;
-  }
-}
-
-TEST(Examples, SweepVariesOneCoefficient) {
-  const Case the_case = read_case(folder + "/load-ratio.toml");
-  ASSERT_EQ(the_case.job.load_cases_size(), 2);
-  EXPECT_TRUE(the_case.job.solver().has_active_set());
-  const std::vector<double> rows =
-      read_coefficients(folder + "/load-ratio.csv",
-                        {the_case.job.load_cases(0).name(), the_case.job.load_cases(1).name()});
-  ASSERT_EQ(rows.size(), 2U * 81);
-  for (std::size_t row = 0; row < 81; ++row) {
-    EXPECT_EQ(rows[2 * row], 1);
-    EXPECT_NEAR(rows[2 * row + 1], -1 + static_cast<double>(row) / 40, 1e-12);
   }
 }
 

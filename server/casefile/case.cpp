@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "casefile/case.hpp"
 
-#include <cerrno>
-#include <fstream>
 #include <sstream>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
+#include "casefile/json.hpp"
 #include "casefile/sections.hpp"
 #include "toml/long_key.hpp"
 
@@ -23,7 +21,7 @@ void read_mesh(const Section& root, Case& result) {
     result.mesh.mutable_options()->set_preset(v1::MESH_PRESET_GRADED);
   if (const auto file = mesh ? mesh->text("file") : std::nullopt) {
     if (geometry) throw Error(geometry->spot(), "there is a mesh.file too; remove one of the two");
-    result.mesh_file = result.path.parent_path() / *file;
+    result.mesh_file = *file;
     for (const char* field : {"upload", "header", "chunk"})
       result.spots[field] = mesh->spot_of("file");
     return;
@@ -54,10 +52,6 @@ std::string cure_of_value(const std::string& description, const std::string& lin
     return "";
   return "; a value is a number as 3.5, true, false, a text in quotes or a list; units are "
          "named in [units]";
-}
-
-std::string reason(int error) {
-  return error == 0 ? std::string() : ": " + std::generic_category().message(error);
 }
 
 toml::table parse(const std::string& text, const std::string& name) {
@@ -94,19 +88,6 @@ void read_output(const Section& root, Case& result) {
 
 }  // namespace
 
-std::optional<Spot> Case::locate(const std::string& field) const {
-  std::string place = field;
-  for (const char* request : {"job.", "mesh."})
-    if (place.starts_with(request)) place = place.substr(std::string_view(request).size());
-  while (!place.empty()) {
-    const auto found = spots.find(place);
-    if (found != spots.end()) return found->second;
-    const std::size_t cut = place.find_last_of(".[");
-    place.resize(cut == std::string::npos ? 0 : cut);
-  }
-  return std::nullopt;
-}
-
 void note(const Section& section, const std::string& field, Spots& spots) {
   if (!field.empty()) spots[field] = section.spot();
   for (const auto& [key, node] : section.table()) {
@@ -115,16 +96,16 @@ void note(const Section& section, const std::string& field, Spots& spots) {
   }
 }
 
-Case parse_case(const std::string& text, const std::filesystem::path& path,
+Case parse_case(const std::string& text, const std::string& source,
                 const std::vector<std::string>& overrides, Loads loads,
-                const std::vector<std::string>& only) {
+                const std::vector<std::string>& only, Language language) {
   Case result;
-  result.path = path;
   result.text = text;
-  toml::table table = parse(text, path.string());
+  const bool json = language == Language::json;
+  toml::table table = json ? tables_of_json(text, source) : parse(text, source);
   for (const std::string& assignment : overrides) apply_override(table, assignment);
   if (!only.empty()) keep_loads(table, only);
-  if (!overrides.empty() || !only.empty()) {
+  if (json || !overrides.empty() || !only.empty()) {
     std::ostringstream out;
     out << table << '\n';
     result.text = out.str();
@@ -148,10 +129,8 @@ Case parse_case(const std::string& text, const std::filesystem::path& path,
   return result;
 }
 
-Case mesh_file_case(const std::filesystem::path& file, const std::string& title,
-                    const std::vector<std::string>& overrides) {
+Case mesh_file_case(const std::string& file, const std::vector<std::string>& overrides) {
   Case result;
-  result.path = file;
   toml::table table;
   for (const std::string& assignment : overrides) apply_override(table, assignment);
   const Section given(table, "", {"mesh"});
@@ -160,27 +139,9 @@ Case mesh_file_case(const std::filesystem::path& file, const std::string& title,
   apply_override(table, "mesh.file=.");  // allows the keys of files; the path is set below
   *result.mesh.mutable_options() =
       read_mesh_options(*Section(table, "", {"mesh"}).section("mesh", mesh_keys), result.spots);
-  result.mesh.set_title(title);
   result.mesh_file = file;
-  for (const char* field : {"upload", "header", "chunk"})
-    result.spots[field] = {"", file.string(), 0};
+  for (const char* field : {"upload", "header", "chunk"}) result.spots[field] = {"", file, 0};
   return result;
-}
-
-Case read_case(const std::filesystem::path& path, const std::vector<std::string>& overrides,
-               Loads loads, const std::vector<std::string>& only) {
-  constexpr const char* cure = "; name a case, a TOML file";
-  if (std::filesystem::is_directory(path))
-    throw Error({"", path.string(), 0}, std::string("is a folder") + cure);
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  if (!(text << file.rdbuf())) {
-    // Inserting an empty file fails too; parse_case says what it lacks.
-    if (!std::filesystem::is_regular_file(path) || !file)
-      throw Error({"", path.string(), 0}, "cannot be read" + reason(errno) + cure);
-  }
-  return parse_case(text.str(), path, overrides, loads, only);
 }
 
 }  // namespace anticrack::casefile

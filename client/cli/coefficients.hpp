@@ -8,15 +8,16 @@
 #include <string>
 #include <vector>
 
-#include "casefile/error.hpp"
+#include "cli/case_error.hpp"
 
-namespace anticrack::casefile {
+namespace anticrack::cli {
 
 /// Comma-separated numbers, a line per row; separated by semicolons where the first line has one,
 /// and then decimal commas are read, too. Blank lines and lines that begin with # are skipped.
 /// The first line may name the loads, in any order; without it the columns follow `loads`. Quotes
 /// around a field are removed. Returns (rows, loads) row-major, in the order of `loads`: at least
-/// one row, all values finite. Throws Error with `source`, line, column, value and cure. O(length).
+/// one row, all values finite. Throws CaseError with `source`, line, column, value and cure.
+/// O(length).
 std::vector<double> parse_coefficients(std::istream& text, const std::string& source,
                                        const std::vector<std::string>& loads);
 
@@ -24,4 +25,4 @@ std::vector<double> parse_coefficients(std::istream& text, const std::string& so
 std::vector<double> read_coefficients(const std::filesystem::path& file,
                                       const std::vector<std::string>& loads);
 
-}  // namespace anticrack::casefile
+}  // namespace anticrack::cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "casefile/coefficients.hpp"
+#include "cli/coefficients.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace anticrack::casefile {
+namespace anticrack::cli {
 namespace {
 
 using ::testing::ElementsAre;
@@ -102,7 +102,7 @@ TEST(Coefficients, RefuseWhatIsNoMatrixWithLineColumnValueAndCure) {
     try {
       parse_rows(bad.text);
       ADD_FAILURE() << "accepted " << bad.text;
-    } catch (const Error& error) {
+    } catch (const CaseError& error) {
       for (const std::string& part : bad.complaint) {
         EXPECT_THAT(error.what(), HasSubstr(part)) << bad.text;
       }
@@ -115,7 +115,7 @@ TEST(Coefficients, OfAFileThatCannotBeReadSaySo) {
     try {
       read_coefficients(file, {"skew"});
       ADD_FAILURE() << "accepted " << file;
-    } catch (const Error& error) {
+    } catch (const CaseError& error) {
       EXPECT_THAT(error.what(),
                   HasSubstr(std::string(file) + ": cannot be read; name a .csv file"));
     }
@@ -123,4 +123,4 @@ TEST(Coefficients, OfAFileThatCannotBeReadSaySo) {
 }
 
 }  // namespace
-}  // namespace anticrack::casefile
+}  // namespace anticrack::cli

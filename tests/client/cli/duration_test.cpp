@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
-#include "casefile/duration.hpp"
+#include "words/duration.hpp"
 
-namespace anticrack::casefile {
+namespace anticrack::words {
 namespace {
 
 using std::chrono::milliseconds;
@@ -25,4 +25,4 @@ TEST(Duration, IsAboveZeroAndBounded) {
 }
 
 }  // namespace
-}  // namespace anticrack::casefile
+}  // namespace anticrack::words

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "client/cases.hpp"
+
+#include "client/channel.hpp"
+
+namespace anticrack::client {
+
+v1::ReadCaseResponse read_case(Connection& connection, const v1::ReadCaseRequest& request,
+                               const std::stop_token& stop) {
+  Connection::State& state = connection.state();
+  return call(state, *state.cases, &v1::CaseService::Stub::ReadCase, request, stop);
+}
+
+}  // namespace anticrack::client

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <string>
+
+namespace anticrack::casefile {
+
+/// The tables of a case from one JSON object: of objects tables, of lists arrays, of whole numbers
+/// integers. Its nodes have no source. Throws Error, with `source`, for other texts, for null, and
+/// for what lies deeper than any key of a case. Linear in the text.
+toml::table tables_of_json(const std::string& text, const std::string& source);
+
+}  // namespace anticrack::casefile
