@@ -53,8 +53,9 @@ class LocalServerError(Error):
 class ServerError(Error):
     """A call, a mesh or a job that the server refused or that failed, or a server that is not there.
 
-    code: gRPC's name, as "NOT_FOUND". message: the server's own. reason: see ErrorInfo in error.proto. fields: (path in the request, what is
-    wrong with it). metadata: values named in the message. retry_delay [s]: wait at least this long; 0: none given.
+    code: gRPC's name, as "NOT_FOUND". message: the server's own. reason: see ErrorInfo in error.proto. fields: (path in
+    the request, what is wrong with it). metadata: values named in the message. retry_delay [s]: wait at least this
+    long; 0: none given.
     """
 
     def __init__(self, code: str, message: str, reason: str = "", fields: tuple[tuple[str, str], ...] = (),

@@ -58,12 +58,12 @@ class Question:
             return os.fspath(value)
         if is_number(value):
             return self._number(value, key)
-        cure = "give a number, a text, true, false, or a list or table of them"
-        if callable(value):
-            cure = "write an expression in x and y in quotes" + (
-                ', or give its values on the nodes of client.mesh_arrays(client.mesh(case))["nodes"], as Load(name, '
-                'values, per="node")' if key.endswith(".f") else "")
-        raise self._error(key, f"{shown(value)} is not possible; {cure}")
+        if not callable(value):
+            raise self._error(key, f"{shown(value)} ({type(value).__name__}) is not possible; give a number, a text, "
+                                   "true, false, or a list or table of them")
+        raise self._error(key, f"{shown(value)} is not possible; write an expression in x and y in quotes" + (
+            ', or give its values on the nodes of client.mesh_arrays(client.mesh(case))["nodes"], as Load(name, '
+            'values, per="node")' if key.endswith(".f") else ""))
 
     def _number(self, value: Any, key: str) -> int | float:
         whole = isinstance(value, numbers.Integral) and -2**63 <= int(value) < 2**63
