@@ -157,7 +157,7 @@ boundary_value = "x"
         square = Geometry(SQUARE)
         for case, said in (
                 (lambda: Case(square, [Load("a", numpy.ones(3))]), "load.a.f.per: missing"),
-                (lambda: Case(square, [Load("a", [1, 2], per="side")]), "load.a.f.per: .*known are triangle, node"),
+                (lambda: Case(square, [Load("a", [1, 2], per="side")]), "load.a.f.per: .*known are node, triangle"),
                 (lambda: Case(square, [Load("a", numpy.ones((3, 2)), per="node")]), r"load.a.f.values: .*\(3, 2\)"),
                 (lambda: Case(square, [Load("a", numpy.array([numpy.nan]), per="node")]), "load.a.f.values: "),
                 (lambda: Case(square, [Load("a", 1, per="node")]), r"load.a.f.values: .* shape \(\) is not \(nodes"),
@@ -169,7 +169,7 @@ boundary_value = "x"
                 (lambda: Case(square, ONE, Mesh(size=[0.1, None])), "mesh.size.1: None .NoneType. is not possible"),
                 (lambda: Case(square, ONE, Mesh(size=10**400)), r"mesh.size: 10*\.\.\. is not a finite number"),
                 (lambda: Case(Geometry([(0, 0), (1, -numpy.inf)]), ONE), "geometry.boundary.1.1: -inf is not a finite"),
-                (lambda: Case(Geometry(SQUARE, holes=[Hole(spline={1})]), ONE), "geometry.hole.0.spline: {1} .set. is "),
+                (lambda: Case(Geometry(SQUARE, holes=[Hole(spline={1})]), ONE), "geometry.hole.0.spline: {1} .set. "),
                 (lambda: Case(mesh=Mesh(file="x.msh", preset=b"paper")), "mesh.preset: b.paper. .bytes. is not pos"),
                 (lambda: Case(square, [Load("a", [[1], [1, 2]], per="node")]), "load.a.f.values: "),
                 (lambda: Case(square, [Load("a", bump)]), "f: the Python function bump .*expression .*per=.node"),
