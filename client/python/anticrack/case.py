@@ -250,10 +250,11 @@ class Case:
         """fields: keep u on every node, to draw the membrane. bounds: of the error of each answer. Timeouts are
         seconds, or text such as "2h"."""
         job = {"priority": priority, "queue_timeout": queue_timeout, "run_timeout": run_timeout}
-        tables = {"title": title or None, "geometry": geometry, "mesh": mesh, "solver": solver, "accuracy": accuracy,
-                  "units": units, "load": loads if isinstance(loads, _Table) else list(loads) or None,
-                  "output": {"fields": fields, "bounds": bounds} if fields or not bounds else None,
-                  "job": {key: value for key, value in job.items() if value is not None} or None}
+        tables: dict[str, Any] = {
+            "title": title or None, "geometry": geometry, "mesh": mesh, "solver": solver, "accuracy": accuracy,
+            "units": units, "load": loads if isinstance(loads, _Table) else list(loads) or None,
+            "output": {"fields": fields, "bounds": bounds} if fields or not bounds else None,
+            "job": {key: value for key, value in job.items() if value is not None} or None}
         self.tables = {key: _tables(value) for key, value in tables.items() if value is not None}
         self.text, self.source, self.folder = "", "", pathlib.Path()
 

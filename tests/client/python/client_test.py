@@ -104,7 +104,7 @@ class Jobs(unittest.TestCase):
                            ("[mesh]\nsize = 1e-9", "case:5: mesh.size: "),
                            ("[[geometry.region]]\nname = 'a b'\nat = [0, 0.5]", "case:5: geometry.region.a b.name: "),
                            ("[[geometry.inclusion]]\nname = 'i'\nfrom = [0, 3]\nto = [0, 4]",
-                            "case:4: geometry.inclusion.i: ")):
+                            "case:6: geometry.inclusion.i.from: ")):
             case = "[geometry]\nboundary = [[-1,-1], [1,-1], [1,1], [-1,1]]\ninterface = [[-1,0], [1,0]]\n" + text
             with self.assertRaises(anticrack.ServerError, msg=text) as caught:
                 self.client.submit(Case.parse(case + "\n[[load]]\nname = 'a'\nf = 1"))
