@@ -25,10 +25,12 @@ _KEYS = {"start": "from", "end": "to", "interfaces": "interface", "inclusions": 
          "regions": "region", "holes": "hole"}
 
 
-def _tables(value: Any) -> Any:
-    """The objects below as tables."""
+def tables_of(value: Any) -> Any:
+    """The objects below as tables, wherever they are in it."""
     if isinstance(value, (list, tuple)):
-        return [_tables(item) for item in value]
+        return [tables_of(item) for item in value]
+    if isinstance(value, dict):
+        return {key: tables_of(item) for key, item in value.items()}
     return value.table() if isinstance(value, _Table) else value
 
 
@@ -36,7 +38,7 @@ class _Table:
     def table(self, keys: Mapping[str, str] = _KEYS) -> dict[str, Any]:
         """As in TOML; what is None or empty is left out."""
         entries = fields(self)  # type: ignore[arg-type]
-        out = {keys.get(entry.name, entry.name): _tables(getattr(self, entry.name)) for entry in entries}
+        out = {keys.get(entry.name, entry.name): tables_of(getattr(self, entry.name)) for entry in entries}
         return {key: value for key, value in out.items()
                 if value is not None and not (isinstance(value, (list, dict)) and not value)}
 
@@ -255,7 +257,7 @@ class Case:
             "units": units, "load": loads if isinstance(loads, _Table) else list(loads) or None,
             "output": {"fields": fields, "bounds": bounds} if fields or not bounds else None,
             "job": {key: value for key, value in job.items() if value is not None} or None}
-        self.tables = {key: _tables(value) for key, value in tables.items() if value is not None}
+        self.tables = tables_of({key: value for key, value in tables.items() if value is not None})
         self.text, self.source, self.folder = "", "", pathlib.Path()
 
     @classmethod

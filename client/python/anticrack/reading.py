@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from .arrays import Array, array_of, is_number, plain
-from .case import Case
+from .case import Case, tables_of
 from .errors import CaseError, ServerError, package
 from .text import harmless, shown
 from .v1 import case_pb2, mesh_pb2, solve_pb2
@@ -33,9 +33,9 @@ class Question:
         self.memory: dict[str, Any] = {}
         self.request = case_pb2.ReadCaseRequest(source=harmless(case.source), loads_optional=loads_optional)
         if case.text and repr(case.tables) == repr(tomllib.loads(case.text)):  # equal, and of the same types
-            self.request.toml = case.text  # of which errors have lines
+            self.request.toml = case.text.encode("utf-8", "replace").decode()  # of which errors have lines
         else:
-            self.request.json = json.dumps(self._sent(case.tables, ""))
+            self.request.json = json.dumps(self._sent(tables_of(case.tables), ""), separators=(",", ":"))
 
     def _error(self, key: str, problem: str) -> CaseError:
         return CaseError(": ".join(part for part in (self.case.source, key, problem) if part))

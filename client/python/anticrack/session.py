@@ -152,11 +152,11 @@ class Session:
         """Once it is meshed. Raises ServerError where it cannot be."""
         read = await self.read(case, loads_optional=True)
         with _in_terms_of(read):
-            name = (await self._create_mesh(read)).name
-        read.warn()
-        mesh = await self.mesh(name)
-        if mesh.HasField("error"):
-            raise of_status(mesh.error)
+            mesh = await self._create_mesh(read)
+            read.warn()
+            mesh = await self.mesh(mesh.name)
+            if mesh.HasField("error"):
+                raise of_status(mesh.error)
         return mesh
 
     async def submit(self, case: Case | str | os.PathLike[str], coefficients: Any = None, nodal_forces: Any = None,

@@ -134,7 +134,9 @@ class Jobs(unittest.TestCase):
         with self.assertRaises(anticrack.ServerError) as caught:
             self.client.mesh(Case(far))
         self.assertEqual(caught.exception.reason, "GEOMETRY_INVALID")
-        with self.assertRaisesRegex(anticrack.CaseError, r"none.msh: No such file"):
+        with self.assertRaisesRegex(anticrack.ServerError, r"^mesh.groups.curve.77: the file has no curve group 77"):
+            self.client.mesh(Case(mesh=Mesh(file=EXAMPLES / "plate.msh", curves={77: "crack"})))
+        with self.assertRaisesRegex(anticrack.CaseError, r"^mesh.file: none.msh: No such file"):
             self.client.mesh(Case(mesh=Mesh(file="none.msh")))
 
     def test_loads_are_arrays_on_the_mesh(self):
