@@ -3,6 +3,7 @@
 here: the server is given a name for each, as if it were that of a file."""
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import json
 import math
@@ -66,19 +67,15 @@ class Question:
             'values, per="node")' if key.endswith(".f") else ""))
 
     def _number(self, value: Any, key: str) -> int | float:
-        whole = isinstance(value, numbers.Integral) and -2**63 <= int(value) < 2**63
-        try:
-            number = int(value) if whole else float(value)
-        except OverflowError:
-            number = math.inf
-        if not math.isfinite(number):
-            raise self._error(key, f"{shown(value)} is not a finite number; write one, such as 0.5")
-        return number
+        whole = isinstance(value, numbers.Integral) and abs(int(value)) < 2**63
+        with contextlib.suppress(OverflowError):
+            if math.isfinite(float(value)):
+                return int(value) if whole else float(value)
+        raise self._error(key, f"{shown(value)} is not a finite number; write one, such as 0.5")
 
     def _array(self, table: Mapping[str, Any], key: str) -> dict[str, Any]:
-        for name in table:
-            if name not in ("values", "per"):
-                raise self._error(f"{key}.{name}", "unknown key; known are values, per")
+        for name in table.keys() - {"values", "per"}:
+            raise self._error(f"{key}.{name}", "unknown key; known are values, per")
         of = {"node": "nodes", "triangle": "triangles"}.get(str(table.get("per")), "values")
         values = array_of(table["values"], (of,), lambda problem: self._error(f"{key}.values", problem), in_order=True)
         return {"file": self._kept(values, values.tobytes()), "dataset": "values", "per": table.get("per")}
@@ -107,22 +104,22 @@ class ReadCase:
         try:
             return path.read_bytes()
         except OSError as error:
-            raise CaseError(f"{self._place('upload')}: {path}: {error.strerror}; name a .msh file") from None
+            raise CaseError(f"{self._where('upload')}: {path}: {error.strerror}; name a .msh file") from None
 
     def arrays(self) -> list[tuple[int, Array]]:
         """The index of the load case, the values of its f."""
         return [(array.load_case, self._memory[array.file] if array.file in self._memory else self._values(array))
                 for array in self._answer.arrays]
 
-    def _place(self, field: str) -> str:
-        return _text(_place(self.places, field)) or field
+    def _where(self, field: str) -> str:
+        return _written(_nearest(self.places, field)) or field
 
     def _values(self, array: case_pb2.CaseArray) -> Array:
         field = f"load_cases[{array.load_case}].force"
         h5py, path, name = package("h5py"), self._case.folder / array.file, array.dataset
 
         def error(key: str, problem: object) -> CaseError:
-            return CaseError(f"{self._place(field)}.{key}: {problem}")
+            return CaseError(f"{self._where(field)}.{key}: {problem}")
         try:
             with h5py.File(path) as file:
                 found = file[name]
@@ -158,11 +155,11 @@ def _name_or_index(table: Any, index: int) -> str:
     return name if isinstance(name, str) and 0 < len(name) <= 64 else str(index)
 
 
-def _text(place: case_pb2.CasePlace | None) -> str:
+def _written(place: case_pb2.CasePlace | None) -> str:
     return ": ".join(part for part in (place.where, place.key) if part) if place else ""
 
 
-def _place(places: Places, field: str) -> case_pb2.CasePlace | None:
+def _nearest(places: Places, field: str) -> case_pb2.CasePlace | None:
     """Where the value of a field, or what is nearest around it, was written."""
     field = field.removeprefix("job.").removeprefix("mesh.")
     while field and field not in places:
@@ -183,9 +180,9 @@ def in_terms_of(places: Places, error: ServerError) -> ServerError:
     fields: list[tuple[str, str]] = []
     told_of = told = ""
     for field, what in error.fields:
-        place = _place(places, field)
+        place = _nearest(places, field)
         if place and what == told and told_of.startswith(place.key + "."):
             continue  # of two keys that cause it together, the one that the case leaves out
         told_of, told = place.key if place else "", what
-        fields.append((_text(place) or field, what))
+        fields.append((_written(place) or field, what))
     return ServerError(error.code, error.message, error.reason, tuple(fields), error.metadata, error.retry_delay)
