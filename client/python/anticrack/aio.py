@@ -10,7 +10,7 @@ from typing import Any, TextIO
 import grpc
 
 from .arrays import Array
-from .case import Case, as_case
+from .case import Case
 from .client import JobState, noted
 from .credentials import Credentials, Path, token_of
 from .progress import Progress
@@ -76,9 +76,8 @@ class AsyncClient:
 
     async def submit(self, case: Case | str | os.PathLike[str], coefficients: Any = None, nodal_forces: Any = None,
                      traces: Sequence[int] = (), bounds: bool = False) -> AsyncJob:
-        case = as_case(case)
-        message = await self._session.submit(case, coefficients, nodal_forces, traces, bounds)
-        return AsyncJob(self._session, message, case, coefficients)
+        message, read = await self._session.submit(case, coefficients, nodal_forces, traces, bounds)
+        return AsyncJob(self._session, message, read, coefficients)
 
     async def run(self, case: Case | str | os.PathLike[str], coefficients: Any = None, nodal_forces: Any = None,
                   traces: Sequence[int] = (), progress: bool = False, bounds: bool = False) -> Result:

@@ -4,7 +4,6 @@ numpy would read as something else than it means - masked entries, units, times,
 from __future__ import annotations
 
 import contextlib
-import math
 import numbers
 import os
 from collections.abc import Callable, Iterator, Mapping, Set
@@ -33,14 +32,6 @@ def is_array(value: Any) -> bool:
 def is_number(value: Any) -> bool:
     """A real one of Python or numpy."""
     return isinstance(value, numbers.Real) and not isinstance(value, (bool, np.timedelta64))
-
-
-def as_float(value: Any) -> float:
-    """Of a number; infinite where there is none so large."""
-    try:
-        return float(value)
-    except OverflowError:
-        return math.inf
 
 
 def array_of(values: Any, wanted: tuple[str | int, ...], fail: Fail, whole: bool = False,

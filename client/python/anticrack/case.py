@@ -4,23 +4,18 @@ keys, their meaning and their defaults are those of the guide. Lengths, forces a
 A point is (x, y), points are a list of them or an array (n, 2). What is None is left to the default."""
 from __future__ import annotations
 
-import copy
 import os
 import pathlib
 import tomllib
-import warnings
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 from .arrays import Array, is_array
 from .errors import CaseError
 from .msh import Msh
-from .sections import shown
-from .text import listed, short, without_numpy
-from .translate import Requests, requests_of
+from .text import listed, short, shown, without_numpy
 
-T = TypeVar("T")
 Point = Sequence[float]
 Points = Sequence[Point] | Array
 Part = tuple[Point, Point]
@@ -30,33 +25,22 @@ _KEYS = {"start": "from", "end": "to", "interfaces": "interface", "inclusions": 
          "regions": "region", "holes": "hole"}
 
 
-def _table(record: Any, keys: Mapping[str, str] = _KEYS) -> dict[str, Any]:
-    """Of TOML: what is None or empty is left out."""
-    out: dict[str, Any] = {}
-    for entry in fields(record):
-        value = getattr(record, entry.name)
-        if isinstance(value, (list, tuple)):
-            value = [item.table() if isinstance(item, _Table) else item for item in value]
-        if value is not None and not (isinstance(value, (list, dict)) and not value):
-            out[keys.get(entry.name, entry.name)] = value
-    return out
-
-
-def _list_of(values: Any, kind: type[T], key: str, example: str) -> list[T]:
-    """Raises CaseError where something else is in it."""
-    if isinstance(values, (str, Mapping, _Table)) or not isinstance(values, Iterable):
-        raise CaseError(f"{key}: {shown(values)} is not a list; write [{example}]")
-    items = list(values)
-    for i, item in enumerate(items):
-        if not isinstance(item, kind):
-            raise CaseError(f"{key}.{i}: {shown(item)} is not of the class {kind.__name__}; write {example}")
-    return items
+def tables_of(value: Any) -> Any:
+    """The objects below as tables, wherever they are in it."""
+    if isinstance(value, (list, tuple)):
+        return [tables_of(item) for item in value]
+    if isinstance(value, dict):
+        return {key: tables_of(item) for key, item in value.items()}
+    return value.table() if isinstance(value, _Table) else value
 
 
 class _Table:
-    def table(self) -> dict[str, Any]:
-        """As in TOML."""
-        return _table(self)
+    def table(self, keys: Mapping[str, str] = _KEYS) -> dict[str, Any]:
+        """As in TOML; what is None or empty is left out."""
+        entries = fields(self)  # type: ignore[arg-type]
+        out = {keys.get(entry.name, entry.name): tables_of(getattr(self, entry.name)) for entry in entries}
+        return {key: value for key, value in out.items()
+                if value is not None and not (isinstance(value, (list, dict)) and not value)}
 
     def __repr__(self) -> str:
         """What is given; long values are cut."""
@@ -156,15 +140,6 @@ class Geometry(_Table):
     neumann: Sequence[Part | str] | str | None = None
     holes: list[Hole] = field(default_factory=list)
 
-    def table(self) -> dict[str, Any]:
-        for name, kind, example in (("interfaces", Interface, "Interface(points)"),
-                                    ("inclusions", Inclusion, "Inclusion(name, points=points)"),
-                                    ("cracks", Crack, "Crack(name, points=points)"),
-                                    ("regions", Region, "Region(name, at=(x, y))"),
-                                    ("holes", Hole, "Hole(points=points)")):
-            _list_of(getattr(self, name), kind, f"geometry.{_KEYS[name]}", example)
-        return _table(self)
-
 
 @dataclass(repr=False)
 class Mesh(_Table):
@@ -185,15 +160,13 @@ class Mesh(_Table):
     tension: Mapping[str, Tension] | None = None
     inclusions: Mapping[str, Mapping[str, Any]] | None = None
 
-    def table(self) -> dict[str, Any]:
-        out = _table(self, {})
+    def table(self, keys: Mapping[str, str] = _KEYS) -> dict[str, Any]:
+        out = super().table({})
         groups = {toml: out.pop(name) for name, toml in (("curves", "curve"), ("surfaces", "surface")) if name in out}
         if groups:
             out["groups"] = groups
         if isinstance(self.file, Msh):
             out["file"] = self.file.to_bytes()
-        elif isinstance(self.file, os.PathLike):
-            out["file"] = os.fspath(self.file)
         return out
 
 
@@ -211,23 +184,18 @@ class Load(_Table):
     inclusion_forces: Mapping[str, float] | None = None
     inclusion_moments: Mapping[str, Point] | None = None
 
-    def table(self) -> dict[str, Any]:
-        out = _table(self)
+    def table(self, keys: Mapping[str, str] = _KEYS) -> dict[str, Any]:
+        out = super().table(keys)
         per = out.pop("per", None)
-        if is_array(self.f):
-            out["f"] = {"values": self.f, **({"per": per} if per else {})}
-        elif per is not None:
-            raise CaseError(f"load {self.name}: per goes with an array of values")
-        if self.point_forces is not None:
-            out["point_forces"] = [{"at": at, "value": value} for at, value in self._pairs()]
-        return out
-
-    def _pairs(self) -> list[tuple[Any, Any]]:
+        if per is not None or is_array(self.f):
+            out["f"] = {"values": self.f, "per": per}
         try:
-            return [(at, value) for at, value in self.point_forces or ()]
+            if self.point_forces is not None:
+                out["point_forces"] = [{"at": at, "value": value} for at, value in self.point_forces]
         except (TypeError, ValueError):
             raise CaseError(f"load {self.name}: point_forces: {shown(self.point_forces)} is not a list of points and "
                             "forces; write [((x, y), force), ...]") from None
+        return out
 
 
 @dataclass(repr=False)
@@ -236,8 +204,8 @@ class ActiveSet(_Table):
     tolerance: float | None = None
     max_steps: int | None = None
 
-    def table(self) -> dict[str, Any]:
-        return {"method": "active-set", **_table(self)}
+    def table(self, keys: Mapping[str, str] = _KEYS) -> dict[str, Any]:
+        return {"method": "active-set", **super().table(keys)}
 
 
 @dataclass(repr=False)
@@ -250,8 +218,8 @@ class Uzawa(_Table):
     mass: str | None = None
     kkt_tolerance: float | None = None
 
-    def table(self) -> dict[str, Any]:
-        return {"method": "uzawa", **_table(self)}
+    def table(self, keys: Mapping[str, str] = _KEYS) -> dict[str, Any]:
+        return {"method": "uzawa", **super().table(keys)}
 
 
 @dataclass(kw_only=True, repr=False)
@@ -284,20 +252,12 @@ class Case:
         """fields: keep u on every node, to draw the membrane. bounds: of the error of each answer. Timeouts are
         seconds, or text such as "2h"."""
         job = {"priority": priority, "queue_timeout": queue_timeout, "run_timeout": run_timeout}
-        records = {"geometry": (geometry, (Geometry,), "Geometry(boundary), or Case.read(path) of a file"),
-                   "mesh": (mesh, (Mesh,), "Mesh(size=0.1)"),
-                   "solver": (solver, (ActiveSet, Uzawa), "ActiveSet() or Uzawa()"),
-                   "accuracy": (accuracy, (Accuracy,), "Accuracy(energy=1e-3) or Accuracy(A=1e-3)"),
-                   "units": (units, (Units,), 'Units("mm", "N")')}
-        for key, (record, kinds, example) in records.items():
-            if record is not None and not isinstance(record, kinds):
-                raise CaseError(f"{key}: {shown(record)} is not possible; write {example}")
         tables: dict[str, Any] = {
-            "title": title or None, **{key: record and record.table() for key, (record, *_) in records.items()},
-            "load": [load.table() for load in _list_of(loads, Load, "load", "Load(name, f)")] or None,
+            "title": title or None, "geometry": geometry, "mesh": mesh, "solver": solver, "accuracy": accuracy,
+            "units": units, "load": loads if isinstance(loads, _Table) else list(loads) or None,
             "output": {"fields": fields, "bounds": bounds} if fields or not bounds else None,
             "job": {key: value for key, value in job.items() if value is not None} or None}
-        self.tables = {key: value for key, value in tables.items() if value is not None}
+        self.tables = tables_of({key: value for key, value in tables.items() if value is not None})
         self.text, self.source, self.folder = "", "", pathlib.Path()
 
     @classmethod
@@ -335,20 +295,6 @@ class Case:
                 raise AttributeError(f"case.{name} cannot be set: the case is built; change case.tables, which has "
                                      f"{listed(self.tables)}, or build another Case", name=name, obj=self)
             super().__setattr__(name, value)
-
-    def copy(self) -> Case:
-        return copy.deepcopy(self)
-
-    def requests(self, loads_needed: bool = True, sweep: bool = False) -> Requests:
-        """For the server; raises CaseError. sweep: leaves the accuracy out, and the coarse mesh that only it would
-        begin on."""
-        tables = self.tables
-        if sweep and "accuracy" in tables:
-            warnings.warn("[accuracy] is not used: a sweep has one mesh, of mesh.size; bounds=True tells how far each "
-                          "row is from the membrane. For closer bounds take a smaller mesh.size, or make few rows "
-                          "loads of a case")
-            tables = {key: table for key, table in tables.items() if key != "accuracy"}
-        return requests_of(tables, self.source, self.folder, loads_needed)
 
 
 def as_case(case: Case | str | os.PathLike[str]) -> Case:

@@ -8,12 +8,12 @@ from collections.abc import Iterator, Sequence
 from typing import Any, TextIO
 
 from .arrays import Array
-from .case import Case, as_case
+from .case import Case
 from .credentials import Credentials, Path, token_of
 from .errors import ServerError, of_status
 from .notes import notes_on
-from .places import in_terms_of
 from .progress import Progress
+from .reading import ReadCase, in_terms_of, places_of
 from .result import Result
 from .retry import Backoff
 from .session import ENDED, Session, session_of_own, session_to
@@ -26,7 +26,7 @@ from .v1 import mesh_pb2, server_pb2, solve_pb2
 class JobState:
     """A job as it was last heard of: `message`, see Job in solve.proto."""
 
-    def __init__(self, session: Session, message: solve_pb2.Job, case: Case | None = None,
+    def __init__(self, session: Session, message: solve_pb2.Job, case: ReadCase | None = None,
                  coefficients: Any = None) -> None:
         self.message = message
         self._session, self._case = session, case
@@ -53,9 +53,8 @@ class JobState:
         """Of one that failed."""
         if not self.message.HasField("error"):
             return None
-        error, loads = of_status(self.message.error), [{"name": load.name} for load in self.message.load_cases]
-        return in_terms_of(self._case.source, self._case.tables, error) if self._case else (
-            in_terms_of("", {"load": loads}, error))
+        return in_terms_of(self._case.places if self._case else places_of(self.message),
+                           of_status(self.message.error))
 
     async def _result(self) -> Result:
         if self.message.result_state != solve_pb2.Job.RESULT_STATE_AVAILABLE:
@@ -131,9 +130,8 @@ class Client:
         A sweep solves a load case for every row of coefficients (rows, loads), a DataFrame or an array in the order of
         the loads, or of nodal_forces (rows, nodes): f on the mesh's nodes. traces: rows whose traces are kept.
         bounds: of the energy and of every A in each row, which then takes as long as a load case."""
-        case = as_case(case)
-        message = finished(self._session.submit(case, coefficients, nodal_forces, traces, bounds))
-        return Job(self._session, message, case, coefficients)
+        message, read = finished(self._session.submit(case, coefficients, nodal_forces, traces, bounds))
+        return Job(self._session, message, read, coefficients)
 
     def run(self, case: Case | str | os.PathLike[str], coefficients: Any = None, nodal_forces: Any = None,
             traces: Sequence[int] = (), progress: bool = True, bounds: bool = False) -> Result:

@@ -16,7 +16,7 @@ class Error(Exception):
 
 
 class CaseError(Error, ValueError):
-    """A case that is wrong before the server sees it; the message names the file, the key and the cure."""
+    """A case that is wrong; the message names the file, the key and the cure."""
 
 
 class UnknownName(Error, KeyError):
@@ -53,15 +53,16 @@ class LocalServerError(Error):
 class ServerError(Error):
     """A call, a mesh or a job that the server refused or that failed, or a server that is not there.
 
-    code: gRPC's name, as "NOT_FOUND". reason: see ErrorInfo in error.proto. fields: (path in the request, what is
-    wrong with it). metadata: values named in the message. retry_delay [s]: wait at least this long; 0: none given.
+    code: gRPC's name, as "NOT_FOUND". message: the server's own. reason: see ErrorInfo in error.proto. fields: (path in
+    the request, what is wrong with it). metadata: values named in the message. retry_delay [s]: wait at least this
+    long; 0: none given.
     """
 
     def __init__(self, code: str, message: str, reason: str = "", fields: tuple[tuple[str, str], ...] = (),
                  metadata: dict[str, str] | None = None, retry_delay: float = 0) -> None:
         lines = [f"{path}: {what}" for path, what in fields]
         super().__init__(harmless("\n".join(lines) or message, "\n"))
-        self.code, self.reason, self.fields = code, reason, fields
+        self.code, self.message, self.reason, self.fields = code, harmless(message, "\n"), reason, fields
         self.metadata, self.retry_delay = metadata or {}, retry_delay
 
     @property

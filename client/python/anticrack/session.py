@@ -7,7 +7,6 @@ import functools
 import hashlib
 import logging
 import os
-import pathlib
 import uuid
 from collections.abc import AsyncIterator, Callable, Iterator, Sequence
 from typing import Any
@@ -17,13 +16,12 @@ from .blocks import BlockReceiver
 from .case import Case, as_case
 from .credentials import Credentials, Path, address_of
 from .errors import CaseError, ServerError, of_status
-from .places import in_terms_of
 from .private_server import Server
 from .proxies import remark
+from .reading import Question, ReadCase, in_terms_of
 from .result import Result
 from .retry import Backoff
 from .sweeps import sweep_of
-from .translate import Requests
 from .transport import Transport
 from .v1 import mesh_pb2, server_pb2, solve_pb2, upload_pb2
 
@@ -134,40 +132,53 @@ class Session:
             names += [made.name for made in (await self._tried(self.transport.upload, parts)).uploads]
         return names
 
-    async def _create_mesh(self, requests: Requests) -> mesh_pb2.Mesh:
-        if requests.msh is not None:
-            content = requests.msh if isinstance(requests.msh, bytes) else _content(requests.msh)
-            requests.mesh.upload = (await self.upload([content], upload_pb2.Upload.KIND_MSH))[0]
-        return await self.call(self.transport.meshes.CreateMesh, requests.mesh)  # type: ignore[no-any-return]
+    async def read(self, case: Case | str | os.PathLike[str], loads_optional: bool = False) -> ReadCase:
+        """Raises CaseError where the case is wrong."""
+        question = Question(as_case(case), loads_optional)
+        try:
+            return ReadCase(question, await self.call(self.transport.cases.ReadCase, question.request))
+        except ServerError as error:
+            if error.reason != "CASE_INVALID":
+                raise
+            raise CaseError(error.message) from None
+
+    async def _create_mesh(self, case: ReadCase) -> mesh_pb2.Mesh:
+        msh = case.msh()
+        if msh is not None:
+            case.mesh.upload = (await self.upload([msh], upload_pb2.Upload.KIND_MSH))[0]
+        return await self.call(self.transport.meshes.CreateMesh, case.mesh)  # type: ignore[no-any-return]
 
     async def mesh_of(self, case: Case | str | os.PathLike[str]) -> mesh_pb2.Mesh:
         """Once it is meshed. Raises ServerError where it cannot be."""
-        case = as_case(case)
-        with _in_terms_of(case):
-            mesh = await self._create_mesh(case.requests(loads_needed=False))
-        mesh = await self.mesh(mesh.name)
-        if mesh.HasField("error"):
-            raise of_status(mesh.error)
+        read = await self.read(case, loads_optional=True)
+        with _in_terms_of(read):
+            mesh = await self._create_mesh(read)
+            read.warn()
+            mesh = await self.mesh(mesh.name)
+            if mesh.HasField("error"):
+                raise of_status(mesh.error)
         return mesh
 
     async def submit(self, case: Case | str | os.PathLike[str], coefficients: Any = None, nodal_forces: Any = None,
-                     traces: Sequence[int] = (), bounds: bool = False) -> solve_pb2.Job:
-        case = as_case(case)
-        requests = case.requests(nodal_forces is None, coefficients is not None or nodal_forces is not None)
-        job = requests.job
-        with _in_terms_of(case):
-            names = await self.upload([values.tobytes() for _, values in requests.arrays],
-                                      upload_pb2.Upload.KIND_ARRAY)
-            for (index, _), name in zip(requests.arrays, names):
+                     traces: Sequence[int] = (), bounds: bool = False) -> tuple[solve_pb2.Job, ReadCase]:
+        read = await self.read(case, nodal_forces is not None)
+        job, arrays = read.job, read.arrays()
+        if coefficients is not None or nodal_forces is not None:
+            read.leave_out_accuracy()
+        with _in_terms_of(read):
+            names = await self.upload([values.tobytes() for _, values in arrays], upload_pb2.Upload.KIND_ARRAY)
+            for (index, _), name in zip(arrays, names):
                 job.load_cases[index].force.array.upload = name
             matrix = sweep_of(job, coefficients, nodal_forces, traces, bounds)
             if matrix is not None:
                 target = job.sweep.coefficients if coefficients is not None else job.sweep.nodal_forces
                 target.upload = (await self.upload([matrix], upload_pb2.Upload.KIND_ARRAY))[0]
-            requests.mesh.for_job = True
-            job.mesh = (await self._create_mesh(requests)).name
+            read.mesh.for_job = True
+            job.mesh = (await self._create_mesh(read)).name
             request = solve_pb2.CreateJobRequest(job=job, request_id=str(uuid.uuid4()))
-            return await self.call(self.transport.jobs.CreateJob, request)  # type: ignore[no-any-return]
+            created = await self.call(self.transport.jobs.CreateJob, request)
+        read.warn()
+        return created, read
 
     async def mesh(self, name: str) -> mesh_pb2.Mesh:
         """Once it is meshed, or has failed."""
@@ -219,12 +230,12 @@ class Session:
 
 
 @contextlib.contextmanager
-def _in_terms_of(case: Case) -> Iterator[None]:
+def _in_terms_of(case: ReadCase) -> Iterator[None]:
     """What the server refuses is told with the case's keys."""
     try:
         yield
     except ServerError as error:
-        raise in_terms_of(case.source, case.tables, error) from None
+        raise in_terms_of(case.places, error) from None
 
 
 def _parts(contents: Sequence[bytes], kind: upload_pb2.Upload.Kind) -> Iterator[upload_pb2.CreateUploadsRequest]:
@@ -233,13 +244,6 @@ def _parts(contents: Sequence[bytes], kind: upload_pb2.Upload.Kind) -> Iterator[
             size=len(content), sha256=hashlib.sha256(content).hexdigest(), kind=kind))
         for begin in range(0, len(content), CHUNK):
             yield upload_pb2.CreateUploadsRequest(chunk=content[begin:begin + CHUNK])
-
-
-def _content(path: pathlib.Path) -> bytes:
-    try:
-        return path.read_bytes()
-    except OSError as error:
-        raise CaseError(f"mesh.file: {path}: {error.strerror}; name a .msh file") from None
 
 
 def session_to(transport: type[Transport], address: str | None, credentials: Credentials, backoff: Backoff) -> Session:

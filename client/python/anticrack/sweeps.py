@@ -8,7 +8,7 @@ from typing import Any, cast
 
 from .arrays import Array, array_of, is_array
 from .errors import CaseError
-from .sections import shown
+from .text import shown
 from .v1 import solve_pb2
 
 

@@ -73,6 +73,15 @@ def short(text: str, most: int = 60) -> str:
     return text if len(text) <= most else text[:most] + "..."
 
 
+def shown(value: Any) -> str:
+    """Of a case, in an error."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if callable(value):
+        return f"the Python function {getattr(value, '__name__', value)}"
+    return short(f"'{value}'" if isinstance(value, str) else str(without_numpy(value)))
+
+
 def counted(count: int, one: str) -> str:
     return f"{count} {one}{'' if count == 1 else 's'}"
 

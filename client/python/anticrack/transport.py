@@ -15,7 +15,7 @@ from .credentials import CHANNEL, Credentials
 from .errors import Error, of_call
 from .private_server import Server
 from .proxies import proxy_for
-from .v1 import mesh_pb2_grpc, server_pb2_grpc, solve_pb2_grpc, upload_pb2_grpc
+from .v1 import case_pb2_grpc, mesh_pb2_grpc, server_pb2_grpc, solve_pb2_grpc, upload_pb2_grpc
 
 T = TypeVar("T")
 DEADLINE = 30.0  # of a try of a unary call [s]
@@ -42,6 +42,7 @@ class Transport:
         self.metadata = credentials.metadata()
         self.channel = (self.calls.insecure_channel(address, self.options) if secrets is None else
                         self.calls.secure_channel(address, secrets, self.options))
+        self.cases: Any = case_pb2_grpc.CaseServiceStub(self.channel)  # type: ignore[no-untyped-call]
         self.meshes: Any = mesh_pb2_grpc.MeshServiceStub(self.channel)  # type: ignore[no-untyped-call]
         self.jobs: Any = solve_pb2_grpc.SolveServiceStub(self.channel)  # type: ignore[no-untyped-call]
         self.server: Any = server_pb2_grpc.ServerServiceStub(self.channel)  # type: ignore[no-untyped-call]
@@ -90,7 +91,7 @@ class Transport:
             call.cancel()
 
     async def close(self) -> None:
-        self.meshes = self.jobs = self.server = self.uploads = _Closed()
+        self.cases = self.meshes = self.jobs = self.server = self.uploads = _Closed()
         await self.answer(self.channel.close())
         self.stop_server()
 

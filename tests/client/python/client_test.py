@@ -50,6 +50,8 @@ class Jobs(unittest.TestCase):
         self.assertEqual(len(load.traces[0].jump), len(result.interfaces[0].s))
         self.assertEqual(sum(len(field.triangles) for field in load.fields), len(result.mesh.triangles))
         self.assertEqual(len(load.indicator), len(result.mesh.triangles))
+        again = self.client.run(Case.parse(result.case), progress=False)
+        self.assertEqual((again.case, again["opening"].energy), (result.case, load.energy))
 
     def test_warn_of_u_that_is_not_small(self):
         loads = [Load("opening", "y > 0 ? 1 : -1"), Load("strong", "y > 0 ? 1000 : -1000")]
@@ -98,11 +100,11 @@ class Jobs(unittest.TestCase):
             self.client.submit(Case(GEOMETRY, [Load("a", "sin(z)")], COARSE))
         self.assertEqual(caught.exception.code, "INVALID_ARGUMENT")
         self.assertTrue(str(caught.exception).startswith("load.a.f: "), caught.exception)
-        for text, said in (("[solver]\nmethod = 'uzawa'\ntheta = -1", "case: solver.theta: "),
-                           ("[mesh]\nsize = 1e-9", "case: mesh.size: "),
-                           ("[[geometry.region]]\nname = 'a b'\nat = [0, 0.5]", "case: geometry.region.a b.name: "),
+        for text, said in (("[solver]\nmethod = 'uzawa'\ntheta = -1", "case:6: solver.theta: "),
+                           ("[mesh]\nsize = 1e-9", "case:5: mesh.size: "),
+                           ("[[geometry.region]]\nname = 'a b'\nat = [0, 0.5]", "case:5: geometry.region.a b.name: "),
                            ("[[geometry.inclusion]]\nname = 'i'\nfrom = [0, 3]\nto = [0, 4]",
-                            "case: geometry.inclusion.i")):
+                            "case:6: geometry.inclusion.i.from: ")):
             case = "[geometry]\nboundary = [[-1,-1], [1,-1], [1,1], [-1,1]]\ninterface = [[-1,0], [1,0]]\n" + text
             with self.assertRaises(anticrack.ServerError, msg=text) as caught:
                 self.client.submit(Case.parse(case + "\n[[load]]\nname = 'a'\nf = 1"))
@@ -110,8 +112,13 @@ class Jobs(unittest.TestCase):
 
     def test_a_region_that_is_not_there_is_named(self):
         geometry = Geometry(GEOMETRY.boundary, regions=[anticrack.Region("sheet", (0, 0.5))])
-        with self.assertRaisesRegex(anticrack.ServerError, "^load.a.f.*shet.*sheet"):
+        with self.assertRaisesRegex(anticrack.CaseError, "^load.a.f.shet: .*sheet"):
             self.client.run(Case(geometry, [Load("a", {"shet": 1})]), progress=False)
+        case = Case(loads=[Load("a", {"shet": 1})], mesh=Mesh(file=EXAMPLES / "plate.msh"))
+        job = self.client.submit(case)  # only the mesher knows the subdomains of a file
+        for found in (job, self.client.job(job.name)):
+            with self.assertRaisesRegex(anticrack.ServerError, "^load.a.f.*shet"):
+                found.wait(progress=False).result()
 
     def test_regions_that_forget_their_tension_are_told(self):
         geometry = Geometry(GEOMETRY.boundary, GEOMETRY.interfaces, regions=[
@@ -127,7 +134,9 @@ class Jobs(unittest.TestCase):
         with self.assertRaises(anticrack.ServerError) as caught:
             self.client.mesh(Case(far))
         self.assertEqual(caught.exception.reason, "GEOMETRY_INVALID")
-        with self.assertRaisesRegex(anticrack.CaseError, r"none.msh: No such file"):
+        with self.assertRaisesRegex(anticrack.ServerError, r"^mesh.groups.curve.77: the file has no curve group 77"):
+            self.client.mesh(Case(mesh=Mesh(file=EXAMPLES / "plate.msh", curves={77: "crack"})))
+        with self.assertRaisesRegex(anticrack.CaseError, r"^mesh.file: none.msh: No such file"):
             self.client.mesh(Case(mesh=Mesh(file="none.msh")))
 
     def test_loads_are_arrays_on_the_mesh(self):

@@ -15,6 +15,7 @@ import h5py
 import anticrack
 from anticrack import output
 from anticrack.proxies import proxy_for
+from cases import read
 from processes import ANTICRACK, FolderTest, run
 
 EXAMPLES = pathlib.Path(os.environ["EXAMPLES"])
@@ -133,7 +134,7 @@ class Save(FolderTest):
                 case[:case.index("[[load]]")] + f'[[load]]\nname = "a"\nf = {{ file = "f.h5", dataset = "{name}", '
                 'per = "node" }\n', encoding="utf-8")
             with self.assertRaisesRegex(anticrack.CaseError, said):
-                anticrack.Case.read(self.folder / "case.toml").requests()
+                read(self.folder / "case.toml").arrays()
 
 
 class Proxies(unittest.TestCase):

@@ -10,7 +10,7 @@ from anticrack.errors import ServerError
 from anticrack.retry import Backoff
 from anticrack.session import Session
 from anticrack.transport import each, finished
-from anticrack.v1 import mesh_pb2, solve_pb2
+from anticrack.v1 import case_pb2, mesh_pb2, solve_pb2
 
 LOST = ServerError("UNAVAILABLE", "Socket closed")
 BUSY = ServerError("RESOURCE_EXHAUSTED", "busy", retry_delay=0.5)
@@ -23,7 +23,7 @@ class Played:
 
     def __init__(self, *script):
         self.script, self.requests, self.slept = list(script), [], []
-        self.jobs = self.meshes = unittest.mock.MagicMock()
+        self.cases = self.jobs = self.meshes = unittest.mock.MagicMock()
         self.proxy = None
 
     def require_alive(self):
@@ -102,11 +102,11 @@ class Calls(unittest.TestCase):
 
     def test_a_job_keeps_its_request_id(self):
         from anticrack import Case, Geometry, Load
-        ours, played = session(mesh_pb2.Mesh(name="meshes/1"), LOST, solve_pb2.Job())
+        ours, played = session(case_pb2.ReadCaseResponse(), mesh_pb2.Mesh(name="meshes/1"), LOST, solve_pb2.Job())
         finished(ours.submit(Case(Geometry([(0, 0), (1, 0), (0, 1)]), [Load("a", 1)])))
-        self.assertEqual(played.requests[1], played.requests[2])
-        self.assertTrue(played.requests[1].request_id)
-        self.assertEqual(played.requests[1].job.mesh, "meshes/1")
+        self.assertEqual(played.requests[2], played.requests[3])
+        self.assertTrue(played.requests[2].request_id)
+        self.assertEqual(played.requests[2].job.mesh, "meshes/1")
 
     def test_what_is_gone_is_deleted(self):
         gone = ServerError("NOT_FOUND", "no such job")
