@@ -33,7 +33,7 @@ constexpr int unknown_number = 4711;
 
 std::vector<const MethodDescriptor*> methods() {
   std::vector<const MethodDescriptor*> found;
-  for (const char* file : {"mesh", "solve", "server"}) {
+  for (const char* file : {"case", "mesh", "solve", "server"}) {
     const auto* described = google::protobuf::DescriptorPool::generated_pool()->FindFileByName(
         std::string("anticrack/v1/") + file + ".proto");
     for (int s = 0; s < described->service_count(); ++s) {

@@ -34,9 +34,13 @@ class Question:
         self.memory: dict[str, Any] = {}
         self.request = case_pb2.ReadCaseRequest(source=harmless(case.source), loads_optional=loads_optional)
         if case.text and repr(case.tables) == repr(tomllib.loads(case.text)):  # equal, and of the same types
-            self.request.toml = case.text.encode("utf-8", "replace").decode()  # of which errors have lines
+            self.request.toml = case.text.encode("utf-8", "replace")  # of which errors have lines
         else:
-            self.request.json = json.dumps(self._sent(tables_of(case.tables), ""), separators=(",", ":"))
+            try:
+                tables = self._sent(tables_of(case.tables), "")
+            except RecursionError:
+                raise self._error("", "a list or table in it holds itself; write what it holds") from None
+            self.request.json = json.dumps(tables, separators=(",", ":")).encode()
 
     def _error(self, key: str, problem: str) -> CaseError:
         return CaseError(": ".join(part for part in (self.case.source, key, problem) if part))
