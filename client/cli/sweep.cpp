@@ -110,10 +110,10 @@ int follow_sweep(Session& session, const Targets& targets, const Case& the_case,
 int sweep(const SweepOptions& options, const Globals& given) {
   const Globals globals = with_outputs(given, {options.output, options.csv});
   const auto begin = std::chrono::steady_clock::now();
-  const Targets targets = check_targets(options);
   Session session(globals);
   Case the_case = read_case(session, options);
   SweepInput input = read_sweep_input(options.files, the_case);
+  const Targets targets = check_targets(options);
   make_sweep(input, client::server_info(session.connection(), session.stop()).limits(), the_case);
   check_mesh(session, the_case, input);
   if (options.detach) {

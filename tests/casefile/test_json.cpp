@@ -63,14 +63,14 @@ TEST(JsonCase, WholeNumbersAreCountsAndOthersAreNot) {
       parse_json(with("\"method\": \"uzawa\"", steps + "7")).job.solver().uzawa().max_iterations(),
       7);
   for (const char* other : {"7.0", "7e0", "-7", "18446744073709551615", "9223372036854775808",
-                            "1e400", "\"7\"", "true", "[7]", "{}"})
+                            "\"7\"", "true", "[7]", "{}"})
     EXPECT_THAT(json_complaint(with("\"method\": \"uzawa\"", steps + other)), HasSubstr("max_iter"))
         << other;
 }
 
 TEST(JsonCase, OtherTextsAreRefused) {
   for (const char* text : {"", "{", "[]", "1", "null", "\"a\"", "{\"a\": 1,}", "{\"a\": NaN}",
-                           "title = 'toml'", "{\"title\": \"\xff\"}", "{}{}"})
+                           "{\"a\": 1e400}", "title = 'toml'", "{\"title\": \"\xff\"}", "{}{}"})
     EXPECT_THAT(json_complaint(text), StartsWith("plate.json: this is no")) << text;
   EXPECT_EQ(json_complaint(with("1.5", "null")),
             "plate.json: solver.theta: null is not possible; leave the key out");

@@ -21,6 +21,7 @@ using errors::Reason;
 TEST(ErrorTable, MapsEveryReason) {
   const std::map<Reason, grpc::StatusCode> expected{
       {Reason::invalid_argument, grpc::StatusCode::INVALID_ARGUMENT},
+      {Reason::case_invalid, grpc::StatusCode::INVALID_ARGUMENT},
       {Reason::geometry_invalid, grpc::StatusCode::INVALID_ARGUMENT},
       {Reason::mesh_invalid, grpc::StatusCode::INVALID_ARGUMENT},
       {Reason::expression_invalid, grpc::StatusCode::INVALID_ARGUMENT},

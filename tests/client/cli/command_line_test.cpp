@@ -154,15 +154,6 @@ TEST(CommandLine, NamesTheCredentialThatCannotBeUsed) {
   EXPECT_THAT(open.error, HasSubstr("arc.toml is not a token"));
 }
 
-TEST(CommandLine, AFlagOfAJobIsTheKeyOfTheCase) {
-  const Ran wrong = run({"run", EXAMPLES "/paper-1.toml", "--priority", "bulky"});
-  EXPECT_EQ(wrong.code, exit_usage);
-  EXPECT_THAT(wrong.error, HasSubstr("job.priority"));
-  EXPECT_THAT(wrong.error, HasSubstr("did you mean bulk?"));
-  EXPECT_THAT(run({"job", "submit", EXAMPLES "/paper-1.toml", "--run-timeout", "0"}).error,
-              HasSubstr("job.run_timeout"));
-}
-
 TEST(CommandLine, AnUnreachableServerIsItsOwnExitCode) {
   const Ran unreachable = run({"--server", "unix:/nonexistent/socket", "server"});
   EXPECT_EQ(unreachable.code, exit_server);

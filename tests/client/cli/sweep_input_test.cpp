@@ -6,10 +6,7 @@
 
 #include <fstream>
 #include <functional>
-#include <utility>
 
-#include "cli/commands.hpp"
-#include "cli/exit_codes.hpp"
 #include "client/sample_sweep.hpp"
 #include "results/file.hpp"
 #include "support/temporary_folder.hpp"
@@ -20,8 +17,6 @@ namespace {
 using anticrack::testing::TemporaryFolder;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using ::testing::internal::CaptureStderr;
-using ::testing::internal::GetCapturedStderr;
 
 Case two_load_case() {
   Case the_case;
@@ -197,43 +192,6 @@ TEST(CheckNodes, WantsAColumnForEachNode) {
   EXPECT_EQ(complaint_of([] { check_nodes(rows_of_two(1), 2); }), "accepted");
   EXPECT_THAT(complaint_of([] { check_nodes(rows_of_two(1), 3); }),
               HasSubstr("c.csv: it has 2 columns, the mesh 3 nodes; write f on every node"));
-}
-
-// No server is there: what is wrong with the input is said before one is asked.
-TEST(SweepCommand, ChecksItsInputBeforeItLooksForAServer) {
-  const TemporaryFolder folder;
-  const auto sweep = [](std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), {"anticrack", "--server", "unix:/no/such/socket", "sweep",
-                                         std::string(EXAMPLES) + "/load-ratio.toml"});
-    std::vector<char*> argv;
-    for (std::string& argument : arguments) {
-      argv.push_back(argument.data());
-    }
-    CaptureStderr();
-    const int code = run_command_line(static_cast<int>(argv.size()), argv.data());
-    return std::pair(code, GetCapturedStderr());
-  };
-  const std::string bad = written(folder, "bad.csv", "skew,opening\n1,x\n");
-  const std::string good = written(folder, "good.csv", "1,2\n");
-  const std::vector<std::pair<std::vector<std::string>, std::string>> table{
-      {{"--coefficients", bad}, "bad.csv:2: column 2: \"x\" is not a number"},
-      {{"--coefficients", folder / "no.csv"}, "no.csv: cannot be read"},
-      {{"--coefficients", good, "-o", folder / "no/a.h5"}, "create the folder first"},
-      {{"--coefficients", good, "-o", folder / "a.h5", "--csv", folder / "no/a.csv"},
-       "create the folder first"},
-      {{"--coefficients", good, "-o", folder / "a.h5", "--set", "solver.method=uzawa"},
-       "a sweep is solved by the active set"},
-      {{"--coefficients", good, "-o", folder / "a.h5", "--csv", folder / "a.h5"},
-       "this is also the result file; name another one"},
-      {{}, "--coefficients"},
-      {{"--coefficients", good, "--nodal", good}, "--nodal"},
-      {{"--coefficients", good, "--detach", "--csv", folder / "a.csv"}, "--detach"},
-  };
-  for (const auto& [arguments, said] : table) {
-    const auto [code, error] = sweep(arguments);
-    EXPECT_EQ(code, exit_usage) << error;
-    EXPECT_THAT(error, HasSubstr(said));
-  }
 }
 
 }  // namespace
