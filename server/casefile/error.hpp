@@ -13,7 +13,7 @@ struct Spot {
   unsigned line = 0;   ///< from 1; 0: no line (a --set, or the whole file)
 };
 
-/// "case.toml:12", without the line where there is none.
+/// "case.toml:12", without the line where there is none; "line 12" of a case without a name.
 std::string where(const Spot& spot);
 
 /// "case.toml:12: solver.theta: ", without the parts that are unknown.

@@ -25,7 +25,8 @@ std::string entry_key(const std::string& list, std::size_t index) {
 }
 
 std::string where(const Spot& spot) {
-  return spot.line > 0 ? spot.source + ":" + std::to_string(spot.line) : spot.source;
+  if (spot.line == 0) return spot.source;
+  return (spot.source.empty() ? "line " : spot.source + ":") + std::to_string(spot.line);
 }
 
 std::string prefix(const Spot& spot) {

@@ -40,7 +40,7 @@ class Admission {
 /// asks the store may wait for a writer:
 ///   lookups  what reads records, blocks and the beginning of a watch
 ///   changes  what waits for the disk: creations, uploads, deletions, cancels
-///   cases    what reads texts, one at a time: a case of 4 MB takes some 300 MB of memory as tables
+///   cases    what reads texts, one at a time: a case of 4 MB takes some 400 MB of memory as tables
 ///   hub      the messages of all watches, which take half a processor where they are many
 struct Edge {
   Edge(const ServerOptions& options, const Backend& to)

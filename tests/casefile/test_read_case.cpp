@@ -43,6 +43,13 @@ TEST(ReadCase, GivesTheRequestsAndThePlacesOfTheirFields) {
   EXPECT_EQ(place.key(), "load.two.f");
 }
 
+TEST(ReadCase, OfACaseWithoutANameTellsTheLine) {
+  v1::ReadCaseRequest request = asked(sample_with("theta", "thetta"));
+  request.clear_source();
+  EXPECT_STREQ(refusal(request)->what(),
+               "line 13: solver.thetta: unknown key; did you mean theta?");
+}
+
 TEST(ReadCase, NamesWhatTheClientUploads) {
   v1::ReadCaseRequest request = asked(
       "mesh.file = \"sub/x.msh\"\n[[load]]\nname = \"a\"\nf = 1\n[[load]]\nname = \"b\"\n"

@@ -39,8 +39,8 @@ FILES = {
                 *(f"usr/lib/cmake/anticrack/anticrack-{part}.cmake"
                   for part in ("config", "config-version", "targets", "targets-release")),
                 *(f"usr/include/anticrack/client/{part}.hpp" for part in
-                  ("block", "connection", "credentials", "error", "jobs", "meshes", "retry", "uuid")),
-                *(f"usr/include/anticrack/v1/{part}.{kind}.h" for part in ("error", "mesh", "server", "solve", "upload")
+                  ("block", "cases", "connection", "credentials", "error", "jobs", "meshes", "retry", "uuid")),
+                *(f"usr/include/anticrack/v1/{part}.{kind}.h" for part in ("case", "error", "mesh", "server", "solve", "upload")
                   for kind in ("pb", "grpc.pb")),
                 f"{SHARE}/anticrack/examples/library/CMakeLists.txt", f"{SHARE}/anticrack/examples/library/main.cpp",
                 f"{DOC}/libanticrack-dev/copyright", f"{DOC}/libanticrack-dev/changelog.gz"],
