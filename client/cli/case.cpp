@@ -9,12 +9,27 @@
 
 #include "cli/text.hpp"
 #include "client/cases.hpp"
+#include "client/jobs.hpp"
 #include "words/nearest_field.hpp"
 
 namespace anticrack::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Asks for the server's limit where a text is near it.
+void check_size(Session& session, const fs::path& path) {
+  constexpr std::uintmax_t near = 1 << 20;
+  std::error_code none;  // of a pipe
+  const std::uintmax_t size = fs::file_size(path, none);
+  if (none || size < near) return;
+  const std::uint32_t most =
+      client::server_info(session.connection(), session.stop()).limits().message_bytes();
+  if (size < most) return;
+  throw CaseError(path.string(), "its " + bytes(size) + " are more than the server takes, " +
+                                     bytes(most) +
+                                     "; write fewer points, or the mesh in a .msh file");
+}
 
 std::string text_of(const fs::path& path) {
   constexpr const char* cure = "; name a case, a TOML file";
@@ -63,6 +78,7 @@ std::string told(const v1::CasePlace& place) {
 
 Case read_case(Session& session, const fs::path& path, const std::vector<std::string>& overrides,
                Loads loads, const std::vector<std::string>& only) {
+  check_size(session, path);
   v1::ReadCaseRequest request;
   request.set_toml(text_of(path));
   request.set_source(sanitise(path.string()));

@@ -36,6 +36,7 @@ def make_files(folder):
         (folder / name).write_text(text, encoding="utf-8")
     (folder / "binary.toml").write_bytes(b"\x00\x01\x02\xfe\xff")
     (folder / "latin.toml").write_bytes('title = "Böschung"\n'.encode("latin-1"))
+    (folder / "large.toml").write_text("# " + 5_000_000 * "a" + "\n" + wrong_cases.GOOD, encoding="utf-8")
     (folder / "folder").mkdir()
     with h5py.File(folder / "plain.h5", "w") as file:
         file["vector"] = numpy.ones(3)

@@ -109,6 +109,8 @@ COMMANDS = [
     ("run empty.toml", 2,
      "empty.toml: geometry: missing; write [geometry] with boundary and interface, or mesh.file = "
      '"x.msh"'),
+    ("run large.toml", 2,
+     "large.toml: its 5 MB are more than the server takes, 4.19 MB; write fewer points, or the mesh in a .msh file"),
     ("run binary.toml", 2,
      "binary.toml: this is not text; name a case, a TOML file"),
     ("run latin.toml", 2,
