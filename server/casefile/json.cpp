@@ -23,8 +23,9 @@ class Reader {
   toml::table table(const Json& object, const std::string& key, int depth) const {
     toml::table made;
     for (const auto& [name, value] : object.items()) {
-      add(value, key.empty() ? name : key + "." + name, depth,
-          [&](auto&& node) { made.insert(name, std::forward<decltype(node)>(node)); });
+      add(value, key.empty() ? name : key + "." + name, depth, [&, &key_of_it = name](auto&& node) {
+        made.insert(key_of_it, std::forward<decltype(node)>(node));
+      });
     }
     return made;
   }
