@@ -72,8 +72,9 @@ std::string roots_of(const Credentials& credentials) {
 
 std::string tls_cure(const std::string& address, const Credentials& credentials,
                      std::string_view story) {
-  // What OpenSSL sometimes reports for a signature by another authority of the same name.
-  const bool no_signature = has(story, "asn1 encoding routines") && has(story, "EVP lib");
+  // What OpenSSL sometimes reports for a signature by another authority of the same name: 3.0, 3.5.
+  const bool no_signature = (has(story, "asn1 encoding routines") && has(story, "EVP lib")) ||
+                            has(story, "provider signature failure");
   if (no_signature || has(story, "CERTIFICATE_VERIFY_FAILED") ||
       has(story, "certificate verify failed")) {
     return "the certificate of " + address + " is not signed by " + roots_of(credentials) +

@@ -137,8 +137,8 @@ class Session:
         question = Question(as_case(case), loads_optional)
         size = question.request.ByteSize()
         if size >= CHUNK and size > (most := (await self.info()).limits.message_bytes):
-            raise CaseError(f"{question.case.source or 'the case'}: its {size / 1e6:.3g} MB are more than the server takes, "
-                            f"{most / 1e6:.3g} MB; write fewer points, or the mesh in a .msh file")
+            raise CaseError(f"{question.case.source or 'the case'}: its {size / 1e6:.3g} MB are more than the server "
+                            f"takes, {most / 1e6:.3g} MB; write fewer points, or the mesh in a .msh file")
         try:
             return ReadCase(question, await self.call(self.transport.cases.ReadCase, question.request))
         except ServerError as error:

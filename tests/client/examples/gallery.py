@@ -4,6 +4,7 @@ like the project's root, and what they answer is checked by test_NAME (with "_" 
 import math
 import os
 import pathlib
+import platform
 import re
 import shutil
 
@@ -55,10 +56,13 @@ class GalleryTest(FolderTest):
             self.assertLessEqual({name + ".png", name + ".svg"}, drawn)
 
     def assert_told(self, *told):
-        """What the opening says is what comes out, within one of its last digit: pairs of a number's text and value."""
+        """What the opening says is what comes out, within one of its last digit: pairs of a number's text and value.
+        The figures are of Debian 12: another gmsh makes other meshes."""
+        elsewhere = 0 if platform.freedesktop_os_release().get("VERSION_ID") == "12" else 5e-3
         for text, value in told:
             self.assertRegex(self.words, rf"(?<![\d.]){re.escape(text)}(?!\d)")
-            self.assertLessEqual(abs(value - float(text)), 1.001 * 10.0 ** -len(text.partition(".")[2]), text)
+            digit = 1.001 * 10.0 ** -len(text.partition(".")[2])
+            self.assertLessEqual(abs(value - float(text)), max(digit, elsewhere * abs(value)), text)
 
     def assert_close(self, value, exact, relative):
         self.assertLess(abs(value - exact), relative * abs(exact), f"{value} should be {exact}")
