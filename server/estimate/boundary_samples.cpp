@@ -109,7 +109,7 @@ class Line {
     const int first = degree * (degree + 1) / 2;
     for (int j = 0; j <= degree; ++j) {
       const double factor = std::pow(_along[0], degree - j) * std::pow(_along[1], j);
-      sum = sum + factor * jet.of[static_cast<std::size_t>(first + j)];
+      sum = sum + factor * jet.of[static_cast<std::size_t>(first) + static_cast<std::size_t>(j)];
     }
     return sum;
   }
