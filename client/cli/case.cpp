@@ -54,7 +54,7 @@ Case case_of(Session& session, const v1::ReadCaseRequest& request, const fs::pat
     throw;
   }
   Case made;
-  made.text = read.toml().empty() ? request.toml() : std::move(*read.mutable_toml());
+  made.text = read.toml().empty() ? request.toml() : read.toml();
   if (!read.mesh_file().empty()) made.mesh_file = folder / read.mesh_file();
   made.mesh = std::move(*read.mutable_mesh());
   made.job = std::move(*read.mutable_job());

@@ -91,8 +91,10 @@ std::vector<std::string> EveryLook::after() const {
 }  // namespace anticrack::testing
 
 // The linker passes calls of stop::look() to the first; the second is stop::look() (ld --wrap).
+// NOLINTBEGIN(bugprone-reserved-identifier): the linker makes these names
 extern "C" void __real__ZN9anticrack4stop4lookEPKcm(const char* doing, std::size_t done);
 extern "C" void __wrap__ZN9anticrack4stop4lookEPKcm(const char* doing, std::size_t done) {
   anticrack::testing::hear(doing);
   __real__ZN9anticrack4stop4lookEPKcm(doing, done);
 }
+// NOLINTEND(bugprone-reserved-identifier)
