@@ -7,13 +7,12 @@ In a document `jobs/ID` and `meshes/ID` stand for the last one that a command pr
 comment of a command for how it ends (0 otherwise)."""
 import os
 import pathlib
-import platform
 import re
 import subprocess
 import sys
 import tomllib
 
-from processes import FolderTest
+from processes import DEBIAN_12, FolderTest
 
 PROJECT = pathlib.Path(os.environ["PROJECT"])
 BIN = pathlib.Path(os.environ["BIN"])
@@ -111,7 +110,7 @@ class Commands(FolderTest):
         ended = subprocess.run(["bash", "-c", "\n".join(script)], cwd=project, env=environment, text=True,
                                capture_output=True, check=False)
         self.assertEqual((ended.returncode, ended.stderr), (0, ""))
-        if platform.freedesktop_os_release().get("VERSION_ID") != "12":
+        if not DEBIAN_12:
             return  # the figures are of its gmsh
         printed = pathlib.Path(environment["OUTPUT"]).read_text(encoding="utf-8").splitlines()
         shown = {steady(line) for line in printed}

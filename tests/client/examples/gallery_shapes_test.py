@@ -7,6 +7,7 @@ import numpy
 
 import slit_series
 from gallery import LIMITS, GalleryTest, rectangle
+from processes import DEBIAN_12
 
 
 def sheared_fibre(angle, a):
@@ -106,7 +107,7 @@ class Shapes(GalleryTest):
         w, height, a = 1, 3, 0.25
         c = height / (height - 2 * w / math.pi * math.log(math.cos(math.pi * a / (2 * w))))
         exact = c * 4 * w / math.pi * math.acosh(1 / math.cos(math.pi * a / (2 * w)))
-        self.assert_close(answers.opens("sheared")[0], exact, 8e-3)
+        self.assert_close(answers.opens("sheared")[0], exact, 6e-3 if DEBIAN_12 else 8e-3)
         self.assert_told(("0.5026", answers.opens("sheared")[0]), ("0.5049", exact))
         jumps = [answers.traces(load)["jump"] for load in ("sheared", "reversed")]
         self.assertLess(numpy.abs(jumps[0] + jumps[1]).max(), 1e-12)
@@ -259,7 +260,7 @@ class Shapes(GalleryTest):
         # shut: both loads are odd in y, so u = 0 on y = 0; skew is 1 and -1 on two unit squares
         squares = 2 * 0.0351443
         self.assertLess(numpy.abs(moved[c < -0.81]).max(), 1e-5)
-        self.assertGreater(contact[c < -0.81].min(), 1 - 1e-5)
+        self.assertGreater(contact[c < -0.81].min(), 1 - (1e-6 if DEBIAN_12 else 1e-5))
         self.assert_close(sweep["energy"][0], -(squares + rectangle()), 0.01)
         # open: A goes with c like that of Example 3
         self.assertEqual(contact[c > 0.29].max(), 0)

@@ -2,13 +2,12 @@
 """The package itself: types, style, what an import brings along, and a wheel that is installed and used."""
 import os
 import pathlib
-import platform
 import shutil
 import sys
 import unittest
 
 import anticrack
-from processes import ANTICRACK, ANTICRACKD, FolderTest, run
+from processes import ANTICRACK, ANTICRACKD, DEBIAN_12, FolderTest, run
 
 PACKAGE = pathlib.Path(os.environ["PACKAGE"])
 EXAMPLES = pathlib.Path(os.environ["EXAMPLES"])
@@ -46,8 +45,7 @@ class Wheel(FolderTest):
 
 
 class Code(FolderTest):
-    @unittest.skipUnless(platform.freedesktop_os_release().get("VERSION_ID") == "12",
-                         "it is written for the stubs that Debian 12 has of numpy and matplotlib")
+    @unittest.skipUnless(DEBIAN_12, "it is written for the stubs that Debian 12 has of numpy and matplotlib")
     def test_types(self):
         for what in (("-p", "anticrack"), *((str(path),) for path in sorted(EXAMPLES.glob("*.py")))):
             ended = run(sys.executable, "-m", "mypy", "--config-file", PACKAGE / "pyproject.toml", "--cache-dir",
