@@ -4,9 +4,11 @@
 // calls only: early_check.cpp asks before any library is set up.
 #pragma once
 
+#include <openblas_config.h>
 #include <sys/resource.h>
 
 #include <cstdint>
+#include <string_view>
 
 namespace anticrack::app {
 
@@ -25,12 +27,14 @@ inline std::uint64_t address_space_of_a_thread() noexcept {
   return (limited ? stack.rlim_cur : usual) + other;
 }
 
-/// A buffer of OpenBLAS; a thread that multiplies matrices has one, and waits for it for ever where
-/// there is no room.
-constexpr std::uint64_t blas_buffer = 32ULL << 20;
+/// A buffer of OpenBLAS: 32 MiB in Debian 12, 128 MiB in Debian 13. A thread that multiplies
+/// matrices has one, and waits for it for ever where there is no room.
+constexpr std::uint64_t blas_buffer =
+    (std::string_view(OPENBLAS_VERSION).find(" 0.3.21 ") == std::string_view::npos ? 128ULL : 32ULL)
+    << 20;
 
 /// Until main() begins: programs and libraries, and the threads that OpenBLAS starts, one for each
-/// processor. Measured with two: 235 MiB.
+/// processor. Measured with two: 235 MiB in Debian 12, 370 MiB in Debian 13.
 inline std::uint64_t address_space_to_load(std::uint64_t processors) noexcept {
   constexpr std::uint64_t libraries = 192ULL << 20;
   return libraries + processors * (address_space_of_a_thread() + blas_buffer);

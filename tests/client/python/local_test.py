@@ -71,7 +71,7 @@ class Local(FolderTest):
 
     def start(self, rest):
         """A program that has a client, and its server."""
-        program = subprocess.Popen([sys.executable, "-c", PROGRAM + rest], text=True, stdout=subprocess.PIPE,
+        program = subprocess.Popen([sys.executable, "-Wignore", "-c", PROGRAM + rest], text=True, stdout=subprocess.PIPE,
                                    stderr=subprocess.PIPE)
         self.addCleanup(program.communicate)
         self.addCleanup(program.kill)
