@@ -66,8 +66,7 @@ std::vector<char> NestedStart::closed(const VectorXd& r, const VectorXd& magnitu
     const Level& level = _levels[k];
     LcpOptions options;
     options.max_steps = most_steps;
-    const LcpAnswer answer = level.lcp.solve(loads[k].first, loads[k].second, options, start,
-                                             [](const LcpStep&) { return true; });
+    const LcpAnswer answer = level.lcp.solve(loads[k].first, loads[k].second, options, start);
     if (answer.status != LcpStatus::solved) return {};
     const VectorXd jump = level.prolongation * answer.d;
     start.resize(at(jump.size()));

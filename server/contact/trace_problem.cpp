@@ -152,6 +152,19 @@ std::vector<std::vector<std::int32_t>> find_carriers(const ddm::Decomposition& d
   return result;
 }
 
+template <class OfTrace>
+Eigen::VectorXd gather_traces(const ddm::Decomposition& decomposition, std::size_t subdomains,
+                              const OfTrace& of_trace) {
+  Eigen::VectorXd sum =
+      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(decomposition.skeleton.unknowns));
+  for (std::size_t s = 0; s < subdomains; ++s) {
+    const std::vector<std::int32_t>& unknown = decomposition.subdomains[s].unknown;
+    const Eigen::VectorXd& force = of_trace(s);
+    for (Eigen::Index i = 0; i < force.size(); ++i) sum[unknown[at(i)]] += force[i];
+  }
+  return sum;
+}
+
 }  // namespace
 
 TraceProblem::TraceProblem(const ddm::Decomposition& decomposition,
@@ -164,6 +177,26 @@ TraceProblem::TraceProblem(const ddm::Decomposition& decomposition,
       _pair_forces(decomposition, _lumped),
       _carriers(find_carriers(decomposition)),
       _uzawa(uzawa) {}
+
+Eigen::VectorXd TraceProblem::gather(std::span<const Eigen::VectorXd> on_traces) const {
+  return gather_traces(_decomposition, on_traces.size(),
+                       [&](std::size_t s) -> const Eigen::VectorXd& { return on_traces[s]; });
+}
+
+Eigen::VectorXd TraceProblem::gather(std::span<const ddm::CondensedLoad> loads) const {
+  return gather_traces(_decomposition, loads.size(),
+                       [&](std::size_t s) -> const Eigen::VectorXd& { return loads[s].g; });
+}
+
+std::vector<Eigen::VectorXd> TraceProblem::scatter(const Eigen::VectorXd& w) const {
+  std::vector<Eigen::VectorXd> traces;
+  traces.reserve(_decomposition.subdomains.size());
+  for (const ddm::Subdomain& subdomain : _decomposition.subdomains) {
+    Eigen::VectorXd& trace = traces.emplace_back(static_cast<Eigen::Index>(subdomain.trace));
+    for (Eigen::Index i = 0; i < trace.size(); ++i) trace[i] = w[subdomain.unknown[at(i)]];
+  }
+  return traces;
+}
 
 double TraceProblem::theta_star(Mass mass) const {
   if (!_uzawa) return 0;
