@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "contact/dense.hpp"
-#include "contact/open_membrane.hpp"
 #include "errors/errors.hpp"
 #include "mesh/at.hpp"
 #include "stop/stop.hpp"
@@ -28,27 +27,6 @@ MatrixXd join(const ddm::Decomposition& decomposition,
       for (Index i = 0; i < schur.rows(); ++i) k(unknown[at(i)], unknown[at(j)]) += schur(i, j);
   }
   return k;
-}
-
-/// Contacts in the order of the nodes of their interface; one that several interfaces share is with
-/// the first of them.
-std::vector<std::vector<Index>> chains(const ddm::Decomposition& decomposition) {
-  std::vector<std::vector<Index>> result;
-  std::vector<char> seen(decomposition.skeleton.independent, 0);
-  for (const std::vector<ddm::SidePair>& sides : decomposition.interface_sides) {
-    result.emplace_back();
-    for (const ddm::SidePair& side : sides) {
-      const std::int32_t contact = side.pair < 0 ? -1 : decomposition.pairs[at(side.pair)].contact;
-      if (at(contact) >= decomposition.skeleton.independent && contact >= 0) continue;
-      if (contact < 0) {  // tied: a jump of 0
-        result.emplace_back();
-      } else if (seen[at(contact)] == 0) {
-        seen[at(contact)] = 1;
-        result.back().push_back(contact);
-      }
-    }
-  }
-  return result;
 }
 
 MatrixXd factorise(MatrixXd h) {
@@ -89,7 +67,7 @@ CondensedProblem::CondensedProblem(const TraceProblem& traces, Blocks blocks)
     : ContactProblem(traces, true),
       _h(std::move(blocks.h)),
       _closed_to_open(std::move(blocks.w)),
-      _nested_start(blocks.condensed, chains(traces.decomposition())),
+      _nested_start(blocks.condensed, traces.chains()),
       _lcp(std::move(blocks.condensed), traces.decomposition().skeleton.dependent,
            traces.pair_forces().contact_mass().cwiseInverse()) {}
 
@@ -246,30 +224,28 @@ void CondensedProblem::recover_fields(std::span<const SolvedCase> cases) const {
 
 std::vector<std::vector<double>> CondensedProblem::fields_of(
     std::span<const Displaced> displaced) const {
-  std::vector<std::vector<VectorXd>> traces_of;
-  for (const Displaced& one : displaced) {
+  std::vector<ddm::CondensedLoad> none;
+  for (const ddm::Subdomain& subdomain : traces().decomposition().subdomains) {
+    none.emplace_back().z_interior.setZero(static_cast<Index>(subdomain.interior));
+    none.back().dirichlet.setZero(static_cast<Index>(subdomain.dirichlet));
+  }
+  std::vector<Answer> answers(displaced.size());
+  std::vector<SolvedCase> cases;
+  for (std::size_t f = 0; f < answers.size(); ++f) {
     stop::look("solving for contact");
-    const Reduced load = eliminate(maps().vector_of(*one.force), {}, {}, false);
-    traces_of.push_back(traces().scatter(values(solve(load, one.d), one.d, load.p)));
+    const auto& [force, d] = displaced[f];
+    const Reduced load = eliminate(maps().vector_of(*force), {}, {}, false);
+    for (const VectorXd& trace : traces().scatter(values(solve(load, d), d, load.p)))
+      answers[f].side_traces.emplace_back(trace.begin(), trace.end());
+    cases.push_back({none, answers[f]});
   }
-  const std::vector<ddm::Subdomain>& subdomains = traces().decomposition().subdomains;
-  std::vector<std::vector<double>> fields(displaced.size());
-  for (std::size_t s = 0; s < subdomains.size(); ++s) {
-    ddm::CondensedLoad none;
-    none.z_interior.setZero(static_cast<Index>(subdomains[s].interior));
-    none.dirichlet.setZero(static_cast<Index>(subdomains[s].dirichlet));
-    const auto count = static_cast<Index>(subdomains[s].node.size());
-    std::vector<VectorXd> u(fields.size(), VectorXd(count));
-    std::vector<ddm::SubdomainOperator::Solved> solved;
-    for (std::size_t f = 0; f < fields.size(); ++f) solved.push_back({none, traces_of[f][s], u[f]});
-    traces().operators()[s].recover(solved);
-    for (std::size_t f = 0; f < fields.size(); ++f)
-      fields[f].insert(fields[f].end(), u[f].begin(), u[f].end());
-  }
+  recover_fields(cases);
+  std::vector<std::vector<double>> fields(answers.size());
+  for (std::size_t f = 0; f < fields.size(); ++f)
+    for (const Field& field : answers[f].fields)
+      fields[f].insert(fields[f].end(), field.u.begin(), field.u.end());
   return fields;
 }
-
-std::unique_ptr<const OpenMembrane> CondensedProblem::open_membrane() const { return nullptr; }
 
 const OpenFactor& CondensedProblem::all_open() const {
   return _all_open.get([this] {

@@ -40,7 +40,6 @@ class CondensedProblem final : public ContactProblem {
                                    std::vector<ddm::Terms> motions) const override;
   void recover_fields(std::span<const SolvedCase> cases) const override;
   std::vector<std::vector<double>> fields_of(std::span<const Displaced> displaced) const override;
-  std::unique_ptr<const OpenMembrane> open_membrane() const override;
   std::size_t bytes() const noexcept override;
 
   const DenseLcp& lcp() const noexcept { return _lcp; }

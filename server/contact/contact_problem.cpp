@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/contact_problem.hpp"
 
+#include "contact/open_membrane.hpp"
+
 namespace anticrack::contact {
 
 using Eigen::Index;
@@ -22,6 +24,8 @@ UnitForce ContactProblem::unit_force(const ddm::Terms& on) const {
   const VectorXd w = values(load.x, VectorXd::Zero(load.r.size()), load.p);
   return {&on, std::move(load.r), sum_of(on, w)};
 }
+
+std::unique_ptr<const OpenMembrane> ContactProblem::open_membrane() const { return nullptr; }
 
 VectorXd ContactProblem::values(const VectorXd& x, const VectorXd& d, const VectorXd& p) const {
   return maps().expand(x.tail(maps().free_count()), d, p);

@@ -146,7 +146,7 @@ class ContactProblem {
       std::span<const Displaced> displaced) const = 0;
   /// A factor of its own for unit forces with every contact open, about as large as this problem;
   /// null where solve_open has one.
-  virtual std::unique_ptr<const OpenMembrane> open_membrane() const = 0;
+  virtual std::unique_ptr<const OpenMembrane> open_membrane() const;
 
   /// Memory of the matrices.
   virtual std::size_t bytes() const noexcept = 0;

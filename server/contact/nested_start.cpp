@@ -12,7 +12,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Prolongation = Eigen::SparseMatrix<double>;
-using Chains = std::vector<std::vector<Index>>;
+using Chains = std::vector<std::vector<std::int32_t>>;
 
 /// Below, a step from all closed costs as little as anything.
 constexpr Index fewest_contacts = 32;
@@ -23,9 +23,9 @@ constexpr int most_steps = 20;
 /// as at a tip.
 Prolongation coarsen(Index contacts, Chains& chains) {
   std::vector<Eigen::Triplet<double>> entries;
-  Index count = 0;
-  for (std::vector<Index>& chain : chains) {
-    std::vector<Index> kept;
+  std::int32_t count = 0;
+  for (std::vector<std::int32_t>& chain : chains) {
+    std::vector<std::int32_t> kept;
     for (std::size_t i = 1; i < chain.size(); i += 2) {
       entries.emplace_back(chain[i], count, 1.0);
       entries.emplace_back(chain[i - 1], count, 0.5);

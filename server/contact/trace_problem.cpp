@@ -198,6 +198,28 @@ std::vector<Eigen::VectorXd> TraceProblem::scatter(const Eigen::VectorXd& w) con
   return traces;
 }
 
+std::vector<std::vector<std::int32_t>> TraceProblem::chains() const {
+  std::vector<char> seen(_decomposition.skeleton.independent, 0);
+  std::vector<std::vector<std::int32_t>> result(1);
+  const auto cut = [&result] {
+    if (!result.back().empty()) result.emplace_back();
+  };
+  for (const std::vector<ddm::SidePair>& sides : _decomposition.interface_sides) {
+    cut();
+    for (const ddm::SidePair& side : sides) {
+      const std::int32_t contact = side.pair < 0 ? -1 : _decomposition.pairs[at(side.pair)].contact;
+      if (contact < 0) cut();
+      if (contact < 0 || at(contact) >= seen.size() || seen[at(contact)] != 0) continue;
+      seen[at(contact)] = 1;
+      result.back().push_back(contact);
+    }
+  }
+  if (result.back().empty()) result.pop_back();
+  for (std::size_t c = 0; c < seen.size(); ++c)
+    if (seen[c] == 0) result.push_back({static_cast<std::int32_t>(c)});
+  return result;
+}
+
 double TraceProblem::theta_star(Mass mass) const {
   if (!_uzawa) return 0;
   return lazy_theta_star(mass).get([this, mass] {

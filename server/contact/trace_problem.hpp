@@ -36,6 +36,10 @@ class TraceProblem {
   /// Per subdomain and trace node: the inclusion that its flux acts on, directly or through
   /// contact, or -1.
   const std::vector<std::vector<std::int32_t>>& carriers() const noexcept { return _carriers; }
+  /// Contacts that follow each other along a crack, in order: cut where a node is tied. One that
+  /// several interfaces share is with the first of them. Where cracks cross there are more pairs
+  /// than the interfaces read: their contacts come last, each alone. O(n).
+  std::vector<std::vector<std::int32_t>> chains() const;
   /// Pairs of nodes, tied ones included.
   Eigen::Index pair_count() const noexcept { return _lumped.size(); }
 

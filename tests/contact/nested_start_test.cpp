@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <numeric>
 
@@ -31,9 +32,9 @@ VectorXd wave(Index n, double waves, double bias) {
 }
 
 /// Two cracks, one with an odd number of contacts.
-std::vector<std::vector<Index>> two_chains(Index n) {
-  std::vector<std::vector<Index>> chains(2);
-  for (Index i = 0; i < n; ++i) {
+std::vector<std::vector<std::int32_t>> two_chains(Index n) {
+  std::vector<std::vector<std::int32_t>> chains(2);
+  for (std::int32_t i = 0; i < n; ++i) {
     chains[i < n / 2 ? 0 : 1].push_back(i);
   }
   return chains;
@@ -77,11 +78,11 @@ TEST(NestedStart, IsAllOpenWhereEverythingOpensAndAllClosedWhereItIsPressed) {
 
 TEST(NestedStart, HasNothingToSayOfFewContactsOrOfOnesWithoutNeighbours) {
   const VectorXd few = wave(20, 3, 0), many = wave(contacts, 3, 0);
-  std::vector<Index> all(20);
-  std::iota(all.begin(), all.end(), Index{0});
+  std::vector<std::int32_t> all(20);
+  std::iota(all.begin(), all.end(), 0);
   EXPECT_TRUE(NestedStart(crack(20), {all}).closed(few, few.cwiseAbs()).empty());
-  std::vector<std::vector<Index>> alone;
-  for (Index i = 0; i < contacts; ++i) {
+  std::vector<std::vector<std::int32_t>> alone;
+  for (std::int32_t i = 0; i < contacts; ++i) {
     alone.push_back({i});
   }
   EXPECT_TRUE(NestedStart(crack(contacts), alone).closed(many, many.cwiseAbs()).empty());
