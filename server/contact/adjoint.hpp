@@ -7,12 +7,12 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "contact/linear_contact.hpp"
+#include "contact/contact_problem.hpp"
 #include "contact/solve.hpp"
 
 namespace anticrack::contact {
 
-/// Adjoints of one answer of the active set, on either problem.
+/// Adjoints of one answer of the active set.
 class Adjoint {
  public:
   /// Not `possible` where contacts depend on others. O(n).
@@ -25,7 +25,7 @@ class Adjoint {
     Eigen::VectorXd jumps, reactions;
     double compliance = 0;  ///< the goal's own displacement: |z_0|^2
   };
-  /// `opened`: solve_open() with the answer's closed contacts, for force.r.
+  /// `opened`: ContactProblem::solve_open with the answer's closed contacts, for force.r.
   Goal aim(const UnitForce& force, const Opened& opened) const;
 
   /// Jumps of z: clipped to [-c [u], c [u]].

@@ -32,11 +32,12 @@ double factor_for(double size) {
 
 }  // namespace
 
-BlockLcp::BlockLcp(const JoinedMembrane& membrane, const ContactBlocks& blocks)
+BlockLcp::BlockLcp(const JoinedMembrane& membrane, const ContactBlocks& blocks,
+                   const Conditions& conditions)
     : _membrane(membrane),
       _blocks(blocks),
-      _conditions(static_cast<Index>(membrane.decomposition().skeleton.contacts.size())),
-      _scale(VectorXd::Ones(_conditions)) {
+      _conditions(conditions),
+      _scale(VectorXd::Ones(conditions.size())) {
   for (const ContactBlock& block : blocks.blocks()) _scale(block.conditions) = block.lcp.scale();
 }
 
@@ -47,34 +48,11 @@ std::vector<char> BlockLcp::of_block(const ContactBlock& block, const std::vecto
   return result;
 }
 
-VectorXd BlockLcp::jumps(const VectorXd& d, const std::vector<char>& closed) const {
-  VectorXd result(_conditions);
-  for (const ContactBlock& block : _blocks.blocks())
-    result(block.conditions) = block.lcp.jumps(d(block.contacts), of_block(block, closed));
-  return result;
-}
-
-VectorXd BlockLcp::signed_jumps(const VectorXd& d) const {
-  const ddm::Skeleton& skeleton = _membrane.decomposition().skeleton;
-  VectorXd result(_conditions);
-  result.head(d.size()) = d;
-  for (std::size_t k = 0; k < skeleton.dependent.size(); ++k)
-    result[d.size() + static_cast<Index>(k)] = sum_of(skeleton.dependent[k], d);
-  return result;
-}
-
-VectorXd BlockLcp::split(const VectorXd& force, const std::vector<char>& closed) const {
-  VectorXd result(_conditions);
-  for (const ContactBlock& block : _blocks.blocks())
-    result(block.conditions) = block.lcp.split(force(block.contacts), of_block(block, closed));
-  return result;
-}
-
 /// One load.
-class BlockLcp::Run {
+class BlockLcp::Steps {
  public:
-  Run(const BlockLcp& lcp, const VectorXd& r)
-      : closed(at(lcp._conditions), 1),
+  Steps(const BlockLcp& lcp, const VectorXd& r)
+      : closed(at(lcp._conditions.size()), 1),
         d(VectorXd::Zero(r.size())),
         residual(r),
         _lcp(lcp),
@@ -91,8 +69,7 @@ class BlockLcp::Run {
   void start_coarse() {
     if (!_lcp._blocks.coarse()) return;
     const auto& hats = _lcp._blocks.hats();
-    const LcpAnswer answer = _lcp._blocks.coarse()->solve(hats.transpose() * residual, {}, {}, {},
-                                                          [](const LcpStep&) { return true; });
+    const LcpAnswer answer = _lcp._blocks.coarse()->solve(hats.transpose() * residual, {}, {}, {});
     if (answer.status != LcpStatus::solved) return;
     d = hats * answer.d;
     for (Index i = 0; i < d.size(); ++i)
@@ -109,8 +86,7 @@ class BlockLcp::Run {
       const VectorXd load = residual(block.contacts) + block.lcp.apply(d(block.contacts));
       const VectorXd size =
           VectorXd::Constant(load.size(), unit).cwiseQuotient(scale.head(block.lcp.size()));
-      LcpAnswer answer = block.lcp.solve(load, size, {}, of_block(block, closed),
-                                         [](const LcpStep&) { return true; });
+      const LcpAnswer answer = block.lcp.solve(load, size, {}, of_block(block, closed));
       for (std::size_t k = 0; k < block.conditions.size(); ++k)
         closed[at(block.conditions[k])] = answer.closed[k];
       next(block.contacts) = answer.d.head(block.lcp.size());
@@ -126,21 +102,11 @@ class BlockLcp::Run {
     d = next;
   }
 
-  /// Rows that hold by themselves.
-  void close_rows_without_open_nodes() {
-    const ddm::Skeleton& skeleton = _lcp._membrane.decomposition().skeleton;
-    for (std::size_t k = 0; k < skeleton.dependent.size(); ++k) {
-      const bool open = std::ranges::any_of(skeleton.dependent[k], [this](const ddm::Term& term) {
-        return closed[at(term.index)] == 0;
-      });
-      if (!open) closed[skeleton.independent + k] = 1;
-    }
-  }
-
   void factorise() {
     for (std::size_t b = 0; b < _blocks.size(); ++b) {
       stop::look("solving for contact");
-      _factors[b].factorise(_blocks[b].lcp.scaled_matrix(), _blocks[b].lcp.scaled_rows(),
+      _factors[b].factorise(_blocks[b].lcp.scaled_matrix(),
+                            _blocks[b].lcp.scaled_conditions().rows(),
                             of_block(_blocks[b], closed));
     }
     factorise_hats();
@@ -233,17 +199,12 @@ class BlockLcp::Run {
   void project(VectorXd& values) const {
     for (Index i = 0; i < values.size(); ++i)
       if (closed[at(i)] != 0) values[i] = 0;
-    const ddm::Skeleton& skeleton = _lcp._membrane.decomposition().skeleton;
-    for (std::size_t k = 0; k < skeleton.dependent.size(); ++k) {
-      if (closed[skeleton.independent + k] == 0) continue;
-      double sum = 0, size = 0;
-      for (const auto& [i, factor] : skeleton.dependent[k]) {
-        if (closed[at(i)] != 0) continue;
-        sum += factor * values[i];
-        size += factor * factor;
-      }
-      for (const auto& [i, factor] : skeleton.dependent[k])
-        if (closed[at(i)] == 0) values[i] -= factor * sum / size;
+    const Conditions& conditions = _lcp._conditions;
+    for (std::size_t k = 0; k < conditions.rows().size(); ++k) {
+      if (closed[at(conditions.row(k))] == 0) continue;
+      const double nu = conditions.balancing(k, closed, values);
+      for (const auto& [i, factor] : conditions.rows()[k])
+        if (closed[at(i)] == 0) values[i] -= factor * nu;
     }
   }
 
@@ -269,7 +230,7 @@ class BlockLcp::Run {
   MatrixXd _hat_factor;
 };
 
-BlockLcp::Opened BlockLcp::solve_open(const VectorXd& r, const std::vector<char>& closed) const {
+Opened BlockLcp::solve_open(const VectorXd& r, const std::vector<char>& closed) const {
   const double factor =
       r.size() == 0 ? 1
                     : factor_for(_scale.head(r.size()).cwiseProduct(r).lpNorm<Eigen::Infinity>());
@@ -279,24 +240,23 @@ BlockLcp::Opened BlockLcp::solve_open(const VectorXd& r, const std::vector<char>
     opened.residual /= factor;
     return opened;
   }
-  Run run(*this, r);
-  const double size = run.size_of(r);
+  Steps steps(*this, r);
+  const double size = steps.size_of(r);
   if (closed.empty())
-    run.closed.assign(run.closed.size(), 0);
+    steps.closed.assign(steps.closed.size(), 0);
   else
-    run.closed = closed;
-  run.solve_to_rounding(r, size);
+    steps.closed = closed;
+  steps.solve_to_rounding(r, size);
   const auto largest = [scale = _scale.head(r.size())](const VectorXd& of) {
     return of.size() == 0 ? 0 : scale.cwiseProduct(of).lpNorm<Eigen::Infinity>();
   };
-  const double left = largest(run.open_residual());
-  return {std::move(run.d), std::move(run.residual), left == 0 ? 0 : left / largest(r)};
+  const double left = largest(steps.open_residual());
+  return {std::move(steps.d), std::move(steps.residual), left == 0 || left / largest(r) <= 1e-10};
 }
 
-BlockLcp::Answer BlockLcp::solve(const VectorXd& r, const VectorXd& magnitude,
-                                 const LcpOptions& options, std::span<const char> start,
-                                 const OnStep& on_step) const {
-  Answer answer;
+LcpAnswer BlockLcp::solve(const VectorXd& r, const VectorXd& magnitude, const LcpOptions& options,
+                          std::span<const char> start, const OnStep& on_step) const {
+  LcpAnswer answer;
   const auto scale = _scale.head(r.size());
   const VectorXd& terms = magnitude.size() == 0 ? r : magnitude;
   const double largest = r.size() == 0 ? 0 : scale.cwiseProduct(terms).lpNorm<Eigen::Infinity>();
@@ -304,66 +264,67 @@ BlockLcp::Answer BlockLcp::solve(const VectorXd& r, const VectorXd& magnitude,
   if (factor != 1) {
     answer = solve(factor * r, factor * terms, options, start, [&](const LcpStep& step) {
       const VectorXd d = step.d / factor, lambda = step.lambda / factor;
-      return on_step({step.number, step.closed, d, lambda});
+      return !on_step || on_step({step.number, step.closed, d, lambda});
     });
     answer.d /= factor;
     answer.lambda /= factor;
     return answer;
   }
-  Run run(*this, r);
-  const double size = run.size_of(r);
+  Steps steps(*this, r);
+  const double size = steps.size_of(r);
   if (start.empty())
-    run.start_coarse();
+    steps.start_coarse();
   else
-    std::copy(start.begin(), start.end(), run.closed.begin());
+    std::copy(start.begin(), start.end(), steps.closed.begin());
   double tolerance = first_tolerance;
   bool by_blocks = true, settled = false;
-  VectorXd jump, lambda;
+  VectorXd jump = VectorXd::Zero(_conditions.size()), lambda = jump;
   for (; !settled && answer.steps < options.max_steps;
        tolerance = std::max(tolerance / 10, last_tolerance)) {
-    const std::vector<char> before = run.closed;
-    if (by_blocks) run.propose(unit);
-    if (run.closed == before && answer.steps > 0) tolerance = last_tolerance;
+    const std::vector<char> before = steps.closed;
+    if (by_blocks) steps.propose(unit);
+    if (steps.closed == before && answer.steps > 0) tolerance = last_tolerance;
     by_blocks = by_blocks && answer.steps < block_steps;
     if (!by_blocks) tolerance = last_tolerance;
     if (tolerance > last_tolerance)
-      run.solve_open(tolerance, size);
+      steps.solve_open(tolerance, size);
     else
-      run.solve_to_rounding(r, size);
+      steps.solve_to_rounding(r, size);
     ++answer.steps;
-    jump = signed_jumps(run.d);
-    run.close_rows_without_open_nodes();
-    lambda = split(-run.residual, run.closed);
-    if (!on_step({answer.steps, run.closed, jump, lambda.cwiseMax(0.0)})) {
+    jump.head(r.size()) = steps.d;
+    _conditions.add_rows(jump);
+    _conditions.close_rows_without_open_contacts(steps.closed);
+    lambda = _conditions.multipliers(-steps.residual, steps.closed);
+    if (on_step && !on_step({answer.steps, steps.closed, jump, lambda.cwiseMax(0.0)})) {
       answer.status = LcpStatus::stopped;
       break;
     }
     if (tolerance > last_tolerance) continue;
-    std::vector<char> next = run.closed;
-    for (Index i = 0; i < _conditions; ++i) {
-      if (run.closed[at(i)] == 0 ? jump[i] < -solve_rounding * unit * _scale[i]
-                                 : lambda[i] * _scale[i] < -solve_rounding * unit)
-        next[at(i)] = run.closed[at(i)] == 0 ? 1 : 0;
+    std::vector<char> next = steps.closed;
+    for (Index i = 0; i < _conditions.size(); ++i) {
+      if (steps.closed[at(i)] == 0 ? jump[i] < -solve_rounding * unit * _scale[i]
+                                   : lambda[i] * _scale[i] < -solve_rounding * unit)
+        next[at(i)] = steps.closed[at(i)] == 0 ? 1 : 0;
     }
-    settled = next == run.closed;
-    run.closed = std::move(next);
+    settled = next == steps.closed;
+    steps.closed = std::move(next);
   }
   if (settled) answer.status = LcpStatus::solved;
   // Nodes that are open by solve_rounding only are closed, which makes the set unique.
   for (Index i = 0; settled && i < r.size(); ++i)
-    if (run.closed[at(i)] == 0 && run.d[i] <= solve_rounding * unit * _scale[i])
-      run.closed[at(i)] = 1;
-  answer.d = run.d.cwiseMax(0.0);
+    if (steps.closed[at(i)] == 0 && steps.d[i] <= solve_rounding * unit * _scale[i])
+      steps.closed[at(i)] = 1;
+  answer.d = jump.cwiseMax(0.0);
   answer.lambda = lambda.cwiseMax(0.0);
-  answer.solves = run.solves;
+  answer.solves = steps.solves;
   const double weak = std::max(options.tolerance, solve_rounding);
-  answer.residual = scale.cwiseProduct(run.open_residual()).lpNorm<Eigen::Infinity>() / unit;
-  for (Index i = 0; i < _conditions; ++i) {
+  answer.residual = scale.cwiseProduct(steps.open_residual()).lpNorm<Eigen::Infinity>() / unit;
+  for (Index i = 0; i < _conditions.size(); ++i) {
     const bool pressed = lambda[i] * _scale[i] > weak * unit;
     answer.pressed.push_back(pressed ? 1 : 0);
     answer.weakly_active += !pressed && jump[i] <= weak * unit * _scale[i] ? 1 : 0;
   }
-  answer.closed = std::move(run.closed);
+  answer.closed = std::move(steps.closed);
   return answer;
 }
 

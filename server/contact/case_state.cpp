@@ -75,11 +75,11 @@ void CaseState::fill(const VectorXd& jumps, const VectorXd& lambda) {
 }
 
 Answer conclude(const TraceProblem& traces, const mesh::Mesh& mesh, const CaseLoads& loads,
-                const CaseState& solved, Outcome outcome) {
+                const CaseState& solved, const LcpAnswer& solution) {
   Answer answer;
-  answer.iterations = outcome.steps;
+  answer.iterations = solution.steps;
   answer.criterion = solved.sample().criterion;
-  switch (outcome.status) {
+  switch (solution.status) {
     case LcpStatus::solved:
       answer.status = Status::converged;
       break;
@@ -90,14 +90,14 @@ Answer conclude(const TraceProblem& traces, const mesh::Mesh& mesh, const CaseLo
       break;
     case LcpStatus::step_limit:
       answer.reason = fmt::format(
-          "after {} steps the set of closed nodes still changes; raise max_steps", outcome.steps);
+          "after {} steps the set of closed nodes still changes; raise max_steps", solution.steps);
       break;
     case LcpStatus::stopped:
       answer.status = Status::cancelled;
       break;
   }
-  answer.weakly_active = outcome.weakly_active;
-  answer.closed = std::move(outcome.closed);
+  answer.weakly_active = solution.weakly_active;
+  answer.closed = solution.closed;
   describe(traces, mesh, loads, solved.state(), solved.sample(), answer);
   if (!std::isfinite(answer.energy) && answer.status != Status::cancelled)
     throw errors::Error(errors::Reason::numerical, overflow(loads.subdomains));

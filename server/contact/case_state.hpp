@@ -13,8 +13,7 @@
 
 namespace anticrack::contact {
 
-/// State and sample of one load case from what the contact problem gives, whichever way it is
-/// solved. Keeps references.
+/// State and sample of one load case from what the contact problem gives. Keeps references.
 class CaseState {
  public:
   CaseState(const TraceProblem& traces, const CaseLoads& loads) : _traces(traces), _loads(loads) {}
@@ -39,16 +38,9 @@ class CaseState {
   Sample _sample;
 };
 
-/// How a contact problem ended.
-struct Outcome {
-  LcpStatus status = LcpStatus::step_limit;
-  int steps = 0;
-  int weakly_active = 0;
-  std::vector<char> closed;
-};
 /// The answer of a load case, with its reason where it is not converged. Throws errors::Error
 /// (numerical) where the energy overflows.
 Answer conclude(const TraceProblem& traces, const mesh::Mesh& mesh, const CaseLoads& loads,
-                const CaseState& solved, Outcome outcome);
+                const CaseState& solved, const LcpAnswer& solution);
 
 }  // namespace anticrack::contact

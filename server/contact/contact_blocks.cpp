@@ -27,30 +27,6 @@ constexpr std::size_t most_contacts = 400;
 /// How far the membrane around a block reaches, of the length of its box.
 constexpr double reach = 0.2;
 
-/// Contacts along each crack, in order: cut where a node is tied. Where cracks cross there are more
-/// pairs than the interfaces read: their contacts come last, each alone.
-std::vector<Indices> runs(const ddm::Decomposition& decomposition) {
-  std::vector<char> seen(decomposition.skeleton.independent, 0);
-  std::vector<Indices> result(1);
-  const auto cut = [&result] {
-    if (!result.back().empty()) result.emplace_back();
-  };
-  for (const std::vector<ddm::SidePair>& sides : decomposition.interface_sides) {
-    cut();
-    for (const ddm::SidePair& side : sides) {
-      const std::int32_t contact = side.pair < 0 ? -1 : decomposition.pairs[at(side.pair)].contact;
-      if (contact < 0) cut();
-      if (contact < 0 || at(contact) >= seen.size() || seen[at(contact)] != 0) continue;
-      seen[at(contact)] = 1;
-      result.back().push_back(contact);
-    }
-  }
-  if (result.back().empty()) result.pop_back();
-  for (std::size_t c = 0; c < seen.size(); ++c)
-    if (seen[c] == 0) result.push_back({static_cast<std::int32_t>(c)});
-  return result;
-}
-
 struct Partition {
   std::vector<Indices> blocks;
   std::vector<Eigen::Triplet<double>> hats;
@@ -58,35 +34,36 @@ struct Partition {
 };
 
 /// Hats with their tops at the ends between the blocks of a crack and in their middles.
-void add_hats(const Indices& run, std::size_t each, Partition& partition) {
+void add_hats(const Indices& chain, std::size_t each, Partition& partition) {
   const double half = static_cast<double>(each) / 2;
-  const auto count = static_cast<Index>(std::ceil(static_cast<double>(run.size() + 1) / half)) - 1;
-  for (std::size_t i = 0; i < run.size(); ++i) {
+  const auto count =
+      static_cast<Index>(std::ceil(static_cast<double>(chain.size() + 1) / half)) - 1;
+  for (std::size_t i = 0; i < chain.size(); ++i) {
     const double place = static_cast<double>(i + 1) / half;  // hat k has its top at k + 1
     const auto left = static_cast<Index>(std::floor(place)) - 1;
     const double right_part = place - std::floor(place);
     if (left >= 0 && left < count)
-      partition.hats.emplace_back(run[i], partition.hat_count + left, 1 - right_part);
+      partition.hats.emplace_back(chain[i], partition.hat_count + left, 1 - right_part);
     if (left + 1 < count && right_part > 0)
-      partition.hats.emplace_back(run[i], partition.hat_count + left + 1, right_part);
+      partition.hats.emplace_back(chain[i], partition.hat_count + left + 1, right_part);
   }
   partition.hat_count += count;
 }
 
 /// Dependent contacts and what they depend on are in one block.
-Partition part(const ddm::Decomposition& decomposition) {
+Partition part(const TraceProblem& traces) {
   Partition result;
   std::vector<Indices> pieces;
-  for (const Indices& run : runs(decomposition)) {
-    const std::size_t count = (run.size() + most_contacts - 1) / most_contacts;
-    const std::size_t each = (run.size() + count - 1) / count;
-    for (std::size_t first = 0; first < run.size(); first += each)
+  for (const Indices& chain : traces.chains()) {
+    const std::size_t count = (chain.size() + most_contacts - 1) / most_contacts;
+    const std::size_t each = (chain.size() + count - 1) / count;
+    for (std::size_t first = 0; first < chain.size(); first += each)
       pieces.emplace_back(
-          run.begin() + static_cast<std::ptrdiff_t>(first),
-          run.begin() + static_cast<std::ptrdiff_t>(std::min(first + each, run.size())));
-    if (count > 1) add_hats(run, each, result);
+          chain.begin() + static_cast<std::ptrdiff_t>(first),
+          chain.begin() + static_cast<std::ptrdiff_t>(std::min(first + each, chain.size())));
+    if (count > 1) add_hats(chain, each, result);
   }
-  const ddm::Skeleton& skeleton = decomposition.skeleton;
+  const ddm::Skeleton& skeleton = traces.decomposition().skeleton;
   Indices piece_of(skeleton.independent, -1);
   for (std::size_t k = 0; k < pieces.size(); ++k)
     for (const std::int32_t contact : pieces[k])
@@ -250,7 +227,7 @@ std::vector<ddm::Terms> rows_of(const Indices& contacts, const ddm::Skeleton& sk
 ContactBlocks::ContactBlocks(const JoinedMembrane& membrane, const PairForces& forces,
                              int threads) {
   const ddm::Skeleton& skeleton = membrane.decomposition().skeleton;
-  const Partition partition = part(membrane.decomposition());
+  const Partition partition = part(membrane.traces());
   const Places places(membrane);
   const Indices motion = mark_motions(membrane);
   std::vector<std::optional<ContactBlock>> done(partition.blocks.size());

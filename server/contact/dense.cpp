@@ -189,7 +189,7 @@ VectorXd OpenFactor::solve(const VectorXd& b) const {
   return x;
 }
 
-void OpenFactor::solve(const VectorXd& b, VectorXd& x) const {
+void OpenFactor::solve(const VectorXd& b, Ref<VectorXd> x) const {
   const auto n = static_cast<Index>(_nodes.size());
   for (Index i = 0; i < n; ++i) x[i] = b[_nodes[at(i)]];
   const Eigen::Map<const MatrixXd> factor(_values.data(), n, n);

@@ -51,7 +51,7 @@ class OpenFactor {
   /// that hold. O(n^2).
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
   /// The same into x, of the size of b. No allocation without rows.
-  void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) const;
+  void solve(const Eigen::VectorXd& b, Eigen::Ref<Eigen::VectorXd> x) const;
 
  private:
   void hold(const std::vector<ddm::Terms>& rows, Eigen::Index contacts);

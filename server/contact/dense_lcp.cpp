@@ -2,13 +2,12 @@
 #include "contact/dense_lcp.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
-#include <optional>
-#include <set>
 #include <utility>
 
-#include "contact/dense.hpp"
+#include "contact/nested_start.hpp"
 #include "mesh/at.hpp"
 #include "stop/stop.hpp"
 
@@ -21,414 +20,37 @@ using Eigen::VectorXd;
 
 constexpr double rounding = lcp_rounding;
 
-/// All scaled: unit diagonal of S, rows of norm 1.
-struct Problem {
-  const MatrixXd& matrix;
-  const std::vector<ddm::Terms>& rows;
-  const VectorXd& weights;
-
-  Index nodes() const { return matrix.rows(); }
-  Index row(std::size_t k) const { return nodes() + static_cast<Index>(k); }
-  bool any_open(std::size_t k, const std::vector<char>& closed) const {
-    return std::ranges::any_of(
-        rows[k], [&closed](const ddm::Term& term) { return closed[at(term.index)] == 0; });
-  }
-
-  /// Jumps of the rows below those of the nodes.
-  void add_rows(VectorXd& jumps) const {
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-      jumps[row(k)] = 0;
-      for (const ddm::Term& term : rows[k]) jumps[row(k)] += term.factor * jumps[term.index];
-    }
-  }
-
-  /// lambda of nodes and rows from S d - r in the nodes. What a row carries is taken off its nodes.
-  void split(const std::vector<char>& closed, VectorXd& lambda) const {
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-      const bool open = any_open(k, closed);
-      double nu = 0;
-      if (open && closed[at(row(k))] != 0)
-        nu = balancing(k, closed, lambda);
-      else if (!open)
-        nu = least(k, lambda);
-      lambda[row(k)] = nu;
-      for (const ddm::Term& term : rows[k]) lambda[term.index] -= nu * term.factor;
-    }
-  }
-
-  /// The multiplier of a row that leaves none on its open nodes.
-  double balancing(std::size_t k, const std::vector<char>& closed, const VectorXd& lambda) const {
-    double sum = 0, size = 0;
-    for (const ddm::Term& term : rows[k]) {
-      if (closed[at(term.index)] != 0) continue;
-      sum += term.factor * lambda[term.index];
-      size += term.factor * term.factor;
-    }
-    return sum / size;
-  }
-
- private:
-  /// Of least weighted squares among those that leave no lambda below 0, if there are any.
-  double least(std::size_t k, const VectorXd& lambda) const {
-    double sum = 0, size = weights[row(k)], low = 0, high = std::numeric_limits<double>::infinity();
-    for (const auto& [i, factor] : rows[k]) {
-      sum += weights[i] * factor * lambda[i];
-      size += weights[i] * factor * factor;
-      (factor > 0 ? high : low) =
-          factor > 0 ? std::min(high, lambda[i] / factor) : std::max(low, lambda[i] / factor);
-    }
-    return std::clamp(sum / size, low, std::max(low, high));
-  }
-};
-
-/// One run on scaled data: load of size 1.
-class Run {
- public:
-  Run(const Problem& problem, const VectorXd& r, const LcpOptions& options,
-      std::span<const char> start, std::function<bool(const Run&)> on_step)
-      : closed(start.begin(), start.end()),
-        d(VectorXd::Zero(problem.row(problem.rows.size()))),
-        lambda(VectorXd::Zero(d.size())),
-        _problem(problem),
-        _r(r),
-        _options(options),
-        _on_step(std::move(on_step)) {
-    lambda.head(r.size()) = -r;
-    if (closed.size() < at(r.size())) closed.resize(at(r.size()), 1);
-    closed.resize(at(d.size()), 0);
-  }
-
-  LcpStatus solve() {
-    const bool settled = !_options.monotone_only && primal_dual();
-    if (!settled && !status) {
-      fell_back = true;
-      if (_problem.rows.empty())
-        monotone();
-      else
-        one_by_one();
-    }
-    if (!status) {
-      close_undecided();
-      status = LcpStatus::solved;
-    }
-    return *status;
-  }
-
-  std::vector<char> closed;
-  VectorXd d, lambda;
-  int steps = 0;
-  bool fell_back = false;
-  std::optional<LcpStatus> status;  ///< once the run has ended
-
-  /// Factor for the nodes that are open now.
-  const OpenFactor& factor() {
-    stop::look("solving for contact");
-    _factor.factorise(_problem.matrix, _problem.rows, closed);
-    return _factor;
-  }
-  OpenFactor take_factor() {
-    factor();
-    return std::move(_factor);
-  }
-
- private:
-  Index nodes() const { return _r.size(); }
-
-  /// d from the set.
-  void solve_open() {
-    VectorXd of_nodes(nodes());
-    factor().solve(_r, of_nodes);
-    set_jumps(of_nodes);
-  }
-  void set_jumps(const VectorXd& of_nodes) {
-    d.head(nodes()) = of_nodes;
-    _problem.add_rows(d);
-  }
-
-  void set_multipliers() {
-    multiply(_problem.matrix, d.head(nodes()), lambda.head(nodes()));
-    lambda.head(nodes()) -= _r;
-    _problem.split(closed, lambda);
-    for (Index i = 0; i < lambda.size(); ++i) lambda[i] = closed[at(i)] == 0 ? 0 : lambda[i];
-  }
-
-  /// Counts and reports a step; false ends the run.
-  bool report() {
-    ++steps;
-    if (!_on_step(*this)) status = LcpStatus::stopped;
-    return !status;
-  }
-
-  bool may_go_on() {
-    if (!status && steps >= _options.max_steps) status = LcpStatus::step_limit;
-    return !status;
-  }
-
-  /// True when settled; false when a set recurs or S is singular on the open nodes.
-  bool primal_dual() {
-    std::set<std::vector<char>> met;
-    for (;;) {
-      close_rows_without_open_nodes();
-      if (!met.insert(closed).second) return false;
-      if (!factor().regular()) return false;
-      solve_open();
-      set_multipliers();
-      std::vector<char> next = closed;
-      for (Index i = 0; i < d.size(); ++i)
-        if (closed[at(i)] == 0 && d[i] < -rounding)
-          next[at(i)] = 1;
-        else if (closed[at(i)] != 0 && lambda[i] < -rounding)
-          next[at(i)] = 0;
-      const bool settled = next == closed;
-      if (!report() || settled) return settled;
-      if (!may_go_on()) return false;
-      closed = std::move(next);
-    }
-  }
-
-  void close_rows_without_open_nodes() {
-    for (std::size_t k = 0; k < _problem.rows.size(); ++k)
-      if (!_problem.any_open(k, closed)) closed[at(_problem.row(k))] = 1;
-  }
-
-  double energy() const { return -_r.dot(d.head(nodes())) / 2; }  // in the minimum over a face
-
-  /// Moves d >= 0 to the minimum over the face of the open nodes, closing nodes whose d would turn
-  /// negative, at least one a pass. S must be regular on the open nodes.
-  void settle() {
-    for (;;) {
-      const VectorXd target = factor().solve(_r);
-      double way = 1;
-      for (Index i = 0; i < d.size(); ++i)
-        if (closed[at(i)] == 0 && target[i] <= 0)
-          way = std::min(way, d[i] <= 0 ? 0 : d[i] / (d[i] - target[i]));
-      bool complete = true;
-      for (Index i = 0; i < d.size(); ++i) {
-        if (closed[at(i)] != 0) continue;
-        const bool blocks = target[i] <= 0 && (d[i] <= 0 || d[i] / (d[i] - target[i]) <= way);
-        d[i] = blocks ? 0 : d[i] + way * (target[i] - d[i]);
-        closed[at(i)] = blocks ? 1 : 0;
-        complete = complete && !blocks;
-      }
-      if (complete) {
-        d = target;
-        return;
-      }
-    }
-  }
-
-  void monotone() {
-    d.setZero();
-    if (!factor().regular()) std::fill(closed.begin(), closed.end(), char{1});
-    settle();
-    for (;;) {
-      set_multipliers();
-      if (!report()) return;
-      Index first;
-      if (lambda.size() == 0 || lambda.minCoeff(&first) >= -rounding) return;
-      if (!may_go_on()) return;
-      const std::vector<char> closed_before = closed;
-      const VectorXd d_before = d;
-      const double before = energy();
-      for (Index i = 0; i < d.size(); ++i)
-        closed[at(i)] = lambda[i] < -rounding ? 0 : closed[at(i)];
-      if (factor().regular()) {
-        settle();
-        if (energy() < before) continue;
-      }
-      closed = closed_before;
-      d = d_before;
-      open_one(first);
-      if (status) return;
-      if (!(energy() < before)) {
-        closed = closed_before;
-        d = d_before;
-        return;
-      }
-    }
-  }
-
-  void open_one(Index node) {
-    const VectorXd against_node = factor().solve(_problem.matrix.col(node));
-    closed[at(node)] = 0;
-    if (!factor().regular()) {
-      // The energy falls linearly along this null direction, until an open node closes.
-      VectorXd ray = -against_node;
-      ray[node] = 1;
-      Index blocking = -1;
-      double way = std::numeric_limits<double>::infinity();
-      for (Index i = 0; i < d.size(); ++i) {
-        if (ray[i] < -rounding && -d[i] / ray[i] < way) {
-          way = -d[i] / ray[i];
-          blocking = i;
-        }
-      }
-      if (blocking < 0) {
-        status = LcpStatus::unbounded;
-        return;
-      }
-      d = (d + way * ray).cwiseMax(0.0);
-      d[blocking] = 0;
-      closed[at(blocking)] = 1;
-    }
-    settle();
-  }
-
-  /// To the minimum with the closed conditions as equalities, as far as no open one is violated.
-  void one_by_one() {
-    std::fill_n(closed.begin(), nodes(), char{1});
-    std::fill(closed.begin() + nodes(), closed.end(), char{0});
-    set_jumps(VectorXd::Zero(nodes()));
-    while (may_go_on()) {
-      if (!factor().regular()) {
-        status = LcpStatus::unbounded;
-        return;
-      }
-      const VectorXd from = d;
-      solve_open();
-      const Index blocking = go_towards(from);
-      if (blocking >= 0) {
-        closed[at(blocking)] = 1;
-        ++steps;
-        continue;
-      }
-      set_multipliers_of_set();
-      if (!report()) return;
-      const auto pulled = std::find_if(lambda.begin(), lambda.end(),
-                                       [](double value) { return value < -rounding; });
-      if (pulled == lambda.end()) break;
-      closed[at(pulled - lambda.begin())] = 0;
-    }
-  }
-
-  /// Shortens the way from `from` to d where an open condition blocks it; returns that, or -1.
-  Index go_towards(const VectorXd& from) {
-    double way = 1;
-    Index blocking = -1;
-    for (Index i = 0; i < d.size(); ++i) {
-      const bool moves = i < nodes() || _problem.any_open(at(i - nodes()), closed);
-      if (closed[at(i)] != 0 || !moves || d[i] >= 0 || d[i] >= from[i]) continue;
-      const double here = std::max(from[i], 0.0) / (from[i] - d[i]);
-      if (here < way) {
-        way = here;
-        blocking = i;
-      }
-    }
-    if (blocking >= 0) set_jumps((from + way * (d - from)).head(nodes()));
-    return blocking;
-  }
-
-  /// Rows that hold by themselves are not of the set and take nothing.
-  void set_multipliers_of_set() {
-    multiply(_problem.matrix, d.head(nodes()), lambda.head(nodes()));
-    lambda.head(nodes()) -= _r;
-    lambda.tail(lambda.size() - nodes()).setZero();
-    for (std::size_t k = 0; k < _problem.rows.size(); ++k) {
-      if (closed[at(_problem.row(k))] == 0 || !_problem.any_open(k, closed)) continue;
-      const double nu = _problem.balancing(k, closed, lambda);
-      lambda[_problem.row(k)] = nu;
-      for (const ddm::Term& term : _problem.rows[k]) lambda[term.index] -= nu * term.factor;
-    }
-    for (Index i = 0; i < nodes(); ++i) lambda[i] = closed[at(i)] == 0 ? 0 : lambda[i];
-  }
-
-  /// Closes nodes that are open by rounding only, which makes the set unique.
-  void close_undecided() {
-    bool changed = false;
-    for (Index i = 0; i < d.size(); ++i) {
-      if (closed[at(i)] == 0 && d[i] <= rounding) {
-        closed[at(i)] = 1;
-        changed = true;
-      }
-    }
-    close_rows_without_open_nodes();
-    if (changed || fell_back) {
-      solve_open();
-      set_multipliers();
-    }
-    d = d.cwiseMax(0.0);
-    lambda = lambda.cwiseMax(0.0);
-  }
-
-  const Problem& _problem;
-  const VectorXd& _r;
-  const LcpOptions& _options;
-  std::function<bool(const Run&)> _on_step;
-  OpenFactor _factor;
-};
+/// If more conditions than `far_off` change in the first step, coarse problems give a better start
+/// than the last set. Not worth while for `small` problems.
+constexpr Index far_off = 8, small = 128;
 
 }  // namespace
 
 DenseLcp::DenseLcp(MatrixXd matrix, std::vector<ddm::Terms> rows, VectorXd weights)
-    : _matrix(std::move(matrix)), _rows(std::move(rows)), _scale(conditions()) {
+    : _matrix(std::move(matrix)),
+      _scale(size() + static_cast<Index>(rows.size())),
+      _conditions(size(), {}, {}) {
   _scale.head(size()) = _matrix.diagonal().cwiseSqrt().cwiseInverse();
   for (Index j = 0; j < _matrix.cols(); ++j)
     for (Index i = 0; i < _matrix.rows(); ++i) _matrix(i, j) *= _scale[i] * _scale[j];
-  for (std::size_t k = 0; k < _rows.size(); ++k) {
+  for (std::size_t k = 0; k < rows.size(); ++k) {
     double norm = 0;
-    for (ddm::Term& term : _rows[k]) {
+    for (ddm::Term& term : rows[k]) {
       term.factor *= _scale[term.index];
       norm = std::hypot(norm, term.factor);
     }
-    for (ddm::Term& term : _rows[k]) term.factor /= norm;
-    _scale[size() + static_cast<Index>(k)] = norm;
+    for (ddm::Term& term : rows[k]) term.factor /= norm;
+    _scale[_conditions.row(k)] = norm;
   }
-  if (weights.size() == 0) weights.setOnes(conditions());
-  _weights = weights.cwiseQuotient(_scale.cwiseAbs2());
-}
-
-VectorXd DenseLcp::jumps(const VectorXd& d, const std::vector<char>& closed) const {
-  VectorXd result(conditions());
-  result.head(size()) = d.cwiseQuotient(_scale.head(size()));
-  Problem{_matrix, _rows, _weights}.add_rows(result);
-  result = result.cwiseProduct(_scale);
-  result.head(size()) = d;
-  for (Index k = size(); k < result.size(); ++k)
-    result[k] = closed[at(k)] != 0 ? 0 : std::max(result[k], 0.0);
-  return result;
-}
-
-VectorXd DenseLcp::split(const VectorXd& force, const std::vector<char>& closed) const {
-  VectorXd lambda(conditions());
-  lambda.head(size()) = force;
-  if (!_rows.empty()) {
-    lambda.head(size()) = force.cwiseProduct(_scale.head(size()));
-    Problem{_matrix, _rows, _weights}.split(closed, lambda);
-    lambda = lambda.cwiseQuotient(_scale);
-  }
-  for (Index i = 0; i < lambda.size(); ++i) lambda[i] = closed[at(i)] != 0 ? lambda[i] : 0;
-  return lambda;
+  if (weights.size() == 0) weights.setOnes(_scale.size());
+  _conditions = {size(), std::move(rows), weights.cwiseQuotient(_scale.cwiseAbs2())};
 }
 
 LcpAnswer DenseLcp::solve(const VectorXd& r, const VectorXd& magnitude, const LcpOptions& options,
                           std::span<const char> start, const OnStep& on_step) const {
-  const VectorXd& terms = magnitude.size() == 0 ? r : magnitude;
-  const auto of_nodes = _scale.head(size());
-  const double largest = size() == 0 ? 0 : of_nodes.cwiseProduct(terms).lpNorm<Eigen::Infinity>();
-  const double unit = largest > 0 ? largest : 1;
-  const VectorXd scaled = of_nodes.cwiseProduct(r) / unit;
-  const auto jump = [&](const VectorXd& d) { return VectorXd(_scale.cwiseProduct(d) * unit); };
-  const auto pressure = [&](const VectorXd& lambda) {
-    return VectorXd(lambda.cwiseQuotient(_scale) * unit);
-  };
-  const Problem problem{_matrix, _rows, _weights};
-  Run run(problem, scaled, options, start, [&](const Run& state) {
-    return on_step({state.steps, state.closed, jump(state.d), pressure(state.lambda)});
-  });
-  LcpAnswer answer;
-  answer.status = run.solve();
-  answer.steps = run.steps;
-  answer.fell_back = run.fell_back;
-  answer.d = jump(run.d.cwiseMax(0.0));
-  answer.lambda = pressure(run.lambda.cwiseMax(0.0));
-  const double weak = std::max(options.tolerance, rounding);
-  for (Index i = 0; i < conditions(); ++i) {
-    answer.weakly_active += run.d[i] <= weak && run.lambda[i] <= weak ? 1 : 0;
-    answer.pressed.push_back(run.lambda[i] > weak ? 1 : 0);
-  }
-  if (answer.status == LcpStatus::solved) answer.factor = run.take_factor();
-  answer.closed = std::move(run.closed);
-  return answer;
+  LcpSequence once(*this, options, start);
+  once.solve(r, magnitude, on_step);
+  return std::move(once).take();
 }
 
 VectorXd DenseLcp::solve_open(const OpenFactor& open, const VectorXd& b) const {
@@ -445,6 +67,332 @@ VectorXd DenseLcp::apply(const VectorXd& d) const {
 
 std::size_t DenseLcp::bytes() const noexcept {
   return sizeof(double) * at(_matrix.size() + 2 * _scale.size());
+}
+
+LcpSequence::LcpSequence(const DenseLcp& lcp, const LcpOptions& options,
+                         std::span<const char> start, const NestedStart* nested)
+    : _lcp(lcp),
+      _matrix(lcp.scaled_matrix()),
+      _conditions(lcp.scaled_conditions()),
+      _nested(lcp.size() > small ? nested : nullptr),
+      _options(options) {
+  _closed.assign(start.begin(), start.end());
+  if (_closed.size() < at(lcp.size())) _closed.resize(at(lcp.size()), 1);
+  _closed.resize(at(lcp.conditions()), 0);
+  _met.reserve(_closed.size());
+  _answer.pressed.resize(_closed.size(), 0);
+  _answer.factor.reserve(lcp.size());
+  _r.setZero(lcp.size());
+  for (VectorXd* vector : {&_d, &_force, &_lambda, &_answer.d, &_answer.lambda})
+    vector->setZero(lcp.conditions());
+}
+
+const LcpAnswer& LcpSequence::solve(const VectorXd& r, const VectorXd& magnitude,
+                                    const OnStep& on_step) {
+  _given = {&r, magnitude.size() == 0 ? &r : &magnitude, &on_step};
+  const auto scale = _lcp.scale().head(nodes());
+  const double largest =
+      nodes() == 0 ? 0 : scale.cwiseProduct(*_given.magnitude).lpNorm<Eigen::Infinity>();
+  _unit = largest > 0 ? largest : 1;
+  _r = scale.cwiseProduct(r) / _unit;
+  _d.setZero();
+  if (_answer.status == LcpStatus::unbounded) close_all();
+  _answer.steps = 0;
+  _answer.fell_back = false;
+  _ended.reset();
+  _answer.status = find_set();
+  if (_answer.status == LcpStatus::solved) close_undecided();
+  finish();
+  return _answer;
+}
+
+void LcpSequence::close_all() {
+  std::fill_n(_closed.begin(), nodes(), char{1});
+  std::fill(_closed.begin() + nodes(), _closed.end(), char{0});
+}
+
+LcpStatus LcpSequence::find_set() {
+  if (!_options.monotone_only) {
+    const bool all_closed = std::count(_closed.begin(), _closed.begin() + nodes(), 0) == 0;
+    bool settled = primal_dual();
+    if (!settled && !_ended && !all_closed) {
+      close_all();
+      settled = primal_dual();
+    }
+    if (settled || _ended) return _ended.value_or(LcpStatus::solved);
+  }
+  _answer.fell_back = true;
+  if (_conditions.rows().empty())
+    monotone();
+  else
+    one_by_one();
+  return _ended.value_or(LcpStatus::solved);
+}
+
+/// Factor for the nodes that are open now.
+const OpenFactor& LcpSequence::factor() {
+  stop::look("solving for contact");
+  _answer.factor.factorise(_matrix, _conditions.rows(), _closed);
+  return _answer.factor;
+}
+
+/// d from the set.
+void LcpSequence::solve_open() {
+  factor().solve(_r, _d.head(nodes()));
+  _conditions.add_rows(_d);
+}
+
+/// S d - r into _force.
+void LcpSequence::apply() {
+  if (_answer.factor.empty()) {
+    _force.head(nodes()) = -_r;
+  } else {
+    multiply(_matrix, _d.head(nodes()), _force.head(nodes()));
+    _force.head(nodes()) -= _r;
+  }
+}
+
+void LcpSequence::set_multipliers() {
+  apply();
+  _conditions.split(_closed, _force);
+  for (Index i = 0; i < _force.size(); ++i) _lambda[i] = _closed[at(i)] == 0 ? 0 : _force[i];
+}
+
+/// Of the method that frees one condition at a time: rows that hold by themselves are not of its
+/// set and take nothing.
+void LcpSequence::set_multipliers_of_set() {
+  apply();
+  _force.tail(_force.size() - nodes()).setZero();
+  for (std::size_t k = 0; k < _conditions.rows().size(); ++k) {
+    if (_closed[at(_conditions.row(k))] == 0 || !_conditions.any_open(k, _closed)) continue;
+    const double nu = _conditions.balancing(k, _closed, _force);
+    _force[_conditions.row(k)] = nu;
+    for (const ddm::Term& term : _conditions.rows()[k]) _force[term.index] -= nu * term.factor;
+  }
+  for (Index i = 0; i < _force.size(); ++i)
+    _lambda[i] = i < nodes() && _closed[at(i)] == 0 ? 0 : _force[i];
+}
+
+/// Counts and reports a step; false ends the run.
+bool LcpSequence::report() {
+  ++_answer.steps;
+  if (*_given.on_step) {
+    const VectorXd d = _lcp.scale().cwiseProduct(_d) * _unit,
+                   lambda = _lambda.cwiseQuotient(_lcp.scale()) * _unit;
+    if (!(*_given.on_step)({_answer.steps, _closed, d, lambda})) _ended = LcpStatus::stopped;
+  }
+  return !_ended;
+}
+
+bool LcpSequence::may_go_on() {
+  if (!_ended && _answer.steps >= _options.max_steps) _ended = LcpStatus::step_limit;
+  return !_ended;
+}
+
+/// True when settled; false when a set recurs or S is singular on the open nodes.
+bool LcpSequence::primal_dual() {
+  _met.clear();
+  for (unsigned step = 1;; ++step) {
+    _conditions.close_rows_without_open_contacts(_closed);
+    if (!factor().regular()) return false;
+    solve_open();
+    set_multipliers();
+    const Index changed = find_next();
+    if (!report() || changed == 0) return changed == 0;
+    if (!may_go_on()) return false;
+    _closed.swap(_next);
+    if (_answer.steps == 1 && changed > far_off && _nested != nullptr) {
+      if (const std::vector<char> start = _nested->closed(*_given.r, *_given.magnitude);
+          !start.empty()) {
+        close_all();
+        std::copy(start.begin(), start.end(), _closed.begin());
+      }
+    }
+    // Brent: compare with the set after the last step whose number is a power of 2.
+    if (_closed == _met) return false;
+    if (std::has_single_bit(step)) _met = _closed;
+  }
+}
+
+/// The next set into _next; returns how many conditions change.
+Index LcpSequence::find_next() {
+  _next = _closed;
+  Index changed = 0;
+  for (Index i = 0; i < _d.size(); ++i) {
+    if (_closed[at(i)] == 0 ? _d[i] < -rounding : _lambda[i] < -rounding) {
+      _next[at(i)] = _closed[at(i)] == 0 ? 1 : 0;
+      ++changed;
+    }
+  }
+  return changed;
+}
+
+/// Moves d >= 0 to the minimum over the face of the open nodes, closing nodes whose d would turn
+/// negative, at least one a pass. S must be regular on the open nodes.
+void LcpSequence::settle() {
+  for (;;) {
+    const VectorXd target = factor().solve(_r);
+    double way = 1;
+    for (Index i = 0; i < _d.size(); ++i)
+      if (_closed[at(i)] == 0 && target[i] <= 0)
+        way = std::min(way, _d[i] <= 0 ? 0 : _d[i] / (_d[i] - target[i]));
+    bool complete = true;
+    for (Index i = 0; i < _d.size(); ++i) {
+      if (_closed[at(i)] != 0) continue;
+      const bool blocks = target[i] <= 0 && (_d[i] <= 0 || _d[i] / (_d[i] - target[i]) <= way);
+      _d[i] = blocks ? 0 : _d[i] + way * (target[i] - _d[i]);
+      _closed[at(i)] = blocks ? 1 : 0;
+      complete = complete && !blocks;
+    }
+    if (complete) {
+      _d = target;
+      return;
+    }
+  }
+}
+
+void LcpSequence::monotone() {
+  _d.setZero();
+  if (!factor().regular()) std::fill(_closed.begin(), _closed.end(), char{1});
+  settle();
+  for (;;) {
+    set_multipliers();
+    if (!report()) return;
+    Index first;
+    if (_lambda.size() == 0 || _lambda.minCoeff(&first) >= -rounding) return;
+    if (!may_go_on()) return;
+    const std::vector<char> closed_before = _closed;
+    const VectorXd d_before = _d;
+    const double before = energy();
+    for (Index i = 0; i < _d.size(); ++i)
+      _closed[at(i)] = _lambda[i] < -rounding ? 0 : _closed[at(i)];
+    if (factor().regular()) {
+      settle();
+      if (energy() < before) continue;
+    }
+    _closed = closed_before;
+    _d = d_before;
+    open_one(first);
+    if (_ended) return;
+    if (!(energy() < before)) {
+      _closed = closed_before;
+      _d = d_before;
+      return;
+    }
+  }
+}
+
+void LcpSequence::open_one(Index node) {
+  const VectorXd against_node = factor().solve(_matrix.col(node));
+  _closed[at(node)] = 0;
+  if (!factor().regular()) {
+    // The energy falls linearly along this null direction, until an open node closes.
+    VectorXd ray = -against_node;
+    ray[node] = 1;
+    Index blocking = -1;
+    double way = std::numeric_limits<double>::infinity();
+    for (Index i = 0; i < _d.size(); ++i) {
+      if (ray[i] < -rounding && -_d[i] / ray[i] < way) {
+        way = -_d[i] / ray[i];
+        blocking = i;
+      }
+    }
+    if (blocking < 0) {
+      _ended = LcpStatus::unbounded;
+      return;
+    }
+    _d = (_d + way * ray).cwiseMax(0.0);
+    _d[blocking] = 0;
+    _closed[at(blocking)] = 1;
+  }
+  settle();
+}
+
+/// To the minimum with the closed conditions as equalities, as far as no open one is violated.
+void LcpSequence::one_by_one() {
+  close_all();
+  _d.setZero();
+  while (may_go_on()) {
+    if (!factor().regular()) {
+      _ended = LcpStatus::unbounded;
+      return;
+    }
+    const VectorXd from = _d;
+    solve_open();
+    const Index blocking = go_towards(from);
+    if (blocking >= 0) {
+      _closed[at(blocking)] = 1;
+      ++_answer.steps;
+      continue;
+    }
+    set_multipliers_of_set();
+    if (!report()) return;
+    const auto pulled = std::find_if(_lambda.begin(), _lambda.end(),
+                                     [](double value) { return value < -rounding; });
+    if (pulled == _lambda.end()) break;
+    _closed[at(pulled - _lambda.begin())] = 0;
+  }
+}
+
+/// Shortens the way from `from` to d where an open condition blocks it; returns that, or -1.
+Index LcpSequence::go_towards(const VectorXd& from) {
+  double way = 1;
+  Index blocking = -1;
+  for (Index i = 0; i < _d.size(); ++i) {
+    const bool moves = i < nodes() || _conditions.any_open(at(i - nodes()), _closed);
+    if (_closed[at(i)] != 0 || !moves || _d[i] >= 0 || _d[i] >= from[i]) continue;
+    const double here = std::max(from[i], 0.0) / (from[i] - _d[i]);
+    if (here < way) {
+      way = here;
+      blocking = i;
+    }
+  }
+  if (blocking >= 0) {
+    _d = from + way * (_d - from);
+    _conditions.add_rows(_d);
+  }
+  return blocking;
+}
+
+/// Closes nodes that are open by rounding only, which makes the set unique.
+void LcpSequence::close_undecided() {
+  bool changed = false;
+  for (Index i = 0; i < _d.size(); ++i) {
+    if (_closed[at(i)] == 0 && _d[i] <= rounding) {
+      _closed[at(i)] = 1;
+      changed = true;
+    }
+  }
+  _conditions.close_rows_without_open_contacts(_closed);
+  if (changed || _answer.fell_back) {
+    solve_open();
+    set_multipliers();
+  }
+  if (nodes() > 0 && _d.head(nodes()).minCoeff() < 0) {
+    _d = _d.cwiseMax(0.0);
+    _conditions.add_rows(_d);
+    set_multipliers();
+  }
+  factor();  // of the rows that were closed as well
+}
+
+void LcpSequence::finish() {
+  const double weak = std::max(_options.tolerance, rounding);
+  double error = 0, size = 0;
+  _answer.weakly_active = 0;
+  for (Index i = 0; i < _d.size(); ++i) {
+    const double d = std::max(_d[i], 0.0), lambda = std::max(_lambda[i], 0.0);
+    const double to_force = _unit / _lcp.scale()[i];
+    _answer.d[i] = _lcp.scale()[i] * d * _unit;
+    _answer.lambda[i] = lambda * to_force;
+    _answer.pressed[at(i)] = lambda > weak ? 1 : 0;
+    _answer.weakly_active += _d[i] <= weak && _lambda[i] <= weak ? 1 : 0;
+    size = std::max(size, _answer.lambda[i]);
+    if (i >= nodes()) continue;
+    error = std::max(error, std::abs(lambda - _force[i]) * to_force);
+    size = std::max(size, (*_given.magnitude)[i]);
+  }
+  _answer.residual = error == 0 ? 0 : error / size;
 }
 
 }  // namespace anticrack::contact

@@ -5,9 +5,12 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "contact/conditions.hpp"
 #include "contact/dense.hpp"
 
 namespace anticrack::contact {
@@ -21,14 +24,15 @@ constexpr bool regular_pivot(double smallest, Eigen::Index n) {
   return smallest > 64 * std::numeric_limits<double>::epsilon() * static_cast<double>(n);
 }
 
-/// Of all conditions: the c nodes, then the dependent ones. Closed ones have jump 0, open ones
-/// lambda = 0.
+/// Of all conditions. Closed ones have jump 0, open ones lambda = 0.
 struct LcpStep {
   int number = 0;  ///< from 1
   const std::vector<char>& closed;
   const Eigen::VectorXd& d;
   const Eigen::VectorXd& lambda;
 };
+/// Returns false to stop. Empty: nobody is told.
+using OnStep = std::function<bool(const LcpStep&)>;
 
 enum class LcpStatus {
   solved,
@@ -41,13 +45,17 @@ enum class LcpStatus {
 struct LcpAnswer {
   LcpStatus status = LcpStatus::step_limit;
   std::vector<char> closed;
-  Eigen::VectorXd d;       ///< >= 0
-  Eigen::VectorXd lambda;  ///< >= 0
-  int steps = 0;
-  int weakly_active = 0;      ///< neither jump nor lambda above tolerance
+  Eigen::VectorXd d;          ///< >= 0
+  Eigen::VectorXd lambda;     ///< >= 0
   std::vector<char> pressed;  ///< lambda above tolerance
+  int steps = 0;
+  int weakly_active = 0;  ///< neither jump nor lambda above tolerance
   bool fell_back = false;
-  OpenFactor factor;  ///< of the open nodes, where solved: for solve_open
+  int solves = 0;  ///< applications of S^ where it is not formed
+  /// Largest |lambda - (S d - r)| with d and lambda clipped at 0, of the largest of magnitude and
+  /// lambda.
+  double residual = 0;
+  OpenFactor factor;  ///< of the open nodes, where solved and S is formed: for solve_open
 };
 
 struct LcpOptions {
@@ -56,47 +64,24 @@ struct LcpOptions {
   bool monotone_only = false;  ///< leaves out the primal-dual steps; to test the fall-back
 };
 
-/// Linear complementarity with a dense matrix S, the minimum of d'S d/2 - r'd over d >= 0, G d >=
-/// 0:
+/// Linear complementarity with a dense matrix S, the minimum of d'S d/2 - r'd under Conditions:
 ///
 ///   d >= 0,  lambda = S d - r - G'nu >= 0,  d'lambda = 0,   G d >= 0,  nu >= 0,  nu'G d = 0
 ///
-/// G has the few conditions that depend on others: each belongs to one node where cracks cross, and
-/// no two have terms in common. Where all nodes of one are closed it holds by itself, and nu is the
-/// share of their lambda that makes the weighted sum of squares of all of them least.
-///
-/// by the primal-dual active set method (Hintermueller, Ito, Kunisch 2003): solve with d = 0 on the
-/// closed nodes and lambda = 0 on the open ones, close the open ones with d < 0, open the closed
-/// ones with lambda < 0, until nothing changes; the rows of G likewise. Everything is scaled to a
-/// unit diagonal of S, that is c_i = S_ii, and rows of norm 1.
-///
-/// Termination: all sets met are remembered. If one recurs, or S is singular on the open nodes, the
-/// monotone method of Lawson and Hanson takes over. Each of its outer steps ends in the minimum
-/// over {d : d = 0 on the closed nodes} with d > 0 on the open ones, reached along the segment from
-/// the last d, and is accepted only if it lowers the computed energy, a function of the open set
-/// alone. So no set recurs, and there are finitely many. If opening the node with the most negative
-/// lambda does not lower the energy, lambda is zero to rounding, for in exact arithmetic it always
-/// does. With rows of G a primal active set method takes its place, which frees or stops at one
-/// condition at a time (Nocedal and Wright, Numerical Optimization, 16.5), by Bland's rule.
-///
-/// Immutable after construction. The answer's bits depend on r alone, not on the start: it is
-/// computed from the final set, in which nodes with neither d nor lambda to rounding are closed.
+/// Everything is scaled to a unit diagonal of S, that is c_i = S_ii, and rows of G of norm 1.
+/// Immutable after construction; LcpSequence solves it.
 class DenseLcp {
  public:
-  using OnStep = std::function<bool(const LcpStep&)>;
-
   /// `matrix`: (c,c) symmetric, positive semidefinite, positive diagonal. Singular where parts of a
   /// membrane hold each other by contact only.
-  /// `rows`: G. `weights`: of the conditions in the sum of squares of lambda; empty: 1.
+  /// `rows`, `weights`: as in Conditions.
   explicit DenseLcp(Eigen::MatrixXd matrix, std::vector<ddm::Terms> rows = {},
                     Eigen::VectorXd weights = {});
 
-  /// `magnitude`: (c) sums of the absolute terms of r, the scale of its rounding errors; empty:
-  /// |r|. `start`: closed conditions to start from; missing nodes are closed, missing rows open.
-  /// on_step returns false to stop. O(c^3) a step.
+  /// One r, as LcpSequence::solve from `start`. O(c^3) a step.
   LcpAnswer solve(const Eigen::VectorXd& r, const Eigen::VectorXd& magnitude,
                   const LcpOptions& options, std::span<const char> start,
-                  const OnStep& on_step) const;
+                  const OnStep& on_step = {}) const;
 
   /// x with (S x)_i = b_i on the open nodes of an answer's factor, else 0, for refinement. O(c^2).
   Eigen::VectorXd solve_open(const OpenFactor& open, const Eigen::VectorXd& b) const;
@@ -104,27 +89,95 @@ class DenseLcp {
   /// S d. O(c^2).
   Eigen::VectorXd apply(const Eigen::VectorXd& d) const;
 
-  /// The jumps of all conditions: d, then G d, 0 where closed and not below.
-  Eigen::VectorXd jumps(const Eigen::VectorXd& d, const std::vector<char>& closed) const;
-  /// lambda of all conditions from S d - r, given which are closed. O(c).
-  Eigen::VectorXd split(const Eigen::VectorXd& force, const std::vector<char>& closed) const;
-
-  /// 1 / sqrt(S_ii) of the nodes, the norms of the rows of S-scaled d; and S with it on both sides:
-  /// what the steps compute with.
+  /// 1 / sqrt(S_ii) of the nodes, the norms of the rows of S-scaled d; S with it on both sides, and
+  /// the conditions on what it scales: what the steps compute with.
   const Eigen::VectorXd& scale() const noexcept { return _scale; }
-  const std::vector<ddm::Terms>& scaled_rows() const noexcept { return _rows; }
   const Eigen::MatrixXd& scaled_matrix() const noexcept { return _matrix; }
+  const Conditions& scaled_conditions() const noexcept { return _conditions; }
   Eigen::Index size() const noexcept { return _matrix.rows(); }  ///< c
-  Eigen::Index conditions() const noexcept {
-    return size() + static_cast<Eigen::Index>(_rows.size());
-  }
+  Eigen::Index conditions() const noexcept { return _conditions.size(); }
   std::size_t bytes() const noexcept;
 
  private:
-  Eigen::MatrixXd _matrix;        // scaled: unit diagonal
-  std::vector<ddm::Terms> _rows;  // scaled: norm 1
-  Eigen::VectorXd _scale;         // (conditions)
-  Eigen::VectorXd _weights;       // of scaled lambda
+  Eigen::MatrixXd _matrix;  // unit diagonal
+  Eigen::VectorXd _scale;   // (conditions)
+  Conditions _conditions;   // rows of norm 1
+};
+
+class NestedStart;
+
+/// Solves a DenseLcp for one r after another, each from the closed conditions of the one before and
+/// with the factor of its open nodes, by the primal-dual active set method (Hintermueller, Ito,
+/// Kunisch 2003): solve with d = 0 on the closed nodes and lambda = 0 on the open ones, close the
+/// open ones with d < 0, open the closed ones with lambda < 0, until nothing changes; the rows of G
+/// likewise. A step that changes the set is O(c^3); an r with the set of the one before costs two
+/// triangular solves and a product, O(c^2), and allocates nothing, unless there are rows of G.
+///
+/// Termination: where a set recurs (Brent's cycle detection), or S is singular on the open nodes,
+/// the steps begin anew from all closed; if that ends so as well, the monotone method of Lawson and
+/// Hanson takes over. Each of its outer steps ends in the minimum over {d : d = 0 on the closed
+/// nodes} with d > 0 on the open ones, reached along the segment from the last d, and is accepted
+/// only if it lowers the computed energy, a function of the open set alone. So no set recurs, and
+/// there are finitely many. If opening the node with the most negative lambda does not lower the
+/// energy, lambda is zero to rounding, for in exact arithmetic it always does. With rows of G a
+/// primal active set method takes its place, which frees or stops at one condition at a time
+/// (Nocedal and Wright, Numerical Optimization, 16.5), by Bland's rule.
+///
+/// An answer's bits depend on r alone, not on the start nor on what came before: it is computed
+/// from the final set, in which nodes with neither d nor lambda to rounding are closed. For one
+/// thread.
+class LcpSequence {
+ public:
+  /// Keeps references. `start`: closed conditions; missing nodes are closed, missing rows open.
+  /// `nested`: of the same problem, gives the start for an r far from the one before; may be null.
+  LcpSequence(const DenseLcp& lcp, const LcpOptions& options, std::span<const char> start,
+              const NestedStart* nested = nullptr);
+
+  /// `magnitude`: (c) sums of the absolute terms of r, the scale of its rounding errors; empty:
+  /// |r|. The answer is valid until the next call; its factor is the sequence's.
+  const LcpAnswer& solve(const Eigen::VectorXd& r, const Eigen::VectorXd& magnitude,
+                         const OnStep& on_step = {});
+  const LcpAnswer& answer() const noexcept { return _answer; }
+  LcpAnswer take() && { return std::move(_answer); }
+
+ private:
+  Eigen::Index nodes() const { return _r.size(); }
+  void close_all();
+  const OpenFactor& factor();
+  LcpStatus find_set();
+  bool primal_dual();
+  void monotone();
+  void one_by_one();
+  void solve_open();
+  void apply();
+  void set_multipliers();
+  void set_multipliers_of_set();
+  Eigen::Index find_next();
+  bool report();
+  bool may_go_on();
+  double energy() const { return -_r.dot(_d.head(nodes())) / 2; }  // in the minimum over a face
+  void settle();
+  void open_one(Eigen::Index node);
+  Eigen::Index go_towards(const Eigen::VectorXd& from);
+  void close_undecided();
+  void finish();
+
+  const DenseLcp& _lcp;
+  const Eigen::MatrixXd& _matrix;
+  const Conditions& _conditions;
+  const NestedStart* const _nested;
+  const LcpOptions _options;
+  LcpAnswer _answer;
+  std::vector<char>& _closed = _answer.closed;
+  std::vector<char> _next, _met;
+  std::optional<LcpStatus> _ended;
+  // Scaled, load of size 1. _force is S d - r, less what rows carry; _lambda that where closed.
+  Eigen::VectorXd _r, _d, _force, _lambda;
+  double _unit = 1;
+  struct Given {
+    const Eigen::VectorXd *r, *magnitude;
+    const OnStep* on_step;
+  } _given{};  // while it is solved
 };
 
 }  // namespace anticrack::contact

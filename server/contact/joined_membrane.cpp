@@ -37,16 +37,16 @@ void add_product(const Sparse& lower, const VectorXd& x, VectorXd& y) {
 
 }  // namespace
 
-JoinedMembrane::JoinedMembrane(const ddm::Decomposition& decomposition, int threads)
-    : _decomposition(decomposition),
-      _stiffness(decomposition.subdomains.size()),
+JoinedMembrane::JoinedMembrane(const TraceProblem& traces, int threads)
+    : _traces(traces),
+      _stiffness(decomposition().subdomains.size()),
       _matrix(assemble()),
-      _a(block_of(_matrix, 0, 0, _interior + index(decomposition.skeleton.free),
-                  _interior + index(decomposition.skeleton.free))),
-      _b(block_of(_matrix, _a.rows(), 0, index(decomposition.skeleton.independent), _a.rows())),
+      _a(block_of(_matrix, 0, 0, _interior + traces.maps().free_count(),
+                  _interior + traces.maps().free_count())),
+      _b(block_of(_matrix, _a.rows(), 0, traces.maps().jump_count(), _a.rows())),
       _d(block_of(_matrix, _a.rows(), _a.rows(), _b.rows(), _b.rows())),
       _factor(_a, _a.rows(), ddm::elimination_order(_a, _a.rows(), _places), threads) {
-  const Index held = index(decomposition.skeleton.held.size()), last = _a.rows() + _b.rows();
+  const Index held = traces.maps().held_count(), last = _a.rows() + _b.rows();
   _xp = Sparse(block_of(_matrix, last, 0, held, _a.rows()).transpose());
   _dp = Sparse(block_of(_matrix, last, _a.rows(), held, _b.rows()).transpose());
   _pp = block_of(_matrix, last, last, held, held);
@@ -54,10 +54,10 @@ JoinedMembrane::JoinedMembrane(const ddm::Decomposition& decomposition, int thre
 
 /// Sets _stiffness, _first, _interior and _places as well.
 Sparse JoinedMembrane::assemble() {
-  const ddm::Skeleton& skeleton = _decomposition.skeleton;
+  const ddm::Skeleton& skeleton = decomposition().skeleton;
   for (std::size_t s = 0; s < _stiffness.size(); ++s) {
     stop::look(joining);
-    const ddm::Subdomain& subdomain = _decomposition.subdomains[s];
+    const ddm::Subdomain& subdomain = decomposition().subdomains[s];
     _stiffness[s] = fem::stiffness(subdomain.part, subdomain.tension, index(subdomain.free()));
     _first.push_back(_interior);
     _interior += index(subdomain.interior);
@@ -80,7 +80,7 @@ Sparse JoinedMembrane::assemble() {
   for (const fem::Stiffness& stiffness : _stiffness) count += at(stiffness.free.nonZeros());
   entries.reserve(count + count / 8);
   for (std::size_t s = 0; s < _stiffness.size(); ++s) {
-    const ddm::Subdomain& subdomain = _decomposition.subdomains[s];
+    const ddm::Subdomain& subdomain = decomposition().subdomains[s];
     const auto interior = static_cast<std::int32_t>(subdomain.interior);
     const auto first = static_cast<std::int32_t>(_first[s]);
     for (std::size_t i = 0; i < subdomain.free(); ++i) {
@@ -135,7 +135,7 @@ std::vector<ddm::CondensedLoad> JoinedMembrane::loads(
     std::size_t subdomain, const Eigen::Ref<const Eigen::MatrixXd>& of_nodes,
     const Eigen::Ref<const Eigen::MatrixXd>& dirichlet) const {
   const fem::Stiffness& stiffness = _stiffness[subdomain];
-  const Index interior = index(_decomposition.subdomains[subdomain].interior);
+  const Index interior = index(decomposition().subdomains[subdomain].interior);
   const Index free = stiffness.free.rows();
   std::vector<ddm::CondensedLoad> result(at(of_nodes.cols()));
   for (Index j = 0; j < of_nodes.cols(); ++j) {
@@ -154,46 +154,15 @@ std::vector<ddm::CondensedLoad> JoinedMembrane::loads(
   return result;
 }
 
-std::vector<ddm::CondensedLoad> JoinedMembrane::no_loads() const {
-  std::vector<ddm::CondensedLoad> result;
-  for (std::size_t s = 0; s < _stiffness.size(); ++s) {
-    const ddm::Subdomain& subdomain = _decomposition.subdomains[s];
-    const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(index(subdomain.node.size()), 1);
-    result.push_back(loads(s, zero, zero.topRows(index(subdomain.dirichlet))).front());
-  }
-  return result;
-}
-
-/// F in [x d p].
-VectorXd JoinedMembrane::gather(std::span<const ddm::CondensedLoad> loads) const {
-  VectorXd on_values = VectorXd::Zero(index(_decomposition.skeleton.unknowns));
-  for (std::size_t s = 0; s < loads.size(); ++s) {
-    const std::vector<std::int32_t>& unknown = _decomposition.subdomains[s].unknown;
-    for (std::size_t i = 0; i < unknown.size(); ++i) on_values[unknown[i]] += loads[s].g[index(i)];
-  }
-  VectorXd force = spread(on_values);
+VectorXd JoinedMembrane::spread(const VectorXd& h,
+                                std::span<const ddm::CondensedLoad> loads) const {
+  const Maps& maps = _traces.maps();
+  VectorXd force = VectorXd::Zero(_matrix.rows());
+  force.segment(_interior, maps.free_count()) = maps.free().transpose() * h;
+  force.segment(size(), contacts()) = -(maps.jumps().transpose() * h);
+  force.tail(maps.held_count()) = maps.held().transpose() * h;
   for (std::size_t s = 0; s < loads.size(); ++s)
     force.segment(_first[s], loads[s].z_interior.size()) = loads[s].z_interior;
-  return force;
-}
-
-VectorXd JoinedMembrane::gather(const ddm::Terms& unit) const {
-  VectorXd on_values = VectorXd::Zero(index(_decomposition.skeleton.unknowns));
-  for (const auto& [k, factor] : unit) on_values[k] += factor;
-  return spread(on_values);
-}
-
-/// Forces on the skeleton's values, in [x d p].
-VectorXd JoinedMembrane::spread(const VectorXd& on_values) const {
-  const ddm::Skeleton& skeleton = _decomposition.skeleton;
-  VectorXd force = VectorXd::Zero(_matrix.rows());
-  for (std::size_t i = 0; i < skeleton.unknowns; ++i) {
-    const double value = on_values[index(i)];
-    for (const auto& [k, factor] : skeleton.rows[i].free) force[_interior + k] += factor * value;
-    for (const auto& [k, factor] : skeleton.rows[i].jumps) force[size() + k] += factor * value;
-    for (const auto& [k, factor] : skeleton.rows[i].held)
-      force[size() + contacts() + k] += factor * value;
-  }
   return force;
 }
 
@@ -210,31 +179,22 @@ VectorXd JoinedMembrane::solve_refined(const VectorXd& force) const {
   return x;
 }
 
-JoinedMembrane::Reduced JoinedMembrane::reduce(std::span<const ddm::CondensedLoad> loads,
-                                               const VectorXd& p) const {
-  return reduce(gather(loads), p);
-}
-
-JoinedMembrane::Reduced JoinedMembrane::force_of(const ddm::Terms& unit) const {
-  Reduced result;
-  result.force = gather(unit).head(size());
-  result.p = VectorXd::Zero(_pp.rows());
-  return result;
-}
-
-JoinedMembrane::Reduced JoinedMembrane::reduce(const ddm::Terms& unit) const {
-  return reduce(gather(unit), VectorXd::Zero(_pp.rows()));
-}
-
-JoinedMembrane::Reduced JoinedMembrane::reduce(const VectorXd& force, const VectorXd& p) const {
+Reduced JoinedMembrane::reduce(const VectorXd& force, const VectorXd& p) const {
   Reduced result;
   result.p = p;
-  result.force = force.head(size()) - _xp * p;
+  result.force = force.head(size());
+  result.r = force.segment(size(), contacts());
+  result.magnitude = result.r.cwiseAbs();
+  if (p.size() > 0) {
+    const VectorXd of_held = _dp * p;
+    result.force -= _xp * p;
+    result.r -= of_held;
+    result.magnitude += of_held.cwiseAbs();
+  }
   result.x = solve_refined(result.force);
-  const VectorXd on_contacts = force.segment(size(), contacts());
-  result.r = on_contacts - _dp * p - _b * result.x;
-  result.magnitude =
-      on_contacts.cwiseAbs() + (_dp * p).cwiseAbs() + _b.cwiseAbs() * result.x.cwiseAbs();
+  result.r -= _b * result.x;
+  result.magnitude += _b.cwiseAbs() * result.x.cwiseAbs();
+  result.size = std::max(largest(result.force), largest(result.r));
   return result;
 }
 
@@ -246,7 +206,7 @@ VectorXd JoinedMembrane::apply(const VectorXd& d, bool refined) const {
 }
 
 VectorXd JoinedMembrane::forces_of(const VectorXd& x, const VectorXd& d) const {
-  return -gather(residual(no_loads(), x, values(x, d)));
+  return -residual({}, x, values(x, d));
 }
 
 VectorXd JoinedMembrane::solve(const Reduced& load, const VectorXd& d) const {
@@ -255,37 +215,43 @@ VectorXd JoinedMembrane::solve(const Reduced& load, const VectorXd& d) const {
   return x;
 }
 
-VectorXd JoinedMembrane::values(const Reduced& load, const VectorXd& x, const VectorXd& d) const {
-  VectorXd w = values(x, d);
-  for (Index i = 0; i < w.size(); ++i)
-    w[i] += sum_of(_decomposition.skeleton.rows[at(i)].held, load.p);
-  return w;
+Work JoinedMembrane::work(const VectorXd& force, const Reduced& reduced) const {
+  const Index held = _pp.rows();
+  Work result{VectorXd::Zero(size() + held), VectorXd(size() + held), VectorXd(size() + held)};
+  result.u.head(size()) = reduced.x;
+  result.load.head(size()) = force.head(size());
+  result.load.tail(held) = force.tail(held);
+  result.internal.head(size()) = reduced.force;
+  result.internal.tail(held) = _xp.transpose() * reduced.x;
+  if (reduced.p.size() > 0) {
+    result.u.tail(held) = reduced.p;
+    result.internal.head(size()) += _xp * reduced.p;
+    VectorXd of_held = VectorXd::Zero(held);
+    add_product(_pp, reduced.p, of_held);
+    result.internal.tail(held) += of_held;
+  }
+  return result;
 }
 
 VectorXd JoinedMembrane::values(const VectorXd& x, const VectorXd& d) const {
-  const ddm::Skeleton& skeleton = _decomposition.skeleton;
-  VectorXd w(index(skeleton.unknowns));
-  for (std::size_t i = 0; i < skeleton.unknowns; ++i) {
-    const ddm::Row& row = skeleton.rows[i];
-    w[index(i)] = sum_of(row.free, x.tail(index(skeleton.free))) + sum_of(row.jumps, d);
-  }
-  return w;
+  return _traces.maps().expand(x.tail(_traces.maps().free_count()), d, {});
 }
 
 VectorXd JoinedMembrane::field(std::size_t subdomain, const VectorXd& x, const VectorXd& w) const {
-  const ddm::Subdomain& of = _decomposition.subdomains[subdomain];
+  const ddm::Subdomain& of = decomposition().subdomains[subdomain];
   VectorXd u(index(of.free()));
   u.head(index(of.interior)) = x.segment(_first[subdomain], index(of.interior));
   for (std::size_t i = 0; i < of.trace; ++i) u[index(of.interior + i)] = w[of.unknown[i]];
   return u;
 }
 
-std::vector<double> JoinedMembrane::field(const VectorXd& x, const VectorXd& w) const {
+std::vector<double> JoinedMembrane::field(const VectorXd& x, const VectorXd& d) const {
+  const VectorXd w = values(x, d);
   std::vector<double> result;
   for (std::size_t s = 0; s < _stiffness.size(); ++s) {
     const VectorXd u = field(s, x, w);
     result.insert(result.end(), u.begin(), u.end());
-    result.insert(result.end(), _decomposition.subdomains[s].dirichlet, 0.0);
+    result.insert(result.end(), decomposition().subdomains[s].dirichlet, 0.0);
   }
   return result;
 }
@@ -296,55 +262,19 @@ VectorXd JoinedMembrane::forces(std::size_t subdomain, const VectorXd& u) const 
   return result;
 }
 
-std::vector<ddm::CondensedLoad> JoinedMembrane::residual(std::span<const ddm::CondensedLoad> loads,
-                                                         const VectorXd& x,
-                                                         const VectorXd& w) const {
-  std::vector<ddm::CondensedLoad> result(loads.size());
-  for (std::size_t s = 0; s < loads.size(); ++s) {
+VectorXd JoinedMembrane::residual(std::span<const ddm::CondensedLoad> loads, const VectorXd& x,
+                                  const VectorXd& w) const {
+  std::vector<ddm::CondensedLoad> left(_stiffness.size());
+  for (std::size_t s = 0; s < left.size(); ++s) {
+    const Index interior = index(decomposition().subdomains[s].interior);
     const VectorXd force = forces(s, field(s, x, w));
-    result[s].z_interior = loads[s].z_interior - force.head(loads[s].z_interior.size());
-    result[s].g = loads[s].g - force.tail(loads[s].g.size());
+    left[s].z_interior = -force.head(interior);
+    left[s].g = -force.tail(force.size() - interior);
+    if (loads.empty()) continue;
+    left[s].z_interior += loads[s].z_interior;
+    left[s].g += loads[s].g;
   }
-  return result;
-}
-
-void JoinedMembrane::fill(std::span<const ddm::CondensedLoad> loads, const VectorXd& x,
-                          const VectorXd& w, TraceState& state) const {
-  state.trace.clear();
-  state.flux.clear();
-  state.of_interiors = 0;
-  for (std::size_t s = 0; s < loads.size(); ++s) {
-    const Index trace = index(_decomposition.subdomains[s].trace);
-    const VectorXd u = field(s, x, w), force = forces(s, u);
-    state.trace.emplace_back(u.tail(trace));
-    state.flux.emplace_back(force.tail(trace) - loads[s].g);
-    const auto interior = u.head(u.size() - trace);
-    state.of_interiors += interior.dot(force.head(interior.size()) / 2 - loads[s].z_interior);
-  }
-}
-
-VectorXd JoinedMembrane::multipliers(const TraceState& state) const {
-  const ddm::Skeleton& skeleton = _decomposition.skeleton;
-  VectorXd result = VectorXd::Zero(contacts());
-  for (std::size_t s = 0; s < state.flux.size(); ++s) {
-    const std::vector<std::int32_t>& unknown = _decomposition.subdomains[s].unknown;
-    for (std::size_t i = 0; i < unknown.size(); ++i)
-      for (const auto& [k, factor] : skeleton.rows[at(unknown[i])].jumps)
-        result[k] += factor * state.flux[s][index(i)];
-  }
-  return result;
-}
-
-double JoinedMembrane::work(const Reduced& a, const Reduced& b) const {
-  VectorXd of_held = _xp.transpose() * b.x;
-  add_product(_pp, b.p, of_held);
-  return a.x.dot(b.force + _xp * b.p) + a.p.dot(of_held);
-}
-
-double JoinedMembrane::work(std::span<const ddm::CondensedLoad> loads,
-                            const Reduced& closed) const {
-  const VectorXd force = gather(loads);
-  return force.head(size()).dot(closed.x) + force.tail(closed.p.size()).dot(closed.p);
+  return spread(_traces.gather(left), left);
 }
 
 std::size_t JoinedMembrane::bytes() const noexcept {

@@ -7,62 +7,39 @@
 #include <span>
 #include <vector>
 
-#include "contact/solve.hpp"
-#include "contact/trace_state.hpp"
+#include "contact/contact_problem.hpp"
 #include "ddm/decomposition.hpp"
 #include "ddm/subdomain_factor.hpp"
-#include "ddm/subdomain_operator.hpp"
 #include "fem/stiffness.hpp"
 
 namespace anticrack::contact {
 
-/// The whole membrane with one sparse factor, for interfaces too long for dense matrices. Unknowns:
-/// x, the interior nodes of the subdomains one after another and then q; d the jumps, p what is
-/// held (ddm::Skeleton). With K the stiffness of all subdomains in [x d p] and F the loads:
-///
-///   K = [A  B' .; B  D  .; . . .],   A x + B'd + K_xp p = F_x
-///   S^ = D - B A^-1 B',   r = F_d - K_dp p - B y,   y = A^-1 (F_x - K_xp p)
-///   d >= 0,  lambda = S^ d - r >= 0,  d'lambda = 0;     x = y - A^-1 B'd
-///
-/// S^ is never formed: it is applied by a solve with the factor of A. Immutable after construction,
-/// thread-safe. Keeps a reference to the decomposition.
+/// The matrices of a JoinedProblem: the whole membrane with one sparse factor, for interfaces too
+/// long for dense matrices. Unknowns: x, the interior nodes of the subdomains one after another and
+/// then q; d the jumps, p what is held (ddm::Skeleton). S^ is never formed: it is applied by a
+/// solve with the factor of A. Immutable after construction, thread-safe. Keeps a reference.
 class JoinedMembrane {
  public:
   /// Throws errors::Error (numerical) when A is not positive definite; cancelled. O(N log N)
   /// memory.
-  JoinedMembrane(const ddm::Decomposition& decomposition, int threads);
+  JoinedMembrane(const TraceProblem& traces, int threads);
 
-  const ddm::Decomposition& decomposition() const noexcept { return _decomposition; }
+  const TraceProblem& traces() const noexcept { return _traces; }
+  const ddm::Decomposition& decomposition() const noexcept { return _traces.decomposition(); }
   Eigen::Index size() const noexcept { return _a.rows(); }      ///< of x
   Eigen::Index contacts() const noexcept { return _b.rows(); }  ///< of d
 
-  /// Loads of a subdomain, a column each, as CondensedLoad that condenses nothing: z_interior and g
-  /// are F in the interior and trace nodes, less what g_D takes. `of_nodes`, `dirichlet`: as for
-  /// ddm::SubdomainOperator::condense. O(N).
+  /// As ContactProblem::loads: CondensedLoad that condenses nothing. z_interior and g are the load
+  /// in the interior and trace nodes, less what g_D takes.
   std::vector<ddm::CondensedLoad> loads(std::size_t subdomain,
                                         const Eigen::Ref<const Eigen::MatrixXd>& of_nodes,
                                         const Eigen::Ref<const Eigen::MatrixXd>& dirichlet) const;
 
-  /// Nothing on any subdomain.
-  std::vector<ddm::CondensedLoad> no_loads() const;
-
-  /// A load with every contact closed.
-  struct Reduced {
-    Eigen::VectorXd force;      ///< F_x - K_xp p
-    Eigen::VectorXd p;          ///< held values
-    Eigen::VectorXd x;          ///< y
-    Eigen::VectorXd r;          ///< per contact
-    Eigen::VectorXd magnitude;  ///< sums of the absolute values r is made of
-  };
-  /// Two solves: one of iterative refinement. `p`: see held_values.
-  Reduced reduce(std::span<const ddm::CondensedLoad> loads, const Eigen::VectorXd& p) const;
-
-  /// F in [x d p] of a unit force on a sum of unknowns.
-  Eigen::VectorXd gather(const ddm::Terms& unit) const;
-  /// Of such a force.
-  Reduced reduce(const ddm::Terms& unit) const;
-  /// Its force and p alone, which solve() and values() need.
-  Reduced force_of(const ddm::Terms& unit) const;
+  /// f in [x d p] of forces h on the skeleton's unknowns and of what `loads` have in the interiors.
+  Eigen::VectorXd spread(const Eigen::VectorXd& h,
+                         std::span<const ddm::CondensedLoad> loads = {}) const;
+  /// Two solves: one of iterative refinement. `force`: in [x d p].
+  Reduced reduce(const Eigen::VectorXd& force, const Eigen::VectorXd& p) const;
 
   /// S^ d. One solve, or two with a step of iterative refinement.
   Eigen::VectorXd apply(const Eigen::VectorXd& d, bool refined = false) const;
@@ -71,30 +48,19 @@ class JoinedMembrane {
   Eigen::VectorXd forces_of(const Eigen::VectorXd& x, const Eigen::VectorXd& d) const;
   /// x for jumps d. Two solves: the residual is that of forces_of.
   Eigen::VectorXd solve(const Reduced& load, const Eigen::VectorXd& d) const;
+  /// f and K [y 0 p] of a load with every contact closed, in [x p] as [y p] is.
+  Work work(const Eigen::VectorXd& force, const Reduced& reduced) const;
 
-  /// w of the skeleton.
-  Eigen::VectorXd values(const Reduced& load, const Eigen::VectorXd& x,
-                         const Eigen::VectorXd& d) const;
-  /// The same where p is 0.
-  Eigen::VectorXd values(const Eigen::VectorXd& x, const Eigen::VectorXd& d) const;
-  /// u on the free nodes of a subdomain.
+  /// u on the free nodes of a subdomain, w the values of the skeleton.
   Eigen::VectorXd field(std::size_t subdomain, const Eigen::VectorXd& x,
                         const Eigen::VectorXd& w) const;
-  /// u on the nodes of all, one after another, 0 on the Dirichlet boundary.
-  std::vector<double> field(const Eigen::VectorXd& x, const Eigen::VectorXd& w) const;
-  /// Loads less the forces K u on the nodes. O(N).
-  std::vector<ddm::CondensedLoad> residual(std::span<const ddm::CondensedLoad> loads,
-                                           const Eigen::VectorXd& x,
-                                           const Eigen::VectorXd& w) const;
-  /// Traces, fluxes and the energy of the interiors.
-  void fill(std::span<const ddm::CondensedLoad> loads, const Eigen::VectorXd& x,
-            const Eigen::VectorXd& w, TraceState& state) const;
-  /// lambda before DenseLcp::split, from fluxes. O(n).
-  Eigen::VectorXd multipliers(const TraceState& state) const;
-  /// a'K b of two loads with every contact closed.
-  double work(const Reduced& a, const Reduced& b) const;
-  /// F'u of a load on the closed state of another.
-  double work(std::span<const ddm::CondensedLoad> loads, const Reduced& closed) const;
+  /// u on the nodes of all, one after another, 0 on the Dirichlet boundary; p is 0.
+  std::vector<double> field(const Eigen::VectorXd& x, const Eigen::VectorXd& d) const;
+  /// K u on the free nodes of a subdomain. O(N).
+  Eigen::VectorXd forces(std::size_t subdomain, const Eigen::VectorXd& u) const;
+  /// f less K u, in [x d p]: the difference in each node first. `loads`: or none. O(N).
+  Eigen::VectorXd residual(std::span<const ddm::CondensedLoad> loads, const Eigen::VectorXd& x,
+                           const Eigen::VectorXd& w) const;
 
   /// K in [x d p], lower triangle, and a place in the plane for each entry of x and d.
   const Eigen::SparseMatrix<double>& matrix() const noexcept { return _matrix; }
@@ -105,14 +71,11 @@ class JoinedMembrane {
 
  private:
   Eigen::SparseMatrix<double> assemble();
-  Eigen::VectorXd forces(std::size_t subdomain, const Eigen::VectorXd& u) const;
-  Eigen::VectorXd gather(std::span<const ddm::CondensedLoad> loads) const;
-  Eigen::VectorXd spread(const Eigen::VectorXd& on_values) const;
-  Reduced reduce(const Eigen::VectorXd& force, const Eigen::VectorXd& p) const;
+  Eigen::VectorXd values(const Eigen::VectorXd& x, const Eigen::VectorXd& d) const;
   Eigen::VectorXd solve_once(const Eigen::VectorXd& force) const;
   Eigen::VectorXd solve_refined(const Eigen::VectorXd& force) const;
 
-  const ddm::Decomposition& _decomposition;
+  const TraceProblem& _traces;
   std::vector<fem::Stiffness> _stiffness;  // per subdomain
   std::vector<Eigen::Index> _first;        // of each subdomain's interior in x
   Eigen::Index _interior = 0;              // interior nodes of all

@@ -1,46 +1,60 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "contact/block_lcp.hpp"
 #include "contact/contact_blocks.hpp"
+#include "contact/contact_problem.hpp"
 #include "contact/joined_membrane.hpp"
-#include "contact/solve.hpp"
-#include "contact/sweep_solver.hpp"
-#include "contact/trace_problem.hpp"
 
 namespace anticrack::contact {
 
-/// Whether the interfaces are too long for the dense matrices of SkeletonProblem.
-bool is_long(const ddm::Decomposition& decomposition, std::size_t most);
+/// Whether a membrane is joined: interfaces of more than `most` values are too long for the dense
+/// matrices of CondensedProblem.
+bool is_joined(const ddm::Decomposition& decomposition, std::size_t most);
 
-/// The contact problem of a membrane whose interfaces are too long for SkeletonProblem: the same
-/// answers to 1e-10. Immutable, thread-safe; keeps a reference to the traces.
-class JoinedProblem {
+/// The contact problem of a JoinedMembrane, with the answers of a CondensedProblem to 1e-10. Its
+/// steps report criterion, energy, gap and complementarity from jumps and multipliers alone: traces
+/// would take a solve.
+class JoinedProblem final : public ContactProblem {
  public:
   /// As JoinedMembrane and ContactBlocks.
   JoinedProblem(const TraceProblem& traces, int threads);
 
+  std::vector<ddm::CondensedLoad> loads(
+      std::size_t subdomain, const Eigen::Ref<const Eigen::MatrixXd>& of_nodes,
+      const Eigen::Ref<const Eigen::MatrixXd>& dirichlet) const override;
+  Eigen::VectorXd solve(const Reduced& load, const Eigen::VectorXd& d) const override;
+  Work work(std::span<const ddm::CondensedLoad> loads, const Reduced& reduced) const override;
+  void fill(std::span<const ddm::CondensedLoad> loads, const Eigen::VectorXd& x,
+            const Eigen::VectorXd& w, TraceState& state) const override;
+  void refine(std::span<const ddm::CondensedLoad> loads, const TraceState& state,
+              const LcpAnswer& solution, Position& position) const override;
+  LcpAnswer solve_contact(const Reduced& load, const LcpOptions& options,
+                          std::span<const char> start, const OnStep& on_step) const override;
+  std::vector<Opened> solve_open(const std::vector<char>& closed,
+                                 std::span<const Eigen::VectorXd> r) const override;
+  std::unique_ptr<RowContact> rows(const LcpOptions& options, std::span<const char> start,
+                                   std::vector<ddm::Terms> motions) const override;
+  void recover_fields(std::span<const SolvedCase> cases) const override;
+  std::vector<std::vector<double>> fields_of(std::span<const Displaced> displaced) const override;
+  std::unique_ptr<const OpenMembrane> open_membrane() const override;
+  std::size_t bytes() const noexcept override { return _membrane.bytes() + _blocks.bytes(); }
+
   const JoinedMembrane& membrane() const noexcept { return _membrane; }
   const BlockLcp& lcp() const noexcept { return _lcp; }
-  const TraceProblem& traces() const noexcept { return _traces; }
 
-  /// As contact::recover_fields: two solves for each case.
-  void recover_fields(std::span<const SolvedCase> cases) const;
-  std::size_t bytes() const noexcept { return _membrane.bytes() + _blocks.bytes(); }
+ protected:
+  Reduced eliminate(const Eigen::VectorXd& h, std::span<const ddm::CondensedLoad> loads,
+                    const Eigen::VectorXd& p, bool refined) const override;
 
  private:
-  const TraceProblem& _traces;
   JoinedMembrane _membrane;
   ContactBlocks _blocks;
   BlockLcp _lcp;
 };
-
-/// As on a skeleton, to 1e-10. `loads`: of JoinedMembrane::loads.
-Answer solve_active_set(const JoinedProblem& problem, const mesh::Mesh& mesh,
-                        const CaseLoads& loads, const ActiveSetOptions& options, bool fields,
-                        Observer& observer, std::span<const char> start = {});
 
 }  // namespace anticrack::contact

@@ -35,6 +35,12 @@ Eigen::VectorXd Maps::expand(const Eigen::VectorXd& q, const Eigen::VectorXd& d,
   return w;
 }
 
+Eigen::VectorXd Maps::vector_of(const ddm::Terms& sum) const {
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(unknowns());
+  for (const auto& [index, factor] : sum) result[index] += factor;
+  return result;
+}
+
 std::size_t Maps::bytes() const noexcept {
   std::size_t bytes = 0;
   for (const Sparse* one : {&_free, &_jumps, &_held})

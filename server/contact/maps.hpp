@@ -30,6 +30,8 @@ class Maps {
   /// w. O(n).
   Eigen::VectorXd expand(const Eigen::VectorXd& q, const Eigen::VectorXd& d,
                          const Eigen::VectorXd& p) const;
+  /// Unit forces on a sum of unknowns, shape (w). O(n).
+  Eigen::VectorXd vector_of(const ddm::Terms& sum) const;
   /// Memory of the three.
   std::size_t bytes() const noexcept;
 

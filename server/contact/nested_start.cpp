@@ -12,7 +12,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Prolongation = Eigen::SparseMatrix<double>;
-using Chains = std::vector<std::vector<Index>>;
+using Chains = std::vector<std::vector<std::int32_t>>;
 
 /// Below, a step from all closed costs as little as anything.
 constexpr Index fewest_contacts = 32;
@@ -23,9 +23,9 @@ constexpr int most_steps = 20;
 /// as at a tip.
 Prolongation coarsen(Index contacts, Chains& chains) {
   std::vector<Eigen::Triplet<double>> entries;
-  Index count = 0;
-  for (std::vector<Index>& chain : chains) {
-    std::vector<Index> kept;
+  std::int32_t count = 0;
+  for (std::vector<std::int32_t>& chain : chains) {
+    std::vector<std::int32_t> kept;
     for (std::size_t i = 1; i < chain.size(); i += 2) {
       entries.emplace_back(chain[i], count, 1.0);
       entries.emplace_back(chain[i - 1], count, 0.5);
@@ -66,8 +66,7 @@ std::vector<char> NestedStart::closed(const VectorXd& r, const VectorXd& magnitu
     const Level& level = _levels[k];
     LcpOptions options;
     options.max_steps = most_steps;
-    const LcpAnswer answer = level.lcp.solve(loads[k].first, loads[k].second, options, start,
-                                             [](const LcpStep&) { return true; });
+    const LcpAnswer answer = level.lcp.solve(loads[k].first, loads[k].second, options, start);
     if (answer.status != LcpStatus::solved) return {};
     const VectorXd jump = level.prolongation * answer.d;
     start.resize(at(jump.size()));

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "contact/dense_lcp.hpp"
@@ -18,7 +19,7 @@ class NestedStart {
  public:
   /// `matrix`: S, as DenseLcp takes it. `chains`: contacts that follow each other along a crack,
   /// each contact once. O(c^2).
-  NestedStart(const Eigen::MatrixXd& matrix, std::vector<std::vector<Eigen::Index>> chains);
+  NestedStart(const Eigen::MatrixXd& matrix, std::vector<std::vector<std::int32_t>> chains);
 
   /// Closed contacts to start from; empty where nothing is gained or known. A function of the load
   /// alone. `r`, `magnitude`: as DenseLcp::solve takes them. About a third of a solve.

@@ -29,7 +29,8 @@ std::vector<std::vector<double>> OpenMembrane::fields(
     std::span<const ddm::Terms* const> sums) const {
   MatrixXd left(_factor.interior(), static_cast<Index>(sums.size()));
   for (Index k = 0; k < left.cols(); ++k)
-    left.col(k) = _membrane.gather(*sums[at(k)]).head(left.rows());
+    left.col(k) =
+        _membrane.spread(_membrane.traces().maps().vector_of(*sums[at(k)])).head(left.rows());
   MatrixXd y(left.rows(), left.cols()), change(left.rows(), left.cols());
   _factor.solve(left, y);
   const auto x_of = [&](Index k) { return y.col(k).head(_membrane.size()); };
@@ -42,8 +43,7 @@ std::vector<std::vector<double>> OpenMembrane::fields(
     const double size = y.col(k).lpNorm<Eigen::Infinity>();
     if (!(change.col(k).lpNorm<Eigen::Infinity>() <= most_change * size)) continue;
     y.col(k) += change.col(k);
-    const VectorXd x = x_of(k);
-    fields[at(k)] = _membrane.field(x, _membrane.values(x, d_of(k)));
+    fields[at(k)] = _membrane.field(x_of(k), d_of(k));
   }
   return fields;
 }

@@ -4,11 +4,12 @@
 #include <span>
 
 #include "contact/answer.hpp"
-#include "contact/skeleton_problem.hpp"
 #include "contact/trace_problem.hpp"
 #include "contact/trace_state.hpp"
 
 namespace anticrack::contact {
+
+class ContactProblem;
 
 /// A force on an inclusion with its moments about the inclusion's middle.
 struct RigidForce {
@@ -43,13 +44,14 @@ double work(const RigidForce& force, const Eigen::Ref<const Eigen::Vector3d>& mo
 Eigen::VectorXd held_values(const ddm::Decomposition& decomposition,
                             std::span<const ddm::CondensedLoad> loads);
 
-/// The exact contact problem, by DenseLcp and a step of iterative refinement; one sample a step,
-/// whose criterion is that of step 3 of Algorithm 2, 1 in the first. The bits depend on the final
-/// set only, not on `start`: closed contacts (Answer::closed of another load); empty: those of
-/// NestedStart. Ends not_converged at max_steps, if a part of the membrane held by contact only is
-/// pulled off, or if a relative residual is above solution_residual. Throws errors::Error
-/// (numerical) where the energy overflows.
-Answer solve_active_set(const SkeletonProblem& problem, const mesh::Mesh& mesh,
+/// The exact contact problem with iterative refinement; one sample a step, whose criterion is that
+/// of step 3 of Algorithm 2, 1 in the first (of a joined membrane: the work of the step, of all
+/// work). The bits of a condensed problem depend on the final set only, not on `start`: closed
+/// contacts (Answer::closed of another load); empty: those that the problem knows. Ends
+/// not_converged at max_steps, if a part of the membrane held by contact only is pulled off, or if
+/// a relative residual is above solution_residual. Throws errors::Error (numerical) where the
+/// energy overflows.
+Answer solve_active_set(const ContactProblem& problem, const mesh::Mesh& mesh,
                         const CaseLoads& loads, const ActiveSetOptions& options, bool fields,
                         Observer& observer, std::span<const char> start = {});
 

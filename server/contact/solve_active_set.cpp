@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "contact/case_state.hpp"
+#include "contact/contact_problem.hpp"
 #include "contact/solve.hpp"
 #include "mesh/at.hpp"
 
@@ -13,70 +14,103 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// One load on the skeleton.
+/// One load.
 class Case {
  public:
-  Case(const SkeletonProblem& problem, const CaseLoads& loads)
-      : _problem(problem),
-        _traces(problem.traces()),
-        _loads(loads.subdomains),
-        _solved(_traces, loads) {
-    std::vector<VectorXd> g;
-    g.reserve(_loads.size());
-    for (const ddm::CondensedLoad& load : _loads) g.push_back(load.g);
-    _reduced = problem.reduce(problem.gather(g), held_values(_traces.decomposition(), _loads));
-    _solved.state().load_size = _reduced.held_size;
+  Case(const ContactProblem& problem, const CaseLoads& loads)
+      : _problem(problem), _loads(loads.subdomains), _solved(problem.traces(), loads) {
+    _position.load = problem.reduce(_loads, held_values(problem.traces().decomposition(), _loads));
+    _position.d.setZero(_position.load.r.size());
+    _solved.state().load_size = _position.load.size;
+    if (problem.condensed()) return;
+    const Work closed = problem.work(_loads, _position.load);
+    _closed_size = closed.u.dot(closed.internal);
+    _closed_energy = _closed_size / 2 - closed.u.dot(closed.load);
+    for (const ddm::CondensedLoad& load : _loads) _closed_energy += load.energy_constant;
   }
 
-  const SkeletonProblem::Reduced& reduced() const noexcept { return _reduced; }
+  const Reduced& reduced() const noexcept { return _position.load; }
   const CaseState& solved() const noexcept { return _solved; }
 
-  /// `jumps` and `lambda`: of all contacts.
-  void sample_step(int number, const VectorXd& jumps, const VectorXd& lambda) {
-    _solved.sample().iteration = number;
-    _d = jumps.head(_problem.lcp().size());
-    move_to(_problem.unknowns(_reduced, _d));
-    _solved.fill(jumps, lambda);
+  void sample_step(const LcpStep& step) {
+    const VectorXd d = step.d.head(_position.d.size());
+    if (_problem.condensed()) {
+      const std::vector<VectorXd> trace = state().trace, flux = state().flux;
+      move_to(d);
+      _solved.sample().criterion = trace.empty() ? 1 : criterion(trace, flux);
+      _solved.fill(step.d, step.lambda);
+    } else {
+      sample_jumps(d, step);
+    }
+    _solved.sample().iteration = step.number;
   }
 
-  /// Iterative refinement, and multipliers from the forces themselves. One step is enough but where
+  /// To the solution by iterative refinement, with multipliers from the forces themselves. One step
+  /// is enough for a condensed problem, and none for a joined one, whose x is refined, but where
   /// terms far larger than the load cancel, as between inclusions that nearly touch.
-  void refine(const LcpAnswer& solution) {
-    constexpr double enough = 1e-11;
+  void finish(const LcpAnswer& solution) {
+    const bool condensed = _problem.condensed();
+    if (condensed && solution.status != LcpStatus::solved) return;
+    const double enough = condensed ? 1e-11 : 1e-12;
     constexpr int most_steps = 5;
-    const double criterion = _solved.sample().criterion;  // of the steps
-    VectorXd d = solution.d.head(_d.size());
-    if (d != _d)  // after the last sample, nodes open by rounding were closed
-      move_to(_problem.unknowns(_reduced, d));
-    double left = std::numeric_limits<double>::infinity(), before = 0;
-    int step = 0;
-    do {
-      _problem.refine(-_problem.gather(state().flux), solution.factor, _reduced, d);
-      d = d.cwiseMax(0.0);
-      move_to(_problem.unknowns(_reduced, d));
-      const VectorXd lambda =
-          _problem.lcp()
-              .split(_problem.multipliers(-_problem.gather(state().flux)), solution.closed)
-              .cwiseMax(0.0);
-      _solved.fill(_problem.lcp().jumps(d, solution.closed), lambda);
-      _solved.settle_contact(solution.pressed, lambda);
+    // After the last sample, nodes open by rounding were closed.
+    const VectorXd d = solution.d.head(_position.d.size());
+    if (!condensed || d != _position.d) move_to(d);
+    if (!condensed) settle(solution);
+    double left = condensed ? std::numeric_limits<double>::max() : unbalanced();
+    double before = std::numeric_limits<double>::infinity();
+    for (int step = 0; left > enough && left < before / 2 && step < most_steps; ++step) {
+      _problem.refine(_loads, state(), solution, _position);
+      show();
+      settle(solution);
       before = left;
-      left = ratio(_solved.sample().kkt.equilibrium, scales_of(_loads, state()).force);
-    } while (left > enough && left < before / 2 && ++step < most_steps);
-    _solved.sample().criterion = criterion;
+      left = unbalanced();
+    }
   }
 
  private:
   const TraceState& state() const noexcept { return _solved.state(); }
+  double unbalanced() const {
+    return ratio(_solved.sample().kkt.equilibrium, scales_of(_loads, state()).force);
+  }
 
-  void move_to(const VectorXd& w) {
-    std::vector<VectorXd> previous_trace = std::move(_solved.state().trace);
-    std::vector<VectorXd> previous_flux = std::move(_solved.state().flux);
-    _solved.state().trace = _problem.scatter(w);
-    _solved.state().flux = fluxes(_traces.operators(), _loads, state().trace);
+  void move_to(const VectorXd& d) {
+    _position.d = d;
+    _position.x = _problem.solve(_position.load, d);
+    show();
+  }
+
+  /// Traces, fluxes and motions of the position.
+  void show() {
+    const VectorXd w = _problem.values(_position.x, _position.d, _position.load.p);
+    _problem.fill(_loads, _position.x, w, _solved.state());
     _solved.set_motion(w);
-    _solved.sample().criterion =
-        previous_trace.empty() ? 1 : criterion(previous_trace, previous_flux);
+  }
+
+  /// Pressures and contact of the position.
+  void settle(const LcpAnswer& solution) {
+    const VectorXd lambda = _problem.multipliers(state(), solution.closed).cwiseMax(0.0);
+    _solved.fill(_problem.conditions().jumps(_position.d, solution.closed), lambda);
+    _solved.settle_contact(solution.pressed, lambda);
+  }
+
+  /// A sample from jumps and multipliers alone: traces would take a solve.
+  void sample_jumps(const VectorXd& d, const LcpStep& step) {
+    Sample& sample = _solved.sample();
+    const VectorXd& r = reduced().r;
+    const double worked = (d - _position.d).dot(r), all = std::abs(r.dot(d)) + _closed_size;
+    sample.criterion = step.number == 1 ? 1 : ratio(std::abs(worked), all);
+    sample.energy = _closed_energy - r.dot(d) / 2;
+    sample.kkt = {};
+    sample.contact_count = 0;
+    const VectorXd& mass = _problem.traces().pair_forces().contact_mass();
+    for (Index i = 0; i < step.lambda.size(); ++i) {
+      const double mu = step.lambda[i] / mass[i];
+      sample.kkt.gap = std::max(sample.kkt.gap, -step.d[i]);
+      sample.kkt.complementarity = std::max(sample.kkt.complementarity, std::abs(mu * step.d[i]));
+      sample.contact_count += mu > 0 ? 1 : 0;
+    }
+    _position.d = d;
   }
 
   /// max_i |u_k - u_{k-1}|_V^2 / |u_k|_V^2, of scaled traces and fluxes, whose squares do not
@@ -101,37 +135,29 @@ class Case {
     return worst;
   }
 
-  const SkeletonProblem& _problem;
-  const TraceProblem& _traces;
+  const ContactProblem& _problem;
   std::span<const ddm::CondensedLoad> _loads;
-  SkeletonProblem::Reduced _reduced;
-  VectorXd _d;  // of the last step
   CaseState _solved;
+  Position _position;
+  double _closed_energy = 0, _closed_size = 0;  // Pi and |u|_V^2 with every contact closed
 };
 
 }  // namespace
 
-Answer solve_active_set(const SkeletonProblem& problem, const mesh::Mesh& mesh,
+Answer solve_active_set(const ContactProblem& problem, const mesh::Mesh& mesh,
                         const CaseLoads& loads, const ActiveSetOptions& options, bool fields,
                         Observer& observer, std::span<const char> start) {
   Case load_case(problem, loads);
-  const auto on_step = [&](const LcpStep& step) {
-    load_case.sample_step(step.number, step.d, step.lambda);
-    return observer.on_iteration(load_case.solved().sample());
-  };
-  const SkeletonProblem::Reduced& reduced = load_case.reduced();
-  const std::vector<char> nested = start.empty()
-                                       ? problem.nested_start().closed(reduced.r, reduced.magnitude)
-                                       : std::vector<char>(start.begin(), start.end());
-  const LcpAnswer solution = problem.lcp().solve(
-      reduced.r, reduced.magnitude, {options.tolerance, options.max_steps}, nested, on_step);
-  if (solution.status == LcpStatus::solved) load_case.refine(solution);
-  Answer answer =
-      conclude(problem.traces(), mesh, loads, load_case.solved(),
-               {solution.status, solution.steps, solution.weakly_active, solution.closed});
+  const LcpAnswer solution = problem.solve_contact(
+      load_case.reduced(), {options.tolerance, options.max_steps}, start, [&](const LcpStep& step) {
+        load_case.sample_step(step);
+        return observer.on_iteration(load_case.solved().sample());
+      });
+  load_case.finish(solution);
+  Answer answer = conclude(problem.traces(), mesh, loads, load_case.solved(), solution);
   if (fields) {
     const SolvedCase solved{loads.subdomains, answer};
-    recover_fields(problem.traces(), {&solved, 1});
+    problem.recover_fields({&solved, 1});
   }
   return answer;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "contact/dense.hpp"
 #include "mesh/at.hpp"
@@ -21,8 +22,7 @@ std::size_t slopes(const SweepColumns& rows) {
 
 std::size_t bytes_of(const MatrixXd& matrix) { return sizeof(double) * at(matrix.size()); }
 
-}  // namespace
-
+/// Rows of a mesh's inclusions: A of each, then where any tilts Bx and By of each.
 std::vector<ddm::Terms> sweep_motions(const ddm::Skeleton& skeleton) {
   std::vector<ddm::Terms> rows;
   bool tilting = false;
@@ -37,10 +37,12 @@ std::vector<ddm::Terms> sweep_motions(const ddm::Skeleton& skeleton) {
   return rows;
 }
 
+/// Whether numbers hold inclusions.
 bool held_by_numbers(const ddm::Skeleton& skeleton) {
   return std::ranges::any_of(skeleton.held, [](const ddm::Held& held) { return held.value != 0; });
 }
 
+/// Of the held values the part that a load gives, or that numbers give.
 VectorXd held_part(const ddm::Decomposition& decomposition,
                    std::span<const ddm::CondensedLoad> loads, bool numbers) {
   const std::vector<ddm::Held>& held = decomposition.skeleton.held;
@@ -55,6 +57,7 @@ VectorXd held_part(const ddm::Decomposition& decomposition,
   return values;
 }
 
+/// Takes the work of forces on held inclusions from the energy.
 void take_from_holders(std::span<const CaseLoads> loads, SweepLoads& reduced) {
   for (std::size_t i = 0; i < loads.size(); ++i) {
     const auto inclusions = static_cast<Index>(loads[i].inclusion_forces.size());
@@ -71,6 +74,42 @@ void take_from_holders(std::span<const CaseLoads> loads, SweepLoads& reduced) {
       reduced.energy(j, row) -= sum / 2;
     }
   }
+}
+
+}  // namespace
+
+SweepLoads reduce(const ContactProblem& problem, std::span<const CaseLoads> loads,
+                  const MatrixXd& constants) {
+  const ddm::Decomposition& decomposition = problem.traces().decomposition();
+  const std::vector<ddm::Terms> motions = sweep_motions(decomposition.skeleton);
+  const auto contacts = problem.conditions().contacts(), given = static_cast<Index>(loads.size());
+  const Index m = given + (held_by_numbers(decomposition.skeleton) ? 1 : 0);
+  const VectorXd no_jump = VectorXd::Zero(contacts);
+  SweepLoads result{MatrixXd(contacts, m), MatrixXd(contacts, m),
+                    MatrixXd(static_cast<Index>(motions.size()), m), MatrixXd::Zero(m, m)};
+  MatrixXd u, acting, internal;
+  for (Index j = 0; j < m; ++j) {
+    const bool numbers = j == given;
+    const auto load = numbers ? std::span<const ddm::CondensedLoad>() : loads[at(j)].subdomains;
+    const Reduced reduced = problem.reduce(load, held_part(decomposition, load, numbers), true);
+    const VectorXd w = problem.values(reduced.x, no_jump, reduced.p);
+    const Work work = problem.work(load, reduced);
+    if (j == 0)
+      for (MatrixXd* all : {&u, &acting, &internal}) all->resize(work.u.size(), m);
+    u.col(j) = work.u;
+    acting.col(j) = work.load;
+    internal.col(j) = work.internal;
+    result.r.col(j) = reduced.r;
+    result.magnitude.col(j) = reduced.magnitude;
+    for (Index k = 0; k < result.motion.rows(); ++k)
+      result.motion(k, j) = sum_of(motions[at(k)], w);
+  }
+  // u'K u/2 - f'u; without held values u'K u = f'u.
+  const MatrixXd work = acting.transpose() * u, strain = internal.transpose() * u;
+  result.energy.topLeftCorner(given, given) = constants;
+  result.energy += (strain + strain.transpose()) / 4 - (work + work.transpose()) / 2;
+  take_from_holders(loads, result);
+  return result;
 }
 
 SweepGeometry::SweepGeometry(const TraceProblem& traces)
@@ -99,23 +138,26 @@ std::size_t SweepLoads::bytes() const noexcept {
   return bytes_of(r) + bytes_of(magnitude) + bytes_of(motion) + bytes_of(energy);
 }
 
-SweepSolver::SweepSolver(const TraceProblem& traces, const SweepGeometry& geometry,
-                         std::unique_ptr<RowContact> contact)
+SweepSolver::SweepSolver(const ContactProblem& problem, const SweepGeometry& geometry,
+                         const ActiveSetOptions& options, std::span<const char> start)
     : _geometry(geometry),
-      _forces(traces.pair_forces()),
-      _contact(std::move(contact)),
-      _r(static_cast<Index>(traces.decomposition().skeleton.independent)),
-      _magnitude(_r.size()),
-      _motion(static_cast<Index>(sweep_motions(traces.decomposition().skeleton).size())),
-      _of_jumps(_motion.size()) {}
+      _forces(problem.traces().pair_forces()),
+      _r(problem.conditions().contacts()),
+      _magnitude(_r.size()) {
+  std::vector<ddm::Terms> motions = sweep_motions(problem.traces().decomposition().skeleton);
+  _motion.resize(static_cast<Index>(motions.size()));
+  _of_jumps.resize(_motion.size());
+  _contact = problem.rows({options.tolerance, options.max_steps}, start, std::move(motions));
+}
 
 void SweepSolver::solve(const SweepLoads& loads, std::span<const double> coefficients,
                         std::size_t row, SweepColumns& rows) {
   rows.steps[row] = 0;
   bool sound = combine(loads, coefficients);
   if (sound) {
-    sound = _contact->solve(_r, _magnitude) == LcpStatus::solved;
-    rows.steps[row] = _contact->steps();
+    _contact->solve(_r, _magnitude);
+    sound = _contact->answer().status == LcpStatus::solved;
+    rows.steps[row] = _contact->answer().steps;
   }
   sound = sound && write(row, rows);
   rows.status[row] = sound ? Status::converged : Status::not_converged;
@@ -144,22 +186,21 @@ bool SweepSolver::combine(const SweepLoads& loads, std::span<const double> coeff
 }
 
 bool SweepSolver::write(std::size_t row, SweepColumns& rows) {
-  const VectorXd& d = _contact->d();
-  const VectorXd& lambda = _contact->lambda();
+  const LcpAnswer& answer = _contact->answer();
   double energy = _energy, length = 0;
-  _pressed = _contact->pressed();
-  _forces.complete_contact(lambda, _pressed);
-  for (Index i = 0; i < d.size(); ++i) energy -= _r[i] * d[i] / 2;
+  _pressed = answer.pressed;
+  _forces.complete_contact(answer.lambda, _pressed);
+  for (Index i = 0; i < _r.size(); ++i) energy -= _r[i] * answer.d[i] / 2;
   for (Index i = 0; i < _geometry.length.size(); ++i)
     length += _pressed[at(i)] != 0 ? _geometry.length[i] : 0;
   for (const SweepGeometry::Implied& implied : _geometry.implied)
     length += pressed_through(implied.path, _pressed) ? implied.length : 0;
   _contact->motion(_of_jumps);
   _motion += _of_jumps;
-  if (!std::isfinite(energy) || !_motion.allFinite() || !lambda.allFinite()) return false;
+  if (!std::isfinite(energy) || !_motion.allFinite() || !answer.lambda.allFinite()) return false;
   rows.energy[row] = energy;
   rows.contact_length[row] = length;
-  rows.kkt[row] = _contact->residual();
+  rows.kkt[row] = answer.residual;
   const auto slope = _motion.begin() + static_cast<Index>(rows.inclusions);
   std::copy(_motion.begin(), slope, rows.displacement.data() + row * rows.inclusions);
   if (!rows.slope.empty()) std::copy(slope, _motion.end(), rows.slope.data() + row * slopes(rows));

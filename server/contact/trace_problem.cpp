@@ -152,6 +152,19 @@ std::vector<std::vector<std::int32_t>> find_carriers(const ddm::Decomposition& d
   return result;
 }
 
+template <class OfTrace>
+Eigen::VectorXd gather_traces(const ddm::Decomposition& decomposition, std::size_t subdomains,
+                              const OfTrace& of_trace) {
+  Eigen::VectorXd sum =
+      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(decomposition.skeleton.unknowns));
+  for (std::size_t s = 0; s < subdomains; ++s) {
+    const std::vector<std::int32_t>& unknown = decomposition.subdomains[s].unknown;
+    const Eigen::VectorXd& force = of_trace(s);
+    for (Eigen::Index i = 0; i < force.size(); ++i) sum[unknown[at(i)]] += force[i];
+  }
+  return sum;
+}
+
 }  // namespace
 
 TraceProblem::TraceProblem(const ddm::Decomposition& decomposition,
@@ -164,6 +177,48 @@ TraceProblem::TraceProblem(const ddm::Decomposition& decomposition,
       _pair_forces(decomposition, _lumped),
       _carriers(find_carriers(decomposition)),
       _uzawa(uzawa) {}
+
+Eigen::VectorXd TraceProblem::gather(std::span<const Eigen::VectorXd> on_traces) const {
+  return gather_traces(_decomposition, on_traces.size(),
+                       [&](std::size_t s) -> const Eigen::VectorXd& { return on_traces[s]; });
+}
+
+Eigen::VectorXd TraceProblem::gather(std::span<const ddm::CondensedLoad> loads) const {
+  return gather_traces(_decomposition, loads.size(),
+                       [&](std::size_t s) -> const Eigen::VectorXd& { return loads[s].g; });
+}
+
+std::vector<Eigen::VectorXd> TraceProblem::scatter(const Eigen::VectorXd& w) const {
+  std::vector<Eigen::VectorXd> traces;
+  traces.reserve(_decomposition.subdomains.size());
+  for (const ddm::Subdomain& subdomain : _decomposition.subdomains) {
+    Eigen::VectorXd& trace = traces.emplace_back(static_cast<Eigen::Index>(subdomain.trace));
+    for (Eigen::Index i = 0; i < trace.size(); ++i) trace[i] = w[subdomain.unknown[at(i)]];
+  }
+  return traces;
+}
+
+std::vector<std::vector<std::int32_t>> TraceProblem::chains() const {
+  std::vector<char> seen(_decomposition.skeleton.independent, 0);
+  std::vector<std::vector<std::int32_t>> result(1);
+  const auto cut = [&result] {
+    if (!result.back().empty()) result.emplace_back();
+  };
+  for (const std::vector<ddm::SidePair>& sides : _decomposition.interface_sides) {
+    cut();
+    for (const ddm::SidePair& side : sides) {
+      const std::int32_t contact = side.pair < 0 ? -1 : _decomposition.pairs[at(side.pair)].contact;
+      if (contact < 0) cut();
+      if (contact < 0 || at(contact) >= seen.size() || seen[at(contact)] != 0) continue;
+      seen[at(contact)] = 1;
+      result.back().push_back(contact);
+    }
+  }
+  if (result.back().empty()) result.pop_back();
+  for (std::size_t c = 0; c < seen.size(); ++c)
+    if (seen[c] == 0) result.push_back({static_cast<std::int32_t>(c)});
+  return result;
+}
 
 double TraceProblem::theta_star(Mass mass) const {
   if (!_uzawa) return 0;

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "contact/answer.hpp"
@@ -35,8 +36,19 @@ class TraceProblem {
   /// Per subdomain and trace node: the inclusion that its flux acts on, directly or through
   /// contact, or -1.
   const std::vector<std::vector<std::int32_t>>& carriers() const noexcept { return _carriers; }
+  /// Contacts that follow each other along a crack, in order: cut where a node is tied. One that
+  /// several interfaces share is with the first of them. Where cracks cross there are more pairs
+  /// than the interfaces read: their contacts come last, each alone. O(n).
+  std::vector<std::vector<std::int32_t>> chains() const;
   /// Pairs of nodes, tied ones included.
   Eigen::Index pair_count() const noexcept { return _lumped.size(); }
+
+  /// Sum over the subdomains of forces on their traces, shape (unknowns); of loads, their g, or
+  /// none.
+  Eigen::VectorXd gather(std::span<const Eigen::VectorXd> on_traces) const;
+  Eigen::VectorXd gather(std::span<const ddm::CondensedLoad> loads) const;
+  /// Values on the traces from those of the unknowns.
+  std::vector<Eigen::VectorXd> scatter(const Eigen::VectorXd& w) const;
 
   /// Diagonal of the lumped interface mass: the length that belongs to each pair.
   const Eigen::VectorXd& lumped_mass() const noexcept { return _lumped; }

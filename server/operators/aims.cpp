@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
-#include <optional>
+#include <memory>
 
 #include "contact/open_membrane.hpp"
 #include "estimate/interval.hpp"
@@ -55,20 +55,11 @@ std::vector<Aim> aims(const MeshOperator::Parts& parts) {
 std::vector<contact::UnitForce> unit_forces(const MeshOperator::Parts& parts,
                                             std::span<const Aim> goals) {
   std::vector<contact::UnitForce> forces;
-  parts.with_problem([&](const auto& problem) {
-    for (const Aim& aim : goals) {
-      stop::look("computing bounds of A");
-      forces.push_back(contact::unit_force(problem, aim.goal));
-    }
-  });
+  for (const Aim& aim : goals) {
+    stop::look("computing bounds of A");
+    forces.push_back(parts.contact->unit_force(aim.goal));
+  }
   return forces;
-}
-
-std::vector<contact::Opened> solve_open(const MeshOperator::Parts& parts,
-                                        const std::vector<char>& closed,
-                                        std::span<const Eigen::VectorXd> r) {
-  return parts.with_problem(
-      [&](const auto& problem) { return contact::solve_open(problem, closed, r); });
 }
 
 namespace {
@@ -84,11 +75,10 @@ std::vector<std::vector<double>> open_fields(const MeshOperator::Parts& parts,
                                              std::span<const Aim> goals) {
   std::vector<Eigen::VectorXd> r;
   for (contact::UnitForce& force : unit_forces(parts, goals)) r.push_back(std::move(force.r));
-  const std::vector<contact::Opened> opened = solve_open(parts, {}, r);
+  const std::vector<contact::Opened> opened = parts.contact->solve_open({}, r);
   std::vector<contact::Displaced> displaced;
   for (std::size_t k = 0; k < goals.size(); ++k) displaced.push_back({&goals[k].goal, opened[k].d});
-  std::vector<std::vector<double>> fields = parts.with_problem(
-      [&](const auto& problem) { return contact::fields_of(problem, displaced); });
+  std::vector<std::vector<double>> fields = parts.contact->fields_of(displaced);
   for (std::size_t k = 0; k < goals.size(); ++k)
     if (!opened[k].solved) fields[k].clear();
   return fields;
@@ -101,12 +91,12 @@ const std::vector<double>& flux_norms(const MeshOperator::Parts& parts,
   constexpr std::size_t together = 16;  // fields in memory at once
   constexpr std::size_t few = 8;        // another factor costs more than conjugate gradients
   return parts.flux_norms.get([&] {
-    std::optional<contact::OpenMembrane> open;
+    std::unique_ptr<const contact::OpenMembrane> open;
     std::size_t bytes = together * sizeof(double) * cut.at.size();
-    const bool factors = parts.joined && goals.size() > few;
-    if (factors) bytes += parts.joined->membrane().bytes();  // as much as the first factor
+    const bool factors = !parts.contact->condensed() && goals.size() > few;
+    if (factors) bytes += parts.contact->bytes();  // as much as the first factor
     const Working counted(parts.at_work, bytes);
-    if (factors) open.emplace(parts.joined->membrane());
+    if (factors) open = parts.contact->open_membrane();
     std::vector<double> norms;
     for (; !goals.empty(); goals = goals.subspan(std::min(together, goals.size()))) {
       const std::span<const Aim> some = goals.first(std::min(together, goals.size()));

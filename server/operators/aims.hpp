@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "contact/linear_contact.hpp"
+#include "contact/contact_problem.hpp"
 #include "estimate/lack.hpp"
 #include "operators/mesh_parts.hpp"
 
@@ -38,12 +38,9 @@ struct Aim {
 /// Of all inclusions: A, then the slopes where one tilts. Refer to the decomposition.
 std::vector<Aim> aims(const MeshOperator::Parts& parts);
 
-/// As contact::unit_force and contact::solve_open, on either problem.
+/// As contact::ContactProblem::unit_force.
 std::vector<contact::UnitForce> unit_forces(const MeshOperator::Parts& parts,
                                             std::span<const Aim> goals);
-std::vector<contact::Opened> solve_open(const MeshOperator::Parts& parts,
-                                        const std::vector<char>& closed,
-                                        std::span<const Eigen::VectorXd> r);
 
 /// |tau| of each goal's unit force, tau in equilibrium with it and nothing through contacts;
 /// infinite where contact alone holds a part, 0 of a held inclusion. Made once for the mesh: a

@@ -94,7 +94,7 @@ void advance(const MeshOperator::Parts& parts, const estimate::CutMesh& cut,
   std::vector<Eigen::VectorXd> loads;
   stop::look(bounding_a);
   for (const Search* search : searches) loads.push_back(search->load());
-  const std::vector<contact::Opened> opened = solve_open(parts, {}, loads);
+  const std::vector<contact::Opened> opened = parts.contact->solve_open({}, loads);
   std::vector<contact::Displaced> displaced;
   std::vector<Search*> solved;
   for (std::size_t i = 0; i < searches.size(); ++i) {
@@ -106,8 +106,7 @@ void advance(const MeshOperator::Parts& parts, const estimate::CutMesh& cut,
     displaced.push_back({&searches[i]->aim().goal, searches[i]->jumps()});
     displaced.push_back({&searches[i]->aim().goal, opened[i].d});
   }
-  const std::vector<std::vector<double>> fields = parts.with_problem(
-      [&](const auto& problem) { return contact::fields_of(problem, displaced); });
+  const std::vector<std::vector<double>> fields = parts.contact->fields_of(displaced);
   std::vector<estimate::Aimed> aimed;
   for (std::size_t i = 0; i < solved.size(); ++i)
     aimed.push_back(solved[i]->aimed(fields[2 * i], fields[2 * i + 1]));
@@ -155,9 +154,7 @@ class Slopes {
  private:
   contact::Answer solve(const contact::CaseLoads& loads, bool fields) const {
     UntilStopped observer;
-    return _parts.with_problem([&](const auto& problem) {
-      return contact::solve_active_set(problem, *_parts.mesh, loads, {}, fields, observer);
-    });
+    return contact::solve_active_set(*_parts.contact, *_parts.mesh, loads, {}, fields, observer);
   }
 
   /// lo of the load and so many unit forces.
@@ -195,7 +192,7 @@ class Slopes {
 void bound_by_norms(const MeshOperator::Parts& parts, const std::vector<Aim>& goals,
                     std::span<const Bounded> answers) {
   // Goals times triangles: about a second, once for the mesh, after contact::OpenMembrane's factor.
-  const std::size_t most_work = parts.skeleton ? 30'000'000 : 20'000'000;
+  const std::size_t most_work = parts.contact->condensed() ? 30'000'000 : 20'000'000;
   const estimate::CutMesh& cut = answers.front().primal.cut;
   const bool possible = goals.size() <= most_work / cut.triangle_count();
   for (const Bounded& of : answers) {
@@ -232,7 +229,7 @@ void bound_by_adjoints(const MeshOperator::Parts& parts, const std::vector<Aim>&
     const contact::Adjoint& adjoint = adjoints.emplace_back(parts.problem, of.answer);
     const bool loaded_beyond = !of.primal.load.oscillation.empty();
     std::vector<contact::Opened> opened;
-    if (adjoint.possible()) opened = solve_open(parts, of.answer.closed, r);
+    if (adjoint.possible()) opened = parts.contact->solve_open(of.answer.closed, r);
     for (std::size_t k = 0; k < goals.size(); ++k) {
       const double unloaded = loaded_beyond ? flux_norms(parts, cut, goals)[k] : 0;
       if (adjoint.possible() && opened[k].solved && std::isfinite(unloaded))

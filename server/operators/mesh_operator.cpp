@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "contact/condensed_problem.hpp"
+#include "contact/joined_problem.hpp"
 #include "ddm/at_once.hpp"
 #include "ddm/blas.hpp"
 #include "operators/mesh_parts.hpp"
@@ -26,7 +28,7 @@ std::vector<ddm::SubdomainOperator> factorise_subdomains(
   return operators;
 }
 
-constexpr const char* long_interfaces =
+constexpr const char* joined_obstacle =
     "the interfaces have too many nodes for the dense matrices of Algorithm 2; use the method "
     "\"active-set\"";
 
@@ -62,25 +64,24 @@ MeshOperator::Parts::Parts(std::shared_ptr<const mesh::Mesh> cut_mesh, int threa
     : mesh(std::move(cut_mesh)),
       decomposition(ddm::cut(*mesh)),
       neumann(*mesh, decomposition),
-      operators(contact::is_long(decomposition, most_dense)
+      operators(contact::is_joined(decomposition, most_dense)
                     ? std::vector<ddm::SubdomainOperator>()
                     : factorise_subdomains(decomposition.subdomains, threads)),
-      uzawa_obstacle(contact::is_long(decomposition, most_dense)
-                         ? long_interfaces
+      uzawa_obstacle(contact::is_joined(decomposition, most_dense)
+                         ? joined_obstacle
                          : ddm::uzawa_obstacle(decomposition, *mesh)),
       problem(decomposition, operators, uzawa_obstacle.empty()),
       sweep_geometry(problem),
       geometry(contact::trace_geometry(decomposition, *mesh)) {
-  if (contact::is_long(decomposition, most_dense))
-    joined.emplace(problem, threads);
+  if (contact::is_joined(decomposition, most_dense))
+    contact = std::make_unique<contact::JoinedProblem>(problem, threads);
   else
-    skeleton.emplace(problem);
+    contact = std::make_unique<contact::CondensedProblem>(problem);
 }
 
 Condense MeshOperator::Parts::condense() const {
   return [this](std::size_t subdomain, const auto& of_nodes, const auto& dirichlet) {
-    return joined ? joined->membrane().loads(subdomain, of_nodes, dirichlet)
-                  : operators[subdomain].condense(of_nodes, dirichlet);
+    return contact->loads(subdomain, of_nodes, dirichlet);
   };
 }
 
@@ -123,7 +124,7 @@ std::size_t MeshOperator::bytes() const noexcept {
   std::size_t bytes = sizeof(Parts) + _parts->at_work + bytes_of(*_parts->mesh) +
                       bytes_of(_parts->decomposition) + _parts->neumann.bytes();
   for (const ddm::SubdomainOperator& subdomain : _parts->operators) bytes += subdomain.bytes();
-  bytes += _parts->with_problem([](const auto& problem) { return problem.bytes(); });
+  bytes += _parts->contact->bytes();
   if (const estimate::CutMesh* cut = _parts->cut.known()) bytes += cut->bytes();
   if (const std::vector<double>* norms = _parts->flux_norms.known()) bytes += bytes_of(*norms);
   return bytes + _parts->sweep_geometry.bytes() + _parts->bases.bytes();

@@ -10,8 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "contact/joined_problem.hpp"
-#include "contact/skeleton_problem.hpp"
+#include "contact/contact_problem.hpp"
 #include "contact/solve.hpp"
 #include "contact/sweep_solver.hpp"
 #include "contact/trace_problem.hpp"
@@ -50,9 +49,7 @@ struct MeshOperator::Parts {
   std::vector<ddm::SubdomainOperator> operators;  // none where the membrane is joined
   std::string uzawa_obstacle;
   contact::TraceProblem problem;  // refers to the decomposition and the operators
-  // One of the two; they refer to the problem.
-  std::optional<contact::SkeletonProblem> skeleton;
-  std::optional<contact::JoinedProblem> joined;
+  std::unique_ptr<const contact::ContactProblem> contact;  // refers to the problem
   contact::SweepGeometry sweep_geometry;
   std::vector<contact::TraceGeometry> geometry;
   mutable BasisCache bases;
@@ -60,18 +57,10 @@ struct MeshOperator::Parts {
   ddm::Lazy<std::vector<double>> flux_norms;    // see aims.hpp
   mutable std::atomic<std::size_t> at_work{0};  // bytes of Working
 
-  template <class Use>
-  decltype(auto) with_problem(const Use& use) const;
   const estimate::CutMesh& cut_mesh() const;
   /// Loads of a subdomain by nodes (rows) and g_D, a column each.
   Condense condense() const;
 };
-
-/// Calls use(problem) with the skeleton or the joined membrane.
-template <class Use>
-decltype(auto) MeshOperator::Parts::with_problem(const Use& use) const {
-  return joined ? use(*joined) : use(*skeleton);
-}
 
 struct PreparedLoad::Data {
   std::shared_ptr<const MeshOperator> mesh_operator;

@@ -48,10 +48,8 @@ contact::Answer MeshOperator::solve(const PreparedLoad& load,
                                     const contact::ActiveSetOptions& options, bool fields,
                                     contact::Observer& observer) const {
   require_prepared(load, fields);
-  contact::Answer answer = _parts->with_problem([&](const auto& problem) {
-    return contact::solve_active_set(problem, *_parts->mesh, load._data->loads(), options, fields,
-                                     observer);
-  });
+  contact::Answer answer = contact::solve_active_set(
+      *_parts->contact, *_parts->mesh, load._data->loads(), options, fields, observer);
   load._data->add_warnings(answer);
   return answer;
 }
@@ -64,10 +62,7 @@ void MeshOperator::recover_fields(std::span<const PreparedLoad* const> loads,
     require_prepared(*loads[i], true);
     cases.push_back({loads[i]->_data->condensed.subdomains, *answers[i]});
   }
-  if (_parts->joined)
-    _parts->joined->recover_fields(cases);
-  else
-    contact::recover_fields(_parts->problem, cases);
+  _parts->contact->recover_fields(cases);
 }
 
 }  // namespace anticrack::operators

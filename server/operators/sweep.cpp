@@ -61,7 +61,7 @@ CondensedBasis basis_of(std::vector<LoadOnTraces> loads, std::vector<BalancedLoa
   CondensedBasis result;
   result.balanced = std::move(balanced);
   const auto m = static_cast<Index>(loads.size());
-  const bool condensed = parts.skeleton.has_value();
+  const bool condensed = parts.contact->condensed();
   MatrixXd constants = MatrixXd::Zero(m, m);
   for (std::size_t s = 0; s < parts.decomposition.subdomains.size(); ++s) {
     result.products.push_back(ddm::products(on_subdomain(loads, s), condensed));
@@ -79,8 +79,7 @@ CondensedBasis basis_of(std::vector<LoadOnTraces> loads, std::vector<BalancedLoa
           result.warnings.end())
         result.warnings.push_back(warning);
   }
-  result.reduced = parts.with_problem(
-      [&](const auto& problem) { return contact::reduce(problem, cases, constants); });
+  result.reduced = contact::reduce(*parts.contact, cases, constants);
   result.loads = std::move(loads);
   return result;
 }
@@ -127,12 +126,13 @@ bool MeshOperator::sweep_rows(const contact::ActiveSetOptions& options, contact:
       rows.contacts != contact_nodes().size() || (!start.empty() && start.size() != contacts))
     throw errors::Error(errors::Reason::internal, "rows of a sweep on another mesh");
   const stop::Scope scope(stop);
-  contact::SweepSolver solver(_parts->problem, _parts->sweep_geometry,
-                              _parts->with_problem([&](const auto& problem) {
-                                return contact::rows_of(problem, options, start);
-                              }));
+  contact::SweepSolver solver(*_parts->contact, _parts->sweep_geometry, options, start);
   std::size_t row = 0;
-  for (; row < rows.rows() && !stop.stop_requested(); ++row) solve_row(solver, row);
+  try {
+    for (; row < rows.rows() && !stop.stop_requested(); ++row) solve_row(solver, row);
+  } catch (const errors::Error& error) {
+    if (error.reason() != errors::Reason::cancelled || !stop.stop_requested()) throw;
+  }
   start = solver.closed();
   return row == rows.rows();
 }
@@ -160,10 +160,7 @@ bool MeshOperator::sweep(std::span<const PreparedLoad> loads,
     MatrixXd constant = MatrixXd::Zero(1, 1);
     for (const ddm::CondensedLoad& part : parts[0].subdomains)
       constant(0, 0) += part.energy_constant;
-    solver.solve(_parts->with_problem([&](const auto& problem) {
-      return contact::reduce(problem, parts, constant);
-    }),
-                 once, row, rows);
+    solver.solve(contact::reduce(*_parts->contact, parts, constant), once, row, rows);
   });
 }
 

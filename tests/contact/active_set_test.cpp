@@ -127,7 +127,7 @@ TEST(ActiveSet, SamplesEveryStepWithTheFieldsOfUzawa) {
   const auto loads = membrane.space.condense(fem::Expression{"x*y < 0 ? -1 : 1"});
   Recorder recorder;
   const Answer answer =
-      solve_active_set(membrane.skeleton, membrane.mesh, {loads}, {}, false, recorder);
+      solve_active_set(membrane.condensed, membrane.mesh, {loads}, {}, false, recorder);
   ASSERT_EQ(recorder.samples.size(), static_cast<std::size_t>(answer.iterations));
   ASSERT_GE(answer.iterations, 2);
   EXPECT_LE(answer.iterations, 10);
@@ -144,12 +144,12 @@ TEST(ActiveSet, SamplesEveryStepWithTheFieldsOfUzawa) {
   EXPECT_TRUE(answer.fields.empty());
 
   Recorder stops(1);
-  EXPECT_EQ(solve_active_set(membrane.skeleton, membrane.mesh, {loads}, {}, false, stops).status,
+  EXPECT_EQ(solve_active_set(membrane.condensed, membrane.mesh, {loads}, {}, false, stops).status,
             Status::cancelled);
   ActiveSetOptions one_step;
   one_step.max_steps = 1;
   const Answer limited =
-      solve_active_set(membrane.skeleton, membrane.mesh, {loads}, one_step, false, recorder);
+      solve_active_set(membrane.condensed, membrane.mesh, {loads}, one_step, false, recorder);
   EXPECT_EQ(limited.status, Status::not_converged);
   EXPECT_THAT(limited.reason, HasSubstr("max_steps"));
 }
@@ -201,7 +201,7 @@ TEST(ActiveSet, LoadWhoseEnergyOverflowsFailsWithItsSize) {
     loads[1].g[std::find(rigid.begin(), rigid.end(), 0) - rigid.begin()] = size;
     Recorder recorder;
     const auto error = testing::error_of(
-        [&] { solve_active_set(membrane.skeleton, membrane.mesh, {loads}, {}, false, recorder); });
+        [&] { solve_active_set(membrane.condensed, membrane.mesh, {loads}, {}, false, recorder); });
     ASSERT_TRUE(error);
     EXPECT_EQ(error->reason(), errors::Reason::numerical);
     EXPECT_THAT(error->what(), HasSubstr(size < 1e170 ? "is 1e+160" : "is 1e+200"));
@@ -416,8 +416,8 @@ TEST(ActiveSet, ResultantIsTheForceOnTheInclusion) {
     }
   }
   Recorder recorder;
-  const Answer exact = solve_active_set(membrane.skeleton, membrane.mesh, {loads, inclusion_forces},
-                                        {}, false, recorder);
+  const Answer exact = solve_active_set(membrane.condensed, membrane.mesh,
+                                        {loads, inclusion_forces}, {}, false, recorder);
   expect_exact(exact);
   EXPECT_NEAR(exact.inclusions[0].resultant, force, rounding);
   const Answer uzawa = solve_uzawa(membrane.problem, membrane.mesh, {loads, inclusion_forces},

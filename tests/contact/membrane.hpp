@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "contact/condensed_problem.hpp"
 #include "contact/solve.hpp"
 #include "contact/uzawa_block.hpp"
 #include "support/structured_mesh.hpp"
@@ -41,7 +42,7 @@ struct Membrane {
         space(mesh),
         problem(space.decomposition, space.operators,
                 ddm::uzawa_obstacle(space.decomposition, mesh).empty()),
-        skeleton(problem) {}
+        condensed(problem) {}
 
   Answer solve(const fem::Force& force, const UzawaOptions& options, Observer& observer,
                const char* boundary = "") const {
@@ -58,13 +59,13 @@ struct Membrane {
                const std::vector<char>& start = {}) const {
     Recorder recorder;
     const auto loads = space.condense(force, boundary);
-    return solve_active_set(skeleton, mesh, {loads}, {}, true, recorder, start);
+    return solve_active_set(condensed, mesh, {loads}, {}, true, recorder, start);
   }
 
   mesh::Mesh mesh;
   testing::TraceSpace space;
   TraceProblem problem;
-  SkeletonProblem skeleton;
+  CondensedProblem condensed;
 };
 
 /// A crack between two inclusions, one bonded, one half delaminated: all kinds at once.

@@ -137,22 +137,21 @@ void check_identities(unsigned seed, bool rich, Figures& tally) {
   load.traction = coarse.traction;
   const std::vector<Lift> none;
   for (std::size_t j = 0; j < coarse.answer.inclusions.size(); ++j) {
-    const contact::SkeletonProblem& problem = *coarse.parts.skeleton;
+    const contact::ContactProblem& problem = *coarse.parts.contact;
     const ddm::Terms& aim = coarse.parts.decomposition.skeleton.motions[j].displacement;
-    const contact::UnitForce force = contact::unit_force(problem, aim);
+    const contact::UnitForce force = problem.unit_force(aim);
     const contact::Opened kept =
-        std::move(contact::solve_open(problem, coarse.answer.closed, {&force.r, 1}).front());
+        std::move(problem.solve_open(coarse.answer.closed, {&force.r, 1}).front());
     const contact::Adjoint::Goal goal = adjoint.aim(force, kept);
     if (!kept.solved || !(goal.compliance > 1e-9)) continue;
     const double unit = std::sqrt(goal.compliance / std::max(scale, 1e-9));
     const double truth = fine.answer.inclusions[j].displacement;
     for (const double c : {0.5 * unit, 2 * unit, 16 * unit}) {
       const Eigen::VectorXd clipped = adjoint.load(goal, c);
-      const contact::Opened free =
-          std::move(contact::solve_open(problem, {}, {&clipped, 1}).front());
+      const contact::Opened free = std::move(problem.solve_open({}, {&clipped, 1}).front());
       if (!free.solved) continue;
       const contact::Displaced pair[] = {{&aim, adjoint.jumps(goal, c)}, {&aim, free.d}};
-      const std::vector<std::vector<double>> fields = contact::fields_of(problem, pair);
+      const std::vector<std::vector<double>> fields = problem.fields_of(pair);
       const std::vector<double>&z = fields[0], &reacting = fields[1];
       std::vector<ForceOn> on_inclusions(coarse.answer.inclusions.size());
       on_inclusions[j].force = 1;
@@ -189,7 +188,7 @@ void check_identities(unsigned seed, bool rich, Figures& tally) {
       for (Eigen::Index i = 0; i < jumps.size(); ++i)
         jumps[i] += (i % 2 == 0 ? 1 : -1) * 3e-13 * z_size;
       const contact::Displaced rounded{&aim, jumps};
-      const std::vector<double> near = contact::fields_of(problem, {&rounded, 1}).front();
+      const std::vector<double> near = problem.fields_of({&rounded, 1}).front();
       const Interval wider = interval({coarse.cut, sigma, load, none, coarse.u},
                                       {z, near, dual.value, c, on_inclusions}, 0);
       EXPECT_GT(truth, wider.lower - 1e-11 * size);

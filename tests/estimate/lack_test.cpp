@@ -104,21 +104,19 @@ void check_lack(const Nested& nested, const Trial& trial, double dual_off, unsig
   tally.broken_without += fine.answer.energy < without.lower - scale ? 1 : 0;
 
   const contact::Adjoint adjoint(coarse.parts.problem, near);
-  const contact::SkeletonProblem& problem = *coarse.parts.skeleton;
+  const contact::ContactProblem& problem = *coarse.parts.contact;
   for (std::size_t j = 0; j < motions.size() && adjoint.possible(); ++j) {
     const ddm::Terms& aim = coarse.parts.decomposition.skeleton.motions[j].displacement;
-    const contact::UnitForce force = contact::unit_force(problem, aim);
-    const contact::Opened kept =
-        std::move(contact::solve_open(problem, near.closed, {&force.r, 1}).front());
+    const contact::UnitForce force = problem.unit_force(aim);
+    const contact::Opened kept = std::move(problem.solve_open(near.closed, {&force.r, 1}).front());
     const contact::Adjoint::Goal goal = adjoint.aim(force, kept);
     if (!kept.solved || !(goal.compliance > 1e-9)) continue;
     for (const double c : {0.3, 3.0, 100.0}) {
       const VectorXd clipped = adjoint.load(goal, c);
-      const contact::Opened free =
-          std::move(contact::solve_open(problem, {}, {&clipped, 1}).front());
+      const contact::Opened free = std::move(problem.solve_open({}, {&clipped, 1}).front());
       if (!free.solved) continue;
       const contact::Displaced pair[] = {{&aim, adjoint.jumps(goal, c)}, {&aim, free.d}};
-      std::vector<std::vector<double>> fields = contact::fields_of(problem, pair);
+      std::vector<std::vector<double>> fields = problem.fields_of(pair);
       const std::vector<double> off = moved(coarse, dual_off, random);  // z' solves nothing either
       for (std::size_t i = 0; i < off.size(); ++i) fields[1][i] += off[i] - coarse.u[i];
       std::vector<ForceOn> unit(motions.size());

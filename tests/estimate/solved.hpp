@@ -47,7 +47,7 @@ struct Solved {
       throw errors::Error(*error);
     load = std::get<operators::LoadOnTraces>(std::move(condensed.front()));
     testing::Silent silent;
-    answer = contact::solve_active_set(*parts.skeleton, *mesh, loads(), {}, true, silent);
+    answer = contact::solve_active_set(*parts.contact, *mesh, loads(), {}, true, silent);
     for (const contact::Field& field : answer.fields)
       u.insert(u.end(), field.u.begin(), field.u.end());
     for (std::size_t t = 0; t < cut.triangle.size(); ++t) {

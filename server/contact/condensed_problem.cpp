@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/condensed_problem.hpp"
+
+#include <utility>
+
+#include "contact/dense.hpp"
+#include "errors/errors.hpp"
+#include "mesh/at.hpp"
+#include "stop/stop.hpp"
+
+namespace anticrack::contact {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// K = sum of the Schur complements over the unknowns.
+MatrixXd join(const ddm::Decomposition& decomposition,
+              const std::vector<ddm::SubdomainOperator>& operators) {
+  const auto n = static_cast<Index>(decomposition.skeleton.unknowns);
+  MatrixXd k = MatrixXd::Zero(n, n);
+  for (std::size_t s = 0; s < operators.size(); ++s) {
+    const MatrixXd& schur = operators[s].factor().schur();
+    const std::vector<std::int32_t>& unknown = decomposition.subdomains[s].unknown;
+    for (Index j = 0; j < schur.cols(); ++j)
+      for (Index i = 0; i < schur.rows(); ++i) k(unknown[at(i)], unknown[at(j)]) += schur(i, j);
+  }
+  return k;
+}
+
+MatrixXd factorise(MatrixXd h) {
+  if (!cholesky(h)) {
+    throw errors::Error(errors::Reason::numerical,
+                        "the stiffness of the joined subdomains is not positive definite to "
+                        "rounding; a part of the membrane is not held, the mesh has triangles that "
+                        "are degenerate, or it is badly scaled");
+  }
+  return h;
+}
+
+}  // namespace
+
+struct CondensedProblem::Blocks {
+  MatrixXd h;
+  MatrixXd w;
+  MatrixXd condensed;
+
+  Blocks(const Maps& maps, const MatrixXd& k) {
+    const MatrixXd of_jumps = k * maps.jumps();
+    w = maps.free().transpose() * of_jumps;
+    condensed = maps.jumps().transpose() * of_jumps;
+    const MatrixXd of_free = k * maps.free();
+    h = factorise(maps.free().transpose() * of_free);
+    solve_lower(h, w);
+    subtract_square(w, condensed);  // C'H^-1 C
+    solve_lower_transposed(h, w);
+    condensed.triangularView<Eigen::StrictlyUpper>() = condensed.transpose();
+  }
+};
+
+CondensedProblem::CondensedProblem(const TraceProblem& traces)
+    : CondensedProblem(traces,
+                       Blocks(traces.maps(), join(traces.decomposition(), traces.operators()))) {}
+
+CondensedProblem::CondensedProblem(const TraceProblem& traces, Blocks blocks)
+    : ContactProblem(traces, true),
+      _h(std::move(blocks.h)),
+      _closed_to_open(std::move(blocks.w)),
+      _nested_start(blocks.condensed, traces.chains()),
+      _lcp(std::move(blocks.condensed), traces.decomposition().skeleton.dependent,
+           traces.pair_forces().contact_mass().cwiseInverse()) {}
+
+std::vector<ddm::CondensedLoad> CondensedProblem::loads(
+    std::size_t subdomain, const Eigen::Ref<const MatrixXd>& of_nodes,
+    const Eigen::Ref<const MatrixXd>& dirichlet) const {
+  return traces().operators()[subdomain].condense(of_nodes, dirichlet);
+}
+
+Reduced CondensedProblem::eliminate(const VectorXd& h, std::span<const ddm::CondensedLoad> loads,
+                                    const VectorXd& p, bool refined) const {
+  VectorXd load = h, size = h.cwiseAbs();
+  Reduced result;
+  if (p.size() > 0) {
+    const VectorXd of_held = apply(maps().held() * p);
+    load -= of_held;
+    size += of_held.cwiseAbs();
+    result.size = largest(of_held);
+  }
+  const VectorXd on_free = maps().free().transpose() * load;
+  const VectorXd size_on_free = maps().free().cwiseAbs().transpose() * size;
+  result.p = p;
+  result.x = on_free;
+  solve_lower(_h, result.x);
+  solve_lower_transposed(_h, result.x);
+  result.r.resize(maps().jump_count());
+  multiply_transposed(_closed_to_open, on_free, result.r);
+  result.r -= maps().jumps().transpose() * load;
+  result.magnitude = maps().jumps().cwiseAbs().transpose() * size;
+  for (Index c = 0; c < result.magnitude.size(); ++c) {
+    // One by one: Eigen would make a copy of |W| for the product.
+    result.magnitude[c] += _closed_to_open.col(c).cwiseAbs().dot(size_on_free);
+  }
+  if (refined) {
+    // r of the residual is r of h, for any x, but of smaller terms.
+    const VectorXd closed = VectorXd::Zero(result.r.size());
+    Reduced correction = eliminate(h - apply(values(result.x, closed, p)), loads, {}, false);
+    result.x += correction.x;
+    result.r = std::move(correction.r);
+  }
+  return result;
+}
+
+VectorXd CondensedProblem::apply(const VectorXd& w) const {
+  std::vector<VectorXd> forces = traces().scatter(w);
+  for (std::size_t s = 0; s < forces.size(); ++s)
+    forces[s] = traces().operators()[s].factor().apply_schur(forces[s]);
+  return traces().gather(forces);
+}
+
+VectorXd CondensedProblem::response(const ddm::Terms& terms) const {
+  VectorXd result = VectorXd::Zero(maps().jump_count());
+  const ddm::Skeleton& skeleton = traces().decomposition().skeleton;
+  for (const ddm::Term& term : terms) {
+    const ddm::Row& row = skeleton.rows[at(term.index)];
+    for (const auto& [q, factor] : row.free)
+      result += term.factor * factor * _closed_to_open.row(q).transpose();
+    for (const auto& [c, factor] : row.jumps) result[c] += term.factor * factor;
+  }
+  return result;
+}
+
+VectorXd CondensedProblem::solve(const Reduced& load, const VectorXd& d) const {
+  VectorXd q(load.x.size());
+  multiply(_closed_to_open, d, q);
+  q += load.x;
+  return q;
+}
+
+Work CondensedProblem::work(std::span<const ddm::CondensedLoad> loads,
+                            const Reduced& reduced) const {
+  VectorXd w = values(reduced.x, VectorXd::Zero(reduced.r.size()), reduced.p);
+  VectorXd load = traces().gather(loads);
+  VectorXd internal = reduced.p.size() > 0 ? apply(w) : load;  // at rest, h but for what holds p
+  return {std::move(w), std::move(load), std::move(internal)};
+}
+
+void CondensedProblem::fill(std::span<const ddm::CondensedLoad> loads, const VectorXd& /*x*/,
+                            const VectorXd& w, TraceState& state) const {
+  state.trace = traces().scatter(w);
+  state.flux = fluxes(traces().operators(), loads, state.trace);
+}
+
+void CondensedProblem::refine(std::span<const ddm::CondensedLoad> loads, const TraceState& state,
+                              const LcpAnswer& solution, Position& position) const {
+  const Reduced correction = eliminate(-traces().gather(state.flux), loads, {}, false);
+  position.load.x += correction.x;
+  position.d += _lcp.solve_open(solution.factor, correction.r);
+  position.d = position.d.cwiseMax(0.0);
+  position.x = solve(position.load, position.d);
+}
+
+LcpAnswer CondensedProblem::solve_contact(const Reduced& load, const LcpOptions& options,
+                                          std::span<const char> start,
+                                          const OnStep& on_step) const {
+  if (!start.empty()) return _lcp.solve(load.r, load.magnitude, options, start, on_step);
+  return _lcp.solve(load.r, load.magnitude, options, _nested_start.closed(load.r, load.magnitude),
+                    on_step);
+}
+
+std::vector<Opened> CondensedProblem::solve_open(const std::vector<char>& closed,
+                                                 std::span<const VectorXd> r) const {
+  OpenFactor own;
+  if (!closed.empty()) own.factorise(_lcp.scaled_matrix(), _lcp.scaled_conditions().rows(), closed);
+  const OpenFactor& factor = closed.empty() ? all_open() : own;
+  std::vector<Opened> result;
+  for (const VectorXd& one : r) {
+    stop::look("solving for contact");
+    if (factor.regular()) {
+      const VectorXd d = _lcp.solve_open(factor, one);
+      result.push_back({d, one - _lcp.apply(d)});
+    } else {
+      result.push_back({VectorXd::Zero(one.size()), one, false});
+    }
+  }
+  return result;
+}
+
+namespace {
+
+class CondensedRows final : public RowContact {
+ public:
+  CondensedRows(const DenseLcp& lcp, const LcpOptions& options, std::span<const char> start,
+                const NestedStart& nested, MatrixXd motions)
+      : _contact(lcp, options, start, &nested), _motions(std::move(motions)) {}
+
+  void solve(const VectorXd& r, const VectorXd& magnitude) override {
+    _contact.solve(r, magnitude);
+  }
+  const LcpAnswer& answer() const override { return _contact.answer(); }
+  void motion(VectorXd& of_jumps) const override {
+    multiply(_motions, answer().d.head(_motions.cols()), of_jumps);
+  }
+
+ private:
+  LcpSequence _contact;
+  MatrixXd _motions;  // (motions, d)
+};
+
+}  // namespace
+
+std::unique_ptr<RowContact> CondensedProblem::rows(const LcpOptions& options,
+                                                   std::span<const char> start,
+                                                   std::vector<ddm::Terms> motions) const {
+  MatrixXd of_jumps(static_cast<Index>(motions.size()), _lcp.size());
+  for (Index j = 0; j < of_jumps.rows(); ++j)
+    of_jumps.row(j) = response(motions[at(j)]).transpose();
+  return std::make_unique<CondensedRows>(_lcp, options, start, _nested_start, std::move(of_jumps));
+}
+
+void CondensedProblem::recover_fields(std::span<const SolvedCase> cases) const {
+  contact::recover_fields(traces(), cases);
+}
+
+std::vector<std::vector<double>> CondensedProblem::fields_of(
+    std::span<const Displaced> displaced) const {
+  std::vector<ddm::CondensedLoad> none;
+  for (const ddm::Subdomain& subdomain : traces().decomposition().subdomains) {
+    none.emplace_back().z_interior.setZero(static_cast<Index>(subdomain.interior));
+    none.back().dirichlet.setZero(static_cast<Index>(subdomain.dirichlet));
+  }
+  std::vector<Answer> answers(displaced.size());
+  std::vector<SolvedCase> cases;
+  for (std::size_t f = 0; f < answers.size(); ++f) {
+    stop::look("solving for contact");
+    const auto& [force, d] = displaced[f];
+    const Reduced load = eliminate(maps().vector_of(*force), {}, {}, false);
+    for (const VectorXd& trace : traces().scatter(values(solve(load, d), d, load.p)))
+      answers[f].side_traces.emplace_back(trace.begin(), trace.end());
+    cases.push_back({none, answers[f]});
+  }
+  recover_fields(cases);
+  std::vector<std::vector<double>> fields(answers.size());
+  for (std::size_t f = 0; f < fields.size(); ++f)
+    for (const Field& field : answers[f].fields)
+      fields[f].insert(fields[f].end(), field.u.begin(), field.u.end());
+  return fields;
+}
+
+const OpenFactor& CondensedProblem::all_open() const {
+  return _all_open.get([this] {
+    OpenFactor factor;
+    factor.factorise(_lcp.scaled_matrix(), _lcp.scaled_conditions().rows(),
+                     std::vector<char>(at(_lcp.conditions()), 0));
+    return factor;
+  });
+}
+
+std::size_t CondensedProblem::bytes() const noexcept {
+  const auto all_open = _all_open.known() == nullptr ? 0 : _lcp.size() * _lcp.size();
+  return sizeof(double) * at(_h.size() + _closed_to_open.size() + all_open) +
+         _nested_start.bytes() + _lcp.bytes() + maps().bytes();
+}
+
+}  // namespace anticrack::contact
