@@ -97,12 +97,6 @@ std::vector<results::Load> to_loads(const v1::Job& job) {
   return loads;
 }
 
-results::Mesh to_mesh(const v1::Mesh& mesh, const client::Block& block) {
-  results::Mesh named;
-  add_names(mesh, named);
-  return results::assemble_mesh(std::move(named), views_of(block));
-}
-
 results::Result to_result(const Fetched& fetched) {
   results::Result result;
   result.title = fetched.job.title();

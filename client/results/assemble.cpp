@@ -118,24 +118,17 @@ Result assemble(Result answers, std::span<const ArrayView> mesh_block,
                 std::span<const ArrayView> result_block) {
   const Block mesh("the mesh read from the server", mesh_block);
   const Block result("the result read from the server", result_block);
-  add_mesh(mesh, answers.mesh);
+  get_arrays(mesh, "", answers.mesh, tables::mesh);
   for (std::size_t i = 0; i < answers.interfaces.size(); ++i) {
     get_arrays(result, arrays::interface_folder(i), answers.interfaces[i],
                arrays::interface_nodes<Interface>);
-    answers.interfaces[i].edges = edges_of(mesh, i);
+    get_arrays(mesh, arrays::interface_folder(i), answers.interfaces[i].edges, tables::edges);
   }
   if (answers.sweep) add_sweep(result, answers);
   for (std::size_t i = 0; i < answers.loads.size() && !answers.sweep; ++i)
     add_load(result, i, answers.interfaces.size(), answers.mesh, answers.loads[i]);
   result.require(first_fault(answers));
   return answers;
-}
-
-Mesh assemble_mesh(Mesh names, std::span<const ArrayView> mesh_block) {
-  const Block block("the mesh read from the server", mesh_block);
-  add_mesh(block, names);
-  block.require(first_mesh_fault(names));
-  return names;
 }
 
 }  // namespace anticrack::results

@@ -4,6 +4,7 @@
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/duration.pb.h>
 #include <google/protobuf/message.h>
+#include <google/protobuf/util/time_util.h>
 
 #include <algorithm>
 #include <cctype>
@@ -55,23 +56,19 @@ ValueType type_of(const FieldDescriptor& field) {
   }
 }
 
-void add_entries(const Descriptor& type, const std::string& prefix,
-                 const std::vector<const FieldDescriptor*>& path, std::vector<Entry>& entries) {
+void add_entries(const Descriptor& type, const FieldDescriptor* outer,
+                 std::vector<Entry>& entries) {
   for (int i = 0; i < type.field_count(); ++i) {
     const FieldDescriptor& field = *type.field(i);
     if (field.is_repeated()) continue;
-    std::vector<const FieldDescriptor*> inside = path;
-    inside.push_back(&field);
-    const bool nested = field.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE &&
-                        !is_of(field, Duration::descriptor()) &&
-                        !is_of(field, v1::Status::descriptor());
-    if (nested) {
-      add_entries(*field.message_type(), prefix + field.name() + "_", inside, entries);
+    if (field.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE &&
+        !is_of(field, Duration::descriptor()) && !is_of(field, v1::Status::descriptor())) {
+      add_entries(*field.message_type(), &field, entries);
       continue;
     }
     auto [meaning, unit] = comments::of(field);
-    entries.push_back({prefix + name_of(field), std::move(meaning), std::move(unit), type_of(field),
-                       std::move(inside)});
+    entries.push_back({(outer == nullptr ? "" : outer->name() + "_") + name_of(field),
+                       std::move(meaning), std::move(unit), type_of(field), outer, &field});
   }
 }
 
@@ -85,16 +82,12 @@ std::string lower_name(const google::protobuf::EnumValueDescriptor& value) {
 
 /// The message that has the value.
 const Message& owner(const Message& message, const Entry& entry) {
-  const Message* at = &message;
-  for (std::size_t i = 0; i + 1 < entry.path.size(); ++i)
-    at = &at->GetReflection()->GetMessage(*at, entry.path[i]);
-  return *at;
+  return entry.outer == nullptr ? message
+                                : message.GetReflection()->GetMessage(message, entry.outer);
 }
 Message& owner(Message& message, const Entry& entry) {
-  Message* at = &message;
-  for (std::size_t i = 0; i + 1 < entry.path.size(); ++i)
-    at = at->GetReflection()->MutableMessage(at, entry.path[i]);
-  return *at;
+  return entry.outer == nullptr ? message
+                                : *message.GetReflection()->MutableMessage(&message, entry.outer);
 }
 
 bool set_enum(Message& message, const FieldDescriptor& field, const std::string& text) {
@@ -107,18 +100,17 @@ bool set_enum(Message& message, const FieldDescriptor& field, const std::string&
   return false;
 }
 
-void set_duration(Message& duration, double seconds) {
-  constexpr double most = 315'576'000'000;  // of a Duration
-  if (!(std::abs(seconds) <= most)) return;
-  Duration value;
-  value.set_seconds(static_cast<std::int64_t>(seconds));
-  value.set_nanos(static_cast<std::int32_t>(std::lround((seconds - std::trunc(seconds)) * 1e9)));
-  duration.CopyFrom(value);
+Duration duration_of(double seconds) {
+  constexpr double most = 9e9;  // in nanoseconds an int64
+  return google::protobuf::util::TimeUtil::NanosecondsToDuration(
+      std::abs(seconds) <= most ? std::llround(1e9 * seconds) : 0);
 }
 
-double seconds_of(const Message& message) {
-  const auto& duration = static_cast<const Duration&>(message);
-  return static_cast<double>(duration.seconds()) + duration.nanos() / 1e9;
+double seconds_of(const Message& duration) {
+  using google::protobuf::util::TimeUtil;
+  return static_cast<double>(
+             TimeUtil::DurationToNanoseconds(static_cast<const Duration&>(duration))) /
+         1e9;
 }
 
 }  // namespace
@@ -128,7 +120,7 @@ const std::vector<Entry>& entries_of(const Descriptor& type) {
   static std::map<const Descriptor*, std::vector<Entry>> known;
   const std::scoped_lock lock(mutex);
   std::vector<Entry>& entries = known[&type];
-  if (entries.empty()) add_entries(type, "", {}, entries);
+  if (entries.empty()) add_entries(type, nullptr, entries);
   return entries;
 }
 
@@ -146,7 +138,7 @@ double number_in(const Message& message, std::string_view name) {
 
 Value get(const Message& message, const Entry& entry) {
   const Message& at = owner(message, entry);
-  const FieldDescriptor* const field = entry.path.back();
+  const FieldDescriptor* const field = entry.field;
   const Reflection& fields = *at.GetReflection();
   switch (field->cpp_type()) {
     case FieldDescriptor::CPPTYPE_DOUBLE:
@@ -169,7 +161,7 @@ Value get(const Message& message, const Entry& entry) {
 
 bool set(Message& message, const Entry& entry, const Value& value) {
   Message& at = owner(message, entry);
-  const FieldDescriptor* const field = entry.path.back();
+  const FieldDescriptor* const field = entry.field;
   const Reflection& fields = *at.GetReflection();
   switch (field->cpp_type()) {
     case FieldDescriptor::CPPTYPE_DOUBLE:
@@ -186,7 +178,7 @@ bool set(Message& message, const Entry& entry, const Value& value) {
       return set_enum(at, *field, std::get<std::string>(value));
     case FieldDescriptor::CPPTYPE_MESSAGE:
       if (entry.type == ValueType::float64)
-        set_duration(*fields.MutableMessage(&at, field), std::get<double>(value));
+        fields.MutableMessage(&at, field)->CopyFrom(duration_of(std::get<double>(value)));
       else if (const auto& text = std::get<std::string>(value); !text.empty())
         static_cast<v1::Status&>(*fields.MutableMessage(&at, field)).set_message(text);
       return true;
@@ -198,8 +190,9 @@ bool set(Message& message, const Entry& entry, const Value& value) {
 
 void forget_numbers(Message& message) {
   for (const Entry& entry : entries_of(*message.GetDescriptor())) {
-    if (entry.path.back()->cpp_type() != FieldDescriptor::CPPTYPE_DOUBLE) continue;
-    owner(message, entry).GetReflection()->ClearField(&owner(message, entry), entry.path.back());
+    if (entry.field->cpp_type() != FieldDescriptor::CPPTYPE_DOUBLE) continue;
+    Message& at = owner(message, entry);
+    at.GetReflection()->ClearField(&at, entry.field);
     static_cast<void>(set(message, entry, std::numeric_limits<double>::quiet_NaN()));
   }
 }

@@ -27,9 +27,10 @@ using Value = std::variant<double, std::int32_t, std::int64_t, std::string>;
 /// one before theirs ("kkt_gap").
 struct Entry {
   std::string name;  ///< that of the field; of an inclusion A, B and M as in the paper; seconds
-  std::string meaning, unit;                                   ///< see comments::Comment
-  ValueType type;                                              ///< float64, int32, int64 or text
-  std::vector<const google::protobuf::FieldDescriptor*> path;  ///< from the message to the value
+  std::string meaning, unit;                       ///< see comments::Comment
+  ValueType type;                                  ///< float64, int32, int64 or text
+  const google::protobuf::FieldDescriptor* outer;  ///< of the nested message that has it, or null
+  const google::protobuf::FieldDescriptor* field;
 };
 
 /// Of a type of message, in the order of its fields, lists left out.

@@ -224,19 +224,6 @@ bool is_load_name(std::string_view name) noexcept {
   return true;
 }
 
-std::string first_mesh_fault(const Mesh& mesh) {
-  Faults faults;
-  check_mesh(mesh, faults);
-  return faults.first();
-}
-
-std::string first_edge_fault(const std::string& at, const Edges& edges, std::size_t nodes,
-                             const Mesh& mesh) {
-  Faults faults;
-  check_edges(at, edges, nodes, mesh, faults);
-  return faults.first();
-}
-
 std::string Units::of(std::string_view dimension) const {
   std::string unit;
   for (const char c : dimension) {

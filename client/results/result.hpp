@@ -182,13 +182,6 @@ struct Result {
 /// as "loads[1].traces[0].jump has 160 entries for 161 nodes"; empty: all hold. O(size).
 std::string first_fault(const Result& result);
 
-/// The same for the mesh alone.
-std::string first_mesh_fault(const Mesh& mesh);
-
-/// The same for the edges of a chain of `nodes` nodes; `at` begins the text, as "interfaces[0]".
-std::string first_edge_fault(const std::string& at, const Edges& edges, std::size_t nodes,
-                             const Mesh& mesh);
-
 /// How to get the fields of a result without any: by the job, while the server keeps it, or anew.
 std::string fields_cure(const Result& result);
 

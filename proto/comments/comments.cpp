@@ -4,6 +4,7 @@
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/descriptor.pb.h>
 
+#include <memory>
 #include <regex>
 #include <stdexcept>
 
@@ -15,23 +16,22 @@ asm(".section .rodata\n"
     "\"\n"
     "anticrack_descriptors_end:\n"
     ".previous\n");
-extern "C" const char anticrack_descriptors, anticrack_descriptors_end;
+extern "C" const char anticrack_descriptors[], anticrack_descriptors_end[];
 
 namespace anticrack::comments {
 namespace {
 
 const google::protobuf::DescriptorPool& pool() {
-  static const google::protobuf::DescriptorPool& commented = []() -> auto& {
-    auto* const made = new google::protobuf::DescriptorPool;  // lives as long as what points to it
+  static const auto commented = [] {
+    auto made = std::make_unique<google::protobuf::DescriptorPool>();
     google::protobuf::FileDescriptorSet files;
-    const char* const first = &anticrack_descriptors;
-    if (!files.ParseFromArray(first, static_cast<int>(&anticrack_descriptors_end - first)))
+    const char* const first = anticrack_descriptors;
+    if (!files.ParseFromArray(first, static_cast<int>(anticrack_descriptors_end - first)))
       throw std::logic_error("the descriptors of the API are damaged");
     for (const auto& file : files.file()) made->BuildFile(file);
-    return *made;
-  }
-  ();
-  return commented;
+    return made;
+  }();
+  return *commented;
 }
 
 }  // namespace
@@ -42,10 +42,11 @@ Comment of(const google::protobuf::FieldDescriptor& field) {
   if (commented == nullptr || !commented->GetSourceLocation(&place)) return {};
   const std::string& said =
       place.trailing_comments.empty() ? place.leading_comments : place.trailing_comments;
-  std::string text = std::regex_replace(said, std::regex("^\\s+|\\s+$"), "");
-  text = std::regex_replace(text, std::regex("\\s+"), " ");
+  static const std::regex ends("^\\s+|\\s+$"), spaces("\\s+"),
+      with_unit("(.*) \\[([FLs/() ^0-9]+)\\]");
+  const std::string text = std::regex_replace(std::regex_replace(said, ends, ""), spaces, " ");
   std::smatch parts;
-  if (!std::regex_match(text, parts, std::regex("(.*) \\[([FLs/() ^0-9]+)\\]"))) return {text, {}};
+  if (!std::regex_match(text, parts, with_unit)) return {text, {}};
   return {parts[1], parts[2]};
 }
 

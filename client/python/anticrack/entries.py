@@ -52,7 +52,7 @@ def value_of(message: Any, field: Any) -> Any:
         return status_name(value, field.enum_type)
     if field.message_type is None:
         return value
-    return value.message if field.message_type.name == "Status" else value.seconds + value.nanos / 1e9
+    return value.message if field.message_type.name == "Status" else value.ToNanoseconds() / 1e9
 
 
 def values_of(message: Any) -> dict[str, Any]:

@@ -211,14 +211,6 @@ TEST(ToResult, KeepsALoadThatFailedWithoutArrays) {
   EXPECT_TRUE(result.loads[1].traces.empty());
 }
 
-TEST(ToMesh, HasItsNamesAndRefusesATriangleOfNoSubdomain) {
-  const Fetched sent = fetched();
-  EXPECT_EQ(to_mesh(sent.mesh, sent.mesh_block).inclusions, std::vector<std::string>{"fibre"});
-  v1::Mesh nameless = sent.mesh;
-  nameless.clear_subdomains();
-  EXPECT_THROW(to_mesh(nameless, sent.mesh_block), results::Error);
-}
-
 TEST(ToResult, RefusesContactOnAnUnknownInterface) {
   Fetched odd = fetched();
   odd.job.mutable_answers(0)->mutable_contact_intervals(0)->set_interface("tau");
