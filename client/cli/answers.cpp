@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <iterator>
 #include <map>
 #include <optional>
@@ -12,22 +11,19 @@
 #include <string_view>
 #include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "cli/json.hpp"
 #include "cli/progress.hpp"
 #include "cli/sweep_text.hpp"
 #include "cli/text.hpp"
+#include "results/entries.hpp"
 #include "results/interval.hpp"
 #include "results/notes.hpp"
-#include "results/tables.hpp"
 
 namespace anticrack::cli {
 namespace {
-
-bool has_answer(const results::Load& load) {
-  return load.status == results::Status::converged || load.status == results::Status::not_converged;
-}
 
 struct Moved {
   std::string name;
@@ -39,10 +35,10 @@ std::vector<Moved> inclusions_of(const std::vector<results::Load>& loads) {
   std::vector<Moved> all;
   std::map<std::string_view, std::size_t> places;
   for (const results::Load& load : loads) {
-    for (const results::Inclusion& inclusion : load.inclusions) {
-      const auto [place, is_new] = places.try_emplace(inclusion.name, all.size());
-      if (is_new) all.push_back({inclusion.name});
-      all[place->second].tilted |= inclusion.tilted();
+    for (const v1::InclusionAnswer& inclusion : load.answer.inclusions()) {
+      const auto [place, is_new] = places.try_emplace(inclusion.name(), all.size());
+      if (is_new) all.push_back({inclusion.name()});
+      all[place->second].tilted |= inclusion.slope_x() != 0 || inclusion.slope_y() != 0;
     }
   }
   return all;
@@ -52,32 +48,21 @@ bool any_tilts(const std::vector<Moved>& inclusions) {
   return std::ranges::any_of(inclusions, &Moved::tilted);
 }
 
-using Member = double results::Inclusion::*;
+// Its value or, where it has them, its bounds.
+std::string text_of(const v1::InclusionAnswer& inclusion, const std::string& number_name) {
+  const double lower = results::number_in(inclusion, number_name + "_lower");
+  if (!std::isfinite(lower)) return number(results::number_in(inclusion, number_name));
+  return results::interval(lower, results::number_in(inclusion, number_name + "_upper"));
+}
 
-// A number of an inclusion and, where it may have them, its bounds.
-struct Column {
-  const char* name;
-  const char* dimension;  // as results::Units has it
-  Member value;
-  Member lower = nullptr, upper = nullptr;
+// The numbers that are told of an inclusion: of one that never tilts, A alone.
+std::span<const std::string> told_of(const Moved& inclusion) {
+  static const std::array<std::string, 5> names{"A", "Bx", "By", "Mx", "My"};
+  return std::span(names).first(inclusion.tilted ? names.size() : 1);
+}
 
-  std::string of(const results::Inclusion& inclusion) const {
-    if (lower == nullptr || !std::isfinite(inclusion.*lower)) return number(inclusion.*value);
-    return results::interval(inclusion.*lower, inclusion.*upper);
-  }
-};
-
-// What is told of an inclusion: of one that never tilts, A alone.
-std::span<const Column> told_of(const Moved& inclusion) {
-  using results::Inclusion;
-  static constexpr std::array<Column, 5> columns{
-      {{"A", "L", &Inclusion::displacement, &Inclusion::displacement_lower,
-        &Inclusion::displacement_upper},
-       {"Bx", "", &Inclusion::slope_x, &Inclusion::slope_x_lower, &Inclusion::slope_x_upper},
-       {"By", "", &Inclusion::slope_y, &Inclusion::slope_y_lower, &Inclusion::slope_y_upper},
-       {"Mx", "F L", &Inclusion::moment_x},
-       {"My", "F L", &Inclusion::moment_y}}};
-  return std::span(columns).first(inclusion.tilted ? columns.size() : 1);
+std::string dimension_of(const std::string& number_name) {
+  return results::entry_of(*v1::InclusionAnswer::descriptor(), number_name)->unit;
 }
 
 // Above a column of the table: without a dimension the second row is empty there.
@@ -99,8 +84,8 @@ class Told {
     std::vector<Head> head;
     for (const Moved& inclusion : _inclusions) {
       if (!each()) break;
-      for (const Column& column : told_of(inclusion)) {
-        head.push_back({column.name, column.dimension});
+      for (const std::string& name : told_of(inclusion)) {
+        head.push_back({name, dimension_of(name)});
         if (_inclusions.size() > 1) head.back().name += " " + sanitise(inclusion.name);
       }
     }
@@ -113,10 +98,11 @@ class Told {
   void add(const results::Load& load, std::vector<std::string>& row) const {
     if (!each()) return add_extremes(load, row);
     for (const Moved& inclusion : _inclusions) {
-      const auto found =
-          std::ranges::find(load.inclusions, inclusion.name, &results::Inclusion::name);
-      const bool told = has_answer(load) && found != load.inclusions.end();
-      for (const Column& column : told_of(inclusion)) row.push_back(told ? column.of(*found) : "-");
+      const auto& all = load.answer.inclusions();
+      const auto found = std::ranges::find(all, inclusion.name, &v1::InclusionAnswer::name);
+      const bool told = load.has_answer() && found != all.end();
+      for (const std::string& name : told_of(inclusion))
+        row.push_back(told ? text_of(*found, name) : "-");
     }
   }
 
@@ -131,26 +117,26 @@ class Told {
 
  private:
   void add_extremes(const results::Load& load, std::vector<std::string>& row) const {
-    if (!has_answer(load) || load.inclusions.empty()) {
+    const auto& all = load.answer.inclusions();
+    if (!load.has_answer() || all.empty()) {
       row.insert(row.end(), {"-", "-", "", "-", ""});
       if (_tilt) row.insert(row.end(), {"-", ""});
       return;
     }
     constexpr std::size_t widest_name = 24;
-    const auto add_one = [&row](const results::Inclusion& inclusion, std::string value) {
-      row.insert(row.end(), {std::move(value), fit(sanitise(inclusion.name), widest_name)});
+    const auto add_one = [&row](const v1::InclusionAnswer& inclusion, std::string value) {
+      row.insert(row.end(), {std::move(value), fit(sanitise(inclusion.name()), widest_name)});
     };
-    const Column* const moved = told_of({}).data();
-    row.push_back(std::to_string(load.inclusions.size()));
+    row.push_back(std::to_string(all.size()));
     const auto [least, greatest] =
-        std::ranges::minmax_element(load.inclusions, {}, &results::Inclusion::displacement);
-    add_one(*least, moved->of(*least));
-    add_one(*greatest, moved->of(*greatest));
+        std::ranges::minmax_element(all, {}, &v1::InclusionAnswer::displacement);
+    add_one(*least, text_of(*least, "A"));
+    add_one(*greatest, text_of(*greatest, "A"));
     if (!_tilt) return;
-    const auto slope = [](const results::Inclusion& inclusion) {
-      return std::hypot(inclusion.slope_x, inclusion.slope_y);
+    const auto slope = [](const v1::InclusionAnswer& inclusion) {
+      return std::hypot(inclusion.slope_x(), inclusion.slope_y());
     };
-    const auto steepest = std::ranges::max_element(load.inclusions, {}, slope);
+    const auto steepest = std::ranges::max_element(all, {}, slope);
     add_one(*steepest, number(slope(*steepest)));
   }
 
@@ -159,51 +145,55 @@ class Told {
 };
 
 bool is_bounded(const results::Load& load) {
-  return has_answer(load) && std::isfinite(load.error_bound);
+  return load.has_answer() && load.answer.has_error_bound();
 }
 
 std::vector<std::string> row_of(const results::Load& load, const Told& inclusions, bool by_uzawa,
                                 bool bounded) {
-  const bool answered = has_answer(load);
+  const v1::LoadCaseAnswer& answer = load.answer;
+  const bool answered = load.has_answer();
   const auto when_answered = [answered](double value, int digits = 6, bool exponent = false) {
     return answered ? number(value, digits, exponent) : "-";
   };
   std::vector<std::string> row{
-      sanitise(load.name), std::string(word(load.status)), std::to_string(load.iterations),
-      when_answered(by_uzawa ? load.criterion : load.kkt_relative.largest(), 2, true)};
+      sanitise(load.name()), std::string(word(load.status())), std::to_string(answer.iterations()),
+      when_answered(by_uzawa ? answer.criterion() : results::largest(answer.kkt()), 2, true)};
   inclusions.add(load, row);
-  row.push_back(answered && std::isfinite(load.energy_lower)
-                    ? results::interval(load.energy_lower, load.energy_upper)
-                    : when_answered(load.energy));
-  if (bounded)
-    row.push_back(
-        when_answered(100 * load.error_bound_relative, load.error_bound_relative < 1 ? 2 : 3));
-  row.push_back(answered ? contact_text(load.contact_length) : "-");
-  if (by_uzawa) {
-    row.push_back(when_answered(load.theta, 4));
-    row.push_back(when_answered(load.theta_star, 4));
+  row.push_back(answered && answer.has_energy_lower()
+                    ? results::interval(answer.energy_lower(), answer.energy_upper())
+                    : when_answered(answer.energy()));
+  if (bounded) {
+    const double error = results::number_in(answer, "error_bound_relative");
+    row.push_back(when_answered(100 * error, error < 1 ? 2 : 3));
   }
-  row.push_back(seconds(load.solve_seconds));
+  row.push_back(answered ? contact_text(answer.contact_length()) : "-");
+  if (by_uzawa) {
+    row.push_back(when_answered(results::number_in(answer, "theta"), 4));
+    row.push_back(when_answered(results::number_in(answer, "theta_star"), 4));
+  }
+  row.push_back(seconds(results::number_in(answer, "solve_seconds")));
   return row;
 }
 
 // Lines for people below the table.
 std::vector<std::string> remarks_on(const results::Load& load) {
+  const v1::LoadCaseAnswer& answer = load.answer;
   std::vector<std::string> remarks;
-  remarks.reserve(4 + load.warnings.size());
-  if (const std::string& cause = load.error.empty() ? load.reason : load.error; !cause.empty())
+  const std::string& failure = answer.error().message();
+  if (const std::string& cause = failure.empty() ? answer.reason() : failure; !cause.empty())
     remarks.push_back(cause);
-  if (load.weakly_active > 0) {
-    remarks.push_back(std::to_string(load.weakly_active) +
-                      (load.weakly_active == 1 ? " node just touches" : " nodes just touch") +
+  if (answer.weakly_active() > 0) {
+    remarks.push_back(std::to_string(answer.weakly_active()) +
+                      (answer.weakly_active() == 1 ? " node just touches" : " nodes just touch") +
                       ": neither jump nor pressure");
   }
-  for (const std::string& warning : load.warnings) remarks.push_back("warning: " + warning);
-  if (!load.no_bracket.empty()) remarks.push_back("no bounds of the error: " + load.no_bracket);
+  for (const std::string& warning : answer.warnings()) remarks.push_back("warning: " + warning);
+  if (!answer.no_bracket().empty())
+    remarks.push_back("no bounds of the error: " + answer.no_bracket());
   constexpr double small_error = 0.01;
-  const bool in_stages = load.stages.size() > 0;  // the accuracy was chosen
-  const double error = load.error_bound_relative;
-  if (is_bounded(load) && load.error_bound > 0 && !std::isfinite(error) && !in_stages)
+  const bool in_stages = !load.stages.empty();  // the accuracy was chosen
+  const double error = results::number_in(answer, "error_bound_relative");
+  if (is_bounded(load) && answer.error_bound() > 0 && !std::isfinite(error) && !in_stages)
     remarks.push_back(
         "u is 0 on this mesh, but need not be on the membrane; take a smaller mesh.size");
   if (is_bounded(load) && std::isfinite(error) && error > small_error && !in_stages)
@@ -213,28 +203,37 @@ std::vector<std::string> remarks_on(const results::Load& load) {
   return remarks;
 }
 
-Json stages_json(const results::Stages& stages) {
-  Json json = Json::array();
-  for (std::size_t i = 0; i < stages.size(); ++i) {
-    json.push_back({{"triangles", stages.triangles[i]},
-                    {"energy", stages.energy[i]},
-                    {"energy_lower", stages.energy_lower[i]},
-                    {"energy_upper", stages.energy_upper[i]},
-                    {"error_bound_relative", stages.error_bound_relative[i]},
-                    {"displacement_error", stages.displacement_error[i]},
-                    {"seconds", stages.seconds[i]}});
-  }
+Json json_of(const google::protobuf::Message& message, Json json = Json::object()) {
+  for (const results::Entry& entry : results::entries_of(*message.GetDescriptor()))
+    std::visit([&](const auto& value) { json[entry.name] = value; }, results::get(message, entry));
   return json;
 }
 
-Json contact_json(const results::Load& load, const std::vector<results::Interface>& interfaces) {
+template <class Messages>
+Json json_list(const Messages& messages) {
   Json json = Json::array();
-  for (const results::ContactInterval& interval : load.contact_intervals) {
-    json.push_back({{"interface", interfaces.at(interval.interface).name},
-                    {"begin", interval.begin},
-                    {"end", interval.end}});
-  }
+  for (const auto& message : messages) json.push_back(json_of(message));
   return json;
+}
+
+Json load_json(const results::Load& load) {
+  Json json = json_of(load.answer);
+  json["method"] = load.asked.method;
+  json["worst_kkt"] = load.has_answer() ? results::largest(load.answer.kkt()) : results::unknown;
+  json["inclusions"] = json_list(load.answer.inclusions());
+  json["contact_intervals"] = json_list(load.answer.contact_intervals());
+  json["stages"] = Json::array();
+  for (const v1::Stage& stage : load.stages)
+    json["stages"].push_back(json_of(stage.answers(0), json_of(stage)));
+  json["warnings"] =
+      std::vector<std::string>(load.answer.warnings().begin(), load.answer.warnings().end());
+  return json;
+}
+
+std::string text_of(const results::Value& value) {
+  if (const auto* const real = std::get_if<double>(&value)) return number(*real);
+  const auto* const whole = std::get_if<std::int32_t>(&value);
+  return std::to_string(whole != nullptr ? *whole : std::get<std::int64_t>(value));
 }
 
 }  // namespace
@@ -242,7 +241,7 @@ Json contact_json(const results::Load& load, const std::vector<results::Interfac
 std::string answers_table(const std::vector<results::Load>& loads, const results::Units& units) {
   const Told inclusions(inclusions_of(loads));
   const bool by_uzawa = std::any_of(loads.begin(), loads.end(), [](const results::Load& load) {
-    return std::isfinite(load.theta);
+    return load.answer.has_theta();
   });
   std::vector<Head> head{
       {"load"}, {"status"}, {"iterations", ""}, {by_uzawa ? "criterion" : "KKT", ""}};
@@ -264,7 +263,7 @@ std::string answers_table(const std::vector<results::Load>& loads, const results
   for (const results::Load& load : loads) {
     rows.push_back(row_of(load, inclusions, by_uzawa, bounded));
     for (const std::string& remark : remarks_on(load))
-      remarks += sanitise(load.name) + ": " + sanitise(remark) + "\n";
+      remarks += sanitise(load.name()) + ": " + sanitise(remark) + "\n";
   }
   return table(rows, left) + inclusions.hint() + remarks;
 }
@@ -281,18 +280,19 @@ std::string inclusions_table(const results::Result& result) {
   if (result.sweep) return sweep_inclusions(*result.sweep, result.units);
   const auto columns = told_of({"", any_tilts(inclusions_of(result.loads))});
   std::vector<std::vector<std::string>> rows{{"load", "inclusion"}, {"", ""}};
-  for (const Column& column : columns) {
-    rows[0].emplace_back(column.name);
-    rows[1].push_back(sanitise(result.units.of(column.dimension)));
+  for (const std::string& name : columns) {
+    rows[0].push_back(name);
+    rows[1].push_back(sanitise(result.units.of(dimension_of(name))));
   }
   rows[0].insert(rows[0].end(), {"resultant", "contact length"});
   rows[1].insert(rows[1].end(), {sanitise(result.units.of("F")), sanitise(result.units.of("L"))});
   for (const results::Load& load : result.loads) {
-    if (!has_answer(load)) continue;
-    for (const results::Inclusion& inclusion : load.inclusions) {
-      auto& row = rows.emplace_back(std::vector{sanitise(load.name), sanitise(inclusion.name)});
-      for (const Column& column : columns) row.push_back(column.of(inclusion));
-      row.insert(row.end(), {number(inclusion.resultant), contact_text(inclusion.contact_length)});
+    if (!load.has_answer()) continue;
+    for (const v1::InclusionAnswer& inclusion : load.answer.inclusions()) {
+      auto& row = rows.emplace_back(std::vector{sanitise(load.name()), sanitise(inclusion.name())});
+      for (const std::string& name : columns) row.push_back(text_of(inclusion, name));
+      row.insert(row.end(),
+                 {number(inclusion.resultant()), contact_text(inclusion.contact_length())});
     }
   }
   return rows.size() == 2 ? "no inclusions\n" : table(rows, {1});
@@ -300,26 +300,34 @@ std::string inclusions_table(const results::Result& result) {
 
 std::string answers_csv(const results::Result& result) {
   if (result.sweep) return sweep_csv(*result.sweep);
+  const auto& columns = results::entries_of(*v1::InclusionAnswer::descriptor());
   std::string text = "load,inclusion";
-  arrays::for_each(
-      [&](const auto& column) {
-        if (column.name != "name") text.append(",").append(column.name);
-      },
-      results::tables::inclusions);
+  for (const results::Entry& column : columns)
+    if (column.type == results::ValueType::float64) text += "," + column.name;
   text += '\n';
   for (const results::Load& load : result.loads) {
-    if (!has_answer(load)) continue;
-    for (const results::Inclusion& inclusion : load.inclusions) {
-      text += csv_field(load.name) + "," + csv_field(inclusion.name);
-      arrays::for_each(
-          [&](const auto& column) {
-            const auto& value = std::invoke(column.member, inclusion);
-            if constexpr (std::is_floating_point_v<std::remove_cvref_t<decltype(value)>>)
-              text += "," + exact(value);
-          },
-          results::tables::inclusions);
+    if (!load.has_answer()) continue;
+    for (const v1::InclusionAnswer& inclusion : load.answer.inclusions()) {
+      text += csv_field(load.name()) + "," + csv_field(inclusion.name());
+      for (const results::Entry& column : columns)
+        if (column.type == results::ValueType::float64)
+          text += "," + exact(std::get<double>(results::get(inclusion, column)));
       text += '\n';
     }
+  }
+  return text;
+}
+
+std::string numbers_table(const results::Result& result) {
+  std::string text;
+  for (const results::Load& load : result.loads) {
+    std::vector<std::vector<std::string>> rows;
+    for (const results::Entry& entry : results::entries_of(*v1::LoadCaseAnswer::descriptor())) {
+      if (entry.type == results::ValueType::text) continue;
+      rows.push_back({entry.name, text_of(results::get(load.answer, entry)),
+                      sanitise(result.units.of(entry.unit)), entry.meaning});
+    }
+    text += "\n" + sanitise(load.name()) + ", every number:\n" + table(rows, {2, 3});
   }
   return text;
 }
@@ -340,46 +348,7 @@ std::string answers_json(const results::Result& result, const std::filesystem::p
             {"notes", results::notes_on(result)}};
   if (result.sweep) json["sweep"] = sweep_json(*result.sweep);
   Json& answers = json["answers"] = Json::array();
-  for (const results::Load& load : result.loads) {
-    Json inclusions = Json::array();
-    for (const results::Inclusion& inclusion : load.inclusions) {
-      inclusions.push_back({{"name", inclusion.name},
-                            {"A", inclusion.displacement},
-                            {"A_lower", inclusion.displacement_lower},
-                            {"A_upper", inclusion.displacement_upper},
-                            {"A_estimated_error", inclusion.displacement_estimated_error},
-                            {"Bx", inclusion.slope_x},
-                            {"By", inclusion.slope_y},
-                            {"resultant", inclusion.resultant},
-                            {"Mx", inclusion.moment_x},
-                            {"My", inclusion.moment_y},
-                            {"contact_length", inclusion.contact_length}});
-    }
-    answers.push_back(
-        {{"name", load.name},
-         {"status", results::name(load.status)},
-         {"reason", load.reason},
-         {"error", load.error},
-         {"method", load.method},
-         {"iterations", load.iterations},
-         {"criterion", load.criterion},
-         {"worst_kkt", has_answer(load) ? load.kkt_relative.largest() : results::unknown},
-         {"theta", load.theta},
-         {"theta_star", load.theta_star},
-         {"energy", load.energy},
-         {"energy_lower", load.energy_lower},
-         {"energy_upper", load.energy_upper},
-         {"error_bound", load.error_bound},
-         {"error_bound_relative", load.error_bound_relative},
-         {"no_bracket", load.no_bracket},
-         {"contact_length", load.contact_length},
-         {"contact_intervals", contact_json(load, result.interfaces)},
-         {"weakly_active", load.weakly_active},
-         {"solve_seconds", load.solve_seconds},
-         {"inclusions", std::move(inclusions)},
-         {"stages", stages_json(load.stages)},
-         {"warnings", load.warnings}});
-  }
+  for (const results::Load& load : result.loads) answers.push_back(load_json(load));
   return to_text(json);
 }
 

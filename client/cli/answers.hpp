@@ -34,6 +34,9 @@ std::string inclusions_table(const results::Result& result);
 /// sweep sweep_csv.
 std::string answers_csv(const results::Result& result);
 
+/// For each load case a row for every number of its answer: value, unit, what it is.
+std::string numbers_table(const results::Result& result);
+
 /// {title, file, job, mesh, sizes, timings, notes, answers: [one per load case]}; of a sweep also
 /// {sweep: {rows, converged, ...}}, and the answers are those of the rows whose traces were kept.
 std::string answers_json(const results::Result& result, const std::filesystem::path& file);

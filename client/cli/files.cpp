@@ -33,7 +33,7 @@ struct FileOptions {
   std::string folder;
   std::vector<std::string> loads;  ///< none: all
   std::string csv;
-  bool inclusions = false;
+  bool inclusions = false, all = false;
 };
 
 struct PlotOptions {
@@ -49,7 +49,7 @@ results::Result read_result(const FileOptions& options) {
   results::Result result = results::read(options.file);
   if (options.loads.empty()) return result;
   std::vector<std::string> names;
-  for (const results::Load& load : result.loads) names.push_back(load.name);
+  for (const results::Load& load : result.loads) names.push_back(load.name());
   std::vector<results::Load> chosen;
   for (const std::string& name : options.loads) {
     const auto found = std::find(names.begin(), names.end(), name);
@@ -93,9 +93,9 @@ int show_file(const FileOptions& options, const Globals& given) {
   if (!result.not_reached.empty()) foot = "not reached: " + sanitise(result.not_reached) + "\n";
   if (result.loads.size() == 1 || !options.loads.empty())
     for (const results::Load& load : result.loads) foot += stages_table(load);
-  print_answer(
-      globals,
-      head + (options.inclusions ? inclusions_table(result) : answers_table(result)) + foot);
+  print_answer(globals,
+               head + (options.inclusions ? inclusions_table(result) : answers_table(result)) +
+                   (options.all ? numbers_table(result) : "") + foot);
   return exit_ok;
 }
 
@@ -189,6 +189,8 @@ void add_files(CLI::App& app, const Globals& globals, Command& chosen) {
   add_file(*show_command, options->file, options->loads, "Result file, HDF5");
   show_command->add_flag("--inclusions", options->inclusions,
                          "A row for each inclusion of each load case, also of many");
+  show_command->add_flag("--all", options->all,
+                         "Also every number of each load case, with its unit and what it is");
   show_command
       ->add_option("--csv", options->csv,
                    "Also write comma-separated text, one line per load case and inclusion; of a "

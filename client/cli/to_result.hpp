@@ -30,10 +30,7 @@ results::Units to_units(const v1::Units& units);
 /// Throws results::Error for parts that do not fit together.
 results::Result to_result(const Fetched& fetched);
 
-/// The answers so far, without traces, fields, histories and contact intervals: one per load case.
+/// The answers so far, without traces, fields and histories: one per load case.
 std::vector<results::Load> to_loads(const v1::Job& job);
-
-/// A mesh with what ReadMesh returned. Throws as to_result.
-results::Mesh to_mesh(const v1::Mesh& mesh, const client::Block& block);
 
 }  // namespace anticrack::cli

@@ -27,8 +27,10 @@ class BuildWithApi(build_py):
                              "protobuf-compiler-grpc")
         made = pathlib.Path(self.build_lib)
         protos = [str(path.relative_to(PROTO)) for path in sorted(PROTO.glob("anticrack/v1/*.proto"))]
+        described = made / "anticrack/v1/comments.desc"  # the modules have no comments
         subprocess.run(["protoc", f"--plugin=protoc-gen-grpc_python={plugin}", f"-I{PROTO}", f"--python_out={made}",
-                        f"--pyi_out={made}", f"--grpc_python_out={made}", *protos], check=True)
+                        f"--pyi_out={made}", f"--grpc_python_out={made}", "--include_source_info",
+                        f"--descriptor_set_out={described}", *protos], check=True)
         (made / "anticrack/v1/__init__.py").write_text("", encoding="utf-8")
 
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results/assemble.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include "results/block.hpp"
+#include "results/entries.hpp"
 #include "results/tables.hpp"
 
 namespace anticrack::results {
@@ -19,7 +21,7 @@ std::vector<Trace> traces_of(const Block& block, const std::string& at, std::siz
 
 void add_load(const Block& block, std::size_t index, std::size_t interfaces, const Mesh& mesh,
               Load& load) {
-  const bool solved = load.status == Status::converged || load.status == Status::not_converged;
+  const bool solved = load.has_answer();
   load.traces.clear();
   load.fields.clear();
   load.indicator.clear();
@@ -38,42 +40,50 @@ void add_load(const Block& block, std::size_t index, std::size_t interfaces, con
 }
 
 /// Runs of consecutive nodes in contact.
-void add_contact_intervals(const Interface& interface, std::size_t index, const Trace& trace,
-                           std::vector<ContactInterval>& intervals) {
+void add_contact_intervals(const Interface& interface, const Trace& trace,
+                           v1::LoadCaseAnswer& answer) {
   for (std::size_t i = 0; i < interface.node_count() && i < trace.contact.size(); ++i) {
     if (trace.contact[i] == 0) continue;
-    if (i > 0 && trace.contact[i - 1] != 0)
-      intervals.back().end = interface.s[i];
-    else
-      intervals.push_back({index, interface.s[i], interface.s[i]});
+    if (i == 0 || trace.contact[i - 1] == 0) {
+      v1::ContactInterval& interval = *answer.add_contact_intervals();
+      interval.set_interface(interface.name);
+      interval.set_begin(interface.s[i]);
+    }
+    answer.mutable_contact_intervals()->rbegin()->set_end(interface.s[i]);
   }
 }
 
 Load load_of(const Sweep& sweep, std::size_t row, std::vector<Trace> traces,
              const std::vector<Interface>& interfaces) {
   Load load;
-  load.name = row_name(static_cast<std::int64_t>(row));
-  load.status = sweep.status[row];
-  load.method = "active-set";
-  load.iterations = sweep.steps[row];
-  load.energy = sweep.energy[row];
-  load.contact_length = sweep.contact_length[row];
-  load.kkt = load.kkt_relative = unknown_kkt;
+  load.asked.method = "active-set";
+  v1::LoadCaseAnswer& answer = load.answer;
+  forget_numbers(answer);
+  answer.set_name(row_name(static_cast<std::int64_t>(row)));
+  answer.set_status(static_cast<v1::LoadCaseAnswer::Status>(sweep.status[row]));
+  answer.set_iterations(sweep.steps[row]);
+  answer.set_energy(sweep.energy[row]);
+  answer.set_contact_length(sweep.contact_length[row]);
+  const bool bounded = !sweep.energy_lower.empty() && std::isfinite(sweep.energy_lower[row]);
+  if (bounded) {
+    answer.set_energy_lower(sweep.energy_lower[row]);
+    answer.set_energy_upper(sweep.energy_upper[row]);
+  }
   const std::size_t inclusions = sweep.inclusions.size();
   for (std::size_t i = 0; i < inclusions; ++i) {
-    load.inclusions.push_back({sweep.inclusions[i], sweep.displacement[row * inclusions + i],
-                               unknown, unknown, sweep.slope_at(row, i, 0),
-                               sweep.slope_at(row, i, 1), unknown, unknown});
-    if (sweep.energy_lower.empty()) continue;
-    load.inclusions[i].displacement_lower = sweep.displacement_lower[row * inclusions + i];
-    load.inclusions[i].displacement_upper = sweep.displacement_upper[row * inclusions + i];
-  }
-  if (!sweep.energy_lower.empty()) {
-    load.energy_lower = sweep.energy_lower[row];
-    load.energy_upper = sweep.energy_upper[row];
+    const std::size_t place = row * inclusions + i;
+    v1::InclusionAnswer& inclusion = *answer.add_inclusions();
+    forget_numbers(inclusion);
+    inclusion.set_name(sweep.inclusions[i]);
+    inclusion.set_displacement(sweep.displacement[place]);
+    inclusion.set_slope_x(sweep.slope_at(row, i, 0));
+    inclusion.set_slope_y(sweep.slope_at(row, i, 1));
+    if (!bounded) continue;
+    inclusion.set_displacement_lower(sweep.displacement_lower[place]);
+    inclusion.set_displacement_upper(sweep.displacement_upper[place]);
   }
   for (std::size_t i = 0; i < traces.size(); ++i)
-    add_contact_intervals(interfaces[i], i, traces[i], load.contact_intervals);
+    add_contact_intervals(interfaces[i], traces[i], answer);
   load.traces = std::move(traces);
   return load;
 }
@@ -108,24 +118,17 @@ Result assemble(Result answers, std::span<const ArrayView> mesh_block,
                 std::span<const ArrayView> result_block) {
   const Block mesh("the mesh read from the server", mesh_block);
   const Block result("the result read from the server", result_block);
-  add_mesh(mesh, answers.mesh);
+  get_arrays(mesh, "", answers.mesh, tables::mesh);
   for (std::size_t i = 0; i < answers.interfaces.size(); ++i) {
     get_arrays(result, arrays::interface_folder(i), answers.interfaces[i],
                arrays::interface_nodes<Interface>);
-    answers.interfaces[i].edges = edges_of(mesh, i);
+    get_arrays(mesh, arrays::interface_folder(i), answers.interfaces[i].edges, tables::edges);
   }
   if (answers.sweep) add_sweep(result, answers);
   for (std::size_t i = 0; i < answers.loads.size() && !answers.sweep; ++i)
     add_load(result, i, answers.interfaces.size(), answers.mesh, answers.loads[i]);
   result.require(first_fault(answers));
   return answers;
-}
-
-Mesh assemble_mesh(Mesh names, std::span<const ArrayView> mesh_block) {
-  const Block block("the mesh read from the server", mesh_block);
-  add_mesh(block, names);
-  block.require(first_mesh_fault(names));
-  return names;
 }
 
 }  // namespace anticrack::results

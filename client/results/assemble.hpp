@@ -44,7 +44,4 @@ ArrayView view(std::string name, ArrayView::Type type, std::vector<std::uint64_t
 Result assemble(Result answers, std::span<const ArrayView> mesh_block,
                 std::span<const ArrayView> result_block);
 
-/// Adds the arrays of ReadMesh to the names in the message Mesh. Throws as `assemble`.
-Mesh assemble_mesh(Mesh names, std::span<const ArrayView> mesh_block);
-
 }  // namespace anticrack::results

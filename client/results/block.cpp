@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results/block.hpp"
 
-#include "results/tables.hpp"
-
 namespace anticrack::results {
 namespace {
 
@@ -32,17 +30,6 @@ std::uint64_t byte_count(const std::string& subject, const ArrayView& array) {
 }
 
 void Block::fail(const std::string& cause) const { throw Error(_subject, cause, compare_versions); }
-
-Edges edges_of(const Block& block, std::size_t interface) {
-  Edges edges;
-  get_arrays(block, arrays::interface_folder(interface), edges, tables::edges);
-  return edges;
-}
-
-void add_mesh(const Block& block, Mesh& mesh) {
-  get_arrays(block, "", mesh, tables::mesh);
-  block.require(first_mesh_fault(mesh));
-}
 
 ArrayView view(std::string name, ArrayView::Type type, std::vector<std::uint64_t> shape,
                std::uint64_t offset, std::span<const std::byte> block) {

@@ -109,10 +109,4 @@ void get_arrays(const Block& block, const std::string& folder, Record& record, c
       table);
 }
 
-/// The edges of an interface in the block of a mesh. Not checked.
-Edges edges_of(const Block& block, std::size_t interface);
-
-/// The arrays of a mesh, checked.
-void add_mesh(const Block& block, Mesh& mesh);
-
 }  // namespace anticrack::results

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <functional>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include "arrays/table.hpp"
@@ -14,17 +13,6 @@
 #include "results/result.hpp"
 
 namespace anticrack::results::hdf5 {
-
-inline void put(const Handle& object, const std::string& attribute, Status status) {
-  put(object, attribute, std::string(name(status)));
-}
-inline void get(const Handle& object, const std::string& attribute, Status& status) {
-  std::string text;
-  get(object, attribute, text);
-  const auto known = status_from(text);
-  if (!known) throw Fault("attribute " + attribute + " is the unknown status \"" + text + "\"");
-  status = *known;
-}
 
 /// Columns of a row's array; 0 for one of one dimension.
 template <class Row, class Record>
@@ -89,50 +77,6 @@ void get_arrays(const Handle& group, std::uint64_t budget, Record& record,
                   std::invoke(row.member, record));
       },
       tables...);
-}
-
-/// As a list keeps a member: indices are int32.
-template <class T>
-using Stored = std::conditional_t<std::is_same_v<T, std::size_t>, std::int32_t, T>;
-
-/// A list of records as datasets, one a member.
-template <class Record, class Table>
-void put_list(const Handle& group, const Units& units, const std::vector<Record>& records,
-              const Table& table) {
-  arrays::for_each(
-      [&](const auto& row) {
-        using Value = Stored<arrays::MemberOf<const Record, decltype(row.member)>>;
-        std::vector<Value> column;
-        column.reserve(records.size());
-        for (const Record& record : records)
-          column.push_back(static_cast<Value>(std::invoke(row.member, record)));
-        put_row(group, units, row, column, 0);
-      },
-      table);
-}
-/// Throws Fault where the datasets differ in length; `what` names the list.
-template <class Record, class Table>
-std::vector<Record> get_list(const Handle& group, std::uint64_t budget, const char* what,
-                             const Table& table) {
-  std::vector<Record> records;
-  bool first = true;
-  arrays::for_each(
-      [&](const auto& row) {
-        using Value = arrays::MemberOf<Record, decltype(row.member)>;
-        const std::string name(row.name);
-        std::vector<Stored<Value>> column;
-        get_array(group, name, budget, {}, column);
-        if (first) records.resize(column.size());
-        first = false;
-        if (column.size() != records.size())
-          throw Fault(std::string(what) + " has datasets of different lengths");
-        for (std::size_t i = 0; i < records.size(); ++i) {
-          // A negative index becomes a huge one, which first_fault refuses.
-          std::invoke(row.member, records[i]) = static_cast<Value>(column[i]);
-        }
-      },
-      table);
-  return records;
 }
 
 }  // namespace anticrack::results::hdf5

@@ -26,13 +26,13 @@ struct Largest {
 Largest largest_of(const Result& result) {
   Largest largest;
   for (const Load& load : result.loads) {
-    for (const Inclusion& inclusion : load.inclusions)
-      largest.take({inclusion.displacement}, load.name);
+    for (const v1::InclusionAnswer& inclusion : load.answer.inclusions())
+      largest.take({inclusion.displacement()}, load.name());
     for (const Trace& trace : load.traces) {
-      largest.take(trace.u_minus, load.name);
-      largest.take(trace.u_plus, load.name);
+      largest.take(trace.u_minus, load.name());
+      largest.take(trace.u_plus, load.name());
     }
-    for (const Field& field : load.fields) largest.take(field.u, load.name);
+    for (const Field& field : load.fields) largest.take(field.u, load.name());
   }
   if (result.sweep) {
     for (const SweepSummary::Range& range : summary(*result.sweep).displacement)

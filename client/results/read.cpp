@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "results/file.hpp"
+#include "results/file_messages.hpp"
 #include "results/file_tables.hpp"
 #include "results/tables.hpp"
 
@@ -15,7 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using hdf5::get_arrays;
-using hdf5::get_list;
 using hdf5::get_values;
 using hdf5::Handle;
 using hdf5::open_group;
@@ -34,24 +34,37 @@ auto list_of(const Handle& parent, const char* name, const Get& get) {
   return items;
 }
 
-Load get_load(const Handle& group, const std::string& name, std::uint64_t budget) {
+std::vector<v1::Stage> get_stages(const Handle& group, std::uint64_t budget) {
+  std::vector<v1::Stage> stages;
+  std::optional<std::size_t> length;
+  const auto get_columns = [&](const google::protobuf::Descriptor& type, const auto& of) {
+    hdf5::get_columns(group, budget, "stages", type, length,
+                      [&](std::size_t i) -> google::protobuf::Message& {
+                        if (stages.empty()) stages.resize(*length);
+                        return of(stages[i]);
+                      });
+  };
+  get_columns(
+      *v1::Stage::descriptor(), [](v1::Stage & stage) -> auto& { return stage; });
+  get_columns(
+      *v1::StageAnswer::descriptor(), [](v1::Stage & stage) -> auto& {
+        return stage.answers_size() == 0 ? *stage.add_answers() : *stage.mutable_answers(0);
+      });
+  return stages;
+}
+
+Load get_load(const Handle& group, std::uint64_t budget) {
   Load load;
-  load.name = name;
-  get_values(group, load, tables::load);
-  get_arrays(group, budget, load, tables::load_arrays, tables::indicator);
-  load.inclusions = get_list<Inclusion>(open_group(group, "inclusions"), budget, "inclusions",
-                                        tables::inclusions);
-  load.contact_intervals =
-      get_list<ContactInterval>(open_group(group, "contact_intervals"), budget, "contact_intervals",
-                                tables::contact_intervals);
+  hdf5::get_message(group, budget, load.answer);
+  get_values(group, load.asked, tables::asked);
+  get_arrays(group, budget, load, tables::indicator);
   load.traces = list_of(group, "traces", [budget](const Handle& at) {
     Trace trace;
     get_arrays(at, budget, trace, arrays::trace<Trace>);
     return trace;
   });
   get_arrays(open_group(group, "history"), budget, load.history, arrays::history<History>);
-  if (hdf5::has(group, "stages"))
-    get_arrays(open_group(group, "stages"), budget, load.stages, tables::stages);
+  if (hdf5::has(group, "stages")) load.stages = get_stages(open_group(group, "stages"), budget);
   if (!hdf5::has(group, "fields")) return load;
   load.fields = list_of(group, "fields", [budget](const Handle& at) {
     Field field;
@@ -75,7 +88,7 @@ std::vector<Load> get_loads(const Handle& root, std::uint64_t budget) {
     if (index >= loads.size() || filled[index])
       throw hdf5::Fault("load \"" + name + "\" has the index of another or none");
     filled[index] = true;
-    loads[index] = get_load(group, name, budget);
+    loads[index] = get_load(group, budget);
   }
   return loads;
 }

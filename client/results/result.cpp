@@ -152,17 +152,22 @@ std::vector<std::size_t> triangles_by_subdomain(const Mesh& mesh) {
   return count;
 }
 
-void check_load(const std::string& at, const Load& load, const Result& result, Faults& faults) {
-  faults.require(is_load_name(load.name),
+void check_load(const std::string& at, const Load& load, const Result& result,
+                const std::set<std::string_view>& interfaces, Faults& faults) {
+  faults.require(is_load_name(load.name()),
                  at + ".name is not of the form [A-Za-z0-9][A-Za-z0-9_. -]{0,63}");
-  faults.require(!name(load.status).empty(), at + ".status is unknown");
+  faults.require(!name(load.status()).empty(), at + ".status is unknown");
   if (!load.traces.empty())
     faults.length(at + ".traces", load.traces.size(), result.interfaces.size(), "interfaces");
   for (std::size_t i = 0; i < load.traces.size() && !faults.any(); ++i)
     check_trace(item(at + ".traces", i), load.traces[i], result.interfaces[i].node_count(), faults);
   check_history(at + ".history", load.history, faults);
-  faults.lengths(at + ".stages", load.stages, load.stages.size(), "stages", tables::stages);
-  faults.increasing(at + ".stages.triangles", load.stages.triangles);
+  std::vector<std::uint64_t> triangles;
+  for (const v1::Stage& stage : load.stages) {
+    faults.require(stage.answers_size() == 1, at + ".stages has one without an answer");
+    triangles.push_back(stage.triangles());
+  }
+  faults.increasing(at + ".stages.triangles", triangles);
   if (!load.indicator.empty())
     faults.lengths(at, load, result.mesh.triangle_count(), "triangles", tables::indicator);
   if (!load.fields.empty())
@@ -172,12 +177,12 @@ void check_load(const std::string& at, const Load& load, const Result& result, F
     for (std::size_t i = 0; i < load.fields.size() && !faults.any(); ++i)
       check_field(item(at + ".fields", i), load.fields[i], result.mesh, counts[i], faults);
   }
-  for (std::size_t i = 0; i < load.contact_intervals.size() && !faults.any(); ++i) {
-    const ContactInterval& interval = load.contact_intervals[i];
-    const std::string where = item(at + ".contact_intervals", i);
-    faults.require(interval.interface < result.interfaces.size(),
-                   where + ".interface is out of range");
-    faults.require(interval.begin <= interval.end, where + " ends before it begins");
+  for (int i = 0; i < load.answer.contact_intervals_size() && !faults.any(); ++i) {
+    const v1::ContactInterval& interval = load.answer.contact_intervals(i);
+    const std::string where = item(at + ".contact_intervals", static_cast<std::size_t>(i));
+    faults.require(interfaces.contains(interval.interface()),
+                   where + ".interface is \"" + interval.interface() + "\", no such interface");
+    faults.require(interval.begin() <= interval.end(), where + " ends before it begins");
   }
 }
 
@@ -191,9 +196,10 @@ void check_sweep(const Result& result, Faults& faults) {
 
 }  // namespace
 
-double Kkt::largest() const noexcept {
+double largest(const v1::KktResiduals& kkt) noexcept {
   double result = 0;
-  for (const double residual : {equilibrium, gap, sign, complementarity}) {
+  for (const double residual : {kkt.equilibrium_relative(), kkt.gap_relative(), kkt.sign_relative(),
+                                kkt.complementarity_relative()}) {
     if (std::isnan(residual)) return residual;
     result = std::max(result, residual);
   }
@@ -216,19 +222,6 @@ bool is_load_name(std::string_view name) noexcept {
   for (const char c : name)
     if (!alphanumeric(c) && c != '_' && c != '.' && c != ' ' && c != '-') return false;
   return true;
-}
-
-std::string first_mesh_fault(const Mesh& mesh) {
-  Faults faults;
-  check_mesh(mesh, faults);
-  return faults.first();
-}
-
-std::string first_edge_fault(const std::string& at, const Edges& edges, std::size_t nodes,
-                             const Mesh& mesh) {
-  Faults faults;
-  check_edges(at, edges, nodes, mesh, faults);
-  return faults.first();
 }
 
 std::string Units::of(std::string_view dimension) const {
@@ -259,12 +252,13 @@ std::string first_fault(const Result& result) {
   check_mesh(result.mesh, faults);
   for (std::size_t i = 0; i < result.interfaces.size() && !faults.any(); ++i)
     check_interface(item("interfaces", i), result.interfaces[i], result.mesh, faults);
-  std::set<std::string_view> names;
+  std::set<std::string_view> names, interfaces;
+  for (const Interface& interface : result.interfaces) interfaces.insert(interface.name);
   for (std::size_t i = 0; i < result.loads.size() && !faults.any(); ++i) {
     const Load& load = result.loads[i];
-    check_load(item("loads", i), load, result, faults);
-    faults.require(names.insert(load.name).second,
-                   item("loads", i) + ".name \"" + load.name + "\" is there twice");
+    check_load(item("loads", i), load, result, interfaces, faults);
+    faults.require(names.insert(load.name()).second,
+                   item("loads", i) + ".name \"" + load.name() + "\" is there twice");
   }
   if (result.sweep && !faults.any()) check_sweep(result, faults);
   return faults.first();

@@ -14,6 +14,7 @@
 #include <string_view>
 #include <vector>
 
+#include "anticrack/v1/solve.pb.h"
 #include "results/sweep.hpp"
 
 namespace anticrack::results {
@@ -65,44 +66,6 @@ struct Interface {
 
 inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// Residuals of the optimality conditions: see KktResiduals of the API.
-struct Kkt {
-  double equilibrium = 0;
-  double gap = 0;
-  double sign = 0;
-  double complementarity = 0;
-
-  double largest() const noexcept;  ///< NaN where one of them is
-  bool operator==(const Kkt&) const = default;
-};
-inline constexpr Kkt unknown_kkt{unknown, unknown, unknown, unknown};
-
-struct Inclusion {
-  std::string name;
-  double displacement = 0;    ///< A of equation (5); of one that tilts u in its middle (x0, y0)
-  double resultant = 0;       ///< int [T du/dnu] ds over it, equation (6): the force on it
-  double contact_length = 0;  ///< length of its delaminated part in contact
-  /// Bx, By of u = A + Bx (x - x0) + By (y - y0) along it, (x0, y0) the middle of its bounding box;
-  /// 0 of one that does not tilt.
-  double slope_x = 0, slope_y = 0;
-  double moment_x = 0, moment_y = 0;  ///< on it, about its middle
-  /// Bounds of the membrane's own A and B; an estimate, no bound, of its A - displacement.
-  double displacement_lower = unknown, displacement_upper = unknown;
-  double displacement_estimated_error = unknown;
-  double slope_x_lower = unknown, slope_x_upper = unknown;
-  double slope_y_lower = unknown, slope_y_upper = unknown;
-  bool tilted() const noexcept { return slope_x != 0 || slope_y != 0; }
-  bool operator==(const Inclusion&) const = default;
-};
-
-/// Contact along an interface, by arc length; begin == end for a single node.
-struct ContactInterval {
-  std::size_t interface = 0;  ///< index into Result::interfaces
-  double begin = 0;
-  double end = 0;
-  bool operator==(const ContactInterval&) const = default;
-};
-
 /// Along one interface, all (k).
 struct Trace {
   std::vector<double> u_minus;
@@ -138,56 +101,40 @@ struct Field {
   bool operator==(const Field&) const = default;
 };
 
-/// One entry per stage of a job with an accuracy, each on a finer mesh than the one before. NaN
-/// where the stage had no bounds.
-struct Stages {
-  std::vector<std::int64_t> triangles;  ///< of the stage's mesh, increasing
-  std::vector<double> energy;           ///< Pi(u)
-  std::vector<double> energy_lower, energy_upper, error_bound_relative;  ///< as in Load
-  /// Half the width of the bounds of A over the largest |A|, the largest of all inclusions.
-  std::vector<double> displacement_error;
-  std::vector<double> seconds;  ///< from the start of the first stage to the end of this one
-
-  std::size_t size() const noexcept { return triangles.size(); }
-  bool operator==(const Stages&) const = default;
+/// What was asked of the method, with the defaults of the API.
+struct Asked {
+  std::string method;              ///< "active-set" or "uzawa"
+  std::string mass;                ///< "lumped" or "consistent"; empty where unknown
+  double epsilon = unknown;        ///< stopping criterion
+  double p = unknown;              ///< bound on the multipliers
+  double kkt_tolerance = unknown;  ///< of uzawa, where it stops by KKT residuals and not by epsilon
+  double tolerance = unknown;      ///< of active-set
 };
 
 struct Load {
-  std::string name;  ///< [A-Za-z0-9][A-Za-z0-9_. -]{0,63}, unique
-  Status status = Status::unspecified;
-  std::string reason;              ///< of not_converged
-  std::string error;               ///< of failed
-  std::string method;              ///< "active-set" or "uzawa"
-  std::string mass;                ///< "lumped" or "consistent"; empty where unknown
-  double epsilon = unknown;        ///< stopping criterion asked for
-  double p = unknown;              ///< bound on the multipliers asked for
-  double kkt_tolerance = unknown;  ///< of uzawa, where it stops by KKT residuals and not by epsilon
-  double tolerance = unknown;      ///< of active-set
-  std::int32_t iterations = 0;     ///< of Algorithm 2, or steps of the active set
-  double criterion = unknown;      ///< of the last iteration
-  double theta = unknown;          ///< used by Algorithm 2
-  double theta_star = unknown;     ///< of the mesh and mass, Theorem 4
-  double energy = unknown;         ///< Pi(u)
-  /// Bounds of the membrane's own Pi, of |u - u_h| in the energy norm, and of this over |u_h|.
-  double energy_lower = unknown, energy_upper = unknown;
-  double error_bound = unknown, error_bound_relative = unknown;
-  std::string no_bracket;  ///< why there are none, and the cure
-  Kkt kkt;                 ///< absolute
-  Kkt kkt_relative;
-  double contact_length = 0;
-  std::int32_t weakly_active = 0;  ///< crack nodes with neither jump nor pressure
-  double solve_seconds = 0;
-  std::vector<std::string> warnings;  ///< e.g. of a load integrated less exactly than asked
-  std::vector<Inclusion> inclusions;
-  std::vector<ContactInterval> contact_intervals;
+  /// Its name is [A-Za-z0-9][A-Za-z0-9_. -]{0,63}, unique. What the method does not compute is NaN
+  /// or not set.
+  v1::LoadCaseAnswer answer;
+  Asked asked;
   std::vector<Trace> traces;  ///< one per Result::interfaces, or none
   History history;
   std::vector<Field> fields;  ///< one per Mesh::subdomains, or none (not asked for)
   /// (m) the part of each triangle in error_bound^2; empty: not asked for, or no bounds.
   std::vector<double> indicator;
-  Stages stages;  ///< none: the job had no accuracy
-  bool operator==(const Load&) const = default;
+  /// Of a job with an accuracy, each on a finer mesh than the one before and with the answer of
+  /// this load alone.
+  std::vector<v1::Stage> stages;
+
+  const std::string& name() const noexcept { return answer.name(); }
+  Status status() const noexcept { return static_cast<Status>(answer.status()); }
+  /// Whether the numbers of the answer mean anything.
+  bool has_answer() const noexcept {
+    return status() == Status::converged || status() == Status::not_converged;
+  }
 };
+
+/// The largest relative residual; NaN where one of them is.
+double largest(const v1::KktResiduals& kkt) noexcept;
 
 struct Timings {
   double mesh_seconds = 0;
@@ -229,19 +176,11 @@ struct Result {
   std::vector<Interface> interfaces;
   std::vector<Load> loads;     ///< of a sweep: its kept rows, without history
   std::optional<Sweep> sweep;  ///< of a sweep
-  bool operator==(const Result&) const = default;
 };
 
 /// The first invariant that does not hold (shapes, index ranges, names, enums, finite coordinates),
 /// as "loads[1].traces[0].jump has 160 entries for 161 nodes"; empty: all hold. O(size).
 std::string first_fault(const Result& result);
-
-/// The same for the mesh alone.
-std::string first_mesh_fault(const Mesh& mesh);
-
-/// The same for the edges of a chain of `nodes` nodes; `at` begins the text, as "interfaces[0]".
-std::string first_edge_fault(const std::string& at, const Edges& edges, std::size_t nodes,
-                             const Mesh& mesh);
 
 /// How to get the fields of a result without any: by the job, while the server keeps it, or anew.
 std::string fields_cure(const Result& result);

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <string_view>
 
 namespace anticrack::results {
@@ -28,12 +26,6 @@ inline constexpr std::array<std::string_view, 7> status_names{
 constexpr std::string_view name(Status status) noexcept {
   const auto index = static_cast<std::size_t>(status);
   return index < status_names.size() ? status_names[index] : std::string_view();
-}
-/// Inverse of `name`; empty for an unknown name.
-constexpr std::optional<Status> status_from(std::string_view name) noexcept {
-  const auto* found = std::ranges::find(status_names, name);
-  if (found == status_names.end()) return std::nullopt;
-  return static_cast<Status>(found - status_names.begin());
 }
 
 }  // namespace anticrack::results

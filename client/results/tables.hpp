@@ -68,100 +68,21 @@ inline constexpr auto edges = std::tuple{
     explained("edge_inclusion", "k-1", &Edges::inclusion, "index into /mesh/inclusions, -1 none"),
 };
 
-// Of /loads/NAME: attributes, and what is in it. Those that LoadCaseAnswer has under the same name
-// are copied by it.
+// Of /loads/NAME, beside the answer.
 
-inline constexpr auto load_end = std::tuple{
-    scalar("status", &Load::status, "converged, not_converged, failed or cancelled"),
-    scalar("reason", &Load::reason, "why it did not converge"),
-    scalar("error", &Load::error, "why it failed"),
-    scalar("solve_seconds", &Load::solve_seconds, "on the server", "s"),
-};
-inline constexpr auto load_solver = std::tuple{
-    scalar("method", &Load::method, "active-set or uzawa"),
-    scalar("mass", &Load::mass, "lumped or consistent"),
-    scalar("epsilon", &Load::epsilon, "stopping criterion asked of Algorithm 2"),
-    scalar("p", &Load::p, "bound on the multipliers asked for"),
-    scalar("kkt_tolerance", &Load::kkt_tolerance, "asked for in place of epsilon"),
-    scalar("tolerance", &Load::tolerance, "asked of the active set"),
-    scalar("iterations", &Load::iterations, "or steps of the active set"),
-    scalar("criterion", &Load::criterion, "of the last iteration"),
-    scalar("theta", &Load::theta, "used by Algorithm 2"),
-    scalar("theta_star", &Load::theta_star, "of Theorem 4"),
-};
-inline constexpr auto load_answer = std::tuple{
-    scalar("energy", &Load::energy, "Pi(u)", "F L"),
-    scalar("energy_lower", &Load::energy_lower, "", "F L"),
-    scalar("energy_upper", &Load::energy_upper, "the membrane's own Pi lies between them", "F L"),
-    scalar("error_bound", &Load::error_bound, "of u in the energy norm", "(F L)^(1/2)"),
-    scalar("error_bound_relative", &Load::error_bound_relative, "the same over the norm of u"),
-    scalar("no_bracket", &Load::no_bracket, "why there are no bounds"),
-    scalar("contact_length", &Load::contact_length, "of all cracks and delaminated parts", "L"),
-    scalar("weakly_active", &Load::weakly_active, "crack nodes with neither jump nor pressure"),
-};
-inline constexpr auto load_residuals = std::tuple{
-    scalar("kkt_equilibrium", within(&Load::kkt, &Kkt::equilibrium), ""),
-    scalar("kkt_gap", within(&Load::kkt, &Kkt::gap), ""),
-    scalar("kkt_sign", within(&Load::kkt, &Kkt::sign), ""),
-    scalar("kkt_complementarity", within(&Load::kkt, &Kkt::complementarity),
-           "absolute residuals of the optimality conditions"),
-    scalar("kkt_relative_equilibrium", within(&Load::kkt_relative, &Kkt::equilibrium), ""),
-    scalar("kkt_relative_gap", within(&Load::kkt_relative, &Kkt::gap), ""),
-    scalar("kkt_relative_sign", within(&Load::kkt_relative, &Kkt::sign), ""),
-    scalar("kkt_relative_complementarity", within(&Load::kkt_relative, &Kkt::complementarity),
-           "the same, relative"),
-};
-inline constexpr auto load = std::tuple_cat(load_end, load_solver, load_answer, load_residuals);
-inline constexpr auto load_arrays = std::tuple{
-    array("warnings", "w", &Load::warnings, "e.g. of a load not integrated as exactly as asked"),
+inline constexpr auto asked = std::tuple{
+    scalar("method", &Asked::method, "active-set or uzawa"),
+    scalar("mass", &Asked::mass, "lumped or consistent"),
+    scalar("epsilon", &Asked::epsilon, "stopping criterion asked of Algorithm 2"),
+    scalar("p", &Asked::p, "bound on the multipliers asked for"),
+    scalar("kkt_tolerance", &Asked::kkt_tolerance, "asked for in place of epsilon"),
+    scalar("tolerance", &Asked::tolerance, "asked of the active set"),
 };
 inline constexpr auto indicator = std::tuple{
     optional(explained("indicator", "m", &Load::indicator,
                        "part of each triangle in the square of error_bound; none where it was not "
                        "asked for or there are no bounds",
                        "F L")),
-};
-/// Of a job with an accuracy.
-inline constexpr auto stages = std::tuple{
-    explained("triangles", "stages", &Stages::triangles, "of the stage's mesh, increasing"),
-    array("energy", "stages", &Stages::energy, "Pi(u)", "F L"),
-    array("energy_lower", "stages", &Stages::energy_lower, "", "F L"),
-    array("energy_upper", "stages", &Stages::energy_upper,
-          "the membrane's own Pi lies between them", "F L"),
-    explained("error_bound_relative", "stages", &Stages::error_bound_relative,
-              "of u in the energy norm, over the norm of u"),
-    explained(
-        "displacement_error", "stages", &Stages::displacement_error,
-        "half the width of the bounds of A over the amount of A, the largest of all inclusions"),
-    explained("seconds", "stages", &Stages::seconds,
-              "from the start of the first stage to the end of this one", "s"),
-};
-inline constexpr auto inclusions = std::tuple{
-    array("name", "i", &Inclusion::name, "of the inclusion"),
-    array("A", "i", &Inclusion::displacement, "equation (5)", "L"),
-    array("resultant", "i", &Inclusion::resultant, "the force on it, equation (6)", "F"),
-    array("contact_length", "i", &Inclusion::contact_length, "of its delaminated part", "L"),
-    array("Bx", "i", &Inclusion::slope_x, ""),
-    array("By", "i", &Inclusion::slope_y,
-          "u = A + Bx (x - x0) + By (y - y0) along it, (x0, y0) the middle of its "
-          "bounding box; 0 unless it tilts"),
-    array("Mx", "i", &Inclusion::moment_x, "", "F L"),
-    array("My", "i", &Inclusion::moment_y, "the moment on it about (x0, y0)", "F L"),
-    array("A_lower", "i", &Inclusion::displacement_lower, "", "L"),
-    array("A_upper", "i", &Inclusion::displacement_upper, "the membrane's own A lies between them",
-          "L"),
-    array("A_estimated_error", "i", &Inclusion::displacement_estimated_error,
-          "estimate of the membrane's own A minus A, no bound", "L"),
-    array("Bx_lower", "i", &Inclusion::slope_x_lower, ""),
-    array("Bx_upper", "i", &Inclusion::slope_x_upper, ""),
-    array("By_lower", "i", &Inclusion::slope_y_lower, ""),
-    array("By_upper", "i", &Inclusion::slope_y_upper,
-          "bounds of the membrane's own slope, of one that tilts"),
-};
-inline constexpr auto contact_intervals = std::tuple{
-    array("interface", "c", &ContactInterval::interface, "index into /interfaces"),
-    array("begin", "c", &ContactInterval::begin, "arc length", "L"),
-    array("end", "c", &ContactInterval::end, "arc length; begin: contact in a single node", "L"),
 };
 
 // Of /sweep, around the arrays of ReadResult.

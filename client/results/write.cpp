@@ -8,6 +8,7 @@
 #include "output/file.hpp"
 #include "output/target.hpp"
 #include "results/file.hpp"
+#include "results/file_messages.hpp"
 #include "results/file_tables.hpp"
 #include "results/tables.hpp"
 
@@ -30,20 +31,26 @@ void put_interface(const Handle& parent, std::size_t index, const Interface& int
 
 void put_load(const Handle& parent, std::size_t index, const Load& load, const Mesh& mesh,
               const Units& units) {
-  const Handle group = create_group(parent, load.name);
+  const Handle group = create_group(parent, load.name());
   put(group, "index", static_cast<std::int32_t>(index));
-  put_values(group, load, tables::load);
-  put_arrays(group, units, load, tables::load_arrays, tables::indicator);
-  put_list(create_group(group, "inclusions"), units, load.inclusions, tables::inclusions);
-  put_list(create_group(group, "contact_intervals"), units, load.contact_intervals,
-           tables::contact_intervals);
+  hdf5::put_message(group, units, load.answer);
+  put_values(group, load.asked, tables::asked);
+  put_arrays(group, units, load, tables::indicator);
   const Handle traces = create_group(group, "traces");
   for (std::size_t i = 0; i < load.traces.size(); ++i)
     put_arrays(create_group(traces, std::to_string(i)), units, load.traces[i],
                arrays::trace<Trace>);
   put_arrays(create_group(group, "history"), units, load.history, arrays::history<History>);
-  if (load.stages.size() != 0)
-    put_arrays(create_group(group, "stages"), units, load.stages, tables::stages);
+  if (!load.stages.empty()) {
+    std::vector<const google::protobuf::Message*> stages, answers;
+    for (const v1::Stage& stage : load.stages) {
+      stages.push_back(&stage);
+      answers.push_back(&stage.answers(0));
+    }
+    const Handle columns = create_group(group, "stages");
+    hdf5::put_columns(columns, units, *v1::Stage::descriptor(), stages);
+    hdf5::put_columns(columns, units, *v1::StageAnswer::descriptor(), answers);
+  }
   if (load.fields.empty()) return;
   const Handle fields = create_group(group, "fields");
   for (std::size_t i = 0; i < load.fields.size(); ++i) {
@@ -74,6 +81,7 @@ void put_all(const Handle& root, const Result& result) {
   put_values(root, result, tables::result);
   put_values(root, result.units, tables::units);
   put_values(root, result.timings, tables::timings);
+  hdf5::put_meanings(root, result.units);
   put_mesh(root, result.mesh, result.units);
   const Handle interfaces = create_group(root, "interfaces");
   for (std::size_t i = 0; i < result.interfaces.size(); ++i)

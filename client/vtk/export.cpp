@@ -28,12 +28,12 @@ void write(const fs::path& path, const std::string& bytes, Exported& exported) {
 bool exportable(const Result& result, const std::string& source, const Load& load,
                 Exported& exported) {
   if (load.traces.empty() && load.fields.empty()) {
-    exported.notes.push_back("load \"" + load.name + "\" has no answer (" +
-                             std::string(results::name(load.status)) + "): nothing to export");
+    exported.notes.push_back("load \"" + load.name() + "\" has no answer (" +
+                             std::string(results::name(load.status())) + "): nothing to export");
     return false;
   }
   if (load.fields.empty() && !result.sweep) {
-    throw results::Error(source + ": load \"" + load.name + "\"",
+    throw results::Error(source + ": load \"" + load.name() + "\"",
                          "the result has no fields: u is known only along the interfaces",
                          results::fields_cure(result));
   }
@@ -148,7 +148,7 @@ Exported export_result(const Result& result, const std::string& source, const fs
   if (!fault.empty()) throw results::Error(source, "is inconsistent: " + fault, "");
   std::vector<std::string> names;
   names.reserve(result.loads.size());
-  for (const Load& load : result.loads) names.push_back(load.name);
+  for (const Load& load : result.loads) names.push_back(load.name());
   const std::vector<std::string> stems = output::file_stems(names, {"-interfaces"});
 
   Exported exported;
@@ -167,12 +167,12 @@ Exported export_result(const Result& result, const std::string& source, const fs
     if (!load.fields.empty()) {
       const std::string file = stems[i] + ".vtu";
       write(folder / file, to_vtu(membrane(result, load)), exported);
-      members.push_back({load.name, file, i, 0});
+      members.push_back({load.name(), file, i, 0});
     }
     if (!load.traces.empty()) {
       const std::string lines = stems[i] + "-interfaces.vtu";
       write(folder / lines, to_vtu(interfaces(result, load)), exported);
-      members.push_back({load.name + ", interfaces", lines, i, 1});
+      members.push_back({load.name() + ", interfaces", lines, i, 1});
     }
   }
   write(folder / "result.pvd", to_pvd(members), exported);

@@ -47,10 +47,10 @@ inline results::Result sample_sweep(std::size_t rows = 21, int n = 10) {
   sweep.kept = {0, static_cast<std::int32_t>(rows) - 1};
   for (std::size_t i = 0; i < result.loads.size(); ++i) {
     results::Load& load = result.loads[i];
-    load.name = results::row_name(sweep.kept[i]);
+    load.answer.set_name(results::row_name(sweep.kept[i]));
     load.history = {};
     load.fields.clear();
-    load.method = "active-set";
+    load.asked.method = "active-set";
   }
   result.sweep = sweep;
   return result;

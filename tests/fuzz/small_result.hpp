@@ -17,7 +17,7 @@ inline results::Result small_result() {
       values->resize(2);
     }
     history.contact_count.resize(2);
-    load.iterations = 2;
+    load.answer.set_iterations(2);
   }
   return result;
 }

@@ -84,23 +84,32 @@ inline results::Interface sample_interface(int n) {
 inline results::Load sample_load(const std::string& name, const results::Mesh& mesh,
                                  const results::Interface& interface, bool contact) {
   results::Load load;
-  load.name = name;
-  load.status = results::Status::converged;
-  load.method = "uzawa";
-  load.mass = "lumped";
-  load.epsilon = 1e-12;
-  load.p = 1e5;
-  load.iterations = 180;
-  load.criterion = 8.7e-13;
-  load.theta = 2;
-  load.theta_star = 1.74;
-  load.energy = -0.031;
-  load.kkt = {1e-15, 2e-8, 0, 3e-9};
-  load.kkt_relative = {2e-15, 2e-7, 0, 3e-8};
-  load.weakly_active = 3;
-  load.solve_seconds = 0.05;
-  load.warnings = {"f jumps along a curve that the mesh does not follow"};
-  load.inclusions = {{"fibre", 0.0863, 1e-12, contact ? 0.3 : 0.0, 0, 0, 0.01, -0.02}};
+  load.asked = {"uzawa", "lumped", 1e-12, 1e5};
+  v1::LoadCaseAnswer& answer = load.answer;
+  answer.set_name(name);
+  answer.set_status(v1::LoadCaseAnswer::STATUS_CONVERGED);
+  answer.set_iterations(180);
+  answer.set_criterion(8.7e-13);
+  answer.set_theta(2);
+  answer.set_theta_star(1.74);
+  answer.set_energy(-0.031);
+  v1::KktResiduals& kkt = *answer.mutable_kkt();
+  kkt.set_equilibrium(1e-15);
+  kkt.set_gap(2e-8);
+  kkt.set_complementarity(3e-9);
+  kkt.set_equilibrium_relative(2e-15);
+  kkt.set_gap_relative(2e-7);
+  kkt.set_complementarity_relative(3e-8);
+  answer.set_weakly_active(3);
+  answer.mutable_solve_time()->set_nanos(50'000'000);
+  answer.add_warnings("f jumps along a curve that the mesh does not follow");
+  v1::InclusionAnswer& inclusion = *answer.add_inclusions();
+  inclusion.set_name("fibre");
+  inclusion.set_displacement(0.0863);
+  inclusion.set_resultant(1e-12);
+  inclusion.set_contact_length(contact ? 0.3 : 0.0);
+  inclusion.set_moment_x(0.01);
+  inclusion.set_moment_y(-0.02);
 
   results::Trace trace;
   for (std::size_t i = 0; i < interface.node_count(); ++i) {
@@ -115,15 +124,18 @@ inline results::Load sample_load(const std::string& name, const results::Mesh& m
   }
   load.traces.push_back(trace);
   if (contact) {
-    load.contact_length = 0.3;
-    load.contact_intervals = {{0, 0.5, 0.8}};
+    answer.set_contact_length(0.3);
+    v1::ContactInterval& interval = *answer.add_contact_intervals();
+    interval.set_interface(interface.name);
+    interval.set_begin(0.5);
+    interval.set_end(0.8);
   }
 
-  for (int k = 1; k <= load.iterations; ++k) {
+  for (int k = 1; k <= answer.iterations(); ++k) {
     load.history.iteration.push_back(k);
     load.history.criterion.push_back(
         k == 1 ? 1.0 : 0.3 * std::exp(-0.148 * k) * (1 + 0.3 * std::sin(0.5 * k)));
-    load.history.energy.push_back(load.energy * (1 + std::exp(-0.1 * k)));
+    load.history.energy.push_back(answer.energy() * (1 + std::exp(-0.1 * k)));
     load.history.contact_count.push_back(contact ? 12 : 0);
     load.history.kkt.equilibrium.push_back(1e-15);
     load.history.kkt.gap.push_back(std::exp(-0.08 * k));
@@ -171,17 +183,19 @@ inline results::Result sample_result(int n = 20) {
 
 /// Five stages, the last on a mesh of so many triangles; the bracket closes in on -0.170034 like
 /// 1 / triangles.
-inline results::Stages sample_stages(std::size_t triangles) {
-  results::Stages stages;
+inline std::vector<v1::Stage> sample_stages(std::size_t triangles) {
+  std::vector<v1::Stage> stages;
   for (int left = 4; left >= 0; --left) {
     const double count = std::round(static_cast<double>(triangles) * std::pow(0.55, left));
-    stages.triangles.push_back(static_cast<std::int64_t>(count));
-    stages.energy_lower.push_back(-0.170034 - 12 / count);
-    stages.energy_upper.push_back(-0.170034 + 7 / count);
-    stages.energy.push_back(stages.energy_upper.back());
-    stages.error_bound_relative.push_back(std::sqrt(110 / count));
-    stages.displacement_error.push_back(3 / std::pow(count, 0.7));
-    stages.seconds.push_back(2e-5 * count);
+    v1::Stage& stage = stages.emplace_back();
+    stage.set_triangles(static_cast<std::uint64_t>(count));
+    stage.set_seconds(2e-5 * count);
+    v1::StageAnswer& answer = *stage.add_answers();
+    answer.set_energy_lower(-0.170034 - 12 / count);
+    answer.set_energy_upper(-0.170034 + 7 / count);
+    answer.set_energy(answer.energy_upper());
+    answer.set_error_bound_relative(std::sqrt(110 / count));
+    answer.set_displacement_error(3 / std::pow(count, 0.7));
   }
   return stages;
 }
@@ -218,7 +232,12 @@ inline results::Result sample_pair(int n = 20) {
   set_edges(result.interfaces[0], first, middle, results::Kind::delaminated, 1);
   set_edges(result.interfaces[0], middle, middle + first, results::Kind::delaminated, 0);
   for (results::Load& load : result.loads) {
-    load.inclusions = {{"right", 0.0863, 0, 0}, {"left", 0.0863, 0, 0}};
+    load.answer.clear_inclusions();
+    for (const char* name : {"right", "left"}) {
+      v1::InclusionAnswer& inclusion = *load.answer.add_inclusions();
+      inclusion.set_name(name);
+      inclusion.set_displacement(0.0863);
+    }
   }
   return result;
 }

@@ -9,7 +9,7 @@ from typing import Any, TextIO
 
 import numpy as np
 
-from .result import known
+from . import entries
 from .text import harmless
 from .v1 import solve_pb2
 
@@ -92,7 +92,7 @@ def _errors(stage: solve_pb2.Stage, asked: solve_pb2.Accuracy) -> str:
     def text(error: float, most: float) -> str:
         percent = f"{100 * error:.{2 if error < 1 and not most else 3}g} %" if np.isfinite(error) else "- %"
         return percent + (f" (asked {100 * most:.6g} %)" if most else "")
-    columns = {name: np.array([known(answer, name) for answer in stage.answers])
+    columns = {name: np.array([entries.values_of(answer)[name] for answer in stage.answers])
                for name in ("energy", "energy_lower", "energy_upper", "displacement_error")}
     widths = np.maximum(columns["energy_upper"] - columns["energy_lower"], 0)
     sizes = np.where(widths == 0, 1, np.abs(columns["energy"]))

@@ -7,19 +7,20 @@ import os
 import re
 import warnings
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, make_dataclass
 from typing import Any
 
 import numpy as np
 
+from . import entries
 from .arrays import Array
+from .entries import NAN
 from .errors import Error, package
 from .names import Named, Parts
 from .text import counted, harmless, html_table, interval, lines, listed, short_length
 from .v1 import mesh_pb2, solve_pb2
 
 FORMAT = "anticrack-result/2"
-NAN = float("nan")
 Arrays = dict[str, Array]
 KKT = ("equilibrium", "gap", "sign", "complementarity")
 GLUE, CRACK, BONDED, DELAMINATED, FREE = range(1, 6)  # kinds of nodes and edges of an interface
@@ -122,25 +123,19 @@ class Field:
                 f"u from {self.u.min():.4g} to {self.u.max():.4g}{self.units.behind('L')}")
 
 
+def _walked(message: Any, but: tuple[str, ...], **other: Any) -> Any:
+    """A class with the values of a message, where they are not known as `other` says or not known."""
+    defaults = {name: value for name, value in {**entries.defaults_of(message), **other}.items() if name not in but}
+    return make_dataclass(f"_{message.DESCRIPTOR.name}", [(name, type(value), field(default=value, kw_only=True))
+                                                          for name, value in defaults.items()], repr=False)
+
+
 @dataclass(repr=False)
-class Inclusion:
-    """u = A + Bx (x - x0) + By (y - y0) along it; resultant: the force on it; Mx, My: the moment about (x0, y0); the
-    membrane's own A lies between A_lower and A_upper."""
+class Inclusion(_walked(solve_pb2.InclusionAnswer, ("name",), Bx=0.0, By=0.0)):  # type: ignore[misc]
+    """The values of InclusionAnswer in solve.proto, shorter: u = A + Bx (x - x0) + By (y - y0) along it; resultant: the
+    force on it; contact_length; Mx, My: the moment about (x0, y0); the membrane's own A lies between A_lower and
+    A_upper."""
     name: str
-    A: float = NAN
-    resultant: float = NAN
-    contact_length: float = NAN
-    Bx: float = 0.0
-    By: float = 0.0
-    Mx: float = NAN
-    My: float = NAN
-    A_lower: float = NAN
-    A_upper: float = NAN
-    A_estimated_error: float = NAN
-    Bx_lower: float = NAN
-    Bx_upper: float = NAN
-    By_lower: float = NAN
-    By_upper: float = NAN
     units = Units()
 
     def __repr__(self) -> str:
@@ -151,18 +146,11 @@ class Inclusion:
         return told
 
 
-# Names in the file -> in InclusionAnswer.
-_INCLUSION = {"A": "displacement", "Bx": "slope_x", "By": "slope_y", "Mx": "moment_x", "My": "moment_y",
-              "A_lower": "displacement_lower", "A_upper": "displacement_upper",
-              "A_estimated_error": "displacement_estimated_error", "Bx_lower": "slope_x_lower",
-              "Bx_upper": "slope_x_upper", "By_lower": "slope_y_lower", "By_upper": "slope_y_upper"}
-
-
 @dataclass(repr=False)
-class Load:
-    """The answer to a load case. status: "converged", "not_converged" (see reason), "failed" (see error) or
-    "cancelled". mass to tolerance: as asked of the method. The membrane's own energy lies between energy_lower and
-    energy_upper.
+class Load(_walked(solve_pb2.LoadCaseAnswer, ("name", "status"))):  # type: ignore[misc]
+    """The answer to a load case: the values of LoadCaseAnswer in solve.proto, energy, contact_length, iterations and so
+    on, and solve_seconds. status: "converged", "not_converged" (see reason), "failed" (see error) or "cancelled". mass
+    to tolerance: as asked of the method. The membrane's own energy lies between energy_lower and energy_upper.
 
     kkt: relative residuals of the optimality conditions. traces: one for each interface, by its name or index. history:
     arrays (n), one entry an iteration. stages: arrays, one entry a stage; empty without an accuracy.
@@ -170,27 +158,12 @@ class Load:
     or index, where they were asked for. indicator (m): part of each triangle in the square of error_bound, or None."""
     name: str
     status: str
-    reason: str = ""
-    error: str = ""
     method: str = ""
     mass: str = ""
     epsilon: float = NAN
     p: float = NAN
     kkt_tolerance: float = NAN
     tolerance: float = NAN
-    iterations: int = 0
-    criterion: float = NAN
-    theta: float = NAN
-    theta_star: float = NAN
-    energy: float = NAN
-    energy_lower: float = NAN
-    energy_upper: float = NAN
-    error_bound: float = NAN
-    error_bound_relative: float = NAN
-    no_bracket: str = ""
-    contact_length: float = NAN
-    weakly_active: int = 0
-    solve_seconds: float = 0.0
     warnings: list[str] = field(default_factory=list)
     kkt: dict[str, float] = field(default_factory=lambda: dict.fromkeys(KKT, NAN))
     kkt_absolute: dict[str, float] = field(default_factory=lambda: dict.fromkeys(KKT, NAN))
@@ -236,7 +209,8 @@ class Load:
                                                           "contact length" + length], rows)
 
 
-SCALARS = [entry.name for entry in fields(Load) if str(entry.type) in ("str", "int", "float") and entry.name != "name"]
+ASKED = ("method", "mass", "epsilon", "p", "kkt_tolerance", "tolerance")
+SCALARS = [*entries.defaults_of(solve_pb2.LoadCaseAnswer), *ASKED]  # of a load, its name first
 
 
 @dataclass(repr=False)
@@ -327,16 +301,21 @@ class Result:
         return self.loads[load]
 
     def frame(self) -> Any:
-        """The answers as a pandas.DataFrame, a line a load case, with "A of NAME" and its bounds; takes pandas."""
+        """The answers as a pandas.DataFrame, a line a load case, with "A of NAME" and its bounds; takes pandas. Its
+        attrs["meanings"] say of numbers what they are, attrs["units"] their units."""
         pandas = package("pandas")
         rows = []
         for load in self.loads.values():
-            line = {name: getattr(load, name) for name in ("name", *SCALARS)}
+            line = {name: getattr(load, name) for name in SCALARS}
             for name, inclusion in load.inclusions.items():
                 line.update({f"{column} of {name}": getattr(inclusion, column)
                              for column in ("A", "A_lower", "A_upper", "resultant")})
             rows.append(line)
-        return pandas.DataFrame(rows).set_index("name") if rows else pandas.DataFrame()
+        frame = pandas.DataFrame(rows).set_index("name") if rows else pandas.DataFrame()
+        told = [row for row in entries.meanings(solve_pb2.LoadCaseAnswer.DESCRIPTOR, "loads") if row[0] == "loads"]
+        frame.attrs.update(units={name: self.units.of(unit) for _, name, unit, _ in told},
+                           meanings={name: meaning for _, name, _, meaning in told})
+        return frame
 
     def _title(self) -> str:
         what = repr(self.sweep) if self.sweep is not None else counted(len(self.loads), "load case")
@@ -410,7 +389,7 @@ class Result:
                      units=Units(job.units.length, job.units.force),
                      traction=any(load.traction for load in job.load_cases))
         if job.HasField("sweep"):
-            result.solve_seconds = _seconds(job.sweep_answer.solve_time)
+            result.solve_seconds = entries.values_of(job.sweep_answer)["solve_seconds"]
             traces = {int(row): _traces(arrays, f"traces/{row}", len(interfaces)) for row in job.sweep.traces}
             kept = [row for row, found in traces.items() if found]  # the others did not end
             result.sweep = _sweep([load.name for load in job.load_cases], shape.inclusions, _below(arrays, "sweep/"),
@@ -453,7 +432,7 @@ def _laws(mesh: mesh_pb2.Mesh) -> list[str]:
 
 
 def _status(code: int) -> str:
-    return str(solve_pb2.LoadCaseAnswer.Status.Name(int(code))).removeprefix("STATUS_").lower()
+    return entries.status_name(code, solve_pb2.LoadCaseAnswer.Status.DESCRIPTOR)
 
 
 def _sweep(loads: list[str], inclusions: list[str], columns: Arrays, kept: list[int], error: str,
@@ -475,8 +454,8 @@ def _row(sweep: Sweep, row: int, traces: Parts[Trace], interfaces: list[Interfac
     if sweep.slope is not None:
         columns.update(Bx=sweep.slope[:, :, 0], By=sweep.slope[:, :, 1])
     for i, name in enumerate(sweep.inclusions):
-        load.inclusions[name] = Inclusion(name, **{key: float(column[row, i]) for key, column in columns.items()
-                                                   if column is not None})
+        load.inclusions[name] = Inclusion(name, **{  # type: ignore[arg-type]
+            key: float(column[row, i]) for key, column in columns.items() if column is not None})
     for i, (line, trace) in enumerate(zip(interfaces, traces)):
         load.contact_intervals += [(i, float(line.s[first]), float(line.s[last - 1]))
                                    for first, last in runs(trace.contact) if trace.contact[first]]
@@ -489,24 +468,16 @@ def runs(values: Array) -> list[tuple[int, int]]:
     return list(zip([0, *cuts], [*cuts, len(values)])) if len(values) else []
 
 
-def known(message: Any, name: str) -> Any:
-    """NaN where it is optional and not set."""
-    described = message.DESCRIPTOR.fields_by_name[name]
-    return NAN if described.has_presence and not message.HasField(name) else getattr(message, name)
-
-
-def _seconds(duration: Any) -> float:
-    return float(duration.seconds + duration.nanos * 1e-9)
-
-
 def _load_of(job: solve_pb2.Job, index: int, arrays: Mapping[str, Array], result: Result) -> Load:
     """With what was asked of the method, with the defaults of the API."""
     answer, solver = job.answers[index], job.solver
 
     def given(message: Any, name: str, default: float) -> float:
         return float(getattr(message, name)) if message.HasField(name) else default
-    load = Load(answer.name, _status(answer.status), answer.reason, answer.error.message, "active-set",
-                iterations=answer.iterations, solve_seconds=_seconds(answer.solve_time))
+    values = entries.values_of(answer)
+    solved = values["status"] in ("converged", "not_converged")
+    load = Load(method="active-set", **{name: value for name, value in values.items()
+                                        if solved or not isinstance(value, float) or name == "solve_seconds"})
     if not solver.HasField("uzawa"):
         load.tolerance = given(solver.active_set, "tolerance", 1e-12)
     else:
@@ -515,16 +486,11 @@ def _load_of(job: solve_pb2.Job, index: int, arrays: Mapping[str, Array], result
         load.kkt_tolerance = given(solver.uzawa, "kkt_tolerance", NAN)
         if not solver.uzawa.HasField("kkt_tolerance"):
             load.epsilon = given(solver.uzawa, "epsilon", 1e-12)
-    if load.status in ("converged", "not_converged"):
-        for name in SCALARS:
-            if name in answer.DESCRIPTOR.fields_by_name and name not in ("status", "reason", "error"):
-                setattr(load, name, known(answer, name))
+    if solved:
         load.warnings = list(answer.warnings)
         load.kkt = {name: getattr(answer.kkt, name + "_relative") for name in KKT}
         load.kkt_absolute = {name: getattr(answer.kkt, name) for name in KKT}
-        load.inclusions.update((part.name, Inclusion(part.name, **{
-            entry.name: known(part, _INCLUSION.get(entry.name, entry.name))
-            for entry in fields(Inclusion) if entry.name != "name"})) for part in answer.inclusions)
+        load.inclusions.update((part.name, Inclusion(**entries.values_of(part))) for part in answer.inclusions)
     prefix = f"loads/{index}/"
     load.traces = _traces(arrays, prefix + "traces", len(result.interfaces))
     load.history, load.indicator = _below(arrays, prefix + "history/"), arrays.get(prefix + "indicator")
@@ -535,9 +501,8 @@ def _load_of(job: solve_pb2.Job, index: int, arrays: Mapping[str, Array], result
                     for k, name in enumerate(result.mesh.subdomain_names) if f"{prefix}fields/{k}" in arrays]
     stages = [stage for stage in job.stages if index < len(stage.answers)]
     if stages:
-        load.stages = {name: np.array([getattr(stage, name) for stage in stages]) for name in ("triangles", "seconds")}
-        for name in ("energy", "energy_lower", "energy_upper", "error_bound_relative", "displacement_error"):
-            load.stages[name] = np.array([known(stage.answers[index], name) for stage in stages])
+        rows = [entries.values_of(stage) | entries.values_of(stage.answers[index]) for stage in stages]
+        load.stages = {name: np.array([row[name] for row in rows]) for name in rows[0]}
     return load
 
 
@@ -554,11 +519,12 @@ def _of_file(file: Any) -> Result:
     mesh: dict[str, Any] = {**_arrays(group), **{
         name: _texts(group[name]) for name in ("subdomain_names", "inclusions", "tension_law") if name in group}}
     lines_in = [file[f"interfaces/{i}"] for i in range(len(file["interfaces"]))]
+    places = {line.attrs["name"]: i for i, line in enumerate(lines_in)}
     groups = sorted(file["loads"].items(), key=lambda item: int(item[1].attrs.get("index", 0)))
     result = Result(told["title"], told["job"], told["mesh"], Mesh(**mesh),
                     Parts("interface", [Interface(line.attrs["name"], **_arrays(line)) for line in lines_in]),
-                    Named("load", ((name, _load_in(name, item)) for name, item in groups)), None, told["not_reached"],
-                    told["case"], told["server_version"], told["mesh_sha256"],
+                    Named("load", ((name, _load_in(name, item, places)) for name, item in groups)), None,
+                    told["not_reached"], told["case"], told["server_version"], told["mesh_sha256"],
                     units=Units(told["unit_length"], told["unit_force"]))
     for name in ("mesh_seconds", "factorize_seconds", "solve_seconds", "total_seconds"):
         setattr(result, name, float(told[name]))
@@ -574,7 +540,7 @@ def _of_file(file: Any) -> Result:
     return result
 
 
-def _load_in(name: str, group: Any) -> Load:
+def _load_in(name: str, group: Any, places: dict[str, int]) -> Load:
     load = Load(name, group.attrs["status"])
     for key in SCALARS:
         if key in group.attrs:
@@ -587,18 +553,20 @@ def _load_in(name: str, group: Any) -> Load:
     def numbered(part: str) -> list[Any]:
         return [group[part][str(i)] for i in range(len(group[part]))] if part in group else []
     load.warnings = _texts(group["warnings"]) if "warnings" in group else []
-    known = {entry.name for entry in fields(Inclusion)} - {"name"}
+    known = entries.fields_of(solve_pb2.InclusionAnswer).keys() - {"name"}
     columns = {key: column for key, column in arrays("inclusions").items() if key in known}
-    load.inclusions.update((part, Inclusion(part, **{key: float(column[i]) for key, column in columns.items()}))
+    load.inclusions.update((part, Inclusion(name=part, **{key: column[i].item() for key, column in columns.items()}))
                            for i, part in enumerate(_texts(group["inclusions/name"])))
     load.traces += [Trace(**_arrays(part)) for part in numbered("traces")]
     if any(values.size for values in arrays("history").values()):
         load.history = arrays("history")
-        load.kkt = {key: float(group.attrs["kkt_relative_" + key]) for key in KKT}
+        load.kkt = {key: float(group.attrs[f"kkt_{key}_relative"]) for key in KKT}
         load.kkt_absolute = {key: float(group.attrs["kkt_" + key]) for key in KKT}
     load.stages, contact = arrays("stages"), arrays("contact_intervals")
-    load.contact_intervals = [(int(i), float(begin), float(end)) for i, begin, end in
-                              zip(contact["interface"], contact["begin"], contact["end"])]
+    if load.stages:
+        load.stages["mesh"] = np.array(_texts(group["stages/mesh"]))
+    load.contact_intervals = [(places[line], float(begin), float(end)) for line, begin, end in
+                              zip(_texts(group["contact_intervals/interface"]), contact["begin"], contact["end"])]
     load.fields += [Field(part.attrs["name"], **_arrays(part)) for part in numbered("fields")]
     load.indicator = group["indicator"][()] if "indicator" in group else None
     return load

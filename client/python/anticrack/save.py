@@ -10,19 +10,24 @@ from typing import Any
 import h5py
 import numpy as np
 
-from . import output
-from .result import FORMAT, KKT, Inclusion, Load, Result, Sweep, Units
+from . import entries, output
+from .names import Parts
+from .result import FORMAT, KKT, Interface, Load, Result, Sweep, Units
+from .v1 import solve_pb2
 
 _TEXT = h5py.string_dtype()
 _HISTORY = {"iteration": "i4", "contact_count": "i4", "criterion": "f8", "energy": "f8",
             **{f"kkt_{name}": "f8" for name in KKT}}
 
+_MEANINGS = [*entries.meanings(solve_pb2.LoadCaseAnswer.DESCRIPTOR, "loads"),
+             *entries.meanings(solve_pb2.Stage.DESCRIPTOR, "stages")]
+
 # Of datasets, as Units.of has them; each name means the same wherever it is.
 _DIMENSIONS = {
-    **dict.fromkeys(["nodes", "s", "x", "y", "u_minus", "u_plus", "jump", "u", "A", "A_lower", "A_upper",
-                     "A_estimated_error", "contact_length", "begin", "end", "displacement"], "L"),
-    **dict.fromkeys(["energy", "energy_lower", "energy_upper", "indicator", "Mx", "My"], "F L"),
-    "tension": "F/L", "pressure": "F/L", "resultant": "F", "seconds": "s"}
+    **dict.fromkeys(["nodes", "s", "x", "y", "u_minus", "u_plus", "jump", "u", "displacement", "displacement_lower",
+                     "displacement_upper"], "L"),
+    **{name: unit for where, name, unit, _ in _MEANINGS if where != "loads"},
+    **dict.fromkeys(["tension", "pressure"], "F/L"), "indicator": "F L"}
 
 
 def save(result: Result, path: str | os.PathLike[str]) -> bool:
@@ -48,7 +53,7 @@ def _holds_the_same(path: str | os.PathLike[str], result: Result) -> bool:
 
 
 def _put(group: Any, name: str, values: Any) -> None:
-    texts = isinstance(values, list)
+    texts = isinstance(values, list) or values.dtype.kind == "U"
     array = np.array(values, dtype=_TEXT if texts else None)
     group.create_dataset(name, data=array, **({"compression": "gzip", "shuffle": True} if array.size > 1000 else {}))
     units = Units(group.file.attrs["unit_length"], group.file.attrs["unit_force"])
@@ -74,6 +79,7 @@ def _put_result(file: Any, result: Result) -> None:
     file.attrs.update({"format": FORMAT, "client_version": __version__, "mesh": result.mesh_name,
                        "unit_length": result.units.length, "unit_force": result.units.force})
     _put_record(file, result, "mesh_name")
+    _put(file, "meanings", [(*row[:2], result.units.of(row[2]), row[3]) for row in _MEANINGS])
     _put_record(file.create_group("mesh"), result.mesh, *["tension_law"] * (not result.mesh.tension_law))
     file.create_group("interfaces")
     for i, interface in enumerate(result.interfaces):
@@ -82,22 +88,23 @@ def _put_result(file: Any, result: Result) -> None:
     for i, load in enumerate(result.loads.values()):
         group = file.create_group(f"loads/{load.name}")
         group.attrs["index"] = np.int32(i)
-        _put_load(group, load)
+        _put_load(group, load, result.interfaces)
     if result.sweep is not None:
         _put_sweep(file.create_group("sweep"), result.sweep)
 
 
-def _put_load(group: Any, load: Load) -> None:
-    _put_record(group, load, "name")
+def _put_load(group: Any, load: Load, interfaces: Parts[Interface]) -> None:
+    _put_record(group, load)
     for name in KKT:
-        group.attrs["kkt_" + name], group.attrs["kkt_relative_" + name] = load.kkt_absolute[name], load.kkt[name]
+        group.attrs[f"kkt_{name}"], group.attrs[f"kkt_{name}_relative"] = load.kkt_absolute[name], load.kkt[name]
     inclusions = group.create_group("inclusions")
-    _put(inclusions, "name", list(load.inclusions))
-    for field in fields(Inclusion)[1:]:
-        _put(inclusions, field.name, np.array([getattr(part, field.name) for part in load.inclusions.values()], float))
+    for name, default in entries.defaults_of(solve_pb2.InclusionAnswer).items():
+        column = [getattr(part, name) for part in load.inclusions.values()]
+        _put(inclusions, name, column if isinstance(default, str) else np.array(column, type(default)))
     contact = group.create_group("contact_intervals")
-    for i, (name, kind) in enumerate((("interface", np.int32), ("begin", float), ("end", float))):
-        _put(contact, name, np.array([part[i] for part in load.contact_intervals], dtype=kind))
+    _put(contact, "interface", [interfaces[place].name for place, _, _ in load.contact_intervals])
+    for i, name in enumerate(("begin", "end"), 1):
+        _put(contact, name, np.array([part[i] for part in load.contact_intervals], float))
     group.create_group("traces")
     for i, trace in enumerate(load.traces):
         _put_record(group.create_group(f"traces/{i}"), trace)

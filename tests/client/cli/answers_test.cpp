@@ -9,30 +9,41 @@
 #include <algorithm>
 #include <string>
 
+#include "results/entries.hpp"
+
 namespace anticrack::cli {
 namespace {
 
-using results::Status;
+v1::InclusionAnswer inclusion(const std::string& name, double a, double resultant = 0,
+                              double contact_length = 0) {
+  v1::InclusionAnswer made;
+  made.set_name(name);
+  made.set_displacement(a);
+  made.set_resultant(resultant);
+  made.set_contact_length(contact_length);
+  return made;
+}
 
 results::Result two_loads() {
   results::Result result;
   result.title = "A plate";
   result.job_name = "jobs/1";
-  results::Load opening;
-  opening.name = "opening";
-  opening.status = Status::converged;
-  opening.iterations = 346;
-  opening.criterion = 9.92e-13;
-  opening.inclusions = {{"fibre", 0.086569, 1e-16, 0}};
-  opening.energy = -0.163945;
-  opening.theta = 2;
-  opening.theta_star = 1.7432;
-  opening.solve_seconds = 0.012;
-  results::Load failed;
-  failed.name = "failed";
-  failed.status = Status::failed;
-  failed.error = "the expression is not finite at\x1b (0, 0)";
-  result.loads = {opening, failed};
+  result.loads.resize(2);
+  v1::LoadCaseAnswer& opening = result.loads[0].answer;
+  opening.set_name("opening");
+  opening.set_status(v1::LoadCaseAnswer::STATUS_CONVERGED);
+  opening.set_iterations(346);
+  opening.set_criterion(9.92e-13);
+  *opening.add_inclusions() = inclusion("fibre", 0.086569, 1e-16);
+  opening.set_energy(-0.163945);
+  opening.set_theta(2);
+  opening.set_theta_star(1.7432);
+  opening.mutable_solve_time()->set_nanos(12'000'000);
+  v1::LoadCaseAnswer& failed = result.loads[1].answer;
+  results::forget_numbers(failed);
+  failed.set_name("failed");
+  failed.set_status(v1::LoadCaseAnswer::STATUS_FAILED);
+  failed.mutable_error()->set_message("the expression is not finite at\x1b (0, 0)");
   return result;
 }
 
@@ -64,47 +75,49 @@ TEST(AnswersTable, NamesTheCureOfAnErrorAboveOnePerCentThatNobodyChose) {
   results::Result result = two_loads();
   result.loads.resize(1);
   results::Load& load = result.loads[0];
-  load.energy_lower = -0.18;
-  load.energy_upper = -0.17;
-  load.error_bound = 0.1;
-  load.error_bound_relative = 0.17;
+  load.answer.set_energy_lower(-0.18);
+  load.answer.set_energy_upper(-0.17);
+  load.answer.set_error_bound(0.1);
+  load.answer.set_error_bound_relative(0.17);
   EXPECT_THAT(answers_table(result),
               ::testing::EndsWith("opening: u is within 17 % of the membrane's in the energy norm; "
                                   "for less write [accuracy] energy = 1e-3, or smaller\n"));
-  load.stages = {{900}, {-0.17}, {-0.18}, {-0.17}, {0.17}, {results::unknown}, {0.1}};
+  load.stages.resize(1);
   EXPECT_THAT(answers_table(result), ::testing::Not(::testing::HasSubstr("[accuracy]")));
   load.stages = {};
-  load.error_bound_relative = 0.01;
+  load.answer.set_error_bound_relative(0.01);
   EXPECT_THAT(answers_table(result), ::testing::Not(::testing::HasSubstr("[accuracy]")));
 }
 
 TEST(AnswersTable, SaysThatUOf0HasNoRelativeError) {
   results::Result result = two_loads();
-  results::Load& load = result.loads[0];
-  load.error_bound = 0.1;
-  load.energy = -0.0;
+  v1::LoadCaseAnswer& answer = result.loads[0].answer;
+  answer.set_error_bound(0.1);
+  answer.set_energy(-0.0);
   const std::string text = answers_table(result);
   EXPECT_THAT(text, ::testing::HasSubstr("opening: u is 0 on this mesh, but need not be"));
   EXPECT_THAT(text, ::testing::Not(::testing::HasSubstr("within")));
   EXPECT_THAT(text, ::testing::Not(::testing::HasSubstr("-0 ")));
-  load.error_bound = 0;  // nothing acts
+  answer.set_error_bound(0);  // nothing acts
   EXPECT_THAT(answers_table(result), ::testing::Not(::testing::HasSubstr("u is 0")));
 }
 
 TEST(AnswersTable, OfTheActiveSetHasTheLargestKktResidual) {
   results::Result result = two_loads();
-  result.loads[0].theta = result.loads[0].theta_star = results::unknown;
-  result.loads[0].kkt_relative = {1e-15, 0, 3e-14, 2e-16};
+  v1::LoadCaseAnswer& answer = result.loads[0].answer;
+  answer.clear_theta();
+  answer.mutable_kkt()->set_equilibrium_relative(1e-15);
+  answer.mutable_kkt()->set_sign_relative(3e-14);
   EXPECT_THAT(answers_table(result), ::testing::HasSubstr("iterations       KKT         A"));
   EXPECT_THAT(answers_table(result), ::testing::HasSubstr("346  3.00e-14  0.086569"));
-  result.loads[0].kkt_relative.gap = results::unknown;
+  answer.mutable_kkt()->set_gap_relative(results::unknown);
   EXPECT_THAT(answers_table(result), ::testing::HasSubstr("346    -  0.086569"));
 }
 
 TEST(AnswersTable, SaysWhatJustTouchesAndWarns) {
   results::Result result = two_loads();
-  result.loads[0].weakly_active = 1;
-  result.loads[0].warnings = {"f is rough"};
+  result.loads[0].answer.set_weakly_active(1);
+  result.loads[0].answer.add_warnings("f is rough");
   EXPECT_THAT(answers_table(result),
               ::testing::HasSubstr("opening: 1 node just touches: neither jump nor pressure\n"
                                    "opening: warning: f is rough\n"));
@@ -112,7 +125,7 @@ TEST(AnswersTable, SaysWhatJustTouchesAndWarns) {
 
 TEST(AnswersTable, NamesInclusionsWhereThereAreSeveral) {
   results::Result result = two_loads();
-  result.loads[0].inclusions.push_back({"rod", -0.5, 0, 0});
+  *result.loads[0].answer.add_inclusions() = inclusion("rod", -0.5);
   const std::string text = answers_table(result);
   EXPECT_THAT(text, ::testing::HasSubstr("A fibre"));
   EXPECT_THAT(text, ::testing::HasSubstr("A rod"));
@@ -121,8 +134,13 @@ TEST(AnswersTable, NamesInclusionsWhereThereAreSeveral) {
 
 TEST(AnswersTable, HasSlopeAndMomentOfWhatTilts) {
   results::Result result = two_loads();
-  result.loads[0].inclusions = {{"fibre", 0.25, 0, 0, 0, 0, 7, 7},
-                                {"rod", -0.5, 0, 0, 0.125, 0, 3, -4}};
+  v1::LoadCaseAnswer& answer = result.loads[0].answer;
+  answer.mutable_inclusions(0)->set_displacement(0.25);
+  answer.mutable_inclusions(0)->set_moment_x(7);
+  v1::InclusionAnswer& rod = *answer.add_inclusions() = inclusion("rod", -0.5);
+  rod.set_slope_x(0.125);
+  rod.set_moment_x(3);
+  rod.set_moment_y(-4);
   EXPECT_EQ(answers_table(result),
             "load     status     iterations  criterion  A fibre  A rod  Bx rod  By rod  Mx rod  "
             "My rod     energy  contact length  theta  theta*  wall time\n"
@@ -137,11 +155,12 @@ TEST(AnswersTable, HasSlopeAndMomentOfWhatTilts) {
 
 results::Result many_inclusions() {
   results::Result result = two_loads();
-  auto& inclusions = result.loads[0].inclusions;
-  inclusions.clear();
+  v1::LoadCaseAnswer& answer = result.loads[0].answer;
+  answer.clear_inclusions();
   for (int i = 0; i < 7; ++i)
-    inclusions.push_back({"rod, \x1b" + std::to_string(i), i == 4 ? -3.0 : 0.5 * i, 0.25, 0.125});
-  inclusions[2].slope_x = -0.75;
+    *answer.add_inclusions() =
+        inclusion("rod, \x1b" + std::to_string(i), i == 4 ? -3.0 : 0.5 * i, 0.25, 0.125);
+  answer.mutable_inclusions(2)->set_slope_x(-0.75);
   return result;
 }
 
@@ -169,14 +188,14 @@ TEST(InclusionsTable, HasARowForEach) {
                         "opening  rod, ?2      1  -0.75   0   0   0       0.25           0.125\n"));
   EXPECT_EQ(std::ranges::count(text, '\n'), 2 + 7);
   results::Result none = two_loads();
-  none.loads[0].inclusions.clear();
+  none.loads[0].answer.clear_inclusions();
   EXPECT_EQ(inclusions_table(none), "no inclusions\n");
 }
 
 TEST(AnswersCsv, HasALineForEachAndQuotesNames) {
   results::Result result = two_loads();
-  result.loads[0].name = "a \"b\", c";
-  result.loads[0].inclusions[0].displacement = 0.1;
+  result.loads[0].answer.set_name("a \"b\", c");
+  result.loads[0].answer.mutable_inclusions(0)->set_displacement(0.1);
   EXPECT_EQ(answers_csv(result),
             "load,inclusion,A,resultant,contact_length,Bx,By,Mx,My,A_lower,A_upper,A_estimated_"
             "error,Bx_lower,Bx_upper,By_lower,"
@@ -184,16 +203,28 @@ TEST(AnswersCsv, HasALineForEachAndQuotesNames) {
             "\"a \"\"b\"\", c\",fibre,0.1,1e-16,0,0,0,0,0,,,,,,,\n");
 }
 
+TEST(NumbersTable, HasEveryNumberWithItsUnitAndMeaning) {
+  results::Result result = two_loads();
+  result.units = {"mm", "N"};
+  const std::string text = numbers_table(result);
+  EXPECT_THAT(text, ::testing::HasSubstr("\nopening, every number:\n"));
+  EXPECT_THAT(text, ::testing::ContainsRegex("\nenergy +-0.163945  N mm +Pi\\(u\\)\n"));
+  EXPECT_THAT(text, ::testing::ContainsRegex("\nkkt_gap +0  mm +largest violation of "));
+  EXPECT_THAT(text, ::testing::ContainsRegex("\niterations +346  - +of Algorithm 2"));
+}
+
 TEST(AnswersJson, IsOneDocumentWithEveryLoad) {
   google::protobuf::Struct parsed;
   results::Result result = two_loads();
-  result.loads[0].inclusions[0].slope_y = -0.25;
-  result.loads[0].inclusions[0].moment_y = 4;
+  v1::LoadCaseAnswer& answer = result.loads[0].answer;
+  answer.mutable_inclusions(0)->set_slope_y(-0.25);
+  answer.mutable_inclusions(0)->set_moment_y(4);
   result.mesh.xy = {0, 0, 1, 0, 0, 1};
   result.mesh.triangles = {0, 1, 2};
-  result.interfaces.resize(2);
-  result.interfaces[1].name = "seam";
-  result.loads[0].contact_intervals = {{1, 0.25, 0.5}};
+  v1::ContactInterval& interval = *answer.add_contact_intervals();
+  interval.set_interface("seam");
+  interval.set_begin(0.25);
+  interval.set_end(0.5);
   ASSERT_TRUE(
       google::protobuf::util::JsonStringToMessage(answers_json(result, "out.h5"), &parsed).ok());
   EXPECT_EQ(parsed.fields().at("title").string_value(), "A plate");

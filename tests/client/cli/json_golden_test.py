@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The shape of what --json prints -- its keys and the types of their values -- is what
-golden/*.json says, is documented in client/JSON.md, and is all that is on standard output.
+golden/*.json says, is documented in client/JSON.md and RESULT.md, and is all that is on standard output.
 How to renew the files: see golden.py."""
 import json
 import pathlib
@@ -10,7 +10,7 @@ import h5py
 
 from golden import FOLDER, GoldenTest
 
-MANUAL = pathlib.Path(__file__).parents[3] / "client" / "JSON.md"
+MANUALS = [pathlib.Path(__file__).parents[3] / "client" / name for name in ("JSON.md", "RESULT.md")]
 USER_NAMES = {"fibre", "top"}  # of the case, where the shape is a map from names
 
 TEXTS = [(r"jobs/[0-9a-f]{16}", "job"), (r"meshes/[0-9a-f]{16}", "mesh"), (r"[0-9a-f]{64}", "sha256"),
@@ -143,7 +143,7 @@ class JsonGolden(GoldenTest):
         self.document("error-server", "--server", "unix:no.socket", "--retry-for", "1ms", "server", code=4)
 
     def test_every_key_is_in_the_manual(self):
-        documented = set(re.findall(r"`([^`\s]+)`", MANUAL.read_text(encoding="utf-8")))
+        documented = set(re.findall(r"`([^`\s]+)`", "".join(each.read_text(encoding="utf-8") for each in MANUALS)))
         for path in sorted(FOLDER.glob("*.json")):
             shape = json.loads(path.read_text(encoding="utf-8"))
             with self.subTest(path.name):

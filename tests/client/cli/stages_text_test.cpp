@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "client/cli/sample_stages.hpp"
+
 namespace anticrack::cli {
 namespace {
 
@@ -12,14 +14,17 @@ using ::testing::Not;
 
 results::Load sample() {
   results::Load load;
-  load.name = "open\ning";
-  load.stages = {{212, 1210},
-                 {-0.147, -0.1669},
-                 {results::unknown, -0.17},
-                 {results::unknown, -0.165},
-                 {results::unknown, 0.05},
-                 {results::unknown, 0.012},
-                 {0.0123, 0.5}};
+  load.answer.set_name("open\ning");
+  load.stages = {stage(1, 212, 0), stage(2, 1210, 0)};
+  v1::StageAnswer& first = *load.stages[0].mutable_answers(0);
+  first.Clear();
+  first.set_energy(-0.147);
+  load.stages[0].set_seconds(0.0123);
+  v1::StageAnswer& last = *load.stages[1].mutable_answers(0);
+  last.set_energy_lower(-0.17);
+  last.set_energy_upper(-0.165);
+  last.set_error_bound_relative(0.05);
+  last.set_displacement_error(0.012);
   return load;
 }
 
@@ -35,7 +40,7 @@ TEST(StagesTable, has_a_row_for_each_stage) {
 
 TEST(StagesTable, tells_the_error_of_a_only_where_it_is_known) {
   results::Load load = sample();
-  for (double& error : load.stages.displacement_error) error = results::unknown;
+  load.stages[1].mutable_answers(0)->clear_displacement_error();
   EXPECT_THAT(stages_table(load), Not(HasSubstr("error of A")));
   EXPECT_EQ(stages_table({}), "");
 }

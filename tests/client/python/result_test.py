@@ -161,6 +161,9 @@ max_iterations = 3
         self.assertEqual(list(frame.index), ["opening", "pulled"])
         self.assertEqual(frame.loc["pulled", "A of short"], file["pulled"].inclusions["short"].A)
         self.assertEqual(frame["energy"].tolist(), [load.energy for load in file.loads.values()])
+        self.assertEqual(frame.attrs["meanings"]["energy"], "Pi(u)")
+        self.assertLess(set(frame.attrs["meanings"]) - {"name", *(f"kkt_{name}{end}" for name in anticrack.result.KKT
+                                                                  for end in ("", "_relative"))}, set(frame.columns))
 
     def test_are_told_in_a_few_lines(self):
         case = self.folder / "accurate.toml"

@@ -244,7 +244,7 @@ const std::array<Damage, 39> damages{{
      "inclusions has datasets of different lengths"},
     {"wrong_length_of_stages",
      [](hid_t f) { replace_dataset(f, "/loads/opening/stages/energy", H5T_IEEE_F64LE, {4}); },
-     "loads[0].stages.energy has 4 entries for 5 stages"},
+     "stages has datasets of different lengths"},
     {"stages_of_another_type",
      [](hid_t f) { replace_dataset(f, "/loads/opening/stages/triangles", H5T_STD_I32LE, {5}); },
      "dataset triangles is not int64"},

@@ -18,10 +18,9 @@ Result moved(double a) {
   result.units = {"mm", "N"};
   result.mesh.xy = {0, 10, 200, 10, 200, 60, 0, 60};
   result.loads.resize(2);
-  result.loads[0].name = "small";
-  result.loads[1].name = "large";
-  result.loads[1].inclusions.resize(1);
-  result.loads[1].inclusions[0].displacement = a;
+  result.loads[0].answer.set_name("small");
+  result.loads[1].answer.set_name("large");
+  result.loads[1].answer.add_inclusions()->set_displacement(a);
   return result;
 }
 

@@ -7,10 +7,12 @@
 
 #include <fstream>
 #include <iterator>
+#include <regex>
 #include <set>
 #include <sstream>
 
 #include "client/sample_sweep.hpp"
+#include "results/entries.hpp"
 #include "results/file.hpp"
 #include "results/tables.hpp"
 #include "results/value_type.hpp"
@@ -52,6 +54,20 @@ std::string entries(const Tables&... tables) {
   return text;
 }
 
+/// Of the values of a message, with the comments of its fields.
+std::string entries(const google::protobuf::Descriptor& type) {
+  std::string text;
+  for (const Entry& entry : entries_of(type)) {
+    text += (text.empty() ? "`" : "; `") + entry.name + "`" +
+            (entry.type == ValueType::float64 ? ""
+             : entry.type == ValueType::text  ? " text"
+                                              : std::string(" ") + name_of(entry.type)) +
+            ": " + std::regex_replace(entry.meaning, std::regex("\\|"), "\\|");
+    if (!entry.unit.empty()) text += " [" + entry.unit + "]";
+  }
+  return text;
+}
+
 std::string line(const std::string& where, const std::string& what) {
   return "| `" + where + "` | " + what + " |\n";
 }
@@ -61,19 +77,23 @@ std::string result_table() {
   return "| where | what |\n|---|---|\n" +
          line("/", values + "`format`; " + entries<Result>(tables::result) + "; " +
                        entries<Units>(tables::units) + "; " + entries<Timings>(tables::timings)) +
+         line("/",
+              "`meanings` (numbers,4) text: of each number of the loads, inclusions, "
+              "contact_intervals and stages: where it is, its name, unit and meaning") +
          line("/mesh", entries<Mesh>(tables::mesh, tables::mesh_names)) +
          line("/interfaces/I", "attribute " + entries<Interface>(tables::interface)) +
          line("/interfaces/I", entries<Interface>(arrays::interface_nodes<Interface>) + "; " +
                                    entries<Edges>(tables::edges)) +
-         line("/loads/LOAD", values + "`index`: from 0; " + entries<Load>(tables::load_end)) +
-         line("/loads/LOAD", values + entries<Load>(tables::load_solver)) +
-         line("/loads/LOAD", values + entries<Load>(tables::load_answer)) +
-         line("/loads/LOAD", values + entries<Load>(tables::load_residuals)) +
-         line("/loads/LOAD", entries<Load>(tables::load_arrays, tables::indicator)) +
-         line("/loads/LOAD/stages", "with an accuracy: " + entries<Stages>(tables::stages)) +
-         line("/loads/LOAD/inclusions", entries<Inclusion>(tables::inclusions)) +
-         line("/loads/LOAD/contact_intervals",
-              entries<ContactInterval>(tables::contact_intervals)) +
+         line("/loads/LOAD", values + "`index`: from 0; " + entries<Asked>(tables::asked)) +
+         line("/loads/LOAD", values + entries(*v1::LoadCaseAnswer::descriptor())) +
+         line("/loads/LOAD",
+              "`warnings` (w) text: e.g. of a load not integrated as exactly as "
+              "asked; " +
+                  entries<Load>(tables::indicator)) +
+         line("/loads/LOAD/stages", "with an accuracy: " + entries(*v1::Stage::descriptor()) +
+                                        "; " + entries(*v1::StageAnswer::descriptor())) +
+         line("/loads/LOAD/inclusions", entries(*v1::InclusionAnswer::descriptor())) +
+         line("/loads/LOAD/contact_intervals", entries(*v1::ContactInterval::descriptor())) +
          line("/loads/LOAD/traces/I", entries<Trace>(arrays::trace<Trace>)) +
          line("/loads/LOAD/history", entries<History>(arrays::history<History>)) +
          line("/loads/LOAD/fields/D",

@@ -36,7 +36,7 @@ TEST(SweepFile, ComesBackAsItWasWritten) {
   ASSERT_TRUE(back.sweep);
   EXPECT_TRUE(*back.sweep == *result.sweep);
   ASSERT_EQ(back.loads.size(), 2U);
-  EXPECT_EQ(back.loads[1].name, "row-2999");
+  EXPECT_EQ(back.loads[1].name(), "row-2999");
   EXPECT_EQ(back.loads[1].traces[0].jump, result.loads[1].traces[0].jump);
 }
 

@@ -160,7 +160,7 @@ TEST(Export, says_how_to_get_fields) {
 TEST(Export, passes_over_a_load_that_failed) {
   const TemporaryFolder folder;
   results::Result result = sample_result(4);
-  result.loads[0].status = results::Status::failed;
+  result.loads[0].answer.set_status(v1::LoadCaseAnswer::STATUS_FAILED);
   result.loads[0].traces.clear();
   result.loads[0].fields.clear();
   const Exported exported = export_result(result, "paper.h5", folder.path());

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "results/file_messages.hpp"
+
+#include <google/protobuf/descriptor.h>
+#include <google/protobuf/message.h>
+#include <google/protobuf/reflection.h>
+
+#include <variant>
+
+namespace anticrack::results::hdf5 {
+namespace {
+
+using google::protobuf::Descriptor;
+using google::protobuf::FieldDescriptor;
+using google::protobuf::Message;
+using google::protobuf::Reflection;
+
+constexpr auto texts_and_numbers = [](ValueType type, const auto& use) {
+  switch (type) {
+    case ValueType::float64:
+      return use(double{});
+    case ValueType::int32:
+      return use(std::int32_t{});
+    case ValueType::int64:
+      return use(std::int64_t{});
+    default:
+      return use(std::string{});
+  }
+};
+
+void set_or_refuse(Message& message, const Entry& entry, const Value& value) {
+  if (set(message, entry, value)) return;
+  throw Fault("attribute " + entry.name + " is the unknown " + entry.name + " \"" +
+              std::get<std::string>(value) + "\"");
+}
+
+/// visit(field) for each list of a type of message.
+template <class Visit>
+void for_each_list(const Message& message, const Visit& visit) {
+  const Descriptor& type = *message.GetDescriptor();
+  for (int i = 0; i < type.field_count(); ++i)
+    if (type.field(i)->is_repeated()) visit(type.field(i));
+}
+
+void add_meanings(const std::string& where, const Descriptor& type, const Units& units,
+                  std::vector<std::string>& rows) {
+  for (const Entry& entry : entries_of(type))
+    rows.insert(rows.end(), {where, entry.name, units.of(entry.unit), entry.meaning});
+  for (int i = 0; i < type.field_count(); ++i) {
+    const FieldDescriptor& field = *type.field(i);
+    if (field.is_repeated() && field.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE)
+      add_meanings(field.name(), *field.message_type(), units, rows);
+  }
+}
+
+}  // namespace
+
+void put_columns(const Handle& group, const Units& units, const Descriptor& type,
+                 const std::vector<const Message*>& messages) {
+  for (const Entry& entry : entries_of(type)) {
+    texts_and_numbers(entry.type, [&](auto empty) {
+      using T = decltype(empty);
+      std::vector<T> column;
+      column.reserve(messages.size());
+      for (const Message* message : messages) column.push_back(std::get<T>(get(*message, entry)));
+      put_array(group, entry.name, entry.type, column.data(), column.size(), {},
+                units.of(entry.unit));
+    });
+  }
+}
+
+void get_columns(const Handle& group, std::uint64_t budget, const std::string& what,
+                 const Descriptor& type, std::optional<std::size_t>& length,
+                 const std::function<Message&(std::size_t)>& at) {
+  constexpr std::size_t least_bytes = 64;  // of a message in memory
+  for (const Entry& entry : entries_of(type)) {
+    texts_and_numbers(entry.type, [&](auto empty) {
+      std::vector<decltype(empty)> column;
+      get_array(group, entry.name, budget / least_bytes * bytes_of(entry.type), {}, column);
+      if (column.size() != length.value_or(column.size()))
+        throw Fault(what + " has datasets of different lengths");
+      length = column.size();
+      for (std::size_t i = 0; i < column.size(); ++i) set_or_refuse(at(i), entry, column[i]);
+    });
+  }
+}
+
+void put_message(const Handle& group, const Units& units, const Message& message) {
+  for (const Entry& entry : entries_of(*message.GetDescriptor())) {
+    std::visit([&](const auto& value) { put(group, entry.name, value); }, get(message, entry));
+  }
+  const Reflection& fields = *message.GetReflection();
+  for_each_list(message, [&](const FieldDescriptor* field) {
+    const int count = fields.FieldSize(message, field);
+    if (field->cpp_type() == FieldDescriptor::CPPTYPE_STRING) {
+      const auto texts = fields.GetRepeatedFieldRef<std::string>(message, field);
+      const std::vector<std::string> values(texts.begin(), texts.end());
+      put_array(group, field->name(), ValueType::text, values.data(), values.size(), {});
+      return;
+    }
+    std::vector<const Message*> items;
+    for (int i = 0; i < count; ++i) items.push_back(&fields.GetRepeatedMessage(message, field, i));
+    put_columns(create_group(group, field->name()), units, *field->message_type(), items);
+  });
+}
+
+void get_message(const Handle& group, std::uint64_t budget, Message& message) {
+  for (const Entry& entry : entries_of(*message.GetDescriptor())) {
+    texts_and_numbers(entry.type, [&](auto value) {
+      get(group, entry.name, value);
+      set_or_refuse(message, entry, value);
+    });
+  }
+  const Reflection& fields = *message.GetReflection();
+  for_each_list(message, [&](const FieldDescriptor* field) {
+    if (field->cpp_type() == FieldDescriptor::CPPTYPE_STRING) {
+      std::vector<std::string> texts;
+      get_array(group, field->name(), budget, {}, texts);
+      for (std::string& text : texts) fields.AddString(&message, field, std::move(text));
+      return;
+    }
+    std::optional<std::size_t> length;
+    get_columns(open_group(group, field->name()), budget, field->name(), *field->message_type(),
+                length, [&](std::size_t i) -> Message& {
+                  return static_cast<int>(i) < fields.FieldSize(message, field)
+                             ? *fields.MutableRepeatedMessage(&message, field, static_cast<int>(i))
+                             : *fields.AddMessage(&message, field);
+                });
+  });
+}
+
+void put_meanings(const Handle& root, const Units& units) {
+  std::vector<std::string> rows;
+  add_meanings("loads", *v1::LoadCaseAnswer::descriptor(), units, rows);
+  add_meanings("stages", *v1::Stage::descriptor(), units, rows);
+  constexpr std::size_t columns = 4;
+  put_array(root, "meanings", ValueType::text, rows.data(), rows.size(), {columns});
+}
+
+}  // namespace anticrack::results::hdf5
