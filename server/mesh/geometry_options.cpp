@@ -31,10 +31,13 @@ void check_sizes(const MeshOptions& options) {
     refuse_option("options.grading", "options.grading is " + show(options.grading) +
                                          "; it is an exponent above 0 and at most 1");
   }
-  if (options.tip_size > 0 && !graded(options.preset)) {
-    refuse_option("options.tip_size", "options.tip_size is " + show(options.tip_size) +
-                                          ", but only preset graded uses it; leave it unset");
-  }
+  const auto of_graded = [&](double value, double unset, const std::string& field) {
+    if (value == unset || graded(options.preset)) return;
+    refuse_option(
+        field, field + " is " + show(value) + ", but only preset graded uses it; leave it unset");
+  };
+  of_graded(options.tip_size, 0, "options.tip_size");
+  of_graded(options.grading, MeshOptions().grading, "options.grading");
   if (options.size > 0 && options.tip_size > options.size) {
     refuse_option("options.tip_size", "options.tip_size is " + show(options.tip_size) +
                                           ", above options.size " + show(options.size));
@@ -73,6 +76,10 @@ void check_for_geometry(const MeshOptions& options) {
                                       ", but preset paper fixes the intervals; leave it unset, or "
                                       "choose preset uniform");
   }
+  if (options.preset == Preset::paper && !options.align.empty())
+    refuse_option("options.align",
+                  "preset paper has no lines to follow; leave them out, or choose "
+                  "preset graded");
   const auto for_uploads = [](bool empty, const char* field, const char* cure) {
     if (empty) return;
     refuse_option(field, std::string(field) + " is for an upload; " + cure);

@@ -86,9 +86,6 @@ const Mistake mistakes[] = {
     {"single_brackets", "[[geometry.inclusion]]", "[geometry.inclusion]",
      "plate.toml:7: geometry.inclusion: { from = [ -0.5, 0 ], name = 'fibre', to = [ 0.5, 0 ] } is "
      "not a list of tables; write [[geometry.inclusion]] above each of them"},
-    {"traction_without_neumann", "name = \"one\"", "name = \"one\"\ntraction = \"1\"",
-     "plate.toml:17: load.one.traction: nothing has a traction, as no part of the boundary is in "
-     "geometry.neumann; name its sides or holes there"},
     {"delaminated_text", "to   = [0.5, 0]", "to   = [0.5, 0]\ndelaminated = \"yes\"",
      "plate.toml:11: geometry.inclusion.fibre.delaminated: 'yes' is not possible; write true, "
      "false, \"left\", \"right\", [[from, to], ...] or [[0.5, 1.0], ...], stretches of its length"},
@@ -235,9 +232,6 @@ const Mistake geometry_mistakes[] = {
     {"fixed_text", "from = [-0.5, 0]\n", "from = [-0.5, 0]\nfixed = \"yes\"\n",
      "plate.toml:10: geometry.inclusion.fibre.fixed: 'yes' is not a finite number; write a number "
      "without quotes"},
-    {"fixed_and_tilt", "from = [-0.5, 0]\n", "from = [-0.5, 0]\nfixed = 1\ntilt = true\n",
-     "plate.toml:10: geometry.inclusion.fibre.fixed: the inclusion has tilt = true too, but one "
-     "that is held does not tilt; remove one of the two"},
     {"tilt_number", "from = [-0.5, 0]\n", "from = [-0.5, 0]\ntilt = 1\n",
      "plate.toml:10: geometry.inclusion.fibre.tilt: 1 is neither true nor false"},
     {"tilt_of_a_crack", "[[geometry.inclusion]]\n", "[[geometry.crack]]\ntilt = false\n",
@@ -262,12 +256,6 @@ const Mistake geometry_mistakes[] = {
 const Mistake mesh_mistakes[] = {
     mesh("mesh_key", "[mesh]\ngradin = 0.2",
          "plate.toml:13: mesh.gradin: unknown key; did you mean grading?"),
-    mesh("size_of_paper", "[mesh]\nsize = 3\npreset = \"paper\"",
-         "plate.toml:13: mesh.size: means nothing with preset \"paper\"; remove it, or write "
-         "preset = \"graded\""),
-    mesh("tip_size_of_uniform", "[mesh]\ntip_size = 3\npreset = \"uniform\"",
-         "plate.toml:13: mesh.tip_size: means nothing with preset \"uniform\"; remove it, or write "
-         "preset = \"graded\""),
     mesh("size_negative", "[mesh]\nsize = -1",
          "plate.toml:13: mesh.size: -1 is not above 0; write a number above 0, or leave the key "
          "out for its default"),
@@ -281,16 +269,6 @@ const Mistake mesh_mistakes[] = {
          "plate.toml:13: mesh.align: 3 is not a list of lines; write [[[x, y], [x, y], ...], ...]"),
     mesh("align_one_line", "[mesh]\nalign = [[0, 0], [1, 1]]",
          "plate.toml:13: mesh.align.0.0: 0 is not a point; write [x, y]"),
-    mesh("align_and_file", "[mesh]\nalign = [[[0, 0], [1, 1]]]\nfile = \"a.msh\"",
-         "plate.toml:13: mesh.align: means nothing with mesh.file; remove one of the two"),
-    mesh("groups_without_file", "[mesh.groups]\ncurve.7 = \"crack\"",
-         "plate.toml:12: mesh.groups: belongs to mesh.file; write file = \"x.msh\" beside it"),
-    mesh("tension_without_file", "[mesh.tension]\ntop = 2",
-         "plate.toml:12: mesh.tension: belongs to mesh.file; for a geometry write "
-         "[[geometry.region]] with name, at and tension"),
-    mesh("inclusions_without_file", "[mesh.inclusions]\nfibre = { tilt = true }",
-         "plate.toml:12: mesh.inclusions: belongs to mesh.file; for a geometry write tilt or fixed "
-         "in its [[geometry.inclusion]]"),
     mesh("motion_number", "[mesh]\nfile = \"a.msh\"\n[mesh.inclusions]\nfibre = 1",
          "plate.toml:15: mesh.inclusions.fibre: 1 is not a table; write NAME = { tilt = true } or "
          "NAME = { fixed = 0.1 } for each of them"),
@@ -365,24 +343,6 @@ const Mistake load_mistakes[] = {
     load("inclusion_force_text", "inclusion_forces = {fibre = \"2\"}\n",
          "plate.toml:17: load.one.inclusion_forces.fibre: '2' is not a finite number; write "
          "inclusion = number for each of them"),
-    load("unknown_inclusion", "inclusion_forces = {fibr = 2}\n",
-         "plate.toml:17: load.one.inclusion_forces.fibr: there is no inclusion of this name; did "
-         "you mean fibre?"),
-    load("unknown_region", "f = {top = 1}\n",
-         "plate.toml:17: load.one.f.top: there is no region of this name; name one by "
-         "[[geometry.region]]"),
-    {"force_on_one_of_two_names",
-     "f = 1\n",
-     "f = 1\ninclusion_forces = {rod = 1}\n",
-     "plate.toml:18: load.one.inclusion_forces.rod: there is no inclusion of this name; two "
-     "inclusions are called \"fibre\": give each its own name",
-     {"geometry.inclusion.1={name='fibre', center=[0, 0.5], length=0.1}"}},
-    {"force_on_a_held_inclusion",
-     "f = 1\n",
-     "f = 1\ninclusion_forces = {fibre = 0}\n",
-     "plate.toml:18: load.one.inclusion_forces.fibre: the inclusion is held by its key fixed, so a "
-     "force on it moves nothing; leave one of the two out",
-     {"geometry.inclusion.fibre.fixed=0.1"}},
     load("inclusion_moments_list", "inclusion_moments = [0, 1]\n",
          "plate.toml:17: load.one.inclusion_moments: [ 0, 1 ] is not a table; write inclusion = "
          "[Mx, My] for each of them"),
@@ -392,10 +352,6 @@ const Mistake load_mistakes[] = {
     load("inclusion_moment_of_three", "inclusion_moments = {fibre = [0, 0, 2]}\n",
          "plate.toml:17: load.one.inclusion_moments.fibre: [ 0, 0, 2 ] is not a moment; write "
          "inclusion = [Mx, My] for each of them"),
-    load("inclusion_moment_without_tilt", "inclusion_moments = {fibre = [0, 1]}\n",
-         "plate.toml:17: load.one.inclusion_moments: the inclusion \"fibre\" does not tilt, so a "
-         "moment on it does nothing; write tilt = true in its [[geometry.inclusion]], or leave the "
-         "moment out"),
     load("inclusion_moment_nan", "inclusion_moments = {fibre = [0, nan]}\n",
          "plate.toml:17: load.one.inclusion_moments.fibre: nan is not a finite number; write "
          "inclusion = [Mx, My] for each of them"),
@@ -429,13 +385,6 @@ TEST(CaseErrors, NoLoadsAndNoGeometry) {
             "plate.toml: geometry: missing; write [geometry] with boundary and interface, or "
             "mesh.file = \"x.msh\"");
   EXPECT_THAT(complaint("mesh.file = \"x.msh\"\n"), HasSubstr("load: missing; write [[load]]"));
-}
-
-TEST(CaseErrors, ForceOnAHeldInclusionOfAFile) {
-  EXPECT_EQ(complaint("mesh.file = \"x.msh\"\nmesh.inclusions = {rod = {fixed = 0}}\n"
-                      "[[load]]\nname = \"a\"\ninclusion_forces = {rod = 1}\n"),
-            "plate.toml:5: load.a.inclusion_forces.rod: the inclusion is held by its key fixed, so "
-            "a force on it moves nothing; leave one of the two out");
 }
 
 TEST(Complaint, OfAKeyOfManyParts) {
