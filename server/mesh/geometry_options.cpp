@@ -32,9 +32,8 @@ void check_sizes(const MeshOptions& options) {
                                          "; it is an exponent above 0 and at most 1");
   }
   const auto of_graded = [&](double value, double unset, const std::string& field) {
-    if (value == unset || graded(options.preset)) return;
-    refuse_option(
-        field, field + " is " + show(value) + ", but only preset graded uses it; leave it unset");
+    if (value != unset && !graded(options.preset))
+      refuse_option(field, "means nothing without preset graded; leave it out, or choose that");
   };
   of_graded(options.tip_size, 0, "options.tip_size");
   of_graded(options.grading, MeshOptions().grading, "options.grading");
@@ -72,9 +71,9 @@ void check_subdomain(const std::string& name, const std::string& field) {
 void check_for_geometry(const MeshOptions& options) {
   check_sizes(options);
   if (options.preset == Preset::paper && options.size > 0) {
-    refuse_option("options.size", "options.size is " + show(options.size) +
-                                      ", but preset paper fixes the intervals; leave it unset, or "
-                                      "choose preset uniform");
+    refuse_option("options.size",
+                  "means nothing with preset paper, which fixes the intervals; leave it out, or "
+                  "choose preset graded");
   }
   if (options.preset == Preset::paper && !options.align.empty())
     refuse_option("options.align",
@@ -82,7 +81,7 @@ void check_for_geometry(const MeshOptions& options) {
                   "preset graded");
   const auto for_uploads = [](bool empty, const char* field, const char* cure) {
     if (empty) return;
-    refuse_option(field, std::string(field) + " is for an upload; " + cure);
+    refuse_option(field, std::string("belongs to a mesh from a file; ") + cure);
   };
   for_uploads(options.curve_groups.empty(), "options.curve_groups",
               "say in the geometry where inclusions and cracks lie");
@@ -104,7 +103,9 @@ void check_for_upload(const MeshOptions& options) {
                   "graded");
   }
   const auto for_geometries = [](bool empty, const std::string& field) {
-    if (!empty) refuse_option(field, field + " is for a geometry; an upload has its edges already");
+    if (!empty)
+      refuse_option(field,
+                    "means nothing for a mesh from a file, which has its edges; leave it out");
   };
   for_geometries(options.align.empty(), "options.align");
   for_geometries(options.chord_angle == 0, "options.chord_angle");

@@ -67,8 +67,19 @@ CASES = [
     ([('"uzawa"', '"active-set"')], 2,
      'wrong.toml:19: solver.theta: belongs to method "uzawa"; remove it, or write method = "uzawa"'),
     ([('"uniform"', '"paper"')], 2,
-     'wrong.toml:15: mesh.size: means nothing with preset "paper"; remove it, or write preset = '
-     '"graded"'),
+     "wrong.toml:15: mesh.size: means nothing with preset paper, which fixes the intervals; leave it out, or choose "
+     "preset graded"),
+    ([("size = 0.5", "tip_size = 0.1")], 2,
+     "wrong.toml:15: mesh.tip_size: means nothing without preset graded; leave it out, or choose that"),
+    ([("size = 0.5", "grading = 0.5")], 2,
+     "wrong.toml:15: mesh.grading: means nothing without preset graded; leave it out, or choose that"),
+    ([('"uniform"', '"paper"'), ("size = 0.5", "align = [[[0, 0.5], [0.5, 0.5]]]")], 2,
+     "wrong.toml:15: mesh.align: preset paper has no lines to follow; leave them out, or choose preset graded"),
+    (more('[mesh.groups]\ncurve.7 = "crack"'), 2,
+     "wrong.toml:14: mesh.groups.curve: belongs to a mesh from a file; say in the geometry where inclusions and cracks "
+     "lie"),
+    (more("[mesh.tension]\ntop = 2"), 2,
+     "wrong.toml:13: mesh.tension: belongs to a mesh from a file; give tensions in the regions of the geometry"),
     ([('[[load]]\nname = "opening"\n' + F + "\n", "")], 2,
      "wrong.toml: load: missing; write [[load]] with name and f for each load case"),
     ([(GEOMETRY, "")], 2,
@@ -79,17 +90,21 @@ CASES = [
     ([("size = 0.5", 'file = "x.msh"'), (GEOMETRY, "")], 2,
      "wrong.toml:5: mesh.file: x.msh: there is no such file; name a .msh file"),
     (more("[accuracy]\nenergy = 1e-3"), 2,
-     'wrong.toml:21: solver.method: the answers of "uzawa" have no bounds; with [accuracy] write method = '
-     '"active-set"'),
+     "wrong.toml:21: solver.method: an accuracy needs bounds, which Algorithm 2 (uzawa) does not have: use the active "
+     "set"),
+    ([('method = "uzawa"\ntheta = 1.5\n', ""), *more("[output]\nbounds = false\n[accuracy]\nA = 1e-3")], 2,
+     "wrong.toml:14: output.bounds: an accuracy needs bounds: leave one of the two out"),
+    ([('method = "uzawa"\ntheta = 1.5\n', ""), *more("[accuracy]\nenergy = 1e-3\neach_inclusion = true")], 2,
+     "wrong.toml:15: accuracy.each_inclusion: is about A (displacement): give that with it"),
     (more('[units]\nlength = "millimetres of mercury"'), 2,
      "wrong.toml:14: units.length: not the name of a unit: use at most 16 bytes without control characters, as mm"),
     (more("[units]\nforce = 1"), 2, "wrong.toml:14: units.force: 1 is not text; write it in quotes"),
     (more("[accuracy]\nenrgy = 1e-3"), 2,
      "wrong.toml:14: accuracy.enrgy: unknown key; did you mean energy?"),
     (more("[accuracy]\ntime = 60"), 2,
-     "wrong.toml:13: accuracy: no accuracy; write energy = 1e-3, A = 1e-3, or both"),
+     "wrong.toml:13: accuracy: no accuracy is asked for: give energy = 1e-3, A = 1e-3 (displacement), or both"),
     (more("[accuracy]\nA = 2"), 2,
-     "wrong.toml:14: accuracy.A: 2 is out of range; write a relative error from 1e-6 to 1, as 1e-3"),
+     "wrong.toml:14: accuracy.A: 2 is not an accuracy: give a relative error from 1e-6 to 1"),
     # Types and values.
     ([("size = 0.5", 'size = "fine"')], 2,
      "wrong.toml:15: mesh.size: 'fine' is not a finite number; write a number without quotes"),
@@ -175,11 +190,11 @@ CASES = [
     ([("delaminated = true", "fixed = nan")], 2,
      "wrong.toml:11: geometry.inclusion.fibre.fixed: nan is not a finite number; write a finite number"),
     ([("delaminated = true", "tilt = true\nfixed = 0.1")], 2,
-     "wrong.toml:12: geometry.inclusion.fibre.fixed: the inclusion has tilt = true too, but one that is held does not "
-     "tilt; remove one of the two"),
+     'wrong.toml:12: geometry.inclusion.fibre.fixed: inclusion "fibre": it is fixed at 0.1 and tilts; an inclusion that '
+     "is held does not tilt, so leave one of the two out"),
     (more("[mesh.inclusions]\nfibre = { tilt = true }"), 2,
-     "wrong.toml:13: mesh.inclusions: belongs to mesh.file; for a geometry write tilt or fixed in its "
-     "[[geometry.inclusion]]"),
+     "wrong.toml:13: mesh.inclusions: belongs to a mesh from a file; say tilt or fixed in the inclusions of the "
+     "geometry"),
     ([("[1, 0]]\n", '[1, 0]]\nneumann = "left"\n')], 2,
      "wrong.toml:6: geometry.neumann: 'left' is not possible; write a list of names of sides and holes, or of "
      '[from, to], parts of the boundary walked counterclockwise, or "all"'),
@@ -223,12 +238,21 @@ CASES = [
      "at (x, y) = (X, Y); it must be finite wherever the "
      "membrane is"),
     ([(F, "f = { topp = 1 }"), *more('[[geometry.region]]\nname = "top"\nat = [0, 0.5]')], 2,
-     "wrong.toml:27: load.opening.f.topp: there is no region of this name; did you mean top?"),
+     'wrong.toml:27: load.opening.f.topp: there is no region "topp"; did you mean top?'),
     ([(F, "f = { omega7 = 1 }")], 1,
-     'jobs/ID failed: wrong.toml:23: load.opening.f: load case "opening": the mesh has no subdomain "omega7"; '
+     'jobs/ID failed: wrong.toml:23: load.opening.f.omega7: load case "opening": the mesh has no subdomain "omega7"; '
      'it has "omega1", "omega2"'),
     ([(F, "inclusion_forces = { fibr = 1 }")], 2,
-     "wrong.toml:23: load.opening.inclusion_forces.fibr: there is no inclusion of this name; did you mean fibre?"),
+     'wrong.toml:23: load.opening.inclusion_forces.fibr: there is no inclusion "fibr"; did you mean fibre?'),
+    ([(F, "inclusion_moments = { fibre = [0, 1] }")], 2,
+     "wrong.toml:23: load.opening.inclusion_moments.fibre: the inclusion does not tilt, so a moment on it does nothing; "
+     "write tilt = true in its [[geometry.inclusion]], or leave the moment out"),
+    ([("delaminated = true", "fixed = 0.1"), (F, "inclusion_forces = { fibre = 0 }")], 2,
+     "wrong.toml:23: load.opening.inclusion_forces.fibre: the inclusion is held by its key fixed, so a force on it moves "
+     "nothing; leave one of the two out"),
+    ([(F, F + '\ntraction = "1"')], 2,
+     "wrong.toml:24: load.opening.traction: nothing has a traction, as no part of the boundary is in geometry.neumann; "
+     "name its sides or holes there"),
     ([(F, "point_forces = [{ at = [3, 3], value = 1 }]")], 1,
      'jobs/ID failed: wrong.toml:23: load.opening.point_forces.0.at: load case "opening": the point (3, 3) '
      "is outside the membrane: move it inside"),

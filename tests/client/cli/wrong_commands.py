@@ -7,8 +7,8 @@ differs from run to run."""
 COMMANDS = [
     # The command line itself.
     ("", 2,
-     "a command is missing after anticrack; known are completion, export, job, manual, mesh, plot, "
-     "run, server, show, sweep"),
+     "a command is missing after anticrack; known are completion, explain, export, job, manual, mesh, "
+     "plot, run, server, show, sweep"),
     ("rnu case.toml", 2,
      "unknown command rnu; did you mean run?"),
     ("case.toml", 2,
