@@ -69,6 +69,7 @@ int parse_and_run(int argc, char** argv) {
   add_job(app, globals, chosen);
   add_files(app, globals, chosen);
   add_server(app, globals, chosen);
+  add_explain(app, globals, chosen);
   add_guide(app, globals, chosen);
   if (argc > 1 && std::string_view(argv[1]) == "--complete") {
     print_document(guide::completions(app, {argv + 2, argv + argc}));

@@ -26,6 +26,7 @@ void add_mesh(CLI::App& app, const Globals& globals, Command& chosen);
 void add_job(CLI::App& app, const Globals& globals, Command& chosen);
 void add_files(CLI::App& app, const Globals& globals, Command& chosen);  ///< show, plot, export
 void add_server(CLI::App& app, const Globals& globals, Command& chosen);
+void add_explain(CLI::App& app, const Globals& globals, Command& chosen);
 /// completion, manual: of `app` as it is when they are run.
 void add_guide(CLI::App& app, const Globals& globals, Command& chosen);
 

@@ -17,4 +17,10 @@ namespace anticrack::client {
 v1::ReadCaseResponse read_case(Connection& connection, const v1::ReadCaseRequest& request,
                                const std::stop_token& stop = {});
 
+/// What the keys of cases mean, as far as a name chooses them. Threads, retries and Interrupted: as
+/// above. Error: invalid_argument (no such key; what() names the nearest).
+v1::ListCaseKeysResponse list_case_keys(Connection& connection,
+                                        const v1::ListCaseKeysRequest& request,
+                                        const std::stop_token& stop = {});
+
 }  // namespace anticrack::client

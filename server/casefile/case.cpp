@@ -13,8 +13,8 @@ namespace anticrack::casefile {
 namespace {
 
 void read_mesh(const Section& root, Case& result) {
-  const auto geometry = root.section("geometry", geometry_keys);
-  const auto mesh = root.section("mesh", mesh_keys);
+  const auto geometry = root.section("geometry");
+  const auto mesh = root.section("mesh");
   if (mesh)
     *result.mesh.mutable_options() = read_mesh_options(*mesh, result.spots);
   else
@@ -71,30 +71,20 @@ toml::table parse(const std::string& text, const std::string& name) {
 }
 
 void read_output(const Section& root, Case& result) {
-  if (const auto output = root.section("output", {"fields", "bounds"})) {
-    if (output->boolean("fields").value_or(false)) result.job.add_outputs(v1::OUTPUT_FIELDS);
-    result.job.set_without_bounds(!output->boolean("bounds").value_or(true));
-    note(*output, "", result.spots);
-    if (result.job.without_bounds() && result.job.has_accuracy())
-      throw Error(output->spot_of("bounds"),
-                  "an [accuracy] needs bounds; leave one of the two out");
+  v1::Job& job = result.job;
+  if (const auto output = root.section("output")) {
+    if (output->boolean("fields").value_or(false)) job.add_outputs(v1::OUTPUT_FIELDS);
+    job.set_without_bounds(!output->boolean("bounds").value_or(true));
+    result.spots["outputs"] = output->spot_of("fields");
+    result.spots["without_bounds"] = output->spot_of("bounds");
   }
   // Fields are drawn with where their errors come from, if there are bounds.
-  if (result.job.has_accuracy() ||
-      (result.job.outputs_size() > 0 && result.job.solver().has_active_set() &&
-       !result.job.without_bounds()))
-    result.job.add_outputs(v1::OUTPUT_INDICATORS);
+  if (job.has_accuracy() ||
+      (job.outputs_size() > 0 && job.solver().has_active_set() && !job.without_bounds()))
+    job.add_outputs(v1::OUTPUT_INDICATORS);
 }
 
 }  // namespace
-
-void note(const Section& section, const std::string& field, Spots& spots) {
-  if (!field.empty()) spots[field] = section.spot();
-  for (const auto& [key, node] : section.table()) {
-    const std::string name(key.str());
-    spots[field.empty() ? name : field + "." + name] = section.spot_of(name);
-  }
-}
 
 Case parse_case(const std::string& text, const std::string& source,
                 const std::vector<std::string>& overrides, Loads loads,
@@ -110,20 +100,12 @@ Case parse_case(const std::string& text, const std::string& source,
     out << table << '\n';
     result.text = out.str();
   }
-  const Section root(
-      table, "",
-      {"title", "geometry", "mesh", "solver", "accuracy", "units", "load", "job", "output"});
-  if (const auto title = root.text("title")) {
-    result.mesh.set_title(*title);
-    result.job.set_title(*title);
-    result.spots["title"] = root.spot_of("title");
-  }
+  const Section root(table, "", case_keys);
+  fill(root, result.job, "", result.spots);
+  result.mesh.set_title(result.job.title());
   read_mesh(root, result);
   *result.job.mutable_solver() = read_solver(root, result.spots);
   if (loads == Loads::needed || root.find("load")) read_loads(root, result);
-  read_accuracy(root, result);
-  read_job(root, result.job, result.spots);
-  read_units(root, result.job, result.spots);
   read_output(root, result);
   note_missing_tension(result);
   return result;
@@ -133,12 +115,14 @@ Case mesh_file_case(const std::string& file, const std::vector<std::string>& ove
   Case result;
   toml::table table;
   for (const std::string& assignment : overrides) apply_override(table, assignment);
-  const Section given(table, "", {"mesh"});
-  if (const auto mesh = given.section("mesh", mesh_keys); mesh && mesh->find("file"))
-    throw Error(mesh->spot_of("file"), "the file is given as an argument; remove one of the two");
-  apply_override(table, "mesh.file=.");  // allows the keys of files; the path is set below
-  *result.mesh.mutable_options() =
-      read_mesh_options(*Section(table, "", {"mesh"}).section("mesh", mesh_keys), result.spots);
+  const Section root(table, "", msh_keys);
+  if (const auto mesh = root.section("mesh")) {
+    if (mesh->find("file"))
+      throw Error(mesh->spot_of("file"), "the file is given as an argument; remove one of the two");
+    *result.mesh.mutable_options() = read_mesh_options(*mesh, result.spots);
+  } else {
+    result.mesh.mutable_options()->set_preset(v1::MESH_PRESET_GRADED);
+  }
   result.mesh_file = file;
   for (const char* field : {"upload", "header", "chunk"}) result.spots[field] = {"", file, 0};
   return result;

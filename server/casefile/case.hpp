@@ -22,7 +22,6 @@ struct ForceFile {
   int load_case = 0;  ///< index into Case::job.load_cases
   std::string path;
   std::string dataset;
-  bool per_triangle = false;  ///< else per node
 };
 
 struct Case {

@@ -8,65 +8,44 @@ namespace {
 
 // A polygon, or sides.
 void read_boundary(const Section& geometry_section, v1::Geometry& geometry, Spots& spots) {
-  const toml::node& node = geometry_section.need(
-      "boundary", "write [[x, y], [x, y], ...], or [[geometry.boundary]] for each side");
+  const toml::node& node = geometry_section.need("boundary");
   if (!lists_tables(node)) {
     add_points(node, geometry_section.path_of("boundary"), "geometry.boundary",
                *geometry.mutable_boundary(), spots);
     return;
   }
   spots["geometry.sides"] = geometry_section.spot_of("boundary");
-  for (const Section& section : geometry_section.sections(
-           "boundary", {"name", "points", "arc", "spline", "center", "angle", "length"})) {
-    const std::string field = entry_field("geometry.sides", geometry.sides().size());
-    note(section, field, spots);
-    v1::Side& side = *geometry.add_sides();
-    side.set_name(section.text("name").value_or(""));
-    const std::string shape = shape_of(section, line_keys, "the side");
-    if (shape.empty()) {
-      throw Error(section.spot(),
-                  "a side without a shape; write points = [[x, y], ...], arc = [from, through, to] "
-                  "or spline = [[x, y], ...]");
-    }
-    read_line(section, shape, field + ".line", *side.mutable_line(), spots);
-  }
+  read_list(geometry_section, "boundary", "geometry.sides", *geometry.mutable_sides(), spots,
+            [&](const Section& section, const std::string& field, v1::Side& side) {
+              const std::string shape = shape_of(section, "the side");
+              if (shape.empty()) {
+                throw Error(
+                    section.spot(),
+                    "a side without a shape; write points = [[x, y], ...], arc = [from, through, "
+                    "to] or spline = [[x, y], ...]");
+              }
+              read_line(section, shape, field + ".line", *side.mutable_line(), spots);
+            });
 }
 
-void read_holes(const Section& geometry_section, v1::Geometry& geometry, Spots& spots) {
-  for (const Section& section :
-       geometry_section.sections("hole", {"name", "circle", "points", "spline"})) {
-    const std::string field = entry_field("geometry.holes", geometry.holes().size());
-    note(section, field, spots);
-    v1::Hole& hole = *geometry.add_holes();
-    hole.set_name(section.text("name").value_or(""));
-    read_outline(section, "the hole", field + ".outline", *hole.mutable_outline(), spots);
+void read_region(const Section& section, const std::string& field, v1::Region& region,
+                 Spots& spots) {
+  const std::string shape = shape_of(section, "the region");
+  if (shape.empty()) {
+    section.need(
+        "at", "write [x, y], a point inside the region, or its outline: circle, points or spline");
   }
-}
-
-void read_regions(const Section& geometry_section, v1::Geometry& geometry, Spots& spots) {
-  for (const Section& section : geometry_section.sections(
-           "region", {"name", "at", "circle", "points", "spline", "tension"})) {
-    const std::string field = entry_field("geometry.regions", geometry.regions().size());
-    note(section, field, spots);
-    v1::Region& region = *geometry.add_regions();
-    region.set_name(section.need_text("name", "give the region a name"));
-    const std::string shape = shape_of(section, {"at", "circle", "points", "spline"}, "the region");
-    if (shape == "at" || shape.empty()) {
-      const toml::node& at = section.need(
-          "at",
-          "write [x, y], a point inside the region, or its outline: circle, points or spline");
-      set(*region.mutable_at(), point_of(at, section.path_of("at")));
-    } else {
-      read_outline(section, "the region", field + ".outline", *region.mutable_outline(), spots);
-    }
-    const auto tension = tension_of(section, "tension");
-    if (!tension) continue;
-    if (const auto* number = std::get_if<double>(&*tension)) {
-      region.set_tension(*number);
-    } else {
-      *region.mutable_tension_law() = std::get<v1::Tension>(*tension);
-      spots[field + ".tension_law"] = section.spot_of("tension");
-    }
+  if (shape != "at")
+    read_outline(section, "the region", field + ".outline", *region.mutable_outline(), spots);
+  const toml::node* node = section.find("tension");
+  if (!node) return;
+  const GivenTension given =
+      tension_of(*node, section.path_of("tension"), section.below("tension"));
+  if (const auto* number = std::get_if<double>(&given)) {
+    region.set_tension(*number);
+  } else {
+    *region.mutable_tension_law() = std::get<v1::Tension>(given);
+    spots[field + ".tension_law"] = section.spot_of("tension");
   }
 }
 
@@ -138,13 +117,19 @@ void note_missing_tension(Case& result) {
 
 v1::Geometry read_geometry(const Section& section, Spots& spots) {
   v1::Geometry geometry;
-  note(section, "geometry", spots);
+  fill(section, geometry, "geometry", spots);
   read_boundary(section, geometry, spots);
-  read_holes(section, geometry, spots);
+  read_list(section, "hole", "geometry.holes", *geometry.mutable_holes(), spots,
+            [&](const Section& one, const std::string& field, v1::Hole& hole) {
+              read_outline(one, "the hole", field + ".outline", *hole.mutable_outline(), spots);
+            });
   read_interfaces(section, geometry, spots);
   read_parts(section, geometry, spots);
   read_neumann(section, geometry, spots);
-  read_regions(section, geometry, spots);
+  read_list(section, "region", "geometry.regions", *geometry.mutable_regions(), spots,
+            [&](const Section& one, const std::string& field, v1::Region& region) {
+              read_region(one, field, region, spots);
+            });
   return geometry;
 }
 

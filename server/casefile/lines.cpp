@@ -6,8 +6,8 @@ namespace {
 
 void add_list(const Section& section, const std::string& key, const std::string& field,
               v1::Polyline& line, Spots& spots) {
-  add_points(section.need(key, "write [[x, y], ...]"), section.path_of(key), field + ".points",
-             *line.mutable_points(), spots);
+  add_points(*section.find(key), section.path_of(key), field + ".points", *line.mutable_points(),
+             spots);
   spots[field] = section.spot_of(key);
 }
 
@@ -36,17 +36,11 @@ void read_any(const Section& section, const std::string& key, const std::string&
     add_list(section, key, field + ".spline", *curve.mutable_spline(), spots);
 }
 
-double need_positive(const Section& section, const char* key, const char* cure) {
-  section.need(key, cure);
-  return *section.positive(key, false);
-}
-
 }  // namespace
 
-std::string shape_of(const Section& section, const std::vector<std::string>& keys,
-                     const std::string& what) {
+std::string shape_of(const Section& section, const std::string& what) {
   std::string shape;
-  for (const std::string& key : keys) {
+  for (const char* key : {"at", "circle", "points", "arc", "spline", "center"}) {
     if (!section.find(key)) continue;
     if (!shape.empty())
       throw Error(section.spot_of(key), what + " has " + shape + " too; remove one of the two");
@@ -64,17 +58,12 @@ void read_line(const Section& section, const std::string& key, const std::string
                v1::Line& line, Spots& spots) {
   spots[field] = section.spot_of(key);
   if (key != "center") return read_any(section, key, field, line, spots);
-  v1::Segment& segment = *line.mutable_segment();
-  set(*segment.mutable_center(), point_of(*section.find("center"), section.path_of("center")));
-  segment.set_angle(section.number("angle").value_or(0));
-  segment.set_length(need_positive(section, "length", "write its length, beside its center"));
-  for (const char* own : {"angle", "length"})
-    spots[field + ".segment." + own] = section.spot_of(own);
+  section.need("length", "write its length, beside its center");
 }
 
 void read_outline(const Section& section, const std::string& what, const std::string& field,
                   v1::Outline& outline, Spots& spots) {
-  const std::string shape = shape_of(section, {"circle", "points", "spline"}, what);
+  const std::string shape = shape_of(section, what);
   if (shape.empty()) {
     throw Error(section.spot(),
                 what +
@@ -83,19 +72,14 @@ void read_outline(const Section& section, const std::string& what, const std::st
   }
   spots[field] = section.spot_of(shape);
   if (shape == "points")
-    return add_list(section, shape, field + ".polygon", *outline.mutable_polygon(), spots);
+    add_list(section, shape, field + ".polygon", *outline.mutable_polygon(), spots);
   if (shape == "spline")
-    return add_list(section, shape, field + ".spline", *outline.mutable_spline(), spots);
-  const Section circle = *section.section("circle", {"center", "radius"});
-  set(*outline.mutable_circle()->mutable_center(),
-      point_of(circle.need("center", "write [x, y]"), circle.path_of("center")));
-  outline.mutable_circle()->set_radius(need_positive(circle, "radius", "write its radius"));
-  note(circle, field + ".circle", spots);
+    add_list(section, shape, field + ".spline", *outline.mutable_spline(), spots);
 }
 
 bool lists_tables(const toml::node& node) {
-  const toml::array* list = node.as_array();
-  return node.is_table() || (list && !list->empty() && list->get(0)->is_table());
+  const toml::array* array = node.as_array();
+  return node.is_table() || (array && !array->empty() && array->get(0)->is_table());
 }
 
 }  // namespace anticrack::casefile

@@ -10,35 +10,6 @@ constexpr const char* group_cure =
     "write the tag of a physical group and its meaning in quotes, for example curve.7 = "
     "\"crack\" or surface.1 = \"top\"";
 
-v1::MeshPreset read_preset(const Section& section) {
-  const auto preset = section.choice("preset", {"paper", "uniform", "graded", "coarse"});
-  return preset ? static_cast<v1::MeshPreset>(v1::MESH_PRESET_PAPER + static_cast<int>(*preset))
-                : v1::MESH_PRESET_GRADED;
-}
-
-void refuse_what_means_nothing(const Section& section, v1::MeshPreset preset) {
-  if (preset == v1::MESH_PRESET_PAPER) {
-    refuse_keys(section, {"size", "tip_size", "grading", "align"},
-                "means nothing with preset \"paper\"; remove it, or write preset = \"graded\"");
-  }
-  if (preset == v1::MESH_PRESET_UNIFORM) {
-    refuse_keys(section, {"tip_size", "grading"},
-                "means nothing with preset \"uniform\"; remove it, or write preset = \"graded\"");
-  }
-  if (section.find("file")) {
-    refuse_keys(section, {"align", "chord_angle"},
-                "means nothing with mesh.file; remove one of the two");
-  } else {
-    refuse_keys(section, {"groups"}, "belongs to mesh.file; write file = \"x.msh\" beside it");
-    refuse_keys(section, {"tension"},
-                "belongs to mesh.file; for a geometry write [[geometry.region]] with name, at and "
-                "tension");
-    refuse_keys(section, {"inclusions"},
-                "belongs to mesh.file; for a geometry write tilt or fixed in its "
-                "[[geometry.inclusion]]");
-  }
-}
-
 void read_align(const Section& section, v1::MeshOptions& options, Spots& spots) {
   const toml::node* node = section.find("align");
   if (!node) return;
@@ -86,7 +57,6 @@ void read_motions(const Section& section, v1::MeshOptions& options, Spots& spots
   const std::string field = "options.inclusion_motions";
   const toml::node* node = section.find("inclusions");
   if (!node) return;
-  spots[field] = section.spot_of("inclusions");
   const toml::table* inclusions = node->as_table();
   if (!inclusions) throw Error(section.spot_of("inclusions"), shown(*node) + cure);
   for (const auto& [key, entry] : *inclusions) {
@@ -94,9 +64,9 @@ void read_motions(const Section& section, v1::MeshOptions& options, Spots& spots
     const std::string path = section.path_of("inclusions") + "." + name;
     const toml::table* motion = entry.as_table();
     if (!motion) throw Error(spot_of(entry, path), shown(entry) + cure);
-    read_motion(Section(*motion, path, {"tilt", "fixed"}),
-                (*options.mutable_inclusion_motions())[name]);
-    set_entry(spots, field, name, spot_of(entry, path));
+    fill(Section(*motion, path, section.below("inclusions")),
+         (*options.mutable_inclusion_motions())[name], field + "[" + name + "]", spots);
+    spots[field + "." + name] = spot_of(entry, path);
   }
 }
 
@@ -104,15 +74,10 @@ void read_motions(const Section& section, v1::MeshOptions& options, Spots& spots
 
 v1::MeshOptions read_mesh_options(const Section& section, Spots& spots) {
   v1::MeshOptions options;
-  options.set_preset(read_preset(section));
-  refuse_what_means_nothing(section, options.preset());
-  if (const auto size = section.positive("size")) options.set_size(*size);
-  if (const auto tip_size = section.positive("tip_size")) options.set_tip_size(*tip_size);
-  if (const auto grading = section.positive("grading")) options.set_grading(*grading);
-  if (const auto angle = section.positive("chord_angle")) options.set_chord_angle(*angle);
-  note(section, "options", spots);
+  options.set_preset(v1::MESH_PRESET_GRADED);
+  fill(section, options, "options", spots);
   read_align(section, options, spots);
-  if (const auto groups = section.section("groups", {"curve", "surface"})) {
+  if (const auto groups = section.section("groups")) {
     read_groups(*groups, "curve", "options.curve_groups", *options.mutable_curve_groups(), spots);
     read_groups(*groups, "surface", "options.surface_groups", *options.mutable_surface_groups(),
                 spots);

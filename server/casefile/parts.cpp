@@ -4,39 +4,32 @@
 namespace anticrack::casefile {
 namespace {
 
-std::vector<std::string> keys(std::vector<std::string> own) {
-  for (const char* key :
-       {"name", "from", "to", "points", "arc", "spline", "center", "angle", "length"})
-    own.emplace_back(key);
-  return own;
+// Throws Error for a key that has no meaning here.
+void refuse_keys(const Section& section, const std::vector<const char*>& keys,
+                 const std::string& why) {
+  for (const char* key : keys)
+    if (section.find(key)) throw Error(section.spot_of(key), why);
 }
 
 // Where an inclusion or crack lies: from and to on an interface, or a line of its own.
 template <class Owner>
 void read_place(const Section& section, const std::string& what, const std::string& field,
                 Owner& owner, Spots& spots) {
-  note(section, field, spots);
-  const std::string shape = shape_of(section, line_keys, what);
+  const std::string shape = shape_of(section, what);
   if (shape != "center") {
     refuse_keys(section, {"angle", "length"},
                 "belongs to center; write center = [x, y], angle in degrees and length");
   }
   if (!shape.empty()) {
-    const std::string why = "belongs to a part of an interface, but " + what + " has " + shape +
-                            ", a line of its own; remove one of the two";
-    refuse_keys(section, {"from", "to"}, why.c_str());
+    refuse_keys(section, {"from", "to"},
+                "belongs to a part of an interface, but " + what + " has " + shape +
+                    ", a line of its own; remove one of the two");
     return read_line(section, shape, field + ".line", *owner.mutable_line(), spots);
   }
-  constexpr const char* cure =
-      "write [x, y], a point of an interface, or a line of its own: points, arc, spline, or "
-      "center, "
-      "angle and length";
   for (const char* key : {"from", "to"}) {
-    const toml::node& node = section.need(key, cure);
-    set(key == std::string("from") ? *owner.mutable_part()->mutable_from()
-                                   : *owner.mutable_part()->mutable_to(),
-        point_of(node, section.path_of(key)));
-    spots[field + ".part." + key] = section.spot_of(key);
+    section.need(key,
+                 "write [x, y], a point of an interface, or a line of its own: points, arc, "
+                 "spline, or center, angle and length");
   }
   spots[field + ".part"] = section.spot_of("from");
 }
@@ -70,19 +63,15 @@ void read_delaminated_parts(const toml::array& list, const std::string& key,
 
 void read_delamination(const Section& section, const std::string& field, v1::Inclusion& inclusion,
                        Spots& spots) {
-  spots[field + ".delaminated_side"] = section.spot_of("side");
-  if (const auto side = section.choice("side", {"left", "right"}))
-    inclusion.set_delaminated_side(*side == 0 ? v1::LINE_SIDE_LEFT : v1::LINE_SIDE_RIGHT);
   const toml::node* node = section.find("delaminated");
   if (!node) return;
   const std::string key = section.path_of("delaminated");
-  const std::string parts = field + ".delaminated_parts";
-  spots[parts] = section.spot_of("delaminated");
   const auto side = side_named(node->value_exact<std::string>().value_or(""));
   if (side && section.find("side"))
     throw Error(section.spot_of("side"), "delaminated names a side too; remove one of the two");
   if (const toml::array* list = node->as_array()) {
-    read_delaminated_parts(*list, key, parts, *inclusion.mutable_delaminated_parts(), spots);
+    read_delaminated_parts(*list, key, field + ".delaminated_parts",
+                           *inclusion.mutable_delaminated_parts(), spots);
   } else if (const auto all = node->value_exact<bool>()) {
     if (!*all && section.find("side"))
       throw Error(section.spot_of("side"),
@@ -102,30 +91,15 @@ void read_delamination(const Section& section, const std::string& field, v1::Inc
 }  // namespace
 
 void read_parts(const Section& geometry_section, v1::Geometry& geometry, Spots& spots) {
-  for (const Section& section : geometry_section.sections(
-           "inclusion", keys({"delaminated", "side", "tilt", "fixed", "contact"}))) {
-    refuse_keys(section, {"contact"},
-                "belongs to [[geometry.crack]]; an inclusion has delaminated = true or false");
-    const std::string field = entry_field("geometry.inclusions", geometry.inclusions().size());
-    v1::Inclusion& inclusion = *geometry.add_inclusions();
-    inclusion.set_name(section.need_text("name", "give the inclusion a name"));
-    read_place(section, "the inclusion", field, inclusion, spots);
-    read_delamination(section, field, inclusion, spots);
-    read_motion(section, inclusion);
-  }
-  for (const Section& section :
-       geometry_section.sections("crack", keys({"contact", "side", "tilt", "fixed"}))) {
-    refuse_keys(section, {"tilt", "fixed"},
-                "belongs to [[geometry.inclusion]]; nothing rigid lies on a crack, so remove it");
-    refuse_keys(section, {"side"},
-                "belongs to [[geometry.inclusion]]; the plus side of a crack is on its left, so "
-                "write it the other way round");
-    const std::string field = entry_field("geometry.cracks", geometry.cracks().size());
-    v1::Crack& crack = *geometry.add_cracks();
-    crack.set_name(section.need_text("name", "give the crack a name"));
-    read_place(section, "the crack", field, crack, spots);
-    if (const auto contact = section.boolean("contact")) crack.set_contact(*contact);
-  }
+  read_list(geometry_section, "inclusion", "geometry.inclusions", *geometry.mutable_inclusions(),
+            spots, [&](const Section& section, const std::string& field, v1::Inclusion& inclusion) {
+              read_place(section, "the inclusion", field, inclusion, spots);
+              read_delamination(section, field, inclusion, spots);
+            });
+  read_list(geometry_section, "crack", "geometry.cracks", *geometry.mutable_cracks(), spots,
+            [&](const Section& section, const std::string& field, v1::Crack& crack) {
+              read_place(section, "the crack", field, crack, spots);
+            });
 }
 
 }  // namespace anticrack::casefile

@@ -117,6 +117,22 @@ double number_of(const toml::node& node, const std::string& key, std::string_vie
                                          ": the units of all numbers are those of [units]"));
 }
 
+namespace {
+
+const char* finite(const toml::node& node) {
+  return node.is_string() ? "write a number without quotes" : "write a finite number";
+}
+
+}  // namespace
+
+double positive_of(const toml::node& node, const std::string& key, bool has_default) {
+  const double value = number_of(node, key, finite(node));
+  if (value > 0) return value;
+  throw Error(spot_of(node, key),
+              shown(node) + " is not above 0; write a number above 0" +
+                  (has_default ? ", or leave the key out for its default" : ""));
+}
+
 Point pair_of(const toml::node& node, const std::string& key, const std::string& what,
               std::string_view cure) {
   const toml::array* pair = node.as_array();
@@ -142,14 +158,26 @@ std::vector<Point> points_of(const toml::node& node, const std::string& key) {
   return points;
 }
 
-Section::Section(const toml::table& table, std::string path, std::vector<std::string> known)
-    : _table(table), _path(std::move(path)) {
+namespace {
+
+[[noreturn]] void refuse(std::string_view key, const Keys& keys, Spot spot) {
+  if (const Key* const row = keys.find(key))
+    throw Error(std::move(spot), std::string(row->meaning));
+  std::vector<std::string> names;
+  for (const Key* row : keys.known()) names.emplace_back(row->name);
+  throw Error(std::move(spot), "unknown key; " + words::suggestion(key, names));
+}
+
+}  // namespace
+
+Section::Section(const toml::table& table, std::string path, const Keys& keys)
+    : _table(table), _path(std::move(path)), _keys(&keys) {
   for (const auto& [key, node] : _table) {
-    if (std::find(known.begin(), known.end(), key.str()) == known.end()) {
-      Spot spot = casefile::spot_of(node, path_of(key.str()));
-      if (spot.line > 0 && key.source().begin.line > 0) spot.line = key.source().begin.line;
-      throw Error(std::move(spot), "unknown key; " + words::suggestion(key.str(), known));
-    }
+    const Key* const row = keys.find(key.str());
+    if (row && row->type != Type::refused) continue;
+    Spot spot = casefile::spot_of(node, path_of(key.str()));
+    if (!row && spot.line > 0 && key.source().begin.line > 0) spot.line = key.source().begin.line;
+    refuse(key.str(), keys, std::move(spot));
   }
 }
 
@@ -183,18 +211,7 @@ std::optional<bool> Section::boolean(std::string_view key) const {
 
 std::optional<double> Section::number(std::string_view key) const {
   const toml::node* node = find(key);
-  if (!node) return std::nullopt;
-  return number_of(*node, path_of(key),
-                   node->is_string() ? "write a number without quotes" : "write a finite number");
-}
-
-std::optional<double> Section::positive(std::string_view key, bool has_default) const {
-  const std::optional<double> value = number(key);
-  if (value && !(*value > 0)) {
-    throw Error(spot_of(key), shown(*find(key)) + " is not above 0; write a number above 0" +
-                                  (has_default ? ", or leave the key out for its default" : ""));
-  }
-  return value;
+  return node ? std::optional(number_of(*node, path_of(key), finite(*node))) : std::nullopt;
 }
 
 std::optional<std::string> Section::expression(std::string_view key) const {
@@ -236,18 +253,16 @@ std::optional<std::int32_t> Section::count(std::string_view key) const {
   return static_cast<std::int32_t>(*value);
 }
 
-std::optional<Section> Section::section(std::string_view key,
-                                        std::vector<std::string> known) const {
+std::optional<Section> Section::section(std::string_view key) const {
   const toml::node* node = find(key);
   if (!node) return std::nullopt;
   const toml::table* table = node->as_table();
   if (!table)
     throw Error(spot_of(key), shown(*node) + " is not a table; write [" + path_of(key) + "]");
-  return Section(*table, path_of(key), std::move(known));
+  return Section(*table, path_of(key), below(key));
 }
 
-std::vector<Section> Section::sections(std::string_view key,
-                                       const std::vector<std::string>& known) const {
+std::vector<Section> Section::sections(std::string_view key) const {
   const toml::node* node = find(key);
   if (!node) return {};
   const std::string cure = "; write [[" + path_of(key) + "]] above each of them";
@@ -262,7 +277,7 @@ std::vector<Section> Section::sections(std::string_view key,
         table ? path_of(key, name_or_index(*table, i)) : entry_key(path_of(key), i);
     if (!table)
       throw Error(casefile::spot_of(entry, path), shown(entry) + " is not a table" + cure);
-    sections.emplace_back(*table, path, known);
+    sections.emplace_back(*table, path, below(key));
   }
   return sections;
 }
@@ -288,11 +303,6 @@ const toml::node& Section::need(std::string_view key, std::string_view cure) con
     throw Error(std::move(here), "missing; " + std::string(cure));
   }
   return *node;
-}
-
-std::string Section::need_text(std::string_view key, std::string_view cure) const {
-  need(key, cure);
-  return *text(key);
 }
 
 }  // namespace anticrack::casefile

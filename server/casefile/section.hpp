@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "casefile/error.hpp"
+#include "casefile/keys.hpp"
 
 namespace anticrack::casefile {
 
@@ -27,6 +28,8 @@ std::string shown(const toml::node& node);
 
 /// A finite number. Throws Error: "... is not a number; CURE".
 double number_of(const toml::node& node, const std::string& key, std::string_view cure);
+/// A number above 0. Throws Error for others, saying where there is a default.
+double positive_of(const toml::node& node, const std::string& key, bool has_default = true);
 /// Two finite numbers. Throws Error: "... is not WHAT; CURE".
 Point pair_of(const toml::node& node, const std::string& key, const std::string& what,
               std::string_view cure);
@@ -40,12 +43,15 @@ std::string entry_key(const std::string& list, std::size_t index);
 
 class Section {
  public:
-  /// Throws Error for a key that is not among `known`, naming the nearest of them.
-  Section(const toml::table& table, std::string path, std::vector<std::string> known);
+  /// Throws Error for a key that is not among `keys`, naming the nearest of them.
+  Section(const toml::table& table, std::string path, const Keys& keys);
 
   /// Null where the key is absent.
   const toml::node* find(std::string_view key) const { return _table.get(key); }
   const toml::table& table() const { return _table; }
+  const Keys& keys() const { return *_keys; }
+  /// The keys of tables below a key.
+  const Keys& below(std::string_view key) const { return *_keys->find(key)->below; }
   /// For messages: "load.force".
   std::string path_of(std::string_view key) const;
   /// The same of an entry of its table: "load.force.NAME".
@@ -58,8 +64,6 @@ class Section {
   // Empty where the key is absent; Error where the value has another type.
   std::optional<std::string> text(std::string_view key) const;
   std::optional<double> number(std::string_view key) const;
-  /// A number above 0: in the API 0 stands for the default, which here is an absent key.
-  std::optional<double> positive(std::string_view key, bool has_default = true) const;
   /// An expression in quotes, or a number.
   std::optional<std::string> expression(std::string_view key) const;
   /// {name = value, ...}, in order of the names; empty where the key is absent.
@@ -70,16 +74,17 @@ class Section {
                                                       std::string_view cure) const;
   std::optional<std::int32_t> count(std::string_view key) const;
   std::optional<bool> boolean(std::string_view key) const;
-  std::optional<Section> section(std::string_view key, std::vector<std::string> known) const;
+  std::optional<Section> section(std::string_view key) const;
   /// The tables of [[path.key]]; empty where it is absent.
-  std::vector<Section> sections(std::string_view key, const std::vector<std::string>& known) const;
+  std::vector<Section> sections(std::string_view key) const;
   /// One of `choices` by name; its index. Error names the nearest.
   std::optional<std::size_t> choice(std::string_view key,
                                     const std::vector<std::string>& choices) const;
 
-  // As above, but Error where the key is absent.
-  std::string need_text(std::string_view key, std::string_view cure) const;
+  /// Throws Error where the key is absent: "missing; CURE".
   const toml::node& need(std::string_view key, std::string_view cure) const;
+  /// The same with the cure of its row.
+  const toml::node& need(std::string_view key) const { return need(key, _keys->find(key)->need); }
 
  private:
   template <class T>
@@ -87,6 +92,7 @@ class Section {
 
   const toml::table& _table;
   std::string _path;
+  const Keys* _keys;
 };
 
 }  // namespace anticrack::casefile

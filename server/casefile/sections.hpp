@@ -20,13 +20,13 @@ namespace anticrack::casefile {
 /// Field of a request -> where its value was written.
 using Spots = std::map<std::string, Spot>;
 
-inline const std::vector<std::string> geometry_keys{"boundary", "hole",    "interface", "inclusion",
-                                                    "crack",    "neumann", "region"};
-inline const std::vector<std::string> mesh_keys{"preset",      "size",      "tip_size", "grading",
-                                                "chord_angle", "align",     "file",     "groups",
-                                                "tension",     "inclusions"};
+/// Reads the values of plain types of a section into its message by its table of keys, those of
+/// plain tables below it too, and notes where they were written. Throws Error for a wrong type and
+/// for a key that is needed and missing.
+void fill(const Section& section, google::protobuf::Message& message, const std::string& field,
+          Spots& spots);
 
-/// `section` is [geometry], read with geometry_keys.
+/// `section` is [geometry].
 v1::Geometry read_geometry(const Section& section, Spots& spots);
 
 /// Notes regions that give no tension where others do, or that none does though there are units.
@@ -42,36 +42,32 @@ void read_neumann(const Section& section, v1::Geometry& geometry, Spots& spots);
 /// Inclusions and cracks of [geometry].
 void read_parts(const Section& section, v1::Geometry& geometry, Spots& spots);
 
-/// Keys of lines with two ends, in the order of `shape_of`.
-inline const std::vector<std::string> line_keys{"points", "arc", "spline", "center"};
-
-/// The one key among `keys` that gives the shape of `what`; empty for none. Throws Error for two.
-std::string shape_of(const Section& section, const std::vector<std::string>& keys,
-                     const std::string& what);
+/// The key among points, arc, spline, circle, center and at that gives the shape of `what`; empty
+/// for none. Throws Error for two.
+std::string shape_of(const Section& section, const std::string& what);
 
 /// Points, arc or spline, by their key.
 void read_curve(const Section& section, const std::string& key, const std::string& field,
                 v1::InterfaceCurve& curve, Spots& spots);
 
-/// A line by a key of line_keys.
+/// The same, or a center, of which `fill` has read all but that it needs a length.
 void read_line(const Section& section, const std::string& key, const std::string& field,
                v1::Line& line, Spots& spots);
 
-/// circle, points or spline, one of them. Throws Error where there is none.
+/// circle, points or spline, one of them, beside what `fill` reads. Throws Error where there is
+/// none.
 void read_outline(const Section& section, const std::string& what, const std::string& field,
                   v1::Outline& outline, Spots& spots);
 
 /// Whether a key holds a table or a list of tables.
 bool lists_tables(const toml::node& node);
 
-/// `section` is [mesh], read with mesh_keys. Throws Error for a key that has no meaning beside the
-/// others: sizes of another preset, `align` with a file, groups, tension and inclusions without
-/// one.
+/// `section` is [mesh].
 v1::MeshOptions read_mesh_options(const Section& section, Spots& spots);
 
-/// A number, or a law: an expression in quotes, or {along, across, angle}. None: no such key.
+/// A number, or a law: an expression in quotes, or {along, across, angle}.
 using GivenTension = std::variant<double, v1::Tension>;
-std::optional<GivenTension> tension_of(const Section& section, const std::string& key);
+GivenTension tension_of(const toml::node& node, const std::string& path, const Keys& law);
 /// Those by subdomain of a mesh from a file.
 void read_tensions(const Section& section, v1::MeshOptions& options, Spots& spots);
 
@@ -80,18 +76,6 @@ v1::Solver read_solver(const Section& root, Spots& spots);
 
 /// Every [[load]] of the root: fills in the job's load cases, force_files and spots.
 void read_loads(const Section& root, Case& result);
-
-/// [job] of the root: priority and time limits.
-void read_job(const Section& root, v1::Job& job, Spots& spots);
-
-/// [units] of the root.
-void read_units(const Section& root, v1::Job& job, Spots& spots);
-
-/// [accuracy] of the root, once solver and loads are read: Error where they do not go with it.
-void read_accuracy(const Section& root, Case& result);
-
-/// Seconds as a number, or text with a unit; empty where the key is absent.
-std::optional<google::protobuf::Duration> read_time(const Section& section, const char* key);
 
 /// Writes the value of "key=value" into the case. The key is a dotted path. An entry of an array is
 /// an index from 0 (one past the end appends a table) or, where all entries have one, a `name`.
@@ -102,7 +86,8 @@ void apply_override(toml::table& root, const std::string& assignment);
 /// Removes every [[load]] but those of these names. Throws Error for a name that none has.
 void keep_loads(toml::table& root, const std::vector<std::string>& names);
 
-/// Records where the section and its values were written, as FIELD and FIELD.KEY.
+/// Records where the section and its values were written, as FIELD and FIELD.PATH, with the path of
+/// each key's row.
 void note(const Section& section, const std::string& field, Spots& spots);
 
 /// Writes both coordinates.
@@ -129,25 +114,17 @@ inline std::string entry_field(const std::string& list, std::integral auto index
   return list + "[" + std::to_string(index) + "]";
 }
 
-/// Throws Error with the reason for a key that has no meaning here.
-inline void refuse_keys(const Section& section, const std::vector<const char*>& keys,
-                        const char* why) {
-  for (const char* key : keys)
-    if (section.find(key)) throw Error(section.spot_of(key), why);
-}
-
-/// Reads tilt and fixed of an inclusion.
-template <class Motion>
-void read_motion(const Section& section, Motion& motion) {
-  motion.set_tilt(section.boolean("tilt").value_or(false));
-  const auto fixed = section.number("fixed");
-  if (!fixed) return;
-  if (motion.tilt()) {
-    throw Error(section.spot_of("fixed"),
-                "the inclusion has tilt = true too, but one that is held does not tilt; remove one "
-                "of the two");
+/// Adds a message for each table of [[key]]: fills it, and lets `read` do the rest, which is called
+/// with the section, its field and its message.
+template <class List, class Read>
+void read_list(const Section& section, const char* key, const std::string& field, List& list,
+               Spots& spots, const Read& read) {
+  for (const Section& entry : section.sections(key)) {
+    const std::string path = entry_field(field, list.size());
+    auto& message = *list.Add();
+    fill(entry, message, path, spots);
+    read(entry, path, message);
   }
-  motion.set_fixed(*fixed);
 }
 
 /// Records the spot of an entry of a map, in both notations of a field violation.

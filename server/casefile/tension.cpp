@@ -3,38 +3,29 @@
 
 namespace anticrack::casefile {
 
-std::optional<GivenTension> tension_of(const Section& section, const std::string& key) {
-  const toml::node* node = section.find(key);
-  if (!node) return std::nullopt;
-  v1::Tension law;
-  if (node->is_table()) {
-    const Section table = *section.section(key, {"along", "across", "angle"});
-    table.need("along", "write the tension in the direction of angle, a number or an expression");
-    law.set_along(*table.expression("along"));
-    law.set_across(table.expression("across").value_or(""));
-    law.set_angle(table.number("angle").value_or(0));
-  } else if (node->is_string()) {
-    law.set_along(*section.text(key));
-  } else {
-    return *section.positive(key);
-  }
-  return law;
+GivenTension tension_of(const toml::node& node, const std::string& path, const Keys& law) {
+  v1::Tension given;
+  Spots unused;
+  if (const toml::table* table = node.as_table())
+    fill(Section(*table, path, law), given, "", unused);
+  else if (const auto expression = node.value_exact<std::string>())
+    given.set_along(*expression);
+  else
+    return positive_of(node, path);
+  return given;
 }
 
 void read_tensions(const Section& section, v1::MeshOptions& options, Spots& spots) {
-  std::vector<std::string> names;
-  for (const auto& [name, entry] : section.entries("tension", "write subdomain = tension for each"))
-    names.push_back(name);
-  if (names.empty()) return;
-  const Section tensions = *section.section("tension", names);
-  for (const std::string& name : names) {
-    const GivenTension given = *tension_of(tensions, name);
+  for (const auto& [name, entry] :
+       section.entries("tension", "write subdomain = tension for each")) {
+    const std::string path = section.path_of("tension", name);
+    const GivenTension given = tension_of(*entry, path, section.below("tension"));
     if (const auto* number = std::get_if<double>(&given))
       (*options.mutable_tension())[name] = *number;
     else
       (*options.mutable_tension_laws())[name] = std::get<v1::Tension>(given);
     for (const char* field : {"options.tension", "options.tension_laws"})
-      set_entry(spots, field, name, tensions.spot_of(name));
+      set_entry(spots, field, name, spot_of(*entry, path));
   }
 }
 

@@ -147,22 +147,24 @@ std::string no_hope(const store::StageAnswer& answer, const contact::AnswerSumma
 void check_accuracy(const store::JobSpec& spec) {
   const store::AccuracySpec& wanted = *spec.accuracy;
   if (!wanted.energy && !wanted.displacement) {
-    throw Error(Reason::invalid_argument, "no accuracy is asked for: set energy or displacement")
+    throw Error(Reason::invalid_argument,
+                "no accuracy is asked for: give energy = 1e-3, A = 1e-3 (displacement), or both")
         .at("accuracy");
   }
   if (wanted.each_inclusion && !wanted.displacement) {
-    throw Error(Reason::invalid_argument, "is about displacement: set that as well")
+    throw Error(Reason::invalid_argument, "is about A (displacement): give that with it")
         .at("accuracy.each_inclusion");
   }
   check_tolerance(wanted.energy, "accuracy.energy");
   check_tolerance(wanted.displacement, "accuracy.displacement");
   if (!std::holds_alternative<contact::ActiveSetOptions>(spec.solver)) {
     throw Error(Reason::invalid_argument,
-                "an accuracy needs bounds, which Algorithm 2 does not have: use active_set")
-        .at("solver");
+                "an accuracy needs bounds, which Algorithm 2 (uzawa) does not have: use the active "
+                "set")
+        .at("solver.uzawa");
   }
   if (spec.without_bounds) {
-    throw Error(Reason::invalid_argument, "an accuracy needs bounds: leave without_bounds out")
+    throw Error(Reason::invalid_argument, "an accuracy needs bounds: leave one of the two out")
         .at("without_bounds");
   }
   if (spec.loads.size() > most_loads) {

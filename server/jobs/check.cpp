@@ -9,6 +9,7 @@
 #include "errors/errors.hpp"
 #include "jobs/accuracy.hpp"
 #include "jobs/sweep_check.hpp"
+#include "operators/check_loads.hpp"
 #include "store/canonical.hpp"
 
 namespace anticrack::jobs {
@@ -129,6 +130,13 @@ void check(const store::JobSpec& spec, const EngineOptions& options) {
   }
   check_time(spec.queue_time_limit, options.queue_time, "queue_timeout");
   check_time(spec.run_time_limit, options.run_time, "run_timeout");
+}
+
+void check_on_mesh(const store::JobSpec& spec, const store::MeshDefinition& definition) {
+  if (const auto* made = std::get_if<store::GeometrySource>(&definition))
+    operators::check_loads(spec.loads, made->geometry);
+  if (const auto* file = std::get_if<store::UploadRef>(&definition))
+    operators::check_loads(spec.loads, file->options.inclusion_motions);
 }
 
 std::string fingerprint(const store::JobSpec& spec) {

@@ -17,6 +17,9 @@ namespace anticrack::jobs {
 /// "sweep.traces[i]", ... Says nothing of a sweep's matrix.
 void check(const store::JobSpec& spec, const EngineOptions& options);
 
+/// The same of what its loads mean on its mesh, before that is made.
+void check_on_mesh(const store::JobSpec& spec, const store::MeshDefinition& definition);
+
 /// Hash of all that makes a job, its title included: equal for equal requests only.
 std::string fingerprint(const store::JobSpec& spec);
 

@@ -142,6 +142,7 @@ TakenIn take_in(EngineCore& core, const Submission& submission) {
   if (auto made = core.store.created_before(record, print)) return {std::move(*made), false};
   std::shared_ptr<void> mesh_use = use(core, record.spec.mesh);
   const store::MeshRecord mesh = core.catalogue.get(record.spec.mesh);
+  check_on_mesh(record.spec, mesh.definition);
   require_result_arrays(record.spec, mesh.interfaces.size(), mesh.subdomains.size(),
                         core.options.max_result_arrays);
   require_answers(record.spec, mesh.inclusions);

@@ -162,12 +162,12 @@ std::vector<Walk> walks_of(const std::vector<const Stretch*>& stretches) {
   return walks;
 }
 
-void check_for_paper(const Geometry& geometry, const MeshOptions& options, const Plan& plan) {
-  const bool one =
-      geometry.interfaces.size() == 1 && options.align.empty() && geometry.sides.empty() &&
-      geometry.holes.empty() && geometry.interfaces[0].shape == Shape::polyline &&
-      !geometry.interfaces[0].closed && plan.interfaces.size() == 1 && plan.faces.size() == 2 &&
-      plan.faces[0].embedded.empty() && plan.faces[1].embedded.empty();
+void check_for_paper(const Geometry& geometry, const Plan& plan) {
+  const bool one = geometry.interfaces.size() == 1 && geometry.sides.empty() &&
+                   geometry.holes.empty() && geometry.interfaces[0].shape == Shape::polyline &&
+                   !geometry.interfaces[0].closed && plan.interfaces.size() == 1 &&
+                   plan.faces.size() == 2 && plan.faces[0].embedded.empty() &&
+                   plan.faces[1].embedded.empty();
   if (one) return;
   throw errors::Error(errors::Reason::invalid_argument,
                       "preset paper is for one polyline that cuts the polygon in two from "
@@ -269,7 +269,7 @@ Plan plan(const Geometry& given, const MeshOptions& options, std::size_t max_tri
   check_contacts(layout, plan);
   lay_subdomains(geometry, network, names, walks_of(stretches), plan);
   if (options.preset == Preset::paper) {
-    check_for_paper(geometry, options, plan);
+    check_for_paper(geometry, plan);
     plan_paper(area, max_triangles, plan);
     return plan;
   }

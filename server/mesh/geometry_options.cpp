@@ -31,10 +31,12 @@ void check_sizes(const MeshOptions& options) {
     refuse_option("options.grading", "options.grading is " + show(options.grading) +
                                          "; it is an exponent above 0 and at most 1");
   }
-  if (options.tip_size > 0 && !graded(options.preset)) {
-    refuse_option("options.tip_size", "options.tip_size is " + show(options.tip_size) +
-                                          ", but only preset graded uses it; leave it unset");
-  }
+  const auto of_graded = [&](double value, double unset, const std::string& field) {
+    if (value != unset && !graded(options.preset))
+      refuse_option(field, "means nothing without preset graded; leave it out, or choose that");
+  };
+  of_graded(options.tip_size, 0, "options.tip_size");
+  of_graded(options.grading, MeshOptions().grading, "options.grading");
   if (options.size > 0 && options.tip_size > options.size) {
     refuse_option("options.tip_size", "options.tip_size is " + show(options.tip_size) +
                                           ", above options.size " + show(options.size));
@@ -69,13 +71,17 @@ void check_subdomain(const std::string& name, const std::string& field) {
 void check_for_geometry(const MeshOptions& options) {
   check_sizes(options);
   if (options.preset == Preset::paper && options.size > 0) {
-    refuse_option("options.size", "options.size is " + show(options.size) +
-                                      ", but preset paper fixes the intervals; leave it unset, or "
-                                      "choose preset uniform");
+    refuse_option("options.size",
+                  "means nothing with preset paper, which fixes the intervals; leave it out, or "
+                  "choose preset graded");
   }
+  if (options.preset == Preset::paper && !options.align.empty())
+    refuse_option("options.align",
+                  "preset paper has no lines to follow; leave them out, or choose "
+                  "preset graded");
   const auto for_uploads = [](bool empty, const char* field, const char* cure) {
     if (empty) return;
-    refuse_option(field, std::string(field) + " is for an upload; " + cure);
+    refuse_option(field, std::string("belongs to a mesh from a file; ") + cure);
   };
   for_uploads(options.curve_groups.empty(), "options.curve_groups",
               "say in the geometry where inclusions and cracks lie");
@@ -97,7 +103,9 @@ void check_for_upload(const MeshOptions& options) {
                   "graded");
   }
   const auto for_geometries = [](bool empty, const std::string& field) {
-    if (!empty) refuse_option(field, field + " is for a geometry; an upload has its edges already");
+    if (!empty)
+      refuse_option(field,
+                    "means nothing for a mesh from a file, which has its edges; leave it out");
   };
   for_geometries(options.align.empty(), "options.align");
   for_geometries(options.chord_angle == 0, "options.chord_angle");

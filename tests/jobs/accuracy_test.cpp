@@ -210,7 +210,7 @@ TEST(Accuracy, RefusesWhatCannotBeSolvedInStages) {
   EXPECT_EQ(field_at_fault(spec), "accuracy.each_inclusion");
   spec = energy_to(0.1);
   spec.solver = contact::UzawaOptions();
-  EXPECT_EQ(field_at_fault(spec), "solver");
+  EXPECT_EQ(field_at_fault(spec), "solver.uzawa");
   spec = energy_to(0.1);
   spec.without_bounds = true;
   EXPECT_EQ(field_at_fault(spec), "without_bounds");

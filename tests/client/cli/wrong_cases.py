@@ -67,8 +67,19 @@ CASES = [
     ([('"uzawa"', '"active-set"')], 2,
      'wrong.toml:19: solver.theta: belongs to method "uzawa"; remove it, or write method = "uzawa"'),
     ([('"uniform"', '"paper"')], 2,
-     'wrong.toml:15: mesh.size: means nothing with preset "paper"; remove it, or write preset = '
-     '"graded"'),
+     "wrong.toml:15: mesh.size: means nothing with preset paper, which fixes the intervals; leave it out, or choose "
+     "preset graded"),
+    ([("size = 0.5", "tip_size = 0.1")], 2,
+     "wrong.toml:15: mesh.tip_size: means nothing without preset graded; leave it out, or choose that"),
+    ([("size = 0.5", "grading = 0.5")], 2,
+     "wrong.toml:15: mesh.grading: means nothing without preset graded; leave it out, or choose that"),
+    ([('"uniform"', '"paper"'), ("size = 0.5", "align = [[[0, 0.5], [0.5, 0.5]]]")], 2,
+     "wrong.toml:15: mesh.align: preset paper has no lines to follow; leave them out, or choose preset graded"),
+    (more('[mesh.groups]\ncurve.7 = "crack"'), 2,
+     "wrong.toml:14: mesh.groups.curve: belongs to a mesh from a file; say in the geometry where inclusions and cracks "
+     "lie"),
+    (more("[mesh.tension]\ntop = 2"), 2,
+     "wrong.toml:13: mesh.tension: belongs to a mesh from a file; give tensions in the regions of the geometry"),
     ([('[[load]]\nname = "opening"\n' + F + "\n", "")], 2,
      "wrong.toml: load: missing; write [[load]] with name and f for each load case"),
     ([(GEOMETRY, "")], 2,
@@ -79,17 +90,21 @@ CASES = [
     ([("size = 0.5", 'file = "x.msh"'), (GEOMETRY, "")], 2,
      "wrong.toml:5: mesh.file: x.msh: there is no such file; name a .msh file"),
     (more("[accuracy]\nenergy = 1e-3"), 2,
-     'wrong.toml:21: solver.method: the answers of "uzawa" have no bounds; with [accuracy] write method = '
-     '"active-set"'),
+     "wrong.toml:21: solver.method: an accuracy needs bounds, which Algorithm 2 (uzawa) does not have: use the active "
+     "set"),
+    ([('method = "uzawa"\ntheta = 1.5\n', ""), *more("[output]\nbounds = false\n[accuracy]\nA = 1e-3")], 2,
+     "wrong.toml:14: output.bounds: an accuracy needs bounds: leave one of the two out"),
+    ([('method = "uzawa"\ntheta = 1.5\n', ""), *more("[accuracy]\nenergy = 1e-3\neach_inclusion = true")], 2,
+     "wrong.toml:15: accuracy.each_inclusion: is about A (displacement): give that with it"),
     (more('[units]\nlength = "millimetres of mercury"'), 2,
      "wrong.toml:14: units.length: not the name of a unit: use at most 16 bytes without control characters, as mm"),
     (more("[units]\nforce = 1"), 2, "wrong.toml:14: units.force: 1 is not text; write it in quotes"),
     (more("[accuracy]\nenrgy = 1e-3"), 2,
      "wrong.toml:14: accuracy.enrgy: unknown key; did you mean energy?"),
     (more("[accuracy]\ntime = 60"), 2,
-     "wrong.toml:13: accuracy: no accuracy; write energy = 1e-3, A = 1e-3, or both"),
+     "wrong.toml:13: accuracy: no accuracy is asked for: give energy = 1e-3, A = 1e-3 (displacement), or both"),
     (more("[accuracy]\nA = 2"), 2,
-     "wrong.toml:14: accuracy.A: 2 is out of range; write a relative error from 1e-6 to 1, as 1e-3"),
+     "wrong.toml:14: accuracy.A: 2 is not an accuracy: give a relative error from 1e-6 to 1"),
     # Types and values.
     ([("size = 0.5", 'size = "fine"')], 2,
      "wrong.toml:15: mesh.size: 'fine' is not a finite number; write a number without quotes"),
@@ -175,11 +190,11 @@ CASES = [
     ([("delaminated = true", "fixed = nan")], 2,
      "wrong.toml:11: geometry.inclusion.fibre.fixed: nan is not a finite number; write a finite number"),
     ([("delaminated = true", "tilt = true\nfixed = 0.1")], 2,
-     "wrong.toml:12: geometry.inclusion.fibre.fixed: the inclusion has tilt = true too, but one that is held does not "
-     "tilt; remove one of the two"),
+     'wrong.toml:12: geometry.inclusion.fibre.fixed: inclusion "fibre": it is fixed at 0.1 and tilts; an inclusion that '
+     "is held does not tilt, so leave one of the two out"),
     (more("[mesh.inclusions]\nfibre = { tilt = true }"), 2,
-     "wrong.toml:13: mesh.inclusions: belongs to mesh.file; for a geometry write tilt or fixed in its "
-     "[[geometry.inclusion]]"),
+     "wrong.toml:13: mesh.inclusions: belongs to a mesh from a file; say tilt or fixed in the inclusions of the "
+     "geometry"),
     ([("[1, 0]]\n", '[1, 0]]\nneumann = "left"\n')], 2,
      "wrong.toml:6: geometry.neumann: 'left' is not possible; write a list of names of sides and holes, or of "
      '[from, to], parts of the boundary walked counterclockwise, or "all"'),
@@ -223,12 +238,21 @@ CASES = [
      "at (x, y) = (X, Y); it must be finite wherever the "
      "membrane is"),
     ([(F, "f = { topp = 1 }"), *more('[[geometry.region]]\nname = "top"\nat = [0, 0.5]')], 2,
-     "wrong.toml:27: load.opening.f.topp: there is no region of this name; did you mean top?"),
+     'wrong.toml:27: load.opening.f.topp: there is no region "topp"; did you mean top?'),
     ([(F, "f = { omega7 = 1 }")], 1,
-     'jobs/ID failed: wrong.toml:23: load.opening.f: load case "opening": the mesh has no subdomain "omega7"; '
+     'jobs/ID failed: wrong.toml:23: load.opening.f.omega7: load case "opening": the mesh has no subdomain "omega7"; '
      'it has "omega1", "omega2"'),
     ([(F, "inclusion_forces = { fibr = 1 }")], 2,
-     "wrong.toml:23: load.opening.inclusion_forces.fibr: there is no inclusion of this name; did you mean fibre?"),
+     'wrong.toml:23: load.opening.inclusion_forces.fibr: there is no inclusion "fibr"; did you mean fibre?'),
+    ([(F, "inclusion_moments = { fibre = [0, 1] }")], 2,
+     "wrong.toml:23: load.opening.inclusion_moments.fibre: the inclusion does not tilt, so a moment on it does nothing; "
+     "write tilt = true in its [[geometry.inclusion]], or leave the moment out"),
+    ([("delaminated = true", "fixed = 0.1"), (F, "inclusion_forces = { fibre = 0 }")], 2,
+     "wrong.toml:23: load.opening.inclusion_forces.fibre: the inclusion is held by its key fixed, so a force on it moves "
+     "nothing; leave one of the two out"),
+    ([(F, F + '\ntraction = "1"')], 2,
+     "wrong.toml:24: load.opening.traction: nothing has a traction, as no part of the boundary is in geometry.neumann; "
+     "name its sides or holes there"),
     ([(F, "point_forces = [{ at = [3, 3], value = 1 }]")], 1,
      'jobs/ID failed: wrong.toml:23: load.opening.point_forces.0.at: load case "opening": the point (3, 3) '
      "is outside the membrane: move it inside"),
@@ -254,11 +278,272 @@ CASES = [
 ]
 
 
-def changed(edits):
-    """The text of GOOD with the edits."""
-    text = GOOD
+# Another good one.
+SAMPLE = """\
+title = "A plate"
+
+[geometry]
+boundary  = [[-1, -1], [1, -1], [1, 1], [-1, 1]]
+interface = [[-1, 0], [1, 0]]
+
+[[geometry.inclusion]]
+name = "fibre"
+from = [-0.5, 0]
+to   = [0.5, 0]
+
+[solver]
+theta = 1.5
+method = "uzawa"
+[[load]]
+name = "one"
+f = 1
+[[load]]
+name = "two"
+f = "y > 0 ? 1 : -1"
+"""
+INTERFACE = "interface = [[-1, 0], [1, 0]]\n"
+SOLVER = '[solver]\ntheta = 1.5\nmethod = "uzawa"'
+LOAD = "f = 1\n"
+
+# (old, new, what is said) of SAMPLE, with the exit code 2: what cannot be read.
+UNREADABLE = [
+    ("theta = 1.5", "thta = 1.5", "wrong.toml:13: solver.thta: unknown key; did you mean theta?"),
+    ("theta = 1.5", "colour = 1.5",
+     "wrong.toml:13: solver.colour: unknown key; known are epsilon, kkt_tolerance, mass, max_iterations, max_steps, "
+     "method, p, theta, tolerance"),
+    ("[solver]", "[slover]", "wrong.toml:12: slover: unknown key; did you mean solver?"),
+    (LOAD, "force = 1\n",
+     "wrong.toml:17: load.one.force: unknown key; known are boundary_value, f, inclusion_forces, inclusion_moments, "
+     "name, point_forces, traction"),
+    ("theta = 1.5", 'theta = "fast"',
+     "wrong.toml:13: solver.theta: 'fast' is not a finite number; write a number above 0, or \"auto\""),
+    ("theta = 1.5", "theta = nan",
+     'wrong.toml:13: solver.theta: nan is not a finite number; write a number above 0, or "auto"'),
+    ("theta = 1.5", 'epsilon = "1e-12"',
+     "wrong.toml:13: solver.epsilon: '1e-12' is not a finite number; write a number without quotes"),
+    ("theta = 1.5", "max_iterations = 1.5",
+     "wrong.toml:13: solver.max_iterations: 1.5 is not a count; write a whole number from 1 to 2147483647"),
+    ('theta = 1.5\nmethod = "uzawa"', "method = 3", "wrong.toml:13: solver.method: 3 is not text; write it in quotes"),
+    (SOLVER, "[mesh]\npreset = 3", "wrong.toml:13: mesh.preset: 3 is not text; write it in quotes"),
+    ("boundary  = [[-1, -1], [1, -1], [1, 1], [-1, 1]]\n", "",
+     "wrong.toml:3: geometry.boundary: missing; write [[x, y], [x, y], ...], or [[geometry.boundary]] for each side"),
+    ("[[-1, -1], [1, -1], [1, 1], [-1, 1]]", "3",
+     "wrong.toml:4: geometry.boundary: 3 is not a list of points; write [[x, y], [x, y], ...]"),
+    ("[1, -1]", "[1, -1, 0]", "wrong.toml:4: geometry.boundary.1: [ 1, -1, 0 ] is not a point; write [x, y]"),
+    ("[1, -1]", '[1, "a"]', "wrong.toml:4: geometry.boundary.1: 'a' is not a finite number; write [x, y]"),
+    ("[1, -1]", "[1, inf]", "wrong.toml:4: geometry.boundary.1: inf is not a finite number; write [x, y]"),
+    ('name = "fibre"\n', "", "wrong.toml:7: geometry.inclusion.0.name: missing; give the inclusion a name"),
+    ("from = [-0.5, 0]\n", "",
+     "wrong.toml:7: geometry.inclusion.fibre.from: missing; write [x, y], a point of an interface, or a line of its "
+     "own: points, arc, spline, or center, angle and length"),
+    ("[[geometry.inclusion]]", "[geometry.inclusion]",
+     "wrong.toml:7: geometry.inclusion: { from = [ -0.5, 0 ], name = 'fibre', to = [ 0.5, 0 ] } is not a list of "
+     "tables; write [[geometry.inclusion]] above each of them"),
+    ("to   = [0.5, 0]", 'to   = [0.5, 0]\ndelaminated = "yes"',
+     "wrong.toml:11: geometry.inclusion.fibre.delaminated: 'yes' is not possible; write true, false, \"left\", "
+     '"right", [[from, to], ...] or [[0.5, 1.0], ...], stretches of its length'),
+    ("to   = [0.5, 0]", "to   = [0.5, 0]\ndelaminated = [[[0, 0]]]",
+     "wrong.toml:11: geometry.inclusion.fibre.delaminated.0: [ [ 0, 0 ] ] is not a part; a part is [from, to], and "
+     "a list of parts [[from, to]]"),
+    ("to   = [0.5, 0]", "to   = [0.5, 0]\ndelaminated = [[0, 0.5, 1]]",
+     "wrong.toml:11: geometry.inclusion.fibre.delaminated.0: [ 0, 0.5, 1 ] is not a stretch; write [0.5, 1.0], by "
+     "arc length over the whole length"),
+    ("to   = [0.5, 0]", 'to   = [0.5, 0]\nside = "up"',
+     "wrong.toml:11: geometry.inclusion.fibre.side: 'up' is not possible; known are left, right"),
+    ("to   = [0.5, 0]", 'to   = [0.5, 0]\ndelaminated = "left"\nside = "left"',
+     "wrong.toml:12: geometry.inclusion.fibre.side: delaminated names a side too; remove one of the two"),
+    ("to   = [0.5, 0]", 'to   = [0.5, 0]\ndelaminated = false\nside = "left"',
+     "wrong.toml:12: geometry.inclusion.fibre.side: nothing comes off on it, as delaminated = false; remove one of "
+     "the two"),
+    ("from = [-0.5, 0]\nto   = [0.5, 0]", "center = [0, 0.5]\nlength = 0",
+     "wrong.toml:10: geometry.inclusion.fibre.length: 0 is not above 0; write a number above 0"),
+    ("from = [-0.5, 0]\nto   = [0.5, 0]", 'center = [0, 0.5]\nlength = "infinite"',
+     "wrong.toml:10: geometry.inclusion.fibre.length: 'infinite' is not a finite number; write a number without "
+     "quotes"),
+    ("from = [-0.5, 0]\nto   = [0.5, 0]", 'center = [0, 0.5]\nlength = "-1.5e2 mm"',
+     "wrong.toml:10: geometry.inclusion.fibre.length: '-1.5e2 mm' is a number with a unit; write -1.5e2: the units "
+     "of all numbers are those of [units]"),
+    ("to   = [0.5, 0]", "to   = [0.5, 0]\ncenter = [0, 0.5]\nlength = 1",
+     "wrong.toml:9: geometry.inclusion.fibre.from: belongs to a part of an interface, but the inclusion has center, "
+     "a line of its own; remove one of the two"),
+    ("to   = [0.5, 0]", "points = [[0, 0], [1, 1]]\ncenter = [0, 0.5]",
+     "wrong.toml:11: geometry.inclusion.fibre.center: the inclusion has points too; remove one of the two"),
+    ("from = [-0.5, 0]\nto   = [0.5, 0]", "center = [0, 0.5]",
+     "wrong.toml:7: geometry.inclusion.fibre.length: missing; write its length, beside its center"),
+    ("from = [-0.5, 0]\nto   = [0.5, 0]", 'center = [0, 0.5]\nlength = 1\nangle = "20"',
+     "wrong.toml:11: geometry.inclusion.fibre.angle: '20' is not a finite number; write a number without quotes"),
+    ("to   = [0.5, 0]", "to   = [0.5, 0]\nangle = 20",
+     "wrong.toml:11: geometry.inclusion.fibre.angle: belongs to center; write center = [x, y], angle in degrees and "
+     "length"),
+    (LOAD, "",
+     "wrong.toml:15: load.one.f: missing; write a number, an expression in x and y in quotes, {region = number} or "
+     '{file = "f.h5", dataset = "/f", per = "triangle"}'),
+    (LOAD, "f = [1]\n",
+     "wrong.toml:17: load.one.f: [ 1 ] is not a finite number; write a number, an expression in x and y in quotes, "
+     '{region = number} or {file = "f.h5", dataset = "/f", per = "triangle"}'),
+    (LOAD, 'f = {a = "b"}\n',
+     "wrong.toml:17: load.one.f.a: 'b' is not a finite number; write one number for each region"),
+    (INTERFACE, "interface = 3\n",
+     "wrong.toml:5: geometry.interface: 3 is not a list of points; write [[x, y], [x, y], ...]"),
+    (INTERFACE, "[[geometry.interface]]\npoint = [[0, 0], [1, 0]]\n",
+     "wrong.toml:6: geometry.interface.0.point: unknown key; did you mean points?"),
+    (INTERFACE, '[[geometry.interface]]\nname = "a"\n',
+     "wrong.toml:5: geometry.interface.a: an interface without a shape; write points = [[x, y], ...], arc = [from, "
+     "through, to] or spline = [[x, y], ...]"),
+    (INTERFACE, "[[geometry.interface]]\npoints = [[-1, 0], [1, 0]]\narc = [[-1, 0], [0, 1], [1, 0]]\n",
+     "wrong.toml:7: geometry.interface.0.arc: the interface has points too; remove one of the two"),
+    (INTERFACE, "[[geometry.interface]]\narc = [[-1, 0], [0, 1], [1, 0]]\nclosed = true\n",
+     "wrong.toml:7: geometry.interface.0.closed: an arc has two ends; remove the key, or write a spline through the "
+     "points"),
+    (INTERFACE, "[[geometry.interface]]\nspline = [[-1, 0], [1, 0]]\nclosed = 1\n",
+     "wrong.toml:7: geometry.interface.0.closed: 1 is neither true nor false"),
+    (INTERFACE, "[[geometry.interface]]\nname = 1\n",
+     "wrong.toml:6: geometry.interface.0.name: 1 is not text; write it in quotes"),
+    (INTERFACE, "[[geometry.interface]]\nspline = [[-1, 0], [1]]\n",
+     "wrong.toml:6: geometry.interface.0.spline.1: [ 1 ] is not a point; write [x, y]"),
+    (INTERFACE, 'neumann = ["left", 2]\n',
+     "wrong.toml:5: geometry.neumann.1: 2 is not a part; a part is [from, to], and a list of parts [[from, to]]"),
+    (INTERFACE, '[[geometry.hole]]\nname = "window"\n',
+     "wrong.toml:5: geometry.hole.window: the hole without a shape; write circle = { center = [x, y], radius = r }, "
+     "points = [[x, y], ...] or spline = [[x, y], ...]"),
+    (INTERFACE, "[[geometry.hole]]\ncirlce = {}\n",
+     "wrong.toml:6: geometry.hole.0.cirlce: unknown key; did you mean circle?"),
+    (INTERFACE, "[[geometry.hole]]\ncircle = { center = [0, 0], radius = 1 }\nspline = []\n",
+     "wrong.toml:7: geometry.hole.0.spline: the hole has circle too; remove one of the two"),
+    (INTERFACE, "[[geometry.hole]]\ncircle = { center = [0, 0], radius = 0 }\n",
+     "wrong.toml:6: geometry.hole.0.circle.radius: 0 is not above 0; write a number above 0"),
+    (INTERFACE, "[[geometry.hole]]\ncircle = { center = [0, 0] }\n",
+     "wrong.toml:6: geometry.hole.0.circle.radius: missing; write its radius"),
+    (INTERFACE, "[[geometry.hole]]\ncircle = 3\n",
+     "wrong.toml:6: geometry.hole.0.circle: 3 is not a table; write [geometry.hole.0.circle]"),
+    (INTERFACE, '[[geometry.region]]\nname = "r"\nat = [0, 0]\npoints = []\n',
+     "wrong.toml:8: geometry.region.r.points: the region has at too; remove one of the two"),
+    ("boundary  = [[-1, -1], [1, -1], [1, 1], [-1, 1]]", 'boundary = [{ name = "left" }]',
+     "wrong.toml:4: geometry.boundary.left: a side without a shape; write points = [[x, y], ...], arc = [from, "
+     "through, to] or spline = [[x, y], ...]"),
+    ("boundary  = [[-1, -1], [1, -1], [1, 1], [-1, 1]]", "boundary = [{ point = [] }]",
+     "wrong.toml:4: geometry.boundary.0.point: unknown key; did you mean points?"),
+    ("[[geometry.inclusion]]\n", '[[geometry.crack]]\nside = "left"\n',
+     "wrong.toml:8: geometry.crack.fibre.side: belongs to [[geometry.inclusion]]; the plus side of a crack is on "
+     "its left, so write it the other way round"),
+    (INTERFACE, "neumann = [[1, -1], [1, 1]]\n", "wrong.toml:5: geometry.neumann.0.0: 1 is not a point; write [x, y]"),
+    (INTERFACE, "neumann = [[[1, -1], [1, 1], [0, 0]]]\n",
+     "wrong.toml:5: geometry.neumann.0: [ [ 1, -1 ], [ 1, 1 ], [ 0, 0 ] ] is not a part; a part is [from, to], and "
+     "a list of parts [[from, to]]"),
+    ("from = [-0.5, 0]\n", 'from = [-0.5, 0]\nfixed = "yes"\n',
+     "wrong.toml:10: geometry.inclusion.fibre.fixed: 'yes' is not a finite number; write a number without quotes"),
+    ("from = [-0.5, 0]\n", "from = [-0.5, 0]\ntilt = 1\n",
+     "wrong.toml:10: geometry.inclusion.fibre.tilt: 1 is neither true nor false"),
+    ("[[geometry.inclusion]]\n", "[[geometry.crack]]\ntilt = false\n",
+     "wrong.toml:8: geometry.crack.fibre.tilt: belongs to [[geometry.inclusion]]; nothing rigid lies on a crack, so "
+     "remove it"),
+    (INTERFACE, "[[geometry.region]]\nat = [0, 1]\n",
+     "wrong.toml:5: geometry.region.0.name: missing; give the region a name"),
+    (INTERFACE, '[[geometry.region]]\nname = "top"\n',
+     "wrong.toml:5: geometry.region.top.at: missing; write [x, y], a point inside the region, or its outline: "
+     "circle, points or spline"),
+    (INTERFACE, '[[geometry.region]]\nname = "top"\nat = [0, 1]\ntensoin = 2\n',
+     "wrong.toml:8: geometry.region.top.tensoin: unknown key; did you mean tension?"),
+    (INTERFACE, '[[geometry.region]]\nname = "top"\nat = [0, 1]\ntension = 0\n',
+     "wrong.toml:8: geometry.region.top.tension: 0 is not above 0; write a number above 0, or leave the key out for "
+     "its default"),
+    (INTERFACE, '[[geometry.region]]\nname = "top"\nat = [0, 1]\ntension = { across = 2 }\n',
+     "wrong.toml:8: geometry.region.top.tension.along: missing; write the tension in the direction of angle, a "
+     "number or an expression"),
+    (SOLVER, "[mesh]\ngradin = 0.2", "wrong.toml:13: mesh.gradin: unknown key; did you mean grading?"),
+    (SOLVER, '[mesh]\ntip_size = "small"',
+     "wrong.toml:13: mesh.tip_size: 'small' is not a finite number; write a number without quotes"),
+    (SOLVER, "[mesh]\ngrading = 0",
+     "wrong.toml:13: mesh.grading: 0 is not above 0; write a number above 0, or leave the key out for its default"),
+    (SOLVER, "[mesh]\nalign = 3",
+     "wrong.toml:13: mesh.align: 3 is not a list of lines; write [[[x, y], [x, y], ...], ...]"),
+    (SOLVER, "[mesh]\nalign = [[0, 0], [1, 1]]", "wrong.toml:13: mesh.align.0.0: 0 is not a point; write [x, y]"),
+    (SOLVER, '[mesh]\nfile = "a.msh"\n[mesh.inclusions]\nfibre = 1',
+     "wrong.toml:15: mesh.inclusions.fibre: 1 is not a table; write NAME = { tilt = true } or NAME = { fixed = 0.1 "
+     "} for each of them"),
+    (SOLVER, '[mesh]\nfile = "a.msh"\ninclusions = ["fibre"]',
+     "wrong.toml:14: mesh.inclusions: [ 'fibre' ] is not a table; write NAME = { tilt = true } or NAME = { fixed = "
+     "0.1 } for each of them"),
+    (SOLVER, '[mesh]\nfile = "a.msh"\n[mesh.inclusions]\nfibre = { tlit = true }',
+     "wrong.toml:15: mesh.inclusions.fibre.tlit: unknown key; did you mean tilt?"),
+    (SOLVER, '[mesh]\nfile = "a.msh"\n[mesh.inclusions]\nfibre.fixed = nan',
+     "wrong.toml:15: mesh.inclusions.fibre.fixed: nan is not a finite number; write a finite number"),
+    (SOLVER, '[mesh]\nfile = "a.msh"\n[mesh.groups]\ncurves.7 = "crack"',
+     "wrong.toml:15: mesh.groups.curves: unknown key; did you mean curve?"),
+    (SOLVER, '[mesh]\nfile = "a.msh"\n[mesh.groups]\ncurve.seven = "crack"',
+     "wrong.toml:15: mesh.groups.curve.seven: 'seven' is not a tag; write the tag of a physical group and its "
+     'meaning in quotes, for example curve.7 = "crack" or surface.1 = "top"'),
+    (SOLVER, '[mesh]\nfile = "a.msh"\n[mesh.groups.surface]\n1 = 2',
+     "wrong.toml:15: mesh.groups.surface.1: 2 is not a meaning of a group; write the tag of a physical group and "
+     'its meaning in quotes, for example curve.7 = "crack" or surface.1 = "top"'),
+    (SOLVER, '[mesh]\nfile = "a.msh"\ngroups.curve = [7]',
+     "wrong.toml:14: mesh.groups.curve: [ 7 ] is not a table; write the tag of a physical group and its meaning in "
+     'quotes, for example curve.7 = "crack" or surface.1 = "top"'),
+    (SOLVER, '[mesh]\nfile = "a.msh"\ntension.top = [2]',
+     "wrong.toml:14: mesh.tension.top: [ 2 ] is not a finite number; write a finite number"),
+    (SOLVER, '[mesh]\nfile = "a.msh"\ntension = 2',
+     "wrong.toml:14: mesh.tension: 2 is not a table; write subdomain = tension for each"),
+    (SOLVER, "[solver]\nkkt_tolerance = 1e-8",
+     'wrong.toml:13: solver.kkt_tolerance: belongs to method "uzawa"; remove it, or write method = "uzawa"'),
+    (SOLVER, '[solver]\ntolerance = "tiny"',
+     "wrong.toml:13: solver.tolerance: 'tiny' is not a finite number; write a number without quotes"),
+    (SOLVER, "[solver]\nmax_steps = 0",
+     "wrong.toml:13: solver.max_steps: 0 is not a count; write a whole number from 1 to 2147483647"),
+    (LOAD, 'f = {file = "f.h5", per = "node"}\n',
+     'wrong.toml:17: load.one.f.dataset: missing; name the dataset in the file, as "/f"'),
+    (LOAD, 'f = {file = "f.h5", dataset = "/f"}\n',
+     'wrong.toml:17: load.one.f.per: missing; write per = "triangle" or per = "node"'),
+    (LOAD, 'f = {dataset = "/f", per = "node"}\n', "wrong.toml:17: load.one.f.file: missing; name an HDF5 file"),
+    (LOAD, 'f = {file = "f.h5", dataset = "/f", per = "nodes"}\n',
+     "wrong.toml:17: load.one.f.per: 'nodes' is not possible; did you mean node?"),
+    (LOAD, 'f = {file = "f.h5", datset = "/f", per = "node"}\n',
+     "wrong.toml:17: load.one.f.datset: unknown key; did you mean dataset?"),
+    (LOAD, "traction = [1]\n",
+     "wrong.toml:17: load.one.traction: [ 1 ] is not a finite number; write a number, or an expression in x and y "
+     "in quotes"),
+    (LOAD, "boundary_value = nan\n",
+     "wrong.toml:17: load.one.boundary_value: nan is not a finite number; write a number, or an expression in x and "
+     "y in quotes"),
+    (LOAD, "point_forces = [{at = [0, 0], valeu = 1}]\n",
+     "wrong.toml:17: load.one.point_forces.0.valeu: unknown key; did you mean value?"),
+    (LOAD, "point_forces = [{value = 1}]\n",
+     "wrong.toml:17: load.one.point_forces.0.at: missing; write [x, y], where the force acts"),
+    (LOAD, "point_forces = [{at = [0, 0]}]\n",
+     "wrong.toml:17: load.one.point_forces.0.value: missing; write the force, a number"),
+    (LOAD, 'point_forces = [{at = [0, 0], value = "1"}]\n',
+     "wrong.toml:17: load.one.point_forces.0.value: '1' is not a finite number; write a number without quotes"),
+    (LOAD, "inclusion_forces = 2\n",
+     "wrong.toml:17: load.one.inclusion_forces: 2 is not a table; write inclusion = number for each of them"),
+    (LOAD, 'inclusion_forces = {fibre = "2"}\n',
+     "wrong.toml:17: load.one.inclusion_forces.fibre: '2' is not a finite number; write inclusion = number for each "
+     "of them"),
+    (LOAD, "inclusion_moments = [0, 1]\n",
+     "wrong.toml:17: load.one.inclusion_moments: [ 0, 1 ] is not a table; write inclusion = [Mx, My] for each of "
+     "them"),
+    (LOAD, "inclusion_moments = {fibre = 2}\n",
+     "wrong.toml:17: load.one.inclusion_moments.fibre: 2 is not a moment; write inclusion = [Mx, My] for each of "
+     "them"),
+    (LOAD, "inclusion_moments = {fibre = [0, 0, 2]}\n",
+     "wrong.toml:17: load.one.inclusion_moments.fibre: [ 0, 0, 2 ] is not a moment; write inclusion = [Mx, My] for "
+     "each of them"),
+    (LOAD, "inclusion_moments = {fibre = [0, nan]}\n",
+     "wrong.toml:17: load.one.inclusion_moments.fibre: nan is not a finite number; write inclusion = [Mx, My] for "
+     "each of them"),
+]
+
+
+def changed(text, edits):
+    """The text with the edits."""
     for old, new in edits:
-        if text.count(old) != 1:
-            raise ValueError(f"{old!r} is there {text.count(old)} times")
-        text = text.replace(old, new)
+        if old not in text:
+            raise ValueError(f"{old!r} is not there")
+        text = text.replace(old, new, 1)
     return text
+
+
+def texts():
+    """(wrong case, exit code, what is said) of both."""
+    for edits, code, message in CASES:
+        yield changed(GOOD, edits), code, message
+    for old, new, message in UNREADABLE:
+        yield changed(SAMPLE, [(old, new)]), 2, message

@@ -7,8 +7,8 @@ differs from run to run."""
 COMMANDS = [
     # The command line itself.
     ("", 2,
-     "a command is missing after anticrack; known are completion, export, job, manual, mesh, plot, "
-     "run, server, show, sweep"),
+     "a command is missing after anticrack; known are completion, explain, export, job, manual, mesh, "
+     "plot, run, server, show, sweep"),
     ("rnu case.toml", 2,
      "unknown command rnu; did you mean run?"),
     ("case.toml", 2,
@@ -228,8 +228,8 @@ COMMANDS = [
      "jobs/1 is a job; name a mesh; see anticrack mesh list"),
     ("mesh evict {mesh:10}", 2,
      "there is no meshes/ID; did you mean meshes/ID?"),
-    ("mesh delete meshes/1", 2,
-     "there is no meshes/1; see anticrack mesh list"),
+    ("mesh delete meshes/0123456789abcdef", 2,
+     "there is no meshes/ID; see anticrack mesh list"),
     ("mesh show no.msh", 2,
      "no.msh: there is no such file; name a .msh file"),
     ("mesh upload no.msh", 2,

@@ -188,7 +188,7 @@ boundary_value = "x"
                 (lambda: Case(Geometry(SQUARE, cracks=["c"])), "geometry.crack.0: 'c' is not a table"),
                 (lambda: Case(mesh=Mesh(file="x.msh", curves=["crack"])), "mesh.groups.curve: .* is not a table"),
                 (lambda: 3, "case: 3 is no case; give a Case"),
-                (lambda: Case(square, ONE, Mesh(curves={0: "crack"})), "mesh.groups: belongs to mesh.file")):
+                (lambda: Case(square, ONE, Mesh(curves={0: "crack"})), "mesh.groups.curve.0: .0. is not a tag")):
             with self.assertRaisesRegex(anticrack.CaseError, said):
                 read(case())
         with self.assertRaises(TypeError):

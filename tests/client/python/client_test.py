@@ -100,6 +100,8 @@ class Jobs(unittest.TestCase):
             self.client.submit(Case(GEOMETRY, [Load("a", "sin(z)")], COARSE))
         self.assertEqual(caught.exception.code, "INVALID_ARGUMENT")
         self.assertTrue(str(caught.exception).startswith("load.a.f: "), caught.exception)
+        with self.assertRaisesRegex(anticrack.ServerError, "^load.a.traction: nothing has a traction"):
+            self.client.submit(Case(GEOMETRY, [Load("a", 1.0, traction="5")], COARSE))
         for text, said in (("[solver]\nmethod = 'uzawa'\ntheta = -1", "case:6: solver.theta: "),
                            ("[mesh]\nsize = 1e-9", "case:5: mesh.size: "),
                            ("[[geometry.region]]\nname = 'a b'\nat = [0, 0.5]", "case:5: geometry.region.a b.name: "),
@@ -112,7 +114,7 @@ class Jobs(unittest.TestCase):
 
     def test_a_region_that_is_not_there_is_named(self):
         geometry = Geometry(GEOMETRY.boundary, regions=[anticrack.Region("sheet", (0, 0.5))])
-        with self.assertRaisesRegex(anticrack.CaseError, "^load.a.f.shet: .*sheet"):
+        with self.assertRaisesRegex(anticrack.ServerError, "^load.a.f.shet: .*sheet"):
             self.client.run(Case(geometry, [Load("a", {"shet": 1})]), progress=False)
         case = Case(loads=[Load("a", {"shet": 1})], mesh=Mesh(file=EXAMPLES / "plate.msh"))
         job = self.client.submit(case)  # only the mesher knows the subdomains of a file

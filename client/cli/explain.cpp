@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+//   anticrack explain [KEY]
+#include <CLI/CLI.hpp>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/commands.hpp"
+#include "cli/exit_codes.hpp"
+#include "cli/json.hpp"
+#include "cli/text.hpp"
+#include "client/cases.hpp"
+
+namespace anticrack::cli {
+namespace {
+
+std::string block(const v1::CaseKey& key) {
+  std::string text;
+  for (const std::string& name : key.names()) text += (text.empty() ? "" : ", ") + sanitise(name);
+  text += "\n  " + sanitise(key.meaning()) + "\n";
+  const std::vector<std::pair<const char*, std::string>> lines{{"write", key.form()},
+                                                               {"unit", key.unit()},
+                                                               {"default", key.if_absent()},
+                                                               {"API", key.field()}};
+  for (const auto& [what, value] : lines)
+    if (!value.empty()) text += "  " + pad_right(what, 9) + sanitise(value) + "\n";
+  return text;
+}
+
+std::string overview(const v1::ListCaseKeysResponse& found) {
+  std::vector<std::vector<std::string>> rows;
+  for (const v1::CaseKey& key : found.keys())
+    if (key.names(0).find('.') == std::string::npos)
+      rows.push_back({sanitise(key.names(0)), sanitise(key.meaning())});
+  return table(rows, {1}) + "\nanticrack explain KEY tells more of each, and the keys below it.\n";
+}
+
+std::string blocks(const v1::ListCaseKeysResponse& found) {
+  std::string text;
+  for (const v1::CaseKey& key : found.keys()) text += (text.empty() ? "" : "\n") + block(key);
+  return text;
+}
+
+}  // namespace
+
+void add_explain(CLI::App& app, const Globals& globals, Command& chosen) {
+  const auto name = std::make_shared<std::string>();
+  CLI::App* command = app.add_subcommand("explain", "Say what a key of a case means");
+  command
+      ->add_option("KEY", *name,
+                   "As in messages and --set, such as mesh.tip_size; its end is enough, and of a "
+                   "table all its keys are told. Without it: what a case consists of")
+      ->type_name("KEY");
+  command->footer("Example:\n  anticrack --local explain tip_size");
+  command->callback([name, &globals, &chosen] {
+    chosen = [name, &globals] {
+      Session session(globals);
+      v1::ListCaseKeysRequest request;
+      request.set_name(sanitise(*name));
+      const v1::ListCaseKeysResponse found =
+          client::list_case_keys(session.connection(), request, session.stop());
+      print_document(globals.json    ? to_json(found)
+                     : name->empty() ? overview(found)
+                                     : blocks(found));
+      return exit_ok;
+    };
+  });
+}
+
+}  // namespace anticrack::cli

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What can be said of loads before their mesh is made.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "fem/load.hpp"
+#include "mesh/geometry.hpp"
+
+namespace anticrack::operators {
+
+/// Throws errors::Error (invalid_argument) for the first load that names a region or an inclusion
+/// that the geometry does not have, and for one by which nothing moves: a traction without a
+/// Neumann boundary, a force on an inclusion that is held, a moment on one that does not tilt. Its
+/// field is "load_cases[I].traction", "load_cases[I].inclusion_forces[NAME]", ... Linear in the
+/// names, times their logarithm.
+void check_loads(const std::vector<fem::Load>& loads, const mesh::Geometry& geometry);
+
+/// The same of a mesh from a file, of which only the motions of some inclusions are known.
+void check_loads(const std::vector<fem::Load>& loads,
+                 const std::map<std::string, mesh::Motion>& motions);
+
+}  // namespace anticrack::operators
