@@ -8,6 +8,7 @@
 
 #include "fields/walk.hpp"
 #include "jobs/accuracy.hpp"
+#include "jobs/mesh_news.hpp"
 #include "operators/freed_memory.hpp"
 
 namespace anticrack::jobs {
@@ -16,9 +17,6 @@ namespace {
 
 using errors::Error;
 using store::JobState;
-
-/// Meshes of one class of sizes that are prepared ahead: each pins memory.
-constexpr std::size_t prepared_limit = 3;
 
 /// Bytes of results between two returns of freed memory to the system: the records that stay lie
 /// between the arrays that went, and would keep their pages.
@@ -48,18 +46,18 @@ EngineCore::EngineCore(EngineOptions engine_options, store::Store& records,
     : options(std::move(engine_options)),
       store(records),
       catalogue(mesh_catalogue),
-      schedule(options.ageing, prepared_limit),
       admission({static_cast<std::size_t>(std::max(0, options.max_queued_jobs)),
                  static_cast<std::uint64_t>(std::max(0, options.max_queued_cases)),
                  options.max_job_memory}),
       retention({static_cast<std::size_t>(std::max(0, options.max_kept_jobs)), options.result_ttl,
                  options.result_budget}),
       memory(std::make_shared<MemoryBudget>(options.max_job_memory)),
-      logs(memory) {}
+      logs(memory),
+      waits(catalogue.waits([this](const meshes::MeshNews& news) { hear(*this, news); })) {}
 
 void EngineCore::quit(const Lock& /*held*/) {
   quitting = true;
-  for (auto* changed : {&solvers, &preparers, &ending, &sweeping, &limits}) changed->notify_all();
+  for (auto* changed : {&solvers, &ending, &sweeping, &limits}) changed->notify_all();
 }
 
 std::thread EngineCore::start(const Lock& held, std::function<void()> work) {
@@ -125,10 +123,15 @@ void EngineCore::withdraw(const JobPtr& job) {
 }
 
 void EngineCore::offer(const JobPtr& job) {
-  schedule.add({job->number, job->mesh, job->lane, job->spec->priority, job->since,
-                catalogue.size_class(job->mesh), job->created.owner});
-  preparers.notify_one();
-  solvers.notify_all();
+  schedule.add(
+      {job->number, job->mesh, job->lane, job->spec->priority, job->since, job->created.owner});
+  MeshWork& mesh = *meshes.at(job->mesh);
+  if (mesh.mesh_operator)
+    solvers.notify_all();
+  else if (mesh.wait > 0)
+    waits->join(mesh.wait, job->spec->priority, job->since);
+  else
+    mesh.wait = waits->begin(mesh.id, job->spec->priority, job->since);
 }
 
 void EngineCore::begin_sweep(const JobPtr& job, SweepPlan plan) {
@@ -144,7 +147,7 @@ void EngineCore::settle(const JobPtr& job) {
   if (job->stages && !job->stages->over && job->why == Stop::none) {
     ++job->active;
     to_refine.push(job->created.owner, job);
-    preparers.notify_one();
+    solvers.notify_one();
     return;
   }
   job->ending = true;
@@ -175,10 +178,15 @@ void EngineCore::leave(const JobPtr& job) {
   leave_mesh(job);
 }
 
+void EngineCore::end_wait(MeshWork& mesh) {
+  if (mesh.wait > 0) waits->end(std::exchange(mesh.wait, 0));
+}
+
 void EngineCore::release(const std::shared_ptr<MeshWork>& mesh) {
-  if (!mesh->jobs.empty() || mesh->threads > 0 || !mesh->blocks.empty() || mesh->preparing ||
-      mesh->looking || !meshes.contains(mesh->id) || meshes.at(mesh->id) != mesh)
+  if (!mesh->jobs.empty() || mesh->threads > 0 || !mesh->blocks.empty() ||
+      !meshes.contains(mesh->id) || meshes.at(mesh->id) != mesh)
     return;
+  end_wait(*mesh);
   schedule.let_go(mesh->id);
   meshes.erase(mesh->id);
 }
@@ -267,7 +275,6 @@ std::vector<EndedCase> EngineCore::take_stopped(MeshWork& mesh) {
 }
 
 void EngineCore::stop(const JobPtr& job, Stop why, const std::optional<Error>& failure) {
-  std::optional<std::stop_source> preparation;
   std::vector<EndedCase> stopped;
   Lock lock(mutex);
   if (job->ending) {
@@ -287,10 +294,8 @@ void EngineCore::stop(const JobPtr& job, Stop why, const std::optional<Error>& f
   const std::shared_ptr<MeshWork> mesh = meshes.at(job->mesh);
   stopped = take_stopped(*mesh);
   settle(job);
-  if (mesh->preparing && mesh->jobs.empty()) preparation = mesh->preparing;
   lock.unlock();
   job->stop.request_stop();
-  if (preparation) preparation->request_stop();
   lock.lock();
   deliver(lock, std::move(stopped));
 }

@@ -5,8 +5,8 @@
 // A job goes this way: the schedule (its units wait: load cases, or chunks of its sweep) -> solver
 // threads (blocks, prepared cases) -> `to_end`, the ending thread's. LiveJob::active counts its
 // units between the first and the last step. The classes that own threads are SolverPool,
-// PreparationPool, EndingThread and TimeLimits; each works on this with the mutex, and does what
-// takes long without it.
+// EndingThread and TimeLimits; each works on this with the mutex, and does what takes long without
+// it. What becomes of meshes is heard on a thread of the catalogue (mesh_news.hpp).
 #pragma once
 
 #include <array>
@@ -53,9 +53,10 @@ struct MeshWork {
   const std::string id;
   std::map<std::uint64_t, JobPtr> jobs;  ///< that wait or run, by number
   std::shared_ptr<const operators::MeshOperator> mesh_operator;
-  std::optional<std::stop_source> preparing;
-  bool looking = false;                             ///< a solver thread looks in the catalogue
-  std::string phase;                                ///< of its preparation, told to the jobs
+  /// For the operators; ends with the first turn on the mesh. 0: none.
+  std::uint64_t wait = 0;
+  std::string phase;  ///< of its preparation, told to the jobs
+  std::chrono::steady_clock::time_point progress_told{};
   int threads = 0;                                  ///< that have a turn on it
   std::array<std::uint64_t, lane_count> waiting{};  ///< units that no thread has taken
   std::vector<std::shared_ptr<BlockRun>> blocks;    ///< all, those put down included
@@ -80,7 +81,7 @@ class EngineCore {
 
   mutable std::mutex mutex;
   /// Work for each kind of thread.
-  std::condition_variable solvers, preparers, ending, sweeping, limits;
+  std::condition_variable solvers, ending, sweeping, limits;
   std::condition_variable settled;  ///< fewer jobs live or end
   bool draining = false;            ///< no job starts any more
   bool interrupting = false;  ///< what the store does not take at once is left to the next start
@@ -110,6 +111,9 @@ class EngineCore {
   int running = 0;        ///< jobs that started and have not ended
   int columns = 0;        ///< load cases on solver threads, one for a chunk
 
+  /// For meshes. The last member: nothing is heard once the others go.
+  const std::unique_ptr<meshes::MeshWaits> waits;
+
   // With the lock held:
 
   /// Tells all threads to end.
@@ -133,6 +137,8 @@ class EngineCore {
   /// Call it when a case of the job ended or the job must stop: passes on a job that has nothing
   /// left.
   void settle(const JobPtr& job);
+  /// The operators of the mesh, if it waits for them, have been taken up or are not wanted.
+  void end_wait(MeshWork& mesh);
   /// Releases the mesh's operator if nothing needs it.
   void release(const std::shared_ptr<MeshWork>& mesh);
   /// Reports the cases and counts them as ended. Releases the lock meanwhile.

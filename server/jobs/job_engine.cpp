@@ -10,7 +10,6 @@
 #include "jobs/ending_thread.hpp"
 #include "jobs/engine_core.hpp"
 #include "jobs/intake.hpp"
-#include "jobs/preparation_pool.hpp"
 #include "jobs/retention_thread.hpp"
 #include "jobs/solver_pool.hpp"
 #include "jobs/time_limits.hpp"
@@ -44,12 +43,10 @@ struct JobEngine::State {
   }
 
   struct Pools {
-    explicit Pools(EngineCore& core)
-        : ending(core), retention(core), limits(core), preparation(core), solvers(core) {}
+    explicit Pools(EngineCore& core) : ending(core), retention(core), limits(core), solvers(core) {}
     EndingThread ending;
     RetentionThread retention;
     TimeLimits limits;
-    PreparationPool preparation;
     SolverPool solvers;
   };
 

@@ -10,6 +10,7 @@
 #include "jobs/condensing.hpp"
 #include "jobs/exact_run.hpp"
 #include "jobs/job_start.hpp"
+#include "jobs/stage_end.hpp"
 #include "stop/stop.hpp"
 
 namespace anticrack::jobs {
@@ -20,6 +21,7 @@ using Clock = EngineCore::Clock;
 
 /// Beyond EngineOptions::threads.
 constexpr std::size_t most_spare_threads = 8;
+constexpr int most_stage_ends = 4;  // at once
 
 contact::Mass mass_of(Lane lane) {
   return lane == Lane::consistent ? contact::Mass::consistent : contact::Mass::lumped;
@@ -96,17 +98,20 @@ void SolverPool::rest(Lock& lock) {
 void SolverPool::work() {
   Lock lock(_core.mutex);
   while (!_core.quitting) {
+    if (!_core.to_refine.empty() && _at_stage_ends < most_stage_ends) {
+      ++_at_stage_ends;
+      keep_a_spare();
+      end_stage(_core, lock, _core.to_refine.pop());
+      --_at_stage_ends;
+      continue;
+    }
     const std::optional<Turn> turn = next_turn();
     if (!turn) {
       rest(lock);
       continue;
     }
     const Mesh mesh = _core.meshes.at(turn->mesh);
-    if (turn->probe) {
-      look_for(lock, mesh);
-      continue;
-    }
-    _core.preparers.notify_one();  // one mesh fewer is prepared ahead
+    _core.end_wait(*mesh);
     const auto now = Clock::now();
     const auto working =
         _working.insert(_working.end(), Working{turn->mesh, turn->owner, now, now});
@@ -127,28 +132,6 @@ void SolverPool::take_turn(Lock& lock, const Mesh& mesh, Lane lane, Working& wor
     sweep(lock, mesh, working);
   else
     iterate(lock, mesh, lane, working);
-}
-
-void SolverPool::look_for(Lock& lock, const Mesh& mesh) {
-  mesh->looking = true;
-  lock.unlock();
-  std::shared_ptr<const operators::MeshOperator> found;
-  try {
-    found = _core.catalogue.find(mesh->id);
-  } catch (const std::exception&) {
-    found = nullptr;  // a preparation thread will hear what is wrong
-  }
-  lock.lock();
-  mesh->looking = false;
-  if (found) {
-    mesh->mesh_operator = std::move(found);
-    _core.schedule.prepared(mesh->id);
-    _core.solvers.notify_all();
-  } else {
-    _core.schedule.absent(mesh->id);
-    _core.preparers.notify_one();
-  }
-  _core.release(mesh);
 }
 
 bool SolverPool::turn_is_over(const MeshWork& mesh, Lane lane, const Working& working) const {

@@ -24,7 +24,8 @@ namespace anticrack::jobs {
 ///
 /// A step cannot be put down. Where all threads have been at one for EngineOptions::long_step, a
 /// spare thread takes a turn for an owner, without names a mesh, that has no thread; the system
-/// divides the processors. The first turn that ends then gives its thread up.
+/// divides the processors. The first turn that ends then gives its thread up. Ends of stages
+/// (stage_end.hpp), owners in turn, are no turns: they go on beside the threads that solve.
 class SolverPool {
  public:
   /// Starts the threads; the core must outlive them.
@@ -52,7 +53,6 @@ class SolverPool {
   void rest(Lock& lock);
   void take_turn(Lock& lock, const Mesh& mesh, Lane lane, Working& working);
 
-  void look_for(Lock& lock, const Mesh& mesh);
   void iterate(Lock& lock, const Mesh& mesh, Lane lane, Working& working);
   void solve_exactly(Lock& lock, const Mesh& mesh, Working& working);
   void sweep(Lock& lock, const Mesh& mesh, Working& working);
@@ -72,6 +72,7 @@ class SolverPool {
   EngineCore& _core;
   std::list<Working> _working;
   int _resting = 0;
+  int _at_stage_ends = 0;
   bool _watched = false;  ///< one of those that rest wakes up by itself
   std::list<std::thread> _threads;
 };

@@ -149,8 +149,7 @@ void end_stage(EngineCore& core, EngineCore::Lock& lock, const JobPtr& job) {
   lock.lock();
 }
 
-bool fall_back_a_stage(EngineCore& core, const EngineCore::Lock& /*held*/, const JobPtr& job,
-                       const Error& error) {
+bool fall_back_a_stage(EngineCore& core, const JobPtr& job, const Error& error) {
   if (!job->stages || job->stages->records.size() < 2 || job->why != Stop::none || job->ending ||
       error.reason() != Reason::limit_exceeded)
     return false;

@@ -12,8 +12,7 @@ void end_stage(EngineCore& core, EngineCore::Lock& lock, const JobPtr& job);
 
 /// The mesh of a job's stage turned out to be too large for the memory: the job ends with the
 /// answers of the stage before, or solves that again where a restart has lost them. False: there is
-/// none, or it must stop anyway.
-bool fall_back_a_stage(EngineCore& core, const EngineCore::Lock& held, const JobPtr& job,
-                       const errors::Error& error);
+/// none, or it must stop anyway. With the lock held.
+bool fall_back_a_stage(EngineCore& core, const JobPtr& job, const errors::Error& error);
 
 }  // namespace anticrack::jobs

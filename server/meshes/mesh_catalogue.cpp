@@ -140,6 +140,8 @@ struct MeshCatalogue::State {
     --claims;
     if (record != nullptr) {
       mesh.stage = record->sha256.empty() ? Stage::pending : Stage::meshed;
+      mesh.sha256 = record->sha256;
+      if (record->triangle_count > 0) mesh.size_class = size_class(record->triangle_count);
       mesh.error.reset();
       mesh.for_job = record->for_job;
       ++mesh.version;
@@ -147,6 +149,7 @@ struct MeshCatalogue::State {
     } else if (mesh.stage == Stage::absent) {
       index().remove(id);
     }
+    preparation.serve(id);
     preparation.notify();
   }
 };
@@ -164,8 +167,8 @@ MeshRecord MeshCatalogue::create(const store::MeshDefinition& definition, const 
   const std::string id = identity(definition, owner).substr(0, id_digits);
   Preparation& preparation = _state->preparation;
   {
-    auto lock = preparation.lock();
-    if (_state->resume(preparation.settled(lock, id), id, for_job)) {
+    auto lock = preparation.lock_settled(id);
+    if (_state->resume(_state->index().find(id), id, for_job)) {
       lock.unlock();
       return get(id);
     }
@@ -211,8 +214,8 @@ MeshRecord MeshCatalogue::refine(const Parent& parent, std::span<const std::uint
   record.id = identity(definition, parent.owner).substr(0, id_digits);
   Preparation& preparation = _state->preparation;
   {
-    auto lock = preparation.lock();
-    const LiveMesh* mesh = preparation.settled(lock, record.id);
+    auto lock = preparation.lock_settled(record.id);
+    const LiveMesh* mesh = _state->index().find(record.id);
     if (mesh != nullptr && mesh->stage == Stage::meshed) {
       lock.unlock();
       return get(record.id);
@@ -247,9 +250,7 @@ MeshRecord MeshCatalogue::refine(const Parent& parent, std::span<const std::uint
   }
   const auto lock = preparation.lock();
   _state->end_claim(record.id, &record, false);
-  LiveMesh& mesh = _state->index().known(record.id);
-  mesh.sha256 = record.sha256;
-  mesh.size_class = meshes::size_class(record.triangle_count);
+  const LiveMesh& mesh = _state->index().known(record.id);
   return seen(mesh, std::move(record), false);
 }
 
@@ -290,8 +291,7 @@ std::shared_ptr<const store::BlockSource> MeshCatalogue::read(const std::string&
 
 MeshRecord MeshCatalogue::warm(const std::string& id, bool pin) {
   {
-    auto lock = _state->preparation.lock();
-    _state->preparation.settled(lock, id);
+    const auto lock = _state->preparation.lock_settled(id);
     LiveMesh& mesh = _state->index().known(id);
     if (mesh.stage == Stage::failed) throw Error(*mesh.error);
     const bool there = mesh.stage == Stage::meshed &&
@@ -326,13 +326,12 @@ MeshRecord MeshCatalogue::evict(const std::string& id) {
 void MeshCatalogue::erase(const std::string& id) {
   Preparation& preparation = _state->preparation;
   MeshIndex& index = preparation.index();
-  auto lock = preparation.lock();
-  preparation.settled(lock, id);
+  auto lock = preparation.lock_settled(id);
   LiveMesh& mesh = index.known(id);
   if (!mesh.users.expired())
     throw in_use(id, "a job that has not ended needs it; wait for it or cancel it");
-  const std::shared_ptr<Run> run =
-      preparation.give_up(mesh, Error(Reason::not_found, "meshes/" + id + " was deleted"));
+  preparation.fail_waits(mesh, Error(Reason::not_found, "meshes/" + id + " was deleted"));
+  const std::shared_ptr<Run> run = preparation.give_up(mesh);
   const Stage stage = std::exchange(mesh.stage, Stage::absent);
   mesh.claimed = true;
   lock.unlock();
@@ -369,10 +368,8 @@ std::shared_ptr<void> MeshCatalogue::use(const std::string& id) {
   return user;
 }
 
-std::shared_ptr<const operators::MeshOperator> MeshCatalogue::prepare(
-    const std::string& id, const PhaseListener& listener, std::stop_token stop,
-    const ProgressListener& progress) {
-  return _state->preparation.prepare(id, listener, stop, progress);
+std::unique_ptr<MeshWaits> MeshCatalogue::waits(std::function<void(const MeshNews&)> tell) {
+  return _state->preparation.waits(std::move(tell));
 }
 
 std::shared_ptr<const operators::MeshOperator> MeshCatalogue::find(const std::string& id) const {
@@ -391,12 +388,6 @@ bool MeshCatalogue::pinned(const std::string& id) const {
 }
 
 std::uint64_t MeshCatalogue::meshings() const noexcept { return _state->preparation.meshings(); }
-
-int MeshCatalogue::size_class(const std::string& id) const {
-  const auto lock = _state->preparation.lock();
-  const LiveMesh* mesh = _state->index().find(id);
-  return mesh == nullptr ? 0 : mesh->size_class;
-}
 
 int MeshCatalogue::pending() const {
   const auto lock = _state->preparation.lock();

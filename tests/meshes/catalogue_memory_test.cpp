@@ -112,10 +112,8 @@ TEST_F(Memory, GoesWithAMeshThatIsErasedWhileItIsFactorised) {
   const std::string id = backend.create();
   ASSERT_TRUE(reaches(id, MeshState::factorizing));
   std::stop_source stop;
-  auto caller = std::async(std::launch::async, [&] {
-    return backend.catalogue.prepare(
-        id, [](MeshState) {}, stop.get_token());
-  });
+  auto caller =
+      std::async(std::launch::async, [&] { return backend.prepare(id, stop.get_token()); });
   backend.catalogue.erase(id);
   EXPECT_TRUE(throws([&] { caller.get(); }, Reason::not_found));
   EXPECT_TRUE(throws([&] { backend.catalogue.get(id); }, Reason::not_found));

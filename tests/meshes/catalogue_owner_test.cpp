@@ -69,10 +69,7 @@ TEST_F(Owners, GetTheOperatorsThoughTheOtherStoppedWaitingForThem) {
   backend.catalogue.evict(ann);
   backend.door.shut();
   const auto prepare = [&](const std::string& id, std::stop_token stop) {
-    return std::async(std::launch::async, [this, id, stop] {
-      return backend.catalogue.prepare(
-          id, [](MeshState) {}, stop);
-    });
+    return std::async(std::launch::async, [this, id, stop] { return backend.prepare(id, stop); });
   };
   std::stop_source stop;
   auto first = prepare(ann, stop.get_token());
