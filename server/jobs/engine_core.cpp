@@ -74,9 +74,10 @@ void EngineCore::add(const JobPtr& job) {
   numbers.emplace(job->number, job);
   ++live;
   if (const auto mesh = enter_mesh(job); !mesh->phase.empty()) {
-    job->state = JobState::waiting_for_mesh;
-    add_step(job->timeline, job->state, mesh->phase);
-    job->log->append(PhaseEvent{job->state, mesh->phase});  // there are no watchers yet
+    job->enter(Phase::waiting_for_mesh);
+    add_step(job->timeline, JobState::waiting_for_mesh, mesh->phase);
+    // There are no watchers yet.
+    job->log->append(PhaseEvent{JobState::waiting_for_mesh, mesh->phase});
   }
 }
 
@@ -143,20 +144,20 @@ void EngineCore::begin_sweep(const JobPtr& job, SweepPlan plan) {
 }
 
 void EngineCore::settle(const JobPtr& job) {
-  if (job->ending || job->active > 0 || job->next_unit < job->units) return;
+  if (job->is_ending() || job->active > 0 || job->next_unit < job->units) return;
   if (job->stages && !job->stages->over && job->why == Stop::none) {
     ++job->active;
     to_refine.push(job->created.owner, job);
     solvers.notify_one();
     return;
   }
-  job->ending = true;
+  const bool interrupted = job->why == Stop::interrupted;
+  job->enter(interrupted ? Phase::over : Phase::ending);
   leave(job);
   --live;
-  if (job->why == Stop::interrupted) {
+  if (interrupted) {
     admission.ended(job->created.owner, job->spec_bytes);
-    running -= job->state == JobState::running ? 1 : 0;
-    job->state = JobState::queued;
+    running -= job->started ? 1 : 0;
     job->mesh_operator.reset();
     job->spool.reset();
     job->sweep.reset();
@@ -172,7 +173,7 @@ void EngineCore::settle(const JobPtr& job) {
 
 void EngineCore::leave(const JobPtr& job) {
   admission.cases_ended(job->spec->mesh, std::exchange(job->queued_cases, 0));
-  if (job->state != JobState::running) admission.started();
+  if (!job->started) admission.started();
   deadlines.clear(job->number);
   numbers.erase(job->number);
   leave_mesh(job);
@@ -191,9 +192,10 @@ void EngineCore::release(const std::shared_ptr<MeshWork>& mesh) {
   meshes.erase(mesh->id);
 }
 
-void EngineCore::deliver(Lock& lock, std::vector<EndedCase> cases) {
+void EngineCore::deliver(std::vector<EndedCase> cases) {
   if (cases.empty()) return;
   bool trim = false;
+  Lock lock(mutex);
   for (EndedCase& ended_case : cases) {
     LiveJob& job = *ended_case.task.job;
     if (job.stages && ended_case.task.index < job.stages->before.size()) {
@@ -241,15 +243,14 @@ void EngineCore::deliver(Lock& lock, std::vector<EndedCase> cases) {
   }
 }
 
-void EngineCore::deliver(Lock& lock, EndedChunk chunk) {
+void EngineCore::deliver(EndedChunk chunk) {
   const JobPtr job = chunk.task.job;
   const std::size_t place = chunk.task.index;
-  lock.unlock();
   if (chunk.failure)
     stop(job, Stop::failed, chunk.failure);
   else if (chunk.columns)
     job->log->append(RowsEvent{job->sweep->plan.first_row(place), chunk.columns});
-  lock.lock();
+  const std::lock_guard lock(mutex);
   cases_ended += chunk.record.converged + chunk.record.not_converged;
   jobs::add(job->sweep_record, chunk.record);
   job->sweep->chunks[place] = std::move(chunk.solved);
@@ -277,9 +278,9 @@ std::vector<EndedCase> EngineCore::take_stopped(MeshWork& mesh) {
 void EngineCore::stop(const JobPtr& job, Stop why, const std::optional<Error>& failure) {
   std::vector<EndedCase> stopped;
   Lock lock(mutex);
-  if (job->ending) {
+  if (job->is_ending()) {
     if (why != Stop::cancelled) return;
-    if (job->refused) {
+    if (job->phase == Phase::refused) {
       job->why = why;
       ending.notify_one();
     }
@@ -296,8 +297,7 @@ void EngineCore::stop(const JobPtr& job, Stop why, const std::optional<Error>& f
   settle(job);
   lock.unlock();
   job->stop.request_stop();
-  lock.lock();
-  deliver(lock, std::move(stopped));
+  deliver(std::move(stopped));
 }
 
 }  // namespace anticrack::jobs

@@ -141,10 +141,6 @@ class EngineCore {
   void end_wait(MeshWork& mesh);
   /// Releases the mesh's operator if nothing needs it.
   void release(const std::shared_ptr<MeshWork>& mesh);
-  /// Reports the cases and counts them as ended. Releases the lock meanwhile.
-  void deliver(Lock& lock, std::vector<EndedCase> cases);
-  /// Reports the rows of a chunk and counts it as ended. Releases the lock meanwhile.
-  void deliver(Lock& lock, EndedChunk chunk);
   /// The jobs for which `wanted` is true.
   template <class Wanted>
   std::vector<JobPtr> select(const Wanted& wanted) const {
@@ -156,6 +152,10 @@ class EngineCore {
 
   // Without the lock:
 
+  /// Reports the cases and counts them as ended.
+  void deliver(std::vector<EndedCase> cases);
+  /// Reports the rows of a chunk and counts it as ended.
+  void deliver(EndedChunk chunk);
   /// Stops a job wherever it is. The first reason counts; one that only waits for the disk can be
   /// cancelled.
   void stop(const JobPtr& job, Stop why, const std::optional<errors::Error>& failure = {});

@@ -21,7 +21,6 @@ namespace {
 using errors::Error;
 using errors::Reason;
 using store::JobRecord;
-using store::JobState;
 
 Error unknown(const std::string& id) { return {Reason::not_found, "there is no jobs/" + id}; }
 
@@ -156,13 +155,12 @@ void JobEngine::stop(std::chrono::milliseconds grace) {
   };
   EngineCore::Lock lock(core.mutex);
   core.draining = true;
-  const auto waiting =
-      core.select([](const LiveJob& job) { return job.state != JobState::running; });
+  const auto waiting = core.select([](const LiveJob& job) { return !job.started; });
   lock.unlock();
   interrupt(waiting);
   lock.lock();
   core.settled.wait_for(lock, grace, [&] { return core.live == 0 && core.not_announced == 0; });
-  const auto running = core.select([](const LiveJob& job) { return !job.ending; });
+  const auto running = core.select([](const LiveJob& job) { return !job.is_ending(); });
   lock.unlock();
   interrupt(running);
   lock.lock();
@@ -202,7 +200,7 @@ EngineMetrics JobEngine::metrics() const {
   metrics.job_memory_limit = core.options.max_job_memory;
   const auto now = EngineCore::Clock::now();
   for (const auto& [number, job] : core.numbers) {
-    if (job->state != JobState::running) {
+    if (!job->started) {
       metrics.oldest_wait =
           std::max<std::chrono::duration<double>>(metrics.oldest_wait, now - job->since);
     }

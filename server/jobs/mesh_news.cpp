@@ -50,8 +50,8 @@ PhaseEvents events_of(MeshWork& mesh, const store::MeshProgress& progress) {
   mesh.progress_told = now;
   PhaseEvents events;
   for (const auto& [number, job] : mesh.jobs)
-    if (job->state == JobState::waiting_for_mesh)
-      events.push_back({job->log, {job->state, text_of(progress)}});
+    if (job->phase == Phase::waiting_for_mesh)
+      events.push_back({job->log, {JobState::waiting_for_mesh, text_of(progress)}});
   return events;
 }
 
@@ -60,13 +60,13 @@ PhaseEvents begin_phase(MeshWork& mesh, const std::string& phase) {
   mesh.phase = phase;
   PhaseEvents events;
   for (const auto& [number, job] : mesh.jobs) {
-    if (job->state == JobState::running) {  // a stage of it
-      events.push_back({job->log, {job->state, stage_name(*job) + ": " + phase}});
+    if (job->started) {  // a stage of it
+      events.push_back({job->log, {JobState::running, stage_name(*job) + ": " + phase}});
       continue;
     }
-    job->state = JobState::waiting_for_mesh;
-    add_step(job->timeline, job->state, phase);
-    events.push_back({job->log, {job->state, phase}});
+    job->enter(Phase::waiting_for_mesh);
+    add_step(job->timeline, JobState::waiting_for_mesh, phase);
+    events.push_back({job->log, {JobState::waiting_for_mesh, phase}});
   }
   return events;
 }

@@ -25,14 +25,18 @@ RetentionThread::~RetentionThread() { _thread.join(); }
 void RetentionThread::work() {
   Lock lock(_core.mutex);
   while (!_core.quitting) {
-    if (_core.ended_since_sweep || Clock::now() >= _next_sweep)
-      sweep(lock);
-    else
+    if (!_core.ended_since_sweep && Clock::now() < _next_sweep) {
       _core.sweeping.wait_until(lock, _next_sweep);
+      continue;
+    }
+    lock.unlock();
+    sweep();
+    lock.lock();
   }
 }
 
-void RetentionThread::sweep(Lock& lock) {
+void RetentionThread::sweep() {
+  Lock lock(_core.mutex);
   _core.ended_since_sweep = false;
   const auto now = store::Clock::now();
   const Expiry expiry = _core.retention.due(now);

@@ -26,7 +26,7 @@ class RetentionThread {
   using Clock = EngineCore::Clock;
 
   void work();
-  void sweep(Lock& lock);
+  void sweep();
 
   EngineCore& _core;
   Clock::time_point _next_sweep{};  ///< of uploads

@@ -51,17 +51,18 @@ class SolverPool {
   /// There is always a thread that waits, to see that all others are at long steps.
   void keep_a_spare();
   void rest(Lock& lock);
-  void take_turn(Lock& lock, const Mesh& mesh, Lane lane, Working& working);
 
-  void iterate(Lock& lock, const Mesh& mesh, Lane lane, Working& working);
-  void solve_exactly(Lock& lock, const Mesh& mesh, Working& working);
-  void sweep(Lock& lock, const Mesh& mesh, Working& working);
+  // Without the lock; a turn each:
+  void iterate(const Mesh& mesh, Lane lane, Working& working);
+  void solve_exactly(const Mesh& mesh, Working& working);
+  void sweep(const Mesh& mesh, Working& working);
+  // and its parts:
+  void admit(const Mesh& mesh, Lane lane, std::shared_ptr<BlockRun>& block);
+  std::vector<EndedCase> step(BlockRun& block);
+  /// Units of the most urgent jobs, which are started where they were not. Counted in
+  /// EngineCore::columns.
+  std::vector<Task> take(const Mesh& mesh, Lane lane, int room, int max_starts);
 
-  void admit(Lock& lock, const Mesh& mesh, Lane lane, std::shared_ptr<BlockRun>& block);
-  std::vector<EndedCase> step(Lock& lock, BlockRun& block);
-
-  /// Units of the most urgent jobs, which are started where they were not.
-  std::vector<Task> take(Lock& lock, const Mesh& mesh, Lane lane, int room, int max_starts);
   bool turn_is_over(const MeshWork& mesh, Lane lane, const Working& working) const;
   /// A load case waits that is more urgent than all of a block that has no place for it.
   bool overtaken(const MeshWork& mesh, Lane lane, const BlockRun& block) const;

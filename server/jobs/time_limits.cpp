@@ -43,30 +43,28 @@ TimeLimits::~TimeLimits() { _thread.join(); }
 void TimeLimits::work() {
   EngineCore::Lock lock(_core.mutex);
   while (!_core.quitting) {
+    std::vector<std::pair<JobPtr, Error>> late;
     const auto due = _core.deadlines.take(EngineCore::Clock::now());
-    for (const Deadlines::Entry& entry : due) act(lock, entry);
-    if (!due.empty()) continue;
-    if (const auto next = _core.deadlines.next())
-      _core.limits.wait_until(lock, *next);
-    else
-      _core.limits.wait(lock);
+    for (const auto& [number, what] : due) {
+      const JobPtr job = _core.numbers.at(number);
+      if (what != Due::start)
+        late.emplace_back(job, what == Due::queue_time
+                                   ? waited_too_long(queue_limit(*job, _core.options))
+                                   : ran_too_long(run_limit(*job, _core.options)));
+      else if (job->why == Stop::none)
+        _core.offer(job);
+    }
+    if (!late.empty()) {
+      lock.unlock();
+      for (const auto& [job, error] : late) _core.stop(job, Stop::failed, error);
+      lock.lock();
+    } else if (due.empty()) {
+      if (const auto next = _core.deadlines.next())
+        _core.limits.wait_until(lock, *next);
+      else
+        _core.limits.wait(lock);
+    }
   }
-}
-
-void TimeLimits::act(EngineCore::Lock& lock, const Deadlines::Entry& entry) {
-  const auto found = _core.numbers.find(entry.first);
-  if (found == _core.numbers.end()) return;  // it ended while another was dealt with
-  const JobPtr job = found->second;
-  if (entry.second == Due::start) {
-    if (job->why == Stop::none) _core.offer(job);
-    return;
-  }
-  const Error error = entry.second == Due::queue_time
-                          ? waited_too_long(queue_limit(*job, _core.options))
-                          : ran_too_long(run_limit(*job, _core.options));
-  lock.unlock();
-  _core.stop(job, Stop::failed, error);
-  lock.lock();
 }
 
 }  // namespace anticrack::jobs

@@ -22,7 +22,6 @@ class TimeLimits {
 
  private:
   void work();
-  void act(EngineCore::Lock& lock, const Deadlines::Entry& entry);
 
   EngineCore& _core;
   std::thread _thread;
