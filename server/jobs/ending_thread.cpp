@@ -63,9 +63,7 @@ void EndingThread::End::without_result(JobState state, const std::optional<Error
 }
 
 EndingThread::EndingThread(EngineCore& core)
-    : _core(core), _thread(core.start(EngineCore::Lock(core.mutex), [this] { work(); })) {}
-
-EndingThread::~EndingThread() { _thread.join(); }
+    : _core(core), _thread(core.start([this] { work(); })) {}
 
 void EndingThread::work() {
   Lock lock(_core.mutex);

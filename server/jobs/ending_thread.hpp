@@ -22,10 +22,9 @@ namespace anticrack::jobs {
 /// runs it again).
 class EndingThread {
  public:
-  /// Starts the thread; the core must outlive it.
+  /// Starts the thread, which is joined at the end: EngineCore::quitting must be set then. The core
+  /// must outlive it.
   explicit EndingThread(EngineCore& core);
-  /// Joins the thread; EngineCore::quitting must be set.
-  ~EndingThread();
   EndingThread(const EndingThread&) = delete;
   EndingThread& operator=(const EndingThread&) = delete;
 
@@ -64,7 +63,7 @@ class EndingThread {
 
   EngineCore& _core;
   std::deque<End> _waiting;  ///< for the store; of this thread alone
-  std::thread _thread;
+  std::jthread _thread;
 };
 
 }  // namespace anticrack::jobs

@@ -8,7 +8,6 @@
 
 #include "fields/walk.hpp"
 #include "jobs/accuracy.hpp"
-#include "jobs/mesh_news.hpp"
 #include "operators/freed_memory.hpp"
 
 namespace anticrack::jobs {
@@ -53,18 +52,19 @@ EngineCore::EngineCore(EngineOptions engine_options, store::Store& records,
                  options.result_budget}),
       memory(std::make_shared<MemoryBudget>(options.max_job_memory)),
       logs(memory),
-      waits(catalogue.waits([this](const meshes::MeshNews& news) { hear(*this, news); })) {}
+      waits(catalogue, [this](const meshes::MeshNews& news) { hear(*this, news); }) {}
 
-void EngineCore::quit(const Lock& /*held*/) {
+void EngineCore::quit() {
+  const std::lock_guard lock(mutex);
   quitting = true;
   for (auto* changed : {&solvers, &ending, &sweeping, &limits}) changed->notify_all();
 }
 
-std::thread EngineCore::start(const Lock& held, std::function<void()> work) {
+std::jthread EngineCore::start(std::function<void()> work) {
   try {
-    return std::thread(std::move(work));
+    return std::jthread(std::move(work));
   } catch (const std::system_error&) {
-    quit(held);
+    quit();
     throw;
   }
 }
@@ -130,9 +130,9 @@ void EngineCore::offer(const JobPtr& job) {
   if (mesh.mesh_operator)
     solvers.notify_all();
   else if (mesh.wait > 0)
-    waits->join(mesh.wait, job->spec->priority, job->since);
+    waits.join(mesh.wait, job->spec->priority, job->since);
   else
-    mesh.wait = waits->begin(mesh.id, job->spec->priority, job->since);
+    mesh.wait = waits.begin(mesh.id, job->spec->priority, job->since);
 }
 
 void EngineCore::begin_sweep(const JobPtr& job, SweepPlan plan) {
@@ -180,7 +180,7 @@ void EngineCore::leave(const JobPtr& job) {
 }
 
 void EngineCore::end_wait(MeshWork& mesh) {
-  if (mesh.wait > 0) waits->end(std::exchange(mesh.wait, 0));
+  if (mesh.wait > 0) waits.end(std::exchange(mesh.wait, 0));
 }
 
 void EngineCore::release(const std::shared_ptr<MeshWork>& mesh) {

@@ -4,9 +4,10 @@
 //
 // A job goes this way: the schedule (its units wait: load cases, or chunks of its sweep) -> solver
 // threads (blocks, prepared cases) -> `to_end`, the ending thread's. LiveJob::active counts its
-// units between the first and the last step. The classes that own threads are SolverPool,
-// EndingThread and TimeLimits; each works on this with the mutex, and does what takes long without
-// it. What becomes of meshes is heard on a thread of the catalogue (mesh_news.hpp).
+// units between the first and the last step. Threads are those of SolverPool,
+// EndingThread, keep_time_limits and remove_what_is_too_old; each works on this with the mutex, and
+// does what takes long without it. What becomes of meshes is heard on a thread of the catalogue
+// (hear).
 #pragma once
 
 #include <array>
@@ -64,6 +65,13 @@ struct MeshWork {
   std::deque<PreparedCase> prepared;
 };
 
+class EngineCore;
+
+/// All jobs that wait for the mesh hear it: phases and progress as events, operators as turns on
+/// solver threads, an error as their end. Called by the catalogue, without the lock
+/// (mesh_news.cpp).
+void hear(EngineCore& core, const meshes::MeshNews& news);
+
 /// The mutex guards everything but the constants and `iterations`. It is never held over I/O, a
 /// solve, an event (listeners may come back to the engine) or a stop request.
 class EngineCore {
@@ -112,15 +120,9 @@ class EngineCore {
   int columns = 0;        ///< load cases on solver threads, one for a chunk
 
   /// For meshes. The last member: nothing is heard once the others go.
-  const std::unique_ptr<meshes::MeshWaits> waits;
+  meshes::MeshWaits waits;
 
   // With the lock held:
-
-  /// Tells all threads to end.
-  void quit(const Lock& held);
-  /// A thread that does `work`. Where there can be none (std::system_error) the others are told to
-  /// end, so that whoever owns them can join them.
-  std::thread start(const Lock& held, std::function<void()> work);
 
   /// Takes in a new job that is in the store and counted by `admission`.
   void add(const JobPtr& job);
@@ -141,16 +143,14 @@ class EngineCore {
   void end_wait(MeshWork& mesh);
   /// Releases the mesh's operator if nothing needs it.
   void release(const std::shared_ptr<MeshWork>& mesh);
-  /// The jobs for which `wanted` is true.
-  template <class Wanted>
-  std::vector<JobPtr> select(const Wanted& wanted) const {
-    std::vector<JobPtr> selected;
-    for (const auto& [id, job] : jobs)
-      if (wanted(*job)) selected.push_back(job);
-    return selected;
-  }
 
   // Without the lock:
+
+  /// Tells all threads to end.
+  void quit();
+  /// A thread that does `work`. Where there can be none (std::system_error) the others are told to
+  /// end, so that whoever owns them can join them.
+  std::jthread start(std::function<void()> work);
 
   /// Reports the cases and counts them as ended.
   void deliver(std::vector<EndedCase> cases);

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "jobs/mesh_news.hpp"
-
 #include <fmt/format.h>
 
 #include <utility>
 
 #include "errors/errors.hpp"
+#include "jobs/engine_core.hpp"
 #include "jobs/stage_end.hpp"
 
 namespace anticrack::jobs {
@@ -20,17 +19,12 @@ using PhaseEvents = std::vector<std::pair<std::shared_ptr<EventLog>, PhaseEvent>
 /// Each is an event in the logs of jobs.
 constexpr std::chrono::seconds between_reports{2};
 
-std::string text_of(MeshNews::Phase phase) {
-  switch (phase) {
-    case MeshNews::Phase::queued:
-      return "waiting for the mesher";
-    case MeshNews::Phase::meshing:
-      return "meshing";
-    case MeshNews::Phase::waits_for_memory:
-      return "waiting for memory to factorise";
-    default:
-      return "factorising";
-  }
+const char* text_of(MeshNews::Phase phase) {
+  using enum MeshNews::Phase;
+  return phase == queued             ? "waiting for the mesher"
+         : phase == meshing          ? "meshing"
+         : phase == waits_for_memory ? "waiting for memory to factorise"
+                                     : "factorising";
 }
 
 /// "meshing: bisecting a mesh, 120000 triangles".
@@ -43,30 +37,22 @@ std::string text_of(const store::MeshProgress& progress) {
   return text;
 }
 
-/// How far the mesher is, to those who watch the jobs. With the lock held.
-PhaseEvents events_of(MeshWork& mesh, const store::MeshProgress& progress) {
-  const auto now = EngineCore::Clock::now();
-  if (now - mesh.progress_told < between_reports) return {};
-  mesh.progress_told = now;
-  PhaseEvents events;
-  for (const auto& [number, job] : mesh.jobs)
-    if (job->phase == Phase::waiting_for_mesh)
-      events.push_back({job->log, {JobState::waiting_for_mesh, text_of(progress)}});
-  return events;
-}
-
 /// With the lock held.
-PhaseEvents begin_phase(MeshWork& mesh, const std::string& phase) {
-  mesh.phase = phase;
+PhaseEvents events_of(MeshWork& mesh, const MeshNews& news) {
+  const std::string text = news.progress ? text_of(*news.progress) : text_of(news.phase);
+  if (!news.progress) mesh.phase = text;
   PhaseEvents events;
   for (const auto& [number, job] : mesh.jobs) {
-    if (job->started) {  // a stage of it
-      events.push_back({job->log, {JobState::running, stage_name(*job) + ": " + phase}});
+    if (job->started) {  // a stage of it, whose mesh is not made by the mesher
+      if (!news.progress)
+        events.push_back({job->log, {JobState::running, stage_name(*job) + ": " + text}});
       continue;
     }
-    job->enter(Phase::waiting_for_mesh);
-    add_step(job->timeline, JobState::waiting_for_mesh, phase);
-    events.push_back({job->log, {JobState::waiting_for_mesh, phase}});
+    if (!news.progress) {
+      job->enter(Phase::waiting_for_mesh);
+      add_step(job->timeline, JobState::waiting_for_mesh, text);
+    }
+    events.push_back({job->log, {JobState::waiting_for_mesh, text}});
   }
   return events;
 }
@@ -98,9 +84,10 @@ void hear(EngineCore& core, const MeshNews& news) {
       core.solvers.notify_all();
     } else if (news.error) {
       failed = fail(core, *mesh, *news.error);
-    } else {
-      events = news.progress ? events_of(*mesh, *news.progress)
-                             : begin_phase(*mesh, text_of(news.phase));
+    } else if (const auto now = EngineCore::Clock::now();
+               !news.progress || now - mesh->progress_told >= between_reports) {
+      if (news.progress) mesh->progress_told = now;
+      events = events_of(*mesh, news);
     }
   }
   for (auto& [log, event] : events) log->append(std::move(event));

@@ -10,6 +10,8 @@ namespace anticrack::jobs {
 namespace {
 
 using meshes::class_of;
+using meshes::Last;
+using meshes::last_of;
 
 constexpr int nothing = std::numeric_limits<int>::max();
 
@@ -47,11 +49,6 @@ std::optional<Schedule::Place> Schedule::first(const Work& work, Time now) {
     }
   }
   return best;
-}
-
-Schedule::Last Schedule::last_of(const Lasts& lasts, const std::string& owner) {
-  const auto found = lasts.find(owner);
-  return found == lasts.end() ? Last{} : found->second;
 }
 
 void Schedule::add(const Waiting& job) {

@@ -14,7 +14,7 @@
 #include <string>
 #include <unordered_map>
 
-#include "meshes/urgency.hpp"
+#include "meshes/queue.hpp"
 #include "store/records.hpp"
 
 namespace anticrack::jobs {
@@ -42,7 +42,7 @@ struct Turn {
 };
 
 /// Contract:
-/// 1. Urgency is that of meshes/urgency.hpp. What waits for a turn on a mesh has waited since the
+/// 1. Urgency is that of meshes/queue.hpp. What waits for a turn on a mesh has waited since the
 ///    mesh's last turn at most, so that many old jobs on one mesh are no more urgent than one on
 ///    another.
 /// 2. Turns: owners first, the one with the most urgent work, at equal urgency the one whose turn
@@ -88,18 +88,12 @@ class Schedule {
   bool others(const std::string& mesh, Lane lane) const;
 
  private:
-  /// When an owner had the last turn.
-  struct Last {
-    Time time{};
-    std::uint64_t number = 0;
-  };
-  using Lasts = std::unordered_map<std::string, Last>;
   /// By number: the first is the one that waits longest.
   using Jobs = std::map<std::uint64_t, Time>;
 
   struct Work {
     std::array<std::map<std::string, Jobs>, meshes::priority_classes> jobs;  ///< by class and owner
-    Lasts taken;                                                             ///< by owner
+    meshes::Lasts taken;                                                     ///< by owner
     std::array<int, meshes::priority_classes> parked{};                      ///< by class
     std::uint64_t last_turn = 0;
     bool empty() const;
@@ -126,7 +120,6 @@ class Schedule {
   static int urgency(const Work& work, Time begin, Time now);
   /// The first job of a lane.
   static std::optional<Place> first(const Work& work, Time now);
-  static Last last_of(const Lasts& lasts, const std::string& owner);
   /// Who has the next turn.
   std::optional<std::string> next_owner(Time now, const Excluded& excluded) const;
   static bool has_turns(const std::string& id, const Mesh& mesh, const Excluded& excluded);
@@ -134,7 +127,7 @@ class Schedule {
   std::uint64_t _turns = 0;
   std::map<std::string, Mesh> _meshes;
   std::unordered_map<std::uint64_t, Waiting> _jobs;
-  Lasts _served;  ///< by owner
+  meshes::Lasts _served;  ///< by owner
 };
 
 }  // namespace anticrack::jobs

@@ -30,21 +30,11 @@ contact::Mass mass_of(Lane lane) {
 }  // namespace
 
 SolverPool::SolverPool(EngineCore& core) : _core(core) {
-  Lock lock(core.mutex);
-  try {
-    for (std::size_t i = 0; i < threads(); ++i)
-      _threads.push_back(core.start(lock, [this] { work(); }));
-  } catch (...) {
-    lock.unlock();
-    join();
-    throw;
+  for (std::size_t i = 0; i < threads(); ++i) {
+    std::jthread thread = core.start([this] { work(); });
+    const std::lock_guard lock(core.mutex);
+    _threads.push_back(std::move(thread));
   }
-}
-
-SolverPool::~SolverPool() { join(); }
-
-void SolverPool::join() {
-  for (std::thread& thread : _threads) thread.join();
 }
 
 std::size_t SolverPool::threads() const noexcept {

@@ -28,10 +28,9 @@ namespace anticrack::jobs {
 /// (stage_end.hpp), owners in turn, are no turns: they go on beside the threads that solve.
 class SolverPool {
  public:
-  /// Starts the threads; the core must outlive them.
+  /// Starts the threads, which are joined at the end: EngineCore::quitting must be set then. The
+  /// core must outlive them.
   explicit SolverPool(EngineCore& core);
-  /// Joins the threads; EngineCore::quitting must be set.
-  ~SolverPool();
   SolverPool(const SolverPool&) = delete;
   SolverPool& operator=(const SolverPool&) = delete;
 
@@ -45,7 +44,6 @@ class SolverPool {
     EngineCore::Clock::time_point begin, step;  ///< of the turn, of what it is at now
   };
 
-  void join();
   void work();
   std::optional<Turn> next_turn();
   /// There is always a thread that waits, to see that all others are at long steps.
@@ -75,7 +73,7 @@ class SolverPool {
   int _resting = 0;
   int _at_stage_ends = 0;
   bool _watched = false;  ///< one of those that rest wakes up by itself
-  std::list<std::thread> _threads;
+  std::list<std::jthread> _threads;
 };
 
 }  // namespace anticrack::jobs

@@ -150,8 +150,8 @@ void end_stage(EngineCore& core, const JobPtr& job) {
 }
 
 bool fall_back_a_stage(EngineCore& core, const JobPtr& job, const Error& error) {
-  if (!job->stages || job->stages->records.size() < 2 || job->why != Stop::none || job->is_ending() ||
-      error.reason() != Reason::limit_exceeded)
+  if (!job->stages || job->stages->records.size() < 2 || job->why != Stop::none ||
+      job->is_ending() || error.reason() != Reason::limit_exceeded)
     return false;
   LiveStages& stages = *job->stages;
   core.withdraw(job);

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "jobs/time_limits.hpp"
-
 #include <string>
 
 #include "errors/errors.hpp"
 #include "jobs/job_start.hpp"
+#include "jobs/upkeep.hpp"
 
 namespace anticrack::jobs {
 
@@ -35,34 +34,29 @@ Error ran_too_long(std::chrono::milliseconds limit) {
 
 }  // namespace
 
-TimeLimits::TimeLimits(EngineCore& core)
-    : _core(core), _thread(core.start(EngineCore::Lock(core.mutex), [this] { work(); })) {}
-
-TimeLimits::~TimeLimits() { _thread.join(); }
-
-void TimeLimits::work() {
-  EngineCore::Lock lock(_core.mutex);
-  while (!_core.quitting) {
+void keep_time_limits(EngineCore& core) {
+  EngineCore::Lock lock(core.mutex);
+  while (!core.quitting) {
     std::vector<std::pair<JobPtr, Error>> late;
-    const auto due = _core.deadlines.take(EngineCore::Clock::now());
+    const auto due = core.deadlines.take(EngineCore::Clock::now());
     for (const auto& [number, what] : due) {
-      const JobPtr job = _core.numbers.at(number);
+      const JobPtr job = core.numbers.at(number);
       if (what != Due::start)
         late.emplace_back(job, what == Due::queue_time
-                                   ? waited_too_long(queue_limit(*job, _core.options))
-                                   : ran_too_long(run_limit(*job, _core.options)));
+                                   ? waited_too_long(queue_limit(*job, core.options))
+                                   : ran_too_long(run_limit(*job, core.options)));
       else if (job->why == Stop::none)
-        _core.offer(job);
+        core.offer(job);
     }
     if (!late.empty()) {
       lock.unlock();
-      for (const auto& [job, error] : late) _core.stop(job, Stop::failed, error);
+      for (const auto& [job, error] : late) core.stop(job, Stop::failed, error);
       lock.lock();
     } else if (due.empty()) {
-      if (const auto next = _core.deadlines.next())
-        _core.limits.wait_until(lock, *next);
+      if (const auto next = core.deadlines.next())
+        core.limits.wait_until(lock, *next);
       else
-        _core.limits.wait(lock);
+        core.limits.wait(lock);
     }
   }
 }

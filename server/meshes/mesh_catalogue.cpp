@@ -91,12 +91,11 @@ struct MeshCatalogue::State {
 
   MeshIndex& index() { return preparation.index(); }
 
-  /// The cache's key for the operators of a mesh, empty if it is not meshed; and its owner.
-  std::pair<std::string, std::string> key(const std::string& id) {
+  /// The cache's key for the operators of a mesh, empty if it is not meshed.
+  std::string key(const std::string& id) {
     const auto lock = preparation.lock();
     const LiveMesh* mesh = index().find(id);
-    if (mesh == nullptr || mesh->stage != Stage::meshed) return {};
-    return {mesh->sha256, mesh->owner};
+    return mesh == nullptr || mesh->stage != Stage::meshed ? std::string() : mesh->sha256;
   }
 
   // With the lock held:
@@ -157,6 +156,9 @@ struct MeshCatalogue::State {
 MeshCatalogue::MeshCatalogue(CatalogueOptions options, store::Store& store,
                              operators::OperatorCache& cache)
     : _state(std::make_unique<State>(std::move(options), store, cache)) {}
+
+MeshWaits::MeshWaits(MeshCatalogue& catalogue, Tell tell)
+    : _preparation(catalogue._state->preparation), _tell(std::move(tell)) {}
 
 MeshCatalogue::~MeshCatalogue() { _state->ends->forget(); }
 
@@ -368,22 +370,13 @@ std::shared_ptr<void> MeshCatalogue::use(const std::string& id) {
   return user;
 }
 
-std::unique_ptr<MeshWaits> MeshCatalogue::waits(std::function<void(const MeshNews&)> tell) {
-  return _state->preparation.waits(std::move(tell));
-}
-
-std::shared_ptr<const operators::MeshOperator> MeshCatalogue::find(const std::string& id) const {
-  const auto [key, owner] = _state->key(id);
-  return key.empty() ? nullptr : _state->cache.find(key, owner);
-}
-
 bool MeshCatalogue::ready(const std::string& id) const {
-  const std::string key = _state->key(id).first;
+  const std::string key = _state->key(id);
   return !key.empty() && _state->cache.contains(key);
 }
 
 bool MeshCatalogue::pinned(const std::string& id) const {
-  const std::string key = _state->key(id).first;
+  const std::string key = _state->key(id);
   return !key.empty() && _state->cache.pinned(key);
 }
 

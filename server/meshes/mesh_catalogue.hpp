@@ -28,7 +28,8 @@ struct CatalogueOptions {
   std::function<void(const store::MeshRecord&)> meshed = {};
 };
 
-/// Meshes and factorises new meshes in the background, in the order of queue.hpp. Thread-safe.
+/// Meshes and factorises new meshes in the background, in the order of queue.hpp; MeshWaits
+/// gives them to who needs them. Thread-safe.
 ///
 /// On disk a mesh is PENDING, EVICTED (meshed) or FAILED. At start, meshes that are still PENDING
 /// are scheduled, oldest first, but for those that are only there for jobs. A mesh for which the
@@ -81,12 +82,6 @@ class MeshCatalogue {
   /// Throws not_found.
   std::shared_ptr<void> use(const std::string& id);
 
-  /// For who needs operators and does not want to sleep for them. A wait meshes and factorises if
-  /// necessary, and fails with the error of a failed mesh, not_found, or disk_full or storage where
-  /// the mesh could not be written. `tell` must not throw. The catalogue must outlive it.
-  std::unique_ptr<MeshWaits> waits(std::function<void(const MeshNews&)> tell);
-  /// The operator if it is in memory, else null. Does not block.
-  std::shared_ptr<const operators::MeshOperator> find(const std::string& id) const;
   /// Whether the operators are in memory.
   bool ready(const std::string& id) const;
 
@@ -95,6 +90,7 @@ class MeshCatalogue {
   int pending() const;                       ///< meshes waiting for the mesher or in it
 
  private:
+  friend class MeshWaits;
   /// Throws as read().
   std::shared_ptr<const mesh::Mesh> triangulation(const std::string& id) const;
 

@@ -33,73 +33,55 @@ Error not_there(const std::string& mesh) {
 
 }  // namespace
 
-/// The waits of one: it knows their numbers only by Wait::whose.
-class Preparation::Waits final : public MeshWaits {
- public:
-  Waits(Preparation& preparation, std::function<void(const MeshNews&)> tell)
-      : _preparation(preparation), _tell(std::move(tell)) {}
+MeshWaits::~MeshWaits() {
+  Preparation::Lock held = _preparation.lock();
+  std::vector<std::uint64_t> own;
+  for (const auto& [number, wait] : _preparation._waits)
+    if (wait->whose == this) own.push_back(number);
+  for (const std::uint64_t number : own) end_held(number);
+  _preparation._delivered.wait(held, [&] { return _preparation._telling != this; });
+}
 
-  ~Waits() override {
-    Lock held = _preparation.lock();
-    std::vector<std::uint64_t> own;
-    for (const auto& [number, wait] : _preparation._waits)
-      if (wait->whose == this) own.push_back(number);
-    for (const std::uint64_t number : own) end_held(number);
-    _preparation._delivered.wait(held, [&] { return _preparation._telling != this; });
-  }
-
-  std::uint64_t begin(const std::string& id, store::Priority priority,
-                      Steady::time_point since) override {
-    const auto held = _preparation.lock();
-    const std::uint64_t number = ++_preparation._last_wait;
-    const auto wait = std::make_shared<Wait>(Wait{number, this, id, priority, since});
-    _preparation._waits.emplace(number, wait);
-    LiveMesh* mesh = _preparation._index.find(id);
-    if (mesh == nullptr || mesh->stage == Stage::absent) {
-      _preparation.tell(wait, {.phase = Phase::failed, .error = not_there(id)});
-      return number;
-    }
-    wait->joined = mesh->run != nullptr;
-    mesh->waits.push_back(wait);
-    _preparation.serve(id);
+std::uint64_t MeshWaits::begin(const std::string& id, store::Priority priority,
+                               std::chrono::steady_clock::time_point since) {
+  const auto held = _preparation.lock();
+  const std::uint64_t number = ++_preparation._last_wait;
+  const auto wait = std::make_shared<Wait>(Wait{number, this, id, priority, since});
+  _preparation._waits.emplace(number, wait);
+  LiveMesh* mesh = _preparation._index.find(id);
+  if (mesh == nullptr || mesh->stage == Stage::absent) {
+    _preparation.tell(wait, {.phase = Phase::failed, .error = not_there(id)});
     return number;
   }
+  wait->joined = mesh->run != nullptr;
+  mesh->waits.push_back(wait);
+  _preparation.serve(id);
+  return number;
+}
 
-  void join(std::uint64_t number, store::Priority priority, Steady::time_point since) override {
-    const auto held = _preparation.lock();
-    const auto found = _preparation._waits.find(number);
-    if (found == _preparation._waits.end()) return;
-    const LiveMesh* mesh = _preparation._index.find(found->second->mesh);
-    if (mesh != nullptr && mesh->run) _preparation._queue.await(mesh->run->place, priority, since);
+void MeshWaits::join(std::uint64_t number, store::Priority priority,
+                     std::chrono::steady_clock::time_point since) {
+  const auto held = _preparation.lock();
+  const LiveMesh* mesh = _preparation._index.find(_preparation._waits.at(number)->mesh);
+  if (mesh != nullptr && mesh->run) _preparation._queue.await(mesh->run->place, priority, since);
+}
+
+void MeshWaits::end(std::uint64_t number) {
+  const auto held = _preparation.lock();
+  end_held(number);
+}
+
+void MeshWaits::end_held(std::uint64_t number) {
+  const auto ended = _preparation._waits.extract(number);
+  if (ended.empty()) return;
+  Wait& wait = *ended.mapped();
+  wait.over = true;
+  if (wait.place > 0) {
+    _preparation._queue.let_go(wait.place);
+    _preparation.notify();
+  } else if (LiveMesh* mesh = _preparation._index.find(wait.mesh)) {
+    if (std::erase(mesh->waits, ended.mapped()) > 0) _preparation.give_up_unwanted(*mesh);
   }
-
-  void end(std::uint64_t number) override {
-    const auto held = _preparation.lock();
-    end_held(number);
-  }
-
-  void tell(const MeshNews& news) const { _tell(news); }
-
- private:
-  void end_held(std::uint64_t number) {
-    const auto ended = _preparation._waits.extract(number);
-    if (ended.empty()) return;
-    Wait& wait = *ended.mapped();
-    wait.over = true;
-    if (wait.place > 0) {
-      _preparation._queue.let_go(wait.place);
-      _preparation.notify();
-    } else if (LiveMesh* mesh = _preparation._index.find(wait.mesh)) {
-      if (std::erase(mesh->waits, ended.mapped()) > 0) _preparation.give_up_unwanted(*mesh);
-    }
-  }
-
-  Preparation& _preparation;
-  const std::function<void(const MeshNews&)> _tell;
-};
-
-std::unique_ptr<MeshWaits> Preparation::waits(std::function<void(const MeshNews&)> tell) {
-  return std::make_unique<Waits>(*this, std::move(tell));
 }
 
 Preparation::Preparation(CatalogueOptions options, store::Store& store,
@@ -286,7 +268,7 @@ void Preparation::deliver() {
       if (wait->over) continue;
       _telling = wait->whose;
       held.unlock();
-      static_cast<const Waits*>(wait->whose)->tell(news);
+      wait->whose->_tell(news);
       held.lock();
       _telling = nullptr;
       _delivered.notify_all();

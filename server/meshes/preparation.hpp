@@ -72,8 +72,6 @@ class Preparation {
   // Without it:
   /// The record with its current state. Throws errors::Error (not_found).
   store::MeshRecord record(const std::string& id);
-  /// MeshCatalogue::waits.
-  std::unique_ptr<MeshWaits> waits(std::function<void(const MeshNews&)> tell);
   /// The last job that used the mesh has ended: stops its run if nobody else wants it.
   void let_go(const std::string& id);
   std::uint64_t meshings() const noexcept { return _meshings; }
@@ -81,7 +79,7 @@ class Preparation {
  private:
   using RunPtr = std::shared_ptr<Run>;
   using Steady = std::chrono::steady_clock;
-  class Waits;
+  friend class MeshWaits;
 
   void recover();
   store::MeshRecord stored(const std::string& id) const;

@@ -51,11 +51,6 @@ bool Queue::may_begin(const Waiting& one) const {
          (!one.awaited || ahead < most(ahead_at_once, own));
 }
 
-Queue::Start Queue::last_start(const std::string& owner) const {
-  const auto found = _started.find(owner);
-  return found == _started.end() ? Start{} : found->second;
-}
-
 std::optional<std::uint64_t> Queue::next(Time now) {
   using Rank = std::tuple<int, std::ptrdiff_t, std::uint64_t, int>;
   auto best = _waiting.end();
@@ -63,7 +58,7 @@ std::optional<std::uint64_t> Queue::next(Time now) {
   for (auto one = _waiting.begin(); one != _waiting.end(); ++one) {
     const Waiting& waiting = one->second;
     if (!may_begin(waiting)) continue;
-    const Start last = last_start(waiting.owner);
+    const Last last = last_of(_started, waiting.owner);
     int since_start = std::numeric_limits<int>::max(), in_all = since_start;
     for (std::size_t priority = 0; priority < priority_classes; ++priority) {
       if (!waiting.since[priority]) continue;

@@ -3,18 +3,48 @@
 // Which mesh is made or factorised next: the policy, without threads or locks.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
 #include <unordered_map>
 
-#include "meshes/urgency.hpp"
 #include "store/records.hpp"
 
 namespace anticrack::meshes {
+
+/// Waiting this long is worth one class of priority.
+constexpr std::chrono::seconds ageing{30};
+constexpr std::size_t priority_classes = 3;
+
+/// 0 is the most urgent.
+constexpr std::size_t class_of(store::Priority priority) noexcept {
+  return static_cast<std::size_t>(priority) -
+         static_cast<std::size_t>(store::Priority::interactive);
+}
+
+/// The class to which something of `priority_class` has risen that has waited since `since`: 0 at
+/// last.
+inline int urgency(std::size_t priority_class, std::chrono::steady_clock::time_point since,
+                   std::chrono::steady_clock::time_point now) noexcept {
+  const std::int64_t risen = static_cast<std::int64_t>(priority_class) - (now - since) / ageing;
+  return static_cast<int>(std::max<std::int64_t>(0, risen));
+}
+
+/// When each owner had something last.
+struct Last {
+  std::chrono::steady_clock::time_point time{};
+  std::uint64_t number = 0;  ///< in the order in which all owners had it
+};
+using Lasts = std::unordered_map<std::string, Last>;
+inline Last last_of(const Lasts& lasts, const std::string& owner) {
+  const auto found = lasts.find(owner);
+  return found == lasts.end() ? Last{} : found->second;
+}
 
 /// Contract:
 /// 1. Of a class of sizes (size_class.hpp) two have a thread at a time. Where somebody awaits the
@@ -22,7 +52,7 @@ namespace anticrack::meshes {
 ///    fewer than three are with a thread or pinned. Up to twice as many of each if the owner has a
 ///    name and none there: large meshes are to hold up no small ones, and those of one owner no
 ///    other.
-/// 2. The next is the most urgent one (urgency.hpp) that may begin, as if it had waited since the
+/// 2. The next is the most urgent one that may begin, as if it had waited since the
 ///    last start of its owner at most; at equal urgency one of the owner who has the fewest with a
 ///    thread, then of who had a start longest ago, then the one that is more urgent by all its
 ///    waiting, then the one that came first.
@@ -58,18 +88,12 @@ class Queue {
     bool at_work = true;
     int holders = 0;
   };
-  struct Start {
-    Time time{};
-    std::uint64_t number = 0;
-  };
-
   bool may_begin(const Waiting& one) const;
-  Start last_start(const std::string& owner) const;
 
   std::uint64_t _last = 0, _starts = 0;
   std::map<std::uint64_t, Waiting> _waiting;
   std::map<std::uint64_t, Place> _places;
-  std::unordered_map<std::string, Start> _started;  ///< by owner
+  Lasts _started;
 };
 
 }  // namespace anticrack::meshes

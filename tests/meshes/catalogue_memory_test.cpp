@@ -80,7 +80,7 @@ TEST_F(Memory, IsPinnedWhenItHasCome) {
 
 TEST_F(Memory, IsNotEvictedWhileItIsHeldOrMade) {
   const std::string id = ready_mesh();
-  auto held = backend.catalogue.find(id);
+  auto held = backend.prepare(id);
   EXPECT_TRUE(throws([&] { backend.catalogue.evict(id); }, Reason::in_use));
   held.reset();
   backend.catalogue.evict(id);

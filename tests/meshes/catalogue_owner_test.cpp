@@ -58,7 +58,7 @@ TEST_F(Owners, ShareTheTriangulationAndTheOperators) {
   EXPECT_EQ(second.owner, "bob");
   EXPECT_EQ(second.node_count, first.node_count);
   EXPECT_EQ(second.operator_bytes, first.operator_bytes);
-  EXPECT_EQ(backend.catalogue.find(ann), backend.catalogue.find(bob));
+  EXPECT_EQ(backend.prepare(ann), backend.prepare(bob));
 }
 
 TEST_F(Owners, GetTheOperatorsThoughTheOtherStoppedWaitingForThem) {

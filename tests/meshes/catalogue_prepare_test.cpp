@@ -47,7 +47,6 @@ TEST_F(Prepare, SharesTheWorkWithTheBackgroundAndOthers) {
     EXPECT_EQ(callers[i].get(), first);
   }
   EXPECT_EQ(prepare(id), first);
-  EXPECT_EQ(backend.catalogue.find(id), first);
   EXPECT_EQ(backend.catalogue.meshings(), 1U);
   EXPECT_EQ(backend.cache.metrics().factorizations, 1U);
   EXPECT_TRUE(reaches(id, MeshState::ready));
@@ -60,7 +59,6 @@ TEST_F(Prepare, SaysEvictedWhenTheFactorsAreGoneAndMakesThemAgain) {
   EXPECT_EQ(state(id), MeshState::evicted);
   EXPECT_EQ(backend.catalogue.list({{}, 1, {}}).at(0).state, MeshState::evicted);
   EXPECT_FALSE(backend.catalogue.ready(id));
-  EXPECT_EQ(backend.catalogue.find(id), nullptr);
 
   std::vector<Phase> heard;
   const auto hear = [&](const MeshNews& news) { heard.push_back(news.phase); };

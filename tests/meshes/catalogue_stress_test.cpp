@@ -56,7 +56,7 @@ void prepare(Backend& backend, const std::string& id, std::mt19937& random,
   }
   const auto held = backend.prepare(id, stop.get_token());
   // It is held and used here, so it neither goes nor changes.
-  wrong += held && backend.catalogue.find(id) == held ? 0 : 1;
+  wrong += held && backend.prepare(id) == held ? 0 : 1;
   // Operators grow by what theta* takes; the record tells how large they were before or after.
   held->theta_star();
   const std::uint64_t told = backend.catalogue.get(id).operator_bytes;

@@ -99,14 +99,14 @@ class Backend {
     std::mutex mutex;
     std::condition_variable_any changed;
     std::optional<meshes::MeshNews> last;
-    const auto waits = catalogue.waits([&](const meshes::MeshNews& news) {
+    meshes::MeshWaits waits(catalogue, [&](const meshes::MeshNews& news) {
       if (hear) hear(news);
       if (news.phase < meshes::MeshNews::Phase::waits_for_memory) return;
       const std::lock_guard lock(mutex);
       last = news;
       changed.notify_all();
     });
-    waits->begin(id, store::Priority::normal, std::chrono::steady_clock::now());
+    waits.begin(id, store::Priority::normal, std::chrono::steady_clock::now());
     std::unique_lock lock(mutex);
     if (!changed.wait(lock, stop, [&] { return last.has_value(); }))
       throw errors::Error(errors::Reason::cancelled, "stopped");
