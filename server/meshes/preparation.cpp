@@ -53,7 +53,7 @@ std::uint64_t MeshWaits::begin(const std::string& id, store::Priority priority,
     _preparation.tell(wait, {.phase = Phase::failed, .error = not_there(id)});
     return number;
   }
-  wait->joined = mesh->run != nullptr;
+  wait->joined = mesh->run && !mesh->run->ending;
   mesh->waits.push_back(wait);
   _preparation.serve(id);
   return number;
@@ -185,6 +185,7 @@ void Preparation::serve(const std::string& id) {
   if (measured && (!mesh->run || mesh->run->visible))
     if (const Operator ready = _cache.find(mesh->sha256, mesh->owner))
       return hand_over(*mesh, ready, 0);
+  if (mesh->run && mesh->run->ending) return;  // it serves them when it has ended
   const Run& run = begin(id, false);
   for (const auto& wait : mesh->waits) _queue.await(run.place, wait->priority, wait->since);
   tell_phase(*mesh, phase_of(run.phase));
