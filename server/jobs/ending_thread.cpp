@@ -63,18 +63,20 @@ void EndingThread::End::without_result(JobState state, const std::optional<Error
 }
 
 EndingThread::EndingThread(EngineCore& core)
-    : _core(core), _thread(core.start(EngineCore::Lock(core.mutex), [this] { work(); })) {}
-
-EndingThread::~EndingThread() { _thread.join(); }
+    : _core(core), _thread(core.start([this] { work(); })) {}
 
 void EndingThread::work() {
   Lock lock(_core.mutex);
   while (!_core.quitting) {
     if (!_core.to_end.empty()) {
       const JobPtr job = _core.to_end.pop();
-      write(lock, conclude_job(lock, job));
-    } else if (next_waiting(lock)) {
-      continue;
+      lock.unlock();
+      write(conclude_job(job));
+      lock.lock();
+    } else if (std::optional<End> end = next_waiting()) {
+      lock.unlock();
+      write(std::move(*end));
+      lock.lock();
     } else if (_waiting.empty()) {
       _core.ending.wait(lock);
     } else {
@@ -84,10 +86,11 @@ void EndingThread::work() {
   }
 }
 
-EndingThread::End EndingThread::conclude_job(Lock& lock, const JobPtr& job) {
+EndingThread::End EndingThread::conclude_job(const JobPtr& job) {
+  Lock lock(_core.mutex);
   const Outcome outcome = conclude(*job);
   const bool stopped = job->why != Stop::none;  // what it has is written, whoever stops it again
-  if (job->state == JobState::running) add_step(job->timeline, JobState::running, writing);
+  if (job->started) add_step(job->timeline, JobState::running, writing);
   End end{job, {}, nullptr, stopped ? std::stop_token() : job->writing.get_token()};
   const JobSnapshot snapshot(*job);
   lock.unlock();
@@ -116,21 +119,25 @@ EndingThread::End EndingThread::conclude_job(Lock& lock, const JobPtr& job) {
     job->sweep->basis.reset();
     job->sweep->chunks.clear();
   }
-  lock.lock();
   return end;
 }
 
-void EndingThread::write(Lock& lock, End end) {
-  if (end.job->refused && end.job->why == Stop::cancelled) end.without_result(JobState::cancelled);
+void EndingThread::write(End end) {
+  const JobPtr job = end.job;
+  Lock lock(_core.mutex);
+  if (job->phase == Phase::refused && job->why == Stop::cancelled)
+    end.without_result(JobState::cancelled);
   lock.unlock();
-  const bool written = finish(end);
+  if (finish(end)) return announce(end);
   lock.lock();
-  if (written)
-    announce(lock, end);
-  else if (_core.interrupting)
-    leave_to_next_start(lock, end);
-  else
-    keep(lock, std::move(end));
+  if (_core.interrupting) return leave_to_next_start(end);
+  end.next_try = Clock::now() + retry_write;
+  _waiting.push_back(std::move(end));
+  if (job->phase == Phase::refused) return;
+  job->enter(Phase::refused);
+  const PhaseEvent event{job->state(), writing};
+  lock.unlock();
+  job->log->append(event);
 }
 
 bool EndingThread::finish(End& end) {
@@ -148,17 +155,16 @@ bool EndingThread::finish(End& end) {
   }
 }
 
-void EndingThread::announce(Lock& lock, const End& end) {
+void EndingThread::announce(const End& end) {
   const JobPtr& job = end.job;
-  lock.unlock();
   const auto record = std::make_shared<const store::JobRecord>(end.record);
   const std::uint64_t log_bytes = job->log->bytes() + fields::bytes_of(*record);
   if (_core.options.ended) _core.options.ended(*record);
   job->mesh_use.reset();
   if (job->stages) forget_meshes(*job);
-  lock.lock();
-  _core.running -= job->state == JobState::running ? 1 : 0;
-  job->state = record->state;
+  Lock lock(_core.mutex);
+  _core.running -= job->started ? 1 : 0;
+  job->enter(Phase::over);
   _core.retention.add({job->id(), *record->ended, record->result_bytes, record->owner});
   _core.ended_since_sweep = true;
   _core.sweeping.notify_one();
@@ -186,42 +192,27 @@ void EndingThread::forget_meshes(const LiveJob& job) {
   }
 }
 
-void EndingThread::keep(Lock& lock, End end) {
-  const JobPtr job = end.job;
-  end.next_try = Clock::now() + retry_write;
-  const bool first = !std::exchange(job->refused, true);
-  _waiting.push_back(std::move(end));
-  if (first) {
-    const PhaseEvent phase{job->state, writing};
-    lock.unlock();
-    job->log->append(phase);
-    lock.lock();
-  }
-}
-
-void EndingThread::leave_to_next_start(Lock& /*held*/, const End& end) {
-  _core.running -= end.job->state == JobState::running ? 1 : 0;
-  end.job->state = JobState::queued;
+void EndingThread::leave_to_next_start(const End& end) {
+  _core.running -= end.job->started ? 1 : 0;
+  end.job->enter(Phase::over);
   _core.admission.ended(end.job->created.owner, end.job->spec_bytes);
   --_core.not_announced;
   _core.settled.notify_all();
 }
 
-bool EndingThread::next_waiting(Lock& lock) {
+std::optional<EndingThread::End> EndingThread::next_waiting() {
+  if (_core.interrupting)
+    for (const End& end : std::exchange(_waiting, {})) leave_to_next_start(end);
   const auto now = Clock::now();
   const auto due = std::find_if(_waiting.begin(), _waiting.end(), [&](const End& end) {
     const bool cancelled =
         end.job->why == Stop::cancelled && end.record.state != JobState::cancelled;
-    return _core.interrupting || cancelled || end.next_try <= now;
+    return cancelled || end.next_try <= now;
   });
-  if (due == _waiting.end()) return false;
+  if (due == _waiting.end()) return std::nullopt;
   End end = std::move(*due);
   _waiting.erase(due);
-  if (_core.interrupting)
-    leave_to_next_start(lock, end);
-  else
-    write(lock, std::move(end));
-  return true;
+  return end;
 }
 
 }  // namespace anticrack::jobs

@@ -22,10 +22,9 @@ namespace anticrack::jobs {
 /// runs it again).
 class EndingThread {
  public:
-  /// Starts the thread; the core must outlive it.
+  /// Starts the thread, which is joined at the end: EngineCore::quitting must be set then. The core
+  /// must outlive it.
   explicit EndingThread(EngineCore& core);
-  /// Joins the thread; EngineCore::quitting must be set.
-  ~EndingThread();
   EndingThread(const EndingThread&) = delete;
   EndingThread& operator=(const EndingThread&) = delete;
 
@@ -47,21 +46,24 @@ class EndingThread {
   };
 
   void work();
-  End conclude_job(Lock& lock, const JobPtr& job);
-  void write(Lock& lock, End end);
-  /// False where the store could not take it now. Without the lock.
+
+  // Without the lock:
+  End conclude_job(const JobPtr& job);
+  void write(End end);
+  /// False where the store could not take it now.
   bool finish(End& end);
-  /// Deletes the meshes that a job with an accuracy made, but that of its answers. Without the
-  /// lock.
+  /// Deletes the meshes that a job with an accuracy made, but that of its answers.
   void forget_meshes(const LiveJob& job);
-  void announce(Lock& lock, const End& end);
-  void keep(Lock& lock, End end);
-  void leave_to_next_start(Lock& lock, const End& end);
-  bool next_waiting(Lock& lock);
+  void announce(const End& end);
+
+  // With it:
+  void leave_to_next_start(const End& end);
+  /// One of those that wait for the store which is due, or can wait no more.
+  std::optional<End> next_waiting();
 
   EngineCore& _core;
   std::deque<End> _waiting;  ///< for the store; of this thread alone
-  std::thread _thread;
+  std::jthread _thread;
 };
 
 }  // namespace anticrack::jobs

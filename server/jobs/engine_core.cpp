@@ -17,9 +17,6 @@ namespace {
 using errors::Error;
 using store::JobState;
 
-/// Meshes of one class of sizes that are prepared ahead: each pins memory.
-constexpr std::size_t prepared_limit = 3;
-
 /// Bytes of results between two returns of freed memory to the system: the records that stay lie
 /// between the arrays that went, and would keep their pages.
 constexpr std::uint64_t trim_every = std::uint64_t{16} << 20U;
@@ -48,25 +45,26 @@ EngineCore::EngineCore(EngineOptions engine_options, store::Store& records,
     : options(std::move(engine_options)),
       store(records),
       catalogue(mesh_catalogue),
-      schedule(options.ageing, prepared_limit),
       admission({static_cast<std::size_t>(std::max(0, options.max_queued_jobs)),
                  static_cast<std::uint64_t>(std::max(0, options.max_queued_cases)),
                  options.max_job_memory}),
       retention({static_cast<std::size_t>(std::max(0, options.max_kept_jobs)), options.result_ttl,
                  options.result_budget}),
       memory(std::make_shared<MemoryBudget>(options.max_job_memory)),
-      logs(memory) {}
+      logs(memory),
+      waits(catalogue, [this](const meshes::MeshNews& news) { hear(*this, news); }) {}
 
-void EngineCore::quit(const Lock& /*held*/) {
+void EngineCore::quit() {
+  const std::lock_guard lock(mutex);
   quitting = true;
-  for (auto* changed : {&solvers, &preparers, &ending, &sweeping, &limits}) changed->notify_all();
+  for (auto* changed : {&solvers, &ending, &sweeping, &limits}) changed->notify_all();
 }
 
-std::thread EngineCore::start(const Lock& held, std::function<void()> work) {
+std::jthread EngineCore::start(std::function<void()> work) {
   try {
-    return std::thread(std::move(work));
+    return std::jthread(std::move(work));
   } catch (const std::system_error&) {
-    quit(held);
+    quit();
     throw;
   }
 }
@@ -76,9 +74,10 @@ void EngineCore::add(const JobPtr& job) {
   numbers.emplace(job->number, job);
   ++live;
   if (const auto mesh = enter_mesh(job); !mesh->phase.empty()) {
-    job->state = JobState::waiting_for_mesh;
-    add_step(job->timeline, job->state, mesh->phase);
-    job->log->append(PhaseEvent{job->state, mesh->phase});  // there are no watchers yet
+    job->enter(Phase::waiting_for_mesh);
+    add_step(job->timeline, JobState::waiting_for_mesh, mesh->phase);
+    // There are no watchers yet.
+    job->log->append(PhaseEvent{JobState::waiting_for_mesh, mesh->phase});
   }
 }
 
@@ -125,10 +124,15 @@ void EngineCore::withdraw(const JobPtr& job) {
 }
 
 void EngineCore::offer(const JobPtr& job) {
-  schedule.add({job->number, job->mesh, job->lane, job->spec->priority, job->since,
-                catalogue.size_class(job->mesh), job->created.owner});
-  preparers.notify_one();
-  solvers.notify_all();
+  schedule.add(
+      {job->number, job->mesh, job->lane, job->spec->priority, job->since, job->created.owner});
+  MeshWork& mesh = *meshes.at(job->mesh);
+  if (mesh.mesh_operator)
+    solvers.notify_all();
+  else if (mesh.wait > 0)
+    waits.join(mesh.wait, job->spec->priority, job->since);
+  else
+    mesh.wait = waits.begin(mesh.id, job->spec->priority, job->since);
 }
 
 void EngineCore::begin_sweep(const JobPtr& job, SweepPlan plan) {
@@ -140,20 +144,20 @@ void EngineCore::begin_sweep(const JobPtr& job, SweepPlan plan) {
 }
 
 void EngineCore::settle(const JobPtr& job) {
-  if (job->ending || job->active > 0 || job->next_unit < job->units) return;
+  if (job->is_ending() || job->active > 0 || job->next_unit < job->units) return;
   if (job->stages && !job->stages->over && job->why == Stop::none) {
     ++job->active;
     to_refine.push(job->created.owner, job);
-    preparers.notify_one();
+    solvers.notify_one();
     return;
   }
-  job->ending = true;
+  const bool interrupted = job->why == Stop::interrupted;
+  job->enter(interrupted ? Phase::over : Phase::ending);
   leave(job);
   --live;
-  if (job->why == Stop::interrupted) {
+  if (interrupted) {
     admission.ended(job->created.owner, job->spec_bytes);
-    running -= job->state == JobState::running ? 1 : 0;
-    job->state = JobState::queued;
+    running -= job->started ? 1 : 0;
     job->mesh_operator.reset();
     job->spool.reset();
     job->sweep.reset();
@@ -169,23 +173,29 @@ void EngineCore::settle(const JobPtr& job) {
 
 void EngineCore::leave(const JobPtr& job) {
   admission.cases_ended(job->spec->mesh, std::exchange(job->queued_cases, 0));
-  if (job->state != JobState::running) admission.started();
+  if (!job->started) admission.started();
   deadlines.clear(job->number);
   numbers.erase(job->number);
   leave_mesh(job);
 }
 
+void EngineCore::end_wait(MeshWork& mesh) {
+  if (mesh.wait > 0) waits.end(std::exchange(mesh.wait, 0));
+}
+
 void EngineCore::release(const std::shared_ptr<MeshWork>& mesh) {
-  if (!mesh->jobs.empty() || mesh->threads > 0 || !mesh->blocks.empty() || mesh->preparing ||
-      mesh->looking || !meshes.contains(mesh->id) || meshes.at(mesh->id) != mesh)
+  if (!mesh->jobs.empty() || mesh->threads > 0 || !mesh->blocks.empty() ||
+      !meshes.contains(mesh->id) || meshes.at(mesh->id) != mesh)
     return;
+  end_wait(*mesh);
   schedule.let_go(mesh->id);
   meshes.erase(mesh->id);
 }
 
-void EngineCore::deliver(Lock& lock, std::vector<EndedCase> cases) {
+void EngineCore::deliver(std::vector<EndedCase> cases) {
   if (cases.empty()) return;
   bool trim = false;
+  Lock lock(mutex);
   for (EndedCase& ended_case : cases) {
     LiveJob& job = *ended_case.task.job;
     if (job.stages && ended_case.task.index < job.stages->before.size()) {
@@ -233,15 +243,14 @@ void EngineCore::deliver(Lock& lock, std::vector<EndedCase> cases) {
   }
 }
 
-void EngineCore::deliver(Lock& lock, EndedChunk chunk) {
+void EngineCore::deliver(EndedChunk chunk) {
   const JobPtr job = chunk.task.job;
   const std::size_t place = chunk.task.index;
-  lock.unlock();
   if (chunk.failure)
     stop(job, Stop::failed, chunk.failure);
   else if (chunk.columns)
     job->log->append(RowsEvent{job->sweep->plan.first_row(place), chunk.columns});
-  lock.lock();
+  const std::lock_guard lock(mutex);
   cases_ended += chunk.record.converged + chunk.record.not_converged;
   jobs::add(job->sweep_record, chunk.record);
   job->sweep->chunks[place] = std::move(chunk.solved);
@@ -267,12 +276,11 @@ std::vector<EndedCase> EngineCore::take_stopped(MeshWork& mesh) {
 }
 
 void EngineCore::stop(const JobPtr& job, Stop why, const std::optional<Error>& failure) {
-  std::optional<std::stop_source> preparation;
   std::vector<EndedCase> stopped;
   Lock lock(mutex);
-  if (job->ending) {
+  if (job->is_ending()) {
     if (why != Stop::cancelled) return;
-    if (job->refused) {
+    if (job->phase == Phase::refused) {
       job->why = why;
       ending.notify_one();
     }
@@ -287,12 +295,9 @@ void EngineCore::stop(const JobPtr& job, Stop why, const std::optional<Error>& f
   const std::shared_ptr<MeshWork> mesh = meshes.at(job->mesh);
   stopped = take_stopped(*mesh);
   settle(job);
-  if (mesh->preparing && mesh->jobs.empty()) preparation = mesh->preparing;
   lock.unlock();
   job->stop.request_stop();
-  if (preparation) preparation->request_stop();
-  lock.lock();
-  deliver(lock, std::move(stopped));
+  deliver(std::move(stopped));
 }
 
 }  // namespace anticrack::jobs

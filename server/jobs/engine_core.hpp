@@ -4,9 +4,10 @@
 //
 // A job goes this way: the schedule (its units wait: load cases, or chunks of its sweep) -> solver
 // threads (blocks, prepared cases) -> `to_end`, the ending thread's. LiveJob::active counts its
-// units between the first and the last step. The classes that own threads are SolverPool,
-// PreparationPool, EndingThread and TimeLimits; each works on this with the mutex, and does what
-// takes long without it.
+// units between the first and the last step. Threads are those of SolverPool,
+// EndingThread, keep_time_limits and remove_what_is_too_old; each works on this with the mutex, and
+// does what takes long without it. What becomes of meshes is heard on a thread of the catalogue
+// (hear).
 #pragma once
 
 #include <array>
@@ -53,15 +54,23 @@ struct MeshWork {
   const std::string id;
   std::map<std::uint64_t, JobPtr> jobs;  ///< that wait or run, by number
   std::shared_ptr<const operators::MeshOperator> mesh_operator;
-  std::optional<std::stop_source> preparing;
-  bool looking = false;                             ///< a solver thread looks in the catalogue
-  std::string phase;                                ///< of its preparation, told to the jobs
+  /// For the operators; ends with the first turn on the mesh. 0: none.
+  std::uint64_t wait = 0;
+  std::string phase;  ///< of its preparation, told to the jobs
+  std::chrono::steady_clock::time_point progress_told{};
   int threads = 0;                                  ///< that have a turn on it
   std::array<std::uint64_t, lane_count> waiting{};  ///< units that no thread has taken
   std::vector<std::shared_ptr<BlockRun>> blocks;    ///< all, those put down included
   std::array<std::deque<std::shared_ptr<BlockRun>>, lane_count> parked;  ///< put down
   std::deque<PreparedCase> prepared;
 };
+
+class EngineCore;
+
+/// All jobs that wait for the mesh hear it: phases and progress as events, operators as turns on
+/// solver threads, an error as their end. Called by the catalogue, without the lock
+/// (mesh_news.cpp).
+void hear(EngineCore& core, const meshes::MeshNews& news);
 
 /// The mutex guards everything but the constants and `iterations`. It is never held over I/O, a
 /// solve, an event (listeners may come back to the engine) or a stop request.
@@ -80,7 +89,7 @@ class EngineCore {
 
   mutable std::mutex mutex;
   /// Work for each kind of thread.
-  std::condition_variable solvers, preparers, ending, sweeping, limits;
+  std::condition_variable solvers, ending, sweeping, limits;
   std::condition_variable settled;  ///< fewer jobs live or end
   bool draining = false;            ///< no job starts any more
   bool interrupting = false;  ///< what the store does not take at once is left to the next start
@@ -110,13 +119,10 @@ class EngineCore {
   int running = 0;        ///< jobs that started and have not ended
   int columns = 0;        ///< load cases on solver threads, one for a chunk
 
-  // With the lock held:
+  /// For meshes. The last member: nothing is heard once the others go.
+  meshes::MeshWaits waits;
 
-  /// Tells all threads to end.
-  void quit(const Lock& held);
-  /// A thread that does `work`. Where there can be none (std::system_error) the others are told to
-  /// end, so that whoever owns them can join them.
-  std::thread start(const Lock& held, std::function<void()> work);
+  // With the lock held:
 
   /// Takes in a new job that is in the store and counted by `admission`.
   void add(const JobPtr& job);
@@ -133,23 +139,23 @@ class EngineCore {
   /// Call it when a case of the job ended or the job must stop: passes on a job that has nothing
   /// left.
   void settle(const JobPtr& job);
+  /// The operators of the mesh, if it waits for them, have been taken up or are not wanted.
+  void end_wait(MeshWork& mesh);
   /// Releases the mesh's operator if nothing needs it.
   void release(const std::shared_ptr<MeshWork>& mesh);
-  /// Reports the cases and counts them as ended. Releases the lock meanwhile.
-  void deliver(Lock& lock, std::vector<EndedCase> cases);
-  /// Reports the rows of a chunk and counts it as ended. Releases the lock meanwhile.
-  void deliver(Lock& lock, EndedChunk chunk);
-  /// The jobs for which `wanted` is true.
-  template <class Wanted>
-  std::vector<JobPtr> select(const Wanted& wanted) const {
-    std::vector<JobPtr> selected;
-    for (const auto& [id, job] : jobs)
-      if (wanted(*job)) selected.push_back(job);
-    return selected;
-  }
 
   // Without the lock:
 
+  /// Tells all threads to end.
+  void quit();
+  /// A thread that does `work`. Where there can be none (std::system_error) the others are told to
+  /// end, so that whoever owns them can join them.
+  std::jthread start(std::function<void()> work);
+
+  /// Reports the cases and counts them as ended.
+  void deliver(std::vector<EndedCase> cases);
+  /// Reports the rows of a chunk and counts it as ended.
+  void deliver(EndedChunk chunk);
   /// Stops a job wherever it is. The first reason counts; one that only waits for the disk can be
   /// cancelled.
   void stop(const JobPtr& job, Stop why, const std::optional<errors::Error>& failure = {});

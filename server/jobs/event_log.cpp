@@ -2,8 +2,10 @@
 #include "jobs/event_log.hpp"
 
 #include <algorithm>
+#include <condition_variable>
 #include <deque>
 #include <mutex>
+#include <thread>
 #include <type_traits>
 #include <utility>
 
@@ -18,24 +20,41 @@ namespace {
 using errors::Error;
 using errors::Reason;
 
-/// A wake function that can be switched off. The recursive mutex makes switching off wait for a
-/// call on another thread, but not for the call it comes from.
-struct Wake {
-  explicit Wake(std::function<void()> function) : call(std::move(function)) {}
+/// A wake function that can be switched off. One thread at a time calls it: whoever comes while a
+/// call is under way, or from that call, leaves another one to its thread.
+class Wake {
+ public:
+  explicit Wake(std::function<void()> call) : _call(std::move(call)) {}
 
   void operator()() {
-    const std::lock_guard lock(mutex);
-    if (call && active) call();
+    std::unique_lock lock(_mutex);
+    _due = true;
+    if (_caller != std::thread::id()) return;
+    _caller = std::this_thread::get_id();
+    while (std::exchange(_due, false) && !_closed) {
+      lock.unlock();
+      _call();
+      lock.lock();
+    }
+    _caller = {};
+    _idle.notify_all();
   }
 
+  /// Waits for a call on another thread, but not for the call that it comes from.
   void close() {
-    const std::lock_guard lock(mutex);
-    active = false;
+    std::unique_lock lock(_mutex);
+    _closed = true;
+    if (_caller != std::this_thread::get_id())
+      _idle.wait(lock, [&] { return _caller == std::thread::id(); });
   }
 
-  std::recursive_mutex mutex;
-  bool active = true;
-  const std::function<void()> call;
+ private:
+  const std::function<void()> _call;
+  std::mutex _mutex;
+  std::condition_variable _idle;
+  std::thread::id _caller;  ///< none: no call is under way
+  bool _due = false;
+  bool _closed = false;
 };
 
 using Wakes = std::vector<std::shared_ptr<Wake>>;

@@ -106,10 +106,11 @@ class EventLog {
   std::vector<NumberedEvent> read(std::uint64_t after, std::size_t count) const;
 
   class Listener;
-  /// `wake` is called, on the writer's thread and with no lock of the log held, after each append
-  /// until the handle is destroyed; never by two writers at once. It must be quick and not throw.
-  /// Destroying the handle waits for a call under way, unless it is destroyed by that call: do not
-  /// destroy it under a lock that `wake` takes.
+  /// `wake` is called after each append until the handle is destroyed, on a writer's thread and
+  /// with no lock held; never by two at once: one call under way goes on for all who append
+  /// meanwhile. It may append itself; it must be quick and not throw. Destroying the handle waits
+  /// for a call under way, unless it is destroyed by that call: do not destroy it under a lock that
+  /// `wake` takes.
   std::shared_ptr<Listener> listen(std::function<void()> wake);
 
  private:

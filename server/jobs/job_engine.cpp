@@ -10,10 +10,8 @@
 #include "jobs/ending_thread.hpp"
 #include "jobs/engine_core.hpp"
 #include "jobs/intake.hpp"
-#include "jobs/preparation_pool.hpp"
-#include "jobs/retention_thread.hpp"
 #include "jobs/solver_pool.hpp"
-#include "jobs/time_limits.hpp"
+#include "jobs/upkeep.hpp"
 
 namespace anticrack::jobs {
 
@@ -22,9 +20,6 @@ namespace {
 using errors::Error;
 using errors::Reason;
 using store::JobRecord;
-using store::JobState;
-
-Error unknown(const std::string& id) { return {Reason::not_found, "there is no jobs/" + id}; }
 
 }  // namespace
 
@@ -39,17 +34,46 @@ struct JobEngine::State {
   /// The live job, null where it has ended or there never was one.
   JobPtr live(const std::string& id) const {
     const std::lock_guard lock(core.mutex);
+    return find(id);
+  }
+  JobPtr find(const std::string& id) const {  // with the lock held
     const auto found = core.jobs.find(id);
     return found == core.jobs.end() ? nullptr : found->second;
+  }
+  /// The record of a live job.
+  std::optional<JobRecord> live_record(const std::string& id) const {
+    std::optional<JobSnapshot> snapshot;
+    {
+      const std::lock_guard lock(core.mutex);
+      if (const JobPtr job = find(id)) snapshot.emplace(*job);
+    }
+    return snapshot ? std::optional(snapshot->record()) : std::nullopt;
+  }
+  /// Of a job that has ended.
+  JobRecord stored(const std::string& id) const {
+    std::optional<JobRecord> record = core.store.job(id);
+    if (!record) throw Error(Reason::not_found, "there is no jobs/" + id);
+    return std::move(*record);
+  }
+  void interrupt(bool (*wanted)(const LiveJob&)) {
+    std::vector<JobPtr> jobs;
+    {
+      const std::lock_guard lock(core.mutex);
+      core.draining = true;
+      for (const auto& [id, job] : core.jobs)
+        if (wanted(*job)) jobs.push_back(job);
+    }
+    for (const JobPtr& job : jobs) core.stop(job, Stop::interrupted);
   }
 
   struct Pools {
     explicit Pools(EngineCore& core)
-        : ending(core), retention(core), limits(core), preparation(core), solvers(core) {}
+        : ending(core),
+          retention(core.start([&core] { remove_what_is_too_old(core); })),
+          limits(core.start([&core] { keep_time_limits(core); })),
+          solvers(core) {}
     EndingThread ending;
-    RetentionThread retention;
-    TimeLimits limits;
-    PreparationPool preparation;
+    std::jthread retention, limits;
     SolverPool solvers;
   };
 
@@ -63,7 +87,7 @@ JobEngine::JobEngine(EngineOptions options, store::Store& store, meshes::MeshCat
 JobEngine::~JobEngine() {
   stop(std::chrono::milliseconds(0));
   EngineCore& core = _state->core;
-  core.quit(EngineCore::Lock(core.mutex));
+  core.quit();
   _state->pools.reset();
 }
 
@@ -83,29 +107,15 @@ std::optional<JobRecord> JobEngine::submitted(const std::string& owner,
 }
 
 JobRecord JobEngine::get(const std::string& id) const {
-  std::optional<JobSnapshot> snapshot;
-  {
-    const std::lock_guard lock(_state->core.mutex);
-    if (const auto found = _state->core.jobs.find(id); found != _state->core.jobs.end())
-      snapshot.emplace(*found->second);
-  }
-  if (snapshot) return snapshot->record();
-  std::optional<JobRecord> record = _state->core.store.job(id);
-  if (!record) throw unknown(id);
-  return std::move(*record);
+  std::optional<JobRecord> live = _state->live_record(id);
+  return live ? std::move(*live) : _state->stored(id);
 }
 
 std::vector<JobRecord> JobEngine::list(const store::Page& page) const {
   std::vector<JobRecord> records = _state->core.store.jobs(page);
-  for (JobRecord& record : records) {
-    std::optional<JobSnapshot> snapshot;
-    if (!store::ended(record.state)) {
-      const std::lock_guard lock(_state->core.mutex);
-      const auto found = _state->core.jobs.find(record.id);
-      if (found != _state->core.jobs.end()) snapshot.emplace(*found->second);
-    }
-    if (snapshot) record = snapshot->record();
-  }
+  for (JobRecord& record : records)
+    if (!store::ended(record.state))
+      if (std::optional<JobRecord> live = _state->live_record(record.id)) record = std::move(*live);
   return records;
 }
 
@@ -128,20 +138,17 @@ std::shared_ptr<EventLog> JobEngine::events(const std::string& id) const {
   const EngineCore& core = _state->core;
   {
     const std::lock_guard lock(core.mutex);
-    if (const auto found = core.jobs.find(id); found != core.jobs.end()) return found->second->log;
+    if (const JobPtr job = _state->find(id)) return job->log;
     if (std::shared_ptr<EventLog> log = core.logs.find(id)) return log;
   }
-  const std::optional<JobRecord> record = core.store.job(id);
-  if (!record) throw unknown(id);
-  return end_alone(*record);
+  return end_alone(_state->stored(id));
 }
 
 std::shared_ptr<const store::BlockSource> JobEngine::result(const std::string& id) const {
-  const std::optional<JobRecord> record = _state->core.store.job(id);
-  if (!record) throw unknown(id);
-  if (_state->live(id) || !store::ended(record->state))
+  const JobRecord record = _state->stored(id);
+  if (_state->live(id) || !store::ended(record.state))
     throw Error(Reason::not_ready, "jobs/" + id + " has not ended: wait for it");
-  if (record->expired) {
+  if (record.expired) {
     throw Error(Reason::result_expired,
                 "the result of jobs/" + id +
                     " was removed, by its age or to make room for others: submit the job again");
@@ -154,24 +161,16 @@ std::shared_ptr<const store::BlockSource> JobEngine::result(const std::string& i
 
 void JobEngine::stop(std::chrono::milliseconds grace) {
   EngineCore& core = _state->core;
-  const auto interrupt = [&](const std::vector<JobPtr>& jobs) {
-    for (const JobPtr& job : jobs) core.stop(job, Stop::interrupted);
-  };
+  _state->interrupt([](const LiveJob& job) { return !job.started; });
+  const auto all_ended = [&] { return core.live == 0 && core.not_announced == 0; };
   EngineCore::Lock lock(core.mutex);
-  core.draining = true;
-  const auto waiting =
-      core.select([](const LiveJob& job) { return job.state != JobState::running; });
+  core.settled.wait_for(lock, grace, all_ended);
   lock.unlock();
-  interrupt(waiting);
-  lock.lock();
-  core.settled.wait_for(lock, grace, [&] { return core.live == 0 && core.not_announced == 0; });
-  const auto running = core.select([](const LiveJob& job) { return !job.ending; });
-  lock.unlock();
-  interrupt(running);
+  _state->interrupt([](const LiveJob& job) { return !job.is_ending(); });
   lock.lock();
   core.interrupting = true;
   core.ending.notify_one();
-  core.settled.wait(lock, [&] { return core.live == 0 && core.not_announced == 0; });
+  core.settled.wait(lock, all_ended);
   if (std::exchange(core.stop_noted, true)) return;
   lock.unlock();
   try {
@@ -205,7 +204,7 @@ EngineMetrics JobEngine::metrics() const {
   metrics.job_memory_limit = core.options.max_job_memory;
   const auto now = EngineCore::Clock::now();
   for (const auto& [number, job] : core.numbers) {
-    if (job->state != JobState::running) {
+    if (!job->started) {
       metrics.oldest_wait =
           std::max<std::chrono::duration<double>>(metrics.oldest_wait, now - job->since);
     }

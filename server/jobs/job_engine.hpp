@@ -36,7 +36,6 @@ struct EngineOptions {
   std::chrono::milliseconds queue_time{24 * 3600'000};  ///< longest a job may wait; then it fails
   std::chrono::milliseconds run_time{24 * 3600'000};    ///< longest a job may run
   int max_crashes = 3;  ///< a job during whose runs the server crashed so often fails; 0: never
-  std::chrono::milliseconds ageing{30'000};  ///< waiting this long is worth one class of priority
   /// What a solver thread gives one mesh before it looks at the others.
   std::chrono::milliseconds turn{20};
   /// Where every solver thread has been at one step for so long (loads with expressions that take
@@ -84,8 +83,8 @@ struct Submission {
   std::string fingerprint = {};
 };
 
-/// Owns the worker threads. A job waits for its mesh on a thread of the (small) preparation pool,
-/// never on a solver thread, so an expensive factorisation starves nobody. Solver threads take
+/// Owns the worker threads. A job waits for its mesh on no thread: it hears from the catalogue, so
+/// an expensive factorisation starves nobody. Solver threads take
 /// turns over the meshes that have work, the most urgent first (schedule.hpp); in a turn the load
 /// cases of one mesh, of whatever job, run together: as columns of a UzawaBlock that join and leave
 /// at iteration boundaries, or condensed in one block and solved by the active set. A sweep is

@@ -65,14 +65,6 @@ void try_again_later(EngineCore& core, const LiveJob& job) {
   core.limits.notify_one();
 }
 
-/// The job runs, in this phase.
-void tell(EngineCore::Lock& lock, LiveJob& job, const std::string& phase) {
-  add_step(job.timeline, JobState::running, phase);
-  lock.unlock();
-  job.log->append(PhaseEvent{JobState::running, phase});
-  lock.lock();
-}
-
 /// The first stage is known once the job starts, or was recovered; the others since their meshes
 /// were made.
 void begin_stage(LiveStages& stages, const std::string& id, const mesh::Mesh& mesh) {
@@ -101,15 +93,20 @@ std::chrono::milliseconds run_limit(const LiveJob& job, const EngineOptions& opt
   return limit(job.spec->run_time_limit, options.run_time);
 }
 
-void start_job(EngineCore& core, EngineCore::Lock& lock,
-               std::shared_ptr<const operators::MeshOperator> mesh_operator, const JobPtr& job) {
+bool may_start(EngineCore& core, const JobPtr& job) {
   core.schedule.remove(job->number);
-  const bool another_stage = job->state == JobState::running;
-  if (!another_stage && core.memory->exceeded() && core.running > 0) {
+  if (!job->started && core.memory->exceeded() && core.running > 0) {
     try_again_later(core, *job);
-    return;
+    return false;
   }
   ++job->active;  // it cannot end before its first event is in the log
+  return true;
+}
+
+void start_job(EngineCore& core, std::shared_ptr<const operators::MeshOperator> mesh_operator,
+               const JobPtr& job) {
+  EngineCore::Lock lock(core.mutex);
+  const bool another_stage = job->started.has_value();
   if (job->stages) begin_stage(*job->stages, job->mesh, mesh_operator->mesh());
   const JobSnapshot snapshot(*job);
   lock.unlock();
@@ -137,22 +134,26 @@ void start_job(EngineCore& core, EngineCore::Lock& lock,
   if (!another_stage) {
     core.admission.started();
     ++core.running;
-    job->state = JobState::running;
-    job->started = store::Clock::now();
+    job->enter(Phase::running);
     if (plan && job->why == Stop::none) core.begin_sweep(job, std::move(*plan));
     core.deadlines.clear(job->number, Due::queue_time);
     core.deadlines.set(job->number, Due::run_time,
                        EngineCore::Clock::now() + run_limit(*job, core.options));
     core.limits.notify_one();
   }
-  if (job->sweep && !job->spec->loads.empty()) {
-    tell(lock, *job, "condensing the load cases");
+  const auto tell = [&](const std::string& phase) {  // the job runs, in this phase
+    add_step(job->timeline, JobState::running, phase);
     lock.unlock();
+    job->log->append(PhaseEvent{JobState::running, phase});
+  };
+  if (job->sweep && !job->spec->loads.empty()) {
+    tell("condensing the load cases");
     condense(core, job);
     lock.lock();
     if (job->sweep->basis) job->sweep_record.warnings = job->sweep->basis->warnings();
   }
-  tell(lock, *job, job->stages ? stage_name(*job) : "");
+  tell(job->stages ? stage_name(*job) : "");
+  lock.lock();
   --job->active;
   if (job->why == Stop::none) core.offer(job);
   core.settle(job);

@@ -7,13 +7,15 @@
 
 namespace anticrack::jobs {
 
-/// Starts a job that waits in the schedule: RUNNING on the disk first, so that after a crash it is
+/// Takes a job that is to start out of the schedule and counts it as active; false: there is no
+/// memory now, and it comes back in a while. With the lock held.
+bool may_start(EngineCore& core, const JobPtr& job);
+/// Starts a job that may start: RUNNING on the disk first, so that after a crash it is
 /// the next attempt, then in its log. A start the store does not take is tried again in a while. A
 /// sweep is planned before, so that one which does not fit its mesh fails without having started,
-/// and the loads it combines are condensed after. Releases the lock meanwhile, and has the job
-/// out of the schedule.
-void start_job(EngineCore& core, EngineCore::Lock& lock,
-               std::shared_ptr<const operators::MeshOperator> mesh_operator, const JobPtr& job);
+/// and the loads it combines are condensed after. Without the lock.
+void start_job(EngineCore& core, std::shared_ptr<const operators::MeshOperator> mesh_operator,
+               const JobPtr& job);
 
 /// The longest a job may wait, or run: its own limit, or the server's.
 std::chrono::milliseconds queue_limit(const LiveJob& job, const EngineOptions& options);

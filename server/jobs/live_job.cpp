@@ -2,6 +2,7 @@
 #include "jobs/live_job.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 #include <variant>
 
@@ -104,6 +105,18 @@ LiveJob::LiveJob(std::uint64_t submission, JobRecord record, std::uint64_t cases
     stages->seconds_before = stages->records[stages->records.size() - 2].seconds;
 }
 
+void LiveJob::enter(Phase next) {
+  assert(next > phase || (next == phase && phase == Phase::waiting_for_mesh));
+  assert(next != Phase::refused || phase == Phase::ending);
+  phase = next;
+  if (phase == Phase::running) started = store::Clock::now();
+}
+
+JobState LiveJob::state() const noexcept {
+  if (phase == Phase::over) return JobState::queued;  // by the next start
+  return started ? JobState::running : timeline.back().state;
+}
+
 Task take_unit(const JobPtr& job) {
   Task task{job, job->next_unit++, std::chrono::steady_clock::now()};
   ++job->active;
@@ -120,7 +133,7 @@ void add_step(std::vector<store::Step>& timeline, JobState state, std::string de
 }
 
 JobSnapshot::JobSnapshot(const LiveJob& job) : _head(job.created), _spec(job.spec) {
-  _head.state = job.state;
+  _head.state = job.state();
   _head.started = job.started;
   _head.timeline = job.timeline;
   _head.sweep = job.sweep_record;

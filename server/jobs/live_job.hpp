@@ -54,6 +54,17 @@ struct LiveStages {
   std::vector<std::string> made;   ///< ids of the meshes that the job made
 };
 
+/// How far a job is on its way, which has no way back: to the next phase, or past those that it
+/// does not need.
+enum class Phase {
+  queued,
+  waiting_for_mesh,  ///< it has heard of it
+  running,
+  ending,   ///< nothing of it is left to solve: its end is made and written
+  refused,  ///< the same, and the store could not take it yet
+  over,     ///< its end is on the disk, or it is left to the next start
+};
+
 /// Why a job is not to go on.
 enum class Stop {
   none,
@@ -85,8 +96,14 @@ struct LiveJob {
   /// Of the job, as in its name.
   const std::string& id() const noexcept { return created.id; }
 
-  store::JobState state = store::JobState::queued;
-  std::optional<store::Clock::time_point> started;
+  /// Moves it on, to running now. It asserts that there is such a way.
+  void enter(Phase next);
+  bool is_ending() const noexcept { return phase >= Phase::ending; }
+  /// As others see it: a job that ends is RUNNING still if it ran.
+  store::JobState state() const noexcept;
+
+  Phase phase = Phase::queued;                      ///< changed by enter() alone
+  std::optional<store::Clock::time_point> started;  ///< once it runs
   std::vector<store::Step> timeline;
   std::string mesh;                ///< id: spec's, or that of its stage
   std::shared_ptr<void> mesh_use;  ///< of spec's mesh; released when the job has ended
@@ -106,8 +123,6 @@ struct LiveJob {
   MemoryShare memory;
   Stop why = Stop::none;
   std::optional<errors::Error> failure;
-  bool ending = false;   ///< nothing of it is left to solve
-  bool refused = false;  ///< ending, and the store could not take it yet
 };
 
 using JobPtr = std::shared_ptr<LiveJob>;

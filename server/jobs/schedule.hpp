@@ -14,6 +14,7 @@
 #include <string>
 #include <unordered_map>
 
+#include "meshes/queue.hpp"
 #include "store/records.hpp"
 
 namespace anticrack::jobs {
@@ -30,7 +31,6 @@ struct Waiting {
   Lane lane = Lane::active_set;
   store::Priority priority = store::Priority::normal;
   std::chrono::steady_clock::time_point since;
-  int size_class = 0;  ///< of the mesh
   std::string owner{};
 };
 
@@ -38,16 +38,13 @@ struct Waiting {
 struct Turn {
   std::string mesh;
   Lane lane = Lane::active_set;
-  /// Nobody has checked whether the operator is in memory. Answered by
-  /// `prepared` or `absent`.
-  bool probe = false;
   std::string owner{};  ///< of the mesh
 };
 
 /// Contract:
-/// 1. Urgency is the class of a job's priority, 0 the most urgent; waiting `ageing` long is worth
-///    one class, up to class 0. What waits for a turn on a mesh has waited since the mesh's last
-///    turn at most, so that many old jobs on one mesh are no more urgent than one on another.
+/// 1. Urgency is that of meshes/queue.hpp. What waits for a turn on a mesh has waited since the
+///    mesh's last turn at most, so that many old jobs on one mesh are no more urgent than one on
+///    another.
 /// 2. Turns: owners first, the one with the most urgent work, at equal urgency the one whose turn
 /// is
 ///    longest ago; work of an owner has waited since that turn at most. Of the owner's meshes the
@@ -55,19 +52,11 @@ struct Turn {
 ///    is longest ago. A mesh belongs to the owner of the last job on it.
 /// 3. On a mesh and lane: owners in turn as in 2, by the load cases that were taken there; of the
 ///    owner's jobs the most urgent, at equal urgency the oldest.
-/// 4. A job waits for its mesh without holding up another: only meshes that are ready, or that
-///    nobody has looked for, have turns.
-/// 5. One preparation at a time per mesh, owners and then their meshes as in 2; of a class of sizes
-///    at most `prepared_limit` meshes are being prepared or are prepared and had no turn: each pins
-///    memory, and large ones are to hold up no small one. Beyond it, up to twice as many, an owner
-///    with a name who has none of them there may have one: those of others are to hold up nobody.
+/// 4. A job waits for its mesh without holding up another: only meshes that are ready have turns.
 /// Not thread-safe. Choosing is O(meshes), the rest O(log jobs).
 class Schedule {
  public:
   using Time = std::chrono::steady_clock::time_point;
-
-  Schedule(std::chrono::milliseconds ageing, std::size_t prepared_limit)
-      : _ageing(ageing), _prepared_limit(prepared_limit) {}
 
   /// A job whose units all wait, or that is back in the queue.
   void add(const Waiting& job);
@@ -83,15 +72,9 @@ class Schedule {
   void park(const std::string& mesh, Lane lane, store::Priority priority);
   void unpark(const std::string& mesh, Lane lane, store::Priority priority);
 
-  /// The mesh to prepare, which is `preparing` until `prepared`, `again` or `absent`.
-  std::optional<std::string> next_to_prepare(Time now);
-  void prepared(const std::string& mesh);
-  void again(const std::string& mesh, Time not_before);
-  void absent(const std::string& mesh);
-  /// The operator was released: the next job needs the mesh prepared again.
+  /// The operator of the mesh is in memory, until let_go().
+  void prepared(const std::string& mesh) { _meshes[mesh].ready = true; }
   void let_go(const std::string& mesh);
-  /// When the next mesh that was put back may be tried; empty when none is held back at `now`.
-  std::optional<Time> next_retry(Time now) const;
 
   /// Of a mesh and its owner.
   using Excluded = std::function<bool(const std::string& mesh, const std::string& owner)>;
@@ -105,34 +88,23 @@ class Schedule {
   bool others(const std::string& mesh, Lane lane) const;
 
  private:
-  /// When an owner had the last turn or preparation.
-  struct Last {
-    Time time{};
-    std::uint64_t number = 0;
-  };
-  using Lasts = std::unordered_map<std::string, Last>;
   /// By number: the first is the one that waits longest.
   using Jobs = std::map<std::uint64_t, Time>;
 
   struct Work {
-    std::array<std::map<std::string, Jobs>, 3> jobs;  ///< by class and owner
-    Lasts taken;                                      ///< by owner
-    std::array<int, 3> parked{};                      ///< by class
+    std::array<std::map<std::string, Jobs>, meshes::priority_classes> jobs;  ///< by class and owner
+    meshes::Lasts taken;                                                     ///< by owner
+    std::array<int, meshes::priority_classes> parked{};                      ///< by class
     std::uint64_t last_turn = 0;
     bool empty() const;
   };
-  enum class Stage { unknown, looking, absent, preparing, ready };
   struct Mesh {
-    Stage stage = Stage::unknown;
-    bool unused = false;  ///< prepared, and had no turn
-    Time not_before{};
+    bool ready = false;
     Time served{};
     std::uint64_t last_turn = 0;
-    int size_class = 0;
     std::string owner;
     std::array<Work, lane_count> lanes;
     bool empty() const;
-    bool has_turns() const { return stage == Stage::ready || stage == Stage::unknown; }
   };
 
   /// The least goes first.
@@ -144,31 +116,18 @@ class Schedule {
     auto operator<=>(const Place&) const = default;
   };
 
-  int urgency(std::size_t priority, Time since, Time now) const;
   /// As if nothing had waited since before `begin`.
-  int urgency(const Work& work, Time begin, Time now) const;
-  /// The first job of a lane, by when its owner last had what `lasts` says.
-  std::optional<Place> first(const Work& work, const Lasts& lasts, Time now) const;
-  static Last last_of(const Lasts& lasts, const std::string& owner);
+  static int urgency(const Work& work, Time begin, Time now);
+  /// The first job of a lane.
+  static std::optional<Place> first(const Work& work, Time now);
   /// Who has the next turn.
   std::optional<std::string> next_owner(Time now, const Excluded& excluded) const;
   static bool has_turns(const std::string& id, const Mesh& mesh, const Excluded& excluded);
   void forget_if_empty(const std::string& mesh);
-  /// Meshes that are prepared ahead, by the class of their size.
-  struct Ahead {
-    std::size_t all = 0;
-    std::map<std::string, std::size_t> of_owner;
-  };
-  std::map<int, Ahead> prepared_ahead() const;  ///< by class of sizes
-  bool may_prepare(const Ahead& ahead, const std::string& owner) const;
-
-  std::chrono::milliseconds _ageing;
-  std::size_t _prepared_limit;
   std::uint64_t _turns = 0;
-  std::uint64_t _preparations = 0;
   std::map<std::string, Mesh> _meshes;
   std::unordered_map<std::uint64_t, Waiting> _jobs;
-  Lasts _served, _prepared;  ///< by owner
+  meshes::Lasts _served;  ///< by owner
 };
 
 }  // namespace anticrack::jobs

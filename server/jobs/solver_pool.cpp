@@ -10,6 +10,7 @@
 #include "jobs/condensing.hpp"
 #include "jobs/exact_run.hpp"
 #include "jobs/job_start.hpp"
+#include "jobs/stage_end.hpp"
 #include "stop/stop.hpp"
 
 namespace anticrack::jobs {
@@ -20,6 +21,7 @@ using Clock = EngineCore::Clock;
 
 /// Beyond EngineOptions::threads.
 constexpr std::size_t most_spare_threads = 8;
+constexpr int most_stage_ends = 4;  // at once
 
 contact::Mass mass_of(Lane lane) {
   return lane == Lane::consistent ? contact::Mass::consistent : contact::Mass::lumped;
@@ -28,21 +30,11 @@ contact::Mass mass_of(Lane lane) {
 }  // namespace
 
 SolverPool::SolverPool(EngineCore& core) : _core(core) {
-  Lock lock(core.mutex);
-  try {
-    for (std::size_t i = 0; i < threads(); ++i)
-      _threads.push_back(core.start(lock, [this] { work(); }));
-  } catch (...) {
-    lock.unlock();
-    join();
-    throw;
+  for (std::size_t i = 0; i < threads(); ++i) {
+    std::jthread thread = core.start([this] { work(); });
+    const std::lock_guard lock(core.mutex);
+    _threads.push_back(std::move(thread));
   }
-}
-
-SolverPool::~SolverPool() { join(); }
-
-void SolverPool::join() {
-  for (std::thread& thread : _threads) thread.join();
 }
 
 std::size_t SolverPool::threads() const noexcept {
@@ -96,59 +88,41 @@ void SolverPool::rest(Lock& lock) {
 void SolverPool::work() {
   Lock lock(_core.mutex);
   while (!_core.quitting) {
+    if (!_core.to_refine.empty() && _at_stage_ends < most_stage_ends) {
+      ++_at_stage_ends;
+      keep_a_spare();
+      const JobPtr job = _core.to_refine.pop();
+      lock.unlock();
+      end_stage(_core, job);
+      lock.lock();
+      --_at_stage_ends;
+      continue;
+    }
     const std::optional<Turn> turn = next_turn();
     if (!turn) {
       rest(lock);
       continue;
     }
     const Mesh mesh = _core.meshes.at(turn->mesh);
-    if (turn->probe) {
-      look_for(lock, mesh);
-      continue;
-    }
-    _core.preparers.notify_one();  // one mesh fewer is prepared ahead
+    _core.end_wait(*mesh);
     const auto now = Clock::now();
     const auto working =
         _working.insert(_working.end(), Working{turn->mesh, turn->owner, now, now});
     keep_a_spare();
     ++mesh->threads;
-    take_turn(lock, mesh, turn->lane, *working);
+    lock.unlock();
+    if (turn->lane == Lane::active_set)
+      solve_exactly(mesh, *working);
+    else if (turn->lane == Lane::sweep)
+      sweep(mesh, *working);
+    else
+      iterate(mesh, turn->lane, *working);
+    lock.lock();
     --mesh->threads;
     _working.erase(working);
     _core.schedule.served(mesh->id, Clock::now());
     _core.release(mesh);
   }
-}
-
-void SolverPool::take_turn(Lock& lock, const Mesh& mesh, Lane lane, Working& working) {
-  if (lane == Lane::active_set)
-    solve_exactly(lock, mesh, working);
-  else if (lane == Lane::sweep)
-    sweep(lock, mesh, working);
-  else
-    iterate(lock, mesh, lane, working);
-}
-
-void SolverPool::look_for(Lock& lock, const Mesh& mesh) {
-  mesh->looking = true;
-  lock.unlock();
-  std::shared_ptr<const operators::MeshOperator> found;
-  try {
-    found = _core.catalogue.find(mesh->id);
-  } catch (const std::exception&) {
-    found = nullptr;  // a preparation thread will hear what is wrong
-  }
-  lock.lock();
-  mesh->looking = false;
-  if (found) {
-    mesh->mesh_operator = std::move(found);
-    _core.schedule.prepared(mesh->id);
-    _core.solvers.notify_all();
-  } else {
-    _core.schedule.absent(mesh->id);
-    _core.preparers.notify_one();
-  }
-  _core.release(mesh);
 }
 
 bool SolverPool::turn_is_over(const MeshWork& mesh, Lane lane, const Working& working) const {
@@ -161,9 +135,10 @@ bool SolverPool::overtaken(const MeshWork& mesh, Lane lane, const BlockRun& bloc
   return waiting && block.free() == 0 && *waiting < block.priority();
 }
 
-void SolverPool::iterate(Lock& lock, const Mesh& mesh, Lane lane, Working& working) {
+void SolverPool::iterate(const Mesh& mesh, Lane lane, Working& working) {
   std::shared_ptr<BlockRun> block;
   auto& parked = mesh->parked[index(lane)];
+  Lock lock(_core.mutex);
   const bool all_overtaken = std::all_of(
       parked.begin(), parked.end(),
       [&](const std::shared_ptr<BlockRun>& other) { return overtaken(*mesh, lane, *other); });
@@ -174,10 +149,14 @@ void SolverPool::iterate(Lock& lock, const Mesh& mesh, Lane lane, Working& worki
   }
   for (;;) {
     working.step = Clock::now();
-    admit(lock, mesh, lane, block);
+    lock.unlock();
+    admit(mesh, lane, block);
+    lock.lock();
     if (!block || block->columns() == 0) break;
     working.step = Clock::now();
-    _core.deliver(lock, step(lock, *block));
+    lock.unlock();
+    _core.deliver(step(*block));
+    lock.lock();
     const bool leave =
         turn_is_over(*mesh, lane, working) ||
         (Clock::now() - working.begin >= _core.options.turn && overtaken(*mesh, lane, *block));
@@ -192,7 +171,8 @@ void SolverPool::iterate(Lock& lock, const Mesh& mesh, Lane lane, Working& worki
   std::erase(mesh->blocks, block);
 }
 
-void SolverPool::admit(Lock& lock, const Mesh& mesh, Lane lane, std::shared_ptr<BlockRun>& block) {
+void SolverPool::admit(const Mesh& mesh, Lane lane, std::shared_ptr<BlockRun>& block) {
+  Lock lock(_core.mutex);
   const bool under_way = block && block->columns() > 0;
   if (under_way && idle() > 0) {
     if (mesh->waiting[index(lane)] > 0)
@@ -200,12 +180,11 @@ void SolverPool::admit(Lock& lock, const Mesh& mesh, Lane lane, std::shared_ptr<
     return;
   }
   const int room = block ? block->free() : std::max(1, _core.options.columns);
+  lock.unlock();
   // A start waits for the disk: where columns wait meanwhile, one start at a time.
   const int max_starts = under_way ? 1 : std::numeric_limits<int>::max();
-  const std::vector<Task> tasks = take(lock, mesh, lane, room, max_starts);
+  const std::vector<Task> tasks = take(mesh, lane, room, max_starts);
   if (tasks.empty()) return;
-  _core.columns += static_cast<int>(tasks.size());
-  lock.unlock();
   Condensed condensed;
   try {
     if (!block) {
@@ -239,11 +218,13 @@ void SolverPool::admit(Lock& lock, const Mesh& mesh, Lane lane, std::shared_ptr<
     lock.lock();
     block->iterating = false;
   }
-  _core.deliver(lock, std::move(condensed.ended));
+  lock.unlock();
+  _core.deliver(std::move(condensed.ended));
 }
 
-std::vector<EndedCase> SolverPool::step(Lock& lock, BlockRun& block) {
+std::vector<EndedCase> SolverPool::step(BlockRun& block) {
   std::vector<EndedCase> ended;
+  Lock lock(_core.mutex);
   for (const Task& task : block.abandon_stopped()) ended.push_back({task, cancelled_case(task)});
   const int columns = block.columns();
   block.iterating = true;
@@ -256,17 +237,19 @@ std::vector<EndedCase> SolverPool::step(Lock& lock, BlockRun& block) {
   return ended;
 }
 
-void SolverPool::solve_exactly(Lock& lock, const Mesh& mesh, Working& working) {
+void SolverPool::solve_exactly(const Mesh& mesh, Working& working) {
+  Lock lock(_core.mutex);
   do {
     working.step = Clock::now();
+    std::vector<EndedCase> ended;
     if (mesh->prepared.empty()) {
+      lock.unlock();
       const std::vector<Task> tasks =
-          take(lock, mesh, Lane::active_set, std::max(1, _core.options.columns),
+          take(mesh, Lane::active_set, std::max(1, _core.options.columns),
                std::numeric_limits<int>::max());
       if (tasks.empty()) return;
-      _core.columns += static_cast<int>(tasks.size());
-      lock.unlock();
       Condensed condensed = condense(*mesh->mesh_operator, tasks, _core.store);
+      ended = std::move(condensed.ended);
       lock.lock();
       _core.columns -= static_cast<int>(tasks.size());
       for (PreparedCase& prepared : condensed.prepared) {
@@ -274,45 +257,47 @@ void SolverPool::solve_exactly(Lock& lock, const Mesh& mesh, Working& working) {
           _core.schedule.park(mesh->id, Lane::active_set, prepared.task.job->spec->priority);
           mesh->prepared.push_back(std::move(prepared));
         } else {
-          condensed.ended.push_back({prepared.task, cancelled_case(prepared.task)});
+          ended.push_back({prepared.task, cancelled_case(prepared.task)});
         }
       }
       _core.solvers.notify_all();
-      _core.deliver(lock, std::move(condensed.ended));
-      continue;
+    } else {
+      const std::vector<PreparedCase> cases =
+          take_together(mesh->prepared, static_cast<int>(idle()) + 1);
+      for (const PreparedCase& prepared : cases)
+        _core.schedule.unpark(mesh->id, Lane::active_set, prepared.task.job->spec->priority);
+      _core.columns += static_cast<int>(cases.size());
+      lock.unlock();
+      ended = jobs::solve_exactly(cases, _core.iterations);
+      lock.lock();
+      _core.columns -= static_cast<int>(cases.size());
     }
-    const std::vector<PreparedCase> cases =
-        take_together(mesh->prepared, static_cast<int>(idle()) + 1);
-    for (const PreparedCase& prepared : cases)
-      _core.schedule.unpark(mesh->id, Lane::active_set, prepared.task.job->spec->priority);
-    _core.columns += static_cast<int>(cases.size());
     lock.unlock();
-    std::vector<EndedCase> ended = jobs::solve_exactly(cases, _core.iterations);
+    _core.deliver(std::move(ended));
     lock.lock();
-    _core.columns -= static_cast<int>(cases.size());
-    _core.deliver(lock, std::move(ended));
   } while (!turn_is_over(*mesh, Lane::active_set, working));
 }
 
-void SolverPool::sweep(Lock& lock, const Mesh& mesh, Working& working) {
+void SolverPool::sweep(const Mesh& mesh, Working& working) {
+  Lock lock(_core.mutex);
   do {
     working.step = Clock::now();
-    const std::vector<Task> tasks =
-        take(lock, mesh, Lane::sweep, 1, std::numeric_limits<int>::max());
-    if (tasks.empty()) return;
-    ++_core.columns;
     lock.unlock();
+    const std::vector<Task> tasks = take(mesh, Lane::sweep, 1, std::numeric_limits<int>::max());
+    if (tasks.empty()) return;
     EndedChunk chunk = solve_chunk(tasks.front(), _core.iterations);
     lock.lock();
     --_core.columns;
-    _core.deliver(lock, std::move(chunk));
+    lock.unlock();
+    _core.deliver(std::move(chunk));
+    lock.lock();
   } while (!turn_is_over(*mesh, Lane::sweep, working));
 }
 
-std::vector<Task> SolverPool::take(Lock& lock, const Mesh& mesh, Lane lane, int room,
-                                   int max_starts) {
+std::vector<Task> SolverPool::take(const Mesh& mesh, Lane lane, int room, int max_starts) {
   std::vector<Task> tasks;
   std::vector<EndedCase> refused;
+  Lock lock(_core.mutex);
   const std::uint64_t waiting = mesh->waiting[index(lane)];
   const std::uint64_t shares = static_cast<std::uint64_t>(idle()) + 1;
   const std::uint64_t wanted =
@@ -323,7 +308,10 @@ std::vector<Task> SolverPool::take(Lock& lock, const Mesh& mesh, Lane lane, int 
     const JobPtr job = _core.numbers.at(*next);
     if (!job->mesh_operator) {
       if (max_starts-- == 0) break;
-      start_job(_core, lock, mesh->mesh_operator, job);
+      if (!may_start(_core, job)) continue;
+      lock.unlock();
+      start_job(_core, mesh->mesh_operator, job);
+      lock.lock();
       continue;
     }
     Task task = take_unit(job);
@@ -335,7 +323,9 @@ std::vector<Task> SolverPool::take(Lock& lock, const Mesh& mesh, Lane lane, int 
     else
       tasks.push_back(std::move(task));
   }
-  _core.deliver(lock, std::move(refused));
+  _core.columns += static_cast<int>(tasks.size());
+  lock.unlock();
+  _core.deliver(std::move(refused));
   return tasks;
 }
 

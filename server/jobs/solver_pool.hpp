@@ -24,13 +24,13 @@ namespace anticrack::jobs {
 ///
 /// A step cannot be put down. Where all threads have been at one for EngineOptions::long_step, a
 /// spare thread takes a turn for an owner, without names a mesh, that has no thread; the system
-/// divides the processors. The first turn that ends then gives its thread up.
+/// divides the processors. The first turn that ends then gives its thread up. Ends of stages
+/// (stage_end.hpp), owners in turn, are no turns: they go on beside the threads that solve.
 class SolverPool {
  public:
-  /// Starts the threads; the core must outlive them.
+  /// Starts the threads, which are joined at the end: EngineCore::quitting must be set then. The
+  /// core must outlive them.
   explicit SolverPool(EngineCore& core);
-  /// Joins the threads; EngineCore::quitting must be set.
-  ~SolverPool();
   SolverPool(const SolverPool&) = delete;
   SolverPool& operator=(const SolverPool&) = delete;
 
@@ -44,24 +44,23 @@ class SolverPool {
     EngineCore::Clock::time_point begin, step;  ///< of the turn, of what it is at now
   };
 
-  void join();
   void work();
   std::optional<Turn> next_turn();
   /// There is always a thread that waits, to see that all others are at long steps.
   void keep_a_spare();
   void rest(Lock& lock);
-  void take_turn(Lock& lock, const Mesh& mesh, Lane lane, Working& working);
 
-  void look_for(Lock& lock, const Mesh& mesh);
-  void iterate(Lock& lock, const Mesh& mesh, Lane lane, Working& working);
-  void solve_exactly(Lock& lock, const Mesh& mesh, Working& working);
-  void sweep(Lock& lock, const Mesh& mesh, Working& working);
+  // Without the lock; a turn each:
+  void iterate(const Mesh& mesh, Lane lane, Working& working);
+  void solve_exactly(const Mesh& mesh, Working& working);
+  void sweep(const Mesh& mesh, Working& working);
+  // and its parts:
+  void admit(const Mesh& mesh, Lane lane, std::shared_ptr<BlockRun>& block);
+  std::vector<EndedCase> step(BlockRun& block);
+  /// Units of the most urgent jobs, which are started where they were not. Counted in
+  /// EngineCore::columns.
+  std::vector<Task> take(const Mesh& mesh, Lane lane, int room, int max_starts);
 
-  void admit(Lock& lock, const Mesh& mesh, Lane lane, std::shared_ptr<BlockRun>& block);
-  std::vector<EndedCase> step(Lock& lock, BlockRun& block);
-
-  /// Units of the most urgent jobs, which are started where they were not.
-  std::vector<Task> take(Lock& lock, const Mesh& mesh, Lane lane, int room, int max_starts);
   bool turn_is_over(const MeshWork& mesh, Lane lane, const Working& working) const;
   /// A load case waits that is more urgent than all of a block that has no place for it.
   bool overtaken(const MeshWork& mesh, Lane lane, const BlockRun& block) const;
@@ -72,8 +71,9 @@ class SolverPool {
   EngineCore& _core;
   std::list<Working> _working;
   int _resting = 0;
+  int _at_stage_ends = 0;
   bool _watched = false;  ///< one of those that rest wakes up by itself
-  std::list<std::thread> _threads;
+  std::list<std::jthread> _threads;
 };
 
 }  // namespace anticrack::jobs

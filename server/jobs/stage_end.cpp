@@ -78,7 +78,8 @@ void store_progress(EngineCore& core, const JobSnapshot& snapshot,
 
 }  // namespace
 
-void end_stage(EngineCore& core, EngineCore::Lock& lock, const JobPtr& job) {
+void end_stage(EngineCore& core, const JobPtr& job) {
+  EngineCore::Lock lock(core.mutex);
   LiveStages& stages = *job->stages;
   std::vector<store::StageRecord> records = stages.records;
   std::vector<const store::CaseRecord*> cases;
@@ -146,13 +147,11 @@ void end_stage(EngineCore& core, EngineCore::Lock& lock, const JobPtr& job) {
   core.move_on(job);
   lock.unlock();
   if (before != job->spec->mesh) evict(core, before);
-  lock.lock();
 }
 
-bool fall_back_a_stage(EngineCore& core, const EngineCore::Lock& /*held*/, const JobPtr& job,
-                       const Error& error) {
-  if (!job->stages || job->stages->records.size() < 2 || job->why != Stop::none || job->ending ||
-      error.reason() != Reason::limit_exceeded)
+bool fall_back_a_stage(EngineCore& core, const JobPtr& job, const Error& error) {
+  if (!job->stages || job->stages->records.size() < 2 || job->why != Stop::none ||
+      job->is_ending() || error.reason() != Reason::limit_exceeded)
     return false;
   LiveStages& stages = *job->stages;
   core.withdraw(job);

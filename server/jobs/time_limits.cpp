@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "jobs/time_limits.hpp"
-
 #include <string>
 
 #include "errors/errors.hpp"
 #include "jobs/job_start.hpp"
+#include "jobs/upkeep.hpp"
 
 namespace anticrack::jobs {
 
@@ -35,38 +34,31 @@ Error ran_too_long(std::chrono::milliseconds limit) {
 
 }  // namespace
 
-TimeLimits::TimeLimits(EngineCore& core)
-    : _core(core), _thread(core.start(EngineCore::Lock(core.mutex), [this] { work(); })) {}
-
-TimeLimits::~TimeLimits() { _thread.join(); }
-
-void TimeLimits::work() {
-  EngineCore::Lock lock(_core.mutex);
-  while (!_core.quitting) {
-    const auto due = _core.deadlines.take(EngineCore::Clock::now());
-    for (const Deadlines::Entry& entry : due) act(lock, entry);
-    if (!due.empty()) continue;
-    if (const auto next = _core.deadlines.next())
-      _core.limits.wait_until(lock, *next);
-    else
-      _core.limits.wait(lock);
+void keep_time_limits(EngineCore& core) {
+  EngineCore::Lock lock(core.mutex);
+  while (!core.quitting) {
+    std::vector<std::pair<JobPtr, Error>> late;
+    const auto due = core.deadlines.take(EngineCore::Clock::now());
+    for (const auto& [number, what] : due) {
+      const JobPtr job = core.numbers.at(number);
+      if (what != Due::start)
+        late.emplace_back(job, what == Due::queue_time
+                                   ? waited_too_long(queue_limit(*job, core.options))
+                                   : ran_too_long(run_limit(*job, core.options)));
+      else if (job->why == Stop::none)
+        core.offer(job);
+    }
+    if (!late.empty()) {
+      lock.unlock();
+      for (const auto& [job, error] : late) core.stop(job, Stop::failed, error);
+      lock.lock();
+    } else if (due.empty()) {
+      if (const auto next = core.deadlines.next())
+        core.limits.wait_until(lock, *next);
+      else
+        core.limits.wait(lock);
+    }
   }
-}
-
-void TimeLimits::act(EngineCore::Lock& lock, const Deadlines::Entry& entry) {
-  const auto found = _core.numbers.find(entry.first);
-  if (found == _core.numbers.end()) return;  // it ended while another was dealt with
-  const JobPtr job = found->second;
-  if (entry.second == Due::start) {
-    if (job->why == Stop::none) _core.offer(job);
-    return;
-  }
-  const Error error = entry.second == Due::queue_time
-                          ? waited_too_long(queue_limit(*job, _core.options))
-                          : ran_too_long(run_limit(*job, _core.options));
-  lock.unlock();
-  _core.stop(job, Stop::failed, error);
-  lock.lock();
 }
 
 }  // namespace anticrack::jobs

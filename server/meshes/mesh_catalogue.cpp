@@ -91,12 +91,11 @@ struct MeshCatalogue::State {
 
   MeshIndex& index() { return preparation.index(); }
 
-  /// The cache's key for the operators of a mesh, empty if it is not meshed; and its owner.
-  std::pair<std::string, std::string> key(const std::string& id) {
+  /// The cache's key for the operators of a mesh, empty if it is not meshed.
+  std::string key(const std::string& id) {
     const auto lock = preparation.lock();
     const LiveMesh* mesh = index().find(id);
-    if (mesh == nullptr || mesh->stage != Stage::meshed) return {};
-    return {mesh->sha256, mesh->owner};
+    return mesh == nullptr || mesh->stage != Stage::meshed ? std::string() : mesh->sha256;
   }
 
   // With the lock held:
@@ -140,6 +139,8 @@ struct MeshCatalogue::State {
     --claims;
     if (record != nullptr) {
       mesh.stage = record->sha256.empty() ? Stage::pending : Stage::meshed;
+      mesh.sha256 = record->sha256;
+      if (record->triangle_count > 0) mesh.size_class = size_class(record->triangle_count);
       mesh.error.reset();
       mesh.for_job = record->for_job;
       ++mesh.version;
@@ -147,6 +148,7 @@ struct MeshCatalogue::State {
     } else if (mesh.stage == Stage::absent) {
       index().remove(id);
     }
+    preparation.serve(id);
     preparation.notify();
   }
 };
@@ -154,6 +156,9 @@ struct MeshCatalogue::State {
 MeshCatalogue::MeshCatalogue(CatalogueOptions options, store::Store& store,
                              operators::OperatorCache& cache)
     : _state(std::make_unique<State>(std::move(options), store, cache)) {}
+
+MeshWaits::MeshWaits(MeshCatalogue& catalogue, Tell tell)
+    : _preparation(catalogue._state->preparation), _tell(std::move(tell)) {}
 
 MeshCatalogue::~MeshCatalogue() { _state->ends->forget(); }
 
@@ -164,8 +169,8 @@ MeshRecord MeshCatalogue::create(const store::MeshDefinition& definition, const 
   const std::string id = identity(definition, owner).substr(0, id_digits);
   Preparation& preparation = _state->preparation;
   {
-    auto lock = preparation.lock();
-    if (_state->resume(preparation.settled(lock, id), id, for_job)) {
+    auto lock = preparation.lock_settled(id);
+    if (_state->resume(_state->index().find(id), id, for_job)) {
       lock.unlock();
       return get(id);
     }
@@ -211,8 +216,8 @@ MeshRecord MeshCatalogue::refine(const Parent& parent, std::span<const std::uint
   record.id = identity(definition, parent.owner).substr(0, id_digits);
   Preparation& preparation = _state->preparation;
   {
-    auto lock = preparation.lock();
-    const LiveMesh* mesh = preparation.settled(lock, record.id);
+    auto lock = preparation.lock_settled(record.id);
+    const LiveMesh* mesh = _state->index().find(record.id);
     if (mesh != nullptr && mesh->stage == Stage::meshed) {
       lock.unlock();
       return get(record.id);
@@ -247,9 +252,7 @@ MeshRecord MeshCatalogue::refine(const Parent& parent, std::span<const std::uint
   }
   const auto lock = preparation.lock();
   _state->end_claim(record.id, &record, false);
-  LiveMesh& mesh = _state->index().known(record.id);
-  mesh.sha256 = record.sha256;
-  mesh.size_class = meshes::size_class(record.triangle_count);
+  const LiveMesh& mesh = _state->index().known(record.id);
   return seen(mesh, std::move(record), false);
 }
 
@@ -290,8 +293,7 @@ std::shared_ptr<const store::BlockSource> MeshCatalogue::read(const std::string&
 
 MeshRecord MeshCatalogue::warm(const std::string& id, bool pin) {
   {
-    auto lock = _state->preparation.lock();
-    _state->preparation.settled(lock, id);
+    const auto lock = _state->preparation.lock_settled(id);
     LiveMesh& mesh = _state->index().known(id);
     if (mesh.stage == Stage::failed) throw Error(*mesh.error);
     const bool there = mesh.stage == Stage::meshed &&
@@ -326,13 +328,12 @@ MeshRecord MeshCatalogue::evict(const std::string& id) {
 void MeshCatalogue::erase(const std::string& id) {
   Preparation& preparation = _state->preparation;
   MeshIndex& index = preparation.index();
-  auto lock = preparation.lock();
-  preparation.settled(lock, id);
+  auto lock = preparation.lock_settled(id);
   LiveMesh& mesh = index.known(id);
   if (!mesh.users.expired())
     throw in_use(id, "a job that has not ended needs it; wait for it or cancel it");
-  const std::shared_ptr<Run> run =
-      preparation.give_up(mesh, Error(Reason::not_found, "meshes/" + id + " was deleted"));
+  preparation.fail_waits(mesh, Error(Reason::not_found, "meshes/" + id + " was deleted"));
+  const std::shared_ptr<Run> run = preparation.give_up(mesh);
   const Stage stage = std::exchange(mesh.stage, Stage::absent);
   mesh.claimed = true;
   lock.unlock();
@@ -369,34 +370,17 @@ std::shared_ptr<void> MeshCatalogue::use(const std::string& id) {
   return user;
 }
 
-std::shared_ptr<const operators::MeshOperator> MeshCatalogue::prepare(
-    const std::string& id, const PhaseListener& listener, std::stop_token stop,
-    const ProgressListener& progress) {
-  return _state->preparation.prepare(id, listener, stop, progress);
-}
-
-std::shared_ptr<const operators::MeshOperator> MeshCatalogue::find(const std::string& id) const {
-  const auto [key, owner] = _state->key(id);
-  return key.empty() ? nullptr : _state->cache.find(key, owner);
-}
-
 bool MeshCatalogue::ready(const std::string& id) const {
-  const std::string key = _state->key(id).first;
+  const std::string key = _state->key(id);
   return !key.empty() && _state->cache.contains(key);
 }
 
 bool MeshCatalogue::pinned(const std::string& id) const {
-  const std::string key = _state->key(id).first;
+  const std::string key = _state->key(id);
   return !key.empty() && _state->cache.pinned(key);
 }
 
 std::uint64_t MeshCatalogue::meshings() const noexcept { return _state->preparation.meshings(); }
-
-int MeshCatalogue::size_class(const std::string& id) const {
-  const auto lock = _state->preparation.lock();
-  const LiveMesh* mesh = _state->index().find(id);
-  return mesh == nullptr ? 0 : mesh->size_class;
-}
 
 int MeshCatalogue::pending() const {
   const auto lock = _state->preparation.lock();

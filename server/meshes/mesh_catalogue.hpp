@@ -8,11 +8,11 @@
 #include <functional>
 #include <memory>
 #include <span>
-#include <stop_token>
 #include <string>
 #include <vector>
 
 #include "mesher/helper.hpp"
+#include "meshes/mesh_waits.hpp"
 #include "operators/operator_cache.hpp"
 #include "store/store.hpp"
 
@@ -28,14 +28,8 @@ struct CatalogueOptions {
   std::function<void(const store::MeshRecord&)> meshed = {};
 };
 
-/// Receives the phases of a mesh on its way to READY.
-using PhaseListener = std::function<void(store::MeshState)>;
-/// Receives how far the mesher is, about every second.
-using ProgressListener = std::function<void(const store::MeshProgress&)>;
-
-/// Meshes and factorises new meshes in the background, owners in turn, two per size class
-/// (size_class.hpp) at a time, so that large meshes do not delay small ones, and one more for an
-/// owner who has none there, so that slow ones do not delay those of others. Thread-safe.
+/// Meshes and factorises new meshes in the background, in the order of queue.hpp; MeshWaits
+/// gives them to who needs them. Thread-safe.
 ///
 /// On disk a mesh is PENDING, EVICTED (meshed) or FAILED. At start, meshes that are still PENDING
 /// are scheduled, oldest first, but for those that are only there for jobs. A mesh for which the
@@ -88,26 +82,15 @@ class MeshCatalogue {
   /// Throws not_found.
   std::shared_ptr<void> use(const std::string& id);
 
-  /// Meshes and factorises if necessary and returns the operator, pinned while held. Blocks and
-  /// calls `listener` with each phase. Throws the error of a failed mesh; busy if others use up the
-  /// memory budget; disk_full or storage if the mesh could not be written; cancelled on `stop`,
-  /// which ends this wait only.
-  std::shared_ptr<const operators::MeshOperator> prepare(const std::string& id,
-                                                         const PhaseListener& listener,
-                                                         std::stop_token stop,
-                                                         const ProgressListener& progress = {});
-  /// The operator if it is in memory, else null. Does not block.
-  std::shared_ptr<const operators::MeshOperator> find(const std::string& id) const;
-  /// Whether the operators are in memory, so that prepare() would not block.
+  /// Whether the operators are in memory.
   bool ready(const std::string& id) const;
 
-  /// The class (size_class.hpp) of its actual or expected number of triangles.
-  int size_class(const std::string& id) const;
   bool pinned(const std::string& id) const;  ///< by warm(), for any owner of an equal mesh
   std::uint64_t meshings() const noexcept;   ///< runs of the helper so far
   int pending() const;                       ///< meshes waiting for the mesher or in it
 
  private:
+  friend class MeshWaits;
   /// Throws as read().
   std::shared_ptr<const mesh::Mesh> triangulation(const std::string& id) const;
 

@@ -3,14 +3,17 @@
 // The state of every mesh in memory. Not thread-safe: guarded by Preparation's mutex.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <stop_token>
 #include <string>
 #include <unordered_map>
+#include <vector>
 
 #include "errors/errors.hpp"
+#include "meshes/mesh_waits.hpp"
 #include "operators/mesh_operator.hpp"
 #include "store/records.hpp"
 
@@ -31,26 +34,35 @@ struct Measured {
   double seconds = 0;
 };
 
-/// The preparation of a mesh up to its operators, shared by all its waiters. A run that is not in
-/// the background is stopped and detached from the mesh when the last waiter leaves it, or when no
-/// job uses the mesh any more; any run is when the mesh is erased.
+/// Somebody waits for the operators of a mesh.
+struct Wait {
+  const std::uint64_t number;
+  const MeshWaits* const whose;
+  const std::string mesh;  ///< id
+  const store::Priority priority;
+  const std::chrono::steady_clock::time_point since;
+  std::optional<MeshNews::Phase> told = {};
+  bool joined = false;      ///< a run that was there
+  bool over = false;        ///< given up
+  std::uint64_t place = 0;  ///< that it holds in the queue, with the operators
+};
+
+/// The preparation of a mesh up to its operators, shared by all its waits. A run that is not in the
+/// background is stopped and detached from the mesh when the last wait is given up, or when no job
+/// uses the mesh any more; any run is when the mesh is erased.
 struct Run {
   const std::string id;
-  const int size_class;
-  const std::string owner = {};
+  const std::uint64_t place = 0;  ///< in the queue
   std::stop_source stop = {};
 
   store::MeshState phase = store::MeshState::pending;  ///< or meshing, factorizing
-  bool background = false;                             ///< goes on without waiters
+  bool background = false;                             ///< goes on without waits
   bool measures = false;                               ///< theta* as well
-  int waiters = 0;
-  bool visible = false;                              ///< the operators, to every caller
-  bool ending = false;                               ///< only its outcome has to be written
-  bool writing = false;                              ///< its record: it is not given up meanwhile
-  std::optional<store::MeshProgress> progress = {};  ///< of the mesher
-  std::shared_ptr<const operators::MeshOperator> result =
-      {};  ///< until the last waiter has taken it
-  std::optional<errors::Error> error = {};
+  bool visible = false;                                ///< the operators, to every caller
+  bool ending = false;                                 ///< only its outcome has to be written
+  bool writing = false;                                ///< its record: it is not given up meanwhile
+  std::optional<store::MeshProgress> progress = {};    ///< of the mesher
+  std::shared_ptr<const operators::MeshOperator> result = {};  ///< until theta* is measured
 };
 
 struct LiveMesh {
@@ -62,13 +74,14 @@ struct LiveMesh {
   std::string sha256;                  ///< of the triangulation; empty: not meshed
   std::optional<errors::Error> error;  ///< when failed
   Measured operators;
-  int size_class = 0;         ///< by its actual or expected triangles
-  bool for_job = false;       ///< nobody wants it but its jobs
-  bool used = false;          ///< by a job, at some time
-  int refusals = 0;           ///< by the disk, one after another
-  bool pin = false;           ///< pin its operators once they are made
-  std::shared_ptr<Run> run;   ///< null: it is not being prepared
-  std::weak_ptr<void> users;  ///< jobs that have not ended
+  int size_class = 0;                        ///< by its actual or expected triangles
+  bool for_job = false;                      ///< nobody wants it but its jobs
+  bool used = false;                         ///< by a job, at some time
+  int refusals = 0;                          ///< by the disk, one after another
+  bool pin = false;                          ///< pin its operators once they are made
+  std::shared_ptr<Run> run;                  ///< null: it is not being prepared
+  std::vector<std::shared_ptr<Wait>> waits;  ///< that have no outcome yet, in their order
+  std::weak_ptr<void> users;                 ///< jobs that have not ended
 };
 
 /// The record with its current state. `in_memory`: its operators are in memory.

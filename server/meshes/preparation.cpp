@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What waits, is begun again or given up.
 #include "meshes/preparation.hpp"
 
-#include <fmt/core.h>
-#include <sys/resource.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <chrono>
-#include <new>
-#include <system_error>
 #include <utility>
 
-#include "meshes/mesh_index.hpp"
 #include "meshes/size_class.hpp"
 #include "meshes/triangulation.hpp"
-#include "stop/stop.hpp"
 
 namespace anticrack::meshes {
 
@@ -24,51 +17,93 @@ using errors::Error;
 using errors::Reason;
 using store::MeshRecord;
 using store::MeshState;
-using Steady = std::chrono::steady_clock;
+using Phase = MeshNews::Phase;
 
-/// The calling thread, and what it starts, gets a third of the share of others where both want a
-/// processor, and all that they leave. For good: nobody needs a privilege to give way, but one to
-/// take it back.
-void give_way() {
-  constexpr int niceness = 5;
-  const auto self = static_cast<id_t>(::gettid());
-  if (::getpriority(PRIO_PROCESS, self) < niceness) ::setpriority(PRIO_PROCESS, self, niceness);
-}
-
-constexpr int runs_at_once = 2;  // of one class of sizes
 constexpr std::size_t records_a_page = 100;
 
-/// 0 if it cannot be computed; Algorithm 2 reports why.
-double theta_star(const operators::MeshOperator& mesh_operator) {
-  try {
-    return mesh_operator.theta_star();
-  } catch (const Error&) {
-    return 0;
-  }
+Phase phase_of(MeshState state) {
+  return state == MeshState::pending   ? Phase::queued
+         : state == MeshState::meshing ? Phase::meshing
+                                       : Phase::factorising;
 }
 
-Error nobody_wants(const std::string& mesh) {
-  return {Reason::cancelled, "no job wants meshes/" + mesh + " any more"};
+Error not_there(const std::string& mesh) {
+  return {Reason::not_found, "there is no meshes/" + mesh + ": create it first"};
 }
 
 }  // namespace
+
+MeshWaits::~MeshWaits() {
+  Preparation::Lock held = _preparation.lock();
+  std::vector<std::uint64_t> own;
+  for (const auto& [number, wait] : _preparation._waits)
+    if (wait->whose == this) own.push_back(number);
+  for (const std::uint64_t number : own) end_held(number);
+  _preparation._delivered.wait(held, [&] { return _preparation._telling != this; });
+}
+
+std::uint64_t MeshWaits::begin(const std::string& id, store::Priority priority,
+                               std::chrono::steady_clock::time_point since) {
+  const auto held = _preparation.lock();
+  const std::uint64_t number = ++_preparation._last_wait;
+  const auto wait = std::make_shared<Wait>(Wait{number, this, id, priority, since});
+  _preparation._waits.emplace(number, wait);
+  LiveMesh* mesh = _preparation._index.find(id);
+  if (mesh == nullptr || mesh->stage == Stage::absent) {
+    _preparation.tell(wait, {.phase = Phase::failed, .error = not_there(id)});
+    return number;
+  }
+  wait->joined = mesh->run && !mesh->run->ending;
+  mesh->waits.push_back(wait);
+  _preparation.serve(id);
+  return number;
+}
+
+void MeshWaits::join(std::uint64_t number, store::Priority priority,
+                     std::chrono::steady_clock::time_point since) {
+  const auto held = _preparation.lock();
+  const LiveMesh* mesh = _preparation._index.find(_preparation._waits.at(number)->mesh);
+  if (mesh != nullptr && mesh->run) _preparation._queue.await(mesh->run->place, priority, since);
+}
+
+void MeshWaits::end(std::uint64_t number) {
+  const auto held = _preparation.lock();
+  end_held(number);
+}
+
+void MeshWaits::end_held(std::uint64_t number) {
+  const auto ended = _preparation._waits.extract(number);
+  if (ended.empty()) return;
+  Wait& wait = *ended.mapped();
+  wait.over = true;
+  if (wait.place > 0) {
+    _preparation._queue.let_go(wait.place);
+    _preparation.notify();
+  } else if (LiveMesh* mesh = _preparation._index.find(wait.mesh)) {
+    if (std::erase(mesh->waits, ended.mapped()) > 0) _preparation.give_up_unwanted(*mesh);
+  }
+}
 
 Preparation::Preparation(CatalogueOptions options, store::Store& store,
                          operators::OperatorCache& cache)
     : _options(std::move(options)), _store(store), _cache(cache) {
   recover();
   const auto held = lock();
+  _threads.emplace_back([this] { deliver(); });
   _threads.emplace_back([this] { work(); });
 }
 
 Preparation::~Preparation() {
   std::list<std::jthread> threads;
+  std::map<std::uint64_t, RunPtr> runs;
   {
     const auto held = lock();
     _stopping.request_stop();
-    for (const RunPtr& run : _under_way) run->stop.request_stop();
     threads = std::move(_threads);
+    runs = _under_way;
   }
+  _to_deliver.notify_one();
+  for (const auto& [number, run] : runs) run->stop.request_stop();
 }
 
 void Preparation::recover() {
@@ -93,7 +128,7 @@ void Preparation::recover() {
 
 MeshRecord Preparation::stored(const std::string& id) const {
   std::optional<MeshRecord> record = _store.mesh(id);
-  if (!record) throw Error(Reason::not_found, "there is no meshes/" + id + ": create it first");
+  if (!record) throw not_there(id);
   return std::move(*record);
 }
 
@@ -110,125 +145,78 @@ MeshRecord Preparation::record(const std::string& id) {
   }
 }
 
-LiveMesh* Preparation::settled(Lock& lock, const std::string& id) {
-  LiveMesh* mesh = nullptr;
-  _changed.wait(lock, [&] {
-    mesh = _index.find(id);
+Preparation::Lock Preparation::lock_settled(const std::string& id) {
+  Lock held = lock();
+  _changed.wait(held, [&] {
+    const LiveMesh* mesh = _index.find(id);
     return mesh == nullptr ||
            !(mesh->claimed || (mesh->run && (mesh->run->ending || mesh->run->writing)));
   });
-  return mesh;
+  return held;
 }
 
-Preparation::RunPtr Preparation::begin(const std::string& id, bool background) {
+Run& Preparation::begin(const std::string& id, bool background) {
   LiveMesh& mesh = _index.known(id);
   const bool pending = mesh.stage == Stage::pending;
   if (!mesh.run) {
-    mesh.run = std::make_shared<Run>(Run{id, mesh.size_class, mesh.owner});
+    const bool awaited = !mesh.waits.empty();
+    const std::uint64_t place = _queue.add(
+        mesh.owner, mesh.size_class, awaited ? mesh.waits[0]->priority : store::Priority::normal,
+        awaited ? mesh.waits[0]->since : Steady::now());
+    mesh.run = std::make_shared<Run>(Run{id, place});
     mesh.run->phase = pending ? MeshState::pending : MeshState::factorizing;
-    _queue.push_back(mesh.run);
+    _queued.emplace(place, mesh.run);
     _changed.notify_all();
   }
   mesh.run->background = mesh.run->background || background;
   mesh.run->measures = mesh.run->measures || background || pending;
-  return mesh.run;
+  return *mesh.run;
 }
 
-Preparation::RunPtr Preparation::give_up(LiveMesh& mesh, const Error& why) {
+void Preparation::serve(const std::string& id) {
+  LiveMesh* mesh = _index.find(id);
+  if (mesh == nullptr || mesh->waits.empty() || mesh->claimed) return;
+  if (mesh->stage == Stage::failed) return fail_waits(*mesh, *mesh->error);
+  if (mesh->run && mesh->run->result) {
+    mesh->run->visible = true;
+    return hand_over(*mesh, mesh->run->result, mesh->run->place);
+  }
+  const bool measured = mesh->stage == Stage::meshed && mesh->operators.bytes > 0;
+  if (measured && (!mesh->run || mesh->run->visible))
+    if (const Operator ready = _cache.find(mesh->sha256, mesh->owner))
+      return hand_over(*mesh, ready, 0);
+  if (mesh->run && mesh->run->ending) return;  // it serves them when it has ended
+  const Run& run = begin(id, false);
+  for (const auto& wait : mesh->waits) _queue.await(run.place, wait->priority, wait->since);
+  tell_phase(*mesh, phase_of(run.phase));
+}
+
+Preparation::RunPtr Preparation::give_up(LiveMesh& mesh) {
   const RunPtr run = std::exchange(mesh.run, nullptr);
   if (!run) return nullptr;
-  _queue.remove(run);
-  run->error = why;
+  _queue.remove(run->place);
+  _queued.erase(run->place);
   _changed.notify_all();
   return run;
 }
 
+void Preparation::give_up_unwanted(LiveMesh& mesh) {
+  if (!mesh.run || !mesh.waits.empty()) return;
+  const Run& run = *mesh.run;
+  if (run.background || run.result || run.ending || run.writing) return;
+  _unwanted.push_back(give_up(mesh));
+  _to_deliver.notify_one();
+}
+
 void Preparation::let_go(const std::string& id) {
-  RunPtr run;
-  {
-    const auto held = lock();
-    LiveMesh* mesh = _index.find(id);
-    if (mesh == nullptr || !mesh->run || !mesh->users.expired()) return;
-    const Run& its = *mesh->run;
-    if (its.background || its.waiters > 0 || its.result || its.ending || its.writing) return;
-    run = give_up(*mesh, nobody_wants(id));
-  }
-  run->stop.request_stop();
+  const auto held = lock();
+  LiveMesh* mesh = _index.find(id);
+  if (mesh != nullptr && mesh->users.expired()) give_up_unwanted(*mesh);
 }
 
 std::size_t Preparation::queued() const {
   return static_cast<std::size_t>(
-      std::count_if(_queue.begin(), _queue.end(), [](const RunPtr& run) { return run->measures; }));
-}
-
-void Preparation::await(Lock& lock, Run& run, bool joins, const PhaseListener& listener,
-                        const std::stop_token& stop, const ProgressListener& progress) {
-  const auto ended = [&] { return run.result || run.error; };
-  std::optional<MeshState> reported;
-  std::optional<store::MeshProgress> told;
-  while (reported != run.phase || !ended()) {
-    const MeshState phase = run.phase;
-    if (reported == phase) {
-      const auto farther = [&] { return phase == MeshState::meshing && run.progress != told; };
-      if (!_changed.wait(lock, stop, [&] { return run.phase != phase || ended() || farther(); }))
-        throw Error(Reason::cancelled, "stopped while waiting for meshes/" + run.id);
-      if (run.phase == phase && !ended() && farther()) {
-        told = run.progress;
-        lock.unlock();
-        if (progress) progress(*told);
-        lock.lock();
-      }
-      continue;
-    }
-    reported = phase;
-    if (joins && phase == MeshState::factorizing && !ended()) _cache.count_join();
-    lock.unlock();
-    listener(phase);
-    lock.lock();
-  }
-}
-
-Preparation::Operator Preparation::prepare(const std::string& id, const PhaseListener& listener,
-                                           const std::stop_token& stop,
-                                           const ProgressListener& progress) {
-  Lock held = lock();
-  settled(held, id);
-  LiveMesh& mesh = _index.known(id);
-  if (mesh.stage == Stage::failed) throw Error(*mesh.error);
-  if (mesh.stage == Stage::meshed && mesh.operators.bytes > 0 && (!mesh.run || mesh.run->visible)) {
-    if (Operator ready = _cache.find(mesh.sha256, mesh.owner)) return ready;
-  }
-  const bool joins = mesh.run != nullptr;
-  const RunPtr run = begin(id, false);
-  ++run->waiters;
-  try {
-    await(held, *run, joins, listener, stop, progress);
-  } catch (...) {
-    if (!held) held.lock();
-    const bool unwanted = leave(*run);
-    held.unlock();
-    if (unwanted) run->stop.request_stop();
-    throw;
-  }
-  Operator result = run->result;
-  run->visible = run->visible || result;
-  leave(*run);
-  if (!result) throw Error(*run->error);
-  return result;
-}
-
-bool Preparation::leave(Run& run) {
-  if (--run.waiters > 0) return false;
-  LiveMesh* mesh = mesh_of(run);
-  if (mesh == nullptr) {
-    run.result.reset();  // the run is over; its result would pin the operators
-    return false;
-  }
-  if (run.background || run.result || run.ending || run.writing) return false;
-  _queue.remove(mesh->run);
-  mesh->run.reset();
-  _changed.notify_all();
-  return true;
+      std::ranges::count_if(_queued, [](const auto& queued) { return queued.second->measures; }));
 }
 
 LiveMesh* Preparation::mesh_of(const Run& run) {
@@ -236,219 +224,59 @@ LiveMesh* Preparation::mesh_of(const Run& run) {
   return mesh != nullptr && mesh->run.get() == &run ? mesh : nullptr;
 }
 
-void Preparation::work() {
-  give_way();
-  const std::stop_token stop = _stopping.get_token();
+void Preparation::tell(const std::shared_ptr<Wait>& wait, MeshNews news) {
+  news.wait = wait->number;
+  news.mesh = wait->mesh;
+  wait->told = news.phase;
+  _news.emplace_back(wait, std::move(news));
+  _to_deliver.notify_one();
+}
+
+void Preparation::tell_phase(LiveMesh& mesh, Phase phase) {
+  for (const auto& wait : mesh.waits) {
+    // A mesh that waits for memory is tried every second, perhaps for hours: it is told once.
+    if (wait->told == phase || wait->told == Phase::waits_for_memory) continue;
+    if (phase == Phase::factorising && std::exchange(wait->joined, false)) _cache.count_join();
+    tell(wait, {.phase = phase});
+  }
+}
+
+void Preparation::hand_over(LiveMesh& mesh, const Operator& ready, std::uint64_t place) {
+  for (const auto& wait : std::exchange(mesh.waits, {})) {
+    wait->place = place;
+    if (place > 0) _queue.hold(place);
+    tell(wait, {.phase = Phase::ready, .mesh_operator = ready});
+  }
+}
+
+void Preparation::fail_waits(LiveMesh& mesh, const Error& why) {
+  for (const auto& wait : std::exchange(mesh.waits, {}))
+    tell(wait, {.phase = Phase::failed, .error = why});
+}
+
+void Preparation::deliver() {
   Lock held = lock();
   for (;;) {
-    RunPtr run;
-    ++_idle;
-    while (!stop.stop_requested() && !(run = take())) {
-      const auto first_due = [&] {
-        return _later.empty() ? Steady::time_point::max() : _later.begin()->first;
-      };
-      const auto due = first_due();
-      const auto awake = [&] {
-        return stop.stop_requested() || (run = take()) || first_due() != due;
-      };
-      if (_later.empty())
-        _changed.wait(held, stop, awake);
-      else
-        _changed.wait_until(held, stop, due, awake);
-      if (run) break;
-      begin_due();
-    }
-    --_idle;
-    if (!run) return;
-    if (_idle == 0) {
-      try {
-        _threads.emplace_back([this] { work(); });
-      } catch (const std::system_error&) {
-        // The existing threads take the waiting runs one after the other.
-      }
-    }
-    held.unlock();
-    perform(*run);
-    held.lock();
-    _under_way.remove(run);
-    _changed.notify_all();
-  }
-}
-
-bool Preparation::may_begin(const Run& run) const {
-  int as_large = 0;
-  bool own = false;
-  for (const RunPtr& other : _under_way) {
-    if (other->size_class != run.size_class) continue;
-    ++as_large;
-    own = own || other->owner == run.owner;
-  }
-  const bool newcomer = !run.owner.empty() && !own;
-  return as_large < (newcomer ? 2 : 1) * runs_at_once;
-}
-
-Preparation::RunPtr Preparation::take() {
-  auto best = _queue.end();
-  std::pair<std::ptrdiff_t, std::uint64_t> best_rank;
-  for (auto run = _queue.begin(); run != _queue.end(); ++run) {
-    if (!may_begin(**run)) continue;
-    const std::string& owner = (*run)->owner;
-    const auto own = std::count_if(_under_way.begin(), _under_way.end(),
-                                   [&](const RunPtr& other) { return other->owner == owner; });
-    const auto started = _started.find(owner);
-    const std::pair rank{own, started == _started.end() ? 0 : started->second};
-    if (best == _queue.end() || rank < best_rank) {
-      best = run;
-      best_rank = rank;
+    _to_deliver.wait(
+        held, [&] { return !_news.empty() || !_unwanted.empty() || _stopping.stop_requested(); });
+    if (const std::vector<RunPtr> unwanted = std::exchange(_unwanted, {}); !unwanted.empty()) {
+      held.unlock();
+      for (const RunPtr& run : unwanted) run->stop.request_stop();
+      held.lock();
+    } else if (!_news.empty()) {
+      const auto [wait, news] = std::move(_news.front());
+      _news.pop_front();
+      if (wait->over) continue;
+      _telling = wait->whose;
+      held.unlock();
+      wait->whose->_tell(news);
+      held.lock();
+      _telling = nullptr;
+      _delivered.notify_all();
+    } else {
+      return;
     }
   }
-  if (best == _queue.end()) return nullptr;
-  _started[(*best)->owner] = ++_starts;
-  _under_way.splice(_under_way.end(), _queue, best);
-  return _under_way.back();
-}
-
-void Preparation::perform(Run& run) {
-  try {
-    factorize(run, run.phase == MeshState::pending ? triangulate(run) : nullptr);
-  } catch (const Error& error) {
-    fail(run, error);
-  } catch (const std::bad_alloc&) {
-    fail(run,
-         run.phase == MeshState::factorizing
-             ? Error(Reason::busy, "not enough memory for this mesh now")
-                   .retry_after(operators::retry_delay)
-             : Error(Reason::limit_exceeded, "not enough memory for this mesh: make it coarser"));
-  } catch (const std::exception& error) {
-    fail(run, Error(Reason::internal, std::string("preparing the mesh failed: ") + error.what()));
-  }
-}
-
-std::shared_ptr<const mesh::Mesh> Preparation::triangulate(Run& run) {
-  std::string twin;
-  {
-    const auto held = lock();
-    run.phase = MeshState::meshing;
-    twin = _index.twin(run.id);
-    _changed.notify_all();
-  }
-  const MeshRecord record = stored(run.id);
-  std::optional<Triangulation> made;
-  if (!twin.empty()) {
-    const stop::Scope scope(run.stop.get_token());
-    made = copy_of(twin, record, _store);
-  }
-  const bool copied = made.has_value();
-  if (!copied) {
-    ++_meshings;
-    made = meshes::triangulate(record, _options, _store, run.stop.get_token(),
-                               [&](const store::MeshProgress& progress) {
-                                 const auto held = lock();
-                                 run.progress = progress;
-                                 _changed.notify_all();
-                               });
-  }
-  {
-    auto held = lock();
-    const LiveMesh* mesh = begin_writing(held, run);
-    if (mesh == nullptr) throw Error(Reason::cancelled, "meshing was cancelled");
-    made->record.for_job = mesh->for_job;
-  }
-  try {
-    _store.put(made->record, *made->mesh);
-  } catch (...) {
-    end_writing(run);
-    throw;
-  }
-  {
-    const auto held = lock();
-    LiveMesh& mesh = _index.known(run.id);
-    mesh.stage = Stage::meshed;
-    mesh.sha256 = made->record.sha256;
-    mesh.size_class = size_class(made->record.triangle_count);
-    mesh.refusals = 0;
-    ++mesh.version;
-    run.phase = MeshState::factorizing;
-    run.progress.reset();
-    run.writing = false;
-    const bool wanted = run.background || run.waiters > 0 || !mesh.used || !mesh.users.expired();
-    if (!wanted) give_up(mesh, nobody_wants(run.id));  // its last job ended while it was written
-    _changed.notify_all();
-  }
-  if (!copied && _options.meshed) _options.meshed(made->record);
-  return std::move(made->mesh);
-}
-
-/// Waiters get the operators before theta* is known: at a large interface it takes longer than all
-/// the rest, and only Algorithm 2 and reports need it.
-void Preparation::factorize(Run& run, std::shared_ptr<const mesh::Mesh> triangulation) {
-  const auto start = Steady::now();
-  Lock held = lock();
-  LiveMesh* mesh = mesh_of(run);
-  if (mesh == nullptr) return;
-  const std::string sha256 = mesh->sha256, owner = mesh->owner;
-  held.unlock();
-  Operator result = _cache.find(sha256, owner);
-  if (!result) {
-    if (!triangulation) {
-      const stop::Scope scope(run.stop.get_token());
-      triangulation = _store.triangulation(sha256);
-    }
-    if (!triangulation) {
-      throw Error(Reason::storage, fmt::format("the triangulation of meshes/{} is not in the data "
-                                               "folder: delete the mesh and create it again",
-                                               run.id));
-    }
-    result = _cache.acquire(sha256, std::move(triangulation), run.stop.get_token(), owner);
-  }
-  held.lock();
-  mesh = mesh_of(run);
-  if (mesh == nullptr) return;
-  if (std::exchange(mesh->pin, false))
-    _cache.pin(sha256);  // `result` keeps it from being evicted first
-  mesh->operators.seconds = std::chrono::duration<double>(Steady::now() - start).count();
-  const auto measure = [&](double theta) {
-    mesh->operators.bytes = result->bytes();
-    mesh->operators.theta_star = theta > 0 ? theta : mesh->operators.theta_star;
-  };
-  measure(result->known_theta_star());
-  run.result = result;
-  if (run.waiters > 0) {
-    run.visible = true;
-    run.ending = !run.measures;
-    _changed.notify_all();
-    record_outcome(held, run);
-  }
-  if (run.measures && !run.ending) {
-    held.unlock();
-    const double theta = [&] {
-      const stop::Scope scope(run.stop.get_token());
-      return theta_star(*result);
-    }();
-    held.lock();
-    mesh = mesh_of(run);
-    if (mesh == nullptr) return;
-    measure(theta);
-    result.reset();  // first, so that the operators can be evicted once they are announced
-    if (run.waiters == 0) run.result.reset();
-    run.visible = true;
-    run.ending = true;
-    record_outcome(held, run);
-  }
-  finish(run);
-}
-
-LiveMesh* Preparation::begin_writing(Lock& lock, Run& run) {
-  LiveMesh* mesh = nullptr;
-  _changed.wait(lock, [&] { return (mesh = mesh_of(run)) == nullptr || !mesh->claimed; });
-  run.writing = mesh != nullptr;
-  return mesh;
-}
-
-void Preparation::end_writing(Run& run) {
-  const auto held = lock();
-  run.writing = false;
-  _changed.notify_all();
 }
 
 void Preparation::begin_due() {
@@ -458,6 +286,7 @@ void Preparation::begin_due() {
     const bool waits = mesh != nullptr && mesh->stage == Stage::pending && !mesh->claimed;
     const bool wanted = waits && !(mesh->for_job && mesh->used && mesh->users.expired());
     if (wanted) begin(id, !mesh->for_job);
+    serve(id);
   }
 }
 
@@ -467,70 +296,6 @@ void Preparation::begin_later(LiveMesh& mesh, const std::string& id) {
   constexpr std::chrono::seconds first{1}, longest{30};
   const auto delay = std::min(first * (1 << std::min(mesh.refusals++, most_doublings)), longest);
   _later.emplace(Steady::now() + delay, id);
-}
-
-/// The measured values are valid even if the disk has no room for them.
-void Preparation::record_outcome(Lock& lock, Run& run) {
-  LiveMesh* const mesh = begin_writing(lock, run);
-  if (mesh == nullptr) return;
-  const Measured measured = mesh->operators;
-  lock.unlock();
-  try {
-    MeshRecord record = stored(run.id);
-    record.operator_bytes = measured.bytes;
-    record.theta_star = measured.theta_star;
-    record.factorize_seconds = measured.seconds;
-    _store.put(record);
-  } catch (const Error&) {
-  }
-  lock.lock();
-  run.writing = false;
-  ++mesh->version;
-  _changed.notify_all();
-}
-
-void Preparation::fail(Run& run, Error error) {
-  Lock held = lock();
-  LiveMesh* mesh = begin_writing(held, run);
-  if (mesh == nullptr) return;
-  run.writing = false;
-  run.ending = true;
-  const bool meshed = mesh->stage == Stage::meshed;
-  held.unlock();
-  std::optional<MeshRecord> failed;
-  if (lasting(error)) {
-    try {
-      failed = stored(run.id);
-      failed->state = MeshState::failed;
-      failed->error = error;
-      _store.put(*failed);
-    } catch (const Error& disk) {
-      // Not recorded: waiters get the error, and a later attempt fails again.
-      failed.reset();
-      error = meshed ? error : disk;
-    }
-  }
-  held.lock();
-  if (failed) {
-    mesh->stage = Stage::failed;
-    mesh->error = error;
-  } else if (!meshed && error.reason() != Reason::cancelled) {
-    begin_later(*mesh, run.id);
-  }
-  run.error = std::move(error);
-  finish(run);
-  held.unlock();
-  if (failed && !meshed && _options.meshed) _options.meshed(*failed);
-}
-
-void Preparation::finish(Run& run) {
-  if (LiveMesh* mesh = mesh_of(run)) {
-    mesh->pin = false;
-    ++mesh->version;
-    if (run.waiters == 0) run.result.reset();
-    mesh->run.reset();
-  }
-  _changed.notify_all();
 }
 
 }  // namespace anticrack::meshes

@@ -36,6 +36,9 @@ std::size_t expected_triangles(const store::MeshRecord& record, const CatalogueO
 void meshed(const mesh::Mesh& mesh, std::chrono::steady_clock::time_point start,
             store::MeshRecord& record);
 
+/// Receives how far the mesher is, about every second.
+using ProgressListener = std::function<void(const store::MeshProgress&)>;
+
 /// Runs the helper: seconds to minutes. Throws as mesher::run, mesh::plan and require_upload do.
 Triangulation triangulate(store::MeshRecord record, const CatalogueOptions& options,
                           const store::Store& store, const std::stop_token& stop,

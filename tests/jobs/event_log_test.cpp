@@ -158,6 +158,17 @@ TEST(EventLog, MayBeReadAndLeftByItsListener) {
   EXPECT_EQ(seen, 2U);
 }
 
+TEST(EventLog, MayBeAppendedToByItsListener) {
+  EventLog log(roomy);
+  int woken = 0;
+  const auto listener = log.listen([&] {
+    if (++woken < 3) log.append(sample(0, woken));
+  });
+  log.append(sample(0, 0));
+  EXPECT_EQ(woken, 3);
+  EXPECT_EQ(log.latest(), 3U);
+}
+
 TEST(EventLog, MayBeLeftAfterItIsGone) {
   auto log = std::make_unique<EventLog>(roomy);
   auto listener = log->listen([] {});

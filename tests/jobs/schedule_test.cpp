@@ -17,7 +17,7 @@ class ScheduleTest : public ::testing::Test {
  protected:
   std::uint64_t add(const std::string& mesh, Priority priority = Priority::normal,
                     Lane lane = Lane::lumped, const std::string& owner = {}) {
-    schedule.add({++_number, mesh, lane, priority, now, 0, owner});
+    schedule.add({++_number, mesh, lane, priority, now, owner});
     return _number;
   }
   /// A mesh whose operator is in memory.
@@ -25,7 +25,6 @@ class ScheduleTest : public ::testing::Test {
   /// The mesh of the next turn; empty when there is none.
   std::string turn() {
     const auto turn = schedule.next_turn(now);
-    EXPECT_FALSE(turn && turn->probe);
     return turn ? turn->mesh : "";
   }
   std::optional<std::uint64_t> next(const std::string& mesh) {
@@ -33,7 +32,7 @@ class ScheduleTest : public ::testing::Test {
   }
 
   Schedule::Time now = std::chrono::steady_clock::time_point(1000h);
-  Schedule schedule{30s, 2};
+  Schedule schedule;
 
  private:
   std::uint64_t _number = 0;
@@ -81,15 +80,6 @@ TEST_F(ScheduleTest, OwnersTakeTurnsOnAMeshThatTheyShare) {
   schedule.taken(modest, now);
   schedule.remove(greedy[0]);
   EXPECT_EQ(next("a"), greedy[1]);
-}
-
-TEST_F(ScheduleTest, OwnersTakeTurnsInPreparation) {
-  for (int i = 0; i < 5; ++i)
-    add("greedy-" + std::to_string(i), Priority::normal, Lane::lumped, "greedy");
-  now += 10min;  // they have grown old
-  EXPECT_TRUE(schedule.next_to_prepare(now)->starts_with("greedy"));
-  add("modest", Priority::normal, Lane::lumped, "modest");
-  EXPECT_EQ(schedule.next_to_prepare(now), "modest");
 }
 
 TEST_F(ScheduleTest, TheMoreUrgentClassGoesFirst) {
@@ -184,74 +174,11 @@ TEST_F(ScheduleTest, OnAMeshTheMostUrgentJobThenTheOldest) {
   EXPECT_EQ(schedule.next_job("unknown", Lane::lumped, now), std::nullopt);
 }
 
-TEST_F(ScheduleTest, LooksOnceForAMeshThatMayBeThere) {
-  add("a");
-  auto turn = schedule.next_turn(now);
-  ASSERT_TRUE(turn);
-  EXPECT_TRUE(turn->probe);
-  EXPECT_FALSE(schedule.next_turn(now));        // somebody looks
-  EXPECT_FALSE(schedule.next_to_prepare(now));  // nor is it prepared meanwhile
-  schedule.absent("a");
-  EXPECT_FALSE(schedule.next_turn(now));
-  EXPECT_EQ(schedule.next_to_prepare(now), "a");
-  EXPECT_FALSE(schedule.next_turn(now));
-  schedule.prepared("a");
-  turn = schedule.next_turn(now);
-  ASSERT_TRUE(turn);
-  EXPECT_FALSE(turn->probe);
-}
-
 TEST_F(ScheduleTest, AMeshThatIsPreparedHoldsUpNobody) {
   add("slow", Priority::interactive);
-  EXPECT_EQ(schedule.next_to_prepare(now), "slow");
   ready("fast");
   add("fast", Priority::bulk);
   EXPECT_EQ(turn(), "fast");
-}
-
-TEST_F(ScheduleTest, PreparesInOrderOncePerMeshAndNoMoreAheadThanItsLimit) {
-  add("a");
-  add("a");
-  add("b", Priority::bulk);
-  add("c");
-  EXPECT_EQ(schedule.next_to_prepare(now), "a");
-  EXPECT_EQ(schedule.next_to_prepare(now), "c");
-  EXPECT_FALSE(schedule.next_to_prepare(now));
-  schedule.prepared("a");
-  EXPECT_FALSE(schedule.next_to_prepare(now));  // it has had no turn
-  EXPECT_EQ(turn(), "a");
-  EXPECT_EQ(schedule.next_to_prepare(now), "b");
-}
-
-TEST_F(ScheduleTest, MeshesOfOneSizeHoldUpNoneOfAnother) {
-  const auto add_sized = [&](const std::string& mesh, int size_class) {
-    schedule.add({100, mesh, Lane::lumped, Priority::normal, now, size_class});
-  };
-  for (const char* large : {"a", "b", "c"}) {
-    add_sized(large, 9);
-  }
-  EXPECT_EQ(schedule.next_to_prepare(now), "a");
-  EXPECT_EQ(schedule.next_to_prepare(now), "b");
-  EXPECT_FALSE(schedule.next_to_prepare(now));
-  add_sized("small", 5);
-  EXPECT_EQ(schedule.next_to_prepare(now), "small");
-  EXPECT_FALSE(schedule.next_to_prepare(now));
-  schedule.prepared("a");
-  EXPECT_EQ(turn(), "a");
-  EXPECT_EQ(schedule.next_to_prepare(now), "c");
-}
-
-TEST_F(ScheduleTest, MeshesOfOneOwnerHoldUpNoneOfAnother) {
-  for (const char* mesh : {"a", "b", "c", "d"}) add(mesh, Priority::normal, Lane::lumped, "greedy");
-  EXPECT_TRUE(schedule.next_to_prepare(now) && schedule.next_to_prepare(now));
-  EXPECT_FALSE(schedule.next_to_prepare(now));
-  for (const char* mesh : {"e", "f"}) add(mesh, Priority::normal, Lane::lumped, "modest");
-  EXPECT_TRUE(schedule.next_to_prepare(now));
-  EXPECT_FALSE(schedule.next_to_prepare(now)) << "a newcomer has one place";
-  add("g", Priority::normal, Lane::lumped, "third");
-  EXPECT_EQ(schedule.next_to_prepare(now), "g");
-  add("h", Priority::normal, Lane::lumped, "fourth");
-  EXPECT_FALSE(schedule.next_to_prepare(now)) << "twice the limit is all";
 }
 
 TEST_F(ScheduleTest, GivesATurnToWhoIsNotExcluded) {
@@ -269,16 +196,6 @@ TEST_F(ScheduleTest, GivesATurnToWhoIsNotExcluded) {
   EXPECT_FALSE(schedule.next_turn(now, [](const auto&, const auto&) { return true; }));
 }
 
-TEST_F(ScheduleTest, TriesAMeshAgainWhenItsTimeHasCome) {
-  add("a");
-  EXPECT_EQ(schedule.next_to_prepare(now), "a");
-  schedule.again("a", now + 1s);
-  EXPECT_FALSE(schedule.next_to_prepare(now));
-  EXPECT_EQ(schedule.next_retry(now), now + 1s);
-  EXPECT_EQ(schedule.next_retry(now + 1s), std::nullopt);
-  EXPECT_EQ(schedule.next_to_prepare(now + 1s), "a");
-}
-
 TEST_F(ScheduleTest, ForgetsAMeshThatIsLetGo) {
   ready("a");
   const auto job = add("a");
@@ -286,9 +203,7 @@ TEST_F(ScheduleTest, ForgetsAMeshThatIsLetGo) {
   schedule.remove(job);
   schedule.let_go("a");
   add("a");
-  const auto turn = schedule.next_turn(now);
-  ASSERT_TRUE(turn);
-  EXPECT_TRUE(turn->probe);
+  EXPECT_FALSE(schedule.next_turn(now));
 }
 
 TEST_F(ScheduleTest, WorkThatWasPutDownHasTurns) {
@@ -307,8 +222,6 @@ TEST_F(ScheduleTest, KnowsWhetherATurnKeepsOthersWaiting) {
   EXPECT_FALSE(schedule.others("a", Lane::lumped));  // its own cases
   EXPECT_TRUE(schedule.others("a", Lane::active_set));
   add("b");
-  EXPECT_TRUE(schedule.others("a", Lane::lumped));  // may be there: nobody has looked
-  schedule.next_to_prepare(now);
   EXPECT_FALSE(schedule.others("a", Lane::lumped));
   schedule.prepared("b");
   EXPECT_TRUE(schedule.others("a", Lane::lumped));

@@ -26,7 +26,7 @@ class ChunkTest : public ::testing::Test {
     record.spec.sweep->bounds = bounds;
     job = std::make_shared<LiveJob>(1, record, 1, 1U << 20U, nullptr);
     const std::string mesh = ready_mesh(backend, 0.25);
-    job->mesh_operator = backend.catalogue.find(mesh);
+    job->mesh_operator = backend.prepare(mesh);
     if (tilt) {
       auto tilting = std::make_shared<mesh::Mesh>(job->mesh_operator->mesh());
       tilting->motions.assign(tilting->inclusions.size(), {true, {}});

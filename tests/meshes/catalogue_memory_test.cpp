@@ -80,7 +80,7 @@ TEST_F(Memory, IsPinnedWhenItHasCome) {
 
 TEST_F(Memory, IsNotEvictedWhileItIsHeldOrMade) {
   const std::string id = ready_mesh();
-  auto held = backend.catalogue.find(id);
+  auto held = backend.prepare(id);
   EXPECT_TRUE(throws([&] { backend.catalogue.evict(id); }, Reason::in_use));
   held.reset();
   backend.catalogue.evict(id);
@@ -112,10 +112,8 @@ TEST_F(Memory, GoesWithAMeshThatIsErasedWhileItIsFactorised) {
   const std::string id = backend.create();
   ASSERT_TRUE(reaches(id, MeshState::factorizing));
   std::stop_source stop;
-  auto caller = std::async(std::launch::async, [&] {
-    return backend.catalogue.prepare(
-        id, [](MeshState) {}, stop.get_token());
-  });
+  auto caller =
+      std::async(std::launch::async, [&] { return backend.prepare(id, stop.get_token()); });
   backend.catalogue.erase(id);
   EXPECT_TRUE(throws([&] { caller.get(); }, Reason::not_found));
   EXPECT_TRUE(throws([&] { backend.catalogue.get(id); }, Reason::not_found));

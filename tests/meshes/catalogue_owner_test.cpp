@@ -58,7 +58,7 @@ TEST_F(Owners, ShareTheTriangulationAndTheOperators) {
   EXPECT_EQ(second.owner, "bob");
   EXPECT_EQ(second.node_count, first.node_count);
   EXPECT_EQ(second.operator_bytes, first.operator_bytes);
-  EXPECT_EQ(backend.catalogue.find(ann), backend.catalogue.find(bob));
+  EXPECT_EQ(backend.prepare(ann), backend.prepare(bob));
 }
 
 TEST_F(Owners, GetTheOperatorsThoughTheOtherStoppedWaitingForThem) {
@@ -69,10 +69,7 @@ TEST_F(Owners, GetTheOperatorsThoughTheOtherStoppedWaitingForThem) {
   backend.catalogue.evict(ann);
   backend.door.shut();
   const auto prepare = [&](const std::string& id, std::stop_token stop) {
-    return std::async(std::launch::async, [this, id, stop] {
-      return backend.catalogue.prepare(
-          id, [](MeshState) {}, stop);
-    });
+    return std::async(std::launch::async, [this, id, stop] { return backend.prepare(id, stop); });
   };
   std::stop_source stop;
   auto first = prepare(ann, stop.get_token());

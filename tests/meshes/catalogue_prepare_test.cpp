@@ -20,13 +20,13 @@ using anticrack::testing::throws;
 using errors::Reason;
 using store::MeshState;
 using ::testing::ElementsAre;
+using Phase = MeshNews::Phase;
 using Operator = std::shared_ptr<const operators::MeshOperator>;
 
 class Prepare : public ::testing::Test {
  protected:
   Operator prepare(const std::string& id, std::stop_token stop = {}) {
-    return backend.catalogue.prepare(
-        id, [](MeshState) {}, stop);
+    return backend.prepare(id, stop);
   }
   MeshState state(const std::string& id) { return backend.catalogue.get(id).state; }
   bool reaches(const std::string& id, MeshState wanted) {
@@ -47,7 +47,6 @@ TEST_F(Prepare, SharesTheWorkWithTheBackgroundAndOthers) {
     EXPECT_EQ(callers[i].get(), first);
   }
   EXPECT_EQ(prepare(id), first);
-  EXPECT_EQ(backend.catalogue.find(id), first);
   EXPECT_EQ(backend.catalogue.meshings(), 1U);
   EXPECT_EQ(backend.cache.metrics().factorizations, 1U);
   EXPECT_TRUE(reaches(id, MeshState::ready));
@@ -60,41 +59,34 @@ TEST_F(Prepare, SaysEvictedWhenTheFactorsAreGoneAndMakesThemAgain) {
   EXPECT_EQ(state(id), MeshState::evicted);
   EXPECT_EQ(backend.catalogue.list({{}, 1, {}}).at(0).state, MeshState::evicted);
   EXPECT_FALSE(backend.catalogue.ready(id));
-  EXPECT_EQ(backend.catalogue.find(id), nullptr);
 
-  std::vector<MeshState> heard;
-  const Operator result =
-      backend.catalogue.prepare(id, [&](MeshState phase) { heard.push_back(phase); }, {});
-  EXPECT_THAT(heard, ElementsAre(MeshState::factorizing));
+  std::vector<Phase> heard;
+  const auto hear = [&](const MeshNews& news) { heard.push_back(news.phase); };
+  const Operator result = backend.prepare(id, {}, hear);
+  EXPECT_THAT(heard, ElementsAre(Phase::factorising, Phase::ready));
   EXPECT_EQ(state(id), MeshState::ready);
   EXPECT_EQ(backend.catalogue.meshings(), 1U);
   EXPECT_EQ(backend.cache.metrics().factorizations, 2U);
   EXPECT_TRUE(throws([&] { backend.catalogue.evict(id); }, Reason::in_use));  // held here
 
   heard.clear();
-  backend.catalogue.prepare(id, [&](MeshState phase) { heard.push_back(phase); }, {});
-  EXPECT_TRUE(heard.empty());
+  EXPECT_EQ(backend.prepare(id, {}, hear), result);
+  EXPECT_THAT(heard, ElementsAre(Phase::ready));
 }
 
 TEST_F(Prepare, TellsTheStepsOnTheWay) {
   backend.door.shut();
   const std::string id = backend.create();
-  std::vector<MeshState> heard;
-  std::mutex mutex;
+  std::vector<Phase> heard;
   auto caller = std::async(std::launch::async, [&] {
-    return backend.catalogue.prepare(id,
-                                     [&](MeshState phase) {
-                                       const std::lock_guard lock(mutex);
-                                       heard.push_back(phase);
-                                     },
-                                     {});
+    return backend.prepare(id, {}, [&](const MeshNews& news) { heard.push_back(news.phase); });
   });
   EXPECT_TRUE(reaches(id, MeshState::factorizing));
   backend.door.open();
   EXPECT_NE(caller.get(), nullptr);
   ASSERT_FALSE(heard.empty());
   EXPECT_TRUE(std::is_sorted(heard.begin(), heard.end()));
-  EXPECT_EQ(heard.back(), MeshState::factorizing);
+  EXPECT_EQ(heard.back(), Phase::ready);
 }
 
 TEST_F(Prepare, ObeysAStopWhileFactorisingAndLeavesTheOthersAlone) {
@@ -178,14 +170,9 @@ TEST(PrepareMeshing, ObeysAStopAndTheMesherIsKilledAtTheEnd) {
   std::stop_source stop;
   std::promise<void> meshing;
   auto caller = std::async(std::launch::async, [&] {
-    return backend.catalogue.prepare(
-        id,
-        [&](MeshState phase) {
-          if (phase == MeshState::meshing) {
-            meshing.set_value();
-          }
-        },
-        stop.get_token());
+    return backend.prepare(id, stop.get_token(), [&](const MeshNews& news) {
+      if (news.phase == Phase::meshing) meshing.set_value();
+    });
   });
   meshing.get_future().wait();
   stop.request_stop();
@@ -198,21 +185,20 @@ TEST(PrepareBudget, PassesOnThatMemoryIsHeldByOthers) {
   std::uint64_t larger = 0;
   {
     Backend measure;
-    const Operator result = measure.catalogue.prepare(measure.create(0.2), [](MeshState) {}, {});
+    const Operator result = measure.prepare(measure.create(0.2));
     larger = operators::estimate_bytes(result->mesh());
   }
   BackendOptions options;
   options.memory_budget = larger;
   Backend backend(options);
   const std::string first = backend.create(0.25);
-  Operator held = backend.catalogue.prepare(first, [](MeshState) {}, {});
+  Operator held = backend.prepare(first);
   const std::string second = backend.create(0.2);
-  EXPECT_TRUE(
-      throws([&] { backend.catalogue.prepare(second, [](MeshState) {}, {}); }, Reason::busy));
+  EXPECT_TRUE(throws([&] { backend.prepare(second); }, Reason::busy));
   EXPECT_TRUE(
       eventually([&] { return backend.catalogue.get(second).state == MeshState::evicted; }));
   held.reset();
-  EXPECT_NE(backend.catalogue.prepare(second, [](MeshState) {}, {}), nullptr);
+  EXPECT_NE(backend.prepare(second), nullptr);
   EXPECT_EQ(backend.catalogue.get(first).state, MeshState::evicted);
 }
 
@@ -221,8 +207,7 @@ TEST(PrepareFailure, OfTheFactorisationFailsTheMesh) {
   options.memory_budget = 1024;
   Backend backend(options);
   const std::string id = backend.create();
-  EXPECT_TRUE(
-      throws([&] { backend.catalogue.prepare(id, [](MeshState) {}, {}); }, Reason::limit_exceeded));
+  EXPECT_TRUE(throws([&] { backend.prepare(id); }, Reason::limit_exceeded));
   ASSERT_TRUE(eventually([&] { return backend.catalogue.get(id).state == MeshState::failed; }));
   EXPECT_EQ(backend.catalogue.get(id).error->reason(), Reason::limit_exceeded);
   EXPECT_NE(backend.catalogue.read(id), nullptr);  // the triangulation is good

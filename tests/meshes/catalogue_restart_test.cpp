@@ -52,7 +52,7 @@ TEST_F(Restart, FindsMeshesEvictedAndMakesTheirOperatorsAgain) {
   EXPECT_EQ(after.operator_bytes, before.operator_bytes);
   EXPECT_EQ(after.theta_star, before.theta_star);
   EXPECT_EQ(backend.catalogue.read(before.id)->arrays()[0].shape[0], before.node_count);
-  EXPECT_NE(backend.catalogue.prepare(before.id, [](MeshState) {}, {}), nullptr);
+  EXPECT_NE(backend.prepare(before.id), nullptr);
   EXPECT_EQ(backend.catalogue.get(before.id).state, MeshState::ready);
   EXPECT_EQ(backend.catalogue.create(Backend::definition(), "", "ann").id, before.id);
   EXPECT_EQ(backend.catalogue.meshings(), 0U);
@@ -87,8 +87,7 @@ TEST_F(Restart, FindsAFailedMeshWithItsError) {
   const MeshRecord record = backend.catalogue.get(id);
   EXPECT_EQ(record.state, MeshState::failed);
   ASSERT_TRUE(record.error);
-  EXPECT_TRUE(
-      throws([&] { backend.catalogue.prepare(id, [](MeshState) {}, {}); }, record.error->reason()));
+  EXPECT_TRUE(throws([&] { backend.prepare(id); }, record.error->reason()));
   EXPECT_EQ(backend.catalogue.meshings(), 0U);
 }
 
@@ -108,8 +107,7 @@ TEST_F(Restart, MakesAMeshWhoseRecordIsDamagedAgain) {
   EXPECT_EQ(damaged.state, MeshState::failed);
   EXPECT_EQ(damaged.error.value().reason(), Reason::storage);
   EXPECT_EQ(backend.catalogue.list({{}, 9, {}}).size(), 1U);
-  EXPECT_TRUE(
-      throws([&] { backend.catalogue.prepare(id, [](MeshState) {}, {}); }, Reason::storage));
+  EXPECT_TRUE(throws([&] { backend.prepare(id); }, Reason::storage));
   EXPECT_EQ(backend.catalogue.create(Backend::definition(), "again", "").id, id);
   ASSERT_TRUE(reaches(backend, id, MeshState::ready));
   EXPECT_EQ(backend.catalogue.get(id).title, "again");
@@ -122,8 +120,7 @@ TEST_F(Restart, DoesNotMeshAnUploadThatHasChangedOnTheDisk) {
   const store::UploadRef upload = backend.upload(text);
   anticrack::testing::flip(backend.store->upload_path(upload.sha256, "").value(), text.size() - 1);
   const std::string id = backend.catalogue.create(upload, "", "").id;
-  EXPECT_TRUE(
-      throws([&] { backend.catalogue.prepare(id, [](MeshState) {}, {}); }, Reason::not_found));
+  EXPECT_TRUE(throws([&] { backend.prepare(id); }, Reason::not_found));
 }
 
 TEST_F(Restart, MeshesWhatTheDiskHadNoRoomFor) {
@@ -132,8 +129,7 @@ TEST_F(Restart, MeshesWhatTheDiskHadNoRoomFor) {
   {
     Backend backend(options);
     id = backend.create(0.2);
-    EXPECT_TRUE(
-        throws([&] { backend.catalogue.prepare(id, [](MeshState) {}, {}); }, Reason::disk_full));
+    EXPECT_TRUE(throws([&] { backend.prepare(id); }, Reason::disk_full));
     EXPECT_TRUE(reaches(backend, id, MeshState::pending));
     EXPECT_FALSE(backend.catalogue.get(id).error);
     EXPECT_TRUE(eventually([&] { return backend.catalogue.pending() == 0; }));
@@ -152,7 +148,7 @@ TEST_F(Restart, TellsWhoWaitsThatTheDiskRefusesAndTriesAgainLater) {
   const std::filesystem::path away = folder / "away";
   std::filesystem::rename(meshes, away);
   const std::string id = backend.create(0.2);
-  const auto prepare = [&] { return backend.catalogue.prepare(id, [](MeshState) {}, {}); };
+  const auto prepare = [&] { return backend.prepare(id); };
   EXPECT_TRUE(throws(prepare, Reason::storage));
   EXPECT_TRUE(reaches(backend, id, MeshState::pending));
   EXPECT_FALSE(backend.catalogue.get(id).error);
@@ -173,7 +169,7 @@ TEST_F(Restart, TriesAgainForWhoAsksForTheOperators) {
   ASSERT_TRUE(eventually(
       [&] { return backend.catalogue.meshings() == 1 && backend.catalogue.pending() == 0; }));
   std::filesystem::rename(away, meshes);
-  EXPECT_NE(backend.catalogue.prepare(id, [](MeshState) {}, {}), nullptr);
+  EXPECT_NE(backend.prepare(id), nullptr);
   EXPECT_GE(backend.catalogue.meshings(), 2U);
 }
 

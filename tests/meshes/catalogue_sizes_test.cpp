@@ -67,7 +67,7 @@ TEST_F(Sizes, ACallerGetsASmallMeshThatWasEvictedWhileLargeOnesAreFactorised) {
   backend.door.shut();
   const std::vector<std::string> large = create_large();
   ASSERT_TRUE(eventually([&] { return backend.door.waiting() == 2; }));
-  EXPECT_NE(backend.catalogue.prepare(small, [](MeshState) {}, {}), nullptr);
+  EXPECT_NE(backend.prepare(small), nullptr);
   EXPECT_EQ(backend.door.waiting(), 2);
   backend.door.open();
 }

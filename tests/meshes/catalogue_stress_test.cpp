@@ -34,7 +34,7 @@ bool to_be_expected(const errors::Error& error) {
 std::uint64_t largest_estimate() {
   Backend backend;
   const std::string id = backend.create(sizes[0]);
-  return operators::estimate_bytes(backend.catalogue.prepare(id, [](MeshState) {}, {})->mesh());
+  return operators::estimate_bytes(backend.prepare(id)->mesh());
 }
 
 /// As far as nobody holds it.
@@ -54,10 +54,9 @@ void prepare(Backend& backend, const std::string& id, std::mt19937& random,
   if (random() % 3 == 0) {
     stopper = std::jthread([&stop] { stop.request_stop(); });
   }
-  const auto held = backend.catalogue.prepare(
-      id, [](MeshState) {}, stop.get_token());
+  const auto held = backend.prepare(id, stop.get_token());
   // It is held and used here, so it neither goes nor changes.
-  wrong += held && backend.catalogue.find(id) == held ? 0 : 1;
+  wrong += held && backend.prepare(id) == held ? 0 : 1;
   // Operators grow by what theta* takes; the record tells how large they were before or after.
   held->theta_star();
   const std::uint64_t told = backend.catalogue.get(id).operator_bytes;
@@ -133,7 +132,7 @@ TEST(CatalogueStress, HoldsItsContractUnderManyThreads) {
         evict(backend, other);
       }
       try {
-        return backend.catalogue.prepare(id, [](MeshState) {}, {}) != nullptr;
+        return backend.prepare(id) != nullptr;
       } catch (const errors::Error& error) {
         EXPECT_EQ(error.reason(), Reason::busy);
         return false;

@@ -138,8 +138,7 @@ TEST_F(Catalogue, KeepsTheErrorOfAMeshThatFailedAndTriesItAgain) {
   ASSERT_TRUE(reaches(id, MeshState::failed));
   EXPECT_EQ(backend.catalogue.get(id).error->reason(), Reason::mesh_invalid);
   EXPECT_TRUE(throws([&] { backend.catalogue.read(id); }, Reason::not_ready));
-  EXPECT_TRUE(
-      throws([&] { backend.catalogue.prepare(id, [](MeshState) {}, {}); }, Reason::mesh_invalid));
+  EXPECT_TRUE(throws([&] { backend.prepare(id); }, Reason::mesh_invalid));
   EXPECT_TRUE(throws([&] { backend.catalogue.warm(id, true); }, Reason::mesh_invalid));
   EXPECT_EQ(backend.catalogue.meshings(), 1U);
 

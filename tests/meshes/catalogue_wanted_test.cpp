@@ -60,10 +60,8 @@ class Wanted : public ::testing::Test {
   }
   /// Waits for the mesh as a job does.
   auto wait(const std::string& id, const std::stop_source& stop) {
-    return std::async(std::launch::async, [this, id, token = stop.get_token()] {
-      return backend.catalogue.prepare(
-          id, [](MeshState) {}, token);
-    });
+    return std::async(std::launch::async,
+                      [this, id, token = stop.get_token()] { return backend.prepare(id, token); });
   }
 
   Backend backend{hanging()};
@@ -201,7 +199,7 @@ TEST(WantedAfterARestart, ByItsOwnerAndNotForJobsThatHaveGone) {
   EXPECT_TRUE(
       eventually([&] { return backend.catalogue.get(of_owner).state == MeshState::ready; }));
   EXPECT_EQ(backend.catalogue.get(of_job).state, MeshState::pending);
-  EXPECT_NE(backend.catalogue.prepare(of_job, [](MeshState) {}, {}), nullptr);
+  EXPECT_NE(backend.prepare(of_job), nullptr);
 }
 
 /// Erased at any moment of a real preparation, and made again: nothing stays behind.
@@ -233,7 +231,7 @@ TEST(WantedRace, LetGoAtAnyMoment) {
       return state == MeshState::pending || state == MeshState::ready ||
              state == MeshState::evicted;
     }));
-    EXPECT_NE(backend.catalogue.prepare(id, [](MeshState) {}, {}), nullptr);
+    EXPECT_NE(backend.prepare(id), nullptr);
   }
 }
 
@@ -292,16 +290,15 @@ TEST(Progress, IsToldWhileAMeshIsMade) {
   std::stop_source enough;
   EXPECT_TRUE(throws(
       [&] {
-        backend.catalogue.prepare(
-            id, [](MeshState) {}, enough.get_token(),
-            [&](const store::MeshProgress& progress) {
-              EXPECT_EQ(backend.catalogue.get(id).state, MeshState::meshing);
-              if (heard.empty()) {
-                EXPECT_TRUE(backend.catalogue.get(id).progress);
-              }
-              heard.push_back(progress);
-              if (progress.triangles > 0) enough.request_stop();
-            });
+        backend.prepare(id, enough.get_token(), [&](const MeshNews& news) {
+          if (!news.progress) return;
+          EXPECT_EQ(backend.catalogue.get(id).state, MeshState::meshing);
+          if (heard.empty()) {
+            EXPECT_TRUE(backend.catalogue.get(id).progress);
+          }
+          heard.push_back(*news.progress);
+          if (news.progress->triangles > 0) enough.request_stop();
+        });
       },
       Reason::cancelled));
   ASSERT_FALSE(heard.empty());

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <filesystem>
@@ -11,9 +12,11 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <stop_token>
 #include <string>
 
+#include "errors/errors.hpp"
 #include "mesher/helper.hpp"
 #include "meshes/mesh_catalogue.hpp"
 #include "operators/mesh_operator.hpp"
@@ -87,6 +90,30 @@ class Backend {
     return store::GeometrySource{paper_geometry(), {mesh::Preset::uniform, size}};
   }
   std::string create(double size = 0.1) { return catalogue.create(definition(size), "", "").id; }
+
+  /// Sleeps until the operators are there, to be held by nobody else; `hear` gets all news. Throws
+  /// the error of the wait, busy as soon as others hold the memory, cancelled on `stop`.
+  std::shared_ptr<const operators::MeshOperator> prepare(
+      const std::string& id, const std::stop_token& stop = {},
+      const std::function<void(const meshes::MeshNews&)>& hear = {}) {
+    std::mutex mutex;
+    std::condition_variable_any changed;
+    std::optional<meshes::MeshNews> last;
+    meshes::MeshWaits waits(catalogue, [&](const meshes::MeshNews& news) {
+      if (hear) hear(news);
+      if (news.phase < meshes::MeshNews::Phase::waits_for_memory) return;
+      const std::lock_guard lock(mutex);
+      last = news;
+      changed.notify_all();
+    });
+    waits.begin(id, store::Priority::normal, std::chrono::steady_clock::now());
+    std::unique_lock lock(mutex);
+    if (!changed.wait(lock, stop, [&] { return last.has_value(); }))
+      throw errors::Error(errors::Reason::cancelled, "stopped");
+    if (last->error) throw errors::Error(*last->error);
+    if (!last->mesh_operator) throw errors::Error(errors::Reason::busy, "memory is held by others");
+    return last->mesh_operator;
+  }
 
   /// An upload with this content.
   store::UploadRef upload(const std::string& content, const std::string& owner = {}) {

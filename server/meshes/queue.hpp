@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Which mesh is made or factorised next: the policy, without threads or locks.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <unordered_map>
+
+#include "store/records.hpp"
+
+namespace anticrack::meshes {
+
+/// Waiting this long is worth one class of priority.
+constexpr std::chrono::seconds ageing{30};
+constexpr std::size_t priority_classes = 3;
+
+/// 0 is the most urgent.
+constexpr std::size_t class_of(store::Priority priority) noexcept {
+  return static_cast<std::size_t>(priority) -
+         static_cast<std::size_t>(store::Priority::interactive);
+}
+
+/// The class to which something of `priority_class` has risen that has waited since `since`: 0 at
+/// last.
+inline int urgency(std::size_t priority_class, std::chrono::steady_clock::time_point since,
+                   std::chrono::steady_clock::time_point now) noexcept {
+  const std::int64_t risen = static_cast<std::int64_t>(priority_class) - (now - since) / ageing;
+  return static_cast<int>(std::max<std::int64_t>(0, risen));
+}
+
+/// When each owner had something last.
+struct Last {
+  std::chrono::steady_clock::time_point time{};
+  std::uint64_t number = 0;  ///< in the order in which all owners had it
+};
+using Lasts = std::unordered_map<std::string, Last>;
+inline Last last_of(const Lasts& lasts, const std::string& owner) {
+  const auto found = lasts.find(owner);
+  return found == lasts.end() ? Last{} : found->second;
+}
+
+/// Contract:
+/// 1. Of a class of sizes (size_class.hpp) two have a thread at a time. Where somebody awaits the
+///    operators they pin memory until he has begun with them (let_go), and one begins only while
+///    fewer than three are with a thread or pinned. Up to twice as many of each if the owner has a
+///    name and none there: large meshes are to hold up no small ones, and those of one owner no
+///    other.
+/// 2. The next is the most urgent one that may begin, as if it had waited since the
+///    last start of its owner at most; at equal urgency one of the owner who has the fewest with a
+///    thread, then of who had a start longest ago, then the one that is more urgent by all its
+///    waiting, then the one that came first.
+/// Not thread-safe. next() is O(entries), the rest O(log entries).
+class Queue {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+
+  /// What is in the queue, and then at its place, by a number that no other has.
+  std::uint64_t add(const std::string& owner, int size_class, store::Priority priority, Time since);
+  /// Somebody with this priority awaits it (too).
+  void await(std::uint64_t number, store::Priority priority, Time since);
+  /// Takes it out of the queue; does nothing once it has begun.
+  void remove(std::uint64_t number) { _waiting.erase(number); }
+  /// The one that begins now, and has a thread until done().
+  std::optional<std::uint64_t> next(Time now);
+  /// Pins the operators once more.
+  void hold(std::uint64_t number) { ++_places.at(number).holders; }
+  void let_go(std::uint64_t number);
+  void done(std::uint64_t number);
+
+ private:
+  struct Waiting {
+    std::string owner;
+    int size_class = 0;
+    bool awaited = false;
+    std::array<std::optional<Time>, priority_classes> since{};  ///< the earliest, by class
+  };
+  struct Place {
+    std::string owner;
+    int size_class = 0;
+    bool awaited = false;
+    bool at_work = true;
+    int holders = 0;
+  };
+  bool may_begin(const Waiting& one) const;
+
+  std::uint64_t _last = 0, _starts = 0;
+  std::map<std::uint64_t, Waiting> _waiting;
+  std::map<std::uint64_t, Place> _places;
+  Lasts _started;
+};
+
+}  // namespace anticrack::meshes
