@@ -72,7 +72,10 @@ int parse_and_run(int argc, char** argv) {
   add_explain(app, globals, chosen);
   add_guide(app, globals, chosen);
   if (argc > 1 && std::string_view(argv[1]) == "--complete") {
-    print_document(guide::completions(app, {argv + 2, argv + argc}));
+    print_document(guide::completions(app, {argv + 2, argv + argc}, [&] {
+      app.parse("server");  // for the flags that the environment sets
+      return case_keys(globals.connection);
+    }));
     return exit_ok;
   }
   const std::string name = argc > 1 ? argv[1] : "";

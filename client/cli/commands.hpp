@@ -27,6 +27,9 @@ void add_job(CLI::App& app, const Globals& globals, Command& chosen);
 void add_files(CLI::App& app, const Globals& globals, Command& chosen);  ///< show, plot, export
 void add_server(CLI::App& app, const Globals& globals, Command& chosen);
 void add_explain(CLI::App& app, const Globals& globals, Command& chosen);
+/// The keys of cases that the server knows, for completion: none where it does not answer in a
+/// second.
+std::vector<std::string> case_keys(const ConnectionFlags& flags);
 /// completion, manual: of `app` as it is when they are run.
 void add_guide(CLI::App& app, const Globals& globals, Command& chosen);
 

@@ -3,6 +3,8 @@
 //   anticrack explain [KEY]
 #include <CLI/CLI.hpp>
 
+#include <chrono>
+#include <exception>
 #include <memory>
 #include <string>
 #include <vector>
@@ -67,6 +69,22 @@ void add_explain(CLI::App& app, const Globals& globals, Command& chosen) {
       return exit_ok;
     };
   });
+}
+
+std::vector<std::string> case_keys(const ConnectionFlags& flags) {
+  std::vector<std::string> names;
+  try {
+    client::ConnectionOptions options = connection_options(flags, [](const std::string&) {});
+    options.first_contact = std::chrono::milliseconds(0);
+    options.deadline = std::chrono::seconds(1);
+    client::Connection connection(options);
+    const v1::ListCaseKeysResponse found = client::list_case_keys(connection, {});
+    for (const v1::CaseKey& key : found.keys())
+      for (const std::string& name : key.names()) names.push_back(sanitise(name));
+  } catch (const std::exception&) {
+    return {};  // a shell has nowhere to say so
+  }
+  return names;
 }
 
 }  // namespace anticrack::cli

@@ -15,6 +15,8 @@ Value value_of(const CLI::Option& option) {
   if (type.rfind("FILE", 0) == 0)  // also FILE.csv
     return {Value::Kind::file, {}};
   if (type == "DIR") return {Value::Kind::folder, {}};
+  if (type == "KEY") return {Value::Kind::key, {}};
+  if (type == "KEY=VALUE") return {Value::Kind::assignment, {}};
   if (type.size() > 2 && type.front() == '{' && type.back() == '}') {
     Value value{Value::Kind::word, {}};
     std::istringstream words(type.substr(1, type.size() - 2));

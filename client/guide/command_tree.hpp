@@ -14,7 +14,7 @@ namespace anticrack::guide {
 
 /// The value of an option or of a positional.
 struct Value {
-  enum class Kind { none, text, file, folder, word };
+  enum class Kind { none, text, file, folder, word, key, assignment };  ///< of a case: key=value
   Kind kind = Kind::none;
   std::vector<std::string> words;  ///< of Kind::word
 };

@@ -17,6 +17,7 @@ _anticrack() {
     case $line in
       :files) compopt -o filenames; COMPREPLY=($(compgen -f -- "$current")) ;;
       :folders) compopt -o filenames; COMPREPLY=($(compgen -d -- "$current")) ;;
+      *=) compopt -o nospace; COMPREPLY+=("$line") ;;
       *) COMPREPLY+=("${line%%$'\t'*}") ;;
     esac
   done < <("${COMP_WORDS[0]}" --complete "${COMP_WORDS[@]:1:COMP_CWORD}" 2>/dev/null)
@@ -68,7 +69,8 @@ complete -c anticrack -f -a '(__anticrack_completions)'
 /// The lines for one word.
 class Lines {
  public:
-  explicit Lines(std::string begin) : _begin(std::move(begin)) {}
+  Lines(std::string begin, std::function<std::vector<std::string>()> keys)
+      : _begin(std::move(begin)), _keys(std::move(keys)) {}
 
   void add(const std::string& word, const std::string& description) {
     if (word.starts_with(_begin)) _text += word + '\t' + description + '\n';
@@ -76,8 +78,10 @@ class Lines {
   void add(const Value& value) {
     if (value.kind == Value::Kind::file) _text += ":files\n";
     if (value.kind == Value::Kind::folder) _text += ":folders\n";
-    for (const std::string& word : value.words)
-      if (word.starts_with(_begin)) _text += word + '\n';
+    const bool assigned = value.kind == Value::Kind::assignment;
+    const bool keys = assigned || value.kind == Value::Kind::key;
+    for (const std::string& word : keys ? _keys() : value.words)
+      if (word.starts_with(_begin)) _text += word + (assigned ? "=\n" : "\n");
   }
   void add(const std::vector<Option>& options) {
     for (const Option& option : options)
@@ -87,6 +91,7 @@ class Lines {
 
  private:
   std::string _begin;
+  std::function<std::vector<std::string>()> _keys;
   std::string _text;
 };
 
@@ -96,11 +101,12 @@ std::string_view completion_script(Shell shell) {
   return shell == Shell::bash ? bash_script : shell == Shell::zsh ? zsh_script : fish_script;
 }
 
-std::string completions(const CLI::App& app, const std::vector<std::string>& words) {
+std::string completions(const CLI::App& app, const std::vector<std::string>& words,
+                        const std::function<std::vector<std::string>()>& keys) {
   const Command program = command_tree(app);
   const Command* command = &program;
   const std::string last = words.empty() ? "" : words.back();
-  Lines lines(last);
+  Lines lines(last, keys);
   for (std::size_t i = 0; i + 1 < words.size(); ++i) {
     const Option* option = option_of(*command, program, words[i]);
     if (option != nullptr && option->value.kind != Value::Kind::none) {

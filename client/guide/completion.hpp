@@ -4,6 +4,7 @@
 // `anticrack --complete WORD...` for what may stand in place of the last word.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,7 +22,9 @@ std::string_view completion_script(Shell shell);
 
 /// Of the words after the program's name: lines "WORD<tab>DESCRIPTION" of commands, options or
 /// values that begin as the last word; ":files" or ":folders" where a path is wanted. A word that
-/// names a subcommand of the current command leads to it, other words are skipped.
-std::string completions(const CLI::App& app, const std::vector<std::string>& words);
+/// names a subcommand of the current command leads to it, other words are skipped. `keys`: those of
+/// cases; called where one is wanted.
+std::string completions(const CLI::App& app, const std::vector<std::string>& words,
+                        const std::function<std::vector<std::string>()>& keys);
 
 }  // namespace anticrack::guide

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What bash, zsh and fish offer after what the scripts of `anticrack completion` told them."""
+import contextlib
 import os
 import pty
 import re
@@ -7,9 +8,10 @@ import select
 import shutil
 import subprocess
 import time
+import unittest.mock
 
 from command_tree import all_commands, commands_below, options_of
-from processes import ANTICRACK, FolderTest, run
+from processes import ANTICRACK, Daemon, FolderTest, run
 
 BASH = r"""
 source "$1"; shift
@@ -67,8 +69,14 @@ class Bash(Shell):
         self.assertEqual(self.offers("run", "--priority", "n"), {"normal"})
         self.assertEqual(self.offers("run", "pl"), {"plate.toml", "plates"})
         self.assertEqual(self.offers("plot", "-o", "pl"), {"plates"})
-        self.assertEqual(self.offers("run", "--set", ""), set())
         self.assertEqual(self.offers("job", "watch", ""), set())
+
+    def test_offers_the_keys_that_the_server_knows(self):
+        for server, key, assignment in ((None, set(), set()), (Daemon, {"mesh.tip_size"}, {"mesh.tip_size="})):
+            with server(self.folder) if server else contextlib.nullcontext() as daemon, \
+                    unittest.mock.patch.dict(WITH_PATH, ANTICRACK_SERVER=f"127.0.0.1:{daemon.port if daemon else 9}"):
+                self.assertEqual(self.offers("explain", "mesh.ti"), key)
+                self.assertEqual(self.offers("run", "--set", "mesh.ti"), assignment)
 
 
 class Fish(Shell):
