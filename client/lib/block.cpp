@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "client/error.hpp"
-#include "store/digest.hpp"
+#include "digest/digest.hpp"
 
 namespace anticrack::client {
 namespace {
@@ -47,7 +47,7 @@ void BlockReceiver::accept(const v1::BlockChunk& chunk) {
   if (chunk.data().size() > _block.layout.size() - offset())
     damaged("more than the announced " + std::to_string(_block.layout.size()) + " bytes");
   const std::span<const std::byte> data = std::as_bytes(std::span(chunk.data()));
-  if (store::crc32c(data) != chunk.crc32c())
+  if (digest::crc32c(data) != chunk.crc32c())
     damaged("the checksum of the chunk at " + std::to_string(chunk.offset()) + " is wrong");
   _block.bytes.insert(_block.bytes.end(), data.begin(), data.end());
 }
@@ -57,7 +57,7 @@ Block BlockReceiver::finish() {
     damaged("it ended at " + std::to_string(offset()) + " of " +
             std::to_string(_block.layout.size()) + " bytes");
   }
-  const std::string sha256 = store::Sha256().add(_block.bytes).finish();
+  const std::string sha256 = digest::Sha256().add(_block.bytes).finish();
   if (sha256 != _block.layout.sha256())
     damaged("its sha256 is " + sha256 + " and not " + _block.layout.sha256());
   _started = false;

@@ -15,7 +15,7 @@
 
 #include "client/channel.hpp"
 #include "client/meshes.hpp"
-#include "store/digest.hpp"
+#include "digest/digest.hpp"
 
 namespace anticrack::client {
 namespace {
@@ -58,7 +58,7 @@ class FileChunks {
 };
 
 v1::CreateUploadsRequest::Header header_of_msh(const std::filesystem::path& path) {
-  store::Sha256 sha256;
+  digest::Sha256 sha256;
   std::uint64_t size = 0;
   FileChunks file(path);
   for (std::string chunk = file.next(); !chunk.empty(); chunk = file.next()) {
@@ -77,7 +77,7 @@ Outgoing array_file(const std::shared_ptr<const std::vector<double>>& owner,
   static_assert(std::endian::native == std::endian::little, "arrays are sent little-endian");
   Outgoing file;
   file.header.set_size(values.size_bytes());
-  file.header.set_sha256(store::Sha256().add(std::as_bytes(values)).finish());
+  file.header.set_sha256(digest::Sha256().add(std::as_bytes(values)).finish());
   file.header.set_kind(v1::Upload::KIND_ARRAY);
   const std::string_view bytes(reinterpret_cast<const char*>(values.data()), values.size_bytes());
   file.next = [owner, rest = bytes]() mutable {

@@ -68,4 +68,32 @@ std::string escaped_in_json(std::string_view json, std::string_view keep) {
   });
 }
 
+std::string printable(std::string_view text, std::size_t max_bytes) {
+  constexpr std::string_view ellipsis = "...";
+  std::string result;
+  std::size_t room_for_ellipsis = 0;  // longest prefix that leaves room for it
+  while (!text.empty()) {
+    const Character next = first_character(text);
+    const bool shown = next.valid && !is_hidden(next.code);
+    const std::string_view piece = shown ? text.substr(0, next.bytes) : "?";
+    if (result.size() + piece.size() > max_bytes) {
+      result.resize(room_for_ellipsis);
+      return result.append(ellipsis);
+    }
+    result.append(piece);
+    if (result.size() + ellipsis.size() <= max_bytes) room_for_ellipsis = result.size();
+    text.remove_prefix(next.bytes);
+  }
+  return result;
+}
+
+bool is_utf8(std::string_view text) {
+  while (!text.empty()) {
+    const Character next = first_character(text);
+    if (!next.valid) return false;
+    text.remove_prefix(next.bytes);
+  }
+  return true;
+}
+
 }  // namespace anticrack::words

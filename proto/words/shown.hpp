@@ -31,4 +31,11 @@ std::string shown(std::string_view text, std::string_view keep = {});
 /// those in `keep` become \uXXXX. O(n).
 std::string escaped_in_json(std::string_view json, std::string_view keep = "\n");
 
+/// `text` as valid UTF-8 of at most `max_bytes` (>= 3). What is hidden (words/shown.hpp) and
+/// invalid bytes become '?'; longer text is cut between characters and ends in "...". O(n).
+std::string printable(std::string_view text, std::size_t max_bytes);
+
+/// Whether `text` is valid UTF-8. O(n).
+bool is_utf8(std::string_view text);
+
 }  // namespace anticrack::words

@@ -12,8 +12,8 @@
 #include <sstream>
 #include <utility>
 
+#include "digest/digest.hpp"
 #include "errors/errors.hpp"
-#include "store/digest.hpp"
 
 namespace anticrack::access {
 namespace {
@@ -146,7 +146,7 @@ TokenTable TokenTable::parse(std::string_view text, const std::string& origin) {
 
 std::optional<Identity> TokenTable::find(std::string_view token,
                                          std::chrono::system_clock::time_point now) const {
-  store::Sha256 digest;
+  digest::Sha256 digest;
   digest.add(std::as_bytes(std::span(token)));
   const std::optional<Hash> hash = to_hash(digest.finish());
   const Entry* found = nullptr;

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <string>
 
-#include "api/text.hpp"
 #include "api/translations.hpp"
+#include "words/shown.hpp"
 
 namespace anticrack::api {
 
@@ -47,7 +47,7 @@ Reason reason_of(const std::string& name) {
 
 v1::Status to_message(const Error& error, const Budget& budget) {
   v1::Status status;
-  status.set_message(printable(error.what(), budget.message));
+  status.set_message(words::printable(error.what(), budget.message));
 
   v1::ErrorInfo info;
   info.set_reason(std::string(errors::name(error.reason())));
@@ -55,7 +55,7 @@ v1::Status to_message(const Error& error, const Budget& budget) {
   std::size_t kept = 0;
   for (const auto& [key, value] : error.metadata()) {
     if (kept++ == budget.metadata) break;
-    (*info.mutable_metadata())[printable(key, 64)] = printable(value, budget.value);
+    (*info.mutable_metadata())[words::printable(key, 64)] = words::printable(value, budget.value);
   }
   pack(info, status);
 
@@ -64,8 +64,9 @@ v1::Status to_message(const Error& error, const Budget& budget) {
     const std::size_t count = std::min(error.fields().size(), budget.violations);
     for (std::size_t i = 0; i < count; ++i) {
       v1::BadRequest::FieldViolation& violation = *bad.add_field_violations();
-      violation.set_field(printable(error.fields()[i].field, budget.field));
-      violation.set_description(printable(error.fields()[i].description, budget.description));
+      violation.set_field(words::printable(error.fields()[i].field, budget.field));
+      violation.set_description(
+          words::printable(error.fields()[i].description, budget.description));
     }
     pack(bad, status);
   }

@@ -18,8 +18,8 @@ using std::chrono::milliseconds;
 // Enums travel as their numbers.
 static_assert(int(contact::Status::cancelled) == v1::LoadCaseAnswer::STATUS_CANCELLED);
 static_assert(int(contact::Mass::consistent) == v1::MASS_CONSISTENT);
-static_assert(int(store::JobState::not_converged) == v1::Job::STATE_NOT_CONVERGED);
-static_assert(int(store::Priority::bulk) == v1::Job::PRIORITY_BULK);
+static_assert(int(records::JobState::not_converged) == v1::Job::STATE_NOT_CONVERGED);
+static_assert(int(records::Priority::bulk) == v1::Job::PRIORITY_BULK);
 
 namespace {
 
@@ -36,8 +36,8 @@ milliseconds limit_of(const Message& from, const char* name) {
   return std::chrono::ceil<milliseconds>(read_one<std::chrono::nanoseconds>(from, name));
 }
 
-v1::Job::ResultState result_state(const store::JobRecord& record) {
-  if (!store::ended(record.state)) return v1::Job::RESULT_STATE_PENDING;
+v1::Job::ResultState result_state(const records::JobRecord& record) {
+  if (!records::ended(record.state)) return v1::Job::RESULT_STATE_PENDING;
   if (record.expired) return v1::Job::RESULT_STATE_EXPIRED;
   return record.result_bytes > 0 ? v1::Job::RESULT_STATE_AVAILABLE : v1::Job::RESULT_STATE_NONE;
 }
@@ -139,9 +139,9 @@ contact::SolverOptions Translation<contact::SolverOptions>::read(const v1::Solve
   return read_one<contact::ActiveSetOptions>(from, "active_set");
 }
 
-void Translation<store::SweepSpec>::write(const store::SweepSpec& value, v1::Sweep& to) {
+void Translation<records::SweepSpec>::write(const records::SweepSpec& value, v1::Sweep& to) {
   write_fields(value, to, {"cases", "upload", "rows", "packed"});
-  v1::Sweep::Matrix& matrix = value.cases == store::SweepSpec::Cases::combinations
+  v1::Sweep::Matrix& matrix = value.cases == records::SweepSpec::Cases::combinations
                                   ? *to.mutable_coefficients()
                                   : *to.mutable_nodal_forces();
   if (value.packed)
@@ -150,19 +150,20 @@ void Translation<store::SweepSpec>::write(const store::SweepSpec& value, v1::Swe
     write_field(upload_name(value.upload), matrix, "upload");
 }
 
-store::SweepSpec Translation<store::SweepSpec>::read(const v1::Sweep& from) {
-  store::SweepSpec value;
+records::SweepSpec Translation<records::SweepSpec>::read(const v1::Sweep& from) {
+  records::SweepSpec value;
   read_fields(from, value, {"cases", "upload", "rows", "packed"});
   const bool nodal = from.has_nodal_forces();
   value.cases =
-      nodal ? store::SweepSpec::Cases::nodal_forces : store::SweepSpec::Cases::combinations;
+      nodal ? records::SweepSpec::Cases::nodal_forces : records::SweepSpec::Cases::combinations;
   const v1::Sweep::Matrix& matrix = nodal ? from.nodal_forces() : from.coefficients();
   value.packed = !matrix.has_upload();
   value.upload = value.packed ? matrix.sha256() : after_slash(matrix.upload(), "upload");
   return value;
 }
 
-void Translation<store::CaseRecord>::write(const store::CaseRecord& value, v1::LoadCaseAnswer& to) {
+void Translation<records::CaseRecord>::write(const records::CaseRecord& value,
+                                             v1::LoadCaseAnswer& to) {
   write_fields(value, to, {"answer"});
   write_fields(value.answer, to, {"kkt_relative"});
   if (value.answer.theta == 0) to.clear_theta();
@@ -172,8 +173,8 @@ void Translation<store::CaseRecord>::write(const store::CaseRecord& value, v1::L
   });
 }
 
-store::CaseRecord Translation<store::CaseRecord>::read(const v1::LoadCaseAnswer& from) {
-  store::CaseRecord value;
+records::CaseRecord Translation<records::CaseRecord>::read(const v1::LoadCaseAnswer& from) {
+  records::CaseRecord value;
   read_fields(from, value, {"answer"});
   read_fields(from, value.answer, {"kkt_relative"});
   fields::for_each(value.answer.kkt_relative, [&](const fields::Field<double>& residual) {
@@ -182,25 +183,26 @@ store::CaseRecord Translation<store::CaseRecord>::read(const v1::LoadCaseAnswer&
   return value;
 }
 
-void Translation<store::AccuracySpec>::write(const store::AccuracySpec& value, v1::Accuracy& to) {
+void Translation<records::AccuracySpec>::write(const records::AccuracySpec& value,
+                                               v1::Accuracy& to) {
   write_fields(value, to, {"time"});
   write_limit(value.time, to, "time");
 }
 
-store::AccuracySpec Translation<store::AccuracySpec>::read(const v1::Accuracy& from) {
-  store::AccuracySpec value;
+records::AccuracySpec Translation<records::AccuracySpec>::read(const v1::Accuracy& from) {
+  records::AccuracySpec value;
   read_fields(from, value, {"time"});
   value.time = limit_of(from, "time");
   return value;
 }
 
-void Translation<store::StageRecord>::write(const store::StageRecord& value, v1::Stage& to) {
+void Translation<records::StageRecord>::write(const records::StageRecord& value, v1::Stage& to) {
   write_fields(value, to, {"mesh"});
   to.set_mesh(mesh_name(value.mesh));
 }
 
-store::StageRecord Translation<store::StageRecord>::read(const v1::Stage& from) {
-  store::StageRecord value;
+records::StageRecord Translation<records::StageRecord>::read(const v1::Stage& from) {
+  records::StageRecord value;
   read_fields(from, value, {"mesh"});
   value.mesh = after_slash(from.mesh(), "mesh");
   return value;
@@ -212,7 +214,7 @@ bool asks_for(const v1::Job& job, v1::Output output) {
   return std::ranges::find(job.outputs(), output) != job.outputs().end();
 }
 
-void Translation<store::JobSpec>::write(const store::JobSpec& value, v1::Job& to) {
+void Translation<records::JobSpec>::write(const records::JobSpec& value, v1::Job& to) {
   write_fields(value, to, of_spec);
   write_field(mesh_name(value.mesh), to, "mesh");
   write_field(value.loads, to, "load_cases");
@@ -222,8 +224,8 @@ void Translation<store::JobSpec>::write(const store::JobSpec& value, v1::Job& to
   write_limit(value.run_time_limit, to, "run_timeout");
 }
 
-store::JobSpec Translation<store::JobSpec>::read(const v1::Job& from) {
-  store::JobSpec value;
+records::JobSpec Translation<records::JobSpec>::read(const v1::Job& from) {
+  records::JobSpec value;
   read_fields(from, value, of_spec);
   value.mesh = after_slash(from.mesh(), "mesh");
   read_field(from, "load_cases", value.loads);
@@ -237,8 +239,8 @@ store::JobSpec Translation<store::JobSpec>::read(const v1::Job& from) {
 const Except of_record{"id",    "request_id", "spec",  "created", "started",
                        "ended", "expired",    "cases", "sweep",   "crashes"};
 
-void Translation<store::JobRecord>::write(const store::JobRecord& value, v1::Job& to) {
-  Translation<store::JobSpec>::write(value.spec, to);
+void Translation<records::JobRecord>::write(const records::JobRecord& value, v1::Job& to) {
+  Translation<records::JobSpec>::write(value.spec, to);
   write_fields(value, to, of_record);
   write_field(job_name(value.id), to, "name");
   write_field(value.created, to, "create_time");
@@ -264,11 +266,11 @@ void Translation<store::JobRecord>::write(const store::JobRecord& value, v1::Job
   }
 }
 
-store::JobRecord Translation<store::JobRecord>::read(const v1::Job& from) {
-  store::JobRecord value;
+records::JobRecord Translation<records::JobRecord>::read(const v1::Job& from) {
+  records::JobRecord value;
   read_fields(from, value, of_record);
   value.id = after_slash(from.name(), "name");
-  value.spec = Translation<store::JobSpec>::read(from);
+  value.spec = Translation<records::JobSpec>::read(from);
   read_field(from, "create_time", value.created);
   read_field(from, "start_time", value.started);
   read_field(from, "end_time", value.ended);

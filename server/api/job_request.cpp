@@ -11,7 +11,7 @@
 #include "api/names.hpp"
 #include "api/requests.hpp"
 #include "api/translations.hpp"
-#include "store/digest.hpp"
+#include "digest/digest.hpp"
 
 namespace anticrack::api {
 namespace {
@@ -141,12 +141,12 @@ std::string fingerprint(const v1::Job& job) {
     auto& sweep = *sent.mutable_sweep();
     auto& matrix =
         sweep.has_coefficients() ? *sweep.mutable_coefficients() : *sweep.mutable_nodal_forces();
-    matrix.set_upload(upload_name(store::Sha256().add(matrix.packed()).finish()));
+    matrix.set_upload(upload_name(digest::Sha256().add(matrix.packed()).finish()));
   }
-  return store::Sha256().add(serialized(sent)).finish();
+  return digest::Sha256().add(serialized(sent)).finish();
 }
 
-store::JobSpec to_spec(const v1::Job& job, const JobLimits& limits) {
+records::JobSpec to_spec(const v1::Job& job, const JobLimits& limits) {
   require_title(job.title(), "job.title");
   if (job.load_cases_size() > limits.load_cases) {
     throw Error(Reason::limit_exceeded,
@@ -169,15 +169,15 @@ store::JobSpec to_spec(const v1::Job& job, const JobLimits& limits) {
     require_time(job.accuracy().time(), limits.run_time, "job.accuracy.time");
   require_loads(job);
   if (job.has_sweep()) require_sweep(job.sweep(), limits);
-  store::JobSpec spec;
+  records::JobSpec spec;
   try {
-    spec = Translation<store::JobSpec>::read(job);
+    spec = Translation<records::JobSpec>::read(job);
   } catch (Error& error) {
     throw error.below("job");
   }
   bound_iterations(job.solver(), limits.iterations, spec.solver);
   if (packed_bytes(job) > 0)
-    spec.sweep->upload = store::Sha256().add(matrix_of(job.sweep()).matrix->packed()).finish();
+    spec.sweep->upload = digest::Sha256().add(matrix_of(job.sweep()).matrix->packed()).finish();
   return spec;
 }
 

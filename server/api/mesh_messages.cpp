@@ -15,9 +15,9 @@ using errors::Reason;
 using Points = google::protobuf::RepeatedPtrField<v1::Point>;
 
 // Enums travel as their numbers, but for mesh::Preset.
-static_assert(int(store::MeshState::failed) == v1::Mesh::STATE_FAILED);
+static_assert(int(records::MeshState::failed) == v1::Mesh::STATE_FAILED);
 static_assert(int(mesh::Kind::free) == v1::INTERFACE_KIND_FREE);
-static_assert(int(store::ArrayType::uint8) == v1::ArrayLayout::TYPE_UINT8);
+static_assert(int(records::ArrayType::uint8) == v1::ArrayLayout::TYPE_UINT8);
 
 namespace {
 
@@ -257,38 +257,38 @@ mesh::MeshOptions Translation<mesh::MeshOptions>::read(const v1::MeshOptions& fr
   return value;
 }
 
-void Translation<store::Refinement>::write(const store::Refinement& value, v1::Refinement& to) {
+void Translation<records::Refinement>::write(const records::Refinement& value, v1::Refinement& to) {
   write_fields(value, to, {"parent", "job"});
   to.set_parent(mesh_name(value.parent));
   to.set_job(job_name(value.job));
 }
 
-store::Refinement Translation<store::Refinement>::read(const v1::Refinement& from) {
+records::Refinement Translation<records::Refinement>::read(const v1::Refinement& from) {
   return {after_slash(from.parent(), "parent"), after_slash(from.job(), "job"),
           from.levels_sha256()};
 }
 
-void write_definition(const store::MeshDefinition& value, Message& to) {
-  if (const auto* upload = std::get_if<store::UploadRef>(&value)) {
+void write_definition(const records::MeshDefinition& value, Message& to) {
+  if (const auto* upload = std::get_if<records::UploadRef>(&value)) {
     write_field(upload_name(upload->sha256), to, "upload");
     write_field(upload->options, to, "options");
-  } else if (const auto* refinement = std::get_if<store::Refinement>(&value)) {
+  } else if (const auto* refinement = std::get_if<records::Refinement>(&value)) {
     write_field(*refinement, to, "refinement");
   } else {
-    write_fields(std::get<store::GeometrySource>(value), to);
+    write_fields(std::get<records::GeometrySource>(value), to);
   }
 }
 
-store::MeshDefinition read_definition(const v1::CreateMeshRequest& from) {
+records::MeshDefinition read_definition(const v1::CreateMeshRequest& from) {
   switch (from.source_case()) {
     case v1::CreateMeshRequest::kGeometry: {
-      store::GeometrySource source;
+      records::GeometrySource source;
       read_fields(from, source);
       return source;
     }
     case v1::CreateMeshRequest::kUpload: {
       const auto options = read_one<mesh::MeshOptions>(from, "options");
-      return store::UploadRef{after_slash(from.upload(), "upload"), options};
+      return records::UploadRef{after_slash(from.upload(), "upload"), options};
     }
     case v1::CreateMeshRequest::SOURCE_NOT_SET:
       break;
@@ -297,7 +297,7 @@ store::MeshDefinition read_definition(const v1::CreateMeshRequest& from) {
       .at("geometry");
 }
 
-void Translation<store::MeshRecord>::write(const store::MeshRecord& value, v1::Mesh& to) {
+void Translation<records::MeshRecord>::write(const records::MeshRecord& value, v1::Mesh& to) {
   write_fields(value, to, {"id", "definition", "created", "for_job"});
   if (value.theta_star == 0) to.clear_theta_star();
   if (value.bisection_bound == 0) to.clear_bisection_bound();
@@ -305,26 +305,26 @@ void Translation<store::MeshRecord>::write(const store::MeshRecord& value, v1::M
   write_field(value.created, to, "create_time");
 }
 
-store::MeshRecord Translation<store::MeshRecord>::read(const v1::Mesh& from) {
-  store::MeshRecord value;
+records::MeshRecord Translation<records::MeshRecord>::read(const v1::Mesh& from) {
+  records::MeshRecord value;
   read_fields(from, value, {"id", "definition", "created", "for_job"});
   value.id = after_slash(from.name(), "name");
   read_field(from, "create_time", value.created);
   return value;
 }
 
-v1::BlockLayout layout_of(std::span<const store::ArrayLayout> arrays, std::uint64_t size,
+v1::BlockLayout layout_of(std::span<const records::ArrayLayout> arrays, std::uint64_t size,
                           const std::string& sha256) {
   v1::BlockLayout layout;
   layout.set_size(size);
   layout.set_sha256(sha256);
-  for (const store::ArrayLayout& array : arrays)
-    Translation<store::ArrayLayout>::write(array, *layout.add_arrays());
+  for (const records::ArrayLayout& array : arrays)
+    Translation<records::ArrayLayout>::write(array, *layout.add_arrays());
   return layout;
 }
 
-v1::BlockLayout layout_of(const store::BlockSource& block, std::size_t first, std::size_t count) {
-  const std::span<const store::ArrayLayout> all(block.arrays());
+v1::BlockLayout layout_of(const records::BlockSource& block, std::size_t first, std::size_t count) {
+  const std::span<const records::ArrayLayout> all(block.arrays());
   v1::BlockLayout layout = layout_of(all.subspan(first, std::min(count, all.size() - first)),
                                      block.size(), block.sha256());
   layout.set_first_array(static_cast<std::uint32_t>(first));

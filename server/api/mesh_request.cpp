@@ -96,12 +96,12 @@ void require_counts(const v1::MeshOptions& options) {
 
 }  // namespace
 
-store::MeshDefinition to_definition(const v1::CreateMeshRequest& request) {
+records::MeshDefinition to_definition(const v1::CreateMeshRequest& request) {
   require_title(request.title(), "title");
   require_counts(request.geometry());
   require_counts(request.options());
-  store::MeshDefinition definition = read_definition(request);
-  if (const auto* upload = std::get_if<store::UploadRef>(&definition)) {
+  records::MeshDefinition definition = read_definition(request);
+  if (const auto* upload = std::get_if<records::UploadRef>(&definition)) {
     mesh::check_for_upload(upload->options);
     upload_sha256(request.upload(), "upload");
   }

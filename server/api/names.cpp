@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <string>
 
-#include "api/text.hpp"
 #include "errors/errors.hpp"
+#include "words/shown.hpp"
 
 namespace anticrack::api {
 namespace {
@@ -21,7 +21,7 @@ std::string id_below(std::string_view collection, const std::string& name, std::
   const std::string prefix = std::string(collection) + "/";
   if (!name.starts_with(prefix) || !is_id(std::string_view(name).substr(prefix.size()))) {
     throw Error(Reason::invalid_argument, fmt::format("\"{}\" is not a name of the form \"{}/ID\"",
-                                                      printable(name, 100), collection))
+                                                      words::printable(name, 100), collection))
         .at(std::string(field));
   }
   return name.substr(prefix.size());
@@ -62,8 +62,8 @@ bool is_id(std::string_view text) noexcept {
 std::string after_slash(const std::string& name, std::string_view field) {
   const std::size_t slash = name.find('/');
   if (slash == std::string::npos) {
-    throw Error(Reason::invalid_argument,
-                "\"" + printable(name, 100) + "\" is not a name of the form \"COLLECTION/ID\"")
+    throw Error(Reason::invalid_argument, "\"" + words::printable(name, 100) +
+                                              "\" is not a name of the form \"COLLECTION/ID\"")
         .at(std::string(field));
   }
   return name.substr(slash + 1);

@@ -12,7 +12,7 @@
 #include "anticrack/v1/mesh.pb.h"
 #include "anticrack/v1/solve.pb.h"
 #include "errors/errors.hpp"
-#include "store/records.hpp"
+#include "records/records.hpp"
 
 namespace anticrack::api {
 
@@ -33,7 +33,7 @@ constexpr std::size_t max_job_bytes = 1u << 20;
 constexpr std::size_t max_packed_bytes = 1u << 20;
 
 /// The definition of a mesh, options filled in.
-store::MeshDefinition to_definition(const v1::CreateMeshRequest& request);
+records::MeshDefinition to_definition(const v1::CreateMeshRequest& request);
 
 /// SHA-256 of what the client sets in a job, as it was sent: neither defaults nor limits of the
 /// server change it. A packed matrix and its upload have the same. 64 hexadecimal digits.
@@ -49,7 +49,7 @@ struct JobLimits {
 
 /// The job, defaults filled in except time limits. The rows of a sweep are not set; a matrix inside
 /// the job is named by its hash, under which keep_packed_matrix() stores it.
-store::JobSpec to_spec(const v1::Job& job, const JobLimits& limits);
+records::JobSpec to_spec(const v1::Job& job, const JobLimits& limits);
 
 /// A sweep's matrix and its path in the job.
 struct MatrixOf {

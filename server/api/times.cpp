@@ -31,14 +31,14 @@ nanoseconds Translation<nanoseconds>::read(const google::protobuf::Duration& fro
   return nanoseconds(TimeUtil::DurationToNanoseconds(within_range(from)));
 }
 
-void Translation<store::Clock::time_point>::write(const store::Clock::time_point& value,
-                                                  google::protobuf::Timestamp& to) {
+void Translation<records::Clock::time_point>::write(const records::Clock::time_point& value,
+                                                    google::protobuf::Timestamp& to) {
   to = TimeUtil::NanosecondsToTimestamp(nanoseconds(value.time_since_epoch()).count());
 }
 
-store::Clock::time_point Translation<store::Clock::time_point>::read(
+records::Clock::time_point Translation<records::Clock::time_point>::read(
     const google::protobuf::Timestamp& from) {
-  return store::Clock::time_point(
+  return records::Clock::time_point(
       nanoseconds(TimeUtil::TimestampToNanoseconds(within_range(from))));
 }
 

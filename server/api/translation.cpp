@@ -10,7 +10,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "api/text.hpp"
+#include "words/shown.hpp"
 
 namespace anticrack::api {
 
@@ -46,7 +46,7 @@ const FieldDescriptor& field_of(const Message& message, std::string_view name) {
 }
 
 std::string utf8(const std::string& text) {
-  return is_utf8(text) ? text : printable(text, std::string::npos);
+  return words::is_utf8(text) ? text : words::printable(text, std::string::npos);
 }
 
 void put_number(Message& to, const FieldDescriptor& field, int number) {

@@ -14,8 +14,8 @@
 #include "anticrack/v1/mesh.pb.h"
 #include "anticrack/v1/solve.pb.h"
 #include "api/translation.hpp"
-#include "store/block.hpp"
-#include "store/records.hpp"
+#include "records/block.hpp"
+#include "records/records.hpp"
 
 namespace anticrack::api {
 
@@ -28,7 +28,7 @@ namespace anticrack::api {
   }
 
 // times, in nanoseconds
-ANTICRACK_TRANSLATION(store::Clock::time_point, google::protobuf::Timestamp);
+ANTICRACK_TRANSLATION(records::Clock::time_point, google::protobuf::Timestamp);
 ANTICRACK_TRANSLATION(std::chrono::nanoseconds, google::protobuf::Duration);
 
 /// Without the code, at full length; see error_message.hpp.
@@ -61,32 +61,32 @@ ANTICRACK_TRANSLATION(contact::SolverOptions, v1::Solver);
 
 // store/
 /// Without its definition.
-ANTICRACK_TRANSLATION(store::MeshRecord, v1::Mesh);
-ANTICRACK_TRANSLATION(store::Refinement, v1::Refinement);
+ANTICRACK_TRANSLATION(records::MeshRecord, v1::Mesh);
+ANTICRACK_TRANSLATION(records::Refinement, v1::Refinement);
 /// Its rows are in Job.sweep_answer.
-ANTICRACK_TRANSLATION(store::SweepSpec, v1::Sweep);
+ANTICRACK_TRANSLATION(records::SweepSpec, v1::Sweep);
 /// Without the name, which is the load's.
-ANTICRACK_TRANSLATION(store::CaseRecord, v1::LoadCaseAnswer);
-ANTICRACK_TRANSLATION(store::AccuracySpec, v1::Accuracy);
-ANTICRACK_TRANSLATION(store::StageRecord, v1::Stage);
+ANTICRACK_TRANSLATION(records::CaseRecord, v1::LoadCaseAnswer);
+ANTICRACK_TRANSLATION(records::AccuracySpec, v1::Accuracy);
+ANTICRACK_TRANSLATION(records::StageRecord, v1::Stage);
 /// The part of Job that the client sets.
-ANTICRACK_TRANSLATION(store::JobSpec, v1::Job);
+ANTICRACK_TRANSLATION(records::JobSpec, v1::Job);
 /// Without its request id.
-ANTICRACK_TRANSLATION(store::JobRecord, v1::Job);
+ANTICRACK_TRANSLATION(records::JobRecord, v1::Job);
 #undef ANTICRACK_TRANSLATION
 
 /// What a mesh is made from: source and options of a v1::CreateMeshRequest or v1::Mesh; a
 /// refinement only of the latter and of records.
-void write_definition(const store::MeshDefinition& value, Message& to);
-store::MeshDefinition read_definition(const v1::CreateMeshRequest& from);
+void write_definition(const records::MeshDefinition& value, Message& to);
+records::MeshDefinition read_definition(const v1::CreateMeshRequest& from);
 
 /// Arrays in one message of a layout; some 100 bytes each.
 constexpr std::size_t max_layout_arrays = 4096;
 /// The layout of a block: at most `count` of its arrays, from `first` on.
-v1::BlockLayout layout_of(const store::BlockSource& block, std::size_t first = 0,
+v1::BlockLayout layout_of(const records::BlockSource& block, std::size_t first = 0,
                           std::size_t count = max_layout_arrays);
 /// The layout of all arrays in a block of `size` bytes.
-v1::BlockLayout layout_of(std::span<const store::ArrayLayout> arrays, std::uint64_t size,
+v1::BlockLayout layout_of(std::span<const records::ArrayLayout> arrays, std::uint64_t size,
                           const std::string& sha256);
 
 }  // namespace anticrack::api

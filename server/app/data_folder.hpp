@@ -15,7 +15,7 @@ class DataFolder {
   explicit DataFolder(const std::string& path);
 
  private:
-  store::Descriptor _lock;
+  base::Descriptor _lock;
 };
 
 }  // namespace anticrack::app

@@ -30,7 +30,7 @@ void quietly(const Action& action) noexcept {
   }
 }
 
-void log_job(const store::JobRecord& job) {
+void log_job(const records::JobRecord& job) {
   const metrics::PhaseTimes times = metrics::phase_times(job);
   const auto in = [&](Phase phase) { return times[static_cast<std::size_t>(phase)].count(); };
   log::info("job ended", {{"job", "jobs/" + job.id},
@@ -51,7 +51,7 @@ void log_job(const store::JobRecord& job) {
                           {"writing_seconds", in(Phase::writing)}});
 }
 
-void log_mesh(const store::MeshRecord& mesh) {
+void log_mesh(const records::MeshRecord& mesh) {
   if (mesh.error) {
     log::warn("mesh failed", {{"mesh", "meshes/" + mesh.id},
                               {"owner", mesh.owner},
@@ -67,12 +67,12 @@ void log_mesh(const store::MeshRecord& mesh) {
 
 }  // namespace
 
-void job_ended(metrics::Metrics& metrics, const store::JobRecord& job) noexcept {
+void job_ended(metrics::Metrics& metrics, const records::JobRecord& job) noexcept {
   metrics.job_ended(job);
   quietly([&] { log_job(job); });
 }
 
-void meshed(metrics::Metrics& metrics, const store::MeshRecord& mesh) noexcept {
+void meshed(metrics::Metrics& metrics, const records::MeshRecord& mesh) noexcept {
   metrics.meshed(mesh);
   quietly([&] { log_mesh(mesh); });
 }

@@ -6,14 +6,14 @@
 #include <chrono>
 
 #include "metrics/metrics.hpp"
-#include "store/records.hpp"
+#include "records/records.hpp"
 
 namespace anticrack::app {
 
 /// Count the event and log one line. Errors are ignored: a log line that cannot be written must not
 /// cost a result.
-void job_ended(metrics::Metrics& metrics, const store::JobRecord& job) noexcept;
-void meshed(metrics::Metrics& metrics, const store::MeshRecord& mesh) noexcept;
+void job_ended(metrics::Metrics& metrics, const records::JobRecord& job) noexcept;
+void meshed(metrics::Metrics& metrics, const records::MeshRecord& mesh) noexcept;
 void factorised(metrics::Metrics& metrics, std::chrono::duration<double> time) noexcept;
 
 }  // namespace anticrack::app

@@ -30,23 +30,9 @@ const char* variable(const char* name) {
   return value != nullptr && *value != '\0' ? value : nullptr;
 }
 
-class Descriptor {
- public:
-  explicit Descriptor(int number) : _number(number) {}
-  Descriptor(Descriptor&& other) noexcept : _number(std::exchange(other._number, -1)) {}
-  Descriptor& operator=(Descriptor&&) = delete;
-  ~Descriptor() {
-    if (_number >= 0) ::close(_number);
-  }
-  int get() const noexcept { return _number; }
-
- private:
-  int _number;
-};
-
 /// Held while the server of the folder lives. Some file systems have no locks: then nobody gets
 /// one, and nothing is swept.
-bool lock(const Descriptor& file) { return ::flock(file.get(), LOCK_EX | LOCK_NB) == 0; }
+bool lock(const base::Descriptor& file) { return ::flock(file.get(), LOCK_EX | LOCK_NB) == 0; }
 
 /// Whether what is in `folder` was left by a server that is gone.
 bool is_left(const fs::path& folder) {
@@ -54,7 +40,7 @@ bool is_left(const fs::path& folder) {
   if (::lstat(folder.c_str(), &found) != 0 || !S_ISDIR(found.st_mode) ||
       found.st_uid != ::geteuid())
     return false;
-  const Descriptor file(
+  const base::Descriptor file(
       ::open((folder / lock_name).c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
   if (file.get() >= 0) return lock(file);
   // Its server may be about to make the file.

@@ -36,7 +36,7 @@ bool read_all(int descriptor, std::string& content) {
 std::string read_guarded_file(const std::string& key, const std::string& path,
                               OthersMay others_may) {
   const std::string where = key + ": " + path;
-  const store::Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  const base::Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   struct stat found {};
   std::string content;
   if (!file || ::fstat(file.get(), &found) != 0 || !read_all(file.get(), content))

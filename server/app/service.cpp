@@ -90,12 +90,12 @@ struct Service::Parts {
   }
 
   meshes::CatalogueOptions with_listener(meshes::CatalogueOptions options) {
-    options.meshed = [this](const store::MeshRecord& mesh) { meshed(metrics, mesh); };
+    options.meshed = [this](const records::MeshRecord& mesh) { meshed(metrics, mesh); };
     return options;
   }
 
   jobs::EngineOptions with_listener(jobs::EngineOptions options) {
-    options.ended = [this](const store::JobRecord& job) { job_ended(metrics, job); };
+    options.ended = [this](const records::JobRecord& job) { job_ended(metrics, job); };
     return options;
   }
 

@@ -3,7 +3,7 @@
 
 #include <map>
 
-#include "mesh/at.hpp"
+#include "base/at.hpp"
 
 namespace anticrack::contact {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "base/at.hpp"
 #include "contact/solve.hpp"
-#include "mesh/at.hpp"
 
 namespace anticrack::contact {
 namespace {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/at.hpp"
 #include "contact/dense.hpp"
-#include "mesh/at.hpp"
 #include "stop/stop.hpp"
 
 namespace anticrack::contact {

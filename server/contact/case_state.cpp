@@ -7,8 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/at.hpp"
 #include "errors/errors.hpp"
-#include "mesh/at.hpp"
 
 namespace anticrack::contact {
 

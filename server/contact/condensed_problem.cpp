@@ -3,9 +3,9 @@
 
 #include <utility>
 
+#include "base/at.hpp"
 #include "contact/dense.hpp"
 #include "errors/errors.hpp"
-#include "mesh/at.hpp"
 #include "stop/stop.hpp"
 
 namespace anticrack::contact {

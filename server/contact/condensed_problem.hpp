@@ -5,9 +5,9 @@
 #include <memory>
 #include <vector>
 
+#include "base/lazy.hpp"
 #include "contact/contact_problem.hpp"
 #include "contact/nested_start.hpp"
-#include "ddm/lazy.hpp"
 
 namespace anticrack::contact {
 
@@ -62,7 +62,7 @@ class CondensedProblem final : public ContactProblem {
   Eigen::MatrixXd _closed_to_open;  // W = H^-1 C
   NestedStart _nested_start;
   DenseLcp _lcp;
-  ddm::Lazy<OpenFactor> _all_open;  // of the lcp with every contact open
+  base::Lazy<OpenFactor> _all_open;  // of the lcp with every contact open
 };
 
 }  // namespace anticrack::contact

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "mesh/at.hpp"
+#include "base/at.hpp"
 
 namespace anticrack::contact {
 

@@ -7,11 +7,11 @@
 #include <limits>
 #include <numeric>
 
-#include "ddm/at_once.hpp"
+#include "base/at.hpp"
+#include "base/at_once.hpp"
+#include "base/union_find.hpp"
 #include "ddm/elimination_order.hpp"
 #include "ddm/subdomain_factor.hpp"
-#include "mesh/at.hpp"
-#include "mesh/union_find.hpp"
 
 namespace anticrack::contact {
 namespace {
@@ -68,7 +68,7 @@ Partition part(const TraceProblem& traces) {
   for (std::size_t k = 0; k < pieces.size(); ++k)
     for (const std::int32_t contact : pieces[k])
       piece_of[at(contact)] = static_cast<std::int32_t>(k);
-  mesh::UnionFind joined(pieces.size());
+  base::UnionFind joined(pieces.size());
   for (const ddm::Terms& row : skeleton.dependent)
     for (const ddm::Term& term : row)
       joined.unite(piece_of[at(row.front().index)], piece_of[at(term.index)]);
@@ -231,7 +231,7 @@ ContactBlocks::ContactBlocks(const JoinedMembrane& membrane, const PairForces& f
   const Places places(membrane);
   const Indices motion = mark_motions(membrane);
   std::vector<std::optional<ContactBlock>> done(partition.blocks.size());
-  ddm::at_once(done.size(), threads, [&] {
+  base::at_once(done.size(), threads, [&] {
     return [&, patch = Patch(membrane, places, motion)](std::size_t b) mutable {
       const Indices& contacts = partition.blocks[b];
       Indices conditions = contacts;
@@ -247,7 +247,7 @@ ContactBlocks::ContactBlocks(const JoinedMembrane& membrane, const PairForces& f
   _hats.setFromTriplets(partition.hats.begin(), partition.hats.end());
   if (partition.hat_count == 0) return;
   MatrixXd of_hats(membrane.contacts(), partition.hat_count);
-  ddm::at_once(at(partition.hat_count), threads, [&] {
+  base::at_once(at(partition.hat_count), threads, [&] {
     return [&](std::size_t k) {
       const auto column = static_cast<Index>(k);
       of_hats.col(column) = membrane.apply(VectorXd(_hats.col(column)));

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
+#include "base/at.hpp"
 #include "contact/dense_lcp.hpp"
-#include "mesh/at.hpp"
 #include "stop/stop.hpp"
 
 extern "C" void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);

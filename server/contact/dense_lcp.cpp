@@ -7,8 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "base/at.hpp"
 #include "contact/nested_start.hpp"
-#include "mesh/at.hpp"
 #include "stop/stop.hpp"
 
 namespace anticrack::contact {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 
-#include "ddm/at_once.hpp"
+#include "base/at.hpp"
+#include "base/at_once.hpp"
 #include "ddm/elimination_order.hpp"
-#include "mesh/at.hpp"
 #include "stop/stop.hpp"
 
 namespace anticrack::contact {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/at.hpp"
 #include "contact/open_membrane.hpp"
-#include "mesh/at.hpp"
 
 namespace anticrack::contact {
 

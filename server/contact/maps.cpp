@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/maps.hpp"
 
-#include "mesh/at.hpp"
+#include "base/at.hpp"
 
 namespace anticrack::contact {
 namespace {

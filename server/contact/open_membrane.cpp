@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/open_membrane.hpp"
 
+#include "base/at.hpp"
 #include "ddm/elimination_order.hpp"
-#include "mesh/at.hpp"
 
 namespace anticrack::contact {
 namespace {

@@ -9,7 +9,7 @@
 #include <map>
 #include <utility>
 
-#include "mesh/at.hpp"
+#include "base/at.hpp"
 
 namespace anticrack::contact {
 namespace {

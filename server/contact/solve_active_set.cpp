@@ -3,10 +3,10 @@
 #include <limits>
 #include <utility>
 
+#include "base/at.hpp"
 #include "contact/case_state.hpp"
 #include "contact/contact_problem.hpp"
 #include "contact/solve.hpp"
-#include "mesh/at.hpp"
 
 namespace anticrack::contact {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/at.hpp"
 #include "contact/dense.hpp"
-#include "mesh/at.hpp"
 
 namespace anticrack::contact {
 namespace {

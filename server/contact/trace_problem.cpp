@@ -7,9 +7,9 @@
 #include <Eigen/SparseCholesky>
 #include <limits>
 
+#include "base/at.hpp"
 #include "errors/errors.hpp"
 #include "fem/interface_mass.hpp"
-#include "mesh/at.hpp"
 #include "stop/stop.hpp"
 
 namespace anticrack::contact {

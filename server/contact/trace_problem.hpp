@@ -7,11 +7,11 @@
 #include <span>
 #include <vector>
 
+#include "base/lazy.hpp"
 #include "contact/answer.hpp"
 #include "contact/maps.hpp"
 #include "contact/pair_forces.hpp"
 #include "ddm/decomposition.hpp"
-#include "ddm/lazy.hpp"
 #include "ddm/subdomain_operator.hpp"
 
 namespace anticrack::contact {
@@ -66,7 +66,7 @@ class TraceProblem {
   bool knows_theta_star(Mass mass) const noexcept;
 
  private:
-  const ddm::Lazy<double>& lazy_theta_star(Mass mass) const noexcept {
+  const base::Lazy<double>& lazy_theta_star(Mass mass) const noexcept {
     return mass == Mass::lumped ? _theta_star_lumped : _theta_star_consistent;
   }
 
@@ -78,7 +78,7 @@ class TraceProblem {
   PairForces _pair_forces;
   std::vector<std::vector<std::int32_t>> _carriers;
   bool _uzawa;
-  ddm::Lazy<double> _theta_star_lumped, _theta_star_consistent;
+  base::Lazy<double> _theta_star_lumped, _theta_star_consistent;
 };
 
 }  // namespace anticrack::contact

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mesh/at.hpp"
+#include "base/at.hpp"
 
 namespace anticrack::contact {
 

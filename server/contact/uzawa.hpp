@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
+#include "base/at.hpp"
 #include "contact/answer.hpp"
 #include "contact/trace_problem.hpp"
 #include "contact/trace_state.hpp"
-#include "mesh/at.hpp"
 
 namespace anticrack::contact {
 

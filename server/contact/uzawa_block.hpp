@@ -5,9 +5,9 @@
 #include <limits>
 #include <vector>
 
+#include "base/at.hpp"
 #include "contact/solve.hpp"
 #include "contact/uzawa.hpp"
-#include "mesh/at.hpp"
 
 namespace anticrack::contact {
 

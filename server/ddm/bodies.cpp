@@ -6,9 +6,9 @@
 #include <limits>
 #include <sstream>
 
+#include "base/at.hpp"
+#include "base/union_find.hpp"
 #include "errors/errors.hpp"
-#include "mesh/at.hpp"
-#include "mesh/union_find.hpp"
 
 namespace anticrack::ddm {
 namespace {
@@ -31,8 +31,8 @@ struct Box {
   Point centre() const { return {(low[0] + high[0]) / 2, (low[1] + high[1]) / 2}; }
 };
 
-mesh::UnionFind join_at_nodes(const mesh::Mesh& mesh, const Sides& sides) {
-  mesh::UnionFind joined(mesh.inclusions.size());
+base::UnionFind join_at_nodes(const mesh::Mesh& mesh, const Sides& sides) {
+  base::UnionFind joined(mesh.inclusions.size());
   std::vector<std::int32_t> first(mesh.node_count(), -1);
   for (const CutEdge& edge : sides.edges) {
     if (edge.inclusion < 0) continue;
@@ -87,7 +87,7 @@ double lever(const Body& body, std::size_t axis, const Point& x) {
 
 Bodies find_bodies(const mesh::Mesh& mesh, const Sides& sides) {
   const std::size_t count = mesh.inclusions.size();
-  mesh::UnionFind joined = join_at_nodes(mesh, sides);
+  base::UnionFind joined = join_at_nodes(mesh, sides);
   std::vector<Box> box(count);
   std::vector<std::vector<Point>> nodes(count);  // by the first inclusion of the body
   std::vector<std::vector<std::int32_t>> on_dirichlet(count);

@@ -3,9 +3,9 @@
 
 #include <string>
 
+#include "base/at.hpp"
 #include "ddm/blas.hpp"
 #include "errors/errors.hpp"
-#include "mesh/at.hpp"
 
 // From OpenMP's run-time library, which Debian's libcholmod is linked with. Its header is not
 // included: compiling with OpenMP would make Eigen start threads as well.

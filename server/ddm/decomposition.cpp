@@ -6,9 +6,9 @@
 #include <numeric>
 #include <utility>
 
+#include "base/at.hpp"
 #include "ddm/cut_steps.hpp"
 #include "errors/errors.hpp"
-#include "mesh/at.hpp"
 #include "stop/stop.hpp"
 
 namespace anticrack::ddm {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ddm/elimination_order.hpp"
 
-#include "mesh/at.hpp"
+#include "base/at.hpp"
 #include "stop/stop.hpp"
 
 namespace anticrack::ddm {

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
+#include "base/at.hpp"
 #include "ddm/multifrontal.hpp"
 #include "errors/errors.hpp"
-#include "mesh/at.hpp"
 #include "stop/stop.hpp"
 
 namespace anticrack::ddm {

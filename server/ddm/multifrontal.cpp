@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "ddm/at_once.hpp"
+#include "base/at.hpp"
+#include "base/at_once.hpp"
 #include "errors/errors.hpp"
-#include "mesh/at.hpp"
 #include "stop/stop.hpp"
 
 extern "C" void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
@@ -179,7 +179,7 @@ class Elimination {
   /// The subtrees, on as many threads; false where one is not positive definite.
   bool run(const Subtrees& subtrees, int threads) {
     std::atomic<bool> definite{true};
-    at_once(subtrees.nodes.size(), threads, [&] {
+    base::at_once(subtrees.nodes.size(), threads, [&] {
       return [&, front = new_front()](std::size_t t) mutable {
         for (const int s : subtrees.nodes[t]) {
           if (!definite) return;

@@ -8,8 +8,8 @@
 #include <limits>
 #include <utility>
 
+#include "base/at.hpp"
 #include "ddm/vertex_separator.hpp"
-#include "mesh/at.hpp"
 #include "stop/stop.hpp"
 
 namespace anticrack::ddm {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <span>
 
-#include "mesh/at.hpp"
+#include "base/at.hpp"
 #include "mesh/edges.hpp"
 #include "stop/stop.hpp"
 

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/lazy.hpp"
 #include "ddm/decomposition.hpp"
-#include "ddm/lazy.hpp"
 #include "mesh/mesh.hpp"
 
 namespace anticrack::ddm {
@@ -28,7 +28,7 @@ class NeumannBoundary {
  private:
   const mesh::Mesh& _mesh;
   const Decomposition& _decomposition;
-  Lazy<std::vector<Edges>> _edges;  // of each subdomain
+  base::Lazy<std::vector<Edges>> _edges;  // of each subdomain
 };
 
 }  // namespace anticrack::ddm

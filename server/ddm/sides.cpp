@@ -6,10 +6,10 @@
 #include <sstream>
 #include <utility>
 
+#include "base/at.hpp"
+#include "base/union_find.hpp"
 #include "errors/errors.hpp"
-#include "mesh/at.hpp"
 #include "mesh/edges.hpp"
-#include "mesh/union_find.hpp"
 #include "stop/stop.hpp"
 
 namespace anticrack::ddm {
@@ -118,7 +118,7 @@ class Neighbourhood {
   const mesh::Mesh& _mesh;
   std::vector<std::int32_t> _triangles;
   mesh::EdgeTable _table;
-  mesh::UnionFind _fans;
+  base::UnionFind _fans;
 };
 
 void require_two_faces(const mesh::Mesh& mesh, const CutEdge& edge, Neighbourhood& around) {

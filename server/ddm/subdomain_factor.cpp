@@ -8,11 +8,11 @@
 #include <cstdlib>
 #include <numeric>
 
+#include "base/at.hpp"
 #include "ddm/cholmod.hpp"
 #include "ddm/kernels.hpp"
 #include "ddm/multifrontal.hpp"
 #include "errors/errors.hpp"
-#include "mesh/at.hpp"
 #include "stop/stop.hpp"
 
 namespace anticrack::ddm {

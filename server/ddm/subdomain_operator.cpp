@@ -3,8 +3,8 @@
 
 #include <utility>
 
+#include "base/at.hpp"
 #include "ddm/elimination_order.hpp"
-#include "mesh/at.hpp"
 
 namespace anticrack::ddm {
 namespace {
@@ -32,7 +32,7 @@ SubdomainOperator::SubdomainOperator(const Subdomain& subdomain, const fem::Stif
       _dirichlet_dirichlet(stiffness.dirichlet),
       _floats(!subdomain.floating.empty()),
       _rigid(subdomain.rigid),
-      _flexibility(std::make_unique<const Lazy<Flexibility>>()) {}
+      _flexibility(std::make_unique<const base::Lazy<Flexibility>>()) {}
 
 const Flexibility* SubdomainOperator::flexibility() const {
   return _floats ? nullptr

@@ -9,9 +9,9 @@
 #include <span>
 #include <vector>
 
+#include "base/lazy.hpp"
 #include "ddm/decomposition.hpp"
 #include "ddm/flexibility.hpp"
-#include "ddm/lazy.hpp"
 #include "ddm/subdomain_factor.hpp"
 #include "fem/stiffness.hpp"
 
@@ -68,7 +68,7 @@ class SubdomainOperator {
   Eigen::SparseMatrix<double> _dirichlet_dirichlet;  // K_DD
   bool _floats = false;
   std::vector<std::int32_t> _rigid;
-  std::unique_ptr<const Lazy<Flexibility>> _flexibility;
+  std::unique_ptr<const base::Lazy<Flexibility>> _flexibility;
 };
 
 /// The constants of a combination sum_j c_j f_j of loads of one subdomain, quadratic forms in c:

@@ -5,7 +5,7 @@
 #include <queue>
 #include <utility>
 
-#include "mesh/at.hpp"
+#include "base/at.hpp"
 
 namespace anticrack::ddm {
 

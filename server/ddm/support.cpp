@@ -6,16 +6,16 @@
 #include <string>
 #include <vector>
 
+#include "base/at.hpp"
+#include "base/union_find.hpp"
 #include "errors/errors.hpp"
-#include "mesh/at.hpp"
-#include "mesh/union_find.hpp"
 #include "stop/stop.hpp"
 
 namespace anticrack::ddm {
 namespace {
 
-mesh::UnionFind connected_parts(const Subdomain& subdomain) {
-  mesh::UnionFind parts(subdomain.node.size());
+base::UnionFind connected_parts(const Subdomain& subdomain) {
+  base::UnionFind parts(subdomain.node.size());
   for (std::size_t t = 0; t < subdomain.part.triangle_count(); ++t) {
     stop::look_at_turn<stop::quick>(t, "looking for parts that nothing holds");
     const std::int32_t* corner = &subdomain.part.triangles[3 * t];
@@ -43,7 +43,7 @@ struct PartNodes {
   std::vector<std::int32_t> trace;
 };
 
-PartNodes nodes_of_parts(const Subdomain& subdomain, mesh::UnionFind& parts) {
+PartNodes nodes_of_parts(const Subdomain& subdomain, base::UnionFind& parts) {
   PartNodes result{std::vector<char>(subdomain.node.size(), 0),
                    std::vector<std::int32_t>(subdomain.node.size(), -1)};
   for (std::size_t i = subdomain.interior; i < subdomain.node.size(); ++i) {
@@ -57,8 +57,8 @@ PartNodes nodes_of_parts(const Subdomain& subdomain, mesh::UnionFind& parts) {
 }
 
 /// Joins what is tied: the unknowns of w, and the ground as the last member.
-void join(const Subdomain& subdomain, mesh::UnionFind& parts, const PartNodes& nodes,
-          std::int32_t ground, mesh::UnionFind& held) {
+void join(const Subdomain& subdomain, base::UnionFind& parts, const PartNodes& nodes,
+          std::int32_t ground, base::UnionFind& held) {
   for (std::size_t i = 0; i < subdomain.trace; ++i) {
     const std::size_t part = at(parts.find(static_cast<std::int32_t>(subdomain.interior + i)));
     held.unite(subdomain.unknown[i],
@@ -74,7 +74,7 @@ void find_floating_parts(Decomposition& decomposition) {
                   [](const Subdomain& subdomain) { return subdomain.dirichlet > 0; });
   const auto ground = static_cast<std::int32_t>(decomposition.skeleton.unknowns);
   const Skeleton& skeleton = decomposition.skeleton;
-  mesh::UnionFind held(skeleton.unknowns + 1);
+  base::UnionFind held(skeleton.unknowns + 1);
   // Along each of its edges a body that tilts has the values of one part: what holds A holds it.
   for (std::size_t i = 0; i < skeleton.inclusion.size(); ++i)
     if (const std::int32_t j = skeleton.inclusion[i]; j >= 0)
@@ -82,7 +82,7 @@ void find_floating_parts(Decomposition& decomposition) {
   for (const Held& one : skeleton.held)
     held.unite(skeleton.motions[at(one.inclusion)].displacement.front().index, ground);
   for (Subdomain& subdomain : decomposition.subdomains) {
-    mesh::UnionFind parts = connected_parts(subdomain);
+    base::UnionFind parts = connected_parts(subdomain);
     const PartNodes nodes = nodes_of_parts(subdomain, parts);
     for (std::size_t i = 0; i < subdomain.node.size(); ++i) {
       if (parts.find(static_cast<std::int32_t>(i)) != static_cast<std::int32_t>(i) ||

@@ -7,9 +7,9 @@
 #include <set>
 #include <utility>
 
+#include "base/at.hpp"
+#include "base/union_find.hpp"
 #include "ddm/bodies.hpp"
-#include "mesh/at.hpp"
-#include "mesh/union_find.hpp"
 
 namespace anticrack::ddm {
 namespace {
@@ -27,7 +27,7 @@ class Classes {
         _at_node(mesh.node_count(), -1) {
     for (const CutEdge& edge : sides.edges)
       if (edge.inclusion >= 0) add_rigid(edge);
-    _sets = mesh::UnionFind(_rigid + sides.sides.size());
+    _sets = base::UnionFind(_rigid + sides.sides.size());
     for (const CutEdge& edge : sides.edges) {
       for (std::size_t end = 0; end < 2; ++end)
         if (edge.plus[end] >= 0) tie(edge, end);
@@ -148,7 +148,7 @@ class Classes {
   std::vector<std::int32_t> _at_node;  // (nodes) the rigid member there, or -1
   std::vector<Follower> _follower;
   std::vector<std::int32_t> _motion;  // (bodies) unknown that is A; the slopes follow
-  mesh::UnionFind _sets{0};
+  base::UnionFind _sets{0};
 };
 
 /// A condition w[upper] >= w[lower] between two values of one node.

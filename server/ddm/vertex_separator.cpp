@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "mesh/at.hpp"
+#include "base/at.hpp"
 
 namespace anticrack::ddm {
 namespace {

@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "base/at.hpp"
 #include "estimate/edge_polynomial.hpp"
-#include "mesh/at.hpp"
 #include "stop/stop.hpp"
 
 namespace anticrack::estimate {

@@ -6,11 +6,11 @@
 #include <limits>
 #include <queue>
 
+#include "base/at.hpp"
 #include "estimate/edge_polynomial.hpp"
 #include "expression/enclosure.hpp"
 #include "expression/function.hpp"
 #include "fem/load_vector.hpp"
-#include "mesh/at.hpp"
 #include "stop/stop.hpp"
 
 namespace anticrack::estimate {

@@ -5,7 +5,7 @@
 #include <span>
 #include <sstream>
 
-#include "mesh/at.hpp"
+#include "base/at.hpp"
 #include "mesh/edges.hpp"
 #include "stop/stop.hpp"
 

@@ -10,9 +10,9 @@
 #include <memory>
 #include <new>
 
+#include "base/at.hpp"
 #include "estimate/flux_kernels.hpp"
 #include "fem/triangle_rules.hpp"
-#include "mesh/at.hpp"
 #include "stop/stop.hpp"
 
 namespace anticrack::estimate {

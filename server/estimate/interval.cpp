@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/at.hpp"
 #include "estimate/bracket.hpp"
 #include "estimate/flux_kernels.hpp"
 #include "fem/triangle_rules.hpp"
-#include "mesh/at.hpp"
 #include "stop/stop.hpp"
 
 namespace anticrack::estimate {

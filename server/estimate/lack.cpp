@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "mesh/at.hpp"
+#include "base/at.hpp"
 
 namespace anticrack::estimate {
 namespace {

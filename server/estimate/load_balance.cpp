@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "mesh/at.hpp"
+#include "base/at.hpp"
 #include "stop/stop.hpp"
 
 namespace anticrack::estimate {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "mesh/at.hpp"
+#include "base/at.hpp"
 #include "stop/stop.hpp"
 
 namespace anticrack::estimate {

@@ -10,8 +10,8 @@
 #include <span>
 #include <vector>
 
+#include "base/at.hpp"
 #include "fem/tension.hpp"
-#include "mesh/at.hpp"
 
 namespace anticrack::estimate {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <map>
 
+#include "base/at.hpp"
 #include "estimate/cut_mesh.hpp"
-#include "mesh/at.hpp"
 #include "stop/stop.hpp"
 
 namespace anticrack::estimate {

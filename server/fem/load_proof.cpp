@@ -7,10 +7,10 @@
 #include <numeric>
 #include <queue>
 
+#include "base/at.hpp"
 #include "fem/cell.hpp"
 #include "fem/cell_enclosure.hpp"
 #include "fem/sampler.hpp"
-#include "mesh/at.hpp"
 #include "stop/stop.hpp"
 
 namespace anticrack::fem {

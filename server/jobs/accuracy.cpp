@@ -45,7 +45,7 @@ struct Worst {
   std::size_t load = 0;
   double excess = 0;
 };
-Worst worst_of(const store::StageRecord& stage, const store::AccuracySpec& wanted) {
+Worst worst_of(const records::StageRecord& stage, const records::AccuracySpec& wanted) {
   Worst worst;
   for (std::size_t i = 0; i < stage.answers.size(); ++i)
     if (const double one = excess(stage.answers[i], wanted); one > worst.excess) worst = {i, one};
@@ -53,7 +53,8 @@ Worst worst_of(const store::StageRecord& stage, const store::AccuracySpec& wante
 }
 
 /// Whether a load case that has not reached it comes nearer still: than in all stages long past.
-bool improves(const std::vector<store::StageRecord>& stages, const store::AccuracySpec& wanted) {
+bool improves(const std::vector<records::StageRecord>& stages,
+              const records::AccuracySpec& wanted) {
   for (std::size_t i = 0; i < stages.back().answers.size(); ++i) {
     const double now = excess(stages.back().answers[i], wanted);
     double before = infinity;
@@ -65,12 +66,12 @@ bool improves(const std::vector<store::StageRecord>& stages, const store::Accura
 }
 
 /// Empty: it has bounds.
-std::string why_unbounded(const store::CaseRecord& one) {
+std::string why_unbounded(const records::CaseRecord& one) {
   if (one.error) return one.error->what();
   return one.status == contact::Status::converged ? one.answer.no_bracket : one.answer.reason;
 }
 
-double relative_width(const store::StageAnswer& answer) {
+double relative_width(const records::StageAnswer& answer) {
   const double width = *answer.energy_upper - *answer.energy_lower;
   return width > 0 ? width / std::abs(answer.energy) : 0;
 }
@@ -92,7 +93,8 @@ struct AroundZero {
   }
 };
 
-AroundZero energy_around_zero(const store::StageAnswer& answer, const store::AccuracySpec& wanted) {
+AroundZero energy_around_zero(const records::StageAnswer& answer,
+                              const records::AccuracySpec& wanted) {
   AroundZero found{"energy"};
   if (wanted.energy && relative_width(answer) > *wanted.energy)
     found.add(answer.energy_lower, answer.energy_upper);
@@ -101,7 +103,7 @@ AroundZero energy_around_zero(const store::StageAnswer& answer, const store::Acc
 
 /// Of the inclusion that the error is relative to, of a load case that has bounds of A.
 AroundZero displacement_around_zero(const contact::AnswerSummary& answer,
-                                    const store::AccuracySpec& wanted) {
+                                    const records::AccuracySpec& wanted) {
   AroundZero found{"A"};
   if (!wanted.displacement) return found;
   const auto amount = [](const contact::InclusionAnswer& one) {
@@ -131,8 +133,8 @@ std::string within(const AroundZero& value) {
 }
 
 /// Why no stage helps.
-std::string no_hope(const store::StageAnswer& answer, const contact::AnswerSummary& summary,
-                    const store::AccuracySpec& wanted) {
+std::string no_hope(const records::StageAnswer& answer, const contact::AnswerSummary& summary,
+                    const records::AccuracySpec& wanted) {
   if (const AroundZero of_a = displacement_around_zero(summary, wanted))
     return fmt::format("an error relative to 0 cannot be reached; {}ask for accuracy.energy",
                        of_a.others);
@@ -144,8 +146,8 @@ std::string no_hope(const store::StageAnswer& answer, const contact::AnswerSumma
 
 }  // namespace
 
-void check_accuracy(const store::JobSpec& spec) {
-  const store::AccuracySpec& wanted = *spec.accuracy;
+void check_accuracy(const records::JobSpec& spec) {
+  const records::AccuracySpec& wanted = *spec.accuracy;
   if (!wanted.energy && !wanted.displacement) {
     throw Error(Reason::invalid_argument,
                 "no accuracy is asked for: give energy = 1e-3, A = 1e-3 (displacement), or both")
@@ -183,7 +185,7 @@ void check_accuracy(const store::JobSpec& spec) {
   }
 }
 
-void tighten(store::CaseRecord& answer, const store::CaseRecord& before) {
+void tighten(records::CaseRecord& answer, const records::CaseRecord& before) {
   using Bound = std::optional<double>;
   const auto closer = [](Bound& lower, Bound& upper, const Bound& other_lower,
                          const Bound& other_upper) {
@@ -209,10 +211,10 @@ void tighten(store::CaseRecord& answer, const store::CaseRecord& before) {
   }
 }
 
-store::StageAnswer stage_answer(const store::CaseRecord& ended_case, bool each_inclusion) {
+records::StageAnswer stage_answer(const records::CaseRecord& ended_case, bool each_inclusion) {
   const contact::AnswerSummary& answer = ended_case.answer;
-  store::StageAnswer result{answer.energy, answer.energy_lower, answer.energy_upper,
-                            answer.error_bound_relative};
+  records::StageAnswer result{answer.energy, answer.energy_lower, answer.energy_upper,
+                              answer.error_bound_relative};
   double largest = 0;
   for (const contact::InclusionAnswer& one : answer.inclusions) {
     if (!one.displacement_lower || !one.displacement_upper) return result;
@@ -228,7 +230,7 @@ store::StageAnswer stage_answer(const store::CaseRecord& ended_case, bool each_i
   return result;
 }
 
-double excess(const store::StageAnswer& answer, const store::AccuracySpec& wanted) {
+double excess(const records::StageAnswer& answer, const records::AccuracySpec& wanted) {
   double result = 0;
   const auto add = [&](double error, double asked) {
     result = std::max(result, std::min(error, of_zero) / asked);
@@ -244,12 +246,12 @@ double excess(const store::StageAnswer& answer, const store::AccuracySpec& wante
   return result;
 }
 
-std::string not_reached(const store::StageRecord& last,
-                        std::span<const store::CaseRecord* const> cases, const store::JobSpec& spec,
-                        const std::string& why) {
-  const store::AccuracySpec& wanted = *spec.accuracy;
+std::string not_reached(const records::StageRecord& last,
+                        std::span<const records::CaseRecord* const> cases,
+                        const records::JobSpec& spec, const std::string& why) {
+  const records::AccuracySpec& wanted = *spec.accuracy;
   const std::size_t load = worst_of(last, wanted).load;
-  const store::StageAnswer& answer = last.answers[load];
+  const records::StageAnswer& answer = last.answers[load];
   std::string reached;
   const auto add = [&](const std::string& text) {
     reached += (reached.empty() ? "" : ", ") + text;
@@ -267,7 +269,7 @@ std::string not_reached(const store::StageRecord& last,
                      reached.empty() ? "no bounds" : reached, last.triangles, why);
 }
 
-std::string limit_reached(const store::JobSpec& spec, std::uint64_t max_triangles) {
+std::string limit_reached(const records::JobSpec& spec, std::uint64_t max_triangles) {
   const bool own = max_triangles == spec.accuracy->max_triangles;
   return fmt::format("a finer mesh has more than {} triangles, {}", max_triangles,
                      own ? "max_triangles of the accuracy; raise it"
@@ -275,15 +277,15 @@ std::string limit_reached(const store::JobSpec& spec, std::uint64_t max_triangle
                            "server with more");
 }
 
-Verdict judge(const std::vector<store::StageRecord>& stages,
-              const std::vector<const store::CaseRecord*>& cases, const store::JobSpec& spec,
+Verdict judge(const std::vector<records::StageRecord>& stages,
+              const std::vector<const records::CaseRecord*>& cases, const records::JobSpec& spec,
               std::uint64_t max_triangles, double seconds) {
-  const store::AccuracySpec& wanted = *spec.accuracy;
-  const store::StageRecord& last = stages.back();
+  const records::AccuracySpec& wanted = *spec.accuracy;
+  const records::StageRecord& last = stages.back();
   const auto stop = [&](const std::string& why) {
     return Verdict{true, not_reached(last, cases, spec, why)};
   };
-  for (const store::CaseRecord* one : cases) {
+  for (const records::CaseRecord* one : cases) {
     const std::string why = why_unbounded(*one);
     if (why.empty()) continue;
     if (stages.size() > 1) {

@@ -16,7 +16,7 @@ BlockRun::BlockRun(const std::shared_ptr<const operators::MeshOperator>& mesh_op
 
 void BlockRun::add(const Task& task, operators::PreparedLoad load) {
   auto column = std::make_unique<Column>(Column{task, History(task, _iterations)});
-  const store::JobSpec& spec = *task.job->spec;
+  const records::JobSpec& spec = *task.job->spec;
   const int place = _block.add(std::move(load), std::get<contact::UzawaOptions>(spec.solver),
                                spec.fields, column->history);
   _places[static_cast<std::size_t>(place)] = std::move(column);
@@ -77,8 +77,8 @@ std::vector<EndedCase> BlockRun::end_all(const std::exception_ptr& failure) {
   return ended;
 }
 
-store::Priority BlockRun::priority() const noexcept {
-  store::Priority best = store::Priority::bulk;
+records::Priority BlockRun::priority() const noexcept {
+  records::Priority best = records::Priority::bulk;
   for (const std::unique_ptr<Column>& column : _places)
     best = column ? std::min(best, column->task.job->spec->priority) : best;
   return best;

@@ -41,11 +41,12 @@ class BlockRun {
   // With the engine's mutex held, or by the thread that works on it:
 
   bool iterating = false;
-  store::Priority parked_as = store::Priority::normal;  ///< in the schedule, while it is put down
+  records::Priority parked_as =
+      records::Priority::normal;  ///< in the schedule, while it is put down
   /// Columns under way, and places for more.
   int columns() const noexcept { return _columns; }
   int free() const noexcept { return _broken ? 0 : _capacity - _columns; }
-  store::Priority priority() const noexcept;  ///< of its most urgent column
+  records::Priority priority() const noexcept;  ///< of its most urgent column
   /// Marks the columns of jobs that must stop, which end in the next step; returns their
   /// tasks. Only while it is not iterating.
   std::vector<Task> abandon_stopped();

@@ -28,8 +28,8 @@ Error placed(Error error, std::size_t index) {
   return error;
 }
 
-std::shared_ptr<store::CaseRecord> new_record(const Task& task, Status status) {
-  auto record = std::make_shared<store::CaseRecord>();
+std::shared_ptr<records::CaseRecord> new_record(const Task& task, Status status) {
+  auto record = std::make_shared<records::CaseRecord>();
   record->status = status;
   record->solve_time = std::chrono::steady_clock::now() - task.taken;
   return record;

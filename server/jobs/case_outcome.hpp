@@ -16,7 +16,7 @@
 namespace anticrack::jobs {
 
 struct CaseOutcome {
-  std::shared_ptr<const store::CaseRecord> record;
+  std::shared_ptr<const records::CaseRecord> record;
   std::optional<ResultPart> result{};  ///< converged and not_converged only
   std::vector<double> indicator{};     ///< (triangles), of a job with an accuracy
 };

@@ -97,7 +97,7 @@ void check_unit(const std::string& unit, const char* field) {
 
 }  // namespace
 
-void check(const store::JobSpec& spec, const EngineOptions& options) {
+void check(const records::JobSpec& spec, const EngineOptions& options) {
   if (spec.title.size() > max_title_bytes) {
     throw Error(Reason::invalid_argument, "a title of " + std::to_string(spec.title.size()) +
                                               " bytes: use at most " +
@@ -132,18 +132,18 @@ void check(const store::JobSpec& spec, const EngineOptions& options) {
   check_time(spec.run_time_limit, options.run_time, "run_timeout");
 }
 
-void check_on_mesh(const store::JobSpec& spec, const store::MeshDefinition& definition) {
-  if (const auto* made = std::get_if<store::GeometrySource>(&definition))
+void check_on_mesh(const records::JobSpec& spec, const records::MeshDefinition& definition) {
+  if (const auto* made = std::get_if<records::GeometrySource>(&definition))
     operators::check_loads(spec.loads, made->geometry);
-  if (const auto* file = std::get_if<store::UploadRef>(&definition))
+  if (const auto* file = std::get_if<records::UploadRef>(&definition))
     operators::check_loads(spec.loads, file->options.inclusion_motions);
 }
 
-std::string fingerprint(const store::JobSpec& spec) {
+std::string fingerprint(const records::JobSpec& spec) {
   store::CanonicalHash hash;
   fields::for_each(spec, [&hash]<class T>(const fields::Field<T>& field) {
-    if constexpr (std::is_same_v<T, const std::optional<store::SweepSpec>>) {
-      std::optional<store::SweepSpec> sweep = field.value;
+    if constexpr (std::is_same_v<T, const std::optional<records::SweepSpec>>) {
+      std::optional<records::SweepSpec> sweep = field.value;
       if (sweep) {
         sweep->rows = 0;  // they follow from the upload and the mesh
         sweep->packed = false;

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "jobs/job_engine.hpp"
-#include "store/records.hpp"
+#include "records/records.hpp"
 
 namespace anticrack::jobs {
 
@@ -15,12 +15,12 @@ namespace anticrack::jobs {
 /// that is wrong, with its path in the job: "title", "load_cases", "load_cases[i].name",
 /// "load_cases[i].force.expression", "solver.uzawa.theta", "queue_timeout", "run_timeout",
 /// "sweep.traces[i]", ... Says nothing of a sweep's matrix.
-void check(const store::JobSpec& spec, const EngineOptions& options);
+void check(const records::JobSpec& spec, const EngineOptions& options);
 
 /// The same of what its loads mean on its mesh, before that is made.
-void check_on_mesh(const store::JobSpec& spec, const store::MeshDefinition& definition);
+void check_on_mesh(const records::JobSpec& spec, const records::MeshDefinition& definition);
 
 /// Hash of all that makes a job, its title included: equal for equal requests only.
-std::string fingerprint(const store::JobSpec& spec);
+std::string fingerprint(const records::JobSpec& spec);
 
 }  // namespace anticrack::jobs

@@ -20,7 +20,7 @@ constexpr std::uint64_t sequence_base(int attempt) {
 }
 
 /// The log of a job that ended in the past: its end event alone, above all others it had.
-std::shared_ptr<EventLog> end_alone(const store::JobRecord& record);
+std::shared_ptr<EventLog> end_alone(const records::JobRecord& record);
 
 /// Keeps logs within half of the budget, which they leave to new jobs where it is exceeded: the
 /// oldest go first. Not thread-safe.

@@ -20,7 +20,7 @@ namespace {
 
 using errors::Error;
 using errors::Reason;
-using store::JobState;
+using records::JobState;
 
 constexpr std::chrono::milliseconds retry_write{1'000};
 constexpr const char* writing = "writing the result";
@@ -40,7 +40,7 @@ Error lost(const std::exception& exception) {
           std::string("the result was lost: ") + exception.what()};
 }
 
-void set_state(store::JobRecord& record, JobState state, const std::optional<Error>& error) {
+void set_state(records::JobRecord& record, JobState state, const std::optional<Error>& error) {
   record.state = state;
   record.error = error;
   record.timeline.back().state = state;
@@ -95,7 +95,7 @@ EndingThread::End EndingThread::conclude_job(const JobPtr& job) {
   const JobSnapshot snapshot(*job);
   lock.unlock();
   end.record = snapshot.record();
-  end.record.ended = store::Clock::now();
+  end.record.ended = records::Clock::now();
   add_step(end.record.timeline, outcome.state, {});
   set_state(end.record, outcome.state, outcome.error);
   try {
@@ -157,7 +157,7 @@ bool EndingThread::finish(End& end) {
 
 void EndingThread::announce(const End& end) {
   const JobPtr& job = end.job;
-  const auto record = std::make_shared<const store::JobRecord>(end.record);
+  const auto record = std::make_shared<const records::JobRecord>(end.record);
   const std::uint64_t log_bytes = job->log->bytes() + fields::bytes_of(*record);
   if (_core.options.ended) _core.options.ended(*record);
   job->mesh_use.reset();

@@ -35,14 +35,14 @@ class EndingThread {
   /// A job's end on its way to the disk.
   struct End {
     JobPtr job;
-    store::JobRecord record;
-    std::shared_ptr<const store::BlockSource> result;
+    records::JobRecord record;
+    std::shared_ptr<const records::BlockSource> result;
     std::stop_token stop = {};  ///< of the writing
     Clock::time_point next_try{};
 
     /// Of a result that will never be written.
     void fail(const std::exception& why);
-    void without_result(store::JobState state, const std::optional<errors::Error>& error = {});
+    void without_result(records::JobState state, const std::optional<errors::Error>& error = {});
   };
 
   void work();

@@ -15,15 +15,15 @@ namespace anticrack::jobs {
 namespace {
 
 using errors::Error;
-using store::JobState;
+using records::JobState;
 
 /// Bytes of results between two returns of freed memory to the system: the records that stay lie
 /// between the arrays that went, and would keep their pages.
 constexpr std::uint64_t trim_every = std::uint64_t{16} << 20U;
 
 /// See LiveStages::indicator. Largest values: the order in which load cases end does not matter.
-void add_indicator(LiveStages& stages, const store::AccuracySpec& wanted,
-                   const store::CaseRecord& record, std::vector<double>& indicator) {
+void add_indicator(LiveStages& stages, const records::AccuracySpec& wanted,
+                   const records::CaseRecord& record, std::vector<double>& indicator) {
   constexpr double most = 1e3;  // where bounds of A are missing yet
   const double factor = std::min(excess(stage_answer(record, wanted.each_inclusion), wanted), most);
   const double sum = std::accumulate(indicator.begin(), indicator.end(), 0.0);
@@ -199,7 +199,7 @@ void EngineCore::deliver(std::vector<EndedCase> cases) {
   for (EndedCase& ended_case : cases) {
     LiveJob& job = *ended_case.task.job;
     if (job.stages && ended_case.task.index < job.stages->before.size()) {
-      auto record = std::make_shared<store::CaseRecord>(*ended_case.outcome.record);
+      auto record = std::make_shared<records::CaseRecord>(*ended_case.outcome.record);
       tighten(*record, *job.stages->before[ended_case.task.index]);
       ended_case.outcome.record = std::move(record);
     }

@@ -15,20 +15,20 @@
 #include "contact/answer.hpp"
 #include "jobs/memory_budget.hpp"
 #include "jobs/sample_run.hpp"
-#include "store/records.hpp"
+#include "records/records.hpp"
 
 namespace anticrack::jobs {
 
 /// The job passed into another state, or another phase of it.
 struct PhaseEvent {
-  store::JobState state = store::JobState::queued;
+  records::JobState state = records::JobState::queued;
   std::string detail;  ///< e.g. "meshing"
 };
 
 /// A load case ended.
 struct CaseEvent {
   std::int32_t load_case = 0;
-  std::shared_ptr<const store::CaseRecord> record;
+  std::shared_ptr<const records::CaseRecord> record;
 };
 
 /// Consecutive rows of a sweep have ended; few enough to travel in one message.
@@ -39,12 +39,12 @@ struct RowsEvent {
 
 /// A stage of a job with an accuracy ended, after its load cases.
 struct StageEvent {
-  std::shared_ptr<const store::StageRecord> stage;
+  std::shared_ptr<const records::StageRecord> stage;
 };
 
 /// The job ended: always the last event.
 struct EndEvent {
-  std::shared_ptr<const store::JobRecord> job;
+  std::shared_ptr<const records::JobRecord> job;
 };
 
 using Event = std::variant<SampleEvent, PhaseEvent, CaseEvent, RowsEvent, StageEvent, EndEvent>;

@@ -19,7 +19,7 @@ struct Solved {
   std::exception_ptr failure;
 };
 
-const store::JobSpec& spec_of(const PreparedCase& prepared) { return *prepared.task.job->spec; }
+const records::JobSpec& spec_of(const PreparedCase& prepared) { return *prepared.task.job->spec; }
 
 Solved solve(const PreparedCase& prepared, std::atomic<std::uint64_t>& iterations) {
   Solved solved;
@@ -87,7 +87,7 @@ void add_bounds(const std::vector<PreparedCase>& cases, std::vector<Solved>& sol
     of_estimates[i]->indicator = std::move(estimates[i].indicator);
   }
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    const store::JobSpec& spec = spec_of(cases[i]);
+    const records::JobSpec& spec = spec_of(cases[i]);
     if (solved[i].failure || spec.without_bounds) continue;
     if (!spec.fields) solved[i].answer.fields.clear();
     if (!spec.indicators && !spec.accuracy) solved[i].indicator = {};

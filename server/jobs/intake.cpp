@@ -20,8 +20,8 @@ namespace {
 
 using errors::Error;
 using errors::Reason;
-using store::JobRecord;
-using store::JobState;
+using records::JobRecord;
+using records::JobState;
 
 /// Unique across restarts as well, so it cannot be a counter.
 std::string new_id() {
@@ -41,7 +41,7 @@ JobRecord new_record(const Submission& submission) {
   record.owner = submission.owner;
   record.request_id = submission.request_id;
   record.spec = submission.spec;
-  record.created = store::Clock::now();
+  record.created = records::Clock::now();
   record.cases.resize(case_count(submission.spec));
   record.timeline.push_back({record.created, JobState::queued, {}});
   return record;
@@ -98,9 +98,9 @@ class Place {
 };
 
 /// Rows of nodal forces are known once the mesh is, when the job starts.
-void measure(store::SweepSpec& sweep, const JobRecord& record, const EngineCore& core) {
+void measure(records::SweepSpec& sweep, const JobRecord& record, const EngineCore& core) {
   const std::uint64_t values = find_matrix(sweep, core.store, record.owner).values;
-  sweep.rows = sweep.cases == store::SweepSpec::Cases::combinations
+  sweep.rows = sweep.cases == records::SweepSpec::Cases::combinations
                    ? rows_of(sweep, values, record.spec.loads.size(), core.options.max_sweep_rows)
                    : 0;
 }
@@ -141,7 +141,7 @@ TakenIn take_in(EngineCore& core, const Submission& submission) {
   // First: the same request again is answered however full the queue, and though its mesh is gone.
   if (auto made = core.store.created_before(record, print)) return {std::move(*made), false};
   std::shared_ptr<void> mesh_use = use(core, record.spec.mesh);
-  const store::MeshRecord mesh = core.catalogue.get(record.spec.mesh);
+  const records::MeshRecord mesh = core.catalogue.get(record.spec.mesh);
   check_on_mesh(record.spec, mesh.definition);
   require_result_arrays(record.spec, mesh.interfaces.size(), mesh.subdomains.size(),
                         core.options.max_result_arrays);
@@ -193,8 +193,8 @@ void recover(EngineCore& core) {
     } catch (const Error& error) {
       gone = mesh_failed(record.spec.mesh, error);
     }
-    const auto waited = waits_since_it_was_made ? store::Clock::now() - record.created
-                                                : store::Clock::duration::zero();
+    const auto waited = waits_since_it_was_made ? records::Clock::now() - record.created
+                                                : records::Clock::duration::zero();
     const std::uint64_t cases = queued_cases(record.spec, core.store, record.owner);
     const auto job =
         std::make_shared<LiveJob>(++core.last_number, std::move(record), cases,

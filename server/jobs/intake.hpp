@@ -8,7 +8,7 @@
 namespace anticrack::jobs {
 
 struct TakenIn {
-  store::JobRecord record;
+  records::JobRecord record;
   bool is_new = false;  ///< else made by the same request before
 };
 

@@ -19,7 +19,7 @@ namespace {
 
 using errors::Error;
 using errors::Reason;
-using store::JobRecord;
+using records::JobRecord;
 
 }  // namespace
 
@@ -114,7 +114,7 @@ JobRecord JobEngine::get(const std::string& id) const {
 std::vector<JobRecord> JobEngine::list(const store::Page& page) const {
   std::vector<JobRecord> records = _state->core.store.jobs(page);
   for (JobRecord& record : records)
-    if (!store::ended(record.state))
+    if (!records::ended(record.state))
       if (std::optional<JobRecord> live = _state->live_record(record.id)) record = std::move(*live);
   return records;
 }
@@ -144,16 +144,16 @@ std::shared_ptr<EventLog> JobEngine::events(const std::string& id) const {
   return end_alone(_state->stored(id));
 }
 
-std::shared_ptr<const store::BlockSource> JobEngine::result(const std::string& id) const {
+std::shared_ptr<const records::BlockSource> JobEngine::result(const std::string& id) const {
   const JobRecord record = _state->stored(id);
-  if (_state->live(id) || !store::ended(record.state))
+  if (_state->live(id) || !records::ended(record.state))
     throw Error(Reason::not_ready, "jobs/" + id + " has not ended: wait for it");
   if (record.expired) {
     throw Error(Reason::result_expired,
                 "the result of jobs/" + id +
                     " was removed, by its age or to make room for others: submit the job again");
   }
-  std::shared_ptr<const store::BlockSource> block = _state->core.store.result(id);
+  std::shared_ptr<const records::BlockSource> block = _state->core.store.result(id);
   if (!block)
     throw Error(Reason::not_ready, "jobs/" + id + " ended and no load case has an answer");
   return block;

@@ -54,7 +54,7 @@ struct EngineOptions {
   std::uint64_t result_budget = std::uint64_t{4} << 30;     ///< bytes; the oldest results expire
   std::chrono::milliseconds upload_ttl{7 * 24 * 3600'000};  ///< of uploads nothing refers to
   /// Called for each job that ended, without a lock, before its watchers hear of it.
-  std::function<void(const store::JobRecord&)> ended = {};
+  std::function<void(const records::JobRecord&)> ended = {};
 };
 
 struct EngineMetrics {
@@ -76,7 +76,7 @@ struct EngineMetrics {
 
 /// What a client asks for.
 struct Submission {
-  store::JobSpec spec;
+  records::JobSpec spec;
   std::string owner;
   std::string request_id;  ///< empty: not idempotent
   /// Same for a retry, of at most 64 bytes; empty: made from the spec.
@@ -110,18 +110,20 @@ class JobEngine {
   /// believed: of nodal forces when the job starts, and it fails then where they are not of the
   /// mesh. When it returns the job is on the disk. Same owner and non-empty request id: the same
   /// job.
-  store::JobRecord submit(const Submission& submission);
+  records::JobRecord submit(const Submission& submission);
 
   /// The job that the owner made by this request before, as it is now; empty where there is none.
   /// Throws request_id_reused. Needs no other condition of submit(): limits may have changed since.
-  std::optional<store::JobRecord> submitted(const std::string& owner, const std::string& request_id,
-                                            const std::string& fingerprint) const;
+  std::optional<records::JobRecord> submitted(const std::string& owner,
+                                              const std::string& request_id,
+                                              const std::string& fingerprint) const;
 
-  store::JobRecord get(const std::string& id) const;  ///< live state; throws not_found
-  std::vector<store::JobRecord> list(const store::Page& page) const;  ///< live states, newest first
+  records::JobRecord get(const std::string& id) const;  ///< live state; throws not_found
+  std::vector<records::JobRecord> list(
+      const store::Page& page) const;  ///< live states, newest first
 
   /// Effective within one iteration, also while queued, meshing or factorising. Idempotent.
-  store::JobRecord cancel(const std::string& id);
+  records::JobRecord cancel(const std::string& id);
   void erase(const std::string& id);  ///< throws not_found, in_use (not ended)
 
   /// The job's event log, to read and listen to; throws not_found. The events of attempt n have
@@ -130,7 +132,7 @@ class JobEngine {
   std::shared_ptr<EventLog> events(const std::string& id) const;
 
   /// Throws not_found, not_ready (not ended, or no load case has an answer), result_expired.
-  std::shared_ptr<const store::BlockSource> result(const std::string& id) const;
+  std::shared_ptr<const records::BlockSource> result(const std::string& id) const;
 
   /// Refuses new jobs and starts no more; lets running jobs go on for at most `grace`; what has not
   /// ended then is left to the store as queued, for the next start, without an end event. Returns

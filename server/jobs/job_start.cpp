@@ -19,7 +19,7 @@ namespace anticrack::jobs {
 namespace {
 
 using errors::Error;
-using store::JobState;
+using records::JobState;
 
 constexpr std::chrono::milliseconds retry_start{1'000};
 
@@ -30,7 +30,7 @@ std::chrono::milliseconds limit(std::chrono::milliseconds own, std::chrono::mill
 /// What a sweep makes of its mesh and matrix; empty: the job has none.
 std::optional<SweepPlan> plan_of(const EngineCore& core, const LiveJob& job,
                                  const operators::MeshOperator& mesh_operator) {
-  const std::optional<store::SweepSpec>& sweep = job.spec->sweep;
+  const std::optional<records::SweepSpec>& sweep = job.spec->sweep;
   if (!sweep) return std::nullopt;
   MatrixFile matrix = find_matrix(*sweep, core.store, job.created.owner);
   try {
@@ -46,11 +46,11 @@ std::optional<SweepPlan> plan_of(const EngineCore& core, const LiveJob& job,
 bool store_start(EngineCore& core, const JobSnapshot& snapshot,
                  const std::optional<SweepPlan>& plan, const LiveStages* stages) {
   try {
-    store::JobRecord record = snapshot.record();
+    records::JobRecord record = snapshot.record();
     for (std::size_t i = 0; stages != nullptr && i < stages->before.size(); ++i)
       record.cases[i] = *stages->before[i];
     record.state = JobState::running;
-    record.started = store::Clock::now();
+    record.started = records::Clock::now();
     if (plan) record.spec.sweep->rows = plan->rows;
     add_step(record.timeline, JobState::running, {});
     core.store.put(record);

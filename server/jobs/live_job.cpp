@@ -15,9 +15,9 @@ namespace {
 
 using contact::Status;
 using errors::Error;
-using store::CaseRecord;
-using store::JobRecord;
-using store::JobState;
+using records::CaseRecord;
+using records::JobRecord;
+using records::JobState;
 
 constexpr std::size_t max_steps = 48;
 
@@ -30,13 +30,13 @@ Error retold(const Error& error, const std::string& message,
   return result;
 }
 
-Error case_failed(const store::JobSpec& spec, std::size_t index, const Error& error) {
+Error case_failed(const records::JobSpec& spec, std::size_t index, const Error& error) {
   std::vector<std::string> fields;
   for (const errors::FieldViolation& violation : error.fields()) fields.push_back(violation.field);
   return retold(error, "load case \"" + spec.loads[index].name + "\": " + error.what(), fields);
 }
 
-Lane lane_of(const store::JobSpec& spec) {
+Lane lane_of(const records::JobSpec& spec) {
   if (spec.sweep) return Lane::sweep;
   const auto* uzawa = std::get_if<contact::UzawaOptions>(&spec.solver);
   if (uzawa == nullptr) return Lane::active_set;
@@ -51,7 +51,7 @@ JobRecord without_lists(JobRecord record) {
 }
 
 Outcome conclude_sweep(LiveJob& job) {
-  store::SweepRecord& record = job.sweep_record;
+  records::SweepRecord& record = job.sweep_record;
   const std::uint64_t rows = job.sweep ? job.sweep->plan.rows : job.spec->sweep->rows;
   const std::uint64_t solved = record.converged + record.not_converged;
   if (job.why == Stop::none || (job.sweep && solved == rows)) {
@@ -78,7 +78,7 @@ LiveJob::LiveJob(std::uint64_t submission, JobRecord record, std::uint64_t cases
                  const std::shared_ptr<MemoryBudget>& budget)
     : number(submission),
       created(without_lists(record)),
-      spec(std::make_shared<const store::JobSpec>(std::move(record.spec))),
+      spec(std::make_shared<const records::JobSpec>(std::move(record.spec))),
       spec_bytes(fields::bytes_of(*spec)),
       lane(lane_of(*spec)),
       since(std::chrono::steady_clock::now()),
@@ -99,8 +99,8 @@ LiveJob::LiveJob(std::uint64_t submission, JobRecord record, std::uint64_t cases
   for (std::size_t i = 1; i < stages->records.size(); ++i)
     stages->made.push_back(stages->records[i].mesh);
   if (stages->records.size() > 1)
-    for (store::CaseRecord& one : record.cases)
-      stages->before.push_back(std::make_shared<const store::CaseRecord>(std::move(one)));
+    for (records::CaseRecord& one : record.cases)
+      stages->before.push_back(std::make_shared<const records::CaseRecord>(std::move(one)));
   if (stages->records.size() > 1)
     stages->seconds_before = stages->records[stages->records.size() - 2].seconds;
 }
@@ -109,7 +109,7 @@ void LiveJob::enter(Phase next) {
   assert(next > phase || (next == phase && phase == Phase::waiting_for_mesh));
   assert(next != Phase::refused || phase == Phase::ending);
   phase = next;
-  if (phase == Phase::running) started = store::Clock::now();
+  if (phase == Phase::running) started = records::Clock::now();
 }
 
 JobState LiveJob::state() const noexcept {
@@ -124,12 +124,12 @@ Task take_unit(const JobPtr& job) {
   return task;
 }
 
-std::size_t case_count(const store::JobSpec& spec) { return spec.sweep ? 0 : spec.loads.size(); }
+std::size_t case_count(const records::JobSpec& spec) { return spec.sweep ? 0 : spec.loads.size(); }
 
-void add_step(std::vector<store::Step>& timeline, JobState state, std::string detail) {
+void add_step(std::vector<records::Step>& timeline, JobState state, std::string detail) {
   if (timeline.size() >= max_steps)
     timeline.erase(timeline.begin() + 1);  // the first says when it was queued
-  timeline.push_back({store::Clock::now(), state, std::move(detail)});
+  timeline.push_back({records::Clock::now(), state, std::move(detail)});
 }
 
 JobSnapshot::JobSnapshot(const LiveJob& job) : _head(job.created), _spec(job.spec) {

@@ -20,22 +20,22 @@
 #include "jobs/result_part.hpp"
 #include "jobs/schedule.hpp"
 #include "operators/mesh_operator.hpp"
-#include "store/records.hpp"
+#include "records/records.hpp"
 
 namespace anticrack::jobs {
 
 struct LiveCase {
   bool running = false;
-  std::shared_ptr<const store::CaseRecord> record;  ///< once it has ended
-  std::optional<ResultPart> result;                 ///< where it has an answer
+  std::shared_ptr<const records::CaseRecord> record;  ///< once it has ended
+  std::optional<ResultPart> result;                   ///< where it has an answer
 };
 
 /// Of a job with an accuracy. `last` is the last stage of which all load cases ended; the one under
 /// way begins anew with a spool and cases of its own.
 struct LiveStages {
-  std::vector<store::StageRecord> records;  ///< the last one has begun
+  std::vector<records::StageRecord> records;  ///< the last one has begun
   /// Answers of the stage before, whose bounds hold still; none in the first.
-  std::vector<std::shared_ptr<const store::CaseRecord>> before;
+  std::vector<std::shared_ptr<const records::CaseRecord>> before;
   std::string not_reached;
   std::string no_finer;  ///< why there can be no finer mesh than that of the last one; empty: yes
   bool over = false;     ///< no stage comes after the one that has ended
@@ -47,7 +47,7 @@ struct LiveStages {
   std::mutex indicator_mutex;  ///< guards it in place of the engine's: many triangles
   struct Complete {
     std::vector<LiveCase> cases;  ///< empty: no stage has ended
-    std::shared_ptr<const store::BlockSource> result;
+    std::shared_ptr<const records::BlockSource> result;
     std::uint64_t bytes = 0;  ///< in memory
   } last;
   std::shared_ptr<void> mesh_use;  ///< of the stage's mesh
@@ -78,13 +78,13 @@ enum class Stop {
 /// guards the second, with the exceptions named there.
 struct LiveJob {
   /// `cases_in_queue`: what `admission` counted for it.
-  LiveJob(std::uint64_t submission, store::JobRecord record, std::uint64_t cases_in_queue,
+  LiveJob(std::uint64_t submission, records::JobRecord record, std::uint64_t cases_in_queue,
           std::size_t event_log_bytes, std::shared_ptr<void> mesh_in_use,
           const std::shared_ptr<MemoryBudget>& budget = {});
 
-  const std::uint64_t number;      ///< in the order of submission
-  const store::JobRecord created;  ///< as it was submitted or recovered, without its lists
-  const std::shared_ptr<const store::JobSpec> spec;
+  const std::uint64_t number;        ///< in the order of submission
+  const records::JobRecord created;  ///< as it was submitted or recovered, without its lists
+  const std::shared_ptr<const records::JobSpec> spec;
   const std::uint64_t spec_bytes;
   const Lane lane;
   const std::chrono::steady_clock::time_point since;  ///< when this server had it
@@ -100,11 +100,11 @@ struct LiveJob {
   void enter(Phase next);
   bool is_ending() const noexcept { return phase >= Phase::ending; }
   /// As others see it: a job that ends is RUNNING still if it ran.
-  store::JobState state() const noexcept;
+  records::JobState state() const noexcept;
 
-  Phase phase = Phase::queued;                      ///< changed by enter() alone
-  std::optional<store::Clock::time_point> started;  ///< once it runs
-  std::vector<store::Step> timeline;
+  Phase phase = Phase::queued;                        ///< changed by enter() alone
+  std::optional<records::Clock::time_point> started;  ///< once it runs
+  std::vector<records::Step> timeline;
   std::string mesh;                ///< id: spec's, or that of its stage
   std::shared_ptr<void> mesh_use;  ///< of spec's mesh; released when the job has ended
   /// Set when the job, or a stage of it, starts; reset by the thread that ends it.
@@ -113,7 +113,7 @@ struct LiveJob {
   std::vector<LiveCase> cases;          ///< empty for a sweep
   std::unique_ptr<LiveSweep> sweep;     ///< once it has started
   std::unique_ptr<LiveStages> stages;   ///< of a job with an accuracy
-  store::SweepRecord sweep_record;      ///< of the rows that ended so far
+  records::SweepRecord sweep_record;    ///< of the rows that ended so far
   std::size_t units = 0;
   std::size_t next_unit = 0;       ///< first one that no thread has taken
   int active = 0;                  ///< units taken and not ended, and one for a start under way
@@ -138,10 +138,10 @@ struct Task {
 Task take_unit(const JobPtr& job);
 
 /// The entries of JobRecord::cases.
-std::size_t case_count(const store::JobSpec& spec);
+std::size_t case_count(const records::JobSpec& spec);
 
 /// Appends a step with the current time, and drops old ones if there are many.
-void add_step(std::vector<store::Step>& timeline, store::JobState state, std::string detail);
+void add_step(std::vector<records::Step>& timeline, records::JobState state, std::string detail);
 
 /// A job's record at one moment, cheap to take under a lock.
 class JobSnapshot {
@@ -149,18 +149,18 @@ class JobSnapshot {
   /// With the engine's mutex held.
   explicit JobSnapshot(const LiveJob& job);
   /// The whole record; copies much, without a lock.
-  store::JobRecord record() const;
+  records::JobRecord record() const;
 
  private:
-  store::JobRecord _head;
-  std::shared_ptr<const store::JobSpec> _spec;
+  records::JobRecord _head;
+  std::shared_ptr<const records::JobSpec> _spec;
   std::vector<bool> _running;
-  std::vector<std::shared_ptr<const store::CaseRecord>> _cases;
+  std::vector<std::shared_ptr<const records::CaseRecord>> _cases;
   std::uint64_t _rows = 0;  ///< of a sweep that has started
 };
 
 struct Outcome {
-  store::JobState state = store::JobState::succeeded;
+  records::JobState state = records::JobState::succeeded;
   std::optional<errors::Error> error;
 };
 

@@ -13,7 +13,7 @@ namespace {
 
 using errors::Error;
 using meshes::MeshNews;
-using store::JobState;
+using records::JobState;
 using PhaseEvents = std::vector<std::pair<std::shared_ptr<EventLog>, PhaseEvent>>;
 
 /// Each is an event in the logs of jobs.
@@ -28,7 +28,7 @@ const char* text_of(MeshNews::Phase phase) {
 }
 
 /// "meshing: bisecting a mesh, 120000 triangles".
-std::string text_of(const store::MeshProgress& progress) {
+std::string text_of(const records::MeshProgress& progress) {
   std::string text = text_of(MeshNews::Phase::meshing);
   if (!progress.doing.empty()) text += ": " + progress.doing;
   if (progress.triangles > 0) text += fmt::format(", {} triangles", progress.triangles);

@@ -16,7 +16,7 @@ namespace anticrack::jobs {
 
 namespace {
 
-using store::BlockBuilder;
+using records::BlockBuilder;
 
 void add_history(BlockBuilder& builder, const std::string& folder,
                  const std::vector<contact::Sample>& history) {
@@ -43,9 +43,9 @@ constexpr std::uint64_t rows_of(const std::tuple<Rows...>&) {
 
 }  // namespace
 
-store::Block case_arrays(std::size_t index, const contact::Answer& answer,
-                         const std::vector<contact::Sample>& history,
-                         const std::vector<double>& indicator) {
+records::Block case_arrays(std::size_t index, const contact::Answer& answer,
+                           const std::vector<contact::Sample>& history,
+                           const std::vector<double>& indicator) {
   BlockBuilder builder;
   add_traces(builder, arrays::load_traces(index), answer.traces);
   add_history(builder, arrays::load_history(index), history);
@@ -55,7 +55,7 @@ store::Block case_arrays(std::size_t index, const contact::Answer& answer,
   return builder.take();
 }
 
-std::shared_ptr<const store::BlockSource> result_block(const LiveJob& job) {
+std::shared_ptr<const records::BlockSource> result_block(const LiveJob& job) {
   if (std::ranges::none_of(job.cases, [](const LiveCase& one) { return one.result.has_value(); }))
     return nullptr;
   BlockBuilder builder;
@@ -73,7 +73,7 @@ std::shared_ptr<const store::BlockSource> result_block(const LiveJob& job) {
   return result.finish();
 }
 
-void require_result_arrays(const store::JobSpec& spec, std::uint64_t interfaces,
+void require_result_arrays(const records::JobSpec& spec, std::uint64_t interfaces,
                            std::uint64_t subdomains, std::uint64_t max_arrays) {
   const std::uint64_t traces = rows_of(arrays::trace<contact::Trace>) * interfaces;
   std::uint64_t count = rows_of(arrays::interface_nodes<contact::TraceGeometry>) * interfaces;
@@ -94,7 +94,7 @@ void require_result_arrays(const store::JobSpec& spec, std::uint64_t interfaces,
   }
 }
 
-void require_answers(const store::JobSpec& spec, const std::vector<std::string>& inclusions) {
+void require_answers(const records::JobSpec& spec, const std::vector<std::string>& inclusions) {
   constexpr std::uint64_t a_case = 800;        // numbers and texts
   constexpr std::uint64_t an_inclusion = 139;  // fourteen numbers and tags
   std::uint64_t answer = a_case;

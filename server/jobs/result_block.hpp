@@ -11,23 +11,23 @@
 
 #include "jobs/live_job.hpp"
 #include "operators/mesh_operator.hpp"
-#include "store/block.hpp"
+#include "records/block.hpp"
 
 namespace anticrack::jobs {
 
 /// Traces, history, fields and indicator (empty: none) of a load case, with the index of the case
 /// in the arrays' names.
-store::Block case_arrays(std::size_t index, const contact::Answer& answer,
-                         const std::vector<contact::Sample>& history,
-                         const std::vector<double>& indicator = {});
+records::Block case_arrays(std::size_t index, const contact::Answer& answer,
+                           const std::vector<contact::Sample>& history,
+                           const std::vector<double>& indicator = {});
 
 /// The arrays of ReadResult for the cases that have an answer, in their order; null when none has.
 /// Throws errors::Error (storage).
-std::shared_ptr<const store::BlockSource> result_block(const LiveJob& job);
+std::shared_ptr<const records::BlockSource> result_block(const LiveJob& job);
 
 /// Throws errors::Error (limit_exceeded, at load_cases or sweep.traces) where the result of the job
 /// would have more than `max_arrays` arrays on a mesh of that many interfaces and subdomains.
-void require_result_arrays(const store::JobSpec& spec, std::uint64_t interfaces,
+void require_result_arrays(const records::JobSpec& spec, std::uint64_t interfaces,
                            std::uint64_t subdomains, std::uint64_t max_arrays);
 
 /// Of the answers of a job, which travel in one message with its definition.
@@ -35,6 +35,6 @@ constexpr std::uint64_t max_answer_bytes = std::uint64_t{5} << 19U;
 
 /// Throws errors::Error (limit_exceeded, at load_cases) where the answers of the job on a mesh with
 /// these inclusions may take more than max_answer_bytes.
-void require_answers(const store::JobSpec& spec, const std::vector<std::string>& inclusions);
+void require_answers(const records::JobSpec& spec, const std::vector<std::string>& inclusions);
 
 }  // namespace anticrack::jobs

@@ -4,19 +4,19 @@
 #include <utility>
 #include <vector>
 
-#include "store/block.hpp"
+#include "records/block.hpp"
 #include "store/spool.hpp"
 
 namespace anticrack::jobs {
 
 /// Arrays of a result, and where in the job's spool their bytes are.
 struct ResultPart {
-  std::vector<store::ArrayLayout> arrays;
+  std::vector<records::ArrayLayout> arrays;
   store::Spool::Run run;
 };
 
 /// Puts the block's bytes into the spool.
-inline ResultPart spooled(store::Spool& spool, store::Block block) {
+inline ResultPart spooled(store::Spool& spool, records::Block block) {
   const store::Spool::Run run = spool.append(block.bytes);
   return {std::move(block.arrays), run};
 }

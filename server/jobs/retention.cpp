@@ -52,7 +52,7 @@ void Retention::expired(const std::string& id) {
   if (found != _jobs.end()) found->result_bytes = 0;
 }
 
-Expiry Retention::due(store::Clock::time_point now) const {
+Expiry Retention::due(records::Clock::time_point now) const {
   Expiry expiry;
   std::map<std::string, Holdings> owners;
   std::uint64_t bytes = 0;

@@ -39,7 +39,7 @@ class Retention {
   /// is too much, the oldest of the owner who has most, so that nobody's jobs push out another's.
   /// The newest record stays, and the newest result whatever its size unless it is too old, or
   /// nobody could read it. O(n + k owners) for k jobs that go.
-  Expiry due(store::Clock::time_point now) const;
+  Expiry due(records::Clock::time_point now) const;
 
  private:
   RetentionLimits _limits;

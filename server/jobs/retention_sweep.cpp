@@ -18,7 +18,7 @@ constexpr std::chrono::minutes sweep_every{1};
 void sweep(EngineCore& core, bool uploads) {
   EngineCore::Lock lock(core.mutex);
   core.ended_since_sweep = false;
-  const auto now = store::Clock::now();
+  const auto now = records::Clock::now();
   const Expiry expiry = core.retention.due(now);
   lock.unlock();
   std::vector<std::string> expired, erased;
@@ -35,7 +35,7 @@ void sweep(EngineCore& core, bool uploads) {
   for (const std::string& id : expiry.erase)
     if (gone([&] { core.store.erase_job(id); })) erased.push_back(id);
   if (uploads && core.options.upload_ttl.count() > 0)
-    gone([&] { core.store.expire_uploads(store::Clock::now() - core.options.upload_ttl); });
+    gone([&] { core.store.expire_uploads(records::Clock::now() - core.options.upload_ttl); });
   lock.lock();
   for (const std::string& id : expired) core.retention.expired(id);
   core.results_expired += expired.size();

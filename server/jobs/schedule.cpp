@@ -85,23 +85,23 @@ void Schedule::taken(std::uint64_t number, Time now) {
   _meshes.at(job.mesh).lanes[index(job.lane)].taken[job.owner] = {now, ++_turns};
 }
 
-std::optional<store::Priority> Schedule::most_urgent(const std::string& mesh, Lane lane) const {
+std::optional<records::Priority> Schedule::most_urgent(const std::string& mesh, Lane lane) const {
   const auto found = _meshes.find(mesh);
   if (found != _meshes.end()) {
     const auto& jobs = found->second.lanes[index(lane)].jobs;
     for (std::size_t priority = 0; priority < jobs.size(); ++priority)
       if (!jobs[priority].empty())
-        return static_cast<store::Priority>(static_cast<std::size_t>(store::Priority::interactive) +
-                                            priority);
+        return static_cast<records::Priority>(
+            static_cast<std::size_t>(records::Priority::interactive) + priority);
   }
   return std::nullopt;
 }
 
-void Schedule::park(const std::string& mesh, Lane lane, store::Priority priority) {
+void Schedule::park(const std::string& mesh, Lane lane, records::Priority priority) {
   ++_meshes[mesh].lanes[index(lane)].parked[class_of(priority)];
 }
 
-void Schedule::unpark(const std::string& mesh, Lane lane, store::Priority priority) {
+void Schedule::unpark(const std::string& mesh, Lane lane, records::Priority priority) {
   --_meshes.at(mesh).lanes[index(lane)].parked[class_of(priority)];
 }
 

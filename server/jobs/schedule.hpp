@@ -15,7 +15,7 @@
 #include <unordered_map>
 
 #include "meshes/queue.hpp"
-#include "store/records.hpp"
+#include "records/records.hpp"
 
 namespace anticrack::jobs {
 
@@ -29,7 +29,7 @@ struct Waiting {
   std::uint64_t number = 0;  ///< in the order of submission
   std::string mesh;
   Lane lane = Lane::active_set;
-  store::Priority priority = store::Priority::normal;
+  records::Priority priority = records::Priority::normal;
   std::chrono::steady_clock::time_point since;
   std::string owner{};
 };
@@ -66,11 +66,11 @@ class Schedule {
   /// A load case or chunk of the job was taken.
   void taken(std::uint64_t number, Time now);
   /// The priority of the most urgent job there, however long it has waited.
-  std::optional<store::Priority> most_urgent(const std::string& mesh, Lane lane) const;
+  std::optional<records::Priority> most_urgent(const std::string& mesh, Lane lane) const;
 
   /// Work of a lane that was begun and put down: it is there to be taken up as well.
-  void park(const std::string& mesh, Lane lane, store::Priority priority);
-  void unpark(const std::string& mesh, Lane lane, store::Priority priority);
+  void park(const std::string& mesh, Lane lane, records::Priority priority);
+  void unpark(const std::string& mesh, Lane lane, records::Priority priority);
 
   /// The operator of the mesh is in memory, until let_go().
   void prepared(const std::string& mesh) { _meshes[mesh].ready = true; }

@@ -37,8 +37,8 @@ std::uint64_t most_triangles(const EngineCore& core, const LiveJob& job) {
 
 /// The mesh of the next stage: as much finer as the accuracy and the limit let it. Throws
 /// errors::Error.
-store::MeshRecord next_mesh(EngineCore& core, const LiveJob& job,
-                            const std::vector<double>& indicator, std::uint64_t most) {
+records::MeshRecord next_mesh(EngineCore& core, const LiveJob& job,
+                              const std::vector<double>& indicator, std::uint64_t most) {
   const double sum = std::accumulate(indicator.begin(), indicator.end(), 0.0);
   for (double reduction = std::min(sum / aim, most_reduction);;
        reduction = 1 + (reduction - 1) / 2) {
@@ -66,9 +66,9 @@ void evict(EngineCore& core, const std::string& mesh) {
 
 /// How far it is, for the next start of the server; without it the stage is solved again then.
 void store_progress(EngineCore& core, const JobSnapshot& snapshot,
-                    const std::vector<store::StageRecord>& stages) {
+                    const std::vector<records::StageRecord>& stages) {
   try {
-    store::JobRecord record = snapshot.record();
+    records::JobRecord record = snapshot.record();
     record.stages = stages;
     core.store.put(record);
   } catch (const std::exception&) {
@@ -81,20 +81,20 @@ void store_progress(EngineCore& core, const JobSnapshot& snapshot,
 void end_stage(EngineCore& core, const JobPtr& job) {
   EngineCore::Lock lock(core.mutex);
   LiveStages& stages = *job->stages;
-  std::vector<store::StageRecord> records = stages.records;
-  std::vector<const store::CaseRecord*> cases;
+  std::vector<records::StageRecord> records = stages.records;
+  std::vector<const records::CaseRecord*> cases;
   for (const LiveCase& live : job->cases) cases.push_back(live.record.get());
   const std::vector<double> indicator = std::exchange(stages.indicator, {});
   const JobSnapshot snapshot(*job);
   const auto now = EngineCore::Clock::now();
   lock.unlock();
 
-  store::StageRecord& ended = records.back();
+  records::StageRecord& ended = records.back();
   ended.seconds =
       stages.seconds_before + std::chrono::duration<double>(now - *stages.begun).count();
   const bool each = job->spec->accuracy->each_inclusion;
-  for (const store::CaseRecord* one : cases) ended.answers.push_back(stage_answer(*one, each));
-  const auto event = std::make_shared<const store::StageRecord>(ended);
+  for (const records::CaseRecord* one : cases) ended.answers.push_back(stage_answer(*one, each));
+  const auto event = std::make_shared<const records::StageRecord>(ended);
   const std::uint64_t most = most_triangles(core, *job);
   Verdict verdict = judge(records, cases, *job->spec, most, ended.seconds);
   LiveStages::Complete complete;
@@ -106,7 +106,7 @@ void end_stage(EngineCore& core, const JobPtr& job) {
   if (!verdict.over) {
     const stop::Scope scope(job->stop.get_token());
     try {
-      const store::MeshRecord mesh = next_mesh(core, *job, indicator, most);
+      const records::MeshRecord mesh = next_mesh(core, *job, indicator, most);
       finer = mesh.id;
       use = core.catalogue.use(mesh.id);
       complete = {job->cases, result_block(*job), job->answer_bytes + job->spool->memory()};

@@ -15,7 +15,7 @@ namespace {
 
 using errors::Error;
 using errors::Reason;
-using store::SweepSpec;
+using records::SweepSpec;
 
 constexpr std::uint64_t combinations_a_case = 256;
 constexpr std::uint64_t forces_a_case = (1U << 20U) / sizeof(double);
@@ -80,7 +80,7 @@ const char* matrix_field(const SweepSpec& sweep) {
   return combines(sweep) ? "sweep.coefficients" : "sweep.nodal_forces";
 }
 
-void check_sweep(const store::JobSpec& spec, const EngineOptions& options) {
+void check_sweep(const records::JobSpec& spec, const EngineOptions& options) {
   const SweepSpec& sweep = *spec.sweep;
   check_loads(sweep, spec.loads.size(), static_cast<std::size_t>(options.max_sweep_basis));
   if (!std::holds_alternative<contact::ActiveSetOptions>(spec.solver)) {
@@ -145,7 +145,7 @@ std::uint64_t rows_of(const SweepSpec& sweep, std::uint64_t values, std::uint64_
   return rows;
 }
 
-std::uint64_t queued_cases(const store::JobSpec& spec, const store::Store& store,
+std::uint64_t queued_cases(const records::JobSpec& spec, const store::Store& store,
                            const std::string& owner) {
   if (!spec.sweep) return spec.loads.size();
   try {

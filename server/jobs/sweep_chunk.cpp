@@ -165,7 +165,7 @@ class ChunkRows {
   template <class Load>
   SweepChunk spool(const Load& load) const {
     const std::vector<std::uint32_t>& rows = _job.spec->sweep->traces;
-    store::BlockBuilder traces;
+    records::BlockBuilder traces;
     auto row = std::lower_bound(rows.begin(), rows.end(), _first);
     for (; row != rows.end() && *row < _first + _count; ++row) {
       add_traces(traces, arrays::row_traces(*row),
@@ -184,8 +184,8 @@ class ChunkRows {
   std::vector<std::string> _warnings;
 };
 
-store::SweepRecord record_of(const SweepColumns& columns) {
-  store::SweepRecord record;
+records::SweepRecord record_of(const SweepColumns& columns) {
+  records::SweepRecord record;
   for (std::size_t i = 0; i < columns.rows(); ++i) {
     record.most_steps = std::max(record.most_steps, columns.steps[i]);
     if (columns.status[i] == contact::Status::converged) {
@@ -244,7 +244,7 @@ EndedChunk solve_chunk(const Task& task, std::atomic<std::uint64_t>& iterations)
   return ended;
 }
 
-void add(store::SweepRecord& sum, const store::SweepRecord& rows) {
+void add(records::SweepRecord& sum, const records::SweepRecord& rows) {
   sum.converged += rows.converged;
   sum.not_converged += rows.not_converged;
   sum.failed += rows.failed;

@@ -19,7 +19,7 @@ struct EndedChunk {
   Task task;
   SweepChunk solved;  ///< empty where the job was stopped, or it failed
   std::shared_ptr<const contact::SweepColumns> columns;  ///< what was spooled, for the watchers
-  store::SweepRecord record;                             ///< of these rows
+  records::SweepRecord record;                           ///< of these rows
   std::optional<errors::Error> failure;  ///< of the whole job, e.g. a bad value in the matrix
 };
 
@@ -34,6 +34,6 @@ std::shared_ptr<const operators::LoadBasis> condense_basis(
 EndedChunk solve_chunk(const Task& task, std::atomic<std::uint64_t>& iterations);
 
 /// Adds the record of some rows to that of others.
-void add(store::SweepRecord& sum, const store::SweepRecord& rows);
+void add(records::SweepRecord& sum, const records::SweepRecord& rows);
 
 }  // namespace anticrack::jobs

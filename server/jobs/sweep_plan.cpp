@@ -12,7 +12,7 @@ namespace {
 
 using errors::Error;
 using errors::Reason;
-using store::SweepSpec;
+using records::SweepSpec;
 
 constexpr std::size_t most_combinations = 256;
 constexpr std::size_t fewest_combinations = 16;
@@ -61,7 +61,7 @@ std::size_t chunk_rows(SweepSpec::Cases cases, std::size_t nodes, std::size_t co
   return std::min(rows, std::max(one, motions_a_chunk / std::max(one, motions)));
 }
 
-SweepPlan plan_sweep(const store::JobSpec& spec, MatrixFile matrix,
+SweepPlan plan_sweep(const records::JobSpec& spec, MatrixFile matrix,
                      const operators::MeshOperator& mesh_operator, const EngineOptions& options) {
   const SweepSpec& sweep = *spec.sweep;
   const std::size_t nodes = mesh_operator.mesh().xy.size() / 2;

@@ -37,13 +37,13 @@ struct SweepPlan {
 
 /// Rows of a chunk: about what a thread solves in some milliseconds, long against the lock and the
 /// event it costs, short against a turn. `motions`: numbers that say how the inclusions moved.
-std::size_t chunk_rows(store::SweepSpec::Cases cases, std::size_t nodes, std::size_t contacts,
+std::size_t chunk_rows(records::SweepSpec::Cases cases, std::size_t nodes, std::size_t contacts,
                        std::size_t motions);
 
 /// With bounds a chunk is what MeshOperator::estimate takes together at most: rows are as slow as
 /// load cases. Throws errors::Error as rows_of does, and limit_exceeded at matrix_field where the
 /// columns of the answers would be larger than a result may be.
-SweepPlan plan_sweep(const store::JobSpec& spec, MatrixFile matrix,
+SweepPlan plan_sweep(const records::JobSpec& spec, MatrixFile matrix,
                      const operators::MeshOperator& mesh_operator, const EngineOptions& options);
 
 }  // namespace anticrack::jobs

@@ -16,12 +16,12 @@ namespace anticrack::jobs {
 namespace {
 
 using contact::SweepColumns;
-using store::ArrayLayout;
-using store::BlockBuilder;
+using records::ArrayLayout;
+using records::BlockBuilder;
 using store::Spool;
 
 /// A chunk of that many rows without an answer.
-store::Block no_answers(const LiveJob& job, std::size_t rows, contact::Status status) {
+records::Block no_answers(const LiveJob& job, std::size_t rows, contact::Status status) {
   SweepColumns columns = unsolved_rows(job, rows);
   std::ranges::fill(columns.status, status);
   return chunk_arrays(columns);
@@ -30,8 +30,9 @@ store::Block no_answers(const LiveJob& job, std::size_t rows, contact::Status st
 /// Puts the chunks' columns of each array one after the other.
 void add_columns(store::SpooledBlock& result, const LiveJob& job, contact::Status unsolved) {
   const LiveSweep& sweep = *job.sweep;
-  const store::Block whole = no_answers(job, sweep.plan.rows_in(0), unsolved);
-  const store::Block last = no_answers(job, sweep.plan.rows_in(sweep.chunks.size() - 1), unsolved);
+  const records::Block whole = no_answers(job, sweep.plan.rows_in(0), unsolved);
+  const records::Block last =
+      no_answers(job, sweep.plan.rows_in(sweep.chunks.size() - 1), unsolved);
   const Spool::Run empty = job.spool->append(whole.bytes);
   std::vector<Spool::Run> runs(sweep.chunks.size());
   for (std::size_t a = 0; a < whole.arrays.size(); ++a) {
@@ -71,7 +72,7 @@ SweepColumns unsolved_rows(const LiveJob& job, std::size_t rows) {
           contact::tilts(mesh), job.spec->sweep->bounds};
 }
 
-store::Block chunk_arrays(const SweepColumns& columns) {
+records::Block chunk_arrays(const SweepColumns& columns) {
   BlockBuilder builder;
   arrays::for_each(
       [&](const auto& row) {
@@ -95,8 +96,8 @@ store::Block chunk_arrays(const SweepColumns& columns) {
   return builder.take();
 }
 
-std::shared_ptr<const store::BlockSource> sweep_result(const LiveJob& job,
-                                                       contact::Status unsolved) {
+std::shared_ptr<const records::BlockSource> sweep_result(const LiveJob& job,
+                                                         contact::Status unsolved) {
   const auto solved = [](const SweepChunk& chunk) { return chunk.columns.has_value(); };
   if (std::ranges::none_of(job.sweep->chunks, solved)) return nullptr;
   store::SpooledBlock result(job.spool);

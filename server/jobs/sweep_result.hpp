@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "jobs/live_job.hpp"
-#include "store/block.hpp"
+#include "records/block.hpp"
 
 namespace anticrack::jobs {
 
@@ -14,11 +14,11 @@ namespace anticrack::jobs {
 contact::SweepColumns unsolved_rows(const LiveJob& job, std::size_t rows);
 
 /// The rows of a chunk: the arrays of arrays::sweep_rows and sweep_matrices.
-store::Block chunk_arrays(const contact::SweepColumns& columns);
+records::Block chunk_arrays(const contact::SweepColumns& columns);
 
 /// The arrays of ReadResult for a sweep; null when no row has an answer. Rows that have none have
 /// the status `unsolved` and zeros. Throws errors::Error (storage).
-std::shared_ptr<const store::BlockSource> sweep_result(const LiveJob& job,
-                                                       contact::Status unsolved);
+std::shared_ptr<const records::BlockSource> sweep_result(const LiveJob& job,
+                                                         contact::Status unsolved);
 
 }  // namespace anticrack::jobs

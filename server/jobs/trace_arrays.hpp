@@ -9,13 +9,13 @@
 
 #include "arrays/result_arrays.hpp"
 #include "contact/answer.hpp"
-#include "store/block.hpp"
+#include "records/block.hpp"
 
 namespace anticrack::jobs {
 
 /// The arrays of a table, from one record; `folder` ends with a slash.
 template <class Table, class Record>
-void add_arrays(store::BlockBuilder& builder, const std::string& folder, const Table& table,
+void add_arrays(records::BlockBuilder& builder, const std::string& folder, const Table& table,
                 const Record& record) {
   arrays::for_each(
       [&](const auto& row) {
@@ -29,7 +29,7 @@ void add_arrays(store::BlockBuilder& builder, const std::string& folder, const T
 }
 
 /// The nodes of all interfaces.
-inline void add_geometry(store::BlockBuilder& builder,
+inline void add_geometry(records::BlockBuilder& builder,
                          const std::vector<contact::TraceGeometry>& interfaces) {
   for (std::size_t i = 0; i < interfaces.size(); ++i) {
     add_arrays(builder, arrays::interface_folder(i),
@@ -38,7 +38,7 @@ inline void add_geometry(store::BlockBuilder& builder,
 }
 
 /// The traces along all interfaces; `folder` ends with a slash.
-inline void add_traces(store::BlockBuilder& builder, const std::string& folder,
+inline void add_traces(records::BlockBuilder& builder, const std::string& folder,
                        const std::vector<contact::Trace>& traces) {
   for (std::size_t i = 0; i < traces.size(); ++i)
     add_arrays(builder, folder + std::to_string(i) + "/", arrays::trace<contact::Trace>, traces[i]);

@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "base/at.hpp"
 #include "errors/errors.hpp"
-#include "mesh/at.hpp"
 #include "mesh/geometry_primitives.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/refine.hpp"

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "mesh/at.hpp"
+#include "base/at.hpp"
 #include "stop/stop.hpp"
 
 namespace anticrack::mesh {

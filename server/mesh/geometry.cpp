@@ -9,7 +9,7 @@
 #include <sstream>
 #include <unordered_map>
 
-#include "mesh/at.hpp"
+#include "base/at.hpp"
 #include "mesh/geometry_boundary.hpp"
 #include "mesh/geometry_primitives.hpp"
 #include "mesh/geometry_steps.hpp"

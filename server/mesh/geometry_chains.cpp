@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <utility>
 
-#include "mesh/at.hpp"
+#include "base/at.hpp"
 #include "mesh/geometry_primitives.hpp"
 #include "mesh/geometry_steps.hpp"
 

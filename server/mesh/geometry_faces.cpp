@@ -8,9 +8,9 @@
 #include <unordered_map>
 #include <utility>
 
-#include "mesh/at.hpp"
+#include "base/at.hpp"
+#include "base/union_find.hpp"
 #include "mesh/geometry_primitives.hpp"
-#include "mesh/union_find.hpp"
 
 namespace anticrack::mesh {
 namespace {
@@ -80,7 +80,7 @@ class Walker {
 
   /// For each vertex the number of its connected part.
   std::vector<int> parts() const {
-    UnionFind sets(_points.size());
+    base::UnionFind sets(_points.size());
     for (std::size_t e = 0; e < _edges.size(); ++e)
       if (_used[e]) sets.unite(_edges[e][0], _edges[e][1]);
     std::vector<int> part(_points.size());

@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "mesh/at.hpp"
+#include "base/at.hpp"
 #include "mesh/geometry_primitives.hpp"
 
 namespace anticrack::mesh {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "mesh/at.hpp"
+#include "base/at.hpp"
 #include "mesh/geometry_boundary.hpp"
 #include "mesh/geometry_curves.hpp"
 #include "mesh/geometry_primitives.hpp"

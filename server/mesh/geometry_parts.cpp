@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "mesh/at.hpp"
+#include "base/at.hpp"
 #include "mesh/geometry_primitives.hpp"
 
 namespace anticrack::mesh {

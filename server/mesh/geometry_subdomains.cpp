@@ -6,10 +6,10 @@
 #include <cmath>
 #include <utility>
 
-#include "mesh/at.hpp"
+#include "base/at.hpp"
+#include "base/union_find.hpp"
 #include "mesh/geometry_faces.hpp"
 #include "mesh/geometry_primitives.hpp"
-#include "mesh/union_find.hpp"
 
 namespace anticrack::mesh {
 namespace {
@@ -55,9 +55,9 @@ int inner_face(const Outlines& outlines, const Arrangement& arrangement, std::si
 
 /// The faces of one subdomain as a set: align lines do not separate subdomains, nor do cracks and
 /// inclusions within the outline of a region.
-UnionFind join_faces(const Plan& plan, const Outlines& outlines, const Arrangement& arrangement,
-                     const std::vector<bool>& used) {
-  UnionFind subdomains(arrangement.faces.size());
+base::UnionFind join_faces(const Plan& plan, const Outlines& outlines,
+                           const Arrangement& arrangement, const std::vector<bool>& used) {
+  base::UnionFind subdomains(arrangement.faces.size());
   std::vector<bool> inside(arrangement.faces.size(), false);
   for (std::size_t e = 0; e < plan.curves.size(); ++e) {
     if (!used[e]) continue;
@@ -85,7 +85,7 @@ UnionFind join_faces(const Plan& plan, const Outlines& outlines, const Arrangeme
 std::vector<bool> kept_curves(const Plan& plan, const Outlines& outlines, const Edges& edges) {
   std::vector<bool> kept(edges.size(), true);
   const Arrangement all = arrange(plan.points, edges, kept);
-  UnionFind subdomains = join_faces(plan, outlines, all, kept);
+  base::UnionFind subdomains = join_faces(plan, outlines, all, kept);
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const PlannedCurve& curve = plan.curves[e];
     if (curve.role != Role::interface || curve.kind != Kind::glue) continue;
@@ -134,7 +134,7 @@ struct Order {
 
 Order order_faces(const Plan& plan, const Outlines& outlines, const Arrangement& loops,
                   const std::vector<bool>& kept) {
-  UnionFind subdomains = join_faces(plan, outlines, loops, kept);
+  base::UnionFind subdomains = join_faces(plan, outlines, loops, kept);
   Order order;
   const std::size_t n = loops.faces.size();
   order.subdomain.assign(n, -1);

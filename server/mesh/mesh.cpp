@@ -7,8 +7,8 @@
 #include <sstream>
 #include <utility>
 
+#include "base/at.hpp"
 #include "errors/errors.hpp"
-#include "mesh/at.hpp"
 #include "mesh/edges.hpp"
 #include "mesh/geometry_primitives.hpp"
 #include "stop/stop.hpp"

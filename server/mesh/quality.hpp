@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "mesh/at.hpp"
+#include "base/at.hpp"
 #include "mesh/mesh.hpp"
 
 namespace anticrack::mesh {

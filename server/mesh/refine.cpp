@@ -8,8 +8,8 @@
 #include <tuple>
 #include <utility>
 
+#include "base/at.hpp"
 #include "errors/errors.hpp"
-#include "mesh/at.hpp"
 #include "mesh/bisection.hpp"
 #include "mesh/edges.hpp"
 #include "mesh/size_rule.hpp"

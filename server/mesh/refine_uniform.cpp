@@ -5,8 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "base/at.hpp"
 #include "errors/errors.hpp"
-#include "mesh/at.hpp"
 #include "mesh/edges.hpp"
 
 namespace anticrack::mesh {

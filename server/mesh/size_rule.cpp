@@ -5,8 +5,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "base/at.hpp"
 #include "errors/errors.hpp"
-#include "mesh/at.hpp"
 #include "mesh/geometry_primitives.hpp"
 
 namespace anticrack::mesh {

@@ -34,9 +34,9 @@ using Attributes = Owned<posix_spawnattr_t, posix_spawnattr_init, posix_spawnatt
 
 /// Moves a descriptor out of 0 to 2, which are free if the parent has closed them: dup2 to 0 and 1
 /// would overwrite it.
-Descriptor above_standard(Descriptor descriptor) {
+base::Descriptor above_standard(base::Descriptor descriptor) {
   if (descriptor.get() > STDERR_FILENO) return descriptor;
-  Descriptor moved(fcntl(descriptor.get(), F_DUPFD_CLOEXEC, STDERR_FILENO + 1));
+  base::Descriptor moved(fcntl(descriptor.get(), F_DUPFD_CLOEXEC, STDERR_FILENO + 1));
   check_spawn(moved.get() < 0 ? errno : 0, "fcntl");
   return moved;
 }
@@ -60,32 +60,17 @@ std::vector<char*> pointers(std::vector<std::string>& strings) {
 
 }  // namespace
 
-Descriptor& Descriptor::operator=(Descriptor&& other) noexcept {
-  if (this != &other) {
-    reset();
-    _value = other.release();
-  }
-  return *this;
-}
-
-void Descriptor::reset() noexcept {
-  if (_value >= 0) close(_value);
-  _value = -1;
-}
-
-int Descriptor::release() noexcept { return std::exchange(_value, -1); }
-
 Child::Child(const std::string& executable, const std::vector<std::string>& arguments,
-             Descriptor file) {
+             base::Descriptor file) {
   int ends[2] = {-1, -1};
   // close-on-exec at once: a spawn in another thread must not inherit them
   check_spawn(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0 ? errno : 0,
               "socketpair");
-  Descriptor ours(ends[0]);
-  Descriptor theirs(ends[1]);
+  base::Descriptor ours(ends[0]);
+  base::Descriptor theirs(ends[1]);
   ours = above_standard(std::move(ours));
   theirs = above_standard(std::move(theirs));
-  const bool has_file = !file.empty();
+  const bool has_file = static_cast<bool>(file);
   if (has_file) file = above_standard(std::move(file));
   check_spawn(fcntl(ours.get(), F_SETFL, O_NONBLOCK) != 0 ? errno : 0, "fcntl");
 

@@ -10,26 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "base/descriptor.hpp"
+
 namespace anticrack::mesher {
-
-/// Closes on destruction.
-class Descriptor {
- public:
-  explicit Descriptor(int value = -1) noexcept : _value(value) {}
-  ~Descriptor() { reset(); }
-  Descriptor(Descriptor&& other) noexcept : _value(other.release()) {}
-  Descriptor& operator=(Descriptor&& other) noexcept;
-  /// -1 if empty.
-  int get() const noexcept { return _value; }
-  /// Whether there is no descriptor.
-  bool empty() const noexcept { return _value < 0; }
-  /// Closes it now.
-  void reset() noexcept;
-
- private:
-  int release() noexcept;
-  int _value;
-};
 
 /// A child process in its own process group. socket() is its standard input and output; its
 /// standard error is the parent's. It inherits at most one other descriptor and a minimal
@@ -42,7 +25,8 @@ class Child {
 
   /// `file` becomes the child's `file_descriptor`, unless empty. Throws std::system_error, also for
   /// a missing executable.
-  Child(const std::string& executable, const std::vector<std::string>& arguments, Descriptor file);
+  Child(const std::string& executable, const std::vector<std::string>& arguments,
+        base::Descriptor file);
   ~Child();
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
@@ -59,7 +43,7 @@ class Child {
   int status() const noexcept { return _status; }
 
  private:
-  Descriptor _socket;
+  base::Descriptor _socket;
   pid_t _pid = -1;
   bool _ended = false;
   int _status = 0;

@@ -94,7 +94,7 @@ class StopSignal {
     // If the counter is full, it is readable already.
     void operator()() const noexcept { eventfd_write(descriptor, 1); }
   };
-  Descriptor _event;
+  base::Descriptor _event;
   std::stop_callback<Wake> _callback;
 };
 
@@ -103,7 +103,7 @@ class Conversation {
  public:
   /// `kind`: "import" of `file`, or "generate" without one.
   Conversation(const HelperOptions& options, std::stop_token stop, std::size_t most_bytes,
-               const char* kind, Descriptor file, const ProgressListener& listener)
+               const char* kind, base::Descriptor file, const ProgressListener& listener)
       : _options(options),
         _listener(listener),
         _stop(std::move(stop)),
@@ -200,9 +200,10 @@ class Conversation {
 };
 
 mesh::Bytes converse(const HelperOptions& options, const mesh::MesherRequest& request,
-                     Descriptor file, std::stop_token stop, const ProgressListener& listener) {
+                     base::Descriptor file, std::stop_token stop,
+                     const ProgressListener& listener) {
   try {
-    const char* kind = file.empty() ? "generate" : "import";
+    const char* kind = file ? "import" : "generate";
     Conversation conversation(options, std::move(stop), most_reply_bytes(request), kind,
                               std::move(file), listener);
     return conversation.exchange(mesh::encode(request));
@@ -216,11 +217,11 @@ mesh::Bytes converse(const HelperOptions& options, const mesh::MesherRequest& re
 
 /// Opens a file that begins as one that is read does. The check and the child use the same
 /// descriptor, so the file cannot be exchanged in between.
-Descriptor open_msh(const std::string& path) {
-  Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+base::Descriptor open_msh(const std::string& path) {
+  base::Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   char start[start_bytes] = {};
   // pread leaves the offset, which the child shares, at 0
-  const ssize_t n = file.empty() ? -1 : pread(file.get(), start, sizeof start, 0);
+  const ssize_t n = file ? pread(file.get(), start, sizeof start, 0) : -1;
   if (n < 0) {
     throw Error(Reason::mesh_invalid,
                 "the mesh file cannot be read: " + std::generic_category().message(errno));
@@ -243,7 +244,7 @@ mesh::Mesh run(const HelperOptions& options, const mesh::MesherRequest& request,
                std::stop_token stop, const ProgressListener& listener) {
   const stop::Scope scope(stop);
   if (stop.stop_requested()) throw Error(Reason::cancelled, "meshing was cancelled");
-  Descriptor file;
+  base::Descriptor file;
   if (const auto* import = std::get_if<mesh::ImportRequest>(&request))
     file = open_msh(import->path);
   mesh::MesherReply reply =

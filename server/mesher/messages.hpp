@@ -9,8 +9,8 @@
 #include <string>
 #include <utility>
 
+#include "base/at.hpp"
 #include "errors/errors.hpp"
-#include "mesh/at.hpp"
 #include "mesh/mesh.hpp"
 
 namespace anticrack::mesher {

@@ -7,8 +7,8 @@
 #include <set>
 #include <string>
 
+#include "base/union_find.hpp"
 #include "mesh/names.hpp"
-#include "mesh/union_find.hpp"
 #include "mesher/messages.hpp"
 #include "mesher/msh_scanner.hpp"
 
@@ -102,7 +102,7 @@ void take_tags(const MshFile& file, const Surfaces& surfaces,
 /// Every piece of the mesh between the cuts is a subdomain, in the order of their first triangles.
 void take_pieces(const mesh::EdgeTable& edges,
                  std::span<const std::pair<std::int32_t, std::int32_t>> cuts, Mesh& mesh) {
-  mesh::UnionFind pieces(mesh.triangle_count());
+  base::UnionFind pieces(mesh.triangle_count());
   edges.each([&](std::span<const mesh::EdgeUse> uses) {
     const auto key = std::pair(uses[0].low(), uses[0].high());
     if (std::binary_search(cuts.begin(), cuts.end(), key)) return;

@@ -9,9 +9,9 @@
 #include <tuple>
 #include <utility>
 
+#include "base/union_find.hpp"
 #include "mesh/edges.hpp"
 #include "mesh/precision.hpp"
-#include "mesh/union_find.hpp"
 #include "mesher/messages.hpp"
 
 namespace anticrack::mesher {
@@ -107,7 +107,7 @@ std::vector<std::int32_t> nodes_of(const std::vector<RimEdge>& rim) {
 /// Unites nodes at the same place.
 void find_coincident(const Places& places, const std::vector<RimEdge>& rim,
                      const std::vector<std::int32_t>& nodes, std::size_t node_count,
-                     mesh::UnionFind& same) {
+                     base::UnionFind& same) {
   std::vector<double> shortest(node_count, std::numeric_limits<double>::infinity());
   for (const RimEdge& edge : rim) {
     const double length = places.distance(edge.use.from, edge.use.to);
@@ -147,7 +147,7 @@ void find_coincident(const Places& places, const std::vector<RimEdge>& rim,
 }
 
 /// Marks pairs of edges at the same place; sorts the rim by (low, high).
-void match(const Places& places, mesh::UnionFind& same, std::vector<RimEdge>& rim) {
+void match(const Places& places, base::UnionFind& same, std::vector<RimEdge>& rim) {
   for (RimEdge& edge : rim) {
     const std::int32_t from = same.find(edge.use.from);
     const std::int32_t to = same.find(edge.use.to);
@@ -172,7 +172,7 @@ void match(const Places& places, mesh::UnionFind& same, std::vector<RimEdge>& ri
 }
 
 /// Refuses edges from one place in the same direction that are not a pair: hanging nodes.
-void refuse_hanging(const Places& places, mesh::UnionFind& same, const std::vector<RimEdge>& rim) {
+void refuse_hanging(const Places& places, base::UnionFind& same, const std::vector<RimEdge>& rim) {
   struct Ray {
     std::int32_t place = 0;
     double angle = 0;
@@ -215,7 +215,7 @@ void refuse_hanging(const Places& places, mesh::UnionFind& same, const std::vect
 }
 
 /// Nodes at the same place must belong to paired edges.
-void refuse_touching(const Places& places, mesh::UnionFind& same, const std::vector<RimEdge>& rim,
+void refuse_touching(const Places& places, base::UnionFind& same, const std::vector<RimEdge>& rim,
                      const std::vector<std::int32_t>& nodes, std::size_t node_count) {
   std::vector<bool> met(node_count, false);
   for (const RimEdge& edge : rim) {
@@ -237,7 +237,7 @@ void refuse_touching(const Places& places, mesh::UnionFind& same, const std::vec
   }
 }
 
-Welding number(std::size_t node_count, mesh::UnionFind& same) {
+Welding number(std::size_t node_count, base::UnionFind& same) {
   Welding welding;
   welding.node.reserve(node_count);
   for (std::size_t i = 0; i < node_count; ++i) {
@@ -267,14 +267,14 @@ Welding weld(std::span<const double> xy, std::span<const std::int32_t> triangles
   const Places places(xy, tags);
   std::vector<RimEdge> rim = rim_of(mesh::EdgeTable(triangles));
   const std::vector<std::int32_t> nodes = nodes_of(rim);
-  mesh::UnionFind same(node_count);
+  base::UnionFind same(node_count);
   find_coincident(places, rim, nodes, node_count, same);
   match(places, same, rim);
   refuse_hanging(places, same, rim);
   refuse_touching(places, same, rim, nodes, node_count);
 
   Welding welding = number(node_count, same);
-  mesh::UnionFind joined(node_count);
+  base::UnionFind joined(node_count);
   for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) {
     joined.unite(triangles[i], triangles[i + 1]);
     joined.unite(triangles[i], triangles[i + 2]);

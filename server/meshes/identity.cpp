@@ -21,20 +21,20 @@ mesh::MeshOptions effective(mesh::MeshOptions options) {
 
 }  // namespace
 
-std::string identity(const store::MeshDefinition& definition) {
+std::string identity(const records::MeshDefinition& definition) {
   store::CanonicalHash hash;
-  if (const auto* upload = std::get_if<store::UploadRef>(&definition)) {
+  if (const auto* upload = std::get_if<records::UploadRef>(&definition)) {
     hash.add(std::string("upload")).add(upload->sha256).add_all(effective(upload->options));
-  } else if (const auto* refinement = std::get_if<store::Refinement>(&definition)) {
+  } else if (const auto* refinement = std::get_if<records::Refinement>(&definition)) {
     hash.add(std::string("refinement")).add_all(*refinement);
   } else {
-    const auto& source = std::get<store::GeometrySource>(definition);
+    const auto& source = std::get<records::GeometrySource>(definition);
     hash.add(std::string("geometry")).add_all(source.geometry).add_all(effective(source.options));
   }
   return hash.finish();
 }
 
-std::string identity(const store::MeshDefinition& definition, const std::string& owner) {
+std::string identity(const records::MeshDefinition& definition, const std::string& owner) {
   const std::string own = identity(definition);
   return owner.empty() ? own : store::CanonicalHash().add(own).add(owner).finish();
 }

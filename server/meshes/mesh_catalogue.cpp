@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "digest/digest.hpp"
 #include "errors/errors.hpp"
 #include "mesh/refine.hpp"
 #include "meshes/identity.hpp"
@@ -16,7 +17,6 @@
 #include "meshes/size_class.hpp"
 #include "meshes/summary.hpp"
 #include "meshes/triangulation.hpp"
-#include "store/digest.hpp"
 
 namespace anticrack::meshes {
 
@@ -24,8 +24,8 @@ namespace {
 
 using errors::Error;
 using errors::Reason;
-using store::MeshRecord;
-using store::MeshState;
+using records::MeshRecord;
+using records::MeshState;
 
 constexpr std::size_t id_digits = 16;
 constexpr std::size_t max_title_bytes = 200;
@@ -162,8 +162,8 @@ MeshWaits::MeshWaits(MeshCatalogue& catalogue, Tell tell)
 
 MeshCatalogue::~MeshCatalogue() { _state->ends->forget(); }
 
-MeshRecord MeshCatalogue::create(const store::MeshDefinition& definition, const std::string& title,
-                                 const std::string& owner, bool for_job) {
+MeshRecord MeshCatalogue::create(const records::MeshDefinition& definition,
+                                 const std::string& title, const std::string& owner, bool for_job) {
   check_title(title);
   const std::size_t triangles = check_definition(definition, owner, _state->options, _state->store);
   const std::string id = identity(definition, owner).substr(0, id_digits);
@@ -192,7 +192,7 @@ MeshRecord MeshCatalogue::create(const store::MeshDefinition& definition, const 
       record.owner = owner;
       record.title = title;
       record.definition = definition;
-      record.created = store::Clock::now();
+      record.created = records::Clock::now();
     }
     // A failed mesh with a triangulation needs only its operators again.
     record.state = record.sha256.empty() ? MeshState::pending : MeshState::evicted;
@@ -210,8 +210,8 @@ MeshRecord MeshCatalogue::create(const store::MeshDefinition& definition, const 
 
 MeshRecord MeshCatalogue::refine(const Parent& parent, std::span<const std::uint8_t> levels,
                                  std::size_t max_triangles) {
-  const store::MeshDefinition definition = store::Refinement{
-      parent.mesh, parent.job, store::Sha256().add(std::as_bytes(levels)).finish()};
+  const records::MeshDefinition definition = records::Refinement{
+      parent.mesh, parent.job, digest::Sha256().add(std::as_bytes(levels)).finish()};
   MeshRecord record;
   record.id = identity(definition, parent.owner).substr(0, id_digits);
   Preparation& preparation = _state->preparation;
@@ -242,7 +242,7 @@ MeshRecord MeshCatalogue::refine(const Parent& parent, std::span<const std::uint
     record.owner = parent.owner;
     record.title = "a stage of jobs/" + parent.job;
     record.definition = definition;
-    record.created = store::Clock::now();
+    record.created = records::Clock::now();
     meshed(fine, start, record);
     _state->store.put(record, fine);
   } catch (...) {
@@ -287,8 +287,8 @@ std::shared_ptr<const mesh::Mesh> MeshCatalogue::triangulation(const std::string
   return mesh;
 }
 
-std::shared_ptr<const store::BlockSource> MeshCatalogue::read(const std::string& id) const {
-  return store::in_memory(std::make_shared<const store::Block>(mesh_block(*triangulation(id))));
+std::shared_ptr<const records::BlockSource> MeshCatalogue::read(const std::string& id) const {
+  return records::in_memory(std::make_shared<const records::Block>(mesh_block(*triangulation(id))));
 }
 
 MeshRecord MeshCatalogue::warm(const std::string& id, bool pin) {

@@ -25,7 +25,7 @@ struct CatalogueOptions {
   std::size_t max_meshes = 10'000;  ///< records; then quota_exceeded
   std::size_t max_expression_bytes = 4096;
   /// Called without a lock for each mesh that the helper made or failed to make. Must not throw.
-  std::function<void(const store::MeshRecord&)> meshed = {};
+  std::function<void(const records::MeshRecord&)> meshed = {};
 };
 
 /// Meshes and factorises new meshes in the background, in the order of queue.hpp; MeshWaits
@@ -46,8 +46,8 @@ class MeshCatalogue {
   /// of equal meshes, but not records. `for_job`: only its jobs want it; it is stopped when the
   /// last of them has ended. Throws errors::Error: geometry_invalid, invalid_argument, not_found
   /// (upload), busy, quota_exceeded, disk_full.
-  store::MeshRecord create(const store::MeshDefinition& definition, const std::string& title,
-                           const std::string& owner, bool for_job = false);
+  records::MeshRecord create(const records::MeshDefinition& definition, const std::string& title,
+                             const std::string& owner, bool for_job = false);
 
   struct Parent {
     std::string mesh;  ///< id
@@ -60,21 +60,21 @@ class MeshCatalogue {
   /// "memory_budget" what its operators would take), quota_exceeded, disk_full, numerical (what is
   /// to be bisected is as small as mesh::refine() makes triangles), cancelled at a look
   /// (stop/stop.hpp).
-  store::MeshRecord refine(const Parent& parent, std::span<const std::uint8_t> levels,
-                           std::size_t max_triangles);
+  records::MeshRecord refine(const Parent& parent, std::span<const std::uint8_t> levels,
+                             std::size_t max_triangles);
   std::size_t max_triangles() const noexcept;  ///< of a mesh
 
-  store::MeshRecord get(const std::string& id) const;                  ///< throws not_found
-  std::vector<store::MeshRecord> list(const store::Page& page) const;  ///< newest first
+  records::MeshRecord get(const std::string& id) const;                  ///< throws not_found
+  std::vector<records::MeshRecord> list(const store::Page& page) const;  ///< newest first
   /// Throws not_found, not_ready (not meshed). O(m): reads the triangulation.
-  std::shared_ptr<const store::BlockSource> read(const std::string& id) const;
+  std::shared_ptr<const records::BlockSource> read(const std::string& id) const;
 
   /// Prepares the operators in the background, as create() does; `pin` keeps them in memory until
   /// evict(). Returns at once. Throws not_found, busy, the error of a failed mesh.
-  store::MeshRecord warm(const std::string& id, bool pin);
+  records::MeshRecord warm(const std::string& id, bool pin);
   /// Frees the operators, if any; the definition and the triangulation stay. Throws not_found,
   /// in_use (a running job or a factorisation needs them).
-  store::MeshRecord evict(const std::string& id);
+  records::MeshRecord evict(const std::string& id);
   /// Stops its preparation. Throws not_found, in_use (a job that has not ended uses it).
   void erase(const std::string& id);
   /// Marks the mesh as used by an unfinished job: erase() refuses until all results are released.

@@ -10,8 +10,8 @@ namespace anticrack::meshes {
 
 namespace {
 
-using store::MeshRecord;
-using store::MeshState;
+using records::MeshRecord;
+using records::MeshState;
 
 MeshState state_of(const LiveMesh& mesh, const MeshRecord& record, bool in_memory) {
   if (record.state == MeshState::failed) return MeshState::failed;

@@ -15,7 +15,7 @@
 #include "errors/errors.hpp"
 #include "meshes/mesh_waits.hpp"
 #include "operators/mesh_operator.hpp"
-#include "store/records.hpp"
+#include "records/records.hpp"
 
 namespace anticrack::meshes {
 
@@ -39,7 +39,7 @@ struct Wait {
   const std::uint64_t number;
   const MeshWaits* const whose;
   const std::string mesh;  ///< id
-  const store::Priority priority;
+  const records::Priority priority;
   const std::chrono::steady_clock::time_point since;
   std::optional<MeshNews::Phase> told = {};
   bool joined = false;      ///< a run that was there
@@ -55,13 +55,13 @@ struct Run {
   const std::uint64_t place = 0;  ///< in the queue
   std::stop_source stop = {};
 
-  store::MeshState phase = store::MeshState::pending;  ///< or meshing, factorizing
-  bool background = false;                             ///< goes on without waits
-  bool measures = false;                               ///< theta* as well
-  bool visible = false;                                ///< the operators, to every caller
-  bool ending = false;                                 ///< only its outcome has to be written
+  records::MeshState phase = records::MeshState::pending;  ///< or meshing, factorizing
+  bool background = false;                                 ///< goes on without waits
+  bool measures = false;                                   ///< theta* as well
+  bool visible = false;                                    ///< the operators, to every caller
+  bool ending = false;                                     ///< only its outcome has to be written
   bool writing = false;                                ///< its record: it is not given up meanwhile
-  std::optional<store::MeshProgress> progress = {};    ///< of the mesher
+  std::optional<records::MeshProgress> progress = {};  ///< of the mesher
   std::shared_ptr<const operators::MeshOperator> result = {};  ///< until theta* is measured
 };
 
@@ -85,12 +85,12 @@ struct LiveMesh {
 };
 
 /// The record with its current state. `in_memory`: its operators are in memory.
-store::MeshRecord seen(const LiveMesh& mesh, store::MeshRecord record, bool in_memory);
+records::MeshRecord seen(const LiveMesh& mesh, records::MeshRecord record, bool in_memory);
 
 class MeshIndex {
  public:
   /// Adds a mesh from the store.
-  LiveMesh& add(const store::MeshRecord& record);
+  LiveMesh& add(const records::MeshRecord& record);
   /// Finds the mesh or adds an absent one.
   LiveMesh& add(const std::string& id) { return _meshes[id]; }
   void remove(const std::string& id) { _meshes.erase(id); }

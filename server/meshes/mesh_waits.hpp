@@ -12,7 +12,7 @@
 
 #include "errors/errors.hpp"
 #include "operators/mesh_operator.hpp"
-#include "store/records.hpp"
+#include "records/records.hpp"
 
 namespace anticrack::meshes {
 
@@ -26,7 +26,7 @@ struct MeshNews {
   std::uint64_t wait = 0;
   std::string mesh = {};  ///< id
   Phase phase = Phase::queued;
-  std::optional<store::MeshProgress> progress = {};  ///< of the mesher, about every second
+  std::optional<records::MeshProgress> progress = {};  ///< of the mesher, about every second
   std::shared_ptr<const operators::MeshOperator> mesh_operator = {};  ///< ready
   std::optional<errors::Error> error = {};                            ///< failed
 };
@@ -51,10 +51,10 @@ class MeshWaits {
 
   /// Meshes and factorises if necessary; returns the number of the wait, above 0. It fails with the
   /// error of a failed mesh, not_found, or disk_full or storage if the mesh could not be written.
-  std::uint64_t begin(const std::string& mesh, store::Priority priority,
+  std::uint64_t begin(const std::string& mesh, records::Priority priority,
                       std::chrono::steady_clock::time_point since);
   /// One more with this priority waits.
-  void join(std::uint64_t wait, store::Priority priority,
+  void join(std::uint64_t wait, records::Priority priority,
             std::chrono::steady_clock::time_point since);
   /// Gives up; or after `ready`, the operators have been taken up: until then they hold a place of
   /// those that are made ahead (queue.hpp). Does nothing if there is no such wait.

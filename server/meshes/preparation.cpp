@@ -15,8 +15,8 @@ namespace {
 
 using errors::Error;
 using errors::Reason;
-using store::MeshRecord;
-using store::MeshState;
+using records::MeshRecord;
+using records::MeshState;
 using Phase = MeshNews::Phase;
 
 constexpr std::size_t records_a_page = 100;
@@ -42,7 +42,7 @@ MeshWaits::~MeshWaits() {
   _preparation._delivered.wait(held, [&] { return _preparation._telling != this; });
 }
 
-std::uint64_t MeshWaits::begin(const std::string& id, store::Priority priority,
+std::uint64_t MeshWaits::begin(const std::string& id, records::Priority priority,
                                std::chrono::steady_clock::time_point since) {
   const auto held = _preparation.lock();
   const std::uint64_t number = ++_preparation._last_wait;
@@ -59,7 +59,7 @@ std::uint64_t MeshWaits::begin(const std::string& id, store::Priority priority,
   return number;
 }
 
-void MeshWaits::join(std::uint64_t number, store::Priority priority,
+void MeshWaits::join(std::uint64_t number, records::Priority priority,
                      std::chrono::steady_clock::time_point since) {
   const auto held = _preparation.lock();
   const LiveMesh* mesh = _preparation._index.find(_preparation._waits.at(number)->mesh);
@@ -161,7 +161,7 @@ Run& Preparation::begin(const std::string& id, bool background) {
   if (!mesh.run) {
     const bool awaited = !mesh.waits.empty();
     const std::uint64_t place = _queue.add(
-        mesh.owner, mesh.size_class, awaited ? mesh.waits[0]->priority : store::Priority::normal,
+        mesh.owner, mesh.size_class, awaited ? mesh.waits[0]->priority : records::Priority::normal,
         awaited ? mesh.waits[0]->since : Steady::now());
     mesh.run = std::make_shared<Run>(Run{id, place});
     mesh.run->phase = pending ? MeshState::pending : MeshState::factorizing;

@@ -71,7 +71,7 @@ class Preparation {
 
   // Without it:
   /// The record with its current state. Throws errors::Error (not_found).
-  store::MeshRecord record(const std::string& id);
+  records::MeshRecord record(const std::string& id);
   /// The last job that used the mesh has ended: stops its run if nobody else wants it.
   void let_go(const std::string& id);
   std::uint64_t meshings() const noexcept { return _meshings; }
@@ -82,7 +82,7 @@ class Preparation {
   friend class MeshWaits;
 
   void recover();
-  store::MeshRecord stored(const std::string& id) const;
+  records::MeshRecord stored(const std::string& id) const;
   /// The mesh of a run; null if the run is over or was abandoned.
   LiveMesh* mesh_of(const Run& run);
   /// Takes the run off the mesh if nobody wants it, and has it stopped.

@@ -21,8 +21,8 @@ namespace {
 
 using errors::Error;
 using errors::Reason;
-using store::MeshRecord;
-using store::MeshState;
+using records::MeshRecord;
+using records::MeshState;
 using Phase = MeshNews::Phase;
 
 constexpr std::chrono::milliseconds shortest_retry{100};
@@ -127,7 +127,7 @@ std::shared_ptr<const mesh::Mesh> Preparation::triangulate(Run& run) {
   if (!copied) {
     ++_meshings;
     made = meshes::triangulate(record, _options, _store, run.stop.get_token(),
-                               [&](const store::MeshProgress& progress) {
+                               [&](const records::MeshProgress& progress) {
                                  const auto held = lock();
                                  run.progress = progress;
                                  LiveMesh* mesh = mesh_of(run);

@@ -13,14 +13,14 @@ constexpr int at_work_at_once = 2, ahead_at_once = 3;  // of one class of sizes
 
 }  // namespace
 
-std::uint64_t Queue::add(const std::string& owner, int size_class, store::Priority priority,
+std::uint64_t Queue::add(const std::string& owner, int size_class, records::Priority priority,
                          Time since) {
   _waiting[++_last] = {owner, size_class};
   _waiting[_last].since[class_of(priority)] = since;
   return _last;
 }
 
-void Queue::await(std::uint64_t number, store::Priority priority, Time since) {
+void Queue::await(std::uint64_t number, records::Priority priority, Time since) {
   if (const auto begun = _places.find(number); begun != _places.end()) begun->second.awaited = true;
   const auto found = _waiting.find(number);
   if (found == _waiting.end()) return;

@@ -13,7 +13,7 @@
 #include <string>
 #include <unordered_map>
 
-#include "store/records.hpp"
+#include "records/records.hpp"
 
 namespace anticrack::meshes {
 
@@ -22,9 +22,9 @@ constexpr std::chrono::seconds ageing{30};
 constexpr std::size_t priority_classes = 3;
 
 /// 0 is the most urgent.
-constexpr std::size_t class_of(store::Priority priority) noexcept {
+constexpr std::size_t class_of(records::Priority priority) noexcept {
   return static_cast<std::size_t>(priority) -
-         static_cast<std::size_t>(store::Priority::interactive);
+         static_cast<std::size_t>(records::Priority::interactive);
 }
 
 /// The class to which something of `priority_class` has risen that has waited since `since`: 0 at
@@ -62,9 +62,10 @@ class Queue {
   using Time = std::chrono::steady_clock::time_point;
 
   /// What is in the queue, and then at its place, by a number that no other has.
-  std::uint64_t add(const std::string& owner, int size_class, store::Priority priority, Time since);
+  std::uint64_t add(const std::string& owner, int size_class, records::Priority priority,
+                    Time since);
   /// Somebody with this priority awaits it (too).
-  void await(std::uint64_t number, store::Priority priority, Time since);
+  void await(std::uint64_t number, records::Priority priority, Time since);
   /// Takes it out of the queue; does nothing once it has begun.
   void remove(std::uint64_t number) { _waiting.erase(number); }
   /// The one that begins now, and has a thread until done().

@@ -9,12 +9,12 @@
 #include <utility>
 #include <vector>
 
-#include "mesh/at.hpp"
+#include "base/at.hpp"
+#include "base/union_find.hpp"
 #include "mesh/edges.hpp"
 #include "mesh/geometry_primitives.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/refine.hpp"
-#include "mesh/union_find.hpp"
 #include "meshes/tension_laws.hpp"
 #include "stop/stop.hpp"
 
@@ -39,14 +39,14 @@ std::pair<double, double> edge_lengths(const mesh::Mesh& mesh, std::size_t trian
                       length(mesh, node[2], node[0])});
 }
 
-void measure_triangles(const mesh::Mesh& mesh, std::vector<store::SubdomainSummary>& result) {
-  for (store::SubdomainSummary& to : result) {
+void measure_triangles(const mesh::Mesh& mesh, std::vector<records::SubdomainSummary>& result) {
+  for (records::SubdomainSummary& to : result) {
     to.minimum_angle = 180;
     to.shortest_edge = std::numeric_limits<double>::infinity();
   }
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     stop::look_at_turn(t, measuring);
-    store::SubdomainSummary& to = result[at(mesh.subdomain[t])];
+    records::SubdomainSummary& to = result[at(mesh.subdomain[t])];
     ++to.triangle_count;
     to.area += mesh::area(mesh, t);
     const auto angles =
@@ -58,7 +58,7 @@ void measure_triangles(const mesh::Mesh& mesh, std::vector<store::SubdomainSumma
   }
 }
 
-void count_nodes(const mesh::Mesh& mesh, std::vector<store::SubdomainSummary>& result) {
+void count_nodes(const mesh::Mesh& mesh, std::vector<records::SubdomainSummary>& result) {
   std::vector<std::vector<std::size_t>> triangles(result.size());
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
     triangles[at(mesh.subdomain[t])].push_back(t);
@@ -79,13 +79,13 @@ void count_nodes(const mesh::Mesh& mesh, std::vector<store::SubdomainSummary>& r
 /// A part consists of triangles connected without crossing an interface; it floats if none of its
 /// nodes is a Dirichlet node.
 void find_floating(const mesh::Mesh& mesh, const mesh::EdgeTable& edges,
-                   std::vector<store::SubdomainSummary>& result) {
+                   std::vector<records::SubdomainSummary>& result) {
   std::vector<EdgeKey> cuts;
   for (const mesh::Interface& interface : mesh.interfaces)
     for (std::size_t i = 0; i + 1 < interface.nodes.size(); ++i)
       cuts.push_back(key(interface.nodes[i], interface.nodes[i + 1]));
   std::sort(cuts.begin(), cuts.end());
-  mesh::UnionFind parts(mesh.triangle_count());
+  base::UnionFind parts(mesh.triangle_count());
   std::size_t turn = 0;
   edges.each([&](std::span<const mesh::EdgeUse> uses) {
     stop::look_at_turn<stop::quick>(turn++, measuring);
@@ -108,9 +108,9 @@ void find_floating(const mesh::Mesh& mesh, const mesh::EdgeTable& edges,
     if (!held[part_of(t)]) result[at(mesh.subdomain[t])].floating = true;
 }
 
-std::vector<store::SubdomainSummary> subdomains(const mesh::Mesh& mesh,
-                                                const mesh::EdgeTable& edges) {
-  std::vector<store::SubdomainSummary> result(mesh.subdomains.size());
+std::vector<records::SubdomainSummary> subdomains(const mesh::Mesh& mesh,
+                                                  const mesh::EdgeTable& edges) {
+  std::vector<records::SubdomainSummary> result(mesh.subdomains.size());
   for (std::size_t i = 0; i < result.size(); ++i) result[i].name = mesh.subdomains[i];
   measure_triangles(mesh, result);
   count_nodes(mesh, result);
@@ -118,11 +118,11 @@ std::vector<store::SubdomainSummary> subdomains(const mesh::Mesh& mesh,
   return result;
 }
 
-std::vector<store::TipSummary> tip_summaries(const mesh::Mesh& mesh) {
+std::vector<records::TipSummary> tip_summaries(const mesh::Mesh& mesh) {
   const std::vector<std::int32_t> nodes = mesh::tips(mesh);
   constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
   std::vector<std::size_t> tip_at(mesh.node_count(), none);
-  std::vector<store::TipSummary> result;
+  std::vector<records::TipSummary> result;
   result.reserve(nodes.size());
   for (const std::int32_t node : nodes) {
     const auto n = at(node);
@@ -146,7 +146,7 @@ std::vector<store::TipSummary> tip_summaries(const mesh::Mesh& mesh) {
 }
 
 void measure_boundary(const mesh::Mesh& mesh, const mesh::EdgeTable& edges,
-                      store::MeshRecord& record) {
+                      records::MeshRecord& record) {
   std::vector<EdgeKey> fixed;
   fixed.reserve(mesh.dirichlet.size());
   for (const auto& [a, b] : mesh.dirichlet) fixed.push_back(key(a, b));
@@ -162,16 +162,16 @@ void measure_boundary(const mesh::Mesh& mesh, const mesh::EdgeTable& edges,
   });
 }
 
-store::InterfaceSummary summary(const mesh::Mesh& mesh, const mesh::Interface& interface) {
+records::InterfaceSummary summary(const mesh::Mesh& mesh, const mesh::Interface& interface) {
   const std::vector<double> s = mesh::arc_length(mesh, interface);
   const std::size_t first = 2 * at(interface.nodes.front());
-  store::InterfaceSummary result{
+  records::InterfaceSummary result{
       interface.name, s.back(), s.size(), {}, {{mesh.xy[first], mesh.xy[first + 1]}}};
   for (std::size_t e = 0; e < interface.kind.size(); ++e) {
     if (e == 0 || interface.kind[e] != interface.kind[e - 1] ||
         interface.inclusion[e] != interface.inclusion[e - 1])
       result.segments.push_back({interface.kind[e], interface.inclusion[e], s[e], s[e], 0});
-    store::SegmentSummary& segment = result.segments.back();
+    records::SegmentSummary& segment = result.segments.back();
     segment.end = s[e + 1];
     ++segment.edge_count;
   }
@@ -180,7 +180,7 @@ store::InterfaceSummary summary(const mesh::Mesh& mesh, const mesh::Interface& i
 
 }  // namespace
 
-void summarize(const mesh::Mesh& mesh, store::MeshRecord& record) {
+void summarize(const mesh::Mesh& mesh, records::MeshRecord& record) {
   record.node_count = mesh.node_count();
   record.triangle_count = mesh.triangle_count();
   const mesh::EdgeTable edges(mesh.triangles);
@@ -192,15 +192,15 @@ void summarize(const mesh::Mesh& mesh, store::MeshRecord& record) {
   record.inclusions = mesh.inclusions;
   record.warnings = mesh.warnings;
   record.minimum_angle =
-      std::ranges::min(record.subdomains, {}, &store::SubdomainSummary::minimum_angle)
+      std::ranges::min(record.subdomains, {}, &records::SubdomainSummary::minimum_angle)
           .minimum_angle;
   record.bisection_bound = mesh.bisection_bound;
   record.tips = tip_summaries(mesh);
   measure_boundary(mesh, edges, record);
 }
 
-store::Block mesh_block(const mesh::Mesh& mesh) {
-  store::BlockBuilder builder;
+records::Block mesh_block(const mesh::Mesh& mesh) {
+  records::BlockBuilder builder;
   builder.add("nodes", mesh.xy, {mesh.node_count(), 2});
   builder.add("triangles", mesh.triangles, {mesh.triangle_count(), 3});
   builder.add("subdomain", mesh.subdomain);

@@ -4,8 +4,8 @@
 #include <string>
 #include <variant>
 
+#include "base/at.hpp"
 #include "fem/tension.hpp"
-#include "mesh/at.hpp"
 
 namespace anticrack::meshes {
 namespace {
@@ -24,9 +24,9 @@ std::string region_field(std::size_t i) { return "regions[" + std::to_string(i) 
 std::string option_field(const std::string& name) { return "options.tension_laws[" + name + "]"; }
 
 /// Where the law of a subdomain was written.
-std::string field_of(const store::MeshDefinition& definition, const std::string& subdomain) {
-  if (std::holds_alternative<store::UploadRef>(definition)) return option_field(subdomain);
-  if (const auto* source = std::get_if<store::GeometrySource>(&definition)) {
+std::string field_of(const records::MeshDefinition& definition, const std::string& subdomain) {
+  if (std::holds_alternative<records::UploadRef>(definition)) return option_field(subdomain);
+  if (const auto* source = std::get_if<records::GeometrySource>(&definition)) {
     const std::vector<mesh::RegionSpec>& regions = source->geometry.regions;
     for (std::size_t i = 0; i < regions.size(); ++i)
       if (regions[i].name == subdomain) return "geometry." + region_field(i);
@@ -53,8 +53,8 @@ fem::Triangulation part_of(const mesh::Mesh& mesh, std::size_t subdomain) {
 
 }  // namespace
 
-void check_laws(const store::MeshDefinition& definition, std::size_t max_expression_bytes) {
-  if (const auto* source = std::get_if<store::GeometrySource>(&definition)) {
+void check_laws(const records::MeshDefinition& definition, std::size_t max_expression_bytes) {
+  if (const auto* source = std::get_if<records::GeometrySource>(&definition)) {
     const std::vector<mesh::RegionSpec>& regions = source->geometry.regions;
     for (std::size_t i = 0; i < regions.size(); ++i) {
       if (!regions[i].tension_law) continue;
@@ -64,16 +64,16 @@ void check_laws(const store::MeshDefinition& definition, std::size_t max_express
                    regions[i].outline ? nullptr : &regions[i].at);
       });
     }
-  } else if (const auto* upload = std::get_if<store::UploadRef>(&definition)) {
+  } else if (const auto* upload = std::get_if<records::UploadRef>(&definition)) {
     for (const auto& [name, law] : upload->options.tension_laws)
       below(option_field(name),
             [&law = law, max_expression_bytes] { fem::check(law, max_expression_bytes); });
   }
 }
 
-void summarize_tension(const mesh::Mesh& mesh, store::MeshRecord& record) {
+void summarize_tension(const mesh::Mesh& mesh, records::MeshRecord& record) {
   for (std::size_t s = 0; s < record.subdomains.size(); ++s) {
-    store::SubdomainSummary& to = record.subdomains[s];
+    records::SubdomainSummary& to = record.subdomains[s];
     if (!mesh.tension.empty()) to.tension = mesh.tension[s];
     if (mesh.tension_laws.empty() || mesh.tension_laws[s].along.empty()) continue;
     to.tension_law = mesh.tension_laws[s];

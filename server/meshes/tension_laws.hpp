@@ -4,17 +4,17 @@
 #include <cstddef>
 #include <vector>
 
-#include "store/records.hpp"
+#include "records/records.hpp"
 
 namespace anticrack::meshes {
 
 /// Checks the laws of a definition before there is a mesh. Throws errors::Error
 /// (expression_invalid) with the field at fault, e.g. "regions[0].tension_law.along",
 /// "options.tension_laws[top].across".
-void check_laws(const store::MeshDefinition& definition, std::size_t max_expression_bytes);
+void check_laws(const records::MeshDefinition& definition, std::size_t max_expression_bytes);
 
 /// Sets tension and law of the record's subdomains. Throws errors::Error (expression_invalid) where
 /// a law is not above 0 on the mesh, at "geometry.regions[0].tension_law.along" and the like. O(m).
-void summarize_tension(const mesh::Mesh& mesh, store::MeshRecord& record);
+void summarize_tension(const mesh::Mesh& mesh, records::MeshRecord& record);
 
 }  // namespace anticrack::meshes

@@ -20,19 +20,19 @@ namespace anticrack::meshes {
 
 namespace {
 
-mesh::MesherRequest request_for(const store::MeshRecord& record, const CatalogueOptions& options,
+mesh::MesherRequest request_for(const records::MeshRecord& record, const CatalogueOptions& options,
                                 const store::Store& store) {
-  if (const auto* source = std::get_if<store::GeometrySource>(&record.definition)) {
+  if (const auto* source = std::get_if<records::GeometrySource>(&record.definition)) {
     return mesh::GenerateRequest{
         mesh::plan(source->geometry, source->options, options.max_triangles),
         options.max_triangles};
   }
-  if (std::holds_alternative<store::Refinement>(record.definition)) {
+  if (std::holds_alternative<records::Refinement>(record.definition)) {
     throw errors::Error(errors::Reason::storage,
                         "the triangulation of meshes/" + record.id +
                             ", which a job made, is gone: run the job again");
   }
-  const auto& upload = std::get<store::UploadRef>(record.definition);
+  const auto& upload = std::get<records::UploadRef>(record.definition);
   std::string path = require_upload(store, upload, record.owner);
   try {
     store::require_intact_upload(path, upload.sha256);
@@ -50,7 +50,7 @@ std::uint64_t expected_of(const mesh::MesherRequest& request) {
 
 }  // namespace
 
-std::string require_upload(const store::Store& store, const store::UploadRef& upload,
+std::string require_upload(const store::Store& store, const records::UploadRef& upload,
                            const std::string& owner) {
   std::optional<std::string> path = store.upload_path(upload.sha256, owner);
   if (!path) {
@@ -61,14 +61,14 @@ std::string require_upload(const store::Store& store, const store::UploadRef& up
   return std::move(*path);
 }
 
-std::size_t check_definition(const store::MeshDefinition& definition, const std::string& owner,
+std::size_t check_definition(const records::MeshDefinition& definition, const std::string& owner,
                              const CatalogueOptions& options, const store::Store& store) {
   check_laws(definition, options.max_expression_bytes);
-  if (const auto* source = std::get_if<store::GeometrySource>(&definition))
+  if (const auto* source = std::get_if<records::GeometrySource>(&definition))
     return mesh::plan(source->geometry, source->options, options.max_triangles).triangles;
-  if (std::holds_alternative<store::Refinement>(definition)) return 0;
+  if (std::holds_alternative<records::Refinement>(definition)) return 0;
   constexpr std::size_t bytes_a_triangle = 60;  // of a .msh file, nodes included
-  const auto& upload = std::get<store::UploadRef>(definition);
+  const auto& upload = std::get<records::UploadRef>(definition);
   mesh::check_for_upload(upload.options);
   const std::string path = require_upload(store, upload, owner);
   mesher::require_msh(path);
@@ -77,7 +77,7 @@ std::size_t check_definition(const store::MeshDefinition& definition, const std:
   return unknown ? 0 : bytes / bytes_a_triangle;
 }
 
-std::size_t expected_triangles(const store::MeshRecord& record, const CatalogueOptions& options,
+std::size_t expected_triangles(const records::MeshRecord& record, const CatalogueOptions& options,
                                const store::Store& store) {
   try {
     return check_definition(record.definition, record.owner, options, store);
@@ -87,16 +87,16 @@ std::size_t expected_triangles(const store::MeshRecord& record, const CatalogueO
 }
 
 void meshed(const mesh::Mesh& mesh, std::chrono::steady_clock::time_point start,
-            store::MeshRecord& record) {
+            records::MeshRecord& record) {
   record.mesh_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const mesh::Bytes encoded = mesh::encode(mesh);
   record.sha256 = store::sha256_of(encoded);
-  record.state = store::MeshState::evicted;
+  record.state = records::MeshState::evicted;
   summarize(mesh, record);
 }
 
-Triangulation triangulate(store::MeshRecord record, const CatalogueOptions& options,
+Triangulation triangulate(records::MeshRecord record, const CatalogueOptions& options,
                           const store::Store& store, const std::stop_token& stop,
                           const ProgressListener& progress) {
   const auto start = std::chrono::steady_clock::now();
@@ -111,9 +111,9 @@ Triangulation triangulate(store::MeshRecord record, const CatalogueOptions& opti
   return {std::move(mesh), std::move(record)};
 }
 
-std::optional<Triangulation> copy_of(const std::string& twin, store::MeshRecord record,
+std::optional<Triangulation> copy_of(const std::string& twin, records::MeshRecord record,
                                      const store::Store& store) {
-  std::optional<store::MeshRecord> copy = store.mesh(twin);
+  std::optional<records::MeshRecord> copy = store.mesh(twin);
   if (!copy || copy->sha256.empty()) return std::nullopt;
   std::shared_ptr<const mesh::Mesh> mesh = store.triangulation(copy->sha256);
   if (!mesh) return std::nullopt;
@@ -121,7 +121,7 @@ std::optional<Triangulation> copy_of(const std::string& twin, store::MeshRecord 
   copy->owner = std::move(record.owner);
   copy->title = std::move(record.title);
   copy->created = record.created;
-  copy->state = store::MeshState::evicted;
+  copy->state = records::MeshState::evicted;
   copy->error.reset();
   return Triangulation{std::move(mesh), std::move(*copy)};
 }

@@ -96,8 +96,8 @@ struct Metrics::State {
         .Add({{"version", version}, {"build", build}})
         .Set(1);
     // From zero: a rate over a counter that appears with its first event misses that event.
-    for (const auto state : {store::JobState::succeeded, store::JobState::not_converged,
-                             store::JobState::failed, store::JobState::cancelled})
+    for (const auto state : {records::JobState::succeeded, records::JobState::not_converged,
+                             records::JobState::failed, records::JobState::cancelled})
       jobs_ended.Add({{"state", std::string(name(state))}});
   }
 
@@ -164,10 +164,10 @@ void Metrics::call_ended(const std::string& method, int code,
   });
 }
 
-void Metrics::job_ended(const store::JobRecord& job) noexcept {
+void Metrics::job_ended(const records::JobRecord& job) noexcept {
   quietly([&] {
     _state->jobs_ended.Add({{"state", std::string(name(job.state))}}).Increment();
-    if (job.state == store::JobState::failed && job.error) {
+    if (job.state == records::JobState::failed && job.error) {
       const std::string reason(errors::name(job.error->reason()));
       _state->job_failures.Add({{"reason", reason}}).Increment();
     }
@@ -185,7 +185,7 @@ void Metrics::job_ended(const store::JobRecord& job) noexcept {
   });
 }
 
-void Metrics::meshed(const store::MeshRecord& mesh) noexcept {
+void Metrics::meshed(const records::MeshRecord& mesh) noexcept {
   quietly([&] {
     if (mesh.error) {
       const std::string reason(errors::name(mesh.error->reason()));

@@ -13,7 +13,7 @@
 
 #include "jobs/job_engine.hpp"
 #include "operators/operator_cache.hpp"
-#include "store/records.hpp"
+#include "records/records.hpp"
 #include "store/store.hpp"
 
 namespace anticrack::metrics {
@@ -46,8 +46,8 @@ class Metrics {
   /// `method`: "/anticrack.v1.UploadService/CreateUploads"; `code`: gRPC's.
   void call_ended(const std::string& method, int code, std::chrono::duration<double> time) noexcept;
   /// Counts the job by state and reason, and its time in each phase.
-  void job_ended(const store::JobRecord& job) noexcept;
-  void meshed(const store::MeshRecord& mesh) noexcept;
+  void job_ended(const records::JobRecord& job) noexcept;
+  void meshed(const records::MeshRecord& mesh) noexcept;
   void factorised(std::chrono::duration<double> time) noexcept;
 
   /// Serves /metrics at HOST:PORT (port 0 picks one) and returns the address. `read` is called at

@@ -5,7 +5,7 @@
 
 namespace anticrack::metrics {
 
-using store::JobState;
+using records::JobState;
 
 std::string_view name(Phase phase) noexcept {
   constexpr std::array<std::string_view, phase_count> names{"queued",      "waiting", "meshing",
@@ -20,12 +20,12 @@ std::string_view name(JobState state) noexcept {
   return names[static_cast<std::size_t>(state)];
 }
 
-std::string_view name(store::Priority priority) noexcept {
+std::string_view name(records::Priority priority) noexcept {
   constexpr std::array<std::string_view, 4> names{"UNKNOWN", "INTERACTIVE", "NORMAL", "BULK"};
   return names[static_cast<std::size_t>(priority)];
 }
 
-Phase phase_of(const store::Step& step) noexcept {
+Phase phase_of(const records::Step& step) noexcept {
   if (step.state == JobState::waiting_for_mesh) {
     if (step.detail.starts_with("mesh")) return Phase::meshing;
     if (step.detail.starts_with("factor")) return Phase::factorizing;
@@ -36,11 +36,11 @@ Phase phase_of(const store::Step& step) noexcept {
   return Phase::queued;
 }
 
-PhaseTimes phase_times(const store::JobRecord& job) {
+PhaseTimes phase_times(const records::JobRecord& job) {
   PhaseTimes times{};
   for (std::size_t i = 0; i < job.timeline.size(); ++i) {
-    const store::Step& step = job.timeline[i];
-    if (store::ended(step.state)) continue;
+    const records::Step& step = job.timeline[i];
+    if (records::ended(step.state)) continue;
     const bool last = i + 1 == job.timeline.size();
     const auto until = last ? job.ended.value_or(step.time) : job.timeline[i + 1].time;
     const std::chrono::duration<double> time = until - step.time;

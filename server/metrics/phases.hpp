@@ -7,7 +7,7 @@
 #include <chrono>
 #include <string_view>
 
-#include "store/records.hpp"
+#include "records/records.hpp"
 
 namespace anticrack::metrics {
 
@@ -16,16 +16,16 @@ inline constexpr std::size_t phase_count = 6;
 
 /// The label of a phase, "factorizing".
 std::string_view name(Phase phase) noexcept;
-std::string_view name(store::JobState state) noexcept;     ///< "SUCCEEDED"
-std::string_view name(store::Priority priority) noexcept;  ///< "BULK"
+std::string_view name(records::JobState state) noexcept;     ///< "SUCCEEDED"
+std::string_view name(records::Priority priority) noexcept;  ///< "BULK"
 
 /// The phase that begins with a step; `waiting`: for a mesh that another job is preparing.
-Phase phase_of(const store::Step& step) noexcept;
+Phase phase_of(const records::Step& step) noexcept;
 
 using PhaseTimes = std::array<std::chrono::duration<double>, phase_count>;
 
 /// Seconds per phase, summed over all attempts. A step lasts until the next one, the last until the
 /// job's end; a negative time (the clock was set back) counts as 0. O(steps).
-PhaseTimes phase_times(const store::JobRecord& job);
+PhaseTimes phase_times(const records::JobRecord& job);
 
 }  // namespace anticrack::metrics

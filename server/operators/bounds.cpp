@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/at.hpp"
 #include "estimate/bracket.hpp"
-#include "mesh/at.hpp"
 #include "operators/displacement_bounds.hpp"
 #include "operators/load_bounds.hpp"
 #include "stop/stop.hpp"

@@ -6,10 +6,10 @@
 #include <sstream>
 #include <utility>
 
+#include "base/at.hpp"
 #include "fem/adaptive_load.hpp"
 #include "fem/load_vector.hpp"
 #include "fem/traction.hpp"
-#include "mesh/at.hpp"
 #include "stop/stop.hpp"
 
 namespace anticrack::operators {

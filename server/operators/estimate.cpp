@@ -3,8 +3,8 @@
 #include <cmath>
 #include <vector>
 
+#include "base/at.hpp"
 #include "ddm/cut_steps.hpp"
-#include "mesh/at.hpp"
 #include "operators/mesh_operator.hpp"
 #include "stop/stop.hpp"
 

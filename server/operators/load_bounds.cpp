@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "mesh/at.hpp"
+#include "base/at.hpp"
 
 namespace anticrack::operators {
 namespace {

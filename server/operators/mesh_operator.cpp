@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <optional>
 
+#include "base/at_once.hpp"
 #include "contact/condensed_problem.hpp"
 #include "contact/joined_problem.hpp"
-#include "ddm/at_once.hpp"
 #include "ddm/blas.hpp"
 #include "operators/mesh_parts.hpp"
 #include "stop/stop.hpp"
@@ -19,8 +19,8 @@ std::vector<ddm::SubdomainOperator> factorise_subdomains(
   std::vector<std::optional<ddm::SubdomainOperator>> done(subdomains.size());
   // Where subdomains are fewer than threads, several share one.
   const int each = std::max(1, threads / std::max(1, static_cast<int>(subdomains.size())));
-  ddm::at_once(subdomains.size(), threads,
-               [&] { return [&](std::size_t s) { done[s].emplace(subdomains[s], each); }; });
+  base::at_once(subdomains.size(), threads,
+                [&] { return [&](std::size_t s) { done[s].emplace(subdomains[s], each); }; });
   std::vector<ddm::SubdomainOperator> operators;
   operators.reserve(done.size());
   for (std::optional<ddm::SubdomainOperator>& subdomain : done)

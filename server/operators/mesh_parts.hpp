@@ -10,12 +10,12 @@
 #include <string>
 #include <vector>
 
+#include "base/lazy.hpp"
 #include "contact/contact_problem.hpp"
 #include "contact/solve.hpp"
 #include "contact/sweep_solver.hpp"
 #include "contact/trace_problem.hpp"
 #include "ddm/decomposition.hpp"
-#include "ddm/lazy.hpp"
 #include "ddm/neumann_boundary.hpp"
 #include "ddm/subdomain_operator.hpp"
 #include "estimate/cut_mesh.hpp"
@@ -53,8 +53,8 @@ struct MeshOperator::Parts {
   contact::SweepGeometry sweep_geometry;
   std::vector<contact::TraceGeometry> geometry;
   mutable BasisCache bases;
-  ddm::Lazy<estimate::CutMesh> cut;             // made for the first bounds; see cut_mesh()
-  ddm::Lazy<std::vector<double>> flux_norms;    // see aims.hpp
+  base::Lazy<estimate::CutMesh> cut;            // made for the first bounds; see cut_mesh()
+  base::Lazy<std::vector<double>> flux_norms;   // see aims.hpp
   mutable std::atomic<std::size_t> at_work{0};  // bytes of Working
 
   const estimate::CutMesh& cut_mesh() const;

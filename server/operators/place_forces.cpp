@@ -8,9 +8,9 @@
 #include <map>
 #include <sstream>
 
+#include "base/at.hpp"
 #include "errors/errors.hpp"
 #include "fem/point_location.hpp"
-#include "mesh/at.hpp"
 
 namespace anticrack::operators {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <utility>
 
+#include "base/at.hpp"
 #include "contact/sweep_solver.hpp"
 #include "errors/errors.hpp"
-#include "mesh/at.hpp"
 #include "operators/mesh_parts.hpp"
 #include "stop/stop.hpp"
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <utility>
 
+#include "base/at.hpp"
 #include "errors/errors.hpp"
-#include "mesh/at.hpp"
 #include "operators/mesh_parts.hpp"
 
 namespace anticrack::operators {

@@ -86,8 +86,8 @@ bool concerns_one_connection(int number) {
          number == EHOSTUNREACH || number == EOPNOTSUPP || number == ENETUNREACH;
 }
 
-store::Descriptor event() {
-  store::Descriptor made(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
+base::Descriptor event() {
+  base::Descriptor made(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
   if (!made) throw std::system_error(errno, std::generic_category(), "cannot make an event");
   return made;
 }
@@ -127,7 +127,7 @@ Acceptor::Counts Acceptor::counts() {
 
 void Acceptor::run() {
   std::vector<pollfd> polled{{_wake.get(), POLLIN, 0}};
-  for (const store::Descriptor& socket : _listener->sockets())
+  for (const base::Descriptor& socket : _listener->sockets())
     polled.push_back({socket.get(), POLLIN, 0});
   for (;;) {
     ::poll(polled.data(), polled.size(), -1);
@@ -148,7 +148,7 @@ bool Acceptor::accept_one(int listener) {
     if (errno == EAGAIN || concerns_one_connection(errno)) return true;
     return (errno == EMFILE || errno == ENFILE) && refuse_one(listener);
   }
-  store::Descriptor owned(connection);
+  base::Descriptor owned(connection);
   // Gone already, which gRPC would tell the log, once for each.
   if (::getpeername(connection, reinterpret_cast<sockaddr*>(&peer), &size) != 0) return true;
   try {
@@ -176,7 +176,7 @@ bool Acceptor::accept_one(int listener) {
 bool Acceptor::refuse_one(int listener) {
   _spare.reset();
   const bool refused =
-      static_cast<bool>(store::Descriptor(::accept4(listener, nullptr, nullptr, SOCK_CLOEXEC)));
+      static_cast<bool>(base::Descriptor(::accept4(listener, nullptr, nullptr, SOCK_CLOEXEC)));
   _spare.emplace(::eventfd(0, EFD_CLOEXEC));
   if (!refused) return false;
   std::unique_lock lock(_mutex);

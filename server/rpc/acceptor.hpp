@@ -51,8 +51,8 @@ class Acceptor {
 
   std::optional<Listener> _listener;
   const std::string _address;
-  const store::Descriptor _wake;
-  std::optional<store::Descriptor> _spare;  ///< given up to refuse where there is no other
+  const base::Descriptor _wake;
+  std::optional<base::Descriptor> _spare;  ///< given up to refuse where there is no other
   Take _take;
 
   std::mutex _mutex;  ///< of the two

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <utility>
 
-#include "api/text.hpp"
 #include "errors/errors.hpp"
+#include "words/shown.hpp"
 
 namespace anticrack::rpc {
 namespace {
@@ -75,7 +75,7 @@ access::Identity Authentication::identify(const grpc::CallbackServerContext& cal
   if (_certificates) {
     std::string name = certificate_name(call);
     if (!name.empty() && name.size() <= max_name_bytes &&
-        api::printable(name, max_name_bytes) == name) {
+        words::printable(name, max_name_bytes) == name) {
       const bool admin = std::find(_admins.begin(), _admins.end(), name) != _admins.end();
       return {std::move(name), admin ? access::Role::admin : access::Role::user};
     }

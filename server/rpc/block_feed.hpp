@@ -11,19 +11,19 @@
 
 #include "anticrack/v1/mesh.pb.h"
 #include "api/translations.hpp"
+#include "records/block.hpp"
 #include "rpc/feed.hpp"
-#include "store/block.hpp"
 
 namespace anticrack::rpc {
 
 constexpr std::size_t max_chunk_bytes = 1u << 20;
 
 /// Throws errors::Error (offset_out_of_range) where `offset` lies past the end.
-void require_offset(const store::BlockSource& block, std::uint64_t offset);
+void require_offset(const records::BlockSource& block, std::uint64_t offset);
 
 /// The bytes from `offset` on, at most max_chunk_bytes, with their checksum. Throws errors::Error
 /// (storage).
-v1::BlockChunk chunk_of(const store::BlockSource& block, std::uint64_t offset);
+v1::BlockChunk chunk_of(const records::BlockSource& block, std::uint64_t offset);
 
 /// Reads a chunk when it is to be sent: a large block is never in memory as a whole. `next` waits
 /// for the disk. `Response` has `layout` and `chunk`.
@@ -33,7 +33,7 @@ class BlockFeed final : public Feed<Response> {
   using Next = typename Feed<Response>::Next;
 
   /// Throws errors::Error (offset_out_of_range).
-  BlockFeed(std::shared_ptr<const store::BlockSource> block, std::uint64_t offset)
+  BlockFeed(std::shared_ptr<const records::BlockSource> block, std::uint64_t offset)
       : _block(std::move(block)), _offset(offset) {
     require_offset(*_block, offset);
   }
@@ -52,7 +52,7 @@ class BlockFeed final : public Feed<Response> {
   }
 
  private:
-  const std::shared_ptr<const store::BlockSource> _block;
+  const std::shared_ptr<const records::BlockSource> _block;
   std::uint64_t _offset;
   std::size_t _arrays_sent = 0;
   bool _layout_sent = false;

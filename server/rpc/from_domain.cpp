@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "api/names.hpp"
-#include "api/text.hpp"
 #include "api/translations.hpp"
 #include "jobs/sample_run.hpp"
 #include "rpc/error_table.hpp"
+#include "words/shown.hpp"
 
 namespace anticrack::rpc {
 namespace {
@@ -25,7 +25,7 @@ bool has_answer(Status status) {
 }
 
 /// Removes what clients do not see.
-void present(const store::CaseRecord& record, v1::LoadCaseAnswer& answer) {
+void present(const records::CaseRecord& record, v1::LoadCaseAnswer& answer) {
   if (!has_answer(record.status)) {
     v1::LoadCaseAnswer bare;
     bare.set_name(answer.name());
@@ -34,12 +34,12 @@ void present(const store::CaseRecord& record, v1::LoadCaseAnswer& answer) {
   }
   if (record.error) *answer.mutable_error() = to_message(*record.error);
   for (std::string& warning : *answer.mutable_warnings())
-    warning = api::printable(warning, max_warning_bytes);
+    warning = words::printable(warning, max_warning_bytes);
 }
 
-std::int32_t load_cases_ended(const store::JobRecord& record) {
+std::int32_t load_cases_ended(const records::JobRecord& record) {
   return static_cast<std::int32_t>(
-      std::ranges::count_if(record.cases, [](const store::CaseRecord& each) {
+      std::ranges::count_if(record.cases, [](const records::CaseRecord& each) {
         return has_answer(each.status) || each.status == Status::failed;
       }));
 }
@@ -52,20 +52,20 @@ void append_rows(To& to, const std::vector<From>& from, std::size_t first, std::
 
 }  // namespace
 
-v1::LoadCaseAnswer from_domain(const store::CaseRecord& record, const std::string& name) {
+v1::LoadCaseAnswer from_domain(const records::CaseRecord& record, const std::string& name) {
   v1::LoadCaseAnswer answer = api::message(record);
   answer.set_name(name);
   present(record, answer);
   return answer;
 }
 
-v1::Job from_domain(const store::JobRecord& record) {
+v1::Job from_domain(const records::JobRecord& record) {
   v1::Job job = api::message(record);
   if (record.error) *job.mutable_error() = to_message(*record.error);
   for (int i = 0; i < job.answers_size(); ++i)
     present(record.cases[static_cast<std::size_t>(i)], *job.mutable_answers(i));
   for (v1::Job::Step& step : *job.mutable_timeline())
-    step.set_detail(api::printable(step.detail(), max_detail_text));
+    step.set_detail(words::printable(step.detail(), max_detail_text));
   job.set_load_case_count(job.load_cases_size());
   job.set_load_cases_ended(load_cases_ended(record));
   if (job.ByteSizeLong() > max_job_message_bytes)
@@ -75,7 +75,7 @@ v1::Job from_domain(const store::JobRecord& record) {
   return job;
 }
 
-v1::Job basic(store::JobRecord record) {
+v1::Job basic(records::JobRecord record) {
   const std::size_t load_cases = record.spec.loads.size();
   const std::int32_t ended = load_cases_ended(record);
   record.spec.loads.clear();
@@ -90,7 +90,7 @@ v1::Job basic(store::JobRecord record) {
   return job;
 }
 
-v1::Mesh from_domain(const store::MeshRecord& record, bool pinned) {
+v1::Mesh from_domain(const records::MeshRecord& record, bool pinned) {
   v1::Mesh mesh = api::message(record);
   if (record.error) *mesh.mutable_error() = to_message(*record.error);
   mesh.set_pinned(pinned);

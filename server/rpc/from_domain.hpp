@@ -21,19 +21,19 @@ namespace anticrack::rpc {
 constexpr std::size_t max_job_message_bytes = 3u << 20;
 
 /// `pinned`: its operators stay in memory.
-v1::Mesh from_domain(const store::MeshRecord& record, bool pinned);
+v1::Mesh from_domain(const records::MeshRecord& record, bool pinned);
 
 /// `ttl`: how long uploads are kept; 0: for ever.
 v1::Upload from_domain(const store::UploadRecord& record, std::chrono::milliseconds ttl);
 
 /// The whole job. Where it would be larger than max_job_message_bytes its contact intervals are
 /// left out: ReadResult has them as traces.
-v1::Job from_domain(const store::JobRecord& record);
+v1::Job from_domain(const records::JobRecord& record);
 /// JOB_VIEW_BASIC of it.
-v1::Job basic(store::JobRecord record);
+v1::Job basic(records::JobRecord record);
 
 /// `name` of the load case.
-v1::LoadCaseAnswer from_domain(const store::CaseRecord& record, const std::string& name);
+v1::LoadCaseAnswer from_domain(const records::CaseRecord& record, const std::string& name);
 
 /// Appends every sample to every array: one allocation an array, one copy an array and run.
 void append(v1::Samples& samples, const std::vector<jobs::SampleRun>& runs);

@@ -60,7 +60,7 @@ void set_port(Address& address, in_port_t port) {
     as<sockaddr_in>(address).sin_port = port;
 }
 
-in_port_t port_of(const store::Descriptor& socket) {
+in_port_t port_of(const base::Descriptor& socket) {
   Address address;
   address.size = sizeof(address.bytes);
   ::getsockname(socket.get(), as_socket_address(address), &address.size);
@@ -75,9 +75,9 @@ bool is_any(Address& address) {
 }
 
 /// -1 and errno where it cannot be.
-store::Descriptor listening(Address& address) {
+base::Descriptor listening(Address& address) {
   const int family = address.bytes.ss_family;
-  store::Descriptor socket(::socket(family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  base::Descriptor socket(::socket(family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   if (!socket) return socket;
   const int on = 1;
   const int off = 0;
@@ -88,9 +88,9 @@ store::Descriptor listening(Address& address) {
       ::listen(socket.get(), SOMAXCONN) == 0)
     return socket;
   const int number = errno;
-  { const store::Descriptor closed = std::move(socket); }
+  { const base::Descriptor closed = std::move(socket); }
   errno = number;
-  return store::Descriptor();
+  return base::Descriptor();
 }
 
 std::vector<Address> resolve(const std::string& listen) {
@@ -117,7 +117,7 @@ std::vector<Address> resolve(const std::string& listen) {
 }
 
 /// Both families, as one socket where the machine has IPv6.
-std::vector<store::Descriptor> listen_to_all(Address given) {
+std::vector<base::Descriptor> listen_to_all(Address given) {
   sockaddr_in6 six{};
   six.sin6_family = AF_INET6;
   six.sin6_port = given.bytes.ss_family == AF_INET6 ? as<sockaddr_in6>(given).sin6_port
@@ -125,9 +125,9 @@ std::vector<store::Descriptor> listen_to_all(Address given) {
   sockaddr_in four{};
   four.sin_family = AF_INET;
   four.sin_port = six.sin6_port;
-  std::vector<store::Descriptor> sockets;
+  std::vector<base::Descriptor> sockets;
   for (Address address : {make_address(six), make_address(four)}) {
-    store::Descriptor socket = listening(address);
+    base::Descriptor socket = listening(address);
     const bool family_is_missing = !socket && (errno == EAFNOSUPPORT || errno == EADDRNOTAVAIL);
     if (socket) sockets.push_back(std::move(socket));
     if (!family_is_missing) break;
@@ -135,8 +135,8 @@ std::vector<store::Descriptor> listen_to_all(Address given) {
   return sockets;
 }
 
-std::vector<store::Descriptor> listen_to(const std::string& listen) {
-  std::vector<store::Descriptor> sockets;
+std::vector<base::Descriptor> listen_to(const std::string& listen) {
+  std::vector<base::Descriptor> sockets;
   in_port_t port = 0;
   int number = 0;
   for (Address address : resolve(listen)) {
@@ -146,7 +146,7 @@ std::vector<store::Descriptor> listen_to(const std::string& listen) {
       break;
     }
     if (port != 0) set_port(address, port);
-    store::Descriptor socket = listening(address);
+    base::Descriptor socket = listening(address);
     if (!socket) {
       number = errno;
       continue;
@@ -176,7 +176,7 @@ Listener::Listener(const std::string& listen) {
   if (path.size() >= sizeof(name.sun_path)) refuse(listen, ENAMETOOLONG);
   std::memcpy(name.sun_path, path.c_str(), path.size() + 1);
   Address address = make_address(name);
-  store::Descriptor socket = listening(address);
+  base::Descriptor socket = listening(address);
   if (!socket) refuse(listen, errno);
   _sockets.push_back(std::move(socket));
   _address = listen;

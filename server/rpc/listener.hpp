@@ -26,10 +26,10 @@ class Listener {
   /// HOST:PORT with the real port, or unix:PATH.
   const std::string& address() const noexcept { return _address; }
   /// They do not block.
-  const std::vector<store::Descriptor>& sockets() const noexcept { return _sockets; }
+  const std::vector<base::Descriptor>& sockets() const noexcept { return _sockets; }
 
  private:
-  std::vector<store::Descriptor> _sockets;
+  std::vector<base::Descriptor> _sockets;
   std::string _address;
   std::string _path;  ///< of a unix socket, else empty
   ino_t _inode = 0;   ///< of that path

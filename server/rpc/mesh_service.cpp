@@ -20,11 +20,11 @@ using access::Identity;
 using errors::Error;
 using errors::Reason;
 
-v1::Mesh MeshService::summary(const store::MeshRecord& record) const {
+v1::Mesh MeshService::summary(const records::MeshRecord& record) const {
   return from_domain(record, _edge.backend.catalogue.pinned(record.id));
 }
 
-v1::Mesh MeshService::to_answer(const store::MeshRecord& record) const {
+v1::Mesh MeshService::to_answer(const records::MeshRecord& record) const {
   v1::Mesh mesh = summary(record);
   api::write_definition(record.definition, mesh);
   return mesh;
@@ -34,7 +34,7 @@ Unary* MeshService::CreateMesh(Context* context, const v1::CreateMeshRequest* re
                                v1::Mesh* response) {
   return create(_edge, context, *request, [this, request, response](const Identity& who) {
     _edge.admission.require_open();
-    const store::MeshDefinition definition = api::to_definition(*request);
+    const records::MeshDefinition definition = api::to_definition(*request);
     try {
       *response = to_answer(_edge.backend.catalogue.create(definition, request->title(), who.name,
                                                            request->for_job()));
@@ -60,7 +60,7 @@ Unary* MeshService::ListMeshes(Context* context, const v1::ListMeshesRequest* re
         [&](const std::string& after, std::size_t count) {
           return _edge.backend.catalogue.list({after, count, owner_filter(who, request->owner())});
         },
-        [&](const store::MeshRecord& record) {
+        [&](const records::MeshRecord& record) {
           return (*response->add_meshes() = summary(record)).ByteSizeLong();
         }));
   });

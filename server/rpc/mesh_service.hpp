@@ -4,8 +4,8 @@
 #include <grpcpp/grpcpp.h>
 
 #include "anticrack/v1/mesh.grpc.pb.h"
+#include "records/records.hpp"
 #include "rpc/edge.hpp"
-#include "store/records.hpp"
 
 namespace anticrack::rpc {
 
@@ -30,8 +30,8 @@ class MeshService final : public v1::MeshService::CallbackService {
 
  private:
   /// Without its definition.
-  v1::Mesh summary(const store::MeshRecord& record) const;
-  v1::Mesh to_answer(const store::MeshRecord& record) const;
+  v1::Mesh summary(const records::MeshRecord& record) const;
+  v1::Mesh to_answer(const records::MeshRecord& record) const;
 
   Edge& _edge;
 };

@@ -34,7 +34,7 @@ Unary* SolveService::CreateJob(Context* context, const v1::CreateJobRequest* req
       *response = from_domain(*made);
       return;
     }
-    store::JobSpec spec = api::to_spec(
+    records::JobSpec spec = api::to_spec(
         request->job(),
         {options.max_load_cases, options.max_iterations, options.queue_time, options.run_time});
     try {
@@ -52,7 +52,8 @@ Unary* SolveService::CreateJob(Context* context, const v1::CreateJobRequest* req
 
 Unary* SolveService::GetJob(Context* context, const v1::GetJobRequest* request, v1::Job* response) {
   return look_up(_edge, context, *request, [this, request, response](const Identity& who) {
-    store::JobRecord record = visible_job(_edge.backend, who, api::job_id(request->name(), "name"));
+    records::JobRecord record =
+        visible_job(_edge.backend, who, api::job_id(request->name(), "name"));
     *response =
         request->view() == v1::JOB_VIEW_BASIC ? basic(std::move(record)) : from_domain(record);
   });
@@ -68,7 +69,7 @@ Unary* SolveService::ListJobs(Context* context, const v1::ListJobsRequest* reque
           return _edge.backend.engine.list(
               {after, count, owner_filter(who, request->owner()), request->oldest_first()});
         },
-        [&](store::JobRecord& record) -> std::size_t {
+        [&](records::JobRecord& record) -> std::size_t {
           if (!mesh.empty() && record.spec.mesh != mesh) return 0;
           if (!request->states().empty() &&
               !std::ranges::count(request->states(), static_cast<int>(record.state)))

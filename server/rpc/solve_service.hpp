@@ -4,8 +4,8 @@
 #include <grpcpp/grpcpp.h>
 
 #include "anticrack/v1/solve.grpc.pb.h"
+#include "records/records.hpp"
 #include "rpc/edge.hpp"
-#include "store/records.hpp"
 
 namespace anticrack::rpc {
 

@@ -2,10 +2,10 @@
 #include "rpc/sweep_upload.hpp"
 
 #include "api/requests.hpp"
+#include "digest/digest.hpp"
 #include "errors/errors.hpp"
 #include "rpc/block_feed.hpp"
 #include "rpc/upload_receiver.hpp"
-#include "store/digest.hpp"
 
 namespace anticrack::rpc {
 
@@ -21,7 +21,7 @@ void keep_packed_matrix(const v1::Job& job, store::Store& store, const std::stri
   const std::string& packed = matrix->packed();
   v1::CreateUploadsRequest header;
   header.mutable_header()->set_size(packed.size());
-  header.mutable_header()->set_sha256(store::Sha256().add(packed).finish());
+  header.mutable_header()->set_sha256(digest::Sha256().add(packed).finish());
   header.mutable_header()->set_kind(v1::Upload::KIND_ARRAY);
   v1::CreateUploadsRequest values;
   values.set_chunk(packed);

@@ -219,7 +219,7 @@ std::vector<store::UploadRecord> UploadReceiver::complete() {
   std::vector<store::Upload> uploads;
   for (std::size_t i = 0; i < files.size(); ++i)
     uploads.push_back({files[i]->path(), _records[i].id});
-  const store::Clock::time_point now = _store.keep_uploads(uploads, _owner);
+  const records::Clock::time_point now = _store.keep_uploads(uploads, _owner);
   for (const auto& file : files) file->release();
   for (store::UploadRecord& record : _records) record.created = now;
   return std::move(_records);

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "anticrack/v1/upload.pb.h"
+#include "digest/digest.hpp"
 #include "store/array_upload.hpp"
-#include "store/digest.hpp"
 #include "store/store.hpp"
 
 namespace anticrack::rpc {
@@ -52,7 +52,7 @@ class UploadReceiver {
   std::vector<std::unique_ptr<File>> _complete;
   std::vector<store::UploadRecord> _records;  ///< of these
   std::unique_ptr<File> _file;                ///< that is being received
-  store::Sha256 _hash;
+  digest::Sha256 _hash;
   std::string _announced_sha256;
   std::uint64_t _announced_bytes = 0;
   std::optional<store::ArrayCheck> _array;  ///< for an array, not a .msh

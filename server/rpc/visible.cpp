@@ -25,13 +25,13 @@ auto visible(const access::Identity& who, const std::string& name, Get get) {
 
 }  // namespace
 
-store::MeshRecord visible_mesh(const Backend& backend, const access::Identity& who,
-                               const std::string& id) {
+records::MeshRecord visible_mesh(const Backend& backend, const access::Identity& who,
+                                 const std::string& id) {
   return visible(who, api::mesh_name(id), [&] { return backend.catalogue.get(id); });
 }
 
-store::JobRecord visible_job(const Backend& backend, const access::Identity& who,
-                             const std::string& id) {
+records::JobRecord visible_job(const Backend& backend, const access::Identity& who,
+                               const std::string& id) {
   return visible(who, api::job_name(id), [&] { return backend.engine.get(id); });
 }
 

@@ -8,16 +8,16 @@
 #include <string>
 
 #include "access/identity.hpp"
+#include "records/records.hpp"
 #include "rpc/backend.hpp"
-#include "store/records.hpp"
 
 namespace anticrack::rpc {
 
 /// The record of an id. Throw errors::Error (not_found).
-store::MeshRecord visible_mesh(const Backend& backend, const access::Identity& who,
+records::MeshRecord visible_mesh(const Backend& backend, const access::Identity& who,
+                                 const std::string& id);
+records::JobRecord visible_job(const Backend& backend, const access::Identity& who,
                                const std::string& id);
-store::JobRecord visible_job(const Backend& backend, const access::Identity& who,
-                             const std::string& id);
 
 /// What Page::owner is to be: an administrator sees all, or what is of `owner` (empty: no filter).
 /// Throws errors::Error (permission_denied) where a user asks for what is another's.

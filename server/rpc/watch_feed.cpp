@@ -68,7 +68,7 @@ bool WatchFeed::heartbeat(v1::WatchJobResponse& response) {
 }
 
 void WatchFeed::fill_snapshot(v1::WatchJobResponse& response) {
-  const store::JobRecord record = _backend.engine.get(_id);
+  const records::JobRecord record = _backend.engine.get(_id);
   for (const fem::Load& load : record.spec.loads) _load_names.push_back(load.name);
   _state = static_cast<v1::Job::State>(record.state);
   v1::WatchJobResponse::Snapshot& snapshot = *response.mutable_snapshot();

@@ -54,7 +54,7 @@ bool begins_like_msh(std::span<const std::byte> start) {
 }
 
 std::size_t array_length(const std::string& path) {
-  const Descriptor file = open_to_read(path);
+  const base::Descriptor file = open_to_read(path);
   if (!file) throw unreadable(path);
   const std::uint64_t bytes = file_size(file, path);
   std::array<std::byte, 16> start{};
@@ -91,7 +91,7 @@ void ArrayCheck::add(std::span<const std::byte> bytes) {
 
 std::vector<double> read_array_part(const std::string& path, std::uint64_t first,
                                     std::size_t count) {
-  const Descriptor file = open_to_read(path);
+  const base::Descriptor file = open_to_read(path);
   if (!file) throw unreadable(path);
   std::vector<double> values(count);
   read_at(file, path, first * sizeof(double), std::as_writable_bytes(std::span(values)));
@@ -100,7 +100,7 @@ std::vector<double> read_array_part(const std::string& path, std::uint64_t first
 
 std::vector<double> read_array(const std::string& path) {
   std::vector<double> values(array_length(path));
-  const Descriptor file = open_to_read(path);
+  const base::Descriptor file = open_to_read(path);
   if (!file) throw unreadable(path);
   read_at(file, path, 0, std::as_writable_bytes(std::span(values)));
   require_finite(values, 0);

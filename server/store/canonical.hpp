@@ -9,8 +9,8 @@
 #include <span>
 #include <string>
 
+#include "digest/digest.hpp"
 #include "fields/walk.hpp"
-#include "store/digest.hpp"
 
 namespace anticrack::store {
 
@@ -45,7 +45,7 @@ class CanonicalHash {
   std::string finish() { return _hash.finish(); }
 
  private:
-  Sha256 _hash;
+  digest::Sha256 _hash;
 };
 
 }  // namespace anticrack::store

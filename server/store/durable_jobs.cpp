@@ -3,8 +3,8 @@
 #include <utility>
 #include <variant>
 
+#include "digest/digest.hpp"
 #include "stop/stop.hpp"
-#include "store/digest.hpp"
 #include "store/durable_store.hpp"
 #include "store/record_codec.hpp"
 #include "store/result_file.hpp"
@@ -20,7 +20,7 @@ namespace {
 /// as the flush of the database that follows; a few pages more cost that one nothing.
 constexpr std::size_t most_small_result = std::size_t{32} << 10U;
 
-std::set<std::string> uploads_of(const JobSpec& spec) {
+std::set<std::string> uploads_of(const records::JobSpec& spec) {
   std::set<std::string> uploads;
   for (const fem::Load& load : spec.loads)
     if (const auto* array = std::get_if<fem::Array>(&load.force)) uploads.insert(array->upload);
@@ -28,20 +28,20 @@ std::set<std::string> uploads_of(const JobSpec& spec) {
   return uploads;
 }
 
-void bind_end(Statement& statement, const JobRecord& record) {
+void bind_end(Statement& statement, const records::JobRecord& record) {
   if (ended(record.state))
     statement.bind(to_disk(record.ended.value_or(record.created)));
   else
     statement.bind_null();
 }
 
-void insert(Connection& connection, const JobRecord& record, const std::string& fingerprint,
-            const std::string& bytes) {
+void insert(Connection& connection, const records::JobRecord& record,
+            const std::string& fingerprint, const std::string& bytes) {
   {
     Statement statement = connection.prepare(
         "INSERT INTO jobs (id, owner, request, fingerprint, ended, result, result_bytes, record, "
         "checksum) VALUES (?1, ?2, ?3, ?4, ?5, '', 0, ?6, "
-        "crc32c(?1, ?2, ?3, ?4, ?5, '', 0, ?6))");
+        "digest::crc32c(?1, ?2, ?3, ?4, ?5, '', 0, ?6))");
     statement.bind(std::string_view(record.id))
         .bind(std::string_view(record.owner))
         .bind(std::string_view(record.request_id))
@@ -58,7 +58,7 @@ void insert(Connection& connection, const JobRecord& record, const std::string& 
 }
 
 /// The job the owner made with this request id before.
-std::optional<Row> find_request(Connection& connection, const JobRecord& record,
+std::optional<Row> find_request(Connection& connection, const records::JobRecord& record,
                                 const std::string& fingerprint) {
   if (record.request_id.empty()) return std::nullopt;
   Statement select = connection.prepare(
@@ -89,11 +89,11 @@ struct ResultColumns {
   std::uint64_t bytes = 0;  ///< of the block
 };
 
-void end(Connection& connection, const JobRecord& record, const ResultColumns& result,
+void end(Connection& connection, const records::JobRecord& record, const ResultColumns& result,
          const std::string& bytes) {
   Statement update = connection.prepare(
       "UPDATE jobs SET ended = ?1, result = ?2, small_result = ?3, result_bytes = ?4, record = ?5, "
-      "checksum = crc32c(?6, ?7, ?8, fingerprint, ?1, ?2, ?4, ?5) WHERE id = ?6");
+      "checksum = digest::crc32c(?6, ?7, ?8, fingerprint, ?1, ?2, ?4, ?5) WHERE id = ?6");
   bind_end(update, record);
   update.bind(std::string_view(result.name));
   if (result.small.empty())
@@ -108,8 +108,8 @@ void end(Connection& connection, const JobRecord& record, const ResultColumns& r
       .run();
 }
 
-std::vector<JobRecord> jobs_of(const std::vector<Row>& rows) {
-  std::vector<JobRecord> records;
+std::vector<records::JobRecord> jobs_of(const std::vector<Row>& rows) {
+  std::vector<records::JobRecord> records;
   records.reserve(rows.size());
   for (const Row& row : rows) records.push_back(job_of(row));
   return records;
@@ -117,7 +117,8 @@ std::vector<JobRecord> jobs_of(const std::vector<Row>& rows) {
 
 }  // namespace
 
-JobRecord DurableStore::create(const JobRecord& record, const std::string& fingerprint) {
+records::JobRecord DurableStore::create(const records::JobRecord& record,
+                                        const std::string& fingerprint) {
   const std::string bytes = encode(record);
   std::optional<Row> existing;
   _writer.run([&](Connection& connection) {
@@ -127,20 +128,20 @@ JobRecord DurableStore::create(const JobRecord& record, const std::string& finge
   return existing ? job_of(*existing) : record;
 }
 
-std::optional<JobRecord> DurableStore::created_before(const JobRecord& record,
-                                                      const std::string& fingerprint) const {
+std::optional<records::JobRecord> DurableStore::created_before(
+    const records::JobRecord& record, const std::string& fingerprint) const {
   const auto existing = reading(
       [&](Connection& connection) { return find_request(connection, record, fingerprint); });
   return existing ? std::optional(job_of(*existing)) : std::nullopt;
 }
 
-void DurableStore::put(const JobRecord& record) {
+void DurableStore::put(const records::JobRecord& record) {
   const std::string bytes = encode(record);
   _writer.run(
       [&](Connection& connection) {
         Statement update = connection.prepare(
             "UPDATE jobs SET ended = ?1, record = ?2, checksum = "
-            "crc32c(?3, ?4, ?5, fingerprint, ?1, result, result_bytes, ?2) WHERE id = ?3");
+            "digest::crc32c(?3, ?4, ?5, fingerprint, ?1, result, result_bytes, ?2) WHERE id = ?3");
         bind_end(update, record);
         update.bind_blob(bytes)
             .bind(std::string_view(record.id))
@@ -157,7 +158,8 @@ std::shared_ptr<Spool> DurableStore::new_spool() {
                                  [this](std::uint64_t bytes) { return reserve(bytes); });
 }
 
-void DurableStore::finish(const JobRecord& record, std::shared_ptr<const BlockSource> result) {
+void DurableStore::finish(const records::JobRecord& record,
+                          std::shared_ptr<const records::BlockSource> result) {
   const std::string bytes = encode(record);
   std::optional<DiskUsage::Reservation> reservation;
   std::optional<Part> file;
@@ -171,7 +173,7 @@ void DurableStore::finish(const JobRecord& record, std::shared_ptr<const BlockSo
       columns.small.resize(header.size() + columns.bytes);
       result->read(0, std::as_writable_bytes(std::span(columns.small)).subspan(header.size()));
     } else {
-      columns.name = Sha256().add(header).finish();
+      columns.name = digest::Sha256().add(header).finish();
       file.emplace(_results.write(std::as_bytes(std::span(header)), columns.bytes,
                                   [&](std::uint64_t offset, std::span<std::byte> to) {
                                     stop::look("writing a result");
@@ -192,24 +194,25 @@ void DurableStore::finish(const JobRecord& record, std::shared_ptr<const BlockSo
   });
 }
 
-std::optional<JobRecord> DurableStore::job(const std::string& id) const {
+std::optional<records::JobRecord> DurableStore::job(const std::string& id) const {
   const std::optional<Row> found = row(FileKind::result, id);
   return found ? std::optional(job_of(*found)) : std::nullopt;
 }
 
-std::vector<JobRecord> DurableStore::jobs(const Page& asked) const {
+std::vector<records::JobRecord> DurableStore::jobs(const Page& asked) const {
   return jobs_of(page(FileKind::result, asked));
 }
 
-std::vector<JobRecord> DurableStore::unfinished() const {
-  std::vector<JobRecord> records = jobs_of(reading([](Connection& connection) {
+std::vector<records::JobRecord> DurableStore::unfinished() const {
+  std::vector<records::JobRecord> records = jobs_of(reading([](Connection& connection) {
     std::vector<Row> rows;
     Statement select =
         connection.prepare(select_rows(FileKind::result) + " WHERE ended IS NULL ORDER BY number");
     while (select.step()) rows.push_back(row_at(select));
     return rows;
   }));
-  std::erase_if(records, [](const JobRecord& record) { return store::ended(record.state); });
+  std::erase_if(records,
+                [](const records::JobRecord& record) { return records::ended(record.state); });
   return records;
 }
 
@@ -235,7 +238,7 @@ std::vector<EndedJob> DurableStore::ended() const {
   });
 }
 
-std::shared_ptr<const BlockSource> DurableStore::result(const std::string& job) const {
+std::shared_ptr<const records::BlockSource> DurableStore::result(const std::string& job) const {
   const auto look = [&]() -> ResultColumns {
     return reading([&](Connection& connection) {
       if (const std::optional<Row> row = find_row(connection, FileKind::result, job))
@@ -251,7 +254,8 @@ std::shared_ptr<const BlockSource> DurableStore::result(const std::string& job) 
   ResultColumns found = look();
   while (!found.name.empty()) {
     const std::string path = _results.path(found.name);
-    if (Descriptor file = open_to_read(path)) return open_result(std::move(file), path, found.name);
+    if (base::Descriptor file = open_to_read(path))
+      return open_result(std::move(file), path, found.name);
     ResultColumns now = look();  // it may have expired just now
     if (now.name == found.name) {
       throw Error(Reason::storage, "the result of jobs/" + job + " is not in " + path +
@@ -264,11 +268,11 @@ std::shared_ptr<const BlockSource> DurableStore::result(const std::string& job) 
              : open_result(std::move(found.small), "the row of jobs/" + job);
 }
 
-void DurableStore::expire(const std::string& job, Clock::time_point now) {
+void DurableStore::expire(const std::string& job, records::Clock::time_point now) {
   _writer.run([&](Connection& connection) {
     const std::string result = result_name(connection, job);
-    JobRecord record = read_job(*find_row(connection, FileKind::result, job));
-    if (!store::ended(record.state))
+    records::JobRecord record = read_job(*find_row(connection, FileKind::result, job));
+    if (!records::ended(record.state))
       throw Error(Reason::in_use, "jobs/" + job + " has not ended: cancel it first");
     record.expired = now;
     record.result_bytes = 0;

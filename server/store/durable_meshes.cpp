@@ -13,14 +13,14 @@ using errors::Reason;
 
 namespace {
 
-std::string upload_of(const MeshRecord& record) {
-  const auto* upload = std::get_if<UploadRef>(&record.definition);
+std::string upload_of(const records::MeshRecord& record) {
+  const auto* upload = std::get_if<records::UploadRef>(&record.definition);
   return upload == nullptr ? std::string() : upload->sha256;
 }
 
 }  // namespace
 
-void DurableStore::save(Connection& connection, const MeshRecord& record,
+void DurableStore::save(Connection& connection, const records::MeshRecord& record,
                         const std::string& bytes) {
   {
     Statement select =
@@ -31,7 +31,7 @@ void DurableStore::save(Connection& connection, const MeshRecord& record,
   const std::string upload = upload_of(record);
   Statement upsert = connection.prepare(
       "INSERT INTO meshes (id, owner, sha256, upload, record, checksum) "
-      "VALUES (?1, ?2, ?3, ?4, ?5, crc32c(?1, ?2, ?3, ?4, ?5)) "
+      "VALUES (?1, ?2, ?3, ?4, ?5, digest::crc32c(?1, ?2, ?3, ?4, ?5)) "
       "ON CONFLICT (id) DO UPDATE SET owner = excluded.owner, sha256 = excluded.sha256, "
       "upload = excluded.upload, record = excluded.record, checksum = excluded.checksum");
   upsert.bind(std::string_view(record.id))
@@ -42,12 +42,12 @@ void DurableStore::save(Connection& connection, const MeshRecord& record,
       .run();
 }
 
-void DurableStore::put(const MeshRecord& record) {
+void DurableStore::put(const records::MeshRecord& record) {
   const std::string bytes = encode(record);
   _writer.run([&](Connection& connection) { save(connection, record, bytes); });
 }
 
-void DurableStore::put(const MeshRecord& record, const mesh::Mesh& triangulation) {
+void DurableStore::put(const records::MeshRecord& record, const mesh::Mesh& triangulation) {
   const mesh::Bytes encoded = mesh::encode(triangulation);
   if (sha256_of(encoded) != record.sha256)
     throw Error(Reason::internal, "meshes/" + record.id + " comes with another triangulation");
@@ -63,13 +63,13 @@ void DurableStore::put(const MeshRecord& record, const mesh::Mesh& triangulation
   });
 }
 
-std::optional<MeshRecord> DurableStore::mesh(const std::string& id) const {
+std::optional<records::MeshRecord> DurableStore::mesh(const std::string& id) const {
   const std::optional<Row> found = row(FileKind::mesh, id);
   return found ? std::optional(mesh_of(*found)) : std::nullopt;
 }
 
-std::vector<MeshRecord> DurableStore::meshes(const Page& asked) const {
-  std::vector<MeshRecord> found;
+std::vector<records::MeshRecord> DurableStore::meshes(const Page& asked) const {
+  std::vector<records::MeshRecord> found;
   for (const Row& row : page(FileKind::mesh, asked)) found.push_back(mesh_of(row));
   return found;
 }

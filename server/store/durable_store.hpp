@@ -30,40 +30,42 @@ class DurableStore final : public Store {
   /// (storage, disk_full).
   explicit DurableStore(const StoreOptions& options);
 
-  void put(const MeshRecord& record) override;
-  void put(const MeshRecord& record, const mesh::Mesh& triangulation) override;
-  std::optional<MeshRecord> mesh(const std::string& id) const override;
-  std::vector<MeshRecord> meshes(const Page& page) const override;
+  void put(const records::MeshRecord& record) override;
+  void put(const records::MeshRecord& record, const mesh::Mesh& triangulation) override;
+  std::optional<records::MeshRecord> mesh(const std::string& id) const override;
+  std::vector<records::MeshRecord> meshes(const Page& page) const override;
   std::size_t mesh_count() const override;
   void erase_mesh(const std::string& id) override;
   std::shared_ptr<const mesh::Mesh> triangulation(const std::string& sha256) const override;
 
-  JobRecord create(const JobRecord& record, const std::string& fingerprint) override;
-  std::optional<JobRecord> created_before(const JobRecord& record,
-                                          const std::string& fingerprint) const override;
-  void put(const JobRecord& record) override;
+  records::JobRecord create(const records::JobRecord& record,
+                            const std::string& fingerprint) override;
+  std::optional<records::JobRecord> created_before(const records::JobRecord& record,
+                                                   const std::string& fingerprint) const override;
+  void put(const records::JobRecord& record) override;
   std::shared_ptr<Spool> new_spool() override;
-  void finish(const JobRecord& record, std::shared_ptr<const BlockSource> result) override;
-  std::optional<JobRecord> job(const std::string& id) const override;
-  std::vector<JobRecord> jobs(const Page& page) const override;
-  std::vector<JobRecord> unfinished() const override;
+  void finish(const records::JobRecord& record,
+              std::shared_ptr<const records::BlockSource> result) override;
+  std::optional<records::JobRecord> job(const std::string& id) const override;
+  std::vector<records::JobRecord> jobs(const Page& page) const override;
+  std::vector<records::JobRecord> unfinished() const override;
   bool set_running(bool running) override;
   std::vector<EndedJob> ended() const override;
-  std::shared_ptr<const BlockSource> result(const std::string& job) const override;
-  void expire(const std::string& job, Clock::time_point now) override;
+  std::shared_ptr<const records::BlockSource> result(const std::string& job) const override;
+  void expire(const std::string& job, records::Clock::time_point now) override;
   void erase_job(const std::string& id) override;
 
   std::optional<std::string> upload_path(const std::string& sha256,
                                          const std::string& owner) const override;
   std::string new_upload_path(std::uint64_t bytes) override;
-  Clock::time_point keep_uploads(const std::vector<Upload>& uploads,
-                                 const std::string& owner) override;
+  records::Clock::time_point keep_uploads(const std::vector<Upload>& uploads,
+                                          const std::string& owner) override;
   std::optional<UploadRecord> upload(const std::string& sha256,
                                      const std::string& owner) const override;
   std::vector<UploadRecord> uploads(const std::string& owner, const std::string& after,
                                     std::size_t count) const override;
   void erase_upload(const std::string& sha256, const std::string& owner) override;
-  std::size_t expire_uploads(Clock::time_point before) override;
+  std::size_t expire_uploads(records::Clock::time_point before) override;
 
   Usage usage() const override;
   std::vector<OwnerUsage> owners() const override;
@@ -78,7 +80,7 @@ class DurableStore final : public Store {
   std::uint64_t database_bytes() const;
   DiskUsage::Reservation reserve(std::uint64_t bytes);
   void remove_unreferenced(Connection& connection);
-  void save(Connection& connection, const MeshRecord& record, const std::string& bytes);
+  void save(Connection& connection, const records::MeshRecord& record, const std::string& bytes);
 
   template <class Read>
   auto reading(Read&& read) const {

@@ -17,7 +17,7 @@ namespace {
 
 /// Fills in what the file says.
 void look_at(const std::string& path, UploadRecord& upload) {
-  const Descriptor file = open_to_read(path);
+  const base::Descriptor file = open_to_read(path);
   if (!file) return;
   upload.bytes = file_size(file, path);
   std::array<std::byte, 16> buffer{};
@@ -56,8 +56,8 @@ std::string DurableStore::new_upload_path(std::uint64_t bytes) {
   return path;
 }
 
-Clock::time_point DurableStore::keep_uploads(const std::vector<Upload>& uploads,
-                                             const std::string& owner) {
+records::Clock::time_point DurableStore::keep_uploads(const std::vector<Upload>& uploads,
+                                                      const std::string& owner) {
   std::vector<std::string> flushed;  // where the bytes are on the disk
   std::vector<std::string> to_flush;
   std::vector<bool> damaged;  // what has the name already
@@ -83,7 +83,7 @@ Clock::time_point DurableStore::keep_uploads(const std::vector<Upload>& uploads,
   }
   flush_all(to_flush);
   for (const std::string& path : to_flush) _parts.mark_flushed(path);
-  const Clock::time_point now = Clock::now();
+  const records::Clock::time_point now = records::Clock::now();
   // Links, so that the uploads are still there when this fails and is tried again.
   _writer.run([&](Connection& connection) {
     for (std::size_t i = 0; i < uploads.size(); ++i) {
@@ -98,7 +98,7 @@ Clock::time_point DurableStore::keep_uploads(const std::vector<Upload>& uploads,
       connection
           .prepare(
               "INSERT OR REPLACE INTO uploads (sha256, owner, created, checksum) "
-              "VALUES (?1, ?2, ?3, crc32c(?1, ?2, ?3))")
+              "VALUES (?1, ?2, ?3, digest::crc32c(?1, ?2, ?3))")
           .bind(std::string_view(upload.sha256))
           .bind(std::string_view(owner))
           .bind(to_disk(now))
@@ -164,7 +164,7 @@ void DurableStore::erase_upload(const std::string& sha256, const std::string& ow
   });
 }
 
-std::size_t DurableStore::expire_uploads(Clock::time_point before) {
+std::size_t DurableStore::expire_uploads(records::Clock::time_point before) {
   std::size_t removed = 0;
   _writer.run([&](Connection& connection) {
     Statement erase = connection.prepare(

@@ -16,8 +16,8 @@
 #include <thread>
 #include <utility>
 
+#include "digest/digest.hpp"
 #include "stop/stop.hpp"
-#include "store/digest.hpp"
 #include "store/disk_errors.hpp"
 
 namespace anticrack::store {
@@ -30,13 +30,13 @@ constexpr std::string_view part_prefix = "part-";
 
 constexpr std::size_t copy_bytes = std::size_t{1} << 20U;
 
-Descriptor open_to_write(const std::string& path) {
-  Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+base::Descriptor open_to_write(const std::string& path) {
+  base::Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
   if (!file) throw disk_error("open " + path, errno);
   return file;
 }
 
-void flush_file(const Descriptor& file, const std::string& path) {
+void flush_file(const base::Descriptor& file, const std::string& path) {
   if (::fsync(file.get()) != 0) throw disk_error("flush " + path, errno);
 }
 
@@ -78,7 +78,7 @@ void make_folder(const std::string& path) {
 }
 
 void flush(const std::string& path) {
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  const base::Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (!file) throw disk_error("flush " + path, errno);
   flush_file(file, path);
 }
@@ -117,27 +117,19 @@ std::optional<std::uint64_t> file_size(const std::string& path) noexcept {
   return static_cast<std::uint64_t>(status.st_size);
 }
 
-Descriptor::~Descriptor() {
-  if (_number >= 0) {
-    const int code = errno;
-    ::close(_number);
-    errno = code;  // of the call that failed, which is yet to be reported
-  }
-}
-
-Descriptor open_to_read(const std::string& path) {
-  Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+base::Descriptor open_to_read(const std::string& path) {
+  base::Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (!file && errno != ENOENT) throw disk_error("open " + path, errno);
   return file;
 }
 
-std::uint64_t file_size(const Descriptor& file, const std::string& path) {
+std::uint64_t file_size(const base::Descriptor& file, const std::string& path) {
   struct stat status {};
   if (::fstat(file.get(), &status) != 0) throw disk_error("read " + path, errno);
   return static_cast<std::uint64_t>(status.st_size);
 }
 
-void read_at(const Descriptor& file, const std::string& path, std::uint64_t offset,
+void read_at(const base::Descriptor& file, const std::string& path, std::uint64_t offset,
              std::span<std::byte> bytes) {
   while (!bytes.empty()) {
     const ssize_t count =
@@ -153,7 +145,7 @@ void read_at(const Descriptor& file, const std::string& path, std::uint64_t offs
   }
 }
 
-void write_at(const Descriptor& file, const std::string& path, std::uint64_t offset,
+void write_at(const base::Descriptor& file, const std::string& path, std::uint64_t offset,
               std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
     const ssize_t count =
@@ -166,7 +158,7 @@ void write_at(const Descriptor& file, const std::string& path, std::uint64_t off
 }
 
 std::optional<std::vector<std::byte>> read_file(const std::string& path) {
-  const Descriptor file = open_to_read(path);
+  const base::Descriptor file = open_to_read(path);
   if (!file) return std::nullopt;
   std::vector<std::byte> bytes(static_cast<std::size_t>(file_size(file, path)));
   read_at(file, path, 0, bytes);
@@ -174,18 +166,18 @@ std::optional<std::vector<std::byte>> read_file(const std::string& path) {
 }
 
 std::string sha256_of(const std::string& path) {
-  const Descriptor file = open_to_read(path);
-  return file ? sha256_of(file_size(file, path),
-                          [&](std::uint64_t offset, std::span<std::byte> bytes) {
-                            stop::look("reading a file");
-                            read_at(file, path, offset, bytes);
-                          })
+  const base::Descriptor file = open_to_read(path);
+  return file ? digest::sha256_of(file_size(file, path),
+                                  [&](std::uint64_t offset, std::span<std::byte> bytes) {
+                                    stop::look("reading a file");
+                                    read_at(file, path, offset, bytes);
+                                  })
               : std::string();
 }
 
 std::string sha256_of(std::span<const std::byte> bytes) {
   constexpr std::size_t piece = std::size_t{1} << 20U;
-  Sha256 hash;
+  digest::Sha256 hash;
   while (!bytes.empty()) {
     stop::look("hashing a mesh");
     hash.add(bytes.first(std::min(piece, bytes.size())));
@@ -204,7 +196,7 @@ void require_intact_upload(const std::string& path, const std::string& sha256) {
 void replace_file(const std::string& path, std::span<const std::byte> bytes) {
   const std::string made = path + ".new";
   {
-    const Descriptor file(
+    const base::Descriptor file(
         ::open(made.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, S_IRUSR | S_IWUSR));
     if (!file) throw disk_error("make " + made, errno);
     write_at(file, made, 0, bytes);
@@ -230,21 +222,21 @@ bool Files::is_part(const std::string& path) const {
 
 std::string Files::new_part() const {
   std::string path = _folder + "/" + std::string(part_prefix) + "XXXXXX";
-  if (!Descriptor(::mkostemp(path.data(), O_CLOEXEC)))
+  if (!base::Descriptor(::mkostemp(path.data(), O_CLOEXEC)))
     throw disk_error("make a file in " + _folder, errno);
   return path;
 }
 
-Descriptor Files::nameless() const {
+base::Descriptor Files::nameless() const {
   const Part part(new_part());
-  Descriptor file(::open(part.path().c_str(), O_RDWR | O_CLOEXEC));
+  base::Descriptor file(::open(part.path().c_str(), O_RDWR | O_CLOEXEC));
   if (!file) throw disk_error("open " + part.path(), errno);
   return file;
 }
 
 Part Files::write(std::span<const std::byte> start, std::uint64_t size, const Read& read) const {
   Part part(new_part());
-  const Descriptor file = open_to_write(part.path());
+  const base::Descriptor file = open_to_write(part.path());
   write_at(file, part.path(), 0, start);
   std::vector<std::byte> buffer(
       static_cast<std::size_t>(std::min<std::uint64_t>(copy_bytes, size)));
@@ -258,7 +250,7 @@ Part Files::write(std::span<const std::byte> start, std::uint64_t size, const Re
 }
 
 Part Files::copy(const std::string& original) const {
-  const Descriptor from = open_to_read(original);
+  const base::Descriptor from = open_to_read(original);
   if (!from) throw disk_error("read " + original, ENOENT);
   return write({}, file_size(from, original),
                [&](std::uint64_t offset, std::span<std::byte> bytes) {

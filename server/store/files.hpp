@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/descriptor.hpp"
 #include "store/disk_usage.hpp"
 
 namespace anticrack::store {
@@ -35,32 +36,15 @@ void flush(const std::string& path);
 void flush_all(const std::vector<std::string>& paths);
 std::optional<std::uint64_t> file_size(const std::string& path) noexcept;
 
-/// An open file, closed at the end of the scope.
-class Descriptor {
- public:
-  explicit Descriptor(int number = -1) noexcept : _number(number) {}
-  ~Descriptor();
-  Descriptor(Descriptor&& other) noexcept : _number(other._number) { other._number = -1; }
-  Descriptor& operator=(Descriptor&&) = delete;
-  /// -1: none.
-  int get() const noexcept { return _number; }
-  explicit operator bool() const noexcept { return _number >= 0; }
-  /// The number, which is the caller's to close from then on.
-  int release() noexcept { return std::exchange(_number, -1); }
-
- private:
-  int _number;
-};
-
 /// Opens a file to be read; none where there is no such file. Throws as disk_error does.
-Descriptor open_to_read(const std::string& path);
+base::Descriptor open_to_read(const std::string& path);
 /// Throws as disk_error does.
-std::uint64_t file_size(const Descriptor& file, const std::string& path);
+std::uint64_t file_size(const base::Descriptor& file, const std::string& path);
 /// Fills `bytes` from `offset` on. Throws errors::Error (storage), also where the file is shorter.
-void read_at(const Descriptor& file, const std::string& path, std::uint64_t offset,
+void read_at(const base::Descriptor& file, const std::string& path, std::uint64_t offset,
              std::span<std::byte> bytes);
 /// Writes from `offset` on. Throws as disk_error does.
-void write_at(const Descriptor& file, const std::string& path, std::uint64_t offset,
+void write_at(const base::Descriptor& file, const std::string& path, std::uint64_t offset,
               std::span<const std::byte> bytes);
 /// The whole file; none where there is no such file.
 std::optional<std::vector<std::byte>> read_file(const std::string& path);
@@ -103,7 +87,7 @@ class Files {
   /// A new empty file.
   std::string new_part() const;
   /// An empty file without a name, to write and read; it is gone when it is closed.
-  Descriptor nameless() const;
+  base::Descriptor nameless() const;
   /// A new file with these bytes, on the disk. Throws as disk_error does.
   Part write(std::span<const std::byte> bytes) const { return write(bytes, 0, {}); }
   /// The same, followed by the `size` bytes that read(offset, bytes) gives.

@@ -36,10 +36,10 @@ auto decoded(std::string_view bytes, const Read& read) {
 
 }  // namespace
 
-std::string encode(const MeshRecord& record) {
+std::string encode(const records::MeshRecord& record) {
   disk::MeshRecord out;
-  api::Translation<MeshRecord>::write(record, *out.mutable_mesh());
-  if (const auto* refinement = std::get_if<Refinement>(&record.definition))
+  api::Translation<records::MeshRecord>::write(record, *out.mutable_mesh());
+  if (const auto* refinement = std::get_if<records::Refinement>(&record.definition))
     api::write_field(*refinement, out, "refinement");
   else
     api::write_definition(record.definition, *out.mutable_definition());
@@ -47,19 +47,19 @@ std::string encode(const MeshRecord& record) {
   return api::serialized(out);
 }
 
-std::string encode(const JobRecord& record) {
+std::string encode(const records::JobRecord& record) {
   disk::JobRecord out;
-  api::Translation<JobRecord>::write(record, *out.mutable_job());
+  api::Translation<records::JobRecord>::write(record, *out.mutable_job());
   api::write_field(record.request_id, out, "request_id");
   api::write_field(record.crashes, out, "crashes");
   return api::serialized(out);
 }
 
-MeshRecord decode_mesh_record(std::string_view bytes) {
+records::MeshRecord decode_mesh_record(std::string_view bytes) {
   return decoded<disk::MeshRecord>(bytes, [](const disk::MeshRecord& in) {
-    MeshRecord record = api::Translation<MeshRecord>::read(in.mesh());
+    records::MeshRecord record = api::Translation<records::MeshRecord>::read(in.mesh());
     if (in.has_refinement())
-      record.definition = api::read_one<Refinement>(in, "refinement");
+      record.definition = api::read_one<records::Refinement>(in, "refinement");
     else
       record.definition = api::read_definition(in.definition());
     record.for_job = in.for_job();
@@ -67,9 +67,9 @@ MeshRecord decode_mesh_record(std::string_view bytes) {
   });
 }
 
-JobRecord decode_job_record(std::string_view bytes) {
+records::JobRecord decode_job_record(std::string_view bytes) {
   return decoded<disk::JobRecord>(bytes, [](const disk::JobRecord& in) {
-    JobRecord record = api::Translation<JobRecord>::read(in.job());
+    records::JobRecord record = api::Translation<records::JobRecord>::read(in.job());
     record.request_id = in.request_id();
     record.crashes = in.crashes();
     return record;

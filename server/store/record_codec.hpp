@@ -9,29 +9,29 @@
 #include <string>
 #include <string_view>
 
-#include "store/records.hpp"
+#include "records/records.hpp"
 
 namespace anticrack::store {
 
 /// Nanoseconds since 1970, as in columns of the database, and the way back.
-inline std::int64_t to_disk(Clock::time_point time) {
+inline std::int64_t to_disk(records::Clock::time_point time) {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(time.time_since_epoch()).count();
 }
 /// See to_disk().
-inline Clock::time_point time_of(std::int64_t nanoseconds) {
-  return Clock::time_point(
-      std::chrono::duration_cast<Clock::duration>(std::chrono::nanoseconds(nanoseconds)));
+inline records::Clock::time_point time_of(std::int64_t nanoseconds) {
+  return records::Clock::time_point(
+      std::chrono::duration_cast<records::Clock::duration>(std::chrono::nanoseconds(nanoseconds)));
 }
 
 /// What the database keeps.
-std::string encode(const MeshRecord& record);
-std::string encode(const JobRecord& record);
+std::string encode(const records::MeshRecord& record);
+std::string encode(const records::JobRecord& record);
 
 /// The error (storage) of a record that is not as it was written; `what` is wrong with it.
 errors::Error damaged_record(const std::string& what);
 
 /// Throw damaged_record() where the bytes are not a record.
-MeshRecord decode_mesh_record(std::string_view bytes);
-JobRecord decode_job_record(std::string_view bytes);
+records::MeshRecord decode_mesh_record(std::string_view bytes);
+records::JobRecord decode_job_record(std::string_view bytes);
 
 }  // namespace anticrack::store

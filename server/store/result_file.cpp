@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "api/translations.hpp"
-#include "store/digest.hpp"
+#include "digest/digest.hpp"
 
 namespace anticrack::store {
 
@@ -26,7 +26,7 @@ constexpr std::size_t max_header = std::size_t{64} << 20U;
 /// Reads what is at an offset; throws where there is less.
 using Read = std::function<void(std::uint64_t offset, std::span<std::byte> bytes)>;
 
-class StoredBlock final : public BlockSource {
+class StoredBlock final : public records::BlockSource {
  public:
   /// Throws errors::Error (invalid_argument).
   StoredBlock(Read read, std::uint64_t begin, const v1::BlockLayout& layout)
@@ -34,7 +34,7 @@ class StoredBlock final : public BlockSource {
     api::read_field(layout, "arrays", _arrays);
   }
 
-  const std::vector<ArrayLayout>& arrays() const noexcept override { return _arrays; }
+  const std::vector<records::ArrayLayout>& arrays() const noexcept override { return _arrays; }
   std::uint64_t size() const noexcept override { return _size; }
   const std::string& sha256() const noexcept override { return _sha256; }
   void read(std::uint64_t offset, std::span<std::byte> bytes) const override {
@@ -46,7 +46,7 @@ class StoredBlock final : public BlockSource {
   std::uint64_t _begin;
   std::uint64_t _size;
   std::string _sha256;
-  std::vector<ArrayLayout> _arrays;
+  std::vector<records::ArrayLayout> _arrays;
 };
 
 std::string number_bytes(std::uint32_t number) {
@@ -67,8 +67,9 @@ Error damaged(const std::string& place) {
 }
 
 /// `name`: the hash of all before the bytes; empty: not known.
-std::shared_ptr<const BlockSource> open_at(Read read, std::uint64_t size, const std::string& place,
-                                           const std::string& name) {
+std::shared_ptr<const records::BlockSource> open_at(Read read, std::uint64_t size,
+                                                    const std::string& place,
+                                                    const std::string& name) {
   std::array<std::byte, magic.size() + lengths> start{};
   read(0, start);
   const std::uint32_t length = number_at(start.data() + magic.size());
@@ -76,10 +77,11 @@ std::shared_ptr<const BlockSource> open_at(Read read, std::uint64_t size, const 
     throw damaged(place);
   std::string bytes(length, '\0');
   read(start.size(), std::as_writable_bytes(std::span(bytes)));
-  if (crc32c(std::as_bytes(std::span(bytes))) !=
+  if (digest::crc32c(std::as_bytes(std::span(bytes))) !=
       number_at(start.data() + magic.size() + sizeof length))
     throw damaged(place);
-  if (!name.empty() && Sha256().add(start).add(bytes).finish() != name) throw damaged(place);
+  if (!name.empty() && digest::Sha256().add(start).add(bytes).finish() != name)
+    throw damaged(place);
   v1::BlockLayout layout;
   const std::uint64_t begin = start.size() + length;
   if (!layout.ParseFromString(bytes) || size != begin + layout.size()) throw damaged(place);
@@ -92,7 +94,7 @@ std::shared_ptr<const BlockSource> open_at(Read read, std::uint64_t size, const 
 
 }  // namespace
 
-std::string result_header(const BlockSource& block) {
+std::string result_header(const records::BlockSource& block) {
   const std::string bytes =
       api::serialized(api::layout_of(block.arrays(), block.size(), block.sha256()));
   if (bytes.size() > max_header) {
@@ -101,13 +103,14 @@ std::string result_header(const BlockSource& block) {
                                             "the job");
   }
   return std::string(magic) + number_bytes(static_cast<std::uint32_t>(bytes.size())) +
-         number_bytes(crc32c(std::as_bytes(std::span(bytes)))) + bytes;
+         number_bytes(digest::crc32c(std::as_bytes(std::span(bytes)))) + bytes;
 }
 
-std::shared_ptr<const BlockSource> open_result(Descriptor file, const std::string& path,
-                                               const std::string& name) {
+std::shared_ptr<const records::BlockSource> open_result(base::Descriptor file,
+                                                        const std::string& path,
+                                                        const std::string& name) {
   const std::uint64_t size = file_size(file, path);
-  const auto shared = std::make_shared<const Descriptor>(std::move(file));
+  const auto shared = std::make_shared<const base::Descriptor>(std::move(file));
   return open_at(
       [shared, path](std::uint64_t offset, std::span<std::byte> bytes) {
         read_at(*shared, path, offset, bytes);
@@ -115,7 +118,8 @@ std::shared_ptr<const BlockSource> open_result(Descriptor file, const std::strin
       size, path, name);
 }
 
-std::shared_ptr<const BlockSource> open_result(std::string stored, const std::string& place) {
+std::shared_ptr<const records::BlockSource> open_result(std::string stored,
+                                                        const std::string& place) {
   const std::uint64_t size = stored.size();
   auto block = open_at(
       [stored = std::move(stored), place](std::uint64_t offset, std::span<std::byte> bytes) {
@@ -127,11 +131,11 @@ std::shared_ptr<const BlockSource> open_result(std::string stored, const std::st
   return block;
 }
 
-void require_whole(const BlockSource& block, const std::string& place) {
+void require_whole(const records::BlockSource& block, const std::string& place) {
   const auto read = [&](std::uint64_t offset, std::span<std::byte> bytes) {
     block.read(offset, bytes);
   };
-  if (sha256_of(block.size(), read) != block.sha256()) throw damaged(place);
+  if (digest::sha256_of(block.size(), read) != block.sha256()) throw damaged(place);
 }
 
 }  // namespace anticrack::store

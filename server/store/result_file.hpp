@@ -8,21 +8,23 @@
 #include <memory>
 #include <string>
 
-#include "store/block.hpp"
+#include "records/block.hpp"
 #include "store/files.hpp"
 
 namespace anticrack::store {
 
 /// All before the bytes of a block. Throws std::length_error for a layout beyond 16 MB.
-std::string result_header(const BlockSource& block);
+std::string result_header(const records::BlockSource& block);
 
 /// The result in a file, which it keeps open. Throws errors::Error (storage) where it is none, or
 /// not the one of this name; the bytes are not read.
-std::shared_ptr<const BlockSource> open_result(Descriptor file, const std::string& path,
-                                               const std::string& name);
+std::shared_ptr<const records::BlockSource> open_result(base::Descriptor file,
+                                                        const std::string& path,
+                                                        const std::string& name);
 /// The same of what would be in the file, with its bytes; `place` is for messages.
-std::shared_ptr<const BlockSource> open_result(std::string stored, const std::string& place);
+std::shared_ptr<const records::BlockSource> open_result(std::string stored,
+                                                        const std::string& place);
 /// Reads all bytes. Throws errors::Error (storage) where they do not have their hash.
-void require_whole(const BlockSource& block, const std::string& place);
+void require_whole(const records::BlockSource& block, const std::string& place);
 
 }  // namespace anticrack::store

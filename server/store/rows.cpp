@@ -45,10 +45,11 @@ Record record_of(const Row& row, Record (*read)(const Row&)) {
 
 const Table& table_of(FileKind kind) {
   static const std::array<Table, file_kinds.size()> tables{{
-      {"meshes", "id", "sha256", "crc32c(id, owner, sha256, upload, record)", "record"},
+      {"meshes", "id", "sha256", "digest::crc32c(id, owner, sha256, upload, record)", "record"},
       {"jobs", "id", "result",
-       "crc32c(id, owner, request, fingerprint, ended, result, result_bytes, record)", "record"},
-      {"uploads", "sha256", "sha256", "crc32c(sha256, owner, created)", "NULL"},
+       "digest::crc32c(id, owner, request, fingerprint, ended, result, result_bytes, record)",
+       "record"},
+      {"uploads", "sha256", "sha256", "digest::crc32c(sha256, owner, created)", "NULL"},
   }};
   return tables[static_cast<std::size_t>(kind)];
 }
@@ -75,13 +76,17 @@ void require_intact(const Row& row, FileKind kind) {
   if (!row.intact) throw damaged(row, kind, damaged_record("its checksum is wrong"));
 }
 
-MeshRecord read_mesh(const Row& row) { return read(row, FileKind::mesh, decode_mesh_record); }
+records::MeshRecord read_mesh(const Row& row) {
+  return read(row, FileKind::mesh, decode_mesh_record);
+}
 
-JobRecord read_job(const Row& row) { return read(row, FileKind::result, decode_job_record); }
+records::JobRecord read_job(const Row& row) {
+  return read(row, FileKind::result, decode_job_record);
+}
 
-MeshRecord mesh_of(const Row& row) { return record_of(row, read_mesh); }
+records::MeshRecord mesh_of(const Row& row) { return record_of(row, read_mesh); }
 
-JobRecord job_of(const Row& row) { return record_of(row, read_job); }
+records::JobRecord job_of(const Row& row) { return record_of(row, read_job); }
 
 bool is_referenced(Connection& connection, FileKind kind, const std::string& sha256, bool by_rows) {
   const Table& table = table_of(kind);

@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
+#include "records/records.hpp"
 #include "store/disk_usage.hpp"
-#include "store/records.hpp"
 #include "store/sqlite.hpp"
 
 namespace anticrack::store {
@@ -42,12 +42,12 @@ std::optional<Row> find_row(Connection& connection, FileKind kind, const std::st
 /// Throws errors::Error (storage) with the record's name where the row has not its checksum.
 void require_intact(const Row& row, FileKind kind);
 /// The record in a row. Throws as require_intact does, also where it is none.
-MeshRecord read_mesh(const Row& row);
-JobRecord read_job(const Row& row);
+records::MeshRecord read_mesh(const Row& row);
+records::JobRecord read_job(const Row& row);
 /// The same, but what is damaged is FAILED with that error; no more is known of it than id and
 /// owner.
-MeshRecord mesh_of(const Row& row);
-JobRecord job_of(const Row& row);
+records::MeshRecord mesh_of(const Row& row);
+records::JobRecord job_of(const Row& row);
 
 /// Whether a row refers to the file. `by_rows`: without trust in any index, in O(rows).
 bool is_referenced(Connection& connection, FileKind kind, const std::string& sha256,

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "digest/digest.hpp"
 #include "stop/stop.hpp"
-#include "store/digest.hpp"
 
 namespace anticrack::store {
 
@@ -16,7 +16,7 @@ constexpr const char* spool_name = "the file of a running job's result";
 
 }  // namespace
 
-Spool::Spool(std::function<Descriptor()> open,
+Spool::Spool(std::function<base::Descriptor()> open,
              std::function<DiskUsage::Reservation(std::uint64_t)> reserve)
     : _open(std::move(open)), _reserve(std::move(reserve)) {}
 
@@ -54,25 +54,25 @@ void Spool::read(std::uint64_t place, std::span<std::byte> bytes) const {
   }
 }
 
-class SpooledBlock::Source final : public BlockSource {
+class SpooledBlock::Source final : public records::BlockSource {
  public:
   explicit Source(std::shared_ptr<const Spool> spool) : _spool(std::move(spool)) {}
 
-  void add_array(ArrayLayout layout) { _arrays.push_back(std::move(layout)); }
+  void add_array(records::ArrayLayout layout) { _arrays.push_back(std::move(layout)); }
   void add_run(const Spool::Run& run) {
     if (run.bytes > 0) _runs.push_back({_size, run});
     _size += run.bytes;
   }
   /// Bytes of zeros up to the next array's place, which it returns.
-  std::uint64_t align() { return _size = aligned(_size); }
+  std::uint64_t align() { return _size = records::aligned(_size); }
   void hash() {
-    _sha256 = sha256_of(_size, [this](std::uint64_t offset, std::span<std::byte> bytes) {
+    _sha256 = digest::sha256_of(_size, [this](std::uint64_t offset, std::span<std::byte> bytes) {
       stop::look("hashing a result");
       read(offset, bytes);
     });
   }
 
-  const std::vector<ArrayLayout>& arrays() const noexcept override { return _arrays; }
+  const std::vector<records::ArrayLayout>& arrays() const noexcept override { return _arrays; }
   std::uint64_t size() const noexcept override { return _size; }
   const std::string& sha256() const noexcept override { return _sha256; }
   void read(std::uint64_t offset, std::span<std::byte> bytes) const override {
@@ -97,7 +97,7 @@ class SpooledBlock::Source final : public BlockSource {
   };
 
   std::shared_ptr<const Spool> _spool;
-  std::vector<ArrayLayout> _arrays;
+  std::vector<records::ArrayLayout> _arrays;
   std::vector<Part> _runs;  ///< ascending
   std::uint64_t _size = 0;
   std::string _sha256;
@@ -106,22 +106,22 @@ class SpooledBlock::Source final : public BlockSource {
 SpooledBlock::SpooledBlock(std::shared_ptr<const Spool> spool)
     : _source(std::make_shared<Source>(std::move(spool))) {}
 
-void SpooledBlock::add(std::string name, ArrayType type, std::vector<std::uint64_t> shape,
+void SpooledBlock::add(std::string name, records::ArrayType type, std::vector<std::uint64_t> shape,
                        std::span<const Spool::Run> runs) {
   _source->add_array({std::move(name), type, std::move(shape), _source->align()});
   for (const Spool::Run& run : runs) _source->add_run(run);
 }
 
-void SpooledBlock::add(std::span<const ArrayLayout> arrays, const Spool::Run& run) {
+void SpooledBlock::add(std::span<const records::ArrayLayout> arrays, const Spool::Run& run) {
   const std::uint64_t offset = _source->align();
-  for (ArrayLayout array : arrays) {
+  for (records::ArrayLayout array : arrays) {
     array.offset += offset;
     _source->add_array(std::move(array));
   }
   _source->add_run(run);
 }
 
-std::shared_ptr<const BlockSource> SpooledBlock::finish() {
+std::shared_ptr<const records::BlockSource> SpooledBlock::finish() {
   _source->hash();
   return std::exchange(_source, nullptr);
 }

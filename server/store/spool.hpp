@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "store/block.hpp"
+#include "records/block.hpp"
 #include "store/disk_usage.hpp"
 #include "store/files.hpp"
 
@@ -31,7 +31,7 @@ class Spool {
   };
 
   /// `open` makes the file, `reserve` counts its bytes; both may throw errors::Error.
-  Spool(std::function<Descriptor()> open,
+  Spool(std::function<base::Descriptor()> open,
         std::function<DiskUsage::Reservation(std::uint64_t bytes)> reserve);
 
   Run append(std::span<const std::byte> bytes);
@@ -43,10 +43,10 @@ class Spool {
  private:
   void write_out();
 
-  const std::function<Descriptor()> _open;
+  const std::function<base::Descriptor()> _open;
   const std::function<DiskUsage::Reservation(std::uint64_t)> _reserve;
   mutable std::mutex _mutex;
-  std::optional<Descriptor> _file;
+  std::optional<base::Descriptor> _file;
   std::uint64_t _written = 0;         ///< in the file; what follows is in memory
   std::vector<std::byte> _memory;     ///< from place _written on
   std::atomic<std::size_t> _held{0};  ///< bytes of _memory, to be known without waiting
@@ -59,12 +59,12 @@ class SpooledBlock {
   explicit SpooledBlock(std::shared_ptr<const Spool> spool);
 
   /// An array that consists of runs, one after the other.
-  void add(std::string name, ArrayType type, std::vector<std::uint64_t> shape,
+  void add(std::string name, records::ArrayType type, std::vector<std::uint64_t> shape,
            std::span<const Spool::Run> runs);
   /// The arrays of a block whose bytes are the run.
-  void add(std::span<const ArrayLayout> arrays, const Spool::Run& run);
+  void add(std::span<const records::ArrayLayout> arrays, const Spool::Run& run);
   /// Reads all bytes for the hash. Throws errors::Error (storage). The object is empty after.
-  std::shared_ptr<const BlockSource> finish();
+  std::shared_ptr<const records::BlockSource> finish();
 
  private:
   class Source;

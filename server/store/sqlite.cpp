@@ -7,7 +7,7 @@
 #include <span>
 #include <utility>
 
-#include "store/digest.hpp"
+#include "digest/digest.hpp"
 #include "store/disk_errors.hpp"
 
 namespace anticrack::store {
@@ -28,9 +28,9 @@ void crc32c_of(sqlite3_context* context, int count, sqlite3_value** values) {
     } else if (type != SQLITE_NULL) {
       const auto* bytes = static_cast<const std::byte*>(sqlite3_value_blob(value));
       parts[2] = sqlite3_value_bytes(value);
-      parts[3] = crc32c({bytes, static_cast<std::size_t>(parts[2])});
+      parts[3] = digest::crc32c({bytes, static_cast<std::size_t>(parts[2])});
     }
-    sum = crc32c(std::as_bytes(std::span(parts)));
+    sum = digest::crc32c(std::as_bytes(std::span(parts)));
   }
   sqlite3_result_int64(context, sum);
 }
@@ -96,8 +96,8 @@ Connection::Connection(std::string path) : _path(std::move(path)) {
     throw error(SQLITE_READONLY);
   }
   sqlite3_busy_timeout(database, 5000);  // of a backup tool, or the other connection's checkpoint
-  sqlite3_create_function_v2(database, "crc32c", -1, SQLITE_UTF8 | SQLITE_DETERMINISTIC, nullptr,
-                             crc32c_of, nullptr, nullptr, nullptr);
+  sqlite3_create_function_v2(database, "digest::crc32c", -1, SQLITE_UTF8 | SQLITE_DETERMINISTIC,
+                             nullptr, crc32c_of, nullptr, nullptr, nullptr);
 }
 
 Statement Connection::prepare(const std::string& sql) {

@@ -26,8 +26,8 @@
 #include <vector>
 
 #include "mesh/mesh.hpp"
-#include "store/block.hpp"
-#include "store/records.hpp"
+#include "records/block.hpp"
+#include "records/records.hpp"
 #include "store/spool.hpp"
 
 namespace anticrack::store {
@@ -62,7 +62,7 @@ struct OwnerUsage {
 /// What retention (jobs/retention.hpp) decides on.
 struct EndedJob {
   std::string id;
-  Clock::time_point ended;
+  records::Clock::time_point ended;
   std::uint64_t result_bytes = 0;  ///< 0: none, or expired
   std::string owner{};
 };
@@ -82,9 +82,9 @@ struct Upload {
 struct UploadRecord {
   std::string id;  ///< sha256
   std::string owner;
-  Clock::time_point created;  ///< when it was last sent
-  std::uint64_t bytes = 0;    ///< 0: the file is gone from the disk
-  bool array = false;         ///< else a .msh
+  records::Clock::time_point created;  ///< when it was last sent
+  std::uint64_t bytes = 0;             ///< 0: the file is gone from the disk
+  bool array = false;                  ///< else a .msh
 };
 
 /// Contract:
@@ -103,12 +103,12 @@ class Store {
  public:
   virtual ~Store() = default;
 
-  virtual void put(const MeshRecord& record) = 0;  ///< inserts or replaces
+  virtual void put(const records::MeshRecord& record) = 0;  ///< inserts or replaces
   /// The same with the triangulation, whose encoding has the hash record.sha256.
-  virtual void put(const MeshRecord& record, const mesh::Mesh& triangulation) = 0;
+  virtual void put(const records::MeshRecord& record, const mesh::Mesh& triangulation) = 0;
   /// Empty where there is none.
-  virtual std::optional<MeshRecord> mesh(const std::string& id) const = 0;
-  virtual std::vector<MeshRecord> meshes(const Page& page) const = 0;
+  virtual std::optional<records::MeshRecord> mesh(const std::string& id) const = 0;
+  virtual std::vector<records::MeshRecord> meshes(const Page& page) const = 0;
   virtual std::size_t mesh_count() const = 0;
   /// And its triangulation, where no other record has the same. Throws not_found.
   virtual void erase_mesh(const std::string& id) = 0;
@@ -118,32 +118,34 @@ class Store {
 
   /// Inserts the job, or returns the one its owner made with the same (non-empty) request id
   /// before; throws request_id_reused when that one had another fingerprint.
-  virtual JobRecord create(const JobRecord& record, const std::string& fingerprint) = 0;
+  virtual records::JobRecord create(const records::JobRecord& record,
+                                    const std::string& fingerprint) = 0;
   /// What `create` would return in place of this record, without inserting anything; empty: none.
-  virtual std::optional<JobRecord> created_before(const JobRecord& record,
-                                                  const std::string& fingerprint) const = 0;
+  virtual std::optional<records::JobRecord> created_before(
+      const records::JobRecord& record, const std::string& fingerprint) const = 0;
   /// Replaces; throws not_found. Survives kill -9, and a power failure once anything was written
   /// after it: what a start and a recovery say is found out again.
-  virtual void put(const JobRecord& record) = 0;
+  virtual void put(const records::JobRecord& record) = 0;
   /// For the result of a job that runs.
   virtual std::shared_ptr<Spool> new_spool() = 0;
   /// The end of a job: its last record and its result (null: none), both or neither. The result is
   /// copied in pieces: until it returns, a spooled result takes its bytes twice.
-  virtual void finish(const JobRecord& record, std::shared_ptr<const BlockSource> result) = 0;
+  virtual void finish(const records::JobRecord& record,
+                      std::shared_ptr<const records::BlockSource> result) = 0;
   /// Empty where there is none.
-  virtual std::optional<JobRecord> job(const std::string& id) const = 0;
-  virtual std::vector<JobRecord> jobs(const Page& page) const = 0;
+  virtual std::optional<records::JobRecord> job(const std::string& id) const = 0;
+  virtual std::vector<records::JobRecord> jobs(const Page& page) const = 0;
   /// Oldest first: to be queued at a start; without those that are damaged.
-  virtual std::vector<JobRecord> unfinished() const = 0;
+  virtual std::vector<records::JobRecord> unfinished() const = 0;
   /// Notes whether a server is running jobs. Returns what was noted before: true at a start means
   /// that the last server did not stop but crashed.
   virtual bool set_running(bool running) = 0;
   virtual std::vector<EndedJob> ended() const = 0;  ///< oldest end first
   /// Null where the job has none; throws storage where its record, a small result or the layout of
   /// a large one is damaged. The file is not read as a whole.
-  virtual std::shared_ptr<const BlockSource> result(const std::string& job) const = 0;
+  virtual std::shared_ptr<const records::BlockSource> result(const std::string& job) const = 0;
   /// Removes the result of an ended job and notes when that was; throws not_found.
-  virtual void expire(const std::string& job, Clock::time_point now) = 0;
+  virtual void expire(const std::string& job, records::Clock::time_point now) = 0;
   virtual void erase_job(const std::string& id) = 0;  ///< and its result; throws not_found
 
   /// Where the upload with this hash lies that `owner` made; empty where there is none. Whether the
@@ -154,8 +156,8 @@ class Store {
   virtual std::string new_upload_path(std::uint64_t bytes) = 0;
   /// Keeps all of them, or none, each in place of the same file where that has changed on the disk.
   /// They share the waits for the disk. Returns when they were made.
-  virtual Clock::time_point keep_uploads(const std::vector<Upload>& uploads,
-                                         const std::string& owner) = 0;
+  virtual records::Clock::time_point keep_uploads(const std::vector<Upload>& uploads,
+                                                  const std::string& owner) = 0;
   /// An upload of `owner`; empty where there is none.
   virtual std::optional<UploadRecord> upload(const std::string& sha256,
                                              const std::string& owner) const = 0;
@@ -167,7 +169,7 @@ class Store {
   virtual void erase_upload(const std::string& sha256, const std::string& owner) = 0;
   /// Removes uploads made before `before` that no unfinished job and no mesh without a
   /// triangulation refers to; returns how many.
-  virtual std::size_t expire_uploads(Clock::time_point before) = 0;
+  virtual std::size_t expire_uploads(records::Clock::time_point before) = 0;
 
   /// As counted, without a look at the disk but for the database.
   virtual Usage usage() const = 0;

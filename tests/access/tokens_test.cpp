@@ -4,13 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "digest/digest.hpp"
 #include "errors/errors.hpp"
-#include "store/digest.hpp"
 
 namespace anticrack::access {
 namespace {
 
-std::string hash_of(const std::string& token) { return store::Sha256().add(token).finish(); }
+std::string hash_of(const std::string& token) { return digest::Sha256().add(token).finish(); }
 
 std::string line(const std::string& name, const std::string& role, const std::string& token) {
   return std::string(name) + " " + role + " " + hash_of(token) + "\n";

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "mesh/at.hpp"
+#include "base/at.hpp"
 
 namespace anticrack::accuracy {
 namespace {

@@ -13,9 +13,9 @@
 #include <random>
 #include <utility>
 
+#include "base/at.hpp"
 #include "ddm/cut_steps.hpp"
 #include "ddm/vertex_separator.hpp"
-#include "mesh/at.hpp"
 
 namespace anticrack::ddm {
 namespace {

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <random>
 
-#include "mesh/at.hpp"
+#include "base/at.hpp"
 
 namespace anticrack::ddm {
 namespace {

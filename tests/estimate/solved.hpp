@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
+#include "base/at.hpp"
 #include "estimate/cut_mesh.hpp"
 #include "estimate/equilibrated_flux.hpp"
 #include "fem/triangle_rules.hpp"
-#include "mesh/at.hpp"
 #include "mesh/edges.hpp"
 #include "mesh/refine_uniform.hpp"
 #include "operators/mesh_parts.hpp"

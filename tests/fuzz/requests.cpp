@@ -38,7 +38,7 @@ void check_record(const Record& record, const Decode& decode) {
   fuzz::require(store::encode(decode(bytes)) == bytes, "the record comes back as another");
 }
 
-void plan(const store::GeometrySource& source) {
+void plan(const records::GeometrySource& source) {
   mesh::MesherRequest request = mesh::GenerateRequest{
       mesh::plan(source.geometry, source.options, max_triangles), max_triangles};
   const mesh::Bytes bytes = mesh::encode(request);
@@ -47,15 +47,15 @@ void plan(const store::GeometrySource& source) {
 }
 
 void take(const v1::CreateMeshRequest& request) {
-  store::MeshRecord record;
+  records::MeshRecord record;
   record.title = request.title();
   record.definition = api::to_definition(request);
   check_record(record, store::decode_mesh_record);
   try {
-    if (const auto* source = std::get_if<store::GeometrySource>(&record.definition)) {
+    if (const auto* source = std::get_if<records::GeometrySource>(&record.definition)) {
       plan(*source);
     } else {
-      mesh::check_for_upload(std::get<store::UploadRef>(record.definition).options);
+      mesh::check_for_upload(std::get<records::UploadRef>(record.definition).options);
     }
   } catch (const errors::Error& error) {
     throw api::below_mesh_request(error);
@@ -65,7 +65,7 @@ void take(const v1::CreateMeshRequest& request) {
 void take(const v1::CreateJobRequest& request) {
   using namespace std::chrono_literals;
   api::require_request_id(request.request_id());
-  store::JobRecord record;
+  records::JobRecord record;
   record.request_id = request.request_id();
   record.spec = api::to_spec(request.job(), {100, 100'000, 1h, 1h});
   check_record(record, store::decode_job_record);

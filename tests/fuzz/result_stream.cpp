@@ -12,11 +12,11 @@
 #include "anticrack/v1/mesh.pb.h"
 #include "client/block.hpp"
 #include "client/error.hpp"
+#include "digest/digest.hpp"
 #include "fuzz/input.hpp"
 #include "fuzz/quiet_protobuf.hpp"
 #include "fuzz/small_result.hpp"
 #include "results/assemble.hpp"
-#include "store/digest.hpp"
 
 namespace {
 
@@ -29,9 +29,9 @@ client::Block receive(fuzz::Pieces& pieces, bool corrected) {
   if (corrected) {
     chunk.set_data(pieces.piece());
     const auto bytes = std::as_bytes(std::span(chunk.data()));
-    chunk.set_crc32c(store::crc32c(bytes));
+    chunk.set_crc32c(digest::crc32c(bytes));
     layout.set_size(chunk.data().size());
-    layout.set_sha256(store::Sha256().add(bytes).finish());
+    layout.set_sha256(digest::Sha256().add(bytes).finish());
   } else {
     chunk.ParseFromString(pieces.piece());
   }

@@ -17,6 +17,7 @@
 #include "anticrack/v1/solve.pb.h"
 #include "anticrack/v1/upload.pb.h"
 #include "api/requests.hpp"
+#include "digest/digest.hpp"
 #include "fuzz/input.hpp"
 #include "fuzz/small_result.hpp"
 #include "mesh/codec.hpp"
@@ -24,7 +25,6 @@
 #include "mesher/import.hpp"
 #include "mesher/msh_writer.hpp"
 #include "results/result.hpp"
-#include "store/digest.hpp"
 #include "store/record_codec.hpp"
 #include "support/case_file.hpp"
 
@@ -52,7 +52,7 @@ std::string text_of(const mesh::Bytes& bytes) {
 
 void save_mesh_request(const std::string& name, const v1::CreateMeshRequest& request) {
   save("requests", name + "-mesh", chosen(0, request.SerializeAsString()));
-  store::MeshRecord record;
+  records::MeshRecord record;
   record.id = "0123456789abcdef";
   record.owner = "somebody";
   record.definition = api::to_definition(request);
@@ -63,7 +63,7 @@ void save_mesh_request(const std::string& name, const v1::CreateMeshRequest& req
   record.warnings = {"one"};
   record.tips = {{{0.5, 0}, "sigma", 1e-9}};
   save("records", name + "-mesh", chosen(0, store::encode(record)));
-  if (const auto* source = std::get_if<store::GeometrySource>(&record.definition)) {
+  if (const auto* source = std::get_if<records::GeometrySource>(&record.definition)) {
     const mesh::MesherRequest wanted =
         mesh::GenerateRequest{mesh::plan(source->geometry, source->options, 1'000'000), 1'000'000};
     save("mesher_codec", name + "-generate", chosen(0, text_of(mesh::encode(wanted))));
@@ -77,12 +77,12 @@ void save_job_request(const std::string& name, const v1::Job& job) {
   request.mutable_job()->set_mesh("meshes/0123456789abcdef");
   request.set_request_id("123e4567-e89b-42d3-a456-426614174000");
   save("requests", name + "-job", chosen(1, request.SerializeAsString()));
-  store::JobRecord record;
+  records::JobRecord record;
   record.id = "fedcba9876543210";
   record.request_id = request.request_id();
   record.spec = api::to_spec(request.job(), {1'000, 1'000'000, 24h, 24h});
   record.cases.resize(record.spec.loads.size());
-  record.timeline = {{store::Clock::now(), store::JobState::running, "meshing"}};
+  record.timeline = {{records::Clock::now(), records::JobState::running, "meshing"}};
   save("records", name + "-job", chosen(1, store::encode(record)));
 }
 
@@ -188,7 +188,7 @@ void save_meshes() {
 std::string upload(v1::Upload::Kind content, const std::string& bytes) {
   v1::CreateUploadsRequest first;
   first.mutable_header()->set_size(bytes.size());
-  first.mutable_header()->set_sha256(store::Sha256().add(bytes).finish());
+  first.mutable_header()->set_sha256(digest::Sha256().add(bytes).finish());
   first.mutable_header()->set_kind(content);
   std::string stream = as_piece(first.SerializeAsString());
   const std::size_t half = bytes.size() / 2;
@@ -229,10 +229,10 @@ class Block {
   /// As result_stream takes it: with the chunk as a message, or its data alone.
   std::string stream(bool data_alone) {
     _layout.set_size(_bytes.size());
-    _layout.set_sha256(store::Sha256().add(_bytes).finish());
+    _layout.set_sha256(digest::Sha256().add(_bytes).finish());
     v1::BlockChunk chunk;
     chunk.set_data(_bytes);
-    chunk.set_crc32c(store::crc32c(std::as_bytes(std::span(_bytes))));
+    chunk.set_crc32c(digest::crc32c(std::as_bytes(std::span(_bytes))));
     return as_piece(_layout.SerializeAsString()) +
            as_piece(data_alone ? _bytes : chunk.SerializeAsString());
   }

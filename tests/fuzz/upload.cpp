@@ -43,7 +43,7 @@ std::vector<v1::CreateUploadsRequest> messages(fuzz::Pieces& pieces) {
 
 void correct(std::vector<v1::CreateUploadsRequest>& list) {
   std::uint64_t size = 0;
-  store::Sha256 hash;
+  digest::Sha256 hash;
   for (const auto& message : list) {
     if (!message.has_chunk()) continue;
     size += message.chunk().size();
@@ -59,7 +59,7 @@ void correct(std::vector<v1::CreateUploadsRequest>& list) {
 
 /// Neither parts of uploads that are not whole stay, nor what has expired.
 void require_nothing_left() {
-  the_store().expire_uploads(store::Clock::now() + std::chrono::hours(1));
+  the_store().expire_uploads(records::Clock::now() + std::chrono::hours(1));
   const std::filesystem::directory_iterator left(the_folder() / "uploads");
   fuzz::require(left == std::filesystem::directory_iterator(), "a file is left behind");
 }

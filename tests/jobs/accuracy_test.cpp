@@ -13,9 +13,9 @@ namespace anticrack::jobs {
 namespace {
 
 using anticrack::testing::error_of;
-using store::CaseRecord;
-using store::JobSpec;
-using store::StageRecord;
+using records::CaseRecord;
+using records::JobSpec;
+using records::StageRecord;
 using ::testing::HasSubstr;
 using namespace std::chrono_literals;
 

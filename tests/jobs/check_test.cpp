@@ -15,7 +15,7 @@ namespace {
 
 using anticrack::testing::throws;
 using errors::Reason;
-using store::JobSpec;
+using records::JobSpec;
 
 JobSpec good() {
   JobSpec spec;
@@ -151,7 +151,7 @@ TEST(Fingerprint, IsThatOfTheWholeJob) {
       [](JobSpec& spec) { spec.title += "!"; },
       [](JobSpec& spec) { spec.mesh = "other"; },
       [](JobSpec& spec) { spec.fields = true; },
-      [](JobSpec& spec) { spec.priority = store::Priority::bulk; },
+      [](JobSpec& spec) { spec.priority = records::Priority::bulk; },
       [](JobSpec& spec) { spec.queue_time_limit = std::chrono::milliseconds(1); },
       [](JobSpec& spec) { spec.run_time_limit = std::chrono::milliseconds(1); },
       [](JobSpec& spec) { active_set(spec).tolerance = 1e-9; },

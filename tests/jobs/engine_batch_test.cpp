@@ -15,15 +15,15 @@ namespace {
 
 using anticrack::testing::eventually;
 using contact::Status;
-using store::JobRecord;
-using store::JobState;
+using records::JobRecord;
+using records::JobState;
 using namespace std::chrono_literals;
 
 /// Jobs of all kinds: both methods, both masses, several thetas, lengths and numbers of cases.
-std::vector<store::JobSpec> mix(const std::string& mesh) {
-  std::vector<store::JobSpec> specs;
+std::vector<records::JobSpec> mix(const std::string& mesh) {
+  std::vector<records::JobSpec> specs;
   for (int j = 0; j < 12; ++j) {
-    store::JobSpec spec = short_job(mesh);
+    records::JobSpec spec = short_job(mesh);
     spec.fields = j % 4 == 0;
     spec.loads.clear();
     for (int i = 0; i <= j % 5; ++i) {
@@ -46,16 +46,16 @@ std::vector<store::JobSpec> mix(const std::string& mesh) {
 JobState end_of(const JobRecord& record) {
   const bool all = std::all_of(
       record.cases.begin(), record.cases.end(),
-      [](const store::CaseRecord& each) { return each.status == contact::Status::converged; });
+      [](const records::CaseRecord& each) { return each.status == contact::Status::converged; });
   return all ? JobState::succeeded : JobState::not_converged;
 }
 
 using NamedArrays = std::map<std::string, std::vector<double>>;
 
-NamedArrays arrays_of(const store::BlockSource& block) {
+NamedArrays arrays_of(const records::BlockSource& block) {
   NamedArrays arrays;
-  for (const store::ArrayLayout& layout : block.arrays()) {
-    if (layout.type == store::ArrayType::float64 &&
+  for (const records::ArrayLayout& layout : block.arrays()) {
+    if (layout.type == records::ArrayType::float64 &&
         layout.name.find("history") == std::string::npos) {
       arrays[layout.name] = *array<double>(block, layout.name);
     }
@@ -81,7 +81,7 @@ TEST(EngineBatch, EqualsEachAlone) {
   std::vector<NamedArrays> alone;
   {
     Engine test(one_thread());
-    for (const store::JobSpec& spec : mix(test.ready_mesh())) {
+    for (const records::JobSpec& spec : mix(test.ready_mesh())) {
       const std::string id = test.submit(spec);
       const JobRecord record = test.ended(id);
       ASSERT_EQ(record.state, end_of(record));
@@ -94,7 +94,7 @@ TEST(EngineBatch, EqualsEachAlone) {
   options.turn = 1ms;
   Engine test(options);
   std::vector<std::string> ids;
-  for (const store::JobSpec& spec : mix(test.ready_mesh())) {
+  for (const records::JobSpec& spec : mix(test.ready_mesh())) {
     ids.push_back(test.submit(spec));
   }
   for (std::size_t j = 0; j < ids.size(); ++j) {
@@ -132,7 +132,7 @@ TEST(EngineBatch, TheCasesOfOneJobAreSharedByIdleThreads) {
   options.columns = 8;
   Engine test(options);
   const std::string mesh = test.ready_mesh();
-  store::JobSpec spec = endless_job(mesh);
+  records::JobSpec spec = endless_job(mesh);
   spec.loads.clear();
   for (int i = 0; i < 8; ++i) {
     spec.loads.push_back({std::to_string(i), fem::Expression{"y > 0 ? 1 : -1"}, ""});
@@ -165,7 +165,7 @@ TEST(EngineBatch, MeshesTakeTurnsOnOneThread) {
   ASSERT_TRUE(test.iterating(busy));
   const std::string other = test.submit(endless_job(test.ready_mesh(0.2)));
   ASSERT_TRUE(test.reaches(other, JobState::running));
-  store::JobSpec exact = short_job(test.ready_mesh(0.25));
+  records::JobSpec exact = short_job(test.ready_mesh(0.25));
   exact.solver = contact::ActiveSetOptions{};
   EXPECT_EQ(test.ended(test.submit(exact)).state, JobState::succeeded);
   exact.mesh = test.engine.get(busy).spec.mesh;  // another lane of a mesh with an endless block
@@ -182,8 +182,8 @@ TEST(EngineBatch, MeshesTakeTurnsOnOneThread) {
 TEST(EngineBatch, AMoreUrgentJobNeedsNoPlaceInAFullBlock) {
   Engine test(one_thread());
   const std::string mesh = test.ready_mesh();
-  store::JobSpec bulk = endless_job(mesh);
-  bulk.priority = store::Priority::bulk;
+  records::JobSpec bulk = endless_job(mesh);
+  bulk.priority = records::Priority::bulk;
   const std::string busy = test.submit(bulk);
   ASSERT_TRUE(test.iterating(busy));
   EXPECT_EQ(test.ended(test.submit(short_job(mesh))).state, JobState::succeeded);
@@ -199,14 +199,14 @@ TEST(EngineBatch, TheMoreUrgentJobStartsFirst) {
   const std::string blocker = test.submit(endless_job(mesh));
   ASSERT_TRUE(test.iterating(blocker));
   std::vector<std::string> ids;
-  for (const store::Priority priority :
-       {store::Priority::bulk, store::Priority::normal, store::Priority::interactive}) {
-    store::JobSpec spec = short_job(mesh);
+  for (const records::Priority priority :
+       {records::Priority::bulk, records::Priority::normal, records::Priority::interactive}) {
+    records::JobSpec spec = short_job(mesh);
     spec.priority = priority;
     ids.push_back(test.submit(spec));
   }
   test.engine.cancel(blocker);
-  std::vector<store::Clock::time_point> starts;
+  std::vector<records::Clock::time_point> starts;
   for (const std::string& id : ids) {
     starts.push_back(test.ended(id).started.value());
   }

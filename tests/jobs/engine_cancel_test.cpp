@@ -19,15 +19,15 @@ using anticrack::testing::eventually;
 using anticrack::testing::throws;
 using contact::Status;
 using errors::Reason;
-using store::JobRecord;
-using store::JobState;
+using records::JobRecord;
+using records::JobState;
 using namespace std::chrono_literals;
 
 void expect_cancelled(const JobRecord& record) {
   EXPECT_EQ(record.state, JobState::cancelled);
   EXPECT_TRUE(record.ended);
   EXPECT_FALSE(record.error);
-  for (const store::CaseRecord& ended : record.cases) {
+  for (const records::CaseRecord& ended : record.cases) {
     EXPECT_EQ(ended.status, Status::cancelled);
   }
 }
@@ -75,7 +75,7 @@ TEST(EngineCancel, AsTheJobStarts) {
   ASSERT_TRUE(test.iterating(blocker));
   const std::string id = test.submit(short_job(mesh));
   const auto listener = test.engine.events(id)->listen([&] {
-    if (!store::ended(test.state(id))) {
+    if (!records::ended(test.state(id))) {
       test.engine.cancel(id);  // its first event: that it runs
     }
   });
@@ -111,7 +111,7 @@ TEST(EngineCancel, KeepsTheLoadCasesThatWereFinished) {
   // The only solver thread is kept busy until the listener is in place.
   const std::string blocker = test.submit(endless_job(mesh));
   ASSERT_TRUE(test.iterating(blocker));
-  store::JobSpec spec = short_job(mesh);
+  records::JobSpec spec = short_job(mesh);
   spec.loads.push_back({"second", 1.0, ""});
   spec.loads.push_back({"third", 2.0, ""});
   const std::string id = test.submit(spec);
@@ -169,7 +169,7 @@ TEST(EngineStop, LeavesWhatHasNotEndedToTheNextStart) {
   for (const std::string& id : {running, queued, factorising}) {
     EXPECT_EQ(test.state(id), JobState::queued);
     EXPECT_FALSE(has_ended(*test.engine.events(id)));
-    EXPECT_FALSE(store::ended(test.backend.store->job(id)->state));
+    EXPECT_FALSE(records::ended(test.backend.store->job(id)->state));
   }
   EXPECT_EQ(test.backend.store->unfinished().size(), 3U);
   EXPECT_TRUE(throws([&] { test.submit(short_job(mesh)); }, Reason::draining));
@@ -185,7 +185,7 @@ TEST(EngineStop, LetsRunningJobsFinishInTheGraceTheyHave) {
   const std::string mesh = test.ready_mesh();
   const std::string blocker = test.submit(endless_job(mesh));
   ASSERT_TRUE(test.iterating(blocker));
-  store::JobSpec spec = short_job(mesh);
+  records::JobSpec spec = short_job(mesh);
   spec.loads.push_back({"second", 1.0, ""});
   const std::string running = test.submit(spec, "request");
   // Its first event does not return before the engine is stopping.

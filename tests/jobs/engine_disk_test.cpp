@@ -15,8 +15,8 @@ using anticrack::testing::eventually;
 using anticrack::testing::FailingStore;
 using anticrack::testing::throws;
 using errors::Reason;
-using store::JobRecord;
-using store::JobState;
+using records::JobRecord;
+using records::JobState;
 using namespace std::chrono_literals;
 
 class EngineDisk : public ::testing::Test {
@@ -79,7 +79,7 @@ TEST_F(EngineDisk, FullAtTheEndLeavesTheJobToTheNextStart) {
     id = refused_job(engine);
     engine.stop(0ms);
     EXPECT_TRUE(engine.idle());
-    EXPECT_FALSE(store::ended(store.job(id)->state));
+    EXPECT_FALSE(records::ended(store.job(id)->state));
   }
   store.finish_fails = false;
   JobEngine engine(one_thread(), store, backend.catalogue);

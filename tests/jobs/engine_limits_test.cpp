@@ -15,7 +15,7 @@ using anticrack::testing::error_of;
 using anticrack::testing::eventually;
 using anticrack::testing::throws;
 using errors::Reason;
-using store::JobState;
+using records::JobState;
 
 TEST(EngineLimits, TheQueueIsBoundedButKnowsItsRequests) {
   EngineOptions options = one_thread();
@@ -41,12 +41,12 @@ TEST(EngineLimits, TheQueueIsBoundedButKnowsItsRequests) {
 TEST(EngineLimits, TheArraysOfAResultAreBoundedWhenAJobIsCreated) {
   EngineOptions options;
   Engine counted;
-  const store::JobSpec one = short_job(counted.ready_mesh());
+  const records::JobSpec one = short_job(counted.ready_mesh());
   const std::string id = counted.submit(one);
   counted.ended(id);
   options.max_result_arrays = counted.engine.result(id)->arrays().size();
   Engine test(options);
-  store::JobSpec spec = one;
+  records::JobSpec spec = one;
   spec.mesh = test.ready_mesh();
   EXPECT_EQ(test.ended(test.submit(spec)).state, JobState::succeeded);
   spec.fields = true;
@@ -62,7 +62,7 @@ TEST(EngineLimits, TheArraysOfAResultAreBoundedWhenAJobIsCreated) {
   // Before its mesh is meshed nobody knows.
   spec.mesh = test.backend.create(0.07);
   try {
-    const store::JobRecord failed = test.ended(test.submit(spec));
+    const records::JobRecord failed = test.ended(test.submit(spec));
     EXPECT_EQ(failed.state, JobState::failed);
     ASSERT_TRUE(failed.error);
     EXPECT_EQ(failed.error->reason(), Reason::limit_exceeded);
@@ -126,7 +126,7 @@ TEST(EngineLimits, LogsOfEndedJobsAreBoundedInBytes) {
   EngineOptions options;
   options.max_job_memory = 200'000;  // half of it for logs: not for two of these
   Engine test(options);
-  store::JobSpec spec = short_job(test.ready_mesh());
+  records::JobSpec spec = short_job(test.ready_mesh());
   for (int i = 0; i < 8; ++i) {
     const std::string text = "1" + std::string(4'000, ' ');
     spec.loads.push_back({"l" + std::to_string(i), fem::Expression{text}, ""});
@@ -149,12 +149,12 @@ TEST(EngineLimits, CasesOfTheQueueAreBounded) {
   Engine test(options);
   const std::string mesh = test.ready_mesh();
   const std::string other = test.ready_mesh(0.25);
-  store::JobSpec spec = endless_job(mesh);
+  records::JobSpec spec = endless_job(mesh);
   spec.loads.push_back({"second", 1.0, ""});
   const std::string first = test.submit(spec);
   EXPECT_TRUE(throws([&] { test.submit(spec); }, Reason::busy));
   const std::string second = test.submit(endless_job(other));
-  store::JobSpec possible_never = short_job(other);
+  records::JobSpec possible_never = short_job(other);
   possible_never.loads.resize(4, possible_never.loads[0]);
   for (std::size_t i = 0; i < 4; ++i) {
     possible_never.loads[i].name = std::to_string(i);
@@ -179,7 +179,7 @@ TEST(EngineLimits, OneBudgetBoundsTheMemoryOfJobs) {
   ASSERT_TRUE(test.reaches(first, JobState::running));
   // Its log alone may have more than the budget, and keeps less when that is reached.
   ASSERT_TRUE(eventually([&] { return test.engine.events(first)->earliest() > 1; }));
-  store::JobSpec large = short_job(mesh);
+  records::JobSpec large = short_job(mesh);
   for (int i = 0; i < 70; ++i) {
     const std::string text = "1" + std::string(3'900, ' ');
     large.loads.push_back({"l" + std::to_string(i), fem::Expression{text}, ""});
@@ -196,7 +196,7 @@ TEST(EngineLimits, LoadCasesPastTheBytesOfAResultFail) {
   EngineOptions options = one_thread();
   options.max_result_bytes = 1;
   Engine test(options);
-  store::JobSpec spec = short_job(test.ready_mesh());
+  records::JobSpec spec = short_job(test.ready_mesh());
   spec.loads.push_back({"second", 1.0, ""});
   const std::string id = test.submit(spec);
   const auto record = test.ended(id);
@@ -213,7 +213,7 @@ TEST(EngineLimits, TheEventLogIsTrimmedAndTheResultIsNot) {
   EngineOptions options = one_thread();
   options.event_log_bytes = 2500;
   Engine test(options);
-  store::JobSpec spec = short_job(test.ready_mesh());
+  records::JobSpec spec = short_job(test.ready_mesh());
   uzawa_of(spec).epsilon = 1e-300;
   uzawa_of(spec).max_iterations = 200;
   const std::string id = test.submit(spec);
@@ -257,7 +257,7 @@ TEST(EngineSchedule, AJobOnAReadyMeshPassesThoseThatWait) {
   ASSERT_TRUE(eventually([&] { return test.backend.door.waiting() == 2; }));
   EXPECT_EQ(test.ended(test.submit(short_job(ready))).state, JobState::succeeded);
   for (const std::string& id : waiting) {
-    EXPECT_FALSE(store::ended(test.state(id)));
+    EXPECT_FALSE(records::ended(test.state(id)));
   }
   test.backend.door.open();
   for (const std::string& id : waiting) {
@@ -278,7 +278,7 @@ TEST(EngineSchedule, AJobOnASmallMeshEndsWhileLargeMeshesAreFactorised) {
             JobState::succeeded);
   EXPECT_EQ(test.backend.door.waiting(), 2);
   for (const std::string& id : waiting) {
-    EXPECT_FALSE(store::ended(test.state(id)));
+    EXPECT_FALSE(records::ended(test.state(id)));
     test.engine.cancel(id);
   }
   test.backend.door.open();
@@ -311,7 +311,7 @@ TEST(EngineSchedule, StartsJobsInTheOrderTheyCame) {
     ids.push_back(test.submit(short_job(mesh)));
   }
   test.engine.cancel(blocker);
-  std::vector<store::Clock::time_point> starts;
+  std::vector<records::Clock::time_point> starts;
   for (const std::string& id : ids) {
     starts.push_back(test.ended(id).started.value());
   }

@@ -13,7 +13,7 @@ namespace {
 
 using anticrack::testing::Backend;
 using anticrack::testing::eventually;
-using store::JobState;
+using records::JobState;
 using namespace std::chrono_literals;
 
 /// One thread. Loads that are arrays stay in the step that reads them while the door is shut, as
@@ -38,7 +38,7 @@ class EngineLongStep : public ::testing::Test {
     return id;
   }
   std::string submit(const std::string& on_mesh, const std::string& owner, fem::Force force) {
-    store::JobSpec spec;
+    records::JobSpec spec;
     spec.mesh = on_mesh;
     spec.loads = {{"load", std::move(force), ""}};
     return engine->submit({spec, owner, ""}).id;

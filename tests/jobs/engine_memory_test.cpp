@@ -15,12 +15,12 @@ namespace {
 using anticrack::testing::memory_of;
 
 /// Solves the job; returns its result's bytes over the growth of the process meanwhile.
-double result_over_memory(Engine& test, const store::JobSpec& spec) {
+double result_over_memory(Engine& test, const records::JobSpec& spec) {
   test.ended(test.submit(spec));  // what the first job needs stays
   EXPECT_TRUE(anticrack::testing::reset_peak_memory());
   const std::uint64_t before = memory_of("VmRSS");
-  const store::JobRecord record = test.ended(test.submit(spec));
-  EXPECT_EQ(record.state, store::JobState::succeeded);
+  const records::JobRecord record = test.ended(test.submit(spec));
+  EXPECT_EQ(record.state, records::JobState::succeeded);
   EXPECT_GT(record.result_bytes, std::uint64_t{60} << 20U);
   const std::uint64_t peak = memory_of("VmHWM");
   EXPECT_GT(before, 0U);
@@ -32,7 +32,7 @@ double result_over_memory(Engine& test, const store::JobSpec& spec) {
 TEST(EngineMemory, DoesNotGrowWithTheResultOfAJob) {
   if (anticrack::testing::sanitized) GTEST_SKIP() << "a sanitizer's allocator keeps what is freed";
   Engine test(one_thread());
-  store::JobSpec spec;
+  records::JobSpec spec;
   spec.mesh = test.ready_mesh(0.02);
   spec.fields = true;
   spec.solver = contact::ActiveSetOptions{};

@@ -19,13 +19,13 @@ using anticrack::testing::Backend;
 using anticrack::testing::eventually;
 using anticrack::testing::throws;
 using errors::Reason;
-using store::JobRecord;
-using store::JobState;
+using records::JobRecord;
+using records::JobState;
 using namespace std::chrono_literals;
 
 /// A job whose first load case takes a while and whose second is quick.
-store::JobSpec long_job(const std::string& mesh) {
-  store::JobSpec spec = short_job(mesh);
+records::JobSpec long_job(const std::string& mesh) {
+  records::JobSpec spec = short_job(mesh);
   spec.loads.push_back({"second", 1.0, ""});
   uzawa_of(spec).theta = 1e-3;
   uzawa_of(spec).epsilon = 1e-300;
@@ -64,7 +64,7 @@ TEST(EngineRecovery, RunsWhatRanAgainWithTheSameNumbers) {
     stopper.join();
     latest = engine.events(id)->latest();
   }
-  ASSERT_FALSE(store::ended(backend.store->job(id)->state));
+  ASSERT_FALSE(records::ended(backend.store->job(id)->state));
   JobEngine engine(unlimited(one_thread()), *backend.store, backend.catalogue);
   const JobRecord record = ended(engine, id);
   EXPECT_EQ(record.state, JobState::not_converged);  // its iterations are bounded
@@ -143,7 +143,7 @@ TEST(EngineRecovery, EndsAJobThatTheServerDoesNotSurvive) {
   created.id = "job";
   created.spec = endless_job(mesh);
   created.cases.resize(1);
-  created.created = store::Clock::now();
+  created.created = records::Clock::now();
   backend.store->create(created, "print");
   for (const bool crash : {true, false, true, false, true}) {
     run_and_leave(backend, "job", crash);

@@ -6,8 +6,8 @@
 #include <fstream>
 #include <span>
 
+#include "digest/digest.hpp"
 #include "jobs/engine_support.hpp"
-#include "store/digest.hpp"
 #include "support/errors.hpp"
 
 namespace anticrack::jobs {
@@ -16,12 +16,12 @@ namespace {
 using anticrack::testing::throws;
 using contact::Status;
 using errors::Reason;
-using store::JobRecord;
-using store::JobState;
+using records::JobRecord;
+using records::JobState;
 using ::testing::ElementsAre;
 
-store::JobSpec two_loads(const std::string& mesh) {
-  store::JobSpec spec = short_job(mesh);
+records::JobSpec two_loads(const std::string& mesh) {
+  records::JobSpec spec = short_job(mesh);
   spec.loads.push_back({"push", -1.0, "x*y"});
   return spec;
 }
@@ -39,7 +39,7 @@ TEST(EngineSolve, TakesAJobFromSubmissionToItsResult) {
   EXPECT_LE(record.created, *record.started);
   EXPECT_LE(*record.started, *record.ended);
   ASSERT_EQ(record.cases.size(), 2U);
-  for (const store::CaseRecord& solved : record.cases) {
+  for (const records::CaseRecord& solved : record.cases) {
     EXPECT_EQ(solved.status, Status::converged);
     EXPECT_GT(solved.answer.iterations, 1);
     EXPECT_EQ(solved.answer.inclusions.size(), 1U);
@@ -88,7 +88,7 @@ TEST(EngineSolve, TellsEveryStepInOrder) {
 TEST(EngineSolve, GivesTheArraysOfTheResult) {
   Engine test;
   const std::string mesh = test.ready_mesh();
-  store::JobSpec spec = two_loads(mesh);
+  records::JobSpec spec = two_loads(mesh);
   spec.fields = true;
   const std::string id = test.submit(spec);
   const JobRecord record = test.ended(id);
@@ -115,7 +115,7 @@ TEST(EngineSolve, GivesTheArraysOfTheResult) {
     }
     EXPECT_EQ(array<std::int32_t>(*block, path + "traces/0/contact")->size(), s->size());
 
-    const store::CaseRecord& solved = record.cases[load];
+    const records::CaseRecord& solved = record.cases[load];
     const auto iteration = array<std::int32_t>(*block, path + "history/iteration");
     ASSERT_TRUE(iteration);
     EXPECT_EQ(iteration->size(), static_cast<std::size_t>(solved.answer.iterations));
@@ -157,7 +157,7 @@ TEST(EngineSolve, FactorisesNothingForTheSecondJobOnAMesh) {
 
 TEST(EngineFailure, OfOneLoadCaseLeavesTheOthers) {
   Engine test(one_thread());
-  store::JobSpec spec = short_job(test.ready_mesh());
+  records::JobSpec spec = short_job(test.ready_mesh());
   spec.loads.insert(spec.loads.begin(), {"nan", fem::Expression{"sqrt(-1 - x*x)"}, ""});
   spec.loads.push_back({"unknown", fem::PerRegion{{{"nowhere", 1.0}}}, ""});
   const std::string id = test.submit(spec);
@@ -183,14 +183,14 @@ std::string upload_array(store::Store& store, const std::vector<double>& values)
   std::ofstream(part, std::ios::binary)
       .write(reinterpret_cast<const char*>(values.data()),
              static_cast<std::streamsize>(values.size() * sizeof(double)));
-  const std::string sha256 = store::Sha256().add(std::as_bytes(std::span(values))).finish();
+  const std::string sha256 = digest::Sha256().add(std::as_bytes(std::span(values))).finish();
   store.keep_uploads({{part, sha256}}, "");
   return sha256;
 }
 
 TEST(EngineSolve, SolvesByTheActiveSetUnlessAskedOtherwise) {
   Engine test;
-  store::JobSpec spec = two_loads(test.ready_mesh());
+  records::JobSpec spec = two_loads(test.ready_mesh());
   const JobRecord uzawa = test.ended(test.submit(spec));
   spec.solver = {};
   const JobRecord exact = test.ended(test.submit(spec));
@@ -212,7 +212,7 @@ TEST(EngineSolve, TakesForcesFromUploadedArrays) {
   const std::uint64_t nodes = test.backend.catalogue.get(mesh).node_count;
   store::Store& store = *test.backend.store;
   const std::string ones = upload_array(store, std::vector<double>(triangles, 1.0));
-  store::JobSpec spec = short_job(mesh);
+  records::JobSpec spec = short_job(mesh);
   spec.loads = {{"constant", 1.0},
                 {"triangles", fem::Array{ones, true}},
                 {"again", fem::Array{ones, true}},
@@ -231,7 +231,7 @@ TEST(EngineSolve, TakesForcesFromUploadedArrays) {
 
 TEST(EngineSolve, TellsTheWarningsOfALoad) {
   Engine test;
-  store::JobSpec spec = short_job(test.ready_mesh());
+  records::JobSpec spec = short_job(test.ready_mesh());
   spec.loads[0].force = fem::Expression{"y > 0 ? 1 : sin(1e5*x*y)/sqrt(abs(x - 0.03))"};
   const JobRecord record = test.ended(test.submit(spec));
   EXPECT_EQ(record.cases[0].answer.warnings.size(), 1U);
@@ -239,7 +239,7 @@ TEST(EngineSolve, TellsTheWarningsOfALoad) {
 
 TEST(EngineSolve, StopsWhileALoadIsIntegrated) {
   Engine test;
-  store::JobSpec spec = short_job(test.ready_mesh());
+  records::JobSpec spec = short_job(test.ready_mesh());
   spec.loads.resize(1000, spec.loads[0]);  // hours, if they were not stopped
   for (std::size_t i = 0; i < spec.loads.size(); ++i) {
     spec.loads[i].name = std::to_string(i);
@@ -256,7 +256,7 @@ TEST(EngineSolve, StopsWhileALoadIsIntegrated) {
 
 TEST(EngineFailure, OfTheMeshFailsTheJob) {
   Engine test;
-  const store::UploadRef upload = test.backend.upload("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n");
+  const records::UploadRef upload = test.backend.upload("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n");
   const std::string mesh = test.backend.catalogue.create(upload, "", "").id;
   const std::string id = test.submit(short_job(mesh));
   const JobRecord record = test.ended(id);
@@ -271,7 +271,7 @@ TEST(EngineFailure, OfTheMeshFailsTheJob) {
 
 TEST(EngineFailure, ToConvergeIsAnEndOfItsOwn) {
   Engine test;
-  store::JobSpec spec = short_job(test.ready_mesh());
+  records::JobSpec spec = short_job(test.ready_mesh());
   uzawa_of(spec).epsilon = 1e-300;
   uzawa_of(spec).max_iterations = 3;
   const std::string id = test.submit(spec);
@@ -287,7 +287,7 @@ TEST(EngineSubmit, ChecksTheJob) {
   Engine test;
   const std::string mesh = test.backend.create();
   EXPECT_TRUE(throws([&] { test.submit(short_job("unknown")); }, Reason::not_found, "mesh"));
-  store::JobSpec spec = short_job(mesh);
+  records::JobSpec spec = short_job(mesh);
   spec.loads[0].force = fem::Expression{"x +"};
   EXPECT_TRUE(throws([&] { test.submit(spec); }, Reason::expression_invalid,
                      "load_cases[0].force.expression"));
@@ -301,7 +301,7 @@ TEST(EngineSubmit, ChecksTheJob) {
 
 TEST(EngineSubmit, LooksForTheArrays) {
   Engine test;
-  store::JobSpec spec = short_job(test.backend.create());
+  records::JobSpec spec = short_job(test.backend.create());
   spec.loads.push_back({"array", fem::Array{std::string(64, 'b'), true}});
   EXPECT_TRUE(throws([&] { test.submit(spec); }, Reason::not_found, "load_cases[1].force.array"));
   const std::string part = test.backend.store->new_upload_path(100);

@@ -16,14 +16,14 @@ namespace anticrack::jobs {
 namespace {
 
 using anticrack::testing::Backend;
-using store::JobRecord;
-using store::JobState;
-using store::StageRecord;
+using records::JobRecord;
+using records::JobState;
+using records::StageRecord;
 using ::testing::HasSubstr;
 using namespace std::chrono_literals;
 
-store::JobSpec accurate_job(const std::string& mesh, double energy = 0.02) {
-  store::JobSpec spec;
+records::JobSpec accurate_job(const std::string& mesh, double energy = 0.02) {
+  records::JobSpec spec;
   spec.mesh = mesh;
   spec.loads = {{"opening", fem::Expression{"y > 0 ? 1 : -1"}, ""},
                 {"skew", fem::Expression{"x*y > 0 ? 1 : -1"}, ""}};
@@ -31,13 +31,13 @@ store::JobSpec accurate_job(const std::string& mesh, double energy = 0.02) {
   return spec;
 }
 
-double relative_width(const store::StageAnswer& answer) {
+double relative_width(const records::StageAnswer& answer) {
   return (*answer.energy_upper - *answer.energy_lower) / -answer.energy;
 }
 
 std::set<std::string> meshes_of(const Backend& backend) {
   std::set<std::string> ids;
-  for (const store::MeshRecord& mesh : backend.catalogue.list({"", 100, {}})) ids.insert(mesh.id);
+  for (const records::MeshRecord& mesh : backend.catalogue.list({"", 100, {}})) ids.insert(mesh.id);
   return ids;
 }
 
@@ -89,7 +89,7 @@ auto phase_begins(const std::string& stage) {
 TEST(EngineStages, RefineUntilEveryLoadCaseIsAccurate) {
   Engine test;
   const std::string mesh = test.ready_mesh(0.4);
-  const store::JobSpec spec = accurate_job(mesh);
+  const records::JobSpec spec = accurate_job(mesh);
   const std::string id = test.submit(spec);
   const JobRecord job = test.ended(id);
   EXPECT_EQ(job.state, JobState::succeeded);
@@ -117,11 +117,11 @@ TEST(EngineStages, RefineUntilEveryLoadCaseIsAccurate) {
 
   // The answers' mesh is kept, those between are not.
   EXPECT_EQ(meshes_of(test.backend), (std::set<std::string>{mesh, job.stages.back().mesh}));
-  const store::MeshRecord last = test.backend.catalogue.get(job.stages.back().mesh);
+  const records::MeshRecord last = test.backend.catalogue.get(job.stages.back().mesh);
   EXPECT_EQ(last.triangle_count, job.stages.back().triangles);
   EXPECT_GT(last.bisection_bound, 0);
   EXPECT_GE(last.minimum_angle, 0.99 * last.bisection_bound) << "bisected from the newest vertices";
-  const auto& made = std::get<store::Refinement>(last.definition);
+  const auto& made = std::get<records::Refinement>(last.definition);
   EXPECT_EQ(made.job, id);
   EXPECT_EQ(made.parent, job.stages[job.stages.size() - 2].mesh);
 
@@ -137,7 +137,7 @@ TEST(EngineStages, RefineUntilEveryLoadCaseIsAccurate) {
 
 TEST(EngineStages, KeepTheirMeshesAndIndicatorsWhereAskedTo) {
   Engine test;
-  store::JobSpec spec = accurate_job(test.ready_mesh(0.4));
+  records::JobSpec spec = accurate_job(test.ready_mesh(0.4));
   spec.accuracy->keep_stages = true;
   spec.indicators = true;
   const std::string id = test.submit(spec);
@@ -154,7 +154,7 @@ TEST(EngineStages, KeepTheirMeshesAndIndicatorsWhereAskedTo) {
 TEST(EngineStages, StopAtALimitAndSaySo) {
   Engine test;
   const std::string mesh = test.ready_mesh(0.4);
-  store::JobSpec spec = accurate_job(mesh, 1e-3);
+  records::JobSpec spec = accurate_job(mesh, 1e-3);
   spec.accuracy->max_triangles = 3000;
   const JobRecord full = test.ended(test.submit(spec));
   EXPECT_EQ(full.state, JobState::not_converged);
@@ -182,7 +182,7 @@ TEST(EngineStages, StopAtTheMemoryBudgetAndSaySo) {
   std::uint64_t of_stage = 0;
   {
     Engine test;
-    store::JobSpec spec = accurate_job(test.ready_mesh(0.4));
+    records::JobSpec spec = accurate_job(test.ready_mesh(0.4));
     spec.accuracy->keep_stages = true;
     whole = test.ended(test.submit(spec));
     ASSERT_GE(whole.stages.size(), 3U);
@@ -235,7 +235,7 @@ TEST(EngineStages, GoBackToWhatFitsIntoASmallerMemoryBudgetAfterARestart) {
 
 TEST(EngineStages, CancelledBetweenTwoTheyKeepTheAnswersOfTheLast) {
   Engine test;
-  const store::JobSpec spec = accurate_job(test.ready_mesh(0.4));
+  const records::JobSpec spec = accurate_job(test.ready_mesh(0.4));
   const JobRecord whole = test.ended(test.submit(spec));
   for (std::size_t count = 1; count < whole.stages.size(); ++count) {
     const std::string id = test.engine.submit({spec, "", ""}).id;
@@ -250,7 +250,7 @@ TEST(EngineStages, CancelledBetweenTwoTheyKeepTheAnswersOfTheLast) {
 
 TEST(EngineStages, CutShortTheyFallBackToTheOneBefore) {
   Engine test;
-  const store::JobSpec spec = accurate_job(test.ready_mesh(0.4));
+  const records::JobSpec spec = accurate_job(test.ready_mesh(0.4));
   const JobRecord whole = test.ended(test.submit(spec));
   for (std::size_t stage = 2; stage <= whole.stages.size(); ++stage) {
     for (const bool as_it_begins : {false, true}) {
@@ -274,7 +274,7 @@ TEST(EngineStages, GoOnAfterAStopInEachOfThemWithTheSameBits) {
   anticrack::testing::TemporaryFolder folder;
   anticrack::testing::BackendOptions options;
   options.data_folder = (folder / "data").string();
-  store::JobSpec spec;
+  records::JobSpec spec;
   JobRecord whole;
   std::vector<std::vector<double>> expected;
   {
@@ -289,7 +289,7 @@ TEST(EngineStages, GoOnAfterAStopInEachOfThemWithTheSameBits) {
   for (std::size_t stage = 1; stage <= whole.stages.size(); ++stage) {
     Engine test({}, options);
     if (id.empty()) id = test.submit(spec);
-    if (store::ended(test.state(id))) break;  // a stop came late
+    if (records::ended(test.state(id))) break;  // a stop came late
     std::promise<void> begun;
     const auto solves = [stage](const Event& event) {  // this stage or, after a late stop, another
       const auto* phase = std::get_if<PhaseEvent>(&event);
@@ -303,7 +303,7 @@ TEST(EngineStages, GoOnAfterAStopInEachOfThemWithTheSameBits) {
   }
   Engine test({}, options);
   const JobRecord job =
-      store::ended(test.backend.store->job(id)->state) ? test.engine.get(id) : test.ended(id);
+      records::ended(test.backend.store->job(id)->state) ? test.engine.get(id) : test.ended(id);
   EXPECT_EQ(job.state, JobState::succeeded);
   ASSERT_EQ(job.stages.size(), whole.stages.size());
   EXPECT_EQ(numbers_of(test.engine, id), expected);
@@ -319,7 +319,7 @@ TEST(EngineStages, DoNotNeedToBeStored) {
   Backend backend;
   anticrack::testing::FailingStore store(*backend.store);
   JobEngine engine(unlimited(), store, backend.catalogue);
-  const store::JobSpec spec = accurate_job(ready_mesh(backend, 0.4));
+  const records::JobSpec spec = accurate_job(ready_mesh(backend, 0.4));
   const std::string id = engine.submit({spec, "", ""}).id;
   const auto listener = when(engine, id, stage_ends(1), [&] { store.put_fails = true; });
   EXPECT_EQ(ended(engine, id).state, JobState::succeeded);
@@ -339,12 +339,12 @@ TEST(EngineStages, EndWithWhatTheyHaveWhereTheDiskHasNoRoomForAFinerMesh) {
 
 TEST(EngineStages, AMeshThatIsGoneMakesThemBeginAnew) {
   Backend backend;
-  const store::JobSpec spec = accurate_job(ready_mesh(backend, 0.4));
+  const records::JobSpec spec = accurate_job(ready_mesh(backend, 0.4));
   JobRecord record;
   record.id = "job";
   record.spec = spec;
   record.cases.resize(2);
-  record.created = store::Clock::now();
+  record.created = records::Clock::now();
   record.stages = {{spec.mesh, 10, 1, {{}, {}}}, {"0123456789abcdef", 20}};
   backend.store->create(record, "print");
   JobEngine engine(unlimited(), *backend.store, backend.catalogue);

@@ -72,7 +72,7 @@ TEST(EngineStress, SurvivesManyClients) {
         try {
           const std::string& mesh = meshes[random() % meshes.size()];
           const bool endless = random() % 3 == 0;
-          store::JobSpec spec = endless ? endless_job(mesh) : short_job(mesh);
+          records::JobSpec spec = endless ? endless_job(mesh) : short_job(mesh);
           spec.loads.push_back({"second", 1.0, ""});
           const std::string id = test.submit(spec, std::to_string(c * rounds + round));
           const auto log = test.engine.events(id);

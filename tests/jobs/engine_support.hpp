@@ -19,8 +19,8 @@
 namespace anticrack::jobs {
 
 /// A job of one load case that converges in many iterations.
-inline store::JobSpec short_job(const std::string& mesh) {
-  store::JobSpec spec;
+inline records::JobSpec short_job(const std::string& mesh) {
+  records::JobSpec spec;
   spec.mesh = mesh;
   spec.loads = {{"pull", fem::Expression{"y > 0 ? 1 : -1"}, ""}};
   contact::UzawaOptions uzawa;
@@ -30,13 +30,13 @@ inline store::JobSpec short_job(const std::string& mesh) {
   return spec;
 }
 
-inline contact::UzawaOptions& uzawa_of(store::JobSpec& spec) {
+inline contact::UzawaOptions& uzawa_of(records::JobSpec& spec) {
   return std::get<contact::UzawaOptions>(spec.solver);
 }
 
 /// A job that iterates for as long as anybody would wait: its steps are tiny.
-inline store::JobSpec endless_job(const std::string& mesh) {
-  store::JobSpec spec = short_job(mesh);
+inline records::JobSpec endless_job(const std::string& mesh) {
+  records::JobSpec spec = short_job(mesh);
   uzawa_of(spec).theta = 1e-7;
   uzawa_of(spec).epsilon = 1e-300;
   uzawa_of(spec).max_iterations = std::numeric_limits<int>::max();
@@ -44,9 +44,9 @@ inline store::JobSpec endless_job(const std::string& mesh) {
 }
 
 /// Waits for the last event, so nothing of the job is left to happen.
-inline store::JobRecord ended(const JobEngine& engine, const std::string& id) {
+inline records::JobRecord ended(const JobEngine& engine, const std::string& id) {
   const std::shared_ptr<EventLog> log = engine.events(id);
-  std::shared_ptr<const store::JobRecord> record;
+  std::shared_ptr<const records::JobRecord> record;
   EXPECT_TRUE(anticrack::testing::eventually([&] {
     if (log->latest() < log->earliest()) {
       return false;
@@ -56,10 +56,10 @@ inline store::JobRecord ended(const JobEngine& engine, const std::string& id) {
     record = end == nullptr ? nullptr : end->job;
     return record != nullptr;
   }));
-  return record ? *record : store::JobRecord();
+  return record ? *record : records::JobRecord();
 }
 
-inline bool reaches(const JobEngine& engine, const std::string& id, store::JobState state) {
+inline bool reaches(const JobEngine& engine, const std::string& id, records::JobState state) {
   return anticrack::testing::eventually([&] { return engine.get(id).state == state; });
 }
 
@@ -91,18 +91,18 @@ class Engine {
       : backend(backend_options),
         engine(unlimited(std::move(options)), *backend.store, backend.catalogue) {}
 
-  std::string submit(const store::JobSpec& spec, const std::string& request_id = {},
+  std::string submit(const records::JobSpec& spec, const std::string& request_id = {},
                      const std::string& owner = {}) {
     return engine.submit({spec, owner, request_id}).id;
   }
-  std::vector<store::JobRecord> list(std::size_t count = 100) const {
+  std::vector<records::JobRecord> list(std::size_t count = 100) const {
     return engine.list({"", count, {}});
   }
-  store::JobState state(const std::string& id) const { return engine.get(id).state; }
-  bool reaches(const std::string& id, store::JobState wanted) const {
+  records::JobState state(const std::string& id) const { return engine.get(id).state; }
+  bool reaches(const std::string& id, records::JobState wanted) const {
     return jobs::reaches(engine, id, wanted);
   }
-  store::JobRecord ended(const std::string& id) const { return jobs::ended(engine, id); }
+  records::JobRecord ended(const std::string& id) const { return jobs::ended(engine, id); }
   std::string ready_mesh(double size = 0.1) { return jobs::ready_mesh(backend, size); }
   std::vector<NumberedEvent> events(const std::string& id) const {
     return engine.events(id)->read(0, SIZE_MAX);
@@ -118,7 +118,7 @@ class Engine {
   }
   bool iterating(const std::string& id) const {
     return anticrack::testing::eventually(
-        [&] { return state(id) == store::JobState::running && engine.metrics().iterations > 0; });
+        [&] { return state(id) == records::JobState::running && engine.metrics().iterations > 0; });
   }
 
   anticrack::testing::Backend backend;
@@ -127,8 +127,8 @@ class Engine {
 
 /// The array of a block; none where it has no such array.
 template <class T>
-std::optional<std::vector<T>> array(const store::BlockSource& block, const std::string& name) {
-  for (const store::ArrayLayout& layout : block.arrays()) {
+std::optional<std::vector<T>> array(const records::BlockSource& block, const std::string& name) {
+  for (const records::ArrayLayout& layout : block.arrays()) {
     if (layout.name == name) {
       std::uint64_t count = 1;
       for (const std::uint64_t extent : layout.shape) {

@@ -15,8 +15,8 @@ namespace {
 
 using anticrack::testing::throws;
 using errors::Reason;
-using store::JobRecord;
-using store::JobState;
+using records::JobRecord;
+using records::JobState;
 
 TEST(EngineSweepFailure, RefusesAMatrixThatDoesNotFit) {
   Engine test;
@@ -31,7 +31,7 @@ TEST(EngineSweepFailure, RefusesAMatrixThatDoesNotFit) {
       Reason::invalid_argument, "sweep.coefficients"));
   EXPECT_TRUE(throws([&] { test.submit(combinations(mesh, std::string(64, 'b'))); },
                      Reason::not_found, "sweep.coefficients"));
-  store::JobSpec beyond = combinations(mesh, upload(test.backend, {1, 2, 3}));
+  records::JobSpec beyond = combinations(mesh, upload(test.backend, {1, 2, 3}));
   beyond.sweep->traces = {1};
   EXPECT_TRUE(throws([&] { test.submit(beyond); }, Reason::invalid_argument, "sweep.traces[0]"));
   EXPECT_TRUE(test.list().empty());
@@ -41,10 +41,10 @@ TEST(EngineSweepFailure, RefusesAMatrixThatDoesNotFit) {
 TEST(EngineSweepFailure, AnswersTheSameRequestThoughItsMatrixIsGone) {
   Engine test;
   const std::string mesh = test.ready_mesh(mesh_size);
-  const store::JobSpec spec = combinations(mesh, upload(test.backend, {1, 2, 3}));
+  const records::JobSpec spec = combinations(mesh, upload(test.backend, {1, 2, 3}));
   const std::string id = test.submit(spec, "request");
   test.ended(id);
-  ASSERT_EQ(test.backend.store->expire_uploads(store::Clock::time_point::max()), 1U);
+  ASSERT_EQ(test.backend.store->expire_uploads(records::Clock::time_point::max()), 1U);
   EXPECT_EQ(test.submit(spec, "request"), id);
   EXPECT_TRUE(throws([&] { test.submit(spec); }, Reason::not_found, "sweep.coefficients"));
 }
@@ -68,7 +68,8 @@ TEST(EngineSweepFailure, FailsWhereTheNodalForcesAreNotOfTheMesh) {
   const JobRecord record = test.ended(test.submit(nodal_forces(mesh, longer)));
   expect_failed_at(record, "sweep.nodal_forces", Reason::invalid_argument, std::to_string(nodes));
   EXPECT_FALSE(record.started);
-  store::JobSpec beyond = nodal_forces(mesh, upload(test.backend, std::vector<double>(nodes, 1.0)));
+  records::JobSpec beyond =
+      nodal_forces(mesh, upload(test.backend, std::vector<double>(nodes, 1.0)));
   beyond.sweep->traces = {0, 1};
   expect_failed_at(test.ended(test.submit(beyond)), "sweep.traces[1]", Reason::invalid_argument,
                    "no row 1");
@@ -110,7 +111,7 @@ TEST(EngineSweepFailure, FailsAtAValueThatIsNotFinite) {
 
 TEST(EngineSweepFailure, FailsWithTheLoadThatCannotBeCondensed) {
   Engine test;
-  store::JobSpec spec = combinations(test.ready_mesh(mesh_size), upload(test.backend, {1, 2, 3}));
+  records::JobSpec spec = combinations(test.ready_mesh(mesh_size), upload(test.backend, {1, 2, 3}));
   spec.loads[1].force = fem::PerRegion{{{"nowhere", 1.0}}};
   const JobRecord record = test.ended(test.submit(spec));
   EXPECT_EQ(record.state, JobState::failed);

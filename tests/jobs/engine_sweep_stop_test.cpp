@@ -18,8 +18,8 @@ using anticrack::testing::eventually;
 using anticrack::testing::FailingStore;
 using anticrack::testing::throws;
 using errors::Reason;
-using store::JobRecord;
-using store::JobState;
+using records::JobRecord;
+using records::JobState;
 using namespace std::chrono_literals;
 
 constexpr std::size_t rows = 1000;  // four chunks
@@ -39,15 +39,15 @@ class EngineSweepStop : public ::testing::Test {
     mesh = test.backend.create(mesh_size);
   }
 
-  store::JobSpec sweep(store::Priority priority = store::Priority::normal) {
-    store::JobSpec spec = combinations(mesh, upload(test.backend, eighths(3 * rows)));
+  records::JobSpec sweep(records::Priority priority = records::Priority::normal) {
+    records::JobSpec spec = combinations(mesh, upload(test.backend, eighths(3 * rows)));
     spec.priority = priority;
     return spec;
   }
   /// Submits it, with something to do when the rows of its first chunk are told, on the thread that
   /// solves: nothing else is solved meanwhile.
   template <class Action>
-  std::string submit(const store::JobSpec& spec, Action action) {
+  std::string submit(const records::JobSpec& spec, Action action) {
     std::string id = test.submit(spec);
     const std::shared_ptr<EventLog> log = test.engine.events(id);
     _listener = log->listen([this, log, id, action] {
@@ -101,11 +101,11 @@ TEST_F(EngineSweepStop, CancelledBetweenChunksKeepsTheRowsItHas) {
 }
 
 TEST_F(EngineSweepStop, FailsWhenItsTimeIsOver) {
-  store::JobSpec spec = sweep();
+  records::JobSpec spec = sweep();
   spec.run_time_limit = 1ms;
   const std::string id = submit(spec, [&](const std::string&) {
     // Limits are looked after in the order they are due: when a later one was, the sweep's was.
-    store::JobSpec later = short_job(mesh);
+    records::JobSpec later = short_job(mesh);
     later.queue_time_limit = 50ms;
     test.ended(test.submit(later));
   });
@@ -125,9 +125,9 @@ TEST_F(EngineSweepStop, AnUrgentLoadCaseWaitsForOneChunkAtMost) {
   std::string urgent;
   std::size_t chunks_before = 0;
   std::shared_ptr<EventLog::Listener> listener;
-  const std::string id = submit(sweep(store::Priority::bulk), [&](const std::string& bulk) {
-    store::JobSpec spec = one_by_one(mesh, {1, 0, 0});
-    spec.priority = store::Priority::interactive;
+  const std::string id = submit(sweep(records::Priority::bulk), [&](const std::string& bulk) {
+    records::JobSpec spec = one_by_one(mesh, {1, 0, 0});
+    spec.priority = records::Priority::interactive;
     urgent = test.submit(spec);
     const auto log = test.engine.events(urgent);
     listener = log->listen([&, log, bulk] {
@@ -148,8 +148,8 @@ TEST_F(EngineSweepStop, AnUrgentSweepPassesABulkOne) {
   std::string urgent;
   std::size_t chunks_before = 0;
   std::shared_ptr<EventLog::Listener> listener;
-  const std::string id = submit(sweep(store::Priority::bulk), [&](const std::string& bulk) {
-    urgent = test.submit(sweep(store::Priority::interactive));
+  const std::string id = submit(sweep(records::Priority::bulk), [&](const std::string& bulk) {
+    urgent = test.submit(sweep(records::Priority::interactive));
     const auto log = test.engine.events(urgent);
     listener = log->listen([&, log, bulk] {
       if (rows_told(*log).size() == 4 && chunks_before == 0) {
@@ -191,15 +191,15 @@ TEST(EngineSweepAgain, ManyRunAtOnceAndSomeAreCancelled) {
 TEST(EngineSweepAgain, AfterACrashItRunsFromTheStart) {
   Backend backend;
   const std::string mesh = ready_mesh(backend, mesh_size);
-  const store::JobSpec spec = combinations(mesh, upload(backend, eighths(3 * rows)));
+  const records::JobSpec spec = combinations(mesh, upload(backend, eighths(3 * rows)));
   JobRecord crashed;
   crashed.id = "0123456789abcdef";
   crashed.spec = spec;
   crashed.spec.sweep->rows = rows;
-  crashed.created = store::Clock::now();
+  crashed.created = records::Clock::now();
   backend.store->create(crashed, "fingerprint");
   crashed.state = JobState::running;
-  crashed.started = store::Clock::now();
+  crashed.started = records::Clock::now();
   crashed.sweep.converged = 17;
   backend.store->put(crashed);
 
@@ -216,7 +216,7 @@ TEST(EngineSweepAgain, AfterACrashItRunsFromTheStart) {
 TEST(EngineSweepAgain, IsLeftToTheNextStartByAStop) {
   Backend backend;
   const std::string mesh = ready_mesh(backend, mesh_size);
-  const store::JobSpec spec = combinations(mesh, upload(backend, eighths(3 * 10 * rows)));
+  const records::JobSpec spec = combinations(mesh, upload(backend, eighths(3 * 10 * rows)));
   std::string id;
   {
     JobEngine engine(one_thread(), *backend.store, backend.catalogue);
@@ -224,7 +224,7 @@ TEST(EngineSweepAgain, IsLeftToTheNextStartByAStop) {
     engine.stop(0ms);
     if (engine.get(id).state == JobState::queued) {
       EXPECT_EQ(engine.get(id).sweep.converged, 0U);
-      EXPECT_FALSE(store::ended(backend.store->job(id)->state));
+      EXPECT_FALSE(records::ended(backend.store->job(id)->state));
     } else {
       EXPECT_EQ(engine.get(id).state, JobState::succeeded);
     }
@@ -241,7 +241,7 @@ TEST(EngineSweepAgain, AMatrixThatIsGoneFailsTheJob) {
   left.id = "0123456789abcdef";
   left.spec = combinations(mesh, std::string(64, 'a'));
   left.spec.sweep->rows = 5;
-  left.created = store::Clock::now();
+  left.created = records::Clock::now();
   backend.store->create(left, "fingerprint");
   JobEngine engine(one_thread(), *backend.store, backend.catalogue);
   const JobRecord record = ended(engine, left.id);

@@ -14,8 +14,8 @@
 namespace anticrack::jobs {
 namespace {
 
-using store::JobRecord;
-using store::JobState;
+using records::JobRecord;
+using records::JobState;
 using ::testing::ElementsAre;
 
 double largest(const std::vector<double>& values) {
@@ -35,9 +35,9 @@ void expect_near(const std::vector<double>& values, const std::vector<double>& e
 }
 
 /// What the two have in common, row by row.
-void expect_same_answers(const store::BlockSource& sweep, const JobRecord& plain) {
+void expect_same_answers(const records::BlockSource& sweep, const JobRecord& plain) {
   std::vector<double> energy, length, displacement;
-  for (const store::CaseRecord& record : plain.cases) {
+  for (const records::CaseRecord& record : plain.cases) {
     ASSERT_EQ(record.status, contact::Status::converged);
     energy.push_back(record.answer.energy);
     length.push_back(record.answer.contact_length);
@@ -54,7 +54,7 @@ void expect_same_answers(const store::BlockSource& sweep, const JobRecord& plain
   EXPECT_LT(largest(*array<double>(sweep, "sweep/kkt")), 1e-9);
 }
 
-void expect_same_contact(const store::BlockSource& sweep, const store::BlockSource& plain,
+void expect_same_contact(const records::BlockSource& sweep, const records::BlockSource& plain,
                          std::size_t rows) {
   const auto nodes = *array<std::int32_t>(sweep, "sweep/contact_nodes");
   const auto contact = *array<std::uint8_t>(sweep, "sweep/contact");
@@ -75,7 +75,7 @@ void expect_same_contact(const store::BlockSource& sweep, const store::BlockSour
   }
 }
 
-void expect_same_traces(const store::BlockSource& sweep, const store::BlockSource& plain,
+void expect_same_traces(const records::BlockSource& sweep, const records::BlockSource& plain,
                         const std::vector<std::uint32_t>& rows) {
   for (const std::uint32_t row : rows) {
     for (const char* name : {"u_minus", "u_plus", "jump", "pressure"}) {
@@ -92,7 +92,7 @@ TEST(EngineSweep, CombinesAsLoadCasesDo) {
   Engine test;
   const std::string mesh = test.ready_mesh(mesh_size);
   const std::vector<double> matrix = eighths(300 * std::size_t{3});  // two chunks
-  store::JobSpec spec = combinations(mesh, upload(test.backend, matrix));
+  records::JobSpec spec = combinations(mesh, upload(test.backend, matrix));
   spec.sweep->traces = {0, 255, 256, 299};
   const std::string sweep = test.submit(spec);
   const JobRecord record = test.ended(sweep);
@@ -123,7 +123,7 @@ TEST(EngineSweep, HasTheBoundsOfLoadCasesWhereItIsAskedForThem) {
   Engine test;
   const std::string mesh = test.ready_mesh(mesh_size);
   const std::vector<double> matrix = eighths(20 * std::size_t{3}, 5);  // three chunks
-  store::JobSpec spec = combinations(mesh, upload(test.backend, matrix));
+  records::JobSpec spec = combinations(mesh, upload(test.backend, matrix));
   const std::string without = test.submit(spec);
   test.ended(without);
   spec.sweep->bounds = true;
@@ -137,7 +137,7 @@ TEST(EngineSweep, HasTheBoundsOfLoadCasesWhereItIsAskedForThem) {
   EXPECT_EQ(layout(*other, "sweep/energy_lower"), nullptr);
   EXPECT_EQ(layout(*other, "sweep/displacement_upper"), nullptr);
   std::vector<double> lower, upper, a_lower, a_upper;
-  for (const store::CaseRecord& record : expected.cases) {
+  for (const records::CaseRecord& record : expected.cases) {
     lower.push_back(record.answer.energy_lower.value());
     upper.push_back(record.answer.energy_upper.value());
     for (const contact::InclusionAnswer& inclusion : record.answer.inclusions) {
@@ -153,8 +153,8 @@ TEST(EngineSweep, HasTheBoundsOfLoadCasesWhereItIsAskedForThem) {
 
 TEST(EngineSweep, SaysWhyARowHasNoBounds) {
   Engine test;
-  store::JobSpec spec = combinations(test.ready_mesh(mesh_size),
-                                     upload(test.backend, {1, 0, 0, 1, 0, 0.5, 0, 1, 0, 0, 0, 1}));
+  records::JobSpec spec = combinations(
+      test.ready_mesh(mesh_size), upload(test.backend, {1, 0, 0, 1, 0, 0.5, 0, 1, 0, 0, 0, 1}));
   spec.loads[2].force = 0.0;
   spec.loads[2].point_forces = {{0.3, 0.4, 1}};
   spec.sweep->bounds = true;
@@ -173,7 +173,7 @@ TEST(EngineSweep, SaysWhyARowHasNoBounds) {
 
 TEST(EngineSweep, TellsTheWarningsOfItsBasis) {
   Engine test;
-  store::JobSpec spec =
+  records::JobSpec spec =
       combinations(test.ready_mesh(mesh_size), upload(test.backend, eighths(std::size_t{3})));
   spec.loads[1].force = fem::Expression{"y > 0 ? 1 : sin(1e5*x*y)/sqrt(abs(x - 0.03))"};
   EXPECT_EQ(test.ended(test.submit(spec)).sweep.warnings.size(), 1U);
@@ -194,7 +194,7 @@ TEST(EngineSweep, TakesNodalForces) {
                        coefficients[3 * row + 2] * triangulation->xy[2 * i + 1]);
     }
   }
-  store::JobSpec spec = nodal_forces(mesh, upload(test.backend, forces));
+  records::JobSpec spec = nodal_forces(mesh, upload(test.backend, forces));
   spec.sweep->traces = {3, 39};
   const std::string sweep = test.submit(spec);
   const JobRecord record = test.ended(sweep);
@@ -206,10 +206,11 @@ TEST(EngineSweep, TakesNodalForces) {
   expect_same_traces(*test.engine.result(sweep), *test.engine.result(plain), spec.sweep->traces);
   spec.sweep->bounds = true;
   const std::string bounded = test.submit(spec);
-  const std::vector<store::CaseRecord> cases = test.ended(plain).cases;
+  const std::vector<records::CaseRecord> cases = test.ended(plain).cases;
   ASSERT_EQ(test.ended(bounded).state, JobState::succeeded);
   std::vector<double> lower;
-  for (const store::CaseRecord& record : cases) lower.push_back(record.answer.energy_lower.value());
+  for (const records::CaseRecord& record : cases)
+    lower.push_back(record.answer.energy_lower.value());
   expect_near(*array<double>(*test.engine.result(bounded), "sweep/energy_lower"), lower);
 }
 
@@ -221,7 +222,7 @@ TEST(EngineSweep, GivesTheSameBitsWithOneThreadAndTwo) {
     options.threads = threads;
     Engine test(options);
     const std::string mesh = test.ready_mesh(mesh_size);
-    store::JobSpec spec = combinations(mesh, upload(test.backend, matrix));
+    records::JobSpec spec = combinations(mesh, upload(test.backend, matrix));
     spec.sweep->traces = {700};
     for (const bool bounds : {false, true}) {
       spec.sweep->bounds = bounds;
@@ -235,7 +236,7 @@ TEST(EngineSweep, GivesTheSameBitsWithOneThreadAndTwo) {
 
 TEST(EngineSweep, RowsThatDoNotConvergeDoNotFailIt) {
   Engine test;
-  store::JobSpec spec =
+  records::JobSpec spec =
       combinations(test.ready_mesh(mesh_size), upload(test.backend, eighths(300 * std::size_t{3})));
   spec.solver = contact::ActiveSetOptions{1e-12, 1};  // a step: enough where nothing opens
   spec.sweep->traces = {0, 1, 2, 3, 4, 5, 6, 7};
@@ -275,25 +276,25 @@ TEST(EngineSweep, TellsOfEveryRowOnce) {
 TEST(EngineSweep, LaysOutItsResult) {
   Engine test;
   const std::string mesh = test.ready_mesh(mesh_size);
-  store::JobSpec spec = combinations(mesh, upload(test.backend, eighths(7 * std::size_t{3})));
+  records::JobSpec spec = combinations(mesh, upload(test.backend, eighths(7 * std::size_t{3})));
   spec.sweep->traces = {2};
   const std::string id = test.submit(spec);
   test.ended(id);
   const auto block = test.engine.result(id);
   const std::uint64_t inclusions = test.backend.catalogue.get(mesh).inclusions.size();
-  const store::ArrayLayout* contact_nodes = layout(*block, "sweep/contact_nodes");
+  const records::ArrayLayout* contact_nodes = layout(*block, "sweep/contact_nodes");
   ASSERT_TRUE(contact_nodes);
-  EXPECT_EQ(contact_nodes->type, store::ArrayType::int32);
+  EXPECT_EQ(contact_nodes->type, records::ArrayType::int32);
   const std::uint64_t contacts = contact_nodes->shape.at(0);
   EXPECT_THAT(contact_nodes->shape, ElementsAre(contacts, 2));
-  const auto expect = [&](const char* name, store::ArrayType type,
+  const auto expect = [&](const char* name, records::ArrayType type,
                           const std::vector<std::uint64_t>& shape) {
-    const store::ArrayLayout* found = layout(*block, name);
+    const records::ArrayLayout* found = layout(*block, name);
     ASSERT_TRUE(found) << name;
     EXPECT_EQ(found->type, type) << name;
     EXPECT_EQ(found->shape, shape) << name;
   };
-  using store::ArrayType;
+  using records::ArrayType;
   expect("sweep/status", ArrayType::int32, {7});
   expect("sweep/steps", ArrayType::int32, {7});
   expect("sweep/energy", ArrayType::float64, {7});
@@ -310,7 +311,7 @@ TEST(EngineSweep, LaysOutItsResult) {
 TEST(EngineSweep, ReadsTheArraysOfItsBasis) {
   Engine test;
   const std::string mesh = test.ready_mesh(mesh_size);
-  store::JobSpec spec = combinations(mesh, upload(test.backend, {2, 0, 0, 0.5, 0, 0}));
+  records::JobSpec spec = combinations(mesh, upload(test.backend, {2, 0, 0, 0.5, 0, 0}));
   const std::string constant = test.submit(spec);
   spec.loads[0].force = fem::Array{
       upload(test.backend, std::vector<double>(node_count(test.backend, mesh), 1.0)), false};

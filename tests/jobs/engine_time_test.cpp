@@ -13,8 +13,8 @@ using anticrack::testing::BackendOptions;
 using anticrack::testing::throws;
 using contact::Status;
 using errors::Reason;
-using store::JobRecord;
-using store::JobState;
+using records::JobRecord;
+using records::JobState;
 using namespace std::chrono_literals;
 
 void expect_timed_out(const JobRecord& record, const std::string& field) {
@@ -22,19 +22,19 @@ void expect_timed_out(const JobRecord& record, const std::string& field) {
   ASSERT_TRUE(record.error);
   EXPECT_EQ(record.error->reason(), Reason::timed_out);
   EXPECT_EQ(record.error->fields().at(0).field, field);
-  for (const store::CaseRecord& ended : record.cases) {
+  for (const records::CaseRecord& ended : record.cases) {
     EXPECT_EQ(ended.status, Status::failed);
     ASSERT_TRUE(ended.error);
     EXPECT_EQ(ended.error->reason(), Reason::timed_out);
   }
 }
 
-store::JobSpec waits_briefly(store::JobSpec spec) {
+records::JobSpec waits_briefly(records::JobSpec spec) {
   spec.queue_time_limit = 20ms;
   return spec;
 }
 
-store::JobSpec runs_briefly(store::JobSpec spec) {
+records::JobSpec runs_briefly(records::JobSpec spec) {
   spec.run_time_limit = 200ms;
   return spec;
 }
@@ -75,7 +75,7 @@ TEST(EngineTime, EndsWhileIterating) {
 
 TEST(EngineTime, EndsWhileALoadIsIntegrated) {
   Engine test(one_thread());
-  store::JobSpec spec = runs_briefly(short_job(test.ready_mesh()));
+  records::JobSpec spec = runs_briefly(short_job(test.ready_mesh()));
   spec.solver = contact::ActiveSetOptions{};
   spec.loads.resize(1000, spec.loads[0]);  // hours
   for (std::size_t i = 0; i < spec.loads.size(); ++i) {
@@ -92,7 +92,7 @@ TEST(EngineTime, LeavesTheLoadCasesThatEnded) {
   EngineOptions options = one_thread();
   options.columns = 2;
   Engine test(options);
-  store::JobSpec spec = endless_job(test.ready_mesh());
+  records::JobSpec spec = endless_job(test.ready_mesh());
   spec.run_time_limit = 250ms;
   spec.loads.insert(spec.loads.begin(), {"at rest", 0.0, ""});  // ends in its first iterations
   std::string id = test.submit(spec);
@@ -115,7 +115,7 @@ TEST(EngineTime, IsTheServersWhereTheJobNamesNone) {
   Engine test(options);
   const std::string mesh = test.ready_mesh();
   expect_timed_out(test.ended(test.submit(endless_job(mesh))), "run_timeout");
-  store::JobSpec longer = short_job(mesh);
+  records::JobSpec longer = short_job(mesh);
   longer.run_time_limit = 201ms;
   EXPECT_TRUE(throws([&] { test.submit(longer); }, Reason::limit_exceeded, "run_timeout"));
 }

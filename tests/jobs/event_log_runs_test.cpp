@@ -122,7 +122,7 @@ TEST(EventLogRuns, KeepsTheNewestSampleOfWhatIsTooLarge) {
 
 /// The end of a load case that took `steps` iterations and is some `bytes` large.
 CaseEvent case_ended(int load_case, int steps, std::size_t bytes = 0) {
-  auto record = std::make_shared<store::CaseRecord>();
+  auto record = std::make_shared<records::CaseRecord>();
   record->answer.iterations = steps;
   record->answer.reason.assign(bytes, 'x');
   return {load_case, record};
@@ -259,7 +259,7 @@ TEST(EventLogRuns, IsReadInRunsWhileItIsWrittenAndTrimmed) {
           lot.clear();
         }
         if (i % 1000 == 0) {
-          log.append(PhaseEvent{store::JobState::running, "phase"});
+          log.append(PhaseEvent{records::JobState::running, "phase"});
         }
       }
     });

@@ -35,14 +35,14 @@ inline std::vector<SampleEvent> samples(int first, int count) {
 }
 
 inline EndEvent end_event() {
-  auto record = std::make_shared<store::JobRecord>();
+  auto record = std::make_shared<records::JobRecord>();
   record->id = "job";
   return {std::move(record)};
 }
 
 /// Every 5th event is a phase, the others samples; the number of each is in it.
 inline Event mixed(int number) {
-  return number % 5 == 0 ? Event(PhaseEvent{store::JobState::running, std::to_string(number)})
+  return number % 5 == 0 ? Event(PhaseEvent{records::JobState::running, std::to_string(number)})
                          : Event(sample(0, number));
 }
 

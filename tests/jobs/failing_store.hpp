@@ -25,14 +25,14 @@ class FailingStore final : public store::Store {
   std::atomic<int> failures{0};
   std::function<void()> reading_upload = {};  ///< called by whoever asks for one
 
-  void put(const store::MeshRecord& record) override { _real.put(record); }
-  void put(const store::MeshRecord& record, const mesh::Mesh& triangulation) override {
+  void put(const records::MeshRecord& record) override { _real.put(record); }
+  void put(const records::MeshRecord& record, const mesh::Mesh& triangulation) override {
     _real.put(record, triangulation);
   }
-  std::optional<store::MeshRecord> mesh(const std::string& id) const override {
+  std::optional<records::MeshRecord> mesh(const std::string& id) const override {
     return _real.mesh(id);
   }
-  std::vector<store::MeshRecord> meshes(const store::Page& page) const override {
+  std::vector<records::MeshRecord> meshes(const store::Page& page) const override {
     return _real.meshes(page);
   }
   std::size_t mesh_count() const override { return _real.mesh_count(); }
@@ -41,39 +41,39 @@ class FailingStore final : public store::Store {
     return _real.triangulation(sha256);
   }
 
-  store::JobRecord create(const store::JobRecord& record, const std::string& print) override {
+  records::JobRecord create(const records::JobRecord& record, const std::string& print) override {
     return _real.create(record, print);
   }
-  std::optional<store::JobRecord> created_before(const store::JobRecord& record,
-                                                 const std::string& print) const override {
+  std::optional<records::JobRecord> created_before(const records::JobRecord& record,
+                                                   const std::string& print) const override {
     return _real.created_before(record, print);
   }
-  void put(const store::JobRecord& record) override {
+  void put(const records::JobRecord& record) override {
     fail(put_fails);
     _real.put(record);
   }
   std::shared_ptr<store::Spool> new_spool() override { return _real.new_spool(); }
-  void finish(const store::JobRecord& record,
-              std::shared_ptr<const store::BlockSource> result) override {
+  void finish(const records::JobRecord& record,
+              std::shared_ptr<const records::BlockSource> result) override {
     fail(finish_fails);
     _real.finish(record, std::move(result));
   }
-  std::optional<store::JobRecord> job(const std::string& id) const override {
+  std::optional<records::JobRecord> job(const std::string& id) const override {
     return _real.job(id);
   }
-  std::vector<store::JobRecord> jobs(const store::Page& page) const override {
+  std::vector<records::JobRecord> jobs(const store::Page& page) const override {
     return _real.jobs(page);
   }
-  std::vector<store::JobRecord> unfinished() const override { return _real.unfinished(); }
+  std::vector<records::JobRecord> unfinished() const override { return _real.unfinished(); }
   bool set_running(bool running) override {
     fail(put_fails);
     return _real.set_running(running);
   }
   std::vector<store::EndedJob> ended() const override { return _real.ended(); }
-  std::shared_ptr<const store::BlockSource> result(const std::string& id) const override {
+  std::shared_ptr<const records::BlockSource> result(const std::string& id) const override {
     return _real.result(id);
   }
-  void expire(const std::string& id, store::Clock::time_point now) override {
+  void expire(const std::string& id, records::Clock::time_point now) override {
     _real.expire(id, now);
   }
   void erase_job(const std::string& id) override { _real.erase_job(id); }
@@ -84,8 +84,8 @@ class FailingStore final : public store::Store {
     return _real.upload_path(sha256, owner);
   }
   std::string new_upload_path(std::uint64_t bytes) override { return _real.new_upload_path(bytes); }
-  store::Clock::time_point keep_uploads(const std::vector<store::Upload>& uploads,
-                                        const std::string& owner) override {
+  records::Clock::time_point keep_uploads(const std::vector<store::Upload>& uploads,
+                                          const std::string& owner) override {
     return _real.keep_uploads(uploads, owner);
   }
   std::optional<store::UploadRecord> upload(const std::string& sha256,
@@ -99,7 +99,7 @@ class FailingStore final : public store::Store {
   void erase_upload(const std::string& sha256, const std::string& owner) override {
     _real.erase_upload(sha256, owner);
   }
-  std::size_t expire_uploads(store::Clock::time_point before) override {
+  std::size_t expire_uploads(records::Clock::time_point before) override {
     return _real.expire_uploads(before);
   }
   store::Usage usage() const override { return _real.usage(); }

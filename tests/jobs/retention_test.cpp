@@ -11,7 +11,7 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using namespace std::chrono_literals;
 
-const store::Clock::time_point today{1'000h};
+const records::Clock::time_point today{1'000h};
 
 /// Jobs "0", "1", ... that ended one minute after another, the last one today.
 Retention with(const RetentionLimits& limits, const std::vector<std::uint64_t>& bytes) {

@@ -10,7 +10,7 @@
 namespace anticrack::jobs {
 namespace {
 
-using store::Priority;
+using records::Priority;
 using namespace std::chrono_literals;
 
 class ScheduleTest : public ::testing::Test {

@@ -21,8 +21,8 @@ namespace {
 
 using anticrack::testing::eventually;
 using anticrack::testing::EveryLook;
-using store::JobRecord;
-using store::JobState;
+using records::JobRecord;
+using records::JobState;
 
 /// Of a cancelled job that had answers: they are kept.
 const std::set<std::string> keeping{"hashing a result", "writing a result"};
@@ -33,7 +33,7 @@ class JobStops : public ::testing::Test {
   std::vector<std::vector<double>> numbers_of(const std::string& id) const {
     std::vector<std::vector<double>> numbers;
     const JobRecord record = test.engine.get(id);
-    for (const store::CaseRecord& one : record.cases) {
+    for (const records::CaseRecord& one : record.cases) {
       const auto& answer = one.answer;
       numbers.push_back(
           {answer.energy, answer.energy_lower.value_or(0), answer.energy_upper.value_or(0)});
@@ -52,7 +52,7 @@ class JobStops : public ::testing::Test {
   void forget() {
     ASSERT_TRUE(eventually([&] {
       try {
-        for (const store::MeshRecord& mesh : test.backend.catalogue.list({"", 1000, {}}))
+        for (const records::MeshRecord& mesh : test.backend.catalogue.list({"", 1000, {}}))
           test.backend.catalogue.evict(mesh.id);
         return test.engine.idle();
       } catch (const errors::Error&) {
@@ -65,7 +65,7 @@ class JobStops : public ::testing::Test {
 
   /// Runs it to its end, then cancels it in all that it does. `least`: of looks, where each loop
   /// has one on a mesh as small as this.
-  void walk(const store::JobSpec& spec, const Looks& least) {
+  void walk(const records::JobSpec& spec, const Looks& least) {
     Looks all;
     std::vector<std::vector<double>> expected;
     forget();
@@ -86,7 +86,7 @@ class JobStops : public ::testing::Test {
     EXPECT_EQ(numbers_of(id), expected);
   }
 
-  void cancel_at(const store::JobSpec& spec, const std::string& doing, std::size_t number) {
+  void cancel_at(const records::JobSpec& spec, const std::string& doing, std::size_t number) {
     SCOPED_TRACE(doing + ", look " + std::to_string(number));
     forget();
     std::string id;
@@ -131,7 +131,7 @@ int meshers() {
 
 /// A process of its own, whose looks are reported: it is killed.
 TEST_F(JobStops, WhileTheMesherWorks) {
-  store::GeometrySource strip{anticrack::testing::paper_geometry(), {mesh::Preset::uniform}};
+  records::GeometrySource strip{anticrack::testing::paper_geometry(), {mesh::Preset::uniform}};
   strip.geometry.boundary = {{-1, -1e-4}, {1, -1e-4}, {1, 1}, {-1, 1}};  // half a minute in gmsh
   const EveryLook looks;
   const std::string id =
@@ -153,7 +153,7 @@ TEST_F(JobStops, WhileTheMesherWorks) {
 
 /// All from a triangulation to bounds of the energy and of A, and from each mesh to a finer one.
 TEST_F(JobStops, InAdaptiveStages) {
-  store::JobSpec spec;
+  records::JobSpec spec;
   spec.mesh = test.ready_mesh(0.4);
   spec.loads = {{"lifted", fem::Expression{"x^2 + y^2 < 0.3 ? 1 : x*y"}, "x*y"}};
   spec.accuracy.emplace().energy = 0.02;
@@ -196,7 +196,7 @@ TEST_F(JobStops, InAdaptiveStages) {
 }
 
 TEST_F(JobStops, InLoadsFromArraysAndAResultWithFields) {
-  store::JobSpec spec;
+  records::JobSpec spec;
   spec.mesh = test.ready_mesh(0.06);
   const std::string values = upload(test.backend, eighths(node_count(test.backend, spec.mesh)));
   spec.loads = {{"array", fem::Array{values, false, {}}}, {"constant", 1.0}};
@@ -208,7 +208,7 @@ TEST_F(JobStops, InLoadsFromArraysAndAResultWithFields) {
 }
 
 TEST_F(JobStops, InASweepWithBounds) {
-  store::JobSpec spec = combinations(test.ready_mesh(0.3), upload(test.backend, eighths(3 * 20)));
+  records::JobSpec spec = combinations(test.ready_mesh(0.3), upload(test.backend, eighths(3 * 20)));
   spec.sweep->bounds = true;
   walk(spec, {{"reading a file", 1},
               {"computing bounds of the energy", 20},

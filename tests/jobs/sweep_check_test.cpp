@@ -18,8 +18,8 @@ namespace {
 using anticrack::testing::Backend;
 using anticrack::testing::throws;
 using errors::Reason;
-using store::JobSpec;
-using Cases = store::SweepSpec::Cases;
+using records::JobSpec;
+using Cases = records::SweepSpec::Cases;
 
 const std::string hash(64, 'a');
 
@@ -71,7 +71,7 @@ TEST_F(SweepCheck, WantsTracesAscendingAndFew) {
 }
 
 TEST_F(SweepCheck, CountsWholeRows) {
-  store::SweepSpec sweep;
+  records::SweepSpec sweep;
   sweep.traces = {0, 3};
   EXPECT_EQ(rows_of(sweep, 12, 3, 4), 4U);
   EXPECT_TRUE(
@@ -87,7 +87,7 @@ TEST_F(SweepCheck, CountsWholeRows) {
 
 TEST_F(SweepCheck, FindsTheMatrixOfItsOwner) {
   Backend backend;
-  store::SweepSpec sweep;
+  records::SweepSpec sweep;
   sweep.upload = upload(backend, {1, 2, 3}, "ann");
   EXPECT_EQ(find_matrix(sweep, *backend.store, "ann").values, 3U);
   EXPECT_TRUE(throws([&] { find_matrix(sweep, *backend.store, "bob"); }, Reason::not_found,

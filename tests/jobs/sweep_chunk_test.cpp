@@ -21,7 +21,7 @@ using errors::Reason;
 class ChunkTest : public ::testing::Test {
  protected:
   explicit ChunkTest(bool tilt = false, bool bounds = false) {
-    store::JobRecord record;
+    records::JobRecord record;
     record.spec = combinations("mesh", upload(backend, eighths(300 * std::size_t{3})));
     record.spec.sweep->bounds = bounds;
     job = std::make_shared<LiveJob>(1, record, 1, 1U << 20U, nullptr);
@@ -54,7 +54,7 @@ TEST_F(ChunkTest, HasItsRows) {
   EXPECT_EQ(last.columns->rows(), 44U);
   EXPECT_EQ(last.record.converged, 44U);
   EXPECT_GT(iterations, 300U);
-  store::SweepRecord sum;
+  records::SweepRecord sum;
   add(sum, first.record);
   add(sum, last.record);
   EXPECT_EQ(sum.converged, 300U);
@@ -75,7 +75,7 @@ TEST_F(ChunkTest, HasNoSlopesWhereNothingTilts) {
 TEST_F(TiltingChunkTest, HasSlopesOfEveryRowAndTheBytesThatWerePlanned) {
   job->sweep->chunks[1] = solve(1).solved;
   const auto block = sweep_result(*job, contact::Status::cancelled);
-  const store::ArrayLayout* slope = layout(*block, "sweep/slope");
+  const records::ArrayLayout* slope = layout(*block, "sweep/slope");
   ASSERT_TRUE(slope);
   const std::uint64_t inclusions = job->mesh_operator->mesh().inclusions.size();
   EXPECT_EQ(slope->shape, (std::vector<std::uint64_t>{300, inclusions, 2}));

@@ -39,8 +39,8 @@ inline std::size_t node_count(const anticrack::testing::Backend& backend, const 
 }
 
 /// 1, x and y, combined by a matrix with three columns.
-inline store::JobSpec combinations(const std::string& mesh, const std::string& matrix) {
-  store::JobSpec spec;
+inline records::JobSpec combinations(const std::string& mesh, const std::string& matrix) {
+  records::JobSpec spec;
   spec.mesh = mesh;
   spec.loads = {{"one", 1.0}, {"x", fem::Expression{"x"}}, {"y", fem::Expression{"y"}}};
   spec.solver = contact::ActiveSetOptions{};
@@ -48,16 +48,16 @@ inline store::JobSpec combinations(const std::string& mesh, const std::string& m
   return spec;
 }
 
-inline store::JobSpec nodal_forces(const std::string& mesh, const std::string& matrix) {
-  store::JobSpec spec = combinations(mesh, matrix);
+inline records::JobSpec nodal_forces(const std::string& mesh, const std::string& matrix) {
+  records::JobSpec spec = combinations(mesh, matrix);
   spec.loads.clear();
-  spec.sweep->cases = store::SweepSpec::Cases::nodal_forces;
+  spec.sweep->cases = records::SweepSpec::Cases::nodal_forces;
   return spec;
 }
 
 /// The same loads as load cases of a plain job.
-inline store::JobSpec one_by_one(const std::string& mesh, const std::vector<double>& matrix) {
-  store::JobSpec spec;
+inline records::JobSpec one_by_one(const std::string& mesh, const std::vector<double>& matrix) {
+  records::JobSpec spec;
   spec.mesh = mesh;
   spec.solver = contact::ActiveSetOptions{};
   for (std::size_t row = 0; row < matrix.size() / 3; ++row) {
@@ -68,8 +68,9 @@ inline store::JobSpec one_by_one(const std::string& mesh, const std::vector<doub
   return spec;
 }
 
-inline const store::ArrayLayout* layout(const store::BlockSource& block, const std::string& name) {
-  for (const store::ArrayLayout& array : block.arrays()) {
+inline const records::ArrayLayout* layout(const records::BlockSource& block,
+                                          const std::string& name) {
+  for (const records::ArrayLayout& array : block.arrays()) {
     if (array.name == name) {
       return &array;
     }

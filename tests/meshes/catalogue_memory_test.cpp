@@ -21,7 +21,7 @@ using anticrack::testing::BackendOptions;
 using anticrack::testing::eventually;
 using anticrack::testing::throws;
 using errors::Reason;
-using store::MeshState;
+using records::MeshState;
 
 class Memory : public ::testing::Test {
  protected:

@@ -16,8 +16,8 @@ using anticrack::testing::Backend;
 using anticrack::testing::eventually;
 using anticrack::testing::throws;
 using errors::Reason;
-using store::MeshRecord;
-using store::MeshState;
+using records::MeshRecord;
+using records::MeshState;
 
 class Owners : public ::testing::Test {
  protected:
@@ -100,7 +100,7 @@ TEST_F(Owners, KeepWhatTheOtherErases) {
 }
 
 TEST_F(Owners, CannotMeshTheUploadsOfOthers) {
-  const store::UploadRef upload = backend.upload("$MeshFormat\n", "ann");
+  const records::UploadRef upload = backend.upload("$MeshFormat\n", "ann");
   EXPECT_TRUE(
       throws([&] { backend.catalogue.create(upload, "", "bob"); }, Reason::not_found, "upload"));
   EXPECT_EQ(backend.catalogue.create(upload, "", "ann").owner, "ann");

@@ -18,7 +18,7 @@ using anticrack::testing::BackendOptions;
 using anticrack::testing::eventually;
 using anticrack::testing::throws;
 using errors::Reason;
-using store::MeshState;
+using records::MeshState;
 using ::testing::ElementsAre;
 using Phase = MeshNews::Phase;
 using Operator = std::shared_ptr<const operators::MeshOperator>;

@@ -21,8 +21,8 @@ using anticrack::testing::eventually;
 using anticrack::testing::TemporaryFolder;
 using anticrack::testing::throws;
 using errors::Reason;
-using store::MeshRecord;
-using store::MeshState;
+using records::MeshRecord;
+using records::MeshState;
 
 class Restart : public ::testing::Test {
  protected:
@@ -117,7 +117,7 @@ TEST_F(Restart, MakesAMeshWhoseRecordIsDamagedAgain) {
 TEST_F(Restart, DoesNotMeshAnUploadThatHasChangedOnTheDisk) {
   const std::string text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n9";
   Backend backend(options);
-  const store::UploadRef upload = backend.upload(text);
+  const records::UploadRef upload = backend.upload(text);
   anticrack::testing::flip(backend.store->upload_path(upload.sha256, "").value(), text.size() - 1);
   const std::string id = backend.catalogue.create(upload, "", "").id;
   EXPECT_TRUE(throws([&] { backend.prepare(id); }, Reason::not_found));

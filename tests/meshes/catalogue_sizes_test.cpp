@@ -20,7 +20,7 @@ using anticrack::testing::Backend;
 using anticrack::testing::BackendOptions;
 using anticrack::testing::eventually;
 using anticrack::testing::TemporaryFolder;
-using store::MeshState;
+using records::MeshState;
 
 TEST(SizeClass, IsAFactorOfFourAndAllSmallMeshesAreOne) {
   EXPECT_EQ(size_class(0), size_class(4095));
@@ -128,7 +128,7 @@ TEST_F(Sizes, OwnersTakeTurnsInTheQueue) {
   std::vector<std::string> order;
   std::mutex mutex;
   BackendOptions options;
-  options.meshed = [&](const store::MeshRecord& mesh) {
+  options.meshed = [&](const records::MeshRecord& mesh) {
     const std::lock_guard lock(mutex);
     order.push_back(mesh.owner);
   };

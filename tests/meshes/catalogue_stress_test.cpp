@@ -19,7 +19,7 @@ using anticrack::testing::Backend;
 using anticrack::testing::BackendOptions;
 using anticrack::testing::eventually;
 using errors::Reason;
-using store::MeshState;
+using records::MeshState;
 
 constexpr std::array<double, 3> sizes = {0.35, 0.4, 0.45};
 const std::array<std::string, 2> owners = {"ann", "bob"};

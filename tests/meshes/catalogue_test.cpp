@@ -18,8 +18,8 @@ using anticrack::testing::BackendOptions;
 using anticrack::testing::eventually;
 using anticrack::testing::throws;
 using errors::Reason;
-using store::MeshRecord;
-using store::MeshState;
+using records::MeshRecord;
+using records::MeshState;
 
 class Catalogue : public ::testing::Test {
  protected:
@@ -109,15 +109,15 @@ TEST_F(Catalogue, MakesOneMeshOfADefinitionThatManyThreadsSend) {
 }
 
 TEST_F(Catalogue, RefusesWhatCanBeNoMesh) {
-  auto source = std::get<store::GeometrySource>(Backend::definition());
+  auto source = std::get<records::GeometrySource>(Backend::definition());
   source.geometry.inclusions[0].part.from = {-0.5, 0.3};
   EXPECT_TRUE(throws([&] { backend.catalogue.create(source, "", ""); }, Reason::geometry_invalid));
   EXPECT_TRUE(throws([&] { backend.catalogue.create(Backend::definition(-1), "", ""); },
                      Reason::invalid_argument, "options.size"));
   EXPECT_TRUE(
-      throws([&] { backend.catalogue.create(store::UploadRef{std::string(64, 'f')}, "", ""); },
+      throws([&] { backend.catalogue.create(records::UploadRef{std::string(64, 'f')}, "", ""); },
              Reason::not_found, "upload"));
-  store::UploadRef wrong = backend.upload("$MeshFormat\n");
+  records::UploadRef wrong = backend.upload("$MeshFormat\n");
   wrong.options.preset = mesh::Preset::paper;
   EXPECT_TRUE(throws([&] { backend.catalogue.create(wrong, "", ""); }, Reason::invalid_argument,
                      "options.preset"));
@@ -132,7 +132,7 @@ TEST_F(Catalogue, RefusesWhatCanBeNoMesh) {
 }
 
 TEST_F(Catalogue, KeepsTheErrorOfAMeshThatFailedAndTriesItAgain) {
-  const store::MeshDefinition truncated =
+  const records::MeshDefinition truncated =
       backend.upload("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n9");
   const std::string id = backend.catalogue.create(truncated, "", "").id;
   ASSERT_TRUE(reaches(id, MeshState::failed));

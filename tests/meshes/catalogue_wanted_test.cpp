@@ -25,7 +25,7 @@ using anticrack::testing::BackendOptions;
 using anticrack::testing::eventually;
 using anticrack::testing::throws;
 using errors::Reason;
-using store::MeshState;
+using records::MeshState;
 
 /// The processes of this one whose program is `name`.
 int children(const std::string& name) {
@@ -259,7 +259,7 @@ TEST(DamagedUpload, FailsItsMeshWithTheCause) {
   for (const bool cut : {false, true}) {
     SCOPED_TRACE(cut);
     const std::string content = text + (cut ? "8" : "7");
-    const store::UploadRef upload = backend.upload(content);
+    const records::UploadRef upload = backend.upload(content);
     const std::string path = backend.store->upload_path(upload.sha256, "").value();
     if (cut)
       std::filesystem::resize_file(path, content.size() - 3);
@@ -267,14 +267,14 @@ TEST(DamagedUpload, FailsItsMeshWithTheCause) {
       anticrack::testing::flip(path, content.size() - 1);
     const std::string id = backend.catalogue.create(upload, "", "").id;
     ASSERT_TRUE(eventually([&] { return backend.catalogue.get(id).state == MeshState::failed; }));
-    const store::MeshRecord record = backend.catalogue.get(id);
+    const records::MeshRecord record = backend.catalogue.get(id);
     EXPECT_EQ(record.error.value().reason(), Reason::not_found);
     EXPECT_THAT(record.error->what(), ::testing::HasSubstr("is damaged"));
     EXPECT_THAT(record.error->what(), ::testing::HasSubstr("upload it again"));
     backend.upload(content);
     EXPECT_EQ(backend.catalogue.create(upload, "", "").id, id);
     EXPECT_TRUE(eventually([&] {
-      const store::MeshRecord now = backend.catalogue.get(id);
+      const records::MeshRecord now = backend.catalogue.get(id);
       return now.error && now.error->reason() == Reason::mesh_invalid;
     })) << "of its content, which is whole again";
   }
@@ -282,11 +282,11 @@ TEST(DamagedUpload, FailsItsMeshWithTheCause) {
 
 TEST(Progress, IsToldWhileAMeshIsMade) {
   Backend backend;
-  store::GeometrySource source{anticrack::testing::paper_geometry(), {mesh::Preset::uniform}};
+  records::GeometrySource source{anticrack::testing::paper_geometry(), {mesh::Preset::uniform}};
   source.geometry.boundary = {
       {-1, -3e-4}, {1, -3e-4}, {1, 1}, {-1, 1}};  // a thin strip: long in gmsh
   const std::string id = backend.catalogue.create(source, "", "").id;
-  std::vector<store::MeshProgress> heard;
+  std::vector<records::MeshProgress> heard;
   std::stop_source enough;
   EXPECT_TRUE(throws(
       [&] {

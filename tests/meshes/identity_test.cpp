@@ -11,8 +11,8 @@
 namespace anticrack::meshes {
 namespace {
 
-using store::GeometrySource;
-using store::UploadRef;
+using records::GeometrySource;
+using records::UploadRef;
 
 GeometrySource paper(mesh::Preset preset = mesh::Preset::paper, double size = 0) {
   return {anticrack::testing::paper_geometry(), {preset, size}};

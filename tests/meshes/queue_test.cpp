@@ -9,7 +9,7 @@
 namespace anticrack::meshes {
 namespace {
 
-using store::Priority;
+using records::Priority;
 using namespace std::chrono_literals;
 
 class QueueTest : public ::testing::Test {

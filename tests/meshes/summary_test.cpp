@@ -28,7 +28,7 @@ mesh::Mesh example() {
 }
 
 TEST(Summary, CountsAndMeasures) {
-  store::MeshRecord record;
+  records::MeshRecord record;
   summarize(example(), record);
   EXPECT_EQ(record.node_count, 81U);
   EXPECT_EQ(record.triangle_count, 128U);
@@ -36,7 +36,7 @@ TEST(Summary, CountsAndMeasures) {
   EXPECT_EQ(record.inclusions.size(), 1U);
   EXPECT_NEAR(record.minimum_angle, 45, 1e-9);
   ASSERT_EQ(record.subdomains.size(), 2U);
-  for (const store::SubdomainSummary& subdomain : record.subdomains) {
+  for (const records::SubdomainSummary& subdomain : record.subdomains) {
     EXPECT_EQ(subdomain.node_count, 45U);  // the interface's in both
     EXPECT_EQ(subdomain.triangle_count, 64U);
     EXPECT_NEAR(subdomain.area, 2, 1e-12);
@@ -44,11 +44,11 @@ TEST(Summary, CountsAndMeasures) {
 }
 
 TEST(Summary, JoinsEdgesOfOneKindToSegments) {
-  store::MeshRecord record;
+  records::MeshRecord record;
   record.interfaces.resize(3);  // of an attempt before
   summarize(example(), record);
   ASSERT_EQ(record.interfaces.size(), 1U);
-  const store::InterfaceSummary& interface = record.interfaces[0];
+  const records::InterfaceSummary& interface = record.interfaces[0];
   EXPECT_NEAR(interface.length, 2, 1e-12);
   EXPECT_EQ(interface.node_count, 9U);
   EXPECT_THAT(interface.start.value(), ElementsAre(DoubleNear(-1, 1e-12), DoubleNear(0, 1e-12)));
@@ -70,7 +70,7 @@ TEST(Summary, SeparatesSegmentsOfDifferentInclusions) {
   options.inclusions = {"left", "right"};
   options.kind = [](double) { return mesh::Kind::delaminated; };
   options.inclusion = [](double x) { return x < 0 ? 0 : 1; };
-  store::MeshRecord record;
+  records::MeshRecord record;
   summarize(anticrack::testing::structured_mesh(options), record);
   ASSERT_EQ(record.interfaces[0].segments.size(), 2U);
   EXPECT_EQ(record.interfaces[0].segments[1].inclusion, 1);
@@ -84,11 +84,11 @@ TEST(Summary, MeasuresShapesAndTheBoundary) {
     return mesh.xy[2 * static_cast<std::size_t>(edge[0]) + 1] == -1 &&
            mesh.xy[2 * static_cast<std::size_t>(edge[1]) + 1] == -1;
   });
-  store::MeshRecord record;
+  records::MeshRecord record;
   summarize(mesh, record);
   EXPECT_EQ(record.subdomains[0].tension, 1);
   EXPECT_EQ(record.subdomains[1].tension, 2.5);
-  for (const store::SubdomainSummary& subdomain : record.subdomains) {
+  for (const records::SubdomainSummary& subdomain : record.subdomains) {
     EXPECT_NEAR(subdomain.minimum_angle, 45, 1e-9);
     EXPECT_NEAR(subdomain.shortest_edge, 0.25, 1e-12);
     EXPECT_NEAR(subdomain.longest_edge, std::sqrt(0.125), 1e-12);
@@ -106,27 +106,27 @@ TEST(Summary, TellsTheMeanOfALawOrWhereItWasWritten) {
   mesh::Mesh mesh = example();  // from -1 to 1
   mesh.tension_laws.resize(2);
   mesh.tension_laws[1] = {"3 + x", "1", 30};
-  store::MeshRecord record;
+  records::MeshRecord record;
   summarize(mesh, record);
   EXPECT_EQ(record.subdomains[0].tension, 1);
   EXPECT_NEAR(record.subdomains[1].tension, 2, 1e-12);
   EXPECT_EQ(record.subdomains[1].tension_law, mesh.tension_laws[1]);
 
   mesh.tension_laws[1].across = "x";
-  const auto field_with = [&](const store::MeshDefinition& definition) {
+  const auto field_with = [&](const records::MeshDefinition& definition) {
     record.definition = definition;
     return anticrack::testing::error_of([&] { summarize(mesh, record); })->fields().front().field;
   };
-  store::GeometrySource source;
+  records::GeometrySource source;
   source.geometry.regions = {{"other"}, {mesh.subdomains[1]}};
   EXPECT_EQ(field_with(source), "geometry.regions[1].tension_law.across");
-  EXPECT_EQ(field_with(store::UploadRef{}),
+  EXPECT_EQ(field_with(records::UploadRef{}),
             "options.tension_laws[" + mesh.subdomains[1] + "].across");
-  EXPECT_EQ(field_with(store::Refinement{}), "tension_law.across");
+  EXPECT_EQ(field_with(records::Refinement{}), "tension_law.across");
 }
 
 TEST(Laws, AreLookedAtInThePointOfTheirRegionIfItHasOne) {
-  store::GeometrySource source;
+  records::GeometrySource source;
   mesh::RegionSpec& region = source.geometry.regions.emplace_back();
   region.at = {0, 0};
   region.tension_law = mesh::TensionLaw{"x - 0.1", "", 0};
@@ -138,12 +138,12 @@ TEST(Laws, AreLookedAtInThePointOfTheirRegionIfItHasOne) {
 
 TEST(Summary, TellsTheTipsAndHowFineTheMeshIsThere) {
   const mesh::Mesh fine = mesh::grade(example(), {.h0 = 0.4, .tip_size = 1e-3}, 100'000);
-  store::MeshRecord record;
+  records::MeshRecord record;
   summarize(fine, record);
   ASSERT_EQ(record.tips.size(), 2U);
   EXPECT_EQ(record.tips[0].at, (mesh::Point{-0.5, 0}));
   EXPECT_EQ(record.tips[1].at, (mesh::Point{0.5, 0}));
-  for (const store::TipSummary& tip : record.tips) {
+  for (const records::TipSummary& tip : record.tips) {
     EXPECT_EQ(tip.interface, "sigma");
     EXPECT_LE(tip.smallest_edge, 1e-3);
     EXPECT_GT(tip.smallest_edge, 0.2e-3);
@@ -153,7 +153,7 @@ TEST(Summary, TellsTheTipsAndHowFineTheMeshIsThere) {
 TEST(Summary, ASubdomainFloatsWhereOnlyInterfacesHoldAPartOfIt) {
   mesh::Mesh mesh = example();
   const auto floating = [&] {
-    store::MeshRecord record;
+    records::MeshRecord record;
     summarize(mesh, record);
     return std::vector<bool>{record.subdomains[0].floating, record.subdomains[1].floating};
   };
@@ -183,9 +183,9 @@ TEST(Summary, ASubdomainFloatsWhereOnlyInterfacesHoldAPartOfIt) {
 
 TEST(MeshBlock, HoldsTheArraysOfTheMesh) {
   const mesh::Mesh mesh = example();
-  const store::Block block = mesh_block(mesh);
+  const records::Block block = mesh_block(mesh);
   std::vector<std::string> names;
-  for (const store::ArrayLayout& array : block.arrays) {
+  for (const records::ArrayLayout& array : block.arrays) {
     names.push_back(array.name);
   }
   EXPECT_THAT(names,

@@ -44,19 +44,19 @@ std::string get(const std::string& url) {
   return curl_easy_perform(curl.get()) == CURLE_OK ? body : "";
 }
 
-store::JobRecord ended_job(store::JobState state) {
-  const store::Clock::time_point begin{std::chrono::seconds(1'000'000)};
-  store::JobRecord job;
+records::JobRecord ended_job(records::JobState state) {
+  const records::Clock::time_point begin{std::chrono::seconds(1'000'000)};
+  records::JobRecord job;
   job.id = "secret-job";
   job.owner = "secret-owner";
   job.state = state;
   job.created = begin;
   job.started = begin + std::chrono::seconds(2);
   job.ended = begin + std::chrono::seconds(5);
-  job.spec.priority = store::Priority::bulk;
-  job.timeline = {{begin, store::JobState::queued, ""},
-                  {*job.started, store::JobState::running, ""}};
-  if (state == store::JobState::failed) {
+  job.spec.priority = records::Priority::bulk;
+  job.timeline = {{begin, records::JobState::queued, ""},
+                  {*job.started, records::JobState::running, ""}};
+  if (state == records::JobState::failed) {
     job.error.emplace(errors::Reason::numerical, "secret-message");
   }
   return job;
@@ -78,9 +78,9 @@ class Exposition : public ::testing::Test {
   std::string scrape() const { return get("http://" + _address + "/metrics"); }
   void let_everything_happen() {
     _metrics.call_ended("/anticrack.v1.SolveService/GetJob", 5, std::chrono::milliseconds(20));
-    _metrics.job_ended(ended_job(store::JobState::succeeded));
-    _metrics.job_ended(ended_job(store::JobState::failed));
-    store::MeshRecord mesh;
+    _metrics.job_ended(ended_job(records::JobState::succeeded));
+    _metrics.job_ended(ended_job(records::JobState::failed));
+    records::MeshRecord mesh;
     mesh.mesh_seconds = 1.5;
     _metrics.meshed(mesh);
     mesh.error.emplace(errors::Reason::mesher_failed, "secret-message");
@@ -195,7 +195,7 @@ TEST_F(Exposition, CountsFromManyThreads) {
   std::vector<std::thread> threads;
   for (int i = 0; i < 4; ++i) {
     threads.emplace_back([this] {
-      for (int k = 0; k < 250; ++k) _metrics.job_ended(ended_job(store::JobState::cancelled));
+      for (int k = 0; k < 250; ++k) _metrics.job_ended(ended_job(records::JobState::cancelled));
     });
   }
   EXPECT_FALSE(scrape().empty());

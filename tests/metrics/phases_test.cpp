@@ -6,10 +6,10 @@
 namespace anticrack::metrics {
 namespace {
 
+using records::JobState;
 using std::chrono::seconds;
-using store::JobState;
 
-const store::Clock::time_point begin{seconds(1'000'000)};
+const records::Clock::time_point begin{seconds(1'000'000)};
 
 double seconds_in(const PhaseTimes& times, Phase phase) {
   return times[static_cast<std::size_t>(phase)].count();
@@ -25,7 +25,7 @@ TEST(Phases, AreKnownByStateAndDetail) {
 }
 
 TEST(Phases, LastUntilTheNextAndAddUpOverAttempts) {
-  store::JobRecord job;
+  records::JobRecord job;
   job.timeline = {{begin, JobState::queued, ""},
                   {begin + seconds(1), JobState::waiting_for_mesh, "meshing"},
                   {begin + seconds(3), JobState::waiting_for_mesh, "factorising"},
@@ -44,7 +44,7 @@ TEST(Phases, LastUntilTheNextAndAddUpOverAttempts) {
 }
 
 TEST(Phases, EndWithTheJob) {
-  store::JobRecord job;
+  records::JobRecord job;
   EXPECT_EQ(phase_times(job), PhaseTimes{}) << "no timeline";
   job.timeline = {{begin, JobState::running, ""}, {begin + seconds(2), JobState::succeeded, ""}};
   job.ended = begin + seconds(9);

@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "base/at.hpp"
 #include "fem/load_vector.hpp"
-#include "mesh/at.hpp"
 #include "support/plain_stiffness.hpp"
 
 namespace anticrack::reference {

@@ -13,7 +13,7 @@
 #include <string>
 #include <utility>
 
-#include "mesh/at.hpp"
+#include "base/at.hpp"
 
 namespace anticrack::reference {
 namespace {

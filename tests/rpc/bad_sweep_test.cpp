@@ -7,11 +7,11 @@
 #include <functional>
 #include <limits>
 
+#include "digest/digest.hpp"
 #include "rpc/details.hpp"
 #include "rpc/people.hpp"
 #include "rpc/requests.hpp"
 #include "rpc/running_server.hpp"
-#include "store/digest.hpp"
 
 namespace anticrack::rpc {
 namespace {
@@ -139,7 +139,7 @@ TEST(BadSweep, OfAnothersUploadIsAsIfItDidNotExist) {
   };
   const auto by_name = [](v1::Job& job) {
     job.mutable_sweep()->mutable_coefficients()->set_upload(
-        "uploads/" + store::Sha256().add(packed({1, 2, 3})).finish());
+        "uploads/" + digest::Sha256().add(packed({1, 2, 3})).finish());
   };
   EXPECT_TRUE(create(owner_token, [](v1::Job&) {}).ok());
   EXPECT_TRUE(create(owner_token, by_name).ok());

@@ -34,7 +34,7 @@ class Upload {
       : _context(token), _writer(server.uploads->CreateUploads(&_context, &_response)) {
     v1::CreateUploadsRequest part;
     part.mutable_header()->set_size(content.size());
-    part.mutable_header()->set_sha256(store::Sha256().add(content).finish());
+    part.mutable_header()->set_sha256(digest::Sha256().add(content).finish());
     _writer->Write(part);
   }
   bool send(const std::string& chunk) {

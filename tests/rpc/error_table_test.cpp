@@ -6,8 +6,8 @@
 #include <map>
 #include <stdexcept>
 
-#include "api/text.hpp"
 #include "rpc/details.hpp"
+#include "words/shown.hpp"
 
 namespace anticrack::rpc {
 namespace {
@@ -103,17 +103,17 @@ TEST(ErrorTable, HidesTheUnexpected) {
 }
 
 TEST(Printable, ReplacesWhatNoTerminalShouldGet) {
-  EXPECT_EQ(printable("a\x1b[2Jb\nc\x7f", 100), "a?[2Jb?c?");
-  EXPECT_EQ(printable("\xc3\xa9\xff\xc3", 100), "\xc3\xa9??");
-  EXPECT_EQ(printable("\xed\xa0\x80", 100), "???");       // a surrogate
-  EXPECT_EQ(printable("\xc0\xaf\xf5\x80", 100), "????");  // overlong, past U+10FFFF
-  EXPECT_EQ(printable("\xf0\x9f\x99\x82", 100), "\xf0\x9f\x99\x82");
+  EXPECT_EQ(words::printable("a\x1b[2Jb\nc\x7f", 100), "a?[2Jb?c?");
+  EXPECT_EQ(words::printable("\xc3\xa9\xff\xc3", 100), "\xc3\xa9??");
+  EXPECT_EQ(words::printable("\xed\xa0\x80", 100), "???");       // a surrogate
+  EXPECT_EQ(words::printable("\xc0\xaf\xf5\x80", 100), "????");  // overlong, past U+10FFFF
+  EXPECT_EQ(words::printable("\xf0\x9f\x99\x82", 100), "\xf0\x9f\x99\x82");
 }
 
 TEST(Printable, CutsBetweenCharacters) {
-  EXPECT_EQ(printable("abcdef", 6), "abcdef");
-  EXPECT_EQ(printable("abcdefg", 6), "abc...");
-  EXPECT_EQ(printable("ab\xc3\xa9\xc3\xa9\xc3\xa9", 6), "ab...");
+  EXPECT_EQ(words::printable("abcdef", 6), "abcdef");
+  EXPECT_EQ(words::printable("abcdefg", 6), "abc...");
+  EXPECT_EQ(words::printable("ab\xc3\xa9\xc3\xa9\xc3\xa9", 6), "ab...");
 }
 
 }  // namespace

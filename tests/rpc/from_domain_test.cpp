@@ -14,12 +14,12 @@
 namespace anticrack::rpc {
 namespace {
 
-using store::JobState;
+using records::JobState;
 
 TEST(FromDomain, CountsTheAttemptsOfATimeline) {
-  store::JobRecord record;
+  records::JobRecord record;
   record.attempt = 2;
-  const store::Clock::time_point start{std::chrono::milliseconds(1'500)};
+  const records::Clock::time_point start{std::chrono::milliseconds(1'500)};
   for (const auto& [state, detail] :
        std::vector<std::pair<JobState, std::string>>{{JobState::queued, ""},
                                                      {JobState::waiting_for_mesh, "meshing"},
@@ -42,9 +42,9 @@ TEST(FromDomain, CountsTheAttemptsOfATimeline) {
 }
 
 TEST(FromDomain, RepeatsWhatWasAskedFor) {
-  store::JobRecord record;
+  records::JobRecord record;
   record.owner = "ada";
-  record.spec.priority = store::Priority::interactive;
+  record.spec.priority = records::Priority::interactive;
   record.spec.run_time_limit = std::chrono::milliseconds(2'500);
   const v1::Job job = from_domain(record);
   EXPECT_EQ(job.owner(), "ada");
@@ -56,7 +56,7 @@ TEST(FromDomain, RepeatsWhatWasAskedFor) {
 
 TEST(FromDomain, AJobThatIsTakenFitsInAMessage) {
   const std::vector<std::string> inclusions(90, std::string(64, 'i'));
-  store::JobRecord record;
+  records::JobRecord record;
   record.state = JobState::not_converged;
   const auto taken = [&] {
     try {
@@ -67,7 +67,7 @@ TEST(FromDomain, AJobThatIsTakenFitsInAMessage) {
       return false;
     }
   };
-  store::CaseRecord answer;
+  records::CaseRecord answer;
   answer.status = contact::Status::not_converged;
   answer.answer.reason = std::string(200, 'r');
   answer.answer.energy = answer.answer.criterion = answer.answer.contact_length = 0.1;
@@ -136,7 +136,7 @@ TEST(FromDomain, PutsRunsOfSamplesBehindEachOther) {
 }
 
 TEST(FromDomain, SaysWhoseAMeshIsAndWhetherItIsPinned) {
-  store::MeshRecord record;
+  records::MeshRecord record;
   record.owner = "ada";
   EXPECT_EQ(from_domain(record, true).owner(), "ada");
   EXPECT_TRUE(from_domain(record, true).pinned());

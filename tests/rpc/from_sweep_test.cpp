@@ -92,7 +92,7 @@ TEST(FromSweep, TellsHowARowEnded) {
 }
 
 TEST(FromSweep, TellsTheSweepOfAJobAndHowItEnded) {
-  store::JobRecord record;
+  records::JobRecord record;
   EXPECT_FALSE(from_domain(record).has_sweep());
   EXPECT_FALSE(from_domain(record).has_sweep_answer());
   record.spec.sweep.emplace();
@@ -119,15 +119,15 @@ TEST(FromSweep, TellsTheSweepOfAJobAndHowItEnded) {
   EXPECT_EQ(job.sweep_answer().solve_time().seconds(), 1);
   EXPECT_EQ(job.sweep_answer().solve_time().nanos(), 500'000'000);
 
-  record.spec.sweep->cases = store::SweepSpec::Cases::nodal_forces;
+  record.spec.sweep->cases = records::SweepSpec::Cases::nodal_forces;
   EXPECT_EQ(from_domain(record).sweep().nodal_forces().upload(), "uploads/" + std::string(64, 'a'));
 }
 
 TEST(FromSweep, TellsArraysOfBytes) {
-  store::BlockBuilder builder;
+  records::BlockBuilder builder;
   const std::vector<std::uint8_t> closed{1, 0, 1, 1, 0, 0};
   builder.add("sweep/contact", closed, {2, 3});
-  const auto block = store::in_memory(std::make_shared<const store::Block>(builder.finish()));
+  const auto block = records::in_memory(std::make_shared<const records::Block>(builder.finish()));
   const v1::BlockLayout layout = layout_of(*block);
   ASSERT_EQ(layout.arrays_size(), 1);
   EXPECT_EQ(layout.arrays(0).type(), v1::ArrayLayout::TYPE_UINT8);

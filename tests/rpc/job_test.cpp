@@ -5,11 +5,11 @@
 
 #include <cmath>
 
+#include "digest/digest.hpp"
 #include "rpc/details.hpp"
 #include "rpc/received.hpp"
 #include "rpc/requests.hpp"
 #include "rpc/running_server.hpp"
-#include "store/digest.hpp"
 
 namespace anticrack::rpc {
 namespace {
@@ -63,7 +63,7 @@ TEST(Job, OpensTheCrackOfExampleThree) {
   ASSERT_TRUE(read_result(server, job.name(), 0, block).ok());
   EXPECT_EQ(block.bytes.size(), job.result_bytes());
   EXPECT_EQ(block.layout.size(), job.result_bytes());
-  EXPECT_EQ(block.layout.sha256(), store::Sha256().add(block.bytes).finish());
+  EXPECT_EQ(block.layout.sha256(), digest::Sha256().add(block.bytes).finish());
   const auto x = doubles(block, "interfaces/0/x");
   const auto jump = doubles(block, "loads/0/traces/0/jump");
   ASSERT_EQ(x.size(), jump.size());
@@ -150,7 +150,7 @@ TEST(Job, OfManyLoadsAndInterfacesIsReadWhole) {
   ASSERT_TRUE(read_result(server, job.name(), 0, block).ok());
   EXPECT_GT(block.layout.arrays_size(), 450'000);
   EXPECT_EQ(static_cast<std::uint32_t>(block.layout.arrays_size()), block.layout.array_count());
-  EXPECT_EQ(block.layout.sha256(), store::Sha256().add(block.bytes).finish());
+  EXPECT_EQ(block.layout.sha256(), digest::Sha256().add(block.bytes).finish());
   EXPECT_FALSE(doubles(block, "loads/999/traces/89/jump").empty());
 }
 
@@ -166,7 +166,7 @@ TEST(Job, ReadsItsMeshInChunksFromAnyOffset) {
   Received whole;
   ASSERT_TRUE(read_mesh(server, mesh.name(), 0, whole).ok());
   EXPECT_GT(whole.chunks, 1);
-  EXPECT_EQ(whole.layout.sha256(), store::Sha256().add(whole.bytes).finish());
+  EXPECT_EQ(whole.layout.sha256(), digest::Sha256().add(whole.bytes).finish());
   EXPECT_EQ(doubles(whole, "nodes").size(), 2 * mesh.node_count());
 
   Received rest;

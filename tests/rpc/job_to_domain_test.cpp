@@ -30,13 +30,13 @@ void expect_job_refused(const std::function<void(v1::Job&)>& spoil, Reason reaso
   expect_refused([&] { to_spec(job, limits); }, reason, field);
 }
 
-contact::UzawaOptions uzawa_of(const store::JobSpec& spec) {
+contact::UzawaOptions uzawa_of(const records::JobSpec& spec) {
   return std::get<contact::UzawaOptions>(spec.solver);
 }
 
 TEST(JobToDomain, TakesTheActiveSetUnlessAskedOtherwise) {
   v1::Job job = opening_job("meshes/a").job();
-  const store::JobSpec spec = to_spec(job, {10, 1'000'000});
+  const records::JobSpec spec = to_spec(job, {10, 1'000'000});
   EXPECT_EQ(spec.mesh, "a");
   const auto defaults = std::get<contact::ActiveSetOptions>(spec.solver);
   EXPECT_EQ(defaults.tolerance, contact::ActiveSetOptions().tolerance);
@@ -53,18 +53,18 @@ TEST(JobToDomain, TakesPriorityAndTimes) {
   using std::chrono::milliseconds;
   const JobLimits timed{10, 1'000, milliseconds(60'500), milliseconds(1'000)};
   v1::Job job = opening_job("meshes/a").job();
-  EXPECT_EQ(to_spec(job, timed).priority, store::Priority::normal);
+  EXPECT_EQ(to_spec(job, timed).priority, records::Priority::normal);
   EXPECT_EQ(to_spec(job, timed).queue_time_limit.count(), 0);
   job.set_priority(v1::Job::PRIORITY_BULK);
   job.mutable_queue_timeout()->set_seconds(60);
   job.mutable_queue_timeout()->set_nanos(500'000'000);
   job.mutable_run_timeout()->set_nanos(1);
-  const store::JobSpec spec = to_spec(job, timed);
-  EXPECT_EQ(spec.priority, store::Priority::bulk);
+  const records::JobSpec spec = to_spec(job, timed);
+  EXPECT_EQ(spec.priority, records::Priority::bulk);
   EXPECT_EQ(spec.queue_time_limit, milliseconds(60'500));
   EXPECT_EQ(spec.run_time_limit, milliseconds(1));  // not 0, which is the server's
   job.set_priority(v1::Job::PRIORITY_INTERACTIVE);
-  EXPECT_EQ(to_spec(job, timed).priority, store::Priority::interactive);
+  EXPECT_EQ(to_spec(job, timed).priority, records::Priority::interactive);
 }
 
 TEST(JobToDomain, RefusesTimesAndPrioritiesThereAreNot) {
@@ -136,7 +136,7 @@ TEST(JobToDomain, TakesWhatIsSet) {
   v1::Force::Array& array = *job.add_load_cases()->mutable_force()->mutable_array();
   array.set_upload("uploads/" + sha256);
   array.set_per_triangle(true);
-  const store::JobSpec spec = to_spec(job, limits);
+  const records::JobSpec spec = to_spec(job, limits);
   EXPECT_TRUE(spec.fields);
   const contact::UzawaOptions options = uzawa_of(spec);
   EXPECT_FALSE(options.theta.has_value());
@@ -179,7 +179,7 @@ TEST(JobFromDomain, TellsTheWholeJobAgain) {
   moment.set_y(-0.25);
   load.mutable_force()->mutable_array()->set_upload("uploads/" + std::string(64, 'c'));
   load.mutable_force()->mutable_array()->set_per_triangle(true);
-  store::JobRecord record;
+  records::JobRecord record;
   record.id = "b";
   record.spec = to_spec(job, limits);
   const v1::Job told = from_domain(record);
@@ -193,7 +193,7 @@ TEST(JobFromDomain, TellsTheWholeJobAgain) {
 }
 
 TEST(AnswerFromDomain, TellsHowAnInclusionTilts) {
-  store::CaseRecord record;
+  records::CaseRecord record;
   record.status = contact::Status::converged;
   record.answer.inclusions = {{"fibre", 1, 2, 3, 4, 5, 6, 7}};
   const v1::LoadCaseAnswer told = from_domain(record, "a");
@@ -206,7 +206,7 @@ TEST(AnswerFromDomain, TellsHowAnInclusionTilts) {
 }
 
 TEST(AnswerFromDomain, TellsWarningsAndWhatJustTouches) {
-  store::CaseRecord record;
+  records::CaseRecord record;
   record.status = contact::Status::converged;
   record.answer.weakly_active = 3;
   record.answer.warnings = {"inexact \xff"};

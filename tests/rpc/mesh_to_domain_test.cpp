@@ -22,7 +22,7 @@ using errors::Error;
 using errors::Reason;
 
 mesh::Geometry geometry_of(const v1::CreateMeshRequest& request) {
-  return std::get<store::GeometrySource>(to_definition(request)).geometry;
+  return std::get<records::GeometrySource>(to_definition(request)).geometry;
 }
 
 void expect_mesh_refused(const std::function<void(v1::CreateMeshRequest&)>& spoil, Reason reason,
@@ -43,7 +43,7 @@ TEST(GeometryToDomain, TakesEveryPart) {
   *request.mutable_geometry()->add_inclusions() = request.geometry().inclusions(0);
   request.mutable_geometry()->mutable_inclusions(0)->set_fixed(0);
   request.mutable_geometry()->mutable_inclusions(1)->set_tilt(true);
-  const auto source = std::get<store::GeometrySource>(to_definition(request));
+  const auto source = std::get<records::GeometrySource>(to_definition(request));
   EXPECT_EQ(source.options.preset, mesh::Preset::uniform);
   EXPECT_EQ(source.options.size, 0.1);
   EXPECT_EQ(source.geometry.boundary.size(), 4u);
@@ -134,7 +134,7 @@ TEST(GeometryToDomain, TakesEveryOption) {
   v1::CreateMeshRequest request = paper_mesh();
   request.clear_options();
   const auto options_of = [&] {
-    return std::get<store::GeometrySource>(to_definition(request)).options;
+    return std::get<records::GeometrySource>(to_definition(request)).options;
   };
   EXPECT_EQ(options_of().preset, mesh::Preset::graded);
   EXPECT_EQ(options_of().grading, 0.2);
@@ -161,7 +161,7 @@ TEST(GeometryToDomain, TakesTheOptionsOfAnUpload) {
   (*options.mutable_tension())["left"] = 2;
   (*options.mutable_inclusion_motions())["a"].set_tilt(true);
   (*options.mutable_inclusion_motions())["b"].set_fixed(-1);
-  const auto source = std::get<store::UploadRef>(to_definition(request));
+  const auto source = std::get<records::UploadRef>(to_definition(request));
   EXPECT_EQ(source.options.preset, mesh::Preset::graded);
   EXPECT_EQ(source.options.size, 0.5);
   EXPECT_EQ(source.options.curve_groups.at(3), "inclusion:a");

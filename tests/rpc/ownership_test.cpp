@@ -147,7 +147,7 @@ TEST_F(Ownership, UploadsAreOnesOwn) {
   const auto writer = server.uploads->CreateUploads(&context, &response);
   v1::CreateUploadsRequest part;
   part.mutable_header()->set_size(small_msh().size());
-  part.mutable_header()->set_sha256(store::Sha256().add(small_msh()).finish());
+  part.mutable_header()->set_sha256(digest::Sha256().add(small_msh()).finish());
   writer->Write(part);
   part.set_chunk(small_msh());
   writer->Write(part);

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "access/tokens.hpp"
+#include "digest/digest.hpp"
 #include "rpc/running_server.hpp"
-#include "store/digest.hpp"
 
 namespace anticrack::testing {
 
@@ -17,7 +17,7 @@ inline const std::string admin_token = "token-of-root";
 inline const std::string wrong_token = "token-of-nobody";
 
 inline access::TokenTable people() {
-  const auto hash = [](const std::string& token) { return store::Sha256().add(token).finish(); };
+  const auto hash = [](const std::string& token) { return digest::Sha256().add(token).finish(); };
   return access::TokenTable::parse("ada user " + hash(owner_token) + "\nbob user " +
                                        hash(other_token) + "\nroot admin " + hash(admin_token),
                                    "people");

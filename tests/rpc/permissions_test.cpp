@@ -79,7 +79,7 @@ class Things {
     const std::string bytes(reinterpret_cast<const char*>(&_size), sizeof _size);
     v1::CreateUploadsRequest part;
     part.mutable_header()->set_size(bytes.size());
-    part.mutable_header()->set_sha256(store::Sha256().add(bytes).finish());
+    part.mutable_header()->set_sha256(digest::Sha256().add(bytes).finish());
     part.mutable_header()->set_kind(v1::Upload::KIND_ARRAY);
     writer->Write(part);
     part.set_chunk(bytes);
@@ -129,7 +129,7 @@ grpc::Status upload(Things& things, Context& context) {
   const auto writer = things.server.uploads->CreateUploads(&context, &response);
   v1::CreateUploadsRequest part;
   part.mutable_header()->set_size(small_msh().size());
-  part.mutable_header()->set_sha256(store::Sha256().add(small_msh()).finish());
+  part.mutable_header()->set_sha256(digest::Sha256().add(small_msh()).finish());
   if (writer->Write(part)) {
     part.set_chunk(small_msh());
     writer->Write(part);

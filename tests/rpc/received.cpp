@@ -4,7 +4,7 @@
 #include <span>
 #include <utility>
 
-#include "store/digest.hpp"
+#include "digest/digest.hpp"
 
 namespace anticrack::testing {
 namespace {
@@ -27,7 +27,7 @@ grpc::Status receive(Reader& reader, std::uint64_t offset, Received& to) {
     const v1::BlockChunk& chunk = response.chunk();
     EXPECT_EQ(chunk.offset(), offset + to.bytes.size());
     EXPECT_LE(chunk.data().size(), 1u << 20);
-    EXPECT_EQ(store::crc32c(std::as_bytes(std::span(chunk.data()))), chunk.crc32c());
+    EXPECT_EQ(digest::crc32c(std::as_bytes(std::span(chunk.data()))), chunk.crc32c());
     to.bytes += chunk.data();
     ++to.chunks;
   }

@@ -7,8 +7,8 @@
 #include <thread>
 #include <utility>
 
+#include "digest/digest.hpp"
 #include "operators/mesh_operator.hpp"
-#include "store/digest.hpp"
 
 namespace anticrack::testing {
 Context::Context() { set_deadline(std::chrono::system_clock::now() + std::chrono::minutes(2)); }
@@ -159,7 +159,7 @@ grpc::Status RunningServer::upload(const v1::CreateUploadsRequest::Header& heade
 grpc::Status RunningServer::upload(const std::string& content, std::string* name) {
   v1::CreateUploadsRequest::Header header;
   header.set_size(content.size());
-  header.set_sha256(store::Sha256().add(content).finish());
+  header.set_sha256(digest::Sha256().add(content).finish());
   return upload(header, content, name);
 }
 

@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "digest/digest.hpp"
 #include "rpc/details.hpp"
 #include "rpc/received.hpp"
 #include "rpc/requests.hpp"
 #include "rpc/running_server.hpp"
-#include "store/digest.hpp"
 
 namespace anticrack::rpc {
 namespace {
@@ -131,7 +131,7 @@ TEST(Sweep, AnswersEveryRowAsAJobOfItsOwn) {
   request.mutable_job()->mutable_sweep()->add_traces(6);
   const v1::Job created = server.create(request);
   EXPECT_EQ(created.sweep_answer().rows(), row_count);
-  EXPECT_EQ(created.sweep().coefficients().sha256(), store::Sha256().add(packed(matrix)).finish());
+  EXPECT_EQ(created.sweep().coefficients().sha256(), digest::Sha256().add(packed(matrix)).finish());
   const Watched told = watch(server, created.name());
 
   ASSERT_EQ(told.ended.state(), v1::Job::STATE_SUCCEEDED) << told.ended.error().message();
@@ -145,7 +145,7 @@ TEST(Sweep, AnswersEveryRowAsAJobOfItsOwn) {
 
   Received block, traces;
   ASSERT_TRUE(read_result(server, created.name(), 0, block).ok());
-  EXPECT_EQ(block.layout.sha256(), store::Sha256().add(block.bytes).finish());
+  EXPECT_EQ(block.layout.sha256(), digest::Sha256().add(block.bytes).finish());
   EXPECT_EQ(doubles(block, "sweep/energy"), told.energy);
   EXPECT_EQ(doubles(block, "sweep/displacement"), told.displacement);
   EXPECT_EQ(values_of<std::int32_t>(block, "sweep/status", v1::ArrayLayout::TYPE_INT32),

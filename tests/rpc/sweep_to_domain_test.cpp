@@ -5,10 +5,10 @@
 #include <functional>
 
 #include "api/requests.hpp"
+#include "digest/digest.hpp"
 #include "rpc/from_domain.hpp"
 #include "rpc/refusals.hpp"
 #include "rpc/requests.hpp"
-#include "store/digest.hpp"
 
 namespace anticrack::rpc {
 namespace {
@@ -32,10 +32,10 @@ TEST(SweepToDomain, NamesAPackedMatrixByItsHash) {
   job.mutable_sweep()->add_traces(3);
   job.mutable_sweep()->add_traces(5);
   job.mutable_sweep()->set_bounds(true);
-  const store::JobSpec spec = to_spec(job, sweep_limits);
+  const records::JobSpec spec = to_spec(job, sweep_limits);
   ASSERT_TRUE(spec.sweep);
-  EXPECT_EQ(spec.sweep->cases, store::SweepSpec::Cases::combinations);
-  EXPECT_EQ(spec.sweep->upload, store::Sha256().add(packed({1, 2, 3})).finish());
+  EXPECT_EQ(spec.sweep->cases, records::SweepSpec::Cases::combinations);
+  EXPECT_EQ(spec.sweep->upload, digest::Sha256().add(packed({1, 2, 3})).finish());
   EXPECT_THAT(spec.sweep->traces, ElementsAre(3u, 5u));
   EXPECT_TRUE(spec.sweep->bounds);
   EXPECT_FALSE(to_spec(good_sweep(), sweep_limits).sweep->bounds);
@@ -52,8 +52,8 @@ TEST(SweepToDomain, TakesNodalForces) {
   v1::Job job = good_sweep();
   job.clear_load_cases();
   job.mutable_sweep()->mutable_nodal_forces()->set_upload("uploads/" + sha256);
-  const store::JobSpec spec = to_spec(job, sweep_limits);
-  EXPECT_EQ(spec.sweep->cases, store::SweepSpec::Cases::nodal_forces);
+  const records::JobSpec spec = to_spec(job, sweep_limits);
+  EXPECT_EQ(spec.sweep->cases, records::SweepSpec::Cases::nodal_forces);
   EXPECT_EQ(spec.sweep->upload, sha256);
   EXPECT_TRUE(spec.loads.empty());
 }
@@ -69,15 +69,15 @@ TEST(SweepToDomain, TakesAMatrixOfAMegabyteInAJobThatWouldBeTooLargeWithoutIt) {
   std::string& matrix = *job.mutable_sweep()->mutable_coefficients()->mutable_packed();
   matrix.assign(max_packed_bytes, '\0');
   job.mutable_load_cases(0)->mutable_force()->set_expression(std::string(1'000, '1'));
-  EXPECT_EQ(to_spec(job, sweep_limits).sweep->upload, store::Sha256().add(matrix).finish());
+  EXPECT_EQ(to_spec(job, sweep_limits).sweep->upload, digest::Sha256().add(matrix).finish());
 }
 
 TEST(SweepToDomain, ComesBackAsItWasSent) {
-  store::JobRecord record;
+  records::JobRecord record;
   record.spec = to_spec(good_sweep(), sweep_limits);
   const v1::Job told = from_domain(record);
   EXPECT_EQ(told.sweep().coefficients().source_case(), v1::Sweep::Matrix::SOURCE_NOT_SET);
-  EXPECT_EQ(told.sweep().coefficients().sha256(), store::Sha256().add(packed({1, 2, 3})).finish());
+  EXPECT_EQ(told.sweep().coefficients().sha256(), digest::Sha256().add(packed({1, 2, 3})).finish());
   EXPECT_EQ(told.load_cases_size(), 3);
 
   v1::Job job = good_sweep();

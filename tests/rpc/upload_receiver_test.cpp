@@ -22,7 +22,7 @@ using errors::Reason;
 v1::CreateUploadsRequest header_of(const std::string& content) {
   v1::CreateUploadsRequest request;
   request.mutable_header()->set_size(content.size());
-  request.mutable_header()->set_sha256(store::Sha256().add(content).finish());
+  request.mutable_header()->set_sha256(digest::Sha256().add(content).finish());
   return request;
 }
 
@@ -69,7 +69,7 @@ TEST_F(UploadReceiverTest, KeepsWhatWasSent) {
   receiver.accept(chunk_of(content.substr(0, 20)));
   receiver.accept(chunk_of(content.substr(20)));
   const std::string sha256 = receiver.complete().front().id;
-  EXPECT_EQ(sha256, store::Sha256().add(content).finish());
+  EXPECT_EQ(sha256, digest::Sha256().add(content).finish());
   const auto path = _store->upload_path(sha256, "ada");
   ASSERT_TRUE(path);
   EXPECT_FALSE(_store->upload_path(sha256, "bob"));
@@ -171,7 +171,7 @@ TEST_F(UploadReceiverTest, KeepsFilesOfOneStreamInTheirOrder) {
   for (const std::string& content : contents) {
     receiver.accept(content == small_msh() ? header_of(content) : array_header_of(content));
     receiver.accept(chunk_of(content));
-    expected.push_back(store::Sha256().add(content).finish());
+    expected.push_back(digest::Sha256().add(content).finish());
   }
   std::vector<std::string> kept;
   for (const store::UploadRecord& record : receiver.complete()) {

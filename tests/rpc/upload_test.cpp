@@ -3,10 +3,10 @@
 
 #include <set>
 
+#include "digest/digest.hpp"
 #include "rpc/details.hpp"
 #include "rpc/requests.hpp"
 #include "rpc/running_server.hpp"
-#include "store/digest.hpp"
 #include "support/eventually.hpp"
 
 namespace anticrack::rpc {
@@ -21,7 +21,7 @@ using anticrack::testing::small_msh;
 v1::CreateUploadsRequest::Header upload_header(const std::string& content) {
   v1::CreateUploadsRequest::Header header;
   header.set_size(content.size());
-  header.set_sha256(store::Sha256().add(content).finish());
+  header.set_sha256(digest::Sha256().add(content).finish());
   return header;
 }
 
@@ -31,7 +31,7 @@ TEST(Upload, IsKeptUnderItsHash) {
   std::string name;
   const grpc::Status status = server.upload(content, &name);
   ASSERT_TRUE(status.ok()) << status.error_message();
-  EXPECT_EQ(name, "uploads/" + store::Sha256().add(content).finish());
+  EXPECT_EQ(name, "uploads/" + digest::Sha256().add(content).finish());
   std::string again;
   EXPECT_TRUE(server.upload(content, &again).ok());
   EXPECT_EQ(again, name);

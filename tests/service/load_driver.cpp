@@ -21,9 +21,9 @@
 #include <thread>
 
 #include "client/uuid.hpp"
+#include "digest/digest.hpp"
 #include "service/daemon.hpp"
 #include "service/workload.hpp"
-#include "store/digest.hpp"
 #include "support/process_memory.hpp"
 
 namespace anticrack::service_test {
@@ -243,7 +243,7 @@ int drive_owners(const Options& options) {
   const std::vector<std::string> greedy{"greedy", "another"};
   std::ofstream tokens(file);
   for (const std::string& name : {std::string("modest"), greedy[0], greedy[1]})
-    tokens << name << " user " << store::Sha256().add("token of " + name).finish() << '\n';
+    tokens << name << " user " << digest::Sha256().add("token of " + name).finish() << '\n';
   tokens.close();
   std::filesystem::permissions(file, std::filesystem::perms::owner_read);
   Daemon daemon({"--log-level", "error", "--queued-jobs", std::to_string(options.greedy + 4),

@@ -46,7 +46,7 @@ class Damage : public StoreTest {
 
 TEST_F(Damage, OfAJobRefusesThatJobAndNoOther) {
   for (const std::string id : {"a", "b", "c"}) {
-    JobRecord record = job_record(id, "ann");
+    records::JobRecord record = job_record(id, "ann");
     record.spec.title = "the title of " + id;
     store->create(record, "");
   }
@@ -67,8 +67,9 @@ TEST_F(Damage, OfAJobRefusesThatJobAndNoOther) {
   ASSERT_EQ(unfinished.size(), 2U);
   EXPECT_EQ(unfinished[1].id, "c");
   EXPECT_TRUE(throws([&] { store->result("b"); }, Reason::storage));
-  EXPECT_TRUE(throws([&] { store->expire("b", Clock::time_point(std::chrono::seconds(9))); },
-                     Reason::storage));
+  EXPECT_TRUE(
+      throws([&] { store->expire("b", records::Clock::time_point(std::chrono::seconds(9))); },
+             Reason::storage));
   store->erase_job("b");
   EXPECT_FALSE(store->job("b"));
 }
@@ -77,7 +78,7 @@ TEST_F(Damage, OfAnyColumnOfAJobIsSeen) {
   for (const std::string change_of : {"fingerprint = 'x'", "ended = 5", "result_bytes = 7",
                                       "result = 'x'", "record = x'0a0161'", "request = 'x'"}) {
     end("j", block(1));
-    EXPECT_EQ(store->job("j")->state, JobState::succeeded);
+    EXPECT_EQ(store->job("j")->state, records::JobState::succeeded);
     change("UPDATE jobs SET " + change_of);
     expect_refused(*store->job("j"), "jobs/j");
     store->erase_job("j");
@@ -85,14 +86,14 @@ TEST_F(Damage, OfAnyColumnOfAJobIsSeen) {
 }
 
 TEST_F(Damage, OfAMeshRefusesThatMeshUntilItIsMadeAgain) {
-  const MeshRecord record = meshed_record("m", strip(3));
+  const records::MeshRecord record = meshed_record("m", strip(3));
   for (const std::string change_of : {"sha256 = 'x'", "upload = 'x'", "record = x'0a0161'"}) {
     store->put(record, strip(3));
     store->put(mesh_record("other"));
     change("UPDATE meshes SET " + change_of + " WHERE id = 'm'");
     expect_refused(*store->mesh("m"), "meshes/m");
     EXPECT_THAT(meshes({"", 9, {}}), ElementsAre("other", "m"));
-    EXPECT_EQ(store->mesh("other")->state, MeshState::pending);
+    EXPECT_EQ(store->mesh("other")->state, records::MeshState::pending);
     store->put(record, strip(3));
     EXPECT_EQ(store->mesh("m")->sha256, record.sha256);
   }
@@ -111,7 +112,7 @@ TEST_F(Damage, OfARowRemovesNoFile) {
   EXPECT_EQ(files("results"), 1U);
   change("UPDATE uploads SET sha256 = '" + std::string(64, 'a') + "'");
   EXPECT_EQ(files("uploads"), 1U);
-  EXPECT_EQ(store->expire_uploads(Clock::time_point::max()), 0U);
+  EXPECT_EQ(store->expire_uploads(records::Clock::time_point::max()), 0U);
   EXPECT_EQ(files("results"), 1U);
 }
 
@@ -145,7 +146,7 @@ TEST_F(Damage, OfASmallResultIsSeen) {
   EXPECT_TRUE(throws([&] { store->result("j"); }, Reason::storage));
   change("UPDATE jobs SET small_result = NULL");
   EXPECT_TRUE(throws([&] { store->result("j"); }, Reason::storage));
-  EXPECT_EQ(store->job("j")->state, JobState::succeeded);
+  EXPECT_EQ(store->job("j")->state, records::JobState::succeeded);
 }
 
 TEST_F(Damage, OfAResultsNameIsSeen) {

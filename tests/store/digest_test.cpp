@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "store/digest.hpp"
+#include "digest/digest.hpp"
 
 #include <gtest/gtest.h>
 
@@ -28,22 +28,24 @@ std::uint32_t slow_crc32c(std::span<const std::byte> bytes) {
 }
 
 TEST(Sha256, OfKnownTexts) {
-  EXPECT_EQ(Sha256().finish(), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
-  EXPECT_EQ(Sha256().add(std::string("abc")).finish(),
+  EXPECT_EQ(digest::Sha256().finish(),
+            "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  EXPECT_EQ(digest::Sha256().add(std::string("abc")).finish(),
             "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
 }
 
 TEST(Sha256, DoesNotDependOnThePieces) {
-  EXPECT_EQ(Sha256().add(std::string("ab")).add(std::string()).add(std::string("c")).finish(),
-            Sha256().add(std::string("abc")).finish());
+  EXPECT_EQ(
+      digest::Sha256().add(std::string("ab")).add(std::string()).add(std::string("c")).finish(),
+      digest::Sha256().add(std::string("abc")).finish());
 }
 
-TEST(Crc32c, OfTheCheckString) { EXPECT_EQ(crc32c(bytes_of("123456789")), 0xE3069283U); }
+TEST(Crc32c, OfTheCheckString) { EXPECT_EQ(digest::crc32c(bytes_of("123456789")), 0xE3069283U); }
 
 TEST(Crc32c, AgreesWithItsDefinitionAtEveryLength) {
   std::string text;
   for (int length = 0; length < 600; ++length) {
-    ASSERT_EQ(crc32c(bytes_of(text)), slow_crc32c(bytes_of(text))) << length;
+    ASSERT_EQ(digest::crc32c(bytes_of(text)), slow_crc32c(bytes_of(text))) << length;
     text += static_cast<char>(length * 37 + 11);
   }
 }

@@ -16,7 +16,7 @@ using ::testing::IsEmpty;
 class StoredJobs : public StoreTest {};
 
 TEST_F(StoredJobs, ComeBackWholeAfterAnotherStart) {
-  auto record = AnyValue(3).make<JobRecord>();
+  auto record = AnyValue(3).make<records::JobRecord>();
   record.id = "j";
   record.request_id.clear();
   store->create(record, "print");
@@ -25,7 +25,7 @@ TEST_F(StoredJobs, ComeBackWholeAfterAnotherStart) {
   EXPECT_EQ(Listing::of(*store->job("j")), Listing::of(record));
   record.attempt = 17;
   record.timeline.push_back(
-      {Clock::time_point(std::chrono::nanoseconds(5)), JobState::running, "x"});
+      {records::Clock::time_point(std::chrono::nanoseconds(5)), records::JobState::running, "x"});
   store->put(record);
   reopen();
   EXPECT_EQ(Listing::of(*store->job("j")), Listing::of(record));
@@ -78,15 +78,15 @@ TEST_F(StoredJobs, AreMadeOnceForARequest) {
 
 TEST_F(StoredJobs, AnswerARepeatedRequestWithWhatBecameOfIt) {
   create("a", "ann", "request", "print");
-  JobRecord record = *store->job("a");
-  record.state = JobState::running;
+  records::JobRecord record = *store->job("a");
+  record.state = records::JobState::running;
   store->put(record);
-  EXPECT_EQ(create("b", "ann", "request", "print").state, JobState::running);
+  EXPECT_EQ(create("b", "ann", "request", "print").state, records::JobState::running);
 }
 
 TEST_F(StoredJobs, TellOfARepeatedRequestWithoutMakingAny) {
   create("a", "ann", "request", "print");
-  JobRecord again = job_record("b");
+  records::JobRecord again = job_record("b");
   again.owner = "ann";
   again.request_id = "request";
   EXPECT_EQ(store->created_before(again, "print").value().id, "a");
@@ -105,8 +105,9 @@ TEST_F(StoredJobs, DoNotComeBackWhenErased) {
   EXPECT_FALSE(store->job("a"));
   EXPECT_TRUE(throws([&] { store->put(job_record("a")); }, Reason::not_found));
   EXPECT_TRUE(throws([&] { store->finish(ended_record("a"), block(1)); }, Reason::not_found));
-  EXPECT_TRUE(throws([&] { store->expire("a", Clock::time_point(std::chrono::seconds(9))); },
-                     Reason::not_found));
+  EXPECT_TRUE(
+      throws([&] { store->expire("a", records::Clock::time_point(std::chrono::seconds(9))); },
+             Reason::not_found));
   EXPECT_TRUE(throws([&] { store->erase_job("a"); }, Reason::not_found));
   EXPECT_FALSE(store->job("a"));
   EXPECT_EQ(store->result("a"), nullptr);
@@ -116,13 +117,13 @@ TEST_F(StoredJobs, DoNotComeBackWhenErased) {
 TEST_F(StoredJobs, AreUnfinishedUntilTheyEnd) {
   for (const char* id : {"a", "b", "c"}) create(id);
   end("d", nullptr);
-  JobRecord running = job_record("b");
-  running.state = JobState::running;
+  records::JobRecord running = job_record("b");
+  running.state = records::JobState::running;
   store->put(running);
   store->finish(ended_record("a"), nullptr);
   reopen();
   std::vector<std::string> ids;
-  for (const JobRecord& record : store->unfinished()) ids.push_back(record.id);
+  for (const records::JobRecord& record : store->unfinished()) ids.push_back(record.id);
   EXPECT_THAT(ids, ElementsAre("b", "c"));
 }
 
@@ -140,7 +141,7 @@ TEST_F(StoredJobs, EndWithTheirResults) {
   }
   EXPECT_THAT(ids, ElementsAre("early", "empty", "late"));
   EXPECT_THAT(bytes, ElementsAre(24, 0, 40));
-  EXPECT_EQ(store->ended()[0].ended, Clock::time_point(std::chrono::seconds(10)));
+  EXPECT_EQ(store->ended()[0].ended, records::Clock::time_point(std::chrono::seconds(10)));
   EXPECT_EQ(values(*store->result("early")), std::vector<double>(3, 2.0));
   EXPECT_EQ(store->result("empty"), nullptr);
   EXPECT_EQ(store->result("open"), nullptr);
@@ -148,24 +149,24 @@ TEST_F(StoredJobs, EndWithTheirResults) {
 }
 
 TEST_F(StoredJobs, GiveTheirResultPieceByPiece) {
-  BlockBuilder builder;
+  records::BlockBuilder builder;
   builder.add("u", std::vector<double>{1, 2, 3, 4, 5, 6}, {2, 3});
   builder.add("contact", std::vector<std::int32_t>{7, 8});
   builder.add("flags", std::vector<std::uint8_t>{1, 0, 1});
-  const auto written = std::make_shared<const Block>(builder.finish());
-  const auto memory = in_memory(written);
+  const auto written = std::make_shared<const records::Block>(builder.finish());
+  const auto memory = records::in_memory(written);
   end("j", memory);
   const auto disk = store->result("j");
   for (const auto& source : {memory, disk}) {
     EXPECT_EQ(source->sha256(), written->sha256);
     ASSERT_EQ(source->size(), written->bytes.size());
     ASSERT_EQ(source->arrays().size(), 3U);
-    EXPECT_EQ(source->arrays()[2].type, ArrayType::uint8);
+    EXPECT_EQ(source->arrays()[2].type, records::ArrayType::uint8);
     EXPECT_THAT(source->arrays()[2].shape, ElementsAre(3));
     EXPECT_EQ(source->arrays()[0].name, "u");
-    EXPECT_EQ(source->arrays()[0].type, ArrayType::float64);
+    EXPECT_EQ(source->arrays()[0].type, records::ArrayType::float64);
     EXPECT_THAT(source->arrays()[0].shape, ElementsAre(2, 3));
-    EXPECT_EQ(source->arrays()[1].type, ArrayType::int32);
+    EXPECT_EQ(source->arrays()[1].type, records::ArrayType::int32);
     EXPECT_EQ(source->arrays()[1].offset, 48U);
     std::vector<double> piece(2);
     source->read(16, std::as_writable_bytes(std::span(piece)));
@@ -176,9 +177,9 @@ TEST_F(StoredJobs, GiveTheirResultPieceByPiece) {
 TEST_F(StoredJobs, LetAReaderFinishWhatExpires) {
   end("j", block(3, many));
   const auto held = store->result("j");
-  store->expire("j", Clock::time_point(std::chrono::seconds(9)));
-  EXPECT_EQ(store->job("j")->state, JobState::succeeded);
-  EXPECT_EQ(store->job("j")->expired, Clock::time_point(std::chrono::seconds(9)));
+  store->expire("j", records::Clock::time_point(std::chrono::seconds(9)));
+  EXPECT_EQ(store->job("j")->state, records::JobState::succeeded);
+  EXPECT_EQ(store->job("j")->expired, records::Clock::time_point(std::chrono::seconds(9)));
   EXPECT_EQ(store->job("j")->result_bytes, 0U);
   EXPECT_EQ(store->result("j"), nullptr);
   EXPECT_EQ(store->ended()[0].result_bytes, 0U);
@@ -186,15 +187,16 @@ TEST_F(StoredJobs, LetAReaderFinishWhatExpires) {
   EXPECT_EQ(store->usage().results, 0U);
   EXPECT_EQ(values(*held), std::vector<double>(many, 3.0));
   reopen();
-  EXPECT_EQ(store->job("j")->state, JobState::succeeded);
-  EXPECT_EQ(store->job("j")->expired, Clock::time_point(std::chrono::seconds(9)));
+  EXPECT_EQ(store->job("j")->state, records::JobState::succeeded);
+  EXPECT_EQ(store->job("j")->expired, records::Clock::time_point(std::chrono::seconds(9)));
 }
 
 TEST_F(StoredJobs, DoNotExpireBeforeTheyEnd) {
   create("j");
-  EXPECT_TRUE(throws([&] { store->expire("j", Clock::time_point(std::chrono::seconds(9))); },
-                     Reason::in_use));
-  EXPECT_EQ(store->job("j")->state, JobState::queued);
+  EXPECT_TRUE(
+      throws([&] { store->expire("j", records::Clock::time_point(std::chrono::seconds(9))); },
+             Reason::in_use));
+  EXPECT_EQ(store->job("j")->state, records::JobState::queued);
 }
 
 TEST_F(StoredJobs, ShareEqualResultsUntilTheLastGoes) {
@@ -203,7 +205,7 @@ TEST_F(StoredJobs, ShareEqualResultsUntilTheLastGoes) {
   end("c", block(1, many, "another name"));  // the same bytes, but not the same result
   EXPECT_EQ(files("results"), 2U);
   EXPECT_EQ(store->result("c")->arrays()[0].name, "another name");
-  store->expire("a", Clock::time_point(std::chrono::seconds(9)));
+  store->expire("a", records::Clock::time_point(std::chrono::seconds(9)));
   EXPECT_EQ(files("results"), 2U);
   EXPECT_EQ(values(*store->result("b")), std::vector<double>(many, 1.0));
   store->erase_job("b");
@@ -235,7 +237,7 @@ TEST_F(StoredJobs, HaveASmallResultInTheDatabase) {
   store->put(ended_record("j"));  // the record alone
   reopen();
   EXPECT_EQ(values(*store->result("j")), std::vector<double>(5, 3.0));
-  store->expire("j", Clock::time_point(std::chrono::seconds(9)));
+  store->expire("j", records::Clock::time_point(std::chrono::seconds(9)));
   EXPECT_EQ(store->result("j"), nullptr);
   EXPECT_EQ(values(*held), std::vector<double>(5, 1.0));
 }

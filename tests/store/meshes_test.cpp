@@ -14,7 +14,7 @@ using ::testing::ElementsAre;
 class StoredMeshes : public StoreTest {};
 
 TEST_F(StoredMeshes, ComeBackWholeAfterAnotherStart) {
-  auto record = AnyValue(5).make<MeshRecord>();
+  auto record = AnyValue(5).make<records::MeshRecord>();
   record.id = "m";
   store->put(record);
   reopen();
@@ -42,7 +42,7 @@ TEST_F(StoredMeshes, AreListedNewestFirstByOwner) {
 
 TEST_F(StoredMeshes, KeepTheirTriangulations) {
   const mesh::Mesh mesh = strip(4);
-  const MeshRecord record = meshed_record("m", mesh);
+  const records::MeshRecord record = meshed_record("m", mesh);
   EXPECT_EQ(store->triangulation(record.sha256), nullptr);
   store->put(record, mesh);
   reopen();
@@ -57,7 +57,7 @@ TEST_F(StoredMeshes, KeepTheirTriangulations) {
 
 TEST_F(StoredMeshes, ShareEqualTriangulationsUntilTheLastGoes) {
   const mesh::Mesh mesh = strip(4);
-  const MeshRecord a = meshed_record("a", mesh);
+  const records::MeshRecord a = meshed_record("a", mesh);
   store->put(a, mesh);
   store->put(meshed_record("b", mesh), mesh);
   EXPECT_EQ(files("meshes"), 1U);
@@ -74,7 +74,7 @@ TEST_F(StoredMeshes, ShareEqualTriangulationsUntilTheLastGoes) {
 
 TEST_F(StoredMeshes, DropATriangulationThatAnotherReplaces) {
   store->put(meshed_record("m", strip(4)), strip(4));
-  const MeshRecord finer = meshed_record("m", strip(8));
+  const records::MeshRecord finer = meshed_record("m", strip(8));
   store->put(finer, strip(8));
   EXPECT_EQ(files("meshes"), 1U);
   EXPECT_NE(store->triangulation(finer.sha256), nullptr);
@@ -89,7 +89,7 @@ TEST_F(StoredMeshes, RefuseAnotherTriangulation) {
 }
 
 TEST_F(StoredMeshes, SayWhenATriangulationIsDamaged) {
-  const MeshRecord record = meshed_record("m", strip(4));
+  const records::MeshRecord record = meshed_record("m", strip(4));
   store->put(record, strip(4));
   std::fstream(folder / ("meshes/" + record.sha256), std::ios::in | std::ios::out) << 'x';
   EXPECT_TRUE(throws([&] { store->triangulation(record.sha256); }, Reason::storage));

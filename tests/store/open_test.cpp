@@ -31,7 +31,7 @@ TEST_F(OpenStore, RefusesWhatIsNoFolder) {
 
 TEST_F(OpenStore, RemovesWhatNothingRefersTo) {
   const mesh::Mesh mesh = strip(3);
-  const MeshRecord record = meshed_record("m", mesh);
+  const records::MeshRecord record = meshed_record("m", mesh);
   store->put(record, mesh);
   end("j", block(1, many));
   const std::string hash = upload("text");
@@ -91,7 +91,7 @@ TEST_F(StoreBudget, RefusesFilesThatDoNotFit) {
   ASSERT_TRUE(refused);
   EXPECT_EQ(refused->reason(), Reason::disk_full);
   EXPECT_EQ(refused->retry_delay(), std::chrono::seconds(5));
-  EXPECT_EQ(store->job("large")->state, JobState::queued);
+  EXPECT_EQ(store->job("large")->state, records::JobState::queued);
   EXPECT_EQ(files("results"), 1U);
   EXPECT_TRUE(throws([&] { store->new_upload_path(400'000); }, Reason::disk_full));
   const mesh::Mesh mesh = strip(5000);
@@ -114,7 +114,7 @@ TEST_F(StoreBudget, HasRoomAgainWhenResultsExpire) {
   create("b");
   EXPECT_TRUE(
       throws([&] { store->finish(ended_record("b"), block(2, 40'000)); }, Reason::disk_full));
-  store->expire("a", Clock::time_point(std::chrono::seconds(9)));
+  store->expire("a", records::Clock::time_point(std::chrono::seconds(9)));
   store->finish(ended_record("b"), block(2, 40'000));
   EXPECT_EQ(values(*store->result("b")).size(), 40'000U);
 }

@@ -29,20 +29,20 @@ inline void upload(Store& store, const std::string& text, const std::string& own
   file << text;
   if (!file.flush()) throw disk_error("write " + part, errno);
   file.close();
-  store.keep_uploads({{part, Sha256().add(text).finish()}}, owner);
+  store.keep_uploads({{part, digest::Sha256().add(text).finish()}}, owner);
 }
 
 inline std::vector<Operation> operations() {
   const auto job = [](const std::string& id) {
-    JobRecord record = job_record(id, "ann");
+    records::JobRecord record = job_record(id, "ann");
     record.request_id = "request of " + id;
     if (id == "j1") record.spec.title = std::string(6000, 'x');  // more than a page
     return record;
   };
   const auto ended = [job](const std::string& id) {
-    JobRecord record = job(id);
-    record.state = JobState::succeeded;
-    record.ended = Clock::time_point(std::chrono::seconds(7));
+    records::JobRecord record = job(id);
+    record.state = records::JobState::succeeded;
+    record.ended = records::Clock::time_point(std::chrono::seconds(7));
     return record;
   };
   const auto create = [job](const std::string& id) {
@@ -59,8 +59,8 @@ inline std::vector<Operation> operations() {
       keep("$MeshFormat", "bob"),
       keep("array", "ann"),
       [](Store& store) {
-        MeshRecord record = mesh_record("m1", "ann");
-        record.definition = UploadRef{Sha256().add("$MeshFormat").finish(), {}};
+        records::MeshRecord record = mesh_record("m1", "ann");
+        record.definition = records::UploadRef{digest::Sha256().add("$MeshFormat").finish(), {}};
         store.put(record);
       },
       meshed("m1", 3),
@@ -69,28 +69,28 @@ inline std::vector<Operation> operations() {
       create("j1"),
       create("j2"),
       [=](Store& store) {
-        JobRecord record = job("j3");
+        records::JobRecord record = job("j3");
         record.spec.loads.push_back(
-            {"load", fem::Array{Sha256().add("array").finish(), false, nullptr}});
+            {"load", fem::Array{digest::Sha256().add("array").finish(), false, nullptr}});
         store.create(record, "print");
       },
       [=](Store& store) {
-        JobRecord record = job("j1");
-        record.state = JobState::running;
+        records::JobRecord record = job("j1");
+        record.state = records::JobState::running;
         store.put(record);
       },
       [=](Store& store) { store.finish(ended("j1"), block(1, 20'000)); },
       [=](Store& store) { store.finish(ended("j2"), spooled_block(store)); },
-      [](Store& store) { store.expire_uploads(Clock::time_point::max()); },
+      [](Store& store) { store.expire_uploads(records::Clock::time_point::max()); },
       [=](Store& store) { store.finish(ended("j3"), block(3)); },
-      [](Store& store) { store.expire("j1", Clock::time_point(std::chrono::seconds(9))); },
+      [](Store& store) { store.expire("j1", records::Clock::time_point(std::chrono::seconds(9))); },
       [](Store& store) { store.erase_job("j2"); },
       meshed("m3", 41),
       [](Store& store) { store.erase_mesh("m1"); },
       [](Store& store) { store.erase_mesh("m2"); },
       create("j4"),
       [=](Store& store) { store.finish(ended("j4"), nullptr); },
-      [](Store& store) { store.expire_uploads(Clock::time_point::max()); },
+      [](Store& store) { store.expire_uploads(records::Clock::time_point::max()); },
   };
 }
 
@@ -102,26 +102,26 @@ inline void require(bool holds, const std::string& what) {
 /// All that is in the store, as text; reads every file.
 inline std::string content(const Store& store) {
   std::string text;
-  for (const MeshRecord& mesh : store.meshes({"", 100, {}})) {
+  for (const records::MeshRecord& mesh : store.meshes({"", 100, {}})) {
     text += anticrack::testing::Listing::of(mesh) + '\n';
     // Reading compares the hash.
     require(mesh.sha256.empty() || store.triangulation(mesh.sha256) != nullptr, "no triangulation");
   }
-  for (const JobRecord& job : store.jobs({"", 100, {}})) {
+  for (const records::JobRecord& job : store.jobs({"", 100, {}})) {
     text += anticrack::testing::Listing::of(job) + '\n';
     if (const auto result = store.result(job.id)) {
       std::vector<std::byte> bytes(result->size());
       result->read(0, bytes);
-      require(Sha256().add(bytes).finish() == result->sha256(), "a result has changed");
+      require(digest::Sha256().add(bytes).finish() == result->sha256(), "a result has changed");
       text += "result " + result->sha256() + '\n';
     }
   }
-  for (const JobRecord& job : store.unfinished()) text += "unfinished " + job.id + '\n';
+  for (const records::JobRecord& job : store.unfinished()) text += "unfinished " + job.id + '\n';
   for (const EndedJob& job : store.ended()) {
     text += "ended " + job.id + ' ' + std::to_string(job.result_bytes) + '\n';
   }
   for (const std::string upload : {"$MeshFormat", "array"}) {
-    const std::string sha256 = Sha256().add(upload).finish();
+    const std::string sha256 = digest::Sha256().add(upload).finish();
     for (const char* owner : {"ann", "bob"}) {
       if (const auto path = store.upload_path(sha256, owner)) {
         std::ifstream file(*path, std::ios::binary);

@@ -27,21 +27,23 @@ constexpr unsigned rounds = 300;
 
 TEST(RecordCodec, GivesBackEveryFieldOfAMesh) {
   for (unsigned seed = 0; seed < rounds; ++seed) {
-    const auto record = AnyValue(seed).make<MeshRecord>();
+    const auto record = AnyValue(seed).make<records::MeshRecord>();
     ASSERT_EQ(Listing::of(decode_mesh_record(encode(record))), Listing::of(record)) << seed;
   }
 }
 
 TEST(RecordCodec, GivesBackEveryFieldOfAJob) {
   for (unsigned seed = 0; seed < rounds; ++seed) {
-    const auto record = AnyValue(seed).make<JobRecord>();
+    const auto record = AnyValue(seed).make<records::JobRecord>();
     ASSERT_EQ(Listing::of(decode_job_record(encode(record))), Listing::of(record)) << seed;
   }
 }
 
 TEST(RecordCodec, GivesBackWhatNobodyFilledIn) {
-  EXPECT_EQ(Listing::of(decode_mesh_record(encode(MeshRecord{}))), Listing::of(MeshRecord{}));
-  EXPECT_EQ(Listing::of(decode_job_record(encode(JobRecord{}))), Listing::of(JobRecord{}));
+  EXPECT_EQ(Listing::of(decode_mesh_record(encode(records::MeshRecord{}))),
+            Listing::of(records::MeshRecord{}));
+  EXPECT_EQ(Listing::of(decode_job_record(encode(records::JobRecord{}))),
+            Listing::of(records::JobRecord{}));
 }
 
 /// So that no field of a message is one that nobody writes.
@@ -67,8 +69,8 @@ TEST(RecordCodec, SaysSomethingInEveryFieldOfTheMessages) {
   for (unsigned seed = 0; seed < rounds; ++seed) {
     disk::MeshRecord mesh;
     disk::JobRecord job;
-    ASSERT_TRUE(mesh.ParseFromString(encode(AnyValue(seed).make<MeshRecord>())));
-    ASSERT_TRUE(job.ParseFromString(encode(AnyValue(seed).make<JobRecord>())));
+    ASSERT_TRUE(mesh.ParseFromString(encode(AnyValue(seed).make<records::MeshRecord>())));
+    ASSERT_TRUE(job.ParseFromString(encode(AnyValue(seed).make<records::JobRecord>())));
     note(note, mesh);
     note(note, job);
   }
@@ -88,23 +90,23 @@ TEST(RecordCodec, SaysSomethingInEveryFieldOfTheMessages) {
 }
 
 TEST(RecordCodec, MakesUtf8OfWhatIsNot) {
-  MeshRecord record;
+  records::MeshRecord record;
   record.id = "m";
   record.inclusions = {"fibre \xff\n"};
   record.error = errors::Error(Reason::mesh_invalid, "\xc3 is not a name");
-  const MeshRecord back = decode_mesh_record(encode(record));
+  const records::MeshRecord back = decode_mesh_record(encode(record));
   EXPECT_EQ(back.inclusions[0], "fibre ??");
   EXPECT_STREQ(back.error->what(), "? is not a name");
 }
 
 TEST(RecordCodec, KeepsNoArrays) {
-  JobRecord record;
+  records::JobRecord record;
   record.spec.loads.push_back({"load", fem::Array{"hash", true, nullptr}});
   std::get<fem::Array>(record.spec.loads[0].force).values =
       std::make_shared<const std::vector<double>>(1000, 1.0);
   const std::string bytes = encode(record);
   EXPECT_LT(bytes.size(), 1000U);
-  const JobRecord back = decode_job_record(bytes);
+  const records::JobRecord back = decode_job_record(bytes);
   EXPECT_EQ(std::get<fem::Array>(back.spec.loads[0].force).values, nullptr);
 }
 
@@ -117,7 +119,7 @@ TEST(RecordCodec, RefusesWhatIsNoRecord) {
 
 TEST(RecordCodec, RefusesEveryCutOffRecordOrReadsARecord) {
   const google::protobuf::LogSilencer silencer;  // of texts that end within a character
-  const std::string bytes = encode(AnyValue(7).make<JobRecord>());
+  const std::string bytes = encode(AnyValue(7).make<records::JobRecord>());
   for (std::size_t length = 0; length < bytes.size(); ++length) {
     try {
       decode_job_record(std::string_view(bytes).substr(0, length));

@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "fields/fields.hpp"
-#include "store/records.hpp"
+#include "records/records.hpp"
 
 namespace anticrack::testing {
 
@@ -53,8 +53,8 @@ class AnyValue {
       value += below(10) == 0 ? std::string(1, '\0') : pieces[below(pieces.size())];
     }
   }
-  void fill(store::Clock::time_point& value) {
-    value = store::Clock::time_point(std::chrono::nanoseconds(_random() >> 1U));
+  void fill(records::Clock::time_point& value) {
+    value = records::Clock::time_point(std::chrono::nanoseconds(_random() >> 1U));
   }
   void fill(std::chrono::milliseconds& value) {
     value = std::chrono::milliseconds(below(1ULL << 42U));  // 139 years
@@ -107,10 +107,10 @@ class AnyValue {
   void fill(Enum& value) {
     constexpr bool from_0 =
         std::is_same_v<Enum, mesh::Preset> || std::is_same_v<Enum, mesh::Shape> ||
-        std::is_same_v<Enum, mesh::LineSide> || std::is_same_v<Enum, store::SweepSpec::Cases>;
+        std::is_same_v<Enum, mesh::LineSide> || std::is_same_v<Enum, records::SweepSpec::Cases>;
     value = static_cast<Enum>(below(count(value)) + (from_0 ? 0 : 1));
-    if constexpr (std::is_same_v<Enum, store::JobState>)
-      if (static_cast<int>(value) == 7) value = store::JobState::not_converged;  // there is no 7
+    if constexpr (std::is_same_v<Enum, records::JobState>)
+      if (static_cast<int>(value) == 7) value = records::JobState::not_converged;  // there is no 7
   }
   template <class Struct>
   requires std::is_class_v<Struct>
@@ -137,13 +137,13 @@ class AnyValue {
       positive(value.size);
       positive(value.tip_size);
       positive(value.chord_angle);
-    } else if constexpr (std::is_same_v<Struct, store::MeshRecord>) {
+    } else if constexpr (std::is_same_v<Struct, records::MeshRecord>) {
       positive(value.theta_star);
       positive(value.bisection_bound);
     } else if constexpr (std::is_same_v<Struct, contact::AnswerSummary>) {
       positive(value.theta);
       positive(value.theta_star);
-    } else if constexpr (std::is_same_v<Struct, store::JobRecord>) {
+    } else if constexpr (std::is_same_v<Struct, records::JobRecord>) {
       if (value.spec.accuracy) value.spec.sweep.reset();  // a job has one task
       if (!value.spec.sweep) value.sweep = {};
     }
@@ -159,10 +159,10 @@ class AnyValue {
   static std::uint64_t count(mesh::LineSide) { return 3; }
   static std::uint64_t count(contact::Mass) { return 2; }
   static std::uint64_t count(contact::Status) { return 6; }
-  static std::uint64_t count(store::MeshState) { return 6; }
-  static std::uint64_t count(store::JobState) { return 7; }
-  static std::uint64_t count(store::Priority) { return 3; }
-  static std::uint64_t count(store::SweepSpec::Cases) { return 2; }
+  static std::uint64_t count(records::MeshState) { return 6; }
+  static std::uint64_t count(records::JobState) { return 7; }
+  static std::uint64_t count(records::Priority) { return 3; }
+  static std::uint64_t count(records::SweepSpec::Cases) { return 2; }
 
   std::mt19937_64 _random;
 };
@@ -180,7 +180,7 @@ class Listing {
  private:
   void add(const std::string& value) { _text << '"' << value << "\" "; }
   void add(double value) { _text << std::hex << std::bit_cast<std::uint64_t>(value) << "h "; }
-  void add(const store::Clock::time_point& time) { add(time.time_since_epoch().count()); }
+  void add(const records::Clock::time_point& time) { add(time.time_since_epoch().count()); }
   template <class Rep, class Period>
   void add(const std::chrono::duration<Rep, Period>& time) {
     add(time.count());

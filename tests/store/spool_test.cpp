@@ -21,8 +21,8 @@ std::vector<double> noise(std::size_t count, unsigned seed) {
   return values;
 }
 
-Block piece(const std::string& name, const std::vector<double>& values) {
-  BlockBuilder builder;
+records::Block piece(const std::string& name, const std::vector<double>& values) {
+  records::BlockBuilder builder;
   builder.add(name + "/flags", std::vector<std::uint8_t>{1, 0, 1});
   builder.add(name + "/values", values);
   return builder.take();
@@ -53,12 +53,12 @@ TEST_F(SpoolTest, KeepsLittleInMemoryAndMuchInAFileWithoutAName) {
 TEST_F(SpoolTest, JoinsPartsToTheBlockThatABuilderMakes) {
   const std::shared_ptr<Spool> spool = store->new_spool();
   SpooledBlock joined(spool);
-  BlockBuilder builder;
+  records::BlockBuilder builder;
   std::vector<Spool::Run> runs;
   std::vector<double> together;
   for (unsigned i = 0; i < 3; ++i) {
     const std::vector<double> values = noise(100'000 + i, i);
-    const Block part = piece(std::to_string(i), values);
+    const records::Block part = piece(std::to_string(i), values);
     joined.add(part.arrays, spool->append(part.bytes));
     builder.add(std::to_string(i) + "/flags", std::vector<std::uint8_t>{1, 0, 1});
     builder.add(std::to_string(i) + "/values", values);
@@ -66,10 +66,10 @@ TEST_F(SpoolTest, JoinsPartsToTheBlockThatABuilderMakes) {
     runs.push_back(spool->append(std::as_bytes(std::span(column))));
     together.insert(together.end(), column.begin(), column.end());
   }
-  joined.add("columns", ArrayType::float64, {9, 11}, runs);
+  joined.add("columns", records::ArrayType::float64, {9, 11}, runs);
   builder.add("columns", together, {9, 11});
-  const std::shared_ptr<const BlockSource> source = joined.finish();
-  const Block whole = builder.finish();
+  const std::shared_ptr<const records::BlockSource> source = joined.finish();
+  const records::Block whole = builder.finish();
   EXPECT_EQ(source->sha256(), whole.sha256);
   ASSERT_EQ(source->size(), whole.bytes.size());
   ASSERT_EQ(source->arrays().size(), whole.arrays.size());

@@ -24,21 +24,22 @@ class StoreTest : public ::testing::Test {
     store.reset();
     store = open({folder.path(), disk_budget});
   }
-  JobRecord create(const std::string& id, const std::string& owner = {},
-                   const std::string& request = {}, const std::string& fingerprint = {}) {
-    JobRecord record = job_record(id, owner);
+  records::JobRecord create(const std::string& id, const std::string& owner = {},
+                            const std::string& request = {}, const std::string& fingerprint = {}) {
+    records::JobRecord record = job_record(id, owner);
     record.request_id = request;
     return store->create(record, fingerprint);
   }
   /// A job that has ended with a result.
-  void end(const std::string& id, std::shared_ptr<const BlockSource> result, int second = 1) {
+  void end(const std::string& id, std::shared_ptr<const records::BlockSource> result,
+           int second = 1) {
     create(id);
     store->finish(ended_record(id, second), std::move(result));
   }
   std::string upload(const std::string& text, const std::string& owner = {}) {
     const std::string part = store->new_upload_path(text.size());
     std::ofstream(part, std::ios::binary) << text;
-    const std::string sha256 = Sha256().add(text).finish();
+    const std::string sha256 = digest::Sha256().add(text).finish();
     store->keep_uploads({{part, sha256}}, owner);
     return sha256;
   }
@@ -51,12 +52,12 @@ class StoreTest : public ::testing::Test {
   }
   std::vector<std::string> jobs(const Page& page) const {
     std::vector<std::string> ids;
-    for (const JobRecord& record : store->jobs(page)) ids.push_back(record.id);
+    for (const records::JobRecord& record : store->jobs(page)) ids.push_back(record.id);
     return ids;
   }
   std::vector<std::string> meshes(const Page& page) const {
     std::vector<std::string> ids;
-    for (const MeshRecord& record : store->meshes(page)) ids.push_back(record.id);
+    for (const records::MeshRecord& record : store->meshes(page)) ids.push_back(record.id);
     return ids;
   }
 

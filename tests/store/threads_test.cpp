@@ -58,7 +58,7 @@ TEST_F(StoreThreads, ShareAResultThatComesAndGoes) {
       ASSERT_NE(result, nullptr);
       EXPECT_EQ(values(*result), std::vector<double>(many, 1.0));
       store->result(std::to_string((t + 1) % workers));
-      store->expire(id, Clock::time_point(std::chrono::seconds(9)));
+      store->expire(id, records::Clock::time_point(std::chrono::seconds(9)));
       EXPECT_EQ(store->result(id), nullptr);
       store->erase_job(id);
     }
@@ -70,7 +70,7 @@ TEST_F(StoreThreads, ShareAResultThatComesAndGoes) {
 TEST_F(StoreThreads, ShareATriangulationThatComesAndGoes) {
   const mesh::Mesh mesh = strip(4);
   together([&](int t) {
-    const MeshRecord record = meshed_record(std::to_string(t), mesh);
+    const records::MeshRecord record = meshed_record(std::to_string(t), mesh);
     for (int round = 0; round < 15; ++round) {
       store->put(record, mesh);
       const auto read = store->triangulation(record.sha256);
@@ -89,7 +89,7 @@ TEST_F(StoreThreads, ShareAnUploadThatComesAndGoes) {
     for (int round = 0; round < 15; ++round) {
       const std::string hash = upload("the same", owner);
       store->upload_path(hash, owner);
-      store->expire_uploads(Clock::time_point::max());
+      store->expire_uploads(records::Clock::time_point::max());
       store->usage();
     }
   });

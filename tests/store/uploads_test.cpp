@@ -16,7 +16,7 @@ std::string content(const std::string& path) {
 
 class StoredUploads : public StoreTest {
  protected:
-  static constexpr Clock::time_point for_ever = Clock::time_point::max();
+  static constexpr records::Clock::time_point for_ever = records::Clock::time_point::max();
 };
 
 TEST_F(StoredUploads, AreFoundByWhoMadeThem) {
@@ -79,7 +79,7 @@ TEST_F(StoredUploads, SayWhenTheirPartIsGone) {
 TEST_F(StoredUploads, ExpireByAge) {
   const std::string hash = upload("old", "ann");
   upload("old", "bob");
-  EXPECT_EQ(store->expire_uploads(Clock::time_point{}), 0U);
+  EXPECT_EQ(store->expire_uploads(records::Clock::time_point{}), 0U);
   EXPECT_EQ(store->expire_uploads(for_ever), 2U);
   EXPECT_FALSE(store->upload_path(hash, "ann"));
   EXPECT_EQ(files("uploads"), 0U);
@@ -88,7 +88,7 @@ TEST_F(StoredUploads, ExpireByAge) {
 
 TEST_F(StoredUploads, StayWhileAJobNeedsThem) {
   const std::string hash = upload("array");
-  JobRecord record = job_record("j");
+  records::JobRecord record = job_record("j");
   record.spec.loads.push_back({"load", fem::Array{hash, false, nullptr}});
   record.spec.loads.push_back({"again", fem::Array{hash, true, nullptr}});
   store->create(record, "");
@@ -106,7 +106,7 @@ TEST_F(StoredUploads, StayWhileAJobNeedsThem) {
 
 TEST_F(StoredUploads, StayWhileASweepNeedsThem) {
   const std::string matrix = upload("matrix");
-  JobRecord record = job_record("j");
+  records::JobRecord record = job_record("j");
   record.spec.sweep.emplace().upload = matrix;
   store->create(record, "");
   reopen();
@@ -120,14 +120,14 @@ TEST_F(StoredUploads, AreErasedByWhoMadeThemUnlessNeeded) {
   const std::string hash = upload("$MeshFormat", "ann");
   upload("$MeshFormat", "bob");
   EXPECT_TRUE(throws([&] { store->erase_upload(hash, "eve"); }, Reason::not_found));
-  JobRecord record = job_record("j");
+  records::JobRecord record = job_record("j");
   record.owner = "ann";
   record.spec.sweep.emplace().upload = hash;
   store->create(record, "");
-  MeshRecord mesh = meshed_record("m", strip(2));
+  records::MeshRecord mesh = meshed_record("m", strip(2));
   mesh.sha256.clear();
   mesh.owner = "ann";
-  mesh.definition = UploadRef{hash, {}};
+  mesh.definition = records::UploadRef{hash, {}};
   store->put(mesh);
   EXPECT_TRUE(throws([&] { store->erase_upload(hash, "ann"); }, Reason::in_use));
   store->erase_job("j");
@@ -146,9 +146,9 @@ TEST_F(StoredUploads, AreErasedByWhoMadeThemUnlessNeeded) {
 
 TEST_F(StoredUploads, StayUntilTheirMeshIsMade) {
   const std::string hash = upload("msh");
-  MeshRecord record = meshed_record("m", strip(2));
+  records::MeshRecord record = meshed_record("m", strip(2));
   const std::string sha256 = std::exchange(record.sha256, "");
-  record.definition = UploadRef{hash, {}};
+  record.definition = records::UploadRef{hash, {}};
   store->put(record);
   EXPECT_EQ(store->expire_uploads(for_ever), 0U);
   record.sha256 = sha256;

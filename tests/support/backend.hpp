@@ -16,12 +16,12 @@
 #include <stop_token>
 #include <string>
 
+#include "digest/digest.hpp"
 #include "errors/errors.hpp"
 #include "mesher/helper.hpp"
 #include "meshes/mesh_catalogue.hpp"
 #include "operators/mesh_operator.hpp"
 #include "operators/operator_cache.hpp"
-#include "store/digest.hpp"
 #include "store/store.hpp"
 #include "support/paper_geometry.hpp"
 #include "support/temporary_folder.hpp"
@@ -66,7 +66,7 @@ struct BackendOptions {
   std::size_t max_meshes = 10'000;
   std::string data_folder = {};   ///< of the store; empty: below the backend's own folder
   std::uint64_t disk_budget = 0;  ///< as store::StoreOptions
-  std::function<void(const store::MeshRecord&)> meshed = {};
+  std::function<void(const records::MeshRecord&)> meshed = {};
   bool mesher_hangs = false;  ///< a program in its place that does nothing until it is killed
 };
 
@@ -86,8 +86,8 @@ class Backend {
         catalogue(catalogue_options(options), *store, cache) {}
 
   /// The paper's membrane with elements of this size. Each size is another mesh.
-  static store::MeshDefinition definition(double size = 0.1) {
-    return store::GeometrySource{paper_geometry(), {mesh::Preset::uniform, size}};
+  static records::MeshDefinition definition(double size = 0.1) {
+    return records::GeometrySource{paper_geometry(), {mesh::Preset::uniform, size}};
   }
   std::string create(double size = 0.1) { return catalogue.create(definition(size), "", "").id; }
 
@@ -106,7 +106,7 @@ class Backend {
       last = news;
       changed.notify_all();
     });
-    waits.begin(id, store::Priority::normal, std::chrono::steady_clock::now());
+    waits.begin(id, records::Priority::normal, std::chrono::steady_clock::now());
     std::unique_lock lock(mutex);
     if (!changed.wait(lock, stop, [&] { return last.has_value(); }))
       throw errors::Error(errors::Reason::cancelled, "stopped");
@@ -116,10 +116,10 @@ class Backend {
   }
 
   /// An upload with this content.
-  store::UploadRef upload(const std::string& content, const std::string& owner = {}) {
+  records::UploadRef upload(const std::string& content, const std::string& owner = {}) {
     const std::string part = store->new_upload_path(content.size());
     std::ofstream(part, std::ios::binary) << content;
-    store::UploadRef result{store::Sha256().add(content).finish(), {}};
+    records::UploadRef result{digest::Sha256().add(content).finish(), {}};
     store->keep_uploads({{part, result.sha256}}, owner);
     return result;
   }

@@ -7,7 +7,7 @@
 #include <iomanip>
 #include <stdexcept>
 
-#include "mesh/at.hpp"
+#include "base/at.hpp"
 #include "support/process.hpp"
 
 namespace anticrack::witness {

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "anticrack/v1/mesh.pb.h"
-#include "store/digest.hpp"
+#include "digest/digest.hpp"
 
 namespace anticrack::client {
 
@@ -25,7 +25,7 @@ inline std::string sample_bytes(std::size_t size) {
 inline v1::BlockLayout sample_layout(const std::string& bytes) {
   v1::BlockLayout layout;
   layout.set_size(bytes.size());
-  layout.set_sha256(store::Sha256().add(bytes).finish());
+  layout.set_sha256(digest::Sha256().add(bytes).finish());
   auto& array = *layout.add_arrays();
   array.set_name("nodes");
   array.set_type(v1::ArrayLayout::TYPE_FLOAT64);
@@ -37,7 +37,7 @@ inline v1::BlockChunk sample_chunk(const std::string& bytes, std::size_t offset,
   v1::BlockChunk chunk;
   chunk.set_offset(offset);
   chunk.set_data(bytes.substr(offset, size));
-  chunk.set_crc32c(store::crc32c(std::as_bytes(std::span(chunk.data()))));
+  chunk.set_crc32c(digest::crc32c(std::as_bytes(std::span(chunk.data()))));
   return chunk;
 }
 

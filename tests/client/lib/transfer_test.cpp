@@ -114,7 +114,7 @@ TEST(Upload, SendsTheWholeFileInChunksUnderItsHash) {
   const auto path = folder / "plate.msh";
   std::ofstream(path, std::ios::binary) << content;
   Connection connection(server.options());
-  const std::string sha256 = store::Sha256().add(content).finish();
+  const std::string sha256 = digest::Sha256().add(content).finish();
   EXPECT_EQ(upload_mesh(connection, path), "uploads/" + sha256);
   EXPECT_EQ(server.upload_header().sha256(), sha256);
   EXPECT_EQ(server.upload_header().size(), content.size());
@@ -136,7 +136,7 @@ TEST(Upload, SendsValuesAsTheyAre) {
   EXPECT_EQ(server.upload_header().size(), 1'600'000U);
   ASSERT_EQ(sent.size(), 1'600'000U);
   EXPECT_EQ(std::memcmp(sent.data(), values.data(), sent.size()), 0);
-  EXPECT_EQ(upload, "uploads/" + store::Sha256().add(sent).finish());
+  EXPECT_EQ(upload, "uploads/" + digest::Sha256().add(sent).finish());
 }
 
 TEST(Upload, IsShownListedAndDeleted) {

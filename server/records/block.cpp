@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "store/block.hpp"
+#include "records/block.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <stdexcept>
 #include <utility>
 
-#include "store/digest.hpp"
+#include "digest/digest.hpp"
 
-namespace anticrack::store {
+namespace anticrack::records {
 
 static_assert(std::endian::native == std::endian::little, "arrays go into a block as they are");
 
@@ -78,8 +78,8 @@ void BlockBuilder::append(std::string name, ArrayType type, std::span<const std:
 }
 
 Block BlockBuilder::finish() {
-  _block.sha256 = Sha256().add(_block.bytes).finish();
+  _block.sha256 = digest::Sha256().add(_block.bytes).finish();
   return take();
 }
 
-}  // namespace anticrack::store
+}  // namespace anticrack::records

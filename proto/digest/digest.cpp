@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "store/digest.hpp"
+#include "digest/digest.hpp"
 
 #include <isa-l/crc.h>
 #include <openssl/evp.h>
@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace anticrack::store {
+namespace anticrack::digest {
 
 struct Sha256::Context {
   EVP_MD_CTX* evp = EVP_MD_CTX_new();
@@ -85,4 +85,4 @@ std::uint32_t crc32c(std::span<const std::byte> bytes) noexcept {
   return ~crc;
 }
 
-}  // namespace anticrack::store
+}  // namespace anticrack::digest

@@ -8,7 +8,7 @@
 #include <span>
 #include <string>
 
-namespace anticrack::store {
+namespace anticrack::digest {
 
 /// SHA-256 over bytes that arrive in pieces (OpenSSL).
 class Sha256 {
@@ -37,4 +37,4 @@ std::string sha256_of(
 /// CRC-32C (Castagnoli), as in iSCSI (ISA-L).
 std::uint32_t crc32c(std::span<const std::byte> bytes) noexcept;
 
-}  // namespace anticrack::store
+}  // namespace anticrack::digest

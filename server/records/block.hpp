@@ -15,7 +15,7 @@
 
 #include "fields/fields.hpp"
 
-namespace anticrack::store {
+namespace anticrack::records {
 
 /// Its numbers are those of the API.
 enum class ArrayType { float64 = 1, int32, uint8 };
@@ -94,4 +94,4 @@ class BlockBuilder {
   Block _block;
 };
 
-}  // namespace anticrack::store
+}  // namespace anticrack::records

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "store/block.hpp"
+#include "records/block.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,9 +7,9 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "store/digest.hpp"
+#include "digest/digest.hpp"
 
-namespace anticrack::store {
+namespace anticrack::records {
 namespace {
 
 using ::testing::ElementsAre;
@@ -49,7 +49,7 @@ TEST(Block, HoldsItsArraysAtAlignedOffsets) {
   EXPECT_EQ(values<std::int32_t>(block, 0), kinds);
   EXPECT_EQ(values<double>(block, 1), xy);
   EXPECT_EQ(values<std::int32_t>(block, 3), kinds);
-  EXPECT_EQ(block.sha256, Sha256().add(block.bytes).finish());
+  EXPECT_EQ(block.sha256, digest::Sha256().add(block.bytes).finish());
 }
 
 TEST(Block, IsTheSameBytesForTheSameArrays) {
@@ -102,4 +102,4 @@ TEST(Block, LeavesTheBuilderEmpty) {
 }
 
 }  // namespace
-}  // namespace anticrack::store
+}  // namespace anticrack::records

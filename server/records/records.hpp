@@ -16,7 +16,7 @@
 #include "fields/fields.hpp"
 #include "mesh/geometry.hpp"
 
-namespace anticrack::store {
+namespace anticrack::records {
 
 using Clock = std::chrono::system_clock;
 
@@ -275,4 +275,4 @@ ANTICRACK_FIELDS(JobRecord, id, owner, request_id, spec, state, error, created, 
                  expired, cases, sweep, stages, not_reached, result_bytes, attempt, crashes,
                  timeline)
 
-}  // namespace anticrack::store
+}  // namespace anticrack::records

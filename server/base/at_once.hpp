@@ -10,10 +10,10 @@
 #include <thread>
 #include <vector>
 
-#include "mesh/at.hpp"
+#include "base/at.hpp"
 #include "stop/stop.hpp"
 
-namespace anticrack::ddm {
+namespace anticrack::base {
 
 /// Calls worker(i) for i = 0, ..., count - 1 from a shared counter on at most `threads` threads,
 /// the caller's among them, each with its own `make_worker()`. Rethrows the first exception when
@@ -55,4 +55,4 @@ void at_once(std::size_t count, int threads, const MakeWorker& make_worker) {
   if (failure) std::rethrow_exception(failure);
 }
 
-}  // namespace anticrack::ddm
+}  // namespace anticrack::base

@@ -9,7 +9,7 @@
 
 #include "stop/stop.hpp"
 
-namespace anticrack::ddm {
+namespace anticrack::base {
 
 /// A value computed once, at the first get(); concurrent callers wait, looking (stop/stop.hpp).
 /// Thread-safe; not movable.
@@ -41,4 +41,4 @@ class Lazy {
   mutable std::atomic<const Value*> _known{nullptr};
 };
 
-}  // namespace anticrack::ddm
+}  // namespace anticrack::base

@@ -6,9 +6,9 @@
 #include <numeric>
 #include <vector>
 
-#include "mesh/at.hpp"
+#include "base/at.hpp"
 
-namespace anticrack::mesh {
+namespace anticrack::base {
 
 /// Disjoint sets of 0..n-1, each represented by its smallest member. O(log n) a call, amortised.
 class UnionFind {
@@ -40,4 +40,4 @@ class UnionFind {
   std::vector<std::int32_t> _parent;
 };
 
-}  // namespace anticrack::mesh
+}  // namespace anticrack::base
