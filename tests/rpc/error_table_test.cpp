@@ -14,7 +14,6 @@ namespace {
 
 using anticrack::testing::Details;
 using anticrack::testing::details_of;
-using api::printable;
 using errors::Error;
 using errors::Reason;
 
