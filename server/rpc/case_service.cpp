@@ -20,10 +20,9 @@ Unary* CaseService::ReadCase(Context* context, const v1::ReadCaseRequest* reques
 
 Unary* CaseService::ListCaseKeys(Context* context, const v1::ListCaseKeysRequest* request,
                                  v1::ListCaseKeysResponse* response) {
-  return answer_on(_edge, _edge.cases, _edge.limits.waiting_creations, context, *request,
-                   [request, response](const access::Identity&) {
-                     *response = casefile::list_keys(*request);
-                   });
+  return answer_on(
+      _edge, _edge.cases, _edge.limits.waiting_creations, context, *request,
+      [request, response](const access::Identity&) { *response = casefile::list_keys(*request); });
 }
 
 }  // namespace anticrack::rpc

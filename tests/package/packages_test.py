@@ -48,8 +48,8 @@ FILES = {
     "python3-anticrack": {
         EXECUTABLE: [],
         PLAIN: [f"{PYTHON}/anticrack/py.typed", *(f"{PYTHON}/anticrack/{part}.py" for part in ("__init__", "client", "*")),
-                *(f"{PYTHON}/anticrack/v1/{part}" for part in ("__init__.py", "solve_pb2.py", "solve_pb2.pyi", "solve_pb2_grpc.py", "comments.desc",
-                                                               "*_pb2*.py*")),
+                *(f"{PYTHON}/anticrack/v1/{part}" for part in ("__init__.py", "solve_pb2.py", "solve_pb2.pyi", "solve_pb2_grpc.py",
+                                                               "comments.desc", "*_pb2*.py*")),
                 *(f"{PYTHON}/anticrack.egg-info/{part}" for part in ("PKG-INFO", "*.txt")),
                 f"{DOC}/python3-anticrack/copyright", f"{DOC}/python3-anticrack/changelog.gz"],
     },
