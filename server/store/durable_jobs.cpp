@@ -41,7 +41,7 @@ void insert(Connection& connection, const records::JobRecord& record,
     Statement statement = connection.prepare(
         "INSERT INTO jobs (id, owner, request, fingerprint, ended, result, result_bytes, record, "
         "checksum) VALUES (?1, ?2, ?3, ?4, ?5, '', 0, ?6, "
-        "digest::crc32c(?1, ?2, ?3, ?4, ?5, '', 0, ?6))");
+        "crc32c(?1, ?2, ?3, ?4, ?5, '', 0, ?6))");
     statement.bind(std::string_view(record.id))
         .bind(std::string_view(record.owner))
         .bind(std::string_view(record.request_id))
@@ -93,7 +93,7 @@ void end(Connection& connection, const records::JobRecord& record, const ResultC
          const std::string& bytes) {
   Statement update = connection.prepare(
       "UPDATE jobs SET ended = ?1, result = ?2, small_result = ?3, result_bytes = ?4, record = ?5, "
-      "checksum = digest::crc32c(?6, ?7, ?8, fingerprint, ?1, ?2, ?4, ?5) WHERE id = ?6");
+      "checksum = crc32c(?6, ?7, ?8, fingerprint, ?1, ?2, ?4, ?5) WHERE id = ?6");
   bind_end(update, record);
   update.bind(std::string_view(result.name));
   if (result.small.empty())
@@ -141,7 +141,7 @@ void DurableStore::put(const records::JobRecord& record) {
       [&](Connection& connection) {
         Statement update = connection.prepare(
             "UPDATE jobs SET ended = ?1, record = ?2, checksum = "
-            "digest::crc32c(?3, ?4, ?5, fingerprint, ?1, result, result_bytes, ?2) WHERE id = ?3");
+            "crc32c(?3, ?4, ?5, fingerprint, ?1, result, result_bytes, ?2) WHERE id = ?3");
         bind_end(update, record);
         update.bind_blob(bytes)
             .bind(std::string_view(record.id))

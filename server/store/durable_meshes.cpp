@@ -31,7 +31,7 @@ void DurableStore::save(Connection& connection, const records::MeshRecord& recor
   const std::string upload = upload_of(record);
   Statement upsert = connection.prepare(
       "INSERT INTO meshes (id, owner, sha256, upload, record, checksum) "
-      "VALUES (?1, ?2, ?3, ?4, ?5, digest::crc32c(?1, ?2, ?3, ?4, ?5)) "
+      "VALUES (?1, ?2, ?3, ?4, ?5, crc32c(?1, ?2, ?3, ?4, ?5)) "
       "ON CONFLICT (id) DO UPDATE SET owner = excluded.owner, sha256 = excluded.sha256, "
       "upload = excluded.upload, record = excluded.record, checksum = excluded.checksum");
   upsert.bind(std::string_view(record.id))

@@ -98,7 +98,7 @@ records::Clock::time_point DurableStore::keep_uploads(const std::vector<Upload>&
       connection
           .prepare(
               "INSERT OR REPLACE INTO uploads (sha256, owner, created, checksum) "
-              "VALUES (?1, ?2, ?3, digest::crc32c(?1, ?2, ?3))")
+              "VALUES (?1, ?2, ?3, crc32c(?1, ?2, ?3))")
           .bind(std::string_view(upload.sha256))
           .bind(std::string_view(owner))
           .bind(to_disk(now))

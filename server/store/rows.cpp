@@ -45,11 +45,10 @@ Record record_of(const Row& row, Record (*read)(const Row&)) {
 
 const Table& table_of(FileKind kind) {
   static const std::array<Table, file_kinds.size()> tables{{
-      {"meshes", "id", "sha256", "digest::crc32c(id, owner, sha256, upload, record)", "record"},
+      {"meshes", "id", "sha256", "crc32c(id, owner, sha256, upload, record)", "record"},
       {"jobs", "id", "result",
-       "digest::crc32c(id, owner, request, fingerprint, ended, result, result_bytes, record)",
-       "record"},
-      {"uploads", "sha256", "sha256", "digest::crc32c(sha256, owner, created)", "NULL"},
+       "crc32c(id, owner, request, fingerprint, ended, result, result_bytes, record)", "record"},
+      {"uploads", "sha256", "sha256", "crc32c(sha256, owner, created)", "NULL"},
   }};
   return tables[static_cast<std::size_t>(kind)];
 }

@@ -96,8 +96,8 @@ Connection::Connection(std::string path) : _path(std::move(path)) {
     throw error(SQLITE_READONLY);
   }
   sqlite3_busy_timeout(database, 5000);  // of a backup tool, or the other connection's checkpoint
-  sqlite3_create_function_v2(database, "digest::crc32c", -1, SQLITE_UTF8 | SQLITE_DETERMINISTIC,
-                             nullptr, crc32c_of, nullptr, nullptr, nullptr);
+  sqlite3_create_function_v2(database, "crc32c", -1, SQLITE_UTF8 | SQLITE_DETERMINISTIC, nullptr,
+                             crc32c_of, nullptr, nullptr, nullptr);
 }
 
 Statement Connection::prepare(const std::string& sql) {
