@@ -99,6 +99,7 @@ void put_message(const Handle& group, const Units& units, const Message& message
       return;
     }
     std::vector<const Message*> items;
+    items.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) items.push_back(&fields.GetRepeatedMessage(message, field, i));
     put_columns(create_group(group, field->name()), units, *field->message_type(), items);
   });

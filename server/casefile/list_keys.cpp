@@ -85,7 +85,7 @@ bool directly_below(const Row& row, const Row& above) {
 }
 
 std::vector<Row> rows_of(const std::string& name) {
-  const std::vector<Row> rows = all_rows();
+  std::vector<Row> rows = all_rows();
   if (name.empty()) return rows;
   const Words words = split(name);
   std::vector<Row> found;

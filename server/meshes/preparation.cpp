@@ -192,7 +192,7 @@ void Preparation::serve(const std::string& id) {
 }
 
 Preparation::RunPtr Preparation::give_up(LiveMesh& mesh) {
-  const RunPtr run = std::exchange(mesh.run, nullptr);
+  RunPtr run = std::exchange(mesh.run, nullptr);
   if (!run) return nullptr;
   _queue.remove(run->place);
   _queued.erase(run->place);

@@ -71,8 +71,8 @@ class Local(FolderTest):
 
     def start(self, rest):
         """A program that has a client, and its server."""
-        program = subprocess.Popen([sys.executable, "-Wignore", "-c", PROGRAM + rest], text=True, stdout=subprocess.PIPE,
-                                   stderr=subprocess.PIPE)
+        program = subprocess.Popen([sys.executable, "-Wignore", "-c", PROGRAM + rest], text=True,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         self.addCleanup(program.communicate)
         self.addCleanup(program.kill)
         line = program.stdout.readline()
