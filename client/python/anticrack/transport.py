@@ -17,8 +17,8 @@ from .private_server import Server
 from .proxies import proxy_for
 from .v1 import case_pb2_grpc, mesh_pb2_grpc, server_pb2_grpc, solve_pb2_grpc, upload_pb2_grpc
 
-# In Debian 13 this gRPC is built without NDEBUG and so has an experiment of debug builds, with which os.fork() waits for
-# ever in a process that has called a server. Before the first channel; whoever set experiments keeps their own.
+# In Debian 13 this gRPC is built without NDEBUG and so has an experiment of debug builds, with which os.fork() waits
+# for ever in a process that has called a server. Before the first channel; whoever set experiments keeps their own.
 if grpc.__version__.startswith("1.51."):
     os.environ.setdefault("GRPC_EXPERIMENTS", "-posix_event_engine_enable_polling")
 
