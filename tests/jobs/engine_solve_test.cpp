@@ -159,7 +159,7 @@ TEST(EngineFailure, OfOneLoadCaseLeavesTheOthers) {
   Engine test(one_thread());
   records::JobSpec spec = short_job(test.ready_mesh());
   spec.loads.insert(spec.loads.begin(), {"nan", fem::Expression{"sqrt(-1 - x*x)"}, ""});
-  spec.loads.push_back({"unknown", fem::PerRegion{{{"nowhere", 1.0}}}, ""});
+  spec.loads.push_back({"outside", 0.0, "", "", {{9, 9, 1}}});
   const std::string id = test.submit(spec);
   const JobRecord record = test.ended(id);
   EXPECT_EQ(record.state, JobState::not_converged);
@@ -171,7 +171,7 @@ TEST(EngineFailure, OfOneLoadCaseLeavesTheOthers) {
   EXPECT_EQ(record.cases[0].error->fields().at(0).field, "load_cases[0].force.expression");
   EXPECT_EQ(record.cases[1].status, Status::converged);
   EXPECT_EQ(record.cases[2].status, Status::failed);
-  EXPECT_EQ(record.cases[2].error->fields().at(0).field, "load_cases[2].force.per_region[nowhere]");
+  EXPECT_EQ(record.cases[2].error->fields().at(0).field, "load_cases[2].point_forces[0].at");
   const auto block = test.engine.result(id);
   EXPECT_FALSE(array<double>(*block, "loads/0/traces/0/jump"));
   EXPECT_TRUE(array<double>(*block, "loads/1/traces/0/jump"));

@@ -112,7 +112,7 @@ TEST(EngineSweepFailure, FailsAtAValueThatIsNotFinite) {
 TEST(EngineSweepFailure, FailsWithTheLoadThatCannotBeCondensed) {
   Engine test;
   records::JobSpec spec = combinations(test.ready_mesh(mesh_size), upload(test.backend, {1, 2, 3}));
-  spec.loads[1].force = fem::PerRegion{{{"nowhere", 1.0}}};
+  spec.loads[1].force = fem::Expression{"sqrt(-1 - x*x)"};
   const JobRecord record = test.ended(test.submit(spec));
   EXPECT_EQ(record.state, JobState::failed);
   ASSERT_TRUE(record.error);
