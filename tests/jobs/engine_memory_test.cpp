@@ -37,7 +37,9 @@ TEST(EngineMemory, DoesNotGrowWithTheResultOfAJob) {
   spec.fields = true;
   spec.solver = contact::ActiveSetOptions{};
   for (int i = 0; i < 1'500; ++i) spec.loads.push_back({std::to_string(i), double(i % 7), ""});
-  EXPECT_GT(result_over_memory(test, spec), 3);
+  // Below 1 if the result were there. What else grows is the allocator's share of each thread, and
+  // of spare ones where the machine is busy.
+  EXPECT_GT(result_over_memory(test, spec), 1.5);
 }
 
 }  // namespace
