@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/contact_problem.hpp"
 
+#include <utility>
+
 #include "contact/open_membrane.hpp"
 
 namespace anticrack::contact {
 
-using Eigen::Index;
 using Eigen::VectorXd;
 
 ContactProblem::ContactProblem(const TraceProblem& traces, bool condensed)
