@@ -19,7 +19,7 @@ void require_threadsafe_blas() {
             " (0 serial, 2 OpenMP); install libopenblas0-pthread and select it with "
             "update-alternatives, or factors come out wrong under threads");
   }
-  // Once: it is a global setting that others may be computing under by now.
+  // Done once only, as it is a global setting and other threads may be computing by now.
   static const bool set = [] {
     openblas_set_num_threads(1);
     return true;
