@@ -14,10 +14,10 @@
 
 namespace anticrack::operators {
 
-/// Retry delay of `busy` errors about memory or threads.
+/// The retry delay of `busy` errors about memory or threads.
 constexpr std::chrono::milliseconds retry_delay{1000};
 
-/// Operators that nobody asked for meanwhile protect their owner's share of memory no more.
+/// Operators that nobody has asked for in this time are no longer protected by their owner's share.
 constexpr std::chrono::milliseconds default_stale_after{std::chrono::hours(1)};
 
 struct CacheMetrics {
@@ -25,9 +25,9 @@ struct CacheMetrics {
   std::uint64_t hits = 0;
   std::uint64_t joins = 0;  ///< callers that waited for a factorisation under way
   std::uint64_t evictions = 0;
-  std::uint64_t bytes = 0;   ///< held now, what is being factorised counted by its estimate
+  std::uint64_t bytes = 0;   ///< held now; operators being factorised count with their estimate
   std::uint64_t budget = 0;  ///< bytes
-  std::uint64_t pinned = 0;  ///< of `bytes`, what cannot be evicted now
+  std::uint64_t pinned = 0;  ///< the part of `bytes` that cannot be evicted now
   int entries = 0;           ///< meshes
 };
 
@@ -59,24 +59,24 @@ class OperatorCache {
   /// `factorise` may throw errors for acquire() and should obey its stop.
   OperatorCache(std::uint64_t budget_bytes, Factorise factorise, Listener factorised = {},
                 std::chrono::milliseconds stale_after = default_stale_after);
-  /// No call may be under way.
+  /// No other thread may be in a call.
   ~OperatorCache();
 
   /// The operator of a mesh, from memory or factorised; blocks. `key`: hash of the mesh's content;
-  /// `owner`: whose share it counts in, empty without authentication.
+  /// `owner`: in whose share it counts, empty without authentication.
   std::shared_ptr<const MeshOperator> acquire(const std::string& key,
                                               std::shared_ptr<const mesh::Mesh> mesh,
                                               std::stop_token stop, const std::string& owner = {});
   /// The operator when it is in memory (a hit), else null. Does not block.
   std::shared_ptr<const MeshOperator> find(const std::string& key, const std::string& owner = {});
   bool contains(const std::string& key) const;
-  /// Keeps an entry that is in memory; false when it is not there.
+  /// Pins an entry that is in memory; returns false if it is not there.
   bool pin(const std::string& key);
-  bool pinned(const std::string& key) const;  ///< by `pin`
+  bool pinned(const std::string& key) const;  ///< whether pin() keeps it
   enum class Eviction { done, not_there, in_use };
   /// Drops an entry, also one kept by `pin`, unless it is in use or being factorised.
   Eviction evict(const std::string& key);
-  /// Counts a caller that waits for an acquire() of another one instead of its own.
+  /// Counts a caller that waits for the acquire() of another caller, without calling it.
   void count_join();
   std::uint64_t budget() const noexcept;  ///< bytes
   CacheMetrics metrics() const;
