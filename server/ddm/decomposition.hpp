@@ -76,7 +76,7 @@ struct Held {
   std::int32_t subdomain = -1, dirichlet = -1;
 };
 
-/// The motion of an inclusion in terms of w: u = A + B.(x - centre) along the inclusion.
+/// The motion of an inclusion in terms of w:  u = A + B.(x - centre)  along the inclusion.
 struct RigidMotion {
   mesh::Point centre{};    ///< of its nodes' bounding box
   Terms displacement;      ///< A

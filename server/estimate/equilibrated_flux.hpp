@@ -26,7 +26,7 @@ struct Balance {
 /// sign. Empty: w <= 0 instead, as for contact pressure.
 using FaceBounds = std::span<const double>;
 
-/// sigma with div sigma + f = 0 for the elementwise linear f of `force`, and sigma.n = mean g on
+/// sigma with  div sigma + f = 0  for the elementwise linear f of `force`, and sigma.n = mean g on
 /// Neumann edges. Its normal component is continuous across all edges except those of cracks and
 /// inclusions; on minus faces sigma.n = -p, the same on both faces of a crack; the flux through the
 /// faces of an inclusion is the force on it. On the faces of an inclusion that tilts, RT0 has
