@@ -84,7 +84,7 @@ class Observer {
   virtual bool on_iteration(const Sample& sample) = 0;
 };
 
-/// Where a load case stands. What is solved ends converged, not_converged or cancelled.
+/// The state of a load case. One that is solved ends converged, not_converged or cancelled.
 enum class Status : std::int32_t {
   pending = 1,
   running,

@@ -16,8 +16,8 @@ namespace anticrack::contact {
 ///                which Algorithm 2 converges as well.
 /// A side held rigid takes any force; a pair of two such sides has mu = 0. A pair whose condition
 /// follows from contacts of its cross point (contact -1, sides not tied) shares their forces: it
-/// takes the part of them that makes mu'M mu least with no mu below 0. Where one of them is open,
-/// its own mu is 0. Lumped mass. Immutable after construction. O(n) a call.
+/// takes the part of them that makes mu'M mu least with no mu below 0, or 0 if one of these
+/// contacts is open. Lumped mass. Immutable after construction. O(n) a call.
 class PairForces {
  public:
   /// Keeps references to both. `lumped_mass`: shape (pairs).

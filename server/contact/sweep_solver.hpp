@@ -62,12 +62,11 @@ SweepLoads reduce(const ContactProblem& problem, std::span<const CaseLoads> load
 /// to the arguments of its constructor.
 ///   Pi = Pi(closed) - r'd/2                          (from d'lambda = 0)
 ///   A  = A(closed) + what the jumps do, and so the slopes
-///   kkt: LcpAnswer::residual, the largest |lambda - (S^ d - r)| relative to the largest force on
-///   the
-///        contacts, of all the loads that are summed, with d and lambda clipped at 0 and one of
-///        them 0 in each: what is wrong with equilibrium, gap, sign or complementarity of the
-///        contacts is in it. The nodes between are in equilibrium by elimination, to rounding; it
-///        is not measured row by row.
+///   kkt: LcpAnswer::residual, the largest |lambda - (S^ d - r)| of all summed loads, relative to
+///        the largest force on the contacts, with d and lambda clipped at 0 and one of them 0 in
+///        each contact. It covers errors of equilibrium, gap, sign and complementarity at the
+///        contacts. The nodes between are in equilibrium to rounding, by elimination, which is not
+///        measured row by row.
 class SweepSolver {
  public:
   /// `start`: closed contacts to start the first row from; empty: all are closed.

@@ -24,7 +24,7 @@ struct Lift {
 };
 
 /// Makes the lifts from samples of g_D and from u_h in the copies, by Gauss's rule in each half of
-/// an edge and a bound of what is unknown of g_D: gradient_squared is an upper bound, and the means
+/// an edge and bounds of the unknown part of g_D: gradient_squared is an upper bound, and the means
 /// are wrong by at most `unknown`.
 std::vector<Lift> lifts(const CutMesh& cut, const BoundarySamples& samples,
                         std::span<const double> u);

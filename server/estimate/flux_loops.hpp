@@ -102,12 +102,12 @@ class Flux {
     return of_lanes([&](std::size_t l) { return _lane[l].force[corner]; });
   }
 
-  /// Minus half the outward flux of T grad u through each side: with G = sum of u_i e_i, that of
-  /// side i is -T^2 G.e_i / 2. And what the load makes of sigma - T grad u besides: d/2 (x -
-  /// centroid) with the divergence d, and the bubble
+  /// Computes minus half the outward flux of T grad u through each side, which is -T^2 G.e_i / 2
+  /// for side i with G = sum of u_i e_i. Also the part of sigma - T grad u that comes from the
+  /// load: d/2 (x - centroid) with the divergence d, and the bubble
   ///   b = 1/3 sum_(i<j) (f_j - f_i)(P_j - P_i) l_i l_j,  div b = -(f - mean f),
   /// which has no flux through the sides. With the loads f_i, their sum s and d_i = f_k - f_j this
-  /// is a part -(f_0 e_2 + f_1 e_0 + f_2 e_1) of the mean, and the square of what is left
+  /// adds -(f_0 e_2 + f_1 e_0 + f_2 e_1) to the mean, and the square of the rest is
   ///   4 sum_i e_i.e_i (s^2 / 144 + (2 d_i^2 - d_j d_k - s (s - 3 f_i)) / 45).
   template <bool loaded>
   void measure() {

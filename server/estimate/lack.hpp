@@ -3,13 +3,13 @@
 // What a flux lacks of equilibrium. Made fan by fan from a u_h that solves its problem only to
 // rounding or a little worse, a flux has the right divergence on every triangle, but
 //
-//   about a node off all faces what is left of the sum goes through one spoke on one side only,
-//   through faces that are given, may not be pulled, or have a partner goes a little else,
-//   out of a body goes a little else than the force on it.
+//   about a node off all faces the rest of the sum goes through one side of one spoke only,
+//   the flux through faces that are given, may not be pulled, or have a partner is slightly wrong,
+//   the flux out of a body is not quite the force on it.
 //
-// Each of these is a unit flux from a side, or off a body, times its amount: Ways bring them to
-// where they may leave. So sigma + s is admissible, with |s| <= Lack::flux: the bounds are those of
-// sigma + s, of which only the norm of s has to be known.
+// Each of these errors is an amount times a unit flux from a side, or off a body, and Ways lead it
+// to a place where it may leave. So sigma + s is admissible with |s| <= Lack::flux. The bounds are
+// those of sigma + s, of which only the norm of s has to be known.
 #pragma once
 
 #include <cmath>

@@ -57,8 +57,8 @@ struct IntegrationReport {
 ///    such a switch changes its sign are cut along that line (cut_cells.hpp).
 /// 2. The others are integrated by 7 points, exactly for f of degree 4. The samples at these points
 ///    and at the corners give the terms of degree 1 to 4; their decay gives the error.
-/// 3. What is not accurate enough goes to refine_cells(): rules of degree 8 and 12, then quarters.
-/// The arguments of exp, sin, 1/u and the like show where f has more than its samples.
+/// 3. Triangles that are not accurate enough go to refine_cells(): rules of degree 8 and 12, then
+///    quarters. The arguments of exp, sin, 1/u and the like show where f has more than its samples.
 ///
 /// Each triangle of area a is allowed relative_tolerance / 2 of (a mean|f| + its own int |f|).
 /// Reproducible on one kind of processor. Memory O(m). About n + 7 m evaluations if f is smooth.

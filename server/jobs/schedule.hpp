@@ -42,17 +42,16 @@ struct Turn {
 };
 
 /// Contract:
-/// 1. Urgency is that of meshes/queue.hpp. What waits for a turn on a mesh has waited since the
-///    mesh's last turn at most, so that many old jobs on one mesh are no more urgent than one on
-///    another.
-/// 2. Turns: owners first, the one with the most urgent work, at equal urgency the one whose turn
-/// is
-///    longest ago; work of an owner has waited since that turn at most. Of the owner's meshes the
-///    most urgent; at equal urgency the mesh whose turn is longest ago, on it the lane whose turn
-///    is longest ago. A mesh belongs to the owner of the last job on it.
-/// 3. On a mesh and lane: owners in turn as in 2, by the load cases that were taken there; of the
-///    owner's jobs the most urgent, at equal urgency the oldest.
-/// 4. A job waits for its mesh without holding up another: only meshes that are ready have turns.
+/// 1. Urgency is that of meshes/queue.hpp. Work that waits for a turn on a mesh has waited at most
+///    since the mesh's last turn, so many old jobs on one mesh are not more urgent than one job on
+///    another mesh.
+/// 2. Turns: the next owner is the one with the most urgent work; at equal urgency the one whose
+///    turn is longest ago. Work of an owner has waited at most since that turn. Of the owner's
+///    meshes the most urgent is next; at equal urgency the mesh whose turn is longest ago, and on
+///    it the lane whose turn is longest ago. A mesh belongs to the owner of the last job on it.
+/// 3. On a mesh and lane owners take turns as in 2, by the units that were taken there; of the
+///    owner's jobs the most urgent is next, at equal urgency the oldest.
+/// 4. A job waits for its mesh without delaying another: only meshes that are ready have turns.
 /// Not thread-safe. Choosing is O(meshes), the rest O(log jobs).
 class Schedule {
  public:

@@ -21,7 +21,7 @@ constexpr std::size_t contacts_a_chunk = std::size_t{1} << 15U;
 /// Loads are condensed in blocks of 32 columns: more would not make a row cheaper.
 constexpr std::size_t most_forces = 32;
 constexpr std::size_t force_bytes_a_chunk = std::size_t{64} << 20U;
-/// A chunk is one message to a watcher, and how inclusions moved is most of it: half a megabyte.
+/// A chunk is one message to a watcher, and the motions are most of it: half a megabyte.
 constexpr std::size_t motions_a_chunk = std::size_t{1} << 16U;
 
 /// How many numbers are the motions of a row: A of each inclusion and, if any tilts, Bx, By.

@@ -114,7 +114,7 @@ struct Geometry {
   std::vector<InterfaceSpec> interfaces;
   std::vector<InclusionSpec> inclusions;
   std::vector<CrackSpec> cracks;
-  std::vector<Part> neumann;  ///< of the outer boundary, counterclockwise; from == to: all of it
+  std::vector<Part> neumann;  ///< parts of the outer boundary, counterclockwise; from == to: all
   std::vector<RegionSpec> regions;
   std::vector<SideSpec> sides{};  ///< in place of `boundary`, either orientation
   std::vector<HoleSpec> holes{};

@@ -69,11 +69,11 @@ class Frame {
     const double extent = std::max(high[0] - low[0], high[1] - low[1]);
     _exponent = static_cast<int>(std::lround(std::log2(extent / 2)));
   }
-  /// From the user's coordinates.
+  /// Converts from the user's coordinates.
   mesh::Point to_gmsh(const mesh::Point& p) const {
     return {std::ldexp(p[0] - _centre[0], -_exponent), std::ldexp(p[1] - _centre[1], -_exponent)};
   }
-  /// To the user's coordinates.
+  /// Converts to the user's coordinates.
   mesh::Point from_gmsh(double x, double y) const {
     return {std::ldexp(x, _exponent) + _centre[0], std::ldexp(y, _exponent) + _centre[1]};
   }

@@ -280,7 +280,7 @@ void Preparation::fail(Run& run, Error error) {
       failed->error = error;
       _store.put(*failed);
     } catch (const Error& disk) {
-      // Not recorded: waiters get the error, and a later attempt fails again.
+      // The failure is not recorded: waiters get the error, and a later attempt fails again.
       failed.reset();
       error = meshed ? error : disk;
     }

@@ -47,15 +47,15 @@ inline Last last_of(const Lasts& lasts, const std::string& owner) {
 }
 
 /// Contract:
-/// 1. Of a class of sizes (size_class.hpp) two have a thread at a time. Where somebody awaits the
-///    operators they pin memory until he has begun with them (let_go), and one begins only while
-///    fewer than three are with a thread or pinned. Up to twice as many of each if the owner has a
-///    name and none there: large meshes are to hold up no small ones, and those of one owner no
-///    other.
-/// 2. The next is the most urgent one that may begin, as if it had waited since the
-///    last start of its owner at most; at equal urgency one of the owner who has the fewest with a
-///    thread, then of who had a start longest ago, then the one that is more urgent by all its
-///    waiting, then the one that came first.
+/// 1. Two meshes of a class of sizes (size_class.hpp) have a thread at a time. If somebody awaits
+///    the operators, they pin memory until their use begins (let_go), and a mesh begins only while
+///    fewer than three are with a thread or pinned. If its owner has a name and no mesh there, up
+///    to twice as many are allowed: large meshes must not delay small ones, nor those of one owner
+///    those of another.
+/// 2. The next mesh is the most urgent one that may begin; for this, a mesh has waited at most
+///    since the last start of its owner. At equal urgency it is one of the owner who has the fewest
+///    with a thread, then of the owner whose last start is longest ago, then the one that is more
+///    urgent by all its waiting, then the one that came first.
 /// Not thread-safe. next() is O(entries), the rest O(log entries).
 class Queue {
  public:

@@ -31,22 +31,21 @@ struct CacheMetrics {
   int entries = 0;           ///< meshes
 };
 
-/// 1. One factorisation at a time per key, on the first caller's thread; callers that join get the
-/// same
-///    operator or the same error.
-/// 2. An operator in use (shared_ptr) is pinned: counted and not evicted.
-/// 3. A factorisation first reserves its estimate, evicting unpinned entries by owners' shares
-///    (memory_shares.hpp). If that is not enough: errors::Error busy, or limit_exceeded if the
-///    estimate exceeds the budget. Then its measured size replaces the estimate. Measured and
-///    reserved bytes stay within the budget. If a measured size exceeds its estimate (an error of
-///    estimate_bytes), or an operator grows in use (theta*, bases of sweeps), unpinned entries go
-///    at once, and nothing more is admitted until the total is within the budget.
+/// 1. There is one factorisation at a time per key, on the first caller's thread; callers that join
+///    get the same operator or the same error.
+/// 2. An operator in use (shared_ptr) is pinned: it counts and is not evicted.
+/// 3. A factorisation first reserves its estimate and evicts unpinned entries by owners' shares
+///    (memory_shares.hpp). If that is not enough, it throws errors::Error: busy, or limit_exceeded
+///    if the estimate exceeds the budget. Later its measured size replaces the estimate. Measured
+///    and reserved bytes stay within the budget. If a measured size exceeds its estimate (an error
+///    of estimate_bytes), or an operator grows in use (theta*, bases of sweeps), unpinned entries
+///    are evicted at once, and nothing more is admitted until the total is within the budget.
 /// 4. `pin` keeps an entry until `evict`.
-/// 5. Evicted memory returns to the system before the factorisation it made room for
+/// 5. Evicted memory returns to the system before the factorisation that needed the room begins
 ///    (freed_memory.hpp).
-/// 6. A joiner's stop ends its wait. The factorisation stops when no caller waits for it any more;
-/// its own
-///    caller returns when it has ended, `cancelled` if it was stopped.
+/// 6. A stop of a caller that joined ends its wait. The factorisation stops when no caller waits
+///    for it any more; its own caller returns when it has ended, with `cancelled` if it was
+///    stopped.
 /// Thread-safe. No lock is held while factorising.
 class OperatorCache {
  public:

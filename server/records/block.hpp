@@ -40,7 +40,7 @@ struct ArrayLayout {
 };
 ANTICRACK_FIELDS(ArrayLayout, name, type, shape, offset)
 
-/// Where an array that follows `size` bytes begins.
+/// The offset of an array that follows `size` bytes.
 constexpr std::uint64_t aligned(std::uint64_t size) {
   constexpr std::uint64_t alignment = 8;
   return (size + alignment - 1) / alignment * alignment;
@@ -61,7 +61,7 @@ struct Block {
 class BlockSource {
  public:
   virtual ~BlockSource() = default;
-  /// In order of their offsets.
+  /// The arrays in the order of their offsets.
   virtual const std::vector<ArrayLayout>& arrays() const noexcept = 0;
   virtual std::uint64_t size() const noexcept = 0;  ///< in bytes
   virtual const std::string& sha256() const noexcept = 0;

@@ -49,7 +49,7 @@ struct Limits {
   std::size_t waiting_creations = 128;
   /// Most other calls that wait for the disk.
   std::size_t waiting_calls = 4'096;
-  // Of the layers below:
+  // Limits of the layers below:
   std::size_t meshes = 10'000;
   std::size_t pending_meshes = 64;
   std::uint64_t disk_budget_bytes = 0;

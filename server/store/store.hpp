@@ -89,15 +89,13 @@ struct UploadRecord {
 
 /// Contract:
 /// 1. Every method may be called from any thread and is atomic. Writers may wait for the disk.
-/// 2. A method that writes returns when what it wrote is on the disk (but for put(JobRecord)); when
-/// it throws errors::Error
-///    (disk_full with a retry delay: no space, or budget; storage: any other failure of the disk)
-///    it has written nothing, and the same call may succeed later. Nothing but a bad disk makes the
-///    store unusable.
+/// 2. A method that writes returns when its data are on the disk (except put(JobRecord)). If it
+///    throws errors::Error (disk_full with a retry delay: no space, or budget used up; storage: any
+///    other failure of the disk), it has written nothing, and the same call may succeed later. Only
+///    a bad disk makes the store unusable.
 /// 3. Lists are stable under insertion; an unknown `after` throws not_found.
-/// 4. A record that has changed on the disk comes as FAILED with an error (storage) that names it
-/// and
-///    gives the cure; no more is known of it than id and owner.
+/// 4. A record that has changed on the disk comes as FAILED with an error (storage) that has its
+///    name and the cure; only its id and owner are known.
 /// 5. Ids are unique for ever; an erased id does not come back by itself.
 class Store {
  public:
