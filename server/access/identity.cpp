@@ -12,7 +12,7 @@ bool may_see(const Identity& who, const std::string& owner) noexcept {
 void require_admin(const Identity& who, const std::string& action) {
   if (who.role == Role::admin) return;
   throw errors::Error(errors::Reason::permission_denied,
-                      "only an administrator may " + action + "; \"" + who.name + "\" is a user");
+                      "only an administrator may {}; \"{}\" is a user", action, who.name);
 }
 
 }  // namespace anticrack::access

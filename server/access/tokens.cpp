@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "access/tokens.hpp"
 
+#include <fmt/core.h>
 #include <openssl/crypto.h>
 
 #include <algorithm>
@@ -23,8 +24,7 @@ using Hash = std::array<std::uint8_t, 32>;
 constexpr std::size_t max_name_bytes = 64;
 
 errors::Error bad_line(const std::string& origin, std::size_t line, const std::string& what) {
-  return errors::Error(errors::Reason::invalid_argument,
-                       origin + ", line " + std::to_string(line) + ": " + what)
+  return errors::Error(errors::Reason::invalid_argument, "{}, line {}: {}", origin, line, what)
       .at("tokens");
 }
 
@@ -103,8 +103,8 @@ TokenTable TokenTable::parse(std::string_view text, const std::string& origin) {
     // The line may contain a token by mistake: errors never repeat it.
     if (words.size() != 3 && words.size() != 4) {
       throw bad_line(origin, number,
-                     std::to_string(words.size()) +
-                         " words; write NAME ROLE SHA256 or NAME ROLE SHA256 YYYY-MM-DD");
+                     fmt::format("{} words; write NAME ROLE SHA256 or NAME ROLE SHA256 YYYY-MM-DD",
+                                 words.size()));
     }
     if (!is_name(words[0])) {
       throw bad_line(origin, number,
@@ -155,9 +155,10 @@ std::optional<Identity> TokenTable::find(std::string_view token,
   if (found == nullptr) return std::nullopt;
   if (found->last_day &&
       std::chrono::floor<std::chrono::days>(now) > std::chrono::sys_days(*found->last_day)) {
-    throw errors::Error(errors::Reason::unauthenticated,
-                        "the token expired at the end of " + text_of(*found->last_day) +
-                            " (UTC); ask the server's administrator for a new one");
+    throw errors::Error(
+        errors::Reason::unauthenticated,
+        "the token expired at the end of {} (UTC); ask the server's administrator for a new one",
+        text_of(*found->last_day));
   }
   return found->identity;
 }

@@ -39,12 +39,12 @@ std::vector<Setting> parse_config(const std::string& text, const std::string& pa
   try {
     table = toml::parse(text, path);
   } catch (const toml::parse_error& error) {
-    throw ConfigError(path + ":" + std::to_string(error.source().begin.line) + ": " +
-                      std::string(error.description()));
+    throw ConfigError(
+        fmt::format("{}:{}: {}", path, error.source().begin.line, error.description()));
   }
   std::vector<Setting> settings;
   for (const auto& [name, node] : table) {
-    const std::string where = path + ":" + std::to_string(node.source().begin.line);
+    const std::string where = fmt::format("{}:{}", path, node.source().begin.line);
     const std::string given(name.str());
     const Key& key = find_key(given, where);
     settings.push_back({key.name, value_text(key, node, where), where});

@@ -2,6 +2,7 @@
 #include "app/listen_address.hpp"
 
 #include <arpa/inet.h>
+#include <fmt/core.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
@@ -22,8 +23,8 @@ ListenAddress parse_socket(const std::string& text) {
   ListenAddress address{text, text.substr(5), {}, 0};
   const std::size_t limit = sizeof(sockaddr_un::sun_path) - 1;
   if (address.socket_path.empty() || address.socket_path.size() > limit) {
-    throw std::invalid_argument("\"" + text + "\": the path of a unix socket has 1 to " +
-                                std::to_string(limit) + " bytes");
+    throw std::invalid_argument(
+        fmt::format("\"{}\": the path of a unix socket has 1 to {} bytes", text, limit));
   }
   return address;
 }

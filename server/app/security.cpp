@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/security.hpp"
 
+#include <fmt/core.h>
+
 #include <optional>
 #include <sstream>
 #include <utility>
@@ -97,8 +99,7 @@ LoadedSecurity load_security(const Config& config) {
   loaded.security.tokens = std::move(files.tokens);
   loaded.security.admins = split_names(config.admins);
   if (files.days_left && *files.days_left < warn_days)
-    loaded.warnings.push_back("the certificate expires in " + std::to_string(*files.days_left) +
-                              " days");
+    loaded.warnings.push_back(fmt::format("the certificate expires in {} days", *files.days_left));
 
   if (is_local(parse_listen_address(config.listen))) return loaded;
   if (config.tokens.empty() && config.tls_client_roots.empty()) {

@@ -31,7 +31,7 @@ int check_store(const Config& config, bool repair, std::ostream& out) {
   const std::string aside = store::repair(data, found);
   if (const store::CheckedStore left = store::check(data); !left.flaws.empty()) {
     throw errors::Error(errors::Reason::storage,
-                        "the store cannot be repaired, restore a backup: " + left.flaws.front());
+                        "the store cannot be repaired, restore a backup: {}", left.flaws.front());
   }
   out << "The rest is sound. The damaged parts and a copy of the database are in " << aside << "\n";
   return 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/core.h>
+
 #include <cmath>
-#include <sstream>
 
 #include "contact/answer.hpp"
 #include "errors/errors.hpp"
@@ -11,9 +12,9 @@ namespace {
 template <class Value>
 void require(bool holds, const char* field, Value value, const std::string& cure) {
   if (!holds) {
-    std::ostringstream message;
-    message << field << " is " << value << "; it must be " << cure;
-    throw errors::Error(errors::Reason::invalid_argument, message.str()).at(field);
+    throw errors::Error(errors::Reason::invalid_argument, "{} is {}; it must be {}", field, value,
+                        cure)
+        .at(field);
   }
 }
 
@@ -26,7 +27,7 @@ void check_options(const UzawaOptions& options, int iteration_limit) {
           "a finite number above 0");
   require(std::isfinite(options.p) && options.p >= 0, "p", options.p, "finite and not negative");
   require(options.max_iterations >= 1 && options.max_iterations <= iteration_limit,
-          "max_iterations", options.max_iterations, "from 1 to " + std::to_string(iteration_limit));
+          "max_iterations", options.max_iterations, fmt::format("from 1 to {}", iteration_limit));
   if (options.kkt_tolerance) {
     require(std::isfinite(*options.kkt_tolerance) && *options.kkt_tolerance > 0, "kkt_tolerance",
             *options.kkt_tolerance, "a finite number above 0");

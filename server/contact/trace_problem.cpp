@@ -85,9 +85,9 @@ double largest_eigenvalue(Product product) {
   solver.compute(Spectra::SortRule::LargestAlge, restarts, tolerance);
   if (solver.info() != Spectra::CompInfo::Successful) {
     throw errors::Error(errors::Reason::numerical,
-                        "theta* could not be computed: Lanczos did not converge in " +
-                            std::to_string(restarts) +
-                            " restarts; the mesh has triangles that are degenerate");
+                        "theta* could not be computed: Lanczos did not converge in {} restarts; "
+                        "the mesh has triangles that are degenerate",
+                        restarts);
   }
   return solver.eigenvalues()[0];
 }

@@ -90,8 +90,8 @@ int UzawaBlock::add(const CaseLoads& loads, const UzawaOptions& options, bool fi
                     Observer& observer) {
   if (_running + _ended == capacity()) {
     throw errors::Error(errors::Reason::internal,
-                        "a block of " + std::to_string(capacity()) +
-                            " columns is full; take the columns that have ended first");
+                        "a block of {} columns is full; take the columns that have ended first",
+                        capacity());
   }
   if (options.mass != _mass) {
     throw errors::Error(errors::Reason::internal,

@@ -12,12 +12,11 @@ namespace anticrack::ddm {
 void require_threadsafe_blas() {
   constexpr int pthreads = 1;  // 0: serial, 2: OpenMP
   if (openblas_get_parallel() != pthreads) {
-    throw errors::Error(
-        errors::Reason::internal,
-        "the BLAS in use is OpenBLAS with parallel model " +
-            std::to_string(openblas_get_parallel()) +
-            " (0 serial, 2 OpenMP); install libopenblas0-pthread and select it with "
-            "update-alternatives, or factors come out wrong under threads");
+    throw errors::Error(errors::Reason::internal,
+                        "the BLAS in use is OpenBLAS with parallel model {} (0 serial, 2 OpenMP); "
+                        "install libopenblas0-pthread and select it with update-alternatives, or "
+                        "factors come out wrong under threads",
+                        openblas_get_parallel());
   }
   // Done once only, as it is a global setting and other threads may be computing by now.
   static const bool set = [] {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 #include "base/at.hpp"
 #include "base/union_find.hpp"
@@ -47,11 +46,11 @@ base::UnionFind join_at_nodes(const mesh::Mesh& mesh, const Sides& sides) {
 void hold(Body& body, const mesh::Motion& motion, const std::string& name) {
   if (!motion.fixed) return;
   if (body.fixed && *body.fixed != *motion.fixed) {
-    std::ostringstream text;
-    text << "the inclusion \"" << name << "\" is fixed at " << *motion.fixed
-         << ", but shares nodes with one that is fixed at " << *body.fixed
-         << ": they are one body; fix them at one value, or leave an edge between them";
-    throw errors::Error(errors::Reason::invalid_argument, text.str());
+    throw errors::Error(errors::Reason::invalid_argument,
+                        "the inclusion \"{}\" is fixed at {}, but shares nodes with one that is "
+                        "fixed at {}: they are one body; fix them at one value, or leave an edge "
+                        "between them",
+                        name, *motion.fixed, *body.fixed);
   }
   body.fixed = motion.fixed;
 }
@@ -105,8 +104,8 @@ Bodies find_bodies(const mesh::Mesh& mesh, const Sides& sides) {
   std::vector<std::int32_t> number(count, -1);
   for (std::size_t j = 0; j < count; ++j) {
     if (!std::isfinite(box[j].low[0])) {
-      throw errors::Error(errors::Reason::mesh_invalid, "the inclusion \"" + mesh.inclusions[j] +
-                                                            "\" has no edge on any interface");
+      throw errors::Error(errors::Reason::mesh_invalid,
+                          "the inclusion \"{}\" has no edge on any interface", mesh.inclusions[j]);
     }
     result.centre.push_back(box[j].centre());
     std::int32_t& body = number[at(joined.find(static_cast<std::int32_t>(j)))];

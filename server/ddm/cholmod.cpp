@@ -85,9 +85,8 @@ FactorPtr analyse(cholmod_sparse& matrix, std::vector<int>& permutation, bool po
         "no memory for the analysis of a subdomain; take a coarser mesh (larger size or tip_size)");
   }
   if (context.status != CHOLMOD_OK) {
-    throw errors::Error(
-        errors::Reason::internal,
-        "CHOLMOD status " + std::to_string(context.status) + " in the analysis of a subdomain");
+    throw errors::Error(errors::Reason::internal,
+                        "CHOLMOD status {} in the analysis of a subdomain", context.status);
   }
   return factor;
 }

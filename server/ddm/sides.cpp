@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <span>
-#include <sstream>
 #include <utility>
 
 #include "base/at.hpp"
@@ -127,20 +126,17 @@ void require_two_faces(const mesh::Mesh& mesh, const CutEdge& edge, Neighbourhoo
   const bool two = plus >= 0 && minus >= 0;
   if (two && (edge.kind != mesh::Kind::glue || around.subdomain(plus) != around.subdomain(minus)))
     return;
-  throw errors::Error(
-      errors::Reason::mesh_invalid,
-      "the interface edge from " + place(mesh, edge.node[0]) + " to " + place(mesh, edge.node[1]) +
-          (two ? " is glue, but has the subdomain \"" +
-                     mesh.subdomains[at(around.subdomain(plus))] + "\" on both sides"
-               : std::string(" does not have a triangle on each side")));
+  throw errors::Error(errors::Reason::mesh_invalid, "the interface edge from {} to {}{}",
+                      place(mesh, edge.node[0]), place(mesh, edge.node[1]),
+                      two ? " is glue, but has the subdomain \"" +
+                                mesh.subdomains[at(around.subdomain(plus))] + "\" on both sides"
+                          : std::string(" does not have a triangle on each side"));
 }
 
 }  // namespace
 
 std::string place(const mesh::Mesh& mesh, std::int32_t node) {
-  std::ostringstream text;
-  text << "(" << mesh.xy[2 * at(node)] << ", " << mesh.xy[2 * at(node) + 1] << ")";
-  return text.str();
+  return errors::shown(mesh.xy[2 * at(node)], mesh.xy[2 * at(node) + 1]);
 }
 
 Sides find_sides(const mesh::Mesh& mesh) {

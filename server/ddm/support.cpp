@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ddm/cut_steps.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -26,10 +27,8 @@ base::UnionFind connected_parts(const Subdomain& subdomain) {
 }
 
 std::string around(const Subdomain& subdomain, std::size_t node) {
-  std::ostringstream text;
-  text << "the subdomain \"" << subdomain.name << "\" around (" << subdomain.part.xy[2 * node]
-       << ", " << subdomain.part.xy[2 * node + 1] << ")";
-  return text.str();
+  return fmt::format("the subdomain \"{}\" around {}", subdomain.name,
+                     errors::shown(subdomain.part.xy[2 * node], subdomain.part.xy[2 * node + 1]));
 }
 
 constexpr const char* all_neumann =
@@ -90,11 +89,11 @@ void find_floating_parts(Decomposition& decomposition) {
           nodes.dirichlet[i] != 0)
         continue;
       if (nodes.trace[i] < 0) {
-        throw errors::Error(errors::Reason::mesh_invalid,
-                            "nothing holds " + around(subdomain, i) +
-                                (dirichlet ? ": it has no Dirichlet node and no interface; hold a "
-                                             "part of its boundary, or glue it to a neighbour"
-                                           : all_neumann))
+        throw errors::Error(errors::Reason::mesh_invalid, "nothing holds {}{}",
+                            around(subdomain, i),
+                            dirichlet ? ": it has no Dirichlet node and no interface; hold a "
+                                        "part of its boundary, or glue it to a neighbour"
+                                      : all_neumann)
             .with("subdomain", subdomain.name);
       }
       subdomain.floating.push_back(nodes.trace[i]);
@@ -106,11 +105,11 @@ void find_floating_parts(Decomposition& decomposition) {
   for (const Subdomain& subdomain : decomposition.subdomains) {
     for (const std::int32_t trace : subdomain.floating) {
       if (!held.same(subdomain.unknown[at(trace)], ground)) {
-        throw errors::Error(errors::Reason::numerical,
-                            holds + around(subdomain, subdomain.interior + at(trace)) +
-                                (dirichlet ? ", so it could move as a whole: glue a part of its "
-                                             "interface or hold its boundary"
-                                           : all_neumann))
+        throw errors::Error(errors::Reason::numerical, "{}{}{}", holds,
+                            around(subdomain, subdomain.interior + at(trace)),
+                            dirichlet ? ", so it could move as a whole: glue a part of its "
+                                        "interface or hold its boundary"
+                                      : all_neumann)
             .with("subdomain", subdomain.name);
       }
     }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "errors/errors.hpp"
 
+#include <fmt/core.h>
+
 #include <array>
 #include <utility>
 
@@ -36,6 +38,10 @@ std::string_view name(Reason reason) noexcept {
   static_assert(names.size() == static_cast<std::size_t>(Reason::internal) + 1);
   return names[static_cast<std::size_t>(reason)];
 }
+
+std::string shown(double value) { return fmt::format("{:.8g}", value); }
+
+std::string shown(double x, double y) { return fmt::format("({:.8g}, {:.8g})", x, y); }
 
 Error& Error::at(std::string field) {
   _fields.push_back({std::move(field), what()});

@@ -4,6 +4,8 @@
 // the reason to a gRPC code.
 #pragma once
 
+#include <fmt/core.h>
+
 #include <chrono>
 #include <exception>
 #include <map>
@@ -47,8 +49,9 @@ enum class Reason {
 /// Stable upper-case name of a reason, e.g. "EXPRESSION_INVALID".
 std::string_view name(Reason reason) noexcept;
 
-/// Significant digits of a number in a message.
-constexpr int shown_digits = 8;
+/// A number, and a place in the plane as "(x, y)", for messages: with eight significant digits.
+std::string shown(double value);
+std::string shown(double x, double y);
 
 /// A field of the request, and its fault.
 struct FieldViolation {
@@ -61,6 +64,11 @@ struct FieldViolation {
 class Error : public std::exception {
  public:
   Error(Reason reason, std::string message) : _reason(reason), _message(std::move(message)) {}
+  /// With the message that fmt::format() makes of the rest.
+  template <class First, class... Rest>
+  Error(Reason reason, fmt::format_string<First, Rest...> message, First&& first, Rest&&... rest)
+      : Error(reason,
+              fmt::format(message, std::forward<First>(first), std::forward<Rest>(rest)...)) {}
 
   const char* what() const noexcept override { return _message.c_str(); }
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "estimate/cut_mesh.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <span>
-#include <sstream>
 
 #include "base/at.hpp"
+#include "errors/errors.hpp"
 #include "mesh/edges.hpp"
 #include "stop/stop.hpp"
 
@@ -254,10 +256,11 @@ class Cutting {
       const std::int32_t corner = _cut.corners[at(_cut.first_corner[fan])];
       const auto node = at(_mesh.triangles[3 * at(_cut.triangle[at(corner / 3)]) + at(corner % 3)]);
       if (++ends[node] < 2) continue;
-      std::ostringstream text;
-      text << "there is no bound where a delaminated inclusion lies on another rigid one, as at ("
-           << _mesh.xy[2 * node] << ", " << _mesh.xy[2 * node + 1] << "); let them cross elsewhere";
-      _cut.obstacle = text.str();
+      _cut.obstacle = fmt::format(
+          "there is no bound where a delaminated inclusion lies on another rigid one, as at {}; "
+          "let "
+          "them cross elsewhere",
+          errors::shown(_mesh.xy[2 * node], _mesh.xy[2 * node + 1]));
     }
   }
 

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cmath>
-#include <sstream>
 #include <utility>
 
 #include "errors/errors.hpp"
@@ -28,13 +27,12 @@ double Function::operator()(double x, double y) const {
 
 void Function::require_finite(double x, double y, double value) const {
   if (!std::isfinite(value)) {
-    std::ostringstream message;
-    message.precision(errors::shown_digits);
-    message << "the expression has the value " << value << " at (x, y) = (" << x << ", " << y
-            << "); it must be finite wherever the membrane is";
-    errors::Error error(errors::Reason::expression_invalid, message.str());
-    error.at(_field);
-    throw error;
+    throw errors::Error(
+        errors::Reason::expression_invalid,
+        "the expression has the value {} at (x, y) = {}; it must be finite wherever "
+        "the membrane is",
+        value, errors::shown(x, y))
+        .at(_field);
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "expression/parse.hpp"
 
+#include <fmt/core.h>
 #include <muParser.h>
 
 #include <algorithm>
@@ -39,8 +40,9 @@ void require_plain(const std::string& text, const std::string& field) {
     if (i + 1 < text.size() && text[i + 1] == '=') {
       ++i;
     } else if (i == 0 || comparison.find(text[i - 1]) == std::string_view::npos) {
-      throw invalid(field, "the expression \"" + text + "\" assigns at position " +
-                               std::to_string(i) + "; write == to compare");
+      throw invalid(field,
+                    fmt::format("the expression \"{}\" assigns at position {}; write == to compare",
+                                text, i));
     }
   }
 }
@@ -96,9 +98,9 @@ void require_syntax(const std::string& text, const std::string& field) {
                              " (symbols are x, y, _pi, _e)");
   }
   if (parser.GetNumResults() != 1) {
-    throw invalid(field, "the expression \"" + text + "\" gives " +
-                             std::to_string(parser.GetNumResults()) +
-                             " values; it must give one, and the decimal sign is a point");
+    throw invalid(field, fmt::format("the expression \"{}\" gives {} values; it must give one, and "
+                                     "the decimal sign is a point",
+                                     text, parser.GetNumResults()));
   }
 }
 
@@ -158,9 +160,8 @@ class Reader {
 
  private:
   [[noreturn]] void fail() const {
-    throw errors::Error(errors::Reason::internal, "the expression \"" + std::string(_text) +
-                                                      "\" is read in two ways at position " +
-                                                      std::to_string(_at));
+    throw errors::Error(errors::Reason::internal,
+                        "the expression \"{}\" is read in two ways at position {}", _text, _at);
   }
 
   void skip_blanks() {

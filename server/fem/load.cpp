@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/load.hpp"
 
+#include <fmt/core.h>
+
 #include <cmath>
 
 #include "errors/errors.hpp"
@@ -11,8 +13,8 @@ namespace {
 
 void require_finite(double value, const std::string& field, const char* what = "the force") {
   if (!std::isfinite(value)) {
-    throw errors::Error(errors::Reason::invalid_argument,
-                        std::string(what) + " is " + std::to_string(value) + "; it must be finite")
+    throw errors::Error(errors::Reason::invalid_argument, "{} is {}; it must be finite", what,
+                        value)
         .at(field);
   }
 }
@@ -20,9 +22,8 @@ void require_finite(double value, const std::string& field, const char* what = "
 void require_count(std::size_t count, std::size_t limit, const char* what,
                    const std::string& field) {
   if (count > limit) {
-    throw errors::Error(
-        errors::Reason::limit_exceeded,
-        std::to_string(count) + " " + what + ": a load case may have " + std::to_string(limit))
+    throw errors::Error(errors::Reason::limit_exceeded, "{} {}: a load case may have {}", count,
+                        what, limit)
         .at(field);
   }
 }
@@ -56,7 +57,7 @@ struct CheckForce {
 void check_point_forces(const std::vector<PointForce>& forces) {
   require_count(forces.size(), max_point_forces, "point forces", "point_forces");
   for (std::size_t i = 0; i < forces.size(); ++i) {
-    const std::string field = "point_forces[" + std::to_string(i) + "]";
+    const std::string field = fmt::format("point_forces[{}]", i);
     require_finite(forces[i].x, field + ".at", "x");
     require_finite(forces[i].y, field + ".at", "y");
     require_finite(forces[i].value, field + ".value");
@@ -68,8 +69,8 @@ void check_point_forces(const std::vector<PointForce>& forces) {
 void require_length(const std::string& text, const std::string& field, std::size_t max_bytes) {
   if (text.size() <= max_bytes) return;
   throw errors::Error(errors::Reason::expression_invalid,
-                      "the expression is " + std::to_string(text.size()) + " bytes long; at most " +
-                          std::to_string(max_bytes) + " are allowed")
+                      "the expression is {} bytes long; at most {} are allowed", text.size(),
+                      max_bytes)
       .at(field);
 }
 

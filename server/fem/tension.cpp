@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/tension.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <numbers>
-#include <sstream>
 
 #include "errors/errors.hpp"
 #include "fem/adaptive_load.hpp"
@@ -24,13 +25,10 @@ using expression::Function;
 void require_positive(const std::string& field, const std::string& region, double x, double y,
                       double value) {
   if (value > 0 && std::isfinite(value)) return;
-  std::ostringstream message;
-  message.precision(errors::shown_digits);
-  message << "the tension " << field;
-  if (!region.empty()) message << " of \"" << region << '"';
-  message << " is " << value << " at (x, y) = (" << x << ", " << y
-          << "); it must be finite and above 0 wherever the membrane is";
-  refuse(field, message.str());
+  refuse(field, fmt::format("the tension {}{} is {:.8g} at (x, y) = {}; it must be "
+                            "finite and above 0 wherever the membrane is",
+                            field, region.empty() ? "" : fmt::format(" of \"{}\"", region), value,
+                            errors::shown(x, y)));
 }
 
 /// The variation that follows from the bounds of T on a triangle with the mean `mean`.
@@ -114,13 +112,11 @@ class Direction {
     Evaluator evaluator(_function.tape(), {&root, 1});
     evaluator(at_x.data(), at_y.data(), 1);
     require_positive(_field, _region, x, y, *evaluator.values(0));
-    std::ostringstream message;
-    message.precision(errors::shown_digits);
-    message << "the tension " << _field << " of \"" << _region
-            << "\" is not proved to be finite and above 0 near (x, y) = (" << x << ", " << y
-            << "), where it lies between " << spread.values.low << " and " << spread.values.high
-            << "; keep it away from 0 there";
-    refuse(_field, message.str());
+    refuse(
+        _field,
+        fmt::format("the tension {} of \"{}\" is not proved to be finite and above 0 near (x, y) "
+                    "= {}, where it lies between {:.8g} and {:.8g}; keep it away from 0 there",
+                    _field, _region, errors::shown(x, y), spread.values.low, spread.values.high));
   }
 
   const Triangulation& _part;

@@ -30,10 +30,9 @@ double squared_length(const Mesh& mesh, std::int32_t a, std::int32_t b) noexcept
 void check_plane(std::span<const EdgeUse> uses) {
   if (uses.size() < 2 || (uses.size() == 2 && uses[0].from != uses[1].from)) return;
   throw errors::Error(errors::Reason::mesh_invalid,
-                      "the edge between nodes " + std::to_string(uses[0].low()) + " and " +
-                          std::to_string(uses[0].high()) + " belongs to " +
-                          std::to_string(uses.size()) +
-                          " triangles; refinement takes one on each side at most");
+                      "the edge between nodes {} and {} belongs to {} triangles; refinement takes "
+                      "one on each side at most",
+                      uses[0].low(), uses[0].high(), uses.size());
 }
 
 std::uint64_t edge_key(std::int32_t a, std::int32_t b) noexcept {

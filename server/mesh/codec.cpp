@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/codec.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
@@ -62,8 +64,7 @@ Mesh get_mesh(Reader& in) {
 /// Refuses an index outside an array of `size` items.
 void check_index(int index, std::size_t size, const char* what) {
   if (index >= 0 && static_cast<std::size_t>(index) < size) return;
-  Reader::fail(std::string(what) + " has the number " + std::to_string(index) + " of " +
-               std::to_string(size));
+  Reader::fail(fmt::format("{} has the number {} of {}", what, index, size));
 }
 
 /// The mesher uses these indices unchecked.
@@ -82,8 +83,7 @@ void check_indices(const Plan& plan) {
     const auto n = static_cast<std::int64_t>(plan.curves.size());
     for (const int signed_curve : loop) {
       if (signed_curve == 0 || std::abs(std::int64_t{signed_curve}) > n) {
-        Reader::fail("a loop names curve " + std::to_string(signed_curve) + " of " +
-                     std::to_string(n));
+        Reader::fail(fmt::format("a loop names curve {} of {}", signed_curve, n));
       }
     }
   };

@@ -3,6 +3,8 @@
 // Structs, numbers, texts and lists as bytes and back.
 #pragma once
 
+#include <fmt/core.h>
+
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -145,8 +147,7 @@ class Reader {
   std::size_t count(std::size_t item_bytes) {
     const auto n = number<std::uint64_t>();
     if (n > left() / item_bytes) {
-      fail("a list of " + std::to_string(n) + " items begins at byte " + std::to_string(_at) +
-           " of " + std::to_string(_bytes.size()));
+      fail(fmt::format("a list of {} items begins at byte {} of {}", n, _at, _bytes.size()));
     }
     return static_cast<std::size_t>(n);
   }
@@ -203,24 +204,23 @@ class Reader {
   std::int32_t choice(std::int32_t first, std::int32_t last, const char* what) {
     const auto value = number<std::int32_t>();
     if (value < first || value > last) {
-      fail(std::string(what) + " is " + std::to_string(value) + "; it is " + std::to_string(first) +
-           " to " + std::to_string(last));
+      fail(fmt::format("{} is {}; it is {} to {}", what, value, first, last));
     }
     return value;
   }
   /// Throws unless everything was read.
   void end() const {
-    if (left() > 0) fail(std::to_string(left()) + " bytes are left over");
+    if (left() > 0) fail(fmt::format("{} bytes are left over", left()));
   }
   /// Throws errors::Error (mesh_invalid).
   [[noreturn]] static void fail(const std::string& why) {
-    throw errors::Error(errors::Reason::mesh_invalid, "these bytes cannot be decoded: " + why);
+    throw errors::Error(errors::Reason::mesh_invalid, "these bytes cannot be decoded: {}", why);
   }
 
  private:
   std::size_t left() const noexcept { return _bytes.size() - _at; }
   void need(std::size_t n) const {
-    if (left() < n) fail("they end at byte " + std::to_string(_bytes.size()) + ", too early");
+    if (left() < n) fail(fmt::format("they end at byte {}, too early", _bytes.size()));
   }
 
   std::span<const std::byte> _bytes;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/geometry.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <numbers>
 #include <set>
-#include <sstream>
 #include <unordered_map>
 
 #include "base/at.hpp"
@@ -69,9 +69,9 @@ std::size_t bounded(double expected, std::size_t max_triangles, const std::strin
                     const std::string& field) {
   if (expected <= static_cast<double>(max_triangles)) return static_cast<std::size_t>(expected);
   throw errors::Error(errors::Reason::limit_exceeded,
-                      cause + " gives about " + show(std::round(expected)) +
-                          " triangles; at most " + std::to_string(max_triangles) +
-                          " are allowed, so choose a coarser mesh (larger size or tip_size)")
+                      "{} gives about {} triangles; at most {} are allowed, so choose a coarser "
+                      "mesh (larger size or tip_size)",
+                      cause, shown(std::round(expected)), max_triangles)
       .at(field);
 }
 
@@ -109,7 +109,7 @@ void check_contacts(const Layout& layout, const Plan& plan) {
       if (there.held == 0 || (there.free == 0 && there.parts == 1)) continue;
       const std::string which = end != part.reversed ? ".to" : ".from";
       refuse(place_of(part) + (part.own ? "" : which), part.field, " ends at ",
-             show(plan.points[at(point)]),
+             shown(plan.points[at(point)]),
              there.free > 0 ? " on the boundary, where u is held on one side of it only; end it "
                               "elsewhere, or name what lies on both sides in neumann, or none"
                             : " on the boundary, where u is held and another one ends; let them "
@@ -195,7 +195,7 @@ std::size_t check_size(const Network& network, double area, double size,
   double pieces = 0;
   for (const NetworkLine& line : network.lines) pieces += line.line.length() / size;
   return bounded(expected_triangles(area, size, pieces), max_triangles,
-                 "an edge length of " + show(size), "options.size");
+                 "an edge length of " + shown(size), "options.size");
 }
 
 /// Adds a warning with the largest distance of chords from their curve.
@@ -216,15 +216,12 @@ void note_chords(const Network& network, std::vector<std::string>& warnings) {
   }
   if (most == 0) return;
   const auto curves = std::ranges::count_if(pieces, [](int count) { return count > 0; });
-  std::ostringstream note;
-  note << std::setprecision(2)
-       << (curves == 1 ? "a curve is replaced by chords: " : "curves are replaced by chords: ")
-       << network.lines[worst].field
-       << (curves == 1 ? "" : ", the coarsest of " + std::to_string(curves) + " curves,") << " by "
-       << pieces[worst] << ", up to " << most
-       << " off the curve; bounds are those of the membrane with chords, and mesh.chord_angle = "
-          "1.25 (default 5) brings chords and curves 16 times closer";
-  warnings.push_back(note.str());
+  warnings.push_back(fmt::format(
+      "{} replaced by chords: {}{} by {}, up to {:.2g} off the curve; bounds are those of the "
+      "membrane with chords, and mesh.chord_angle = 1.25 (default 5) brings chords and curves 16 "
+      "times closer",
+      curves == 1 ? "a curve is" : "curves are", network.lines[worst].field.shown,
+      curves == 1 ? "" : fmt::format(", the coarsest of {} curves,", curves), pieces[worst], most));
 }
 
 }  // namespace
@@ -241,9 +238,9 @@ Plan plan(const Geometry& given, const MeshOptions& options, std::size_t max_tri
   const double across = diagonal(outer_polygon(network));
   if (options.size > across) {
     throw errors::Error(errors::Reason::invalid_argument,
-                        "an edge length of " + show(options.size) +
-                            " is more than the membrane, which is " + show(across) +
-                            " across; write a smaller one, or leave it out for its default")
+                        "an edge length of {} is more than the membrane, which is {} across; write "
+                        "a smaller one, or leave it out for its default",
+                        shown(options.size), shown(across))
         .at("options.size");
   }
   const double size =

@@ -51,8 +51,8 @@ void join(std::vector<Curve>& curves, double reach) {
     Point& begin = side.spec.points.front();
     const double gap = distance(begin, end);
     if (gap > reach) {
-      refuse(side.field, side.field, " begins at ", show(begin), ", but ", before.field,
-             " ends at ", show(end), ", ", show(gap),
+      refuse(side.field, side.field, " begins at ", shown(begin), ", but ", before.field,
+             " ends at ", shown(end), ", ", shown(gap),
              " away; each side begins where the one before it ends, and the last ends where the "
              "first begins");
     }

@@ -72,10 +72,10 @@ class Meetings {
     if (common >= 0 && follow) {
       const bool both = other(s, common) == other(t, common);
       if (!both && !on_one_another(s, t, common)) return;
-      refuse(field, field, " folds back on itself at ", show(point(common)));
+      refuse(field, field, " folds back on itself at ", shown(point(common)));
     }
     if (common < 0 && distance(segment(s), segment(t)) > _tolerance) return;
-    refuse(field, field, " crosses or touches itself near ", show(segment(s).a),
+    refuse(field, field, " crosses or touches itself near ", shown(segment(s).a),
            "; cut it into several interfaces");
   }
 
@@ -90,7 +90,7 @@ class Meetings {
     const Field& field = line(t).field;
     if (other(s, common) == other(t, common) || on_one_another(s, t, common)) {
       refuse(field, field, " and ", line(s).field, " run along each other from ",
-             show(point(common)), " on; leave that stretch out of one of them");
+             shown(point(common)), " on; leave that stretch out of one of them");
     }
     check_angle(s, t, common);
   }
@@ -101,8 +101,8 @@ class Meetings {
   void check_angle(const Chord& s, const Chord& t, const Point& at, double between) const {
     if (between >= smallest_angle) return;
     const Field& field = line(t).field;
-    refuse(field, field, " and ", line(s).field, " meet at ", show(at), " at an angle of ",
-           show(between * 180 / std::numbers::pi),
+    refuse(field, field, " and ", line(s).field, " meet at ", shown(at), " at an angle of ",
+           shown(between * 180 / std::numbers::pi),
            " degrees, nearly along each other; let them meet at more than one degree");
   }
   /// Checks the angle of two lines that pass through a point, whichever way they are walked.
@@ -120,7 +120,7 @@ class Meetings {
                               : common >= 0 || distance(segment(s), segment(t)) <= _tolerance;
     const Field& field = line(t).field;
     if (meets) {
-      refuse(field, field, " and ", line(s).field, " touch or cross near ", show(segment(t).a),
+      refuse(field, field, " and ", line(s).field, " touch or cross near ", shown(segment(t).a),
              sides ? "; sides of the boundary meet at their ends only"
                    : "; a hole lies inside the boundary and touches neither it nor another hole");
     }
@@ -140,8 +140,8 @@ class Meetings {
     if (meets) {
       refuse(field, field,
              " leaves the membrane or touches its boundary in between: the stretch from ",
-             show(segment(t).a), " to ", show(segment(t).b), " meets the edge ", show(segment(s).a),
-             "-", show(segment(s).b), " of ", line(s).field,
+             shown(segment(t).a), " to ", shown(segment(t).b), " meets the edge ",
+             shown(segment(s).a), "-", shown(segment(s).b), " of ", line(s).field,
              other_line.line.closed() ? "; it must lie inside, apart from the boundary"
                                       : "; only its two ends may lie on the boundary");
     }

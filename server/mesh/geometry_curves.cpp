@@ -12,7 +12,7 @@ namespace {
 /// Refuses points far outside the membrane, before products of such coordinates can overflow.
 void check_near(const Point& p, const Field& field, const Outline& outline) {
   if (distance(p, outline.boundary.front()) > 10 * outline.tolerance / relative_tolerance)
-    refuse(field, field, " ", show(p), " lies outside the boundary; it must lie in the membrane");
+    refuse(field, field, " ", shown(p), " lies outside the boundary; it must lie in the membrane");
 }
 
 /// Checks the points of a polyline or spline.
@@ -22,7 +22,7 @@ void check_vertices(const std::vector<Point>& points, const Field& owner, const 
   for (std::size_t i = 0; i < points.size(); ++i) check_near(points[i], field[i], outline);
   check_distinct(points, field, outline.tolerance);
   if (distance(points.front(), points.back()) <= outline.tolerance) {
-    refuse(owner, owner, " starts and ends at the same point ", show(points.front()),
+    refuse(owner, owner, " starts and ends at the same point ", shown(points.front()),
            "; for a closed line set `closed` and leave the last point out");
   }
 }
@@ -63,7 +63,7 @@ Line arc_of(const InterfaceSpec& spec, const Field& owner, const Outline& outlin
   const Point& b = spec.points[1];
   const Point& c = spec.points[2];
   if (distance(a, c) <= tolerance)
-    refuse(owner + ".to", owner, " starts and ends at the same point ", show(a));
+    refuse(owner + ".to", owner, " starts and ends at the same point ", shown(a));
   const double ab = distance(a, b), bc = distance(b, c), ac = distance(a, c);
   const double twice_area = std::abs(signed_area(std::array{a, b, c})) * 2;
   // The centre of a flatter arc is lost to rounding, since its radius ab bc ac / (2 twice_area)
@@ -71,8 +71,8 @@ Line arc_of(const InterfaceSpec& spec, const Field& owner, const Outline& outlin
   const bool flat = distance(b, Segment{a, c}) <= 1e3 * tolerance ||
                     !(ab * bc * ac <= 1e15 * tolerance * twice_area);
   if (flat || ab <= tolerance || bc <= tolerance) {
-    refuse(owner + ".through", owner + ".through", " ", show(b), " lies ", show(twice_area / ac),
-           " off the straight line through ", show(a), " and ", show(c),
+    refuse(owner + ".through", owner + ".through", " ", shown(b), " lies ", shown(twice_area / ac),
+           " off the straight line through ", shown(a), " and ", shown(c),
            "; that is not an arc, give a polyline instead");
   }
   return Line::arc(a, b, c);
@@ -85,9 +85,9 @@ Line circle_of(const InterfaceSpec& spec, const Field& owner, const Outline& out
   check_near(centre, owner + ".center", outline);
   if (radius > 1e3 * outline.tolerance && radius <= outline.tolerance / relative_tolerance)
     return Line::circle(centre, radius);
-  refuse(owner + ".radius", owner + ".radius", " is ", show(radius),
-         "; a circle in this membrane is ", show(1e3 * outline.tolerance), " to ",
-         show(outline.tolerance / relative_tolerance), " in radius");
+  refuse(owner + ".radius", owner + ".radius", " is ", shown(radius),
+         "; a circle in this membrane is ", shown(1e3 * outline.tolerance), " to ",
+         shown(outline.tolerance / relative_tolerance), " in radius");
 }
 
 }  // namespace

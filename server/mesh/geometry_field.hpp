@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <fmt/core.h>
+
 #include <ostream>
 #include <string>
 #include <utility>
@@ -19,8 +21,8 @@ struct Field {
   Field(std::string plain) : path(std::move(plain)), shown(path) {}
   /// Entry i of the list of parts of a kind; an "inclusion" is in the list inclusions.
   Field(const std::string& kind, std::size_t i, const std::string& name)
-      : path(kind + "s[" + std::to_string(i) + "]"),
-        shown(kind + (name.empty() ? " " + std::to_string(i + 1) : " \"" + name + "\"")),
+      : path(fmt::format("{}s[{}]", kind, i)),
+        shown(kind + (name.empty() ? fmt::format(" {}", i + 1) : " \"" + name + "\"")),
         of_part(true) {}
 
   /// A field below this one. `below`: ".arc.from"; `key`: that of the case, empty if it has none.
@@ -36,7 +38,7 @@ struct Field {
   Field operator+(const std::string& below) const {
     return at(below, below.starts_with('.') ? below.substr(1) : below);
   }
-  Field operator[](std::size_t i) const { return *this + ("[" + std::to_string(i) + "]"); }
+  Field operator[](std::size_t i) const { return *this + fmt::format("[{}]", i); }
 };
 
 inline std::ostream& operator<<(std::ostream& out, const Field& field) {

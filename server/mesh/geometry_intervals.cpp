@@ -132,9 +132,9 @@ class Cutter {
     if (still_fine.empty() && still_near.empty()) return;
     if (++_count > _max_curves) {
       throw errors::Error(errors::Reason::limit_exceeded,
-                          "the lines come so near to one another over such a length, at " +
-                              show(piece.a) + ", that more than " + std::to_string(_max_curves) +
-                              " edges are needed there; move them apart or join them")
+                          "the lines come so near to one another over such a length, at {}, that "
+                          "more than {} edges are needed there; move them apart or join them",
+                          shown(piece.a), _max_curves)
           .at("interfaces");
     }
     const double middle = (from + to) / 2;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/geometry_steps.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <map>
 
@@ -22,7 +24,7 @@ class Names {
       refuse(field, field, " is ",
              name.empty()       ? "empty"
              : !printable       ? "not printable"
-             : name.size() > 64 ? "of " + std::to_string(name.size()) + " characters"
+             : name.size() > 64 ? fmt::format("of {} characters", name.size())
                                 : "\"" + name + "\"",
              "; a name is ", name_rule);
     }
@@ -41,7 +43,7 @@ class Names {
 std::vector<std::string> side_names(const Geometry& geometry) {
   std::vector<std::string> names;
   const auto add = [&](const std::string& name, const char* other, std::size_t i) {
-    names.push_back(name.empty() ? other + std::to_string(i + 1) : name);
+    names.push_back(name.empty() ? fmt::format("{}{}", other, i + 1) : name);
   };
   for (std::size_t i = 0; i < geometry.boundary.size(); ++i) add("", "side-", i);
   for (std::size_t i = 0; i < geometry.sides.size(); ++i) add(geometry.sides[i].name, "side-", i);
@@ -76,7 +78,7 @@ std::vector<std::string> check_names(const Drawn& geometry) {
   for (std::size_t i = 0; i < geometry.interfaces.size(); ++i) {
     const std::string& field = geometry.fields[i].path;
     std::string name = geometry.interfaces[i].name;
-    if (name.empty()) name = i == 0 ? "interface" : "interface-" + std::to_string(i + 1);
+    if (name.empty()) name = i == 0 ? "interface" : fmt::format("interface-{}", i + 1);
     lines.add(name, field.substr(0, field.find('.')), "interface");
     interfaces.push_back(std::move(name));
   }
@@ -86,7 +88,7 @@ std::vector<std::string> check_names(const Drawn& geometry) {
 std::string unused_name(const std::string& name, std::vector<std::string>& used) {
   std::string candidate = name;
   for (int k = 2; std::find(used.begin(), used.end(), candidate) != used.end(); ++k)
-    candidate = name + "-" + std::to_string(k);
+    candidate = fmt::format("{}-{}", name, k);
   used.push_back(candidate);
   return candidate;
 }

@@ -80,10 +80,9 @@ void cut_stretch(Network& network, std::size_t l, const Station& from, const Sta
     if (line.chords_between(from.t, to.t, rule) + static_cast<double>(network.chords.size()) >
         static_cast<double>(max_chords)) {
       throw errors::Error(errors::Reason::limit_exceeded,
-                          "an edge length of " + show(rule.size) + " and chords of " +
-                              show(rule.turn * 180 / std::numbers::pi) +
-                              " degrees cut the lines into more than " +
-                              std::to_string(max_chords) + " pieces; choose larger ones")
+                          "an edge length of {} and chords of {} degrees cut the lines into more "
+                          "than {} pieces; choose larger ones",
+                          shown(rule.size), shown(rule.turn * 180 / std::numbers::pi), max_chords)
           .at("options.size");
     }
     for (const double t : line.cuts_between(from.t, to.t, rule)) {
@@ -133,7 +132,7 @@ void check_inside(const Network& network) {
     refuse(
         field, field, " lies ",
         hole < network.boundary ? "in " + network.lines[hole].field.shown : "outside the boundary",
-        ", at ", show(middle), "; it must lie in the membrane");
+        ", at ", shown(middle), "; it must lie in the membrane");
   }
 }
 
@@ -141,9 +140,10 @@ void check_inside(const Network& network) {
 
 void check_meetings(std::size_t count, std::size_t most) {
   if (count <= most) return;
-  throw errors::Error(errors::Reason::limit_exceeded,
-                      "the lines meet in more than " + std::to_string(most) +
-                          " points, which is the limit; leave some of the lines out")
+  throw errors::Error(
+      errors::Reason::limit_exceeded,
+      "the lines meet in more than {} points, which is the limit; leave some of the lines out",
+      most)
       .at("interfaces");
 }
 

@@ -83,8 +83,8 @@ class Neumann {
       const double d = line.distance_to(p);
       off = off < 0 ? d : std::min(off, d);
     }
-    refuse(field, field, " ", show(p), " lies ", show(off),
-           " off the boundary; it must lie on it, to ", show(snap_distance(_network)));
+    refuse(field, field, " ", shown(p), " lies ", shown(off),
+           " off the boundary; it must lie on it, to ", shown(snap_distance(_network)));
   }
 
   /// The parameters of the side with this index in the user's order.
@@ -130,10 +130,10 @@ class Neumann {
       if (first == std::fmod(end, total()) && last - first == begin + total() - end)
         name = "its name, \"" + _names[i] + "\", or ";
     }
-    refuse(field, field, " from ", show(part.from), " to ", show(part.to),
+    refuse(field, field, " from ", shown(part.from), " to ", shown(part.to),
            ", walked counterclockwise, is all of the boundary but the straight side between them; "
            "for that side write ",
-           name, "[", show(part.to), ", ", show(part.from), "], for the others their names");
+           name, "[", shown(part.to), ", ", shown(part.from), "], for the others their names");
   }
 
   [[noreturn]] void refuse_name(const std::string& name, const Field& field) const {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/geometry.hpp"
 
+#include <fmt/core.h>
+
 #include <cmath>
 
 #include "mesh/geometry_primitives.hpp"
@@ -15,7 +17,7 @@ namespace {
 
 void check_length(double value, const std::string& field, const char* meaning) {
   if (std::isfinite(value) && value >= 0) return;
-  refuse_option(field, field + " is " + show(value) + "; it is " + meaning +
+  refuse_option(field, field + " is " + shown(value) + "; it is " + meaning +
                            " above 0; leave it unset for the default");
 }
 
@@ -24,11 +26,11 @@ void check_sizes(const MeshOptions& options) {
   check_length(options.tip_size, "options.tip_size", "an edge length");
   if (!(options.chord_angle >= 0 && options.chord_angle <= 45)) {
     refuse_option("options.chord_angle",
-                  "options.chord_angle is " + show(options.chord_angle) +
+                  "options.chord_angle is " + shown(options.chord_angle) +
                       "; it is a number of degrees above 0 and at most 45, five if unset");
   }
   if (!(options.grading > 0 && options.grading <= 1)) {
-    refuse_option("options.grading", "options.grading is " + show(options.grading) +
+    refuse_option("options.grading", "options.grading is " + shown(options.grading) +
                                          "; it is an exponent above 0 and at most 1");
   }
   const auto of_graded = [&](double value, double unset, const std::string& field) {
@@ -38,8 +40,8 @@ void check_sizes(const MeshOptions& options) {
   of_graded(options.tip_size, 0, "options.tip_size");
   of_graded(options.grading, MeshOptions().grading, "options.grading");
   if (options.size > 0 && options.tip_size > options.size) {
-    refuse_option("options.tip_size", "options.tip_size is " + show(options.tip_size) +
-                                          ", above options.size " + show(options.size));
+    refuse_option("options.tip_size", "options.tip_size is " + shown(options.tip_size) +
+                                          ", above options.size " + shown(options.size));
   }
 }
 
@@ -110,14 +112,14 @@ void check_for_upload(const MeshOptions& options) {
   for_geometries(options.align.empty(), "options.align");
   for_geometries(options.chord_angle == 0, "options.chord_angle");
   for (const auto& [tag, name] : options.curve_groups)
-    check_curve_group(name, "options.curve_groups[" + std::to_string(tag) + "]");
+    check_curve_group(name, fmt::format("options.curve_groups[{}]", tag));
   for (const auto& [tag, name] : options.surface_groups)
-    check_subdomain(name, "options.surface_groups[" + std::to_string(tag) + "]");
+    check_subdomain(name, fmt::format("options.surface_groups[{}]", tag));
   for (const auto& [name, tension] : options.tension) {
     // The import, which numbers unnamed subdomains, checks whether such a subdomain exists.
     if (std::isfinite(tension) && tension > 0) continue;
     const std::string field = "options.tension[" + name + "]";
-    refuse_option(field, field + " is " + show(tension) + "; a tension is a number above 0");
+    refuse_option(field, field + " is " + shown(tension) + "; a tension is a number above 0");
   }
   for (const auto& [name, law] : options.tension_laws) {
     const std::string field = "options.tension_laws[" + name + "]";

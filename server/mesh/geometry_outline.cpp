@@ -33,9 +33,8 @@ std::string edge_name(const Field& field, std::size_t i, std::size_t vertices) {
 
 void check_count(std::size_t count, const Field& field, const char* items, std::size_t limit) {
   if (count <= limit) return;
-  throw errors::Error(errors::Reason::limit_exceeded,
-                      field.shown + " has " + std::to_string(count) + " " + items + "; at most " +
-                          std::to_string(limit) + " are allowed")
+  throw errors::Error(errors::Reason::limit_exceeded, "{} has {} {}; at most {} are allowed",
+                      field.shown, count, items, limit)
       .at(field.path);
 }
 
@@ -47,7 +46,7 @@ void check_points(const std::vector<Point>& points, const Field& field) {
 void check_distinct(std::span<const Point> points, const Field& field, double tolerance) {
   for (std::size_t i = 1; i < points.size(); ++i) {
     if (distance(points[i - 1], points[i]) <= tolerance) {
-      refuse(field[i], field[i], " ", show(points[i]), " repeats ", field[i - 1],
+      refuse(field[i], field[i], " ", shown(points[i]), " repeats ", field[i - 1],
              "; leave one of them out");
     }
   }
@@ -90,10 +89,10 @@ void check_simple(std::span<const Point> points, bool closed, const Field& owner
   const Segment s = edge_of(points, i), t = edge_of(points, j);
   if (j == i + 1 || (closed && i == 0 && j + 1 == edges)) {
     refuse(owner, owner, " folds back on itself: ", edge_name(field, i, n), " and ",
-           edge_name(field, j, n), " lie on one another at ", show(j == i + 1 ? s.b : s.a));
+           edge_name(field, j, n), " lie on one another at ", shown(j == i + 1 ? s.b : s.a));
   }
-  refuse(owner, owner, " crosses or touches itself: ", edge_name(field, i, n), " ", show(s.a), "-",
-         show(s.b), " meets ", edge_name(field, j, n), " ", show(t.a), "-", show(t.b));
+  refuse(owner, owner, " crosses or touches itself: ", edge_name(field, i, n), " ", shown(s.a), "-",
+         shown(s.b), " meets ", edge_name(field, j, n), " ", shown(t.a), "-", shown(t.b));
 }
 
 namespace {
@@ -119,12 +118,12 @@ double check_polygon(const std::vector<Point>& boundary) {
   check_distinct(boundary, "boundary", tolerance);
   if (distance(boundary.front(), boundary.back()) <= tolerance) {
     const std::size_t last = boundary.size() - 1;
-    refuse(indexed("boundary", last), indexed("boundary", last), " ", show(boundary.back()),
+    refuse(indexed("boundary", last), indexed("boundary", last), " ", shown(boundary.back()),
            " repeats boundary[0]; the polygon closes by itself, leave it out");
   }
   if (collinear(boundary, tolerance)) {
     refuse("boundary", "boundary encloses no area: its ", boundary.size(),
-           " vertices lie on one straight line from ", show(boundary.front()));
+           " vertices lie on one straight line from ", shown(boundary.front()));
   }
   check_simple(boundary, true, "boundary", "boundary", tolerance);
   return tolerance;
@@ -135,8 +134,8 @@ double check_polygon(const std::vector<Point>& boundary) {
 void check_point(const Point& p, const Field& field) {
   for (const double value : p) {
     if (!std::isfinite(value) || std::abs(value) > max_coordinate) {
-      refuse(field, field, " is ", show(p), "; both coordinates must be finite and at most ",
-             show(max_coordinate), " in size");
+      refuse(field, field, " is ", shown(p), "; both coordinates must be finite and at most ",
+             shown(max_coordinate), " in size");
     }
   }
 }
@@ -146,11 +145,11 @@ double check_extent(const std::vector<Point>& boundary, const Field& owner) {
   double largest = 0;
   for (const Point& p : boundary) largest = std::max({largest, std::abs(p[0]), std::abs(p[1])});
   if (extent > 0 && extent < least_extent * largest) {
-    refuse(owner, "boundary is ", show(extent), " across, but lies ", show(largest),
+    refuse(owner, "boundary is ", shown(extent), " across, but lies ", shown(largest),
            " from the origin: too far for double precision; move it to the origin");
   }
   if (extent > 0 && extent < min_extent) {
-    refuse(owner, "boundary is ", show(extent), " across; at least ", show(min_extent),
+    refuse(owner, "boundary is ", shown(extent), " across; at least ", shown(min_extent),
            " is required; choose a smaller unit of length");
   }
   return std::max(relative_tolerance * extent, coordinate_rounding * largest);

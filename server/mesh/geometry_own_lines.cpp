@@ -29,7 +29,7 @@ const char* name_of(Shape shape) {
 
 void check_length(double value, const Field& field, const char* what) {
   if (std::isfinite(value) && value > 0) return;
-  refuse(field, field, " is ", show(value), "; a ", what, " is a number above 0");
+  refuse(field, field, " is ", shown(value), "; a ", what, " is a number above 0");
 }
 
 /// Cosine and sine of an angle, exact if they are 0 or 1.
@@ -47,7 +47,7 @@ std::vector<Point> segment_ends(const LineSpec& line, const Field& field) {
   check_point(line.points.at(0), field + ".center");
   check_length(line.length, field + ".length", "length");
   if (!std::isfinite(line.angle))
-    refuse(field + ".angle", field + ".angle", " is ", show(line.angle), "; give it in degrees");
+    refuse(field + ".angle", field + ".angle", " is ", shown(line.angle), "; give it in degrees");
   const Point d = direction(line.angle);
   const auto [x, y] = line.points[0];
   const double half = line.length / 2;

@@ -42,11 +42,11 @@ std::vector<int> lines_at(const Network& network, Role role, int point) {
     off = std::min(off, d);
   }
   if (nearest == nullptr)
-    refuse(field, field, " ", show(p), " lies on no interface: there is none", cure);
+    refuse(field, field, " ", shown(p), " lies on no interface: there is none", cure);
   const std::optional<double> t = nearest->locate(p, 1.01 * off);
-  refuse(field, field, " ", show(p), " lies ", show(off),
-         " off the interface; it must lie on it, to ", show(snap_distance(network)),
-         t ? "; nearest is " + show(nearest->at(*t)) : "", cure);
+  refuse(field, field, " ", shown(p), " lies ", shown(off),
+         " off the interface; it must lie on it, to ", shown(snap_distance(network)),
+         t ? "; nearest is " + shown(nearest->at(*t)) : "", cure);
 }
 
 Ends mark_ends(Network& network, const Part& part) {
@@ -60,7 +60,7 @@ int line_of(const Network& network, const Part& part, const Ends& ends, const Fi
   if (from.empty()) refuse_off(network, part.from, field + ".from", own_line);
   if (to.empty()) refuse_off(network, part.to, field + ".to", own_line);
   if (ends.from == ends.to)
-    refuse(field, field, " has no length: it runs from ", show(part.from), " to ", show(part.to));
+    refuse(field, field, " has no length: it runs from ", shown(part.from), " to ", shown(part.to));
   std::vector<int> both;
   std::set_intersection(from.begin(), from.end(), to.begin(), to.end(), std::back_inserter(both));
   const auto name = [&](int line) { return network.lines[at(line)].field; };
@@ -123,13 +123,13 @@ std::vector<PlacedPart> place_stretches(Network& network, const InclusionSpec& i
     const Field field = list[k];
     const auto [from, to] = inclusion.stretches[k];
     if (!(from >= 0 && from < to && to <= 1)) {
-      refuse(field, field, " runs from ", show(from), " to ", show(to),
+      refuse(field, field, " runs from ", shown(from), " to ", shown(to),
              "; it is given by arc length over the inclusion's, 0 <= from < to <= 1");
     }
     PlacedPart placed{whole.line, place_at(network, whole, from), place_at(network, whole, to),
                       field};
     if (placed.begin.point == placed.end.point)
-      refuse(field, field, " from ", show(from), " to ", show(to), " is too short");
+      refuse(field, field, " from ", shown(from), " to ", shown(to), " is too short");
     if (placed.begin.t > placed.end.t) std::swap(placed.begin, placed.end);
     parts.push_back(std::move(placed));
   }
@@ -154,15 +154,16 @@ std::vector<PlacedPart> place_delaminated(Network& network, const InclusionSpec&
       if (t < 0) refuse_off(network, p, field + which);
       if (t < whole.begin.t) t += line.line.closed() ? line.line.spans() : 0;
       if (t < whole.begin.t || t > whole.end.t)
-        refuse(field + which, field + which, " ", show(p),
-               " lies outside its inclusion, which runs from ", show(begin), " to ", show(end));
+        refuse(field + which, field + which, " ", shown(p),
+               " lies outside its inclusion, which runs from ", shown(begin), " to ", shown(end));
       return Station{t, point};
     };
     PlacedPart placed;
     placed.begin = within(ends.from, part.from, ".from");
     placed.end = within(ends.to, part.to, ".to");
     if (ends.from == ends.to)
-      refuse(field, field, " has no length: it runs from ", show(part.from), " to ", show(part.to));
+      refuse(field, field, " has no length: it runs from ", shown(part.from), " to ",
+             shown(part.to));
     if (placed.begin.t > placed.end.t) std::swap(placed.begin, placed.end);
     placed.line = whole.line;
     placed.field = field;
@@ -173,7 +174,7 @@ std::vector<PlacedPart> place_delaminated(Network& network, const InclusionSpec&
   for (std::size_t k = 1; k < parts.size(); ++k) {
     if (parts[k].begin.t > parts[k - 1].end.t) continue;
     refuse(parts[k].field, parts[k].field, " and ", parts[k - 1].field, " overlap or touch at ",
-           show(network.points[at(parts[k].begin.point)]), "; make them one part");
+           shown(network.points[at(parts[k].begin.point)]), "; make them one part");
   }
   return parts;
 }
@@ -200,7 +201,7 @@ void check_pair(const Network& network, const PlacedPart& left, const PlacedPart
   const double begin = right.begin.t + shift;
   if (begin > left.end.t) return;
   const Field field = place_of(right);
-  const std::string place = show(network.points[at(right.begin.point)]);
+  const std::string place = shown(network.points[at(right.begin.point)]);
   if (begin == left.end.t) {
     refuse(field, right.field, " and ", left.field, " share the tip ", place,
            "; make them one, which may come off in parts, or leave a gap between them");

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/geometry_primitives.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -208,17 +209,10 @@ double diagonal(std::span<const Point> points) noexcept {
   return distance(low, high);
 }
 
-std::string show(double value) {
-  std::array<char, 32> digits{};
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value,
-                                 std::chars_format::general, errors::shown_digits);
-  return {digits.data(), end.ptr};
-}
-
-std::string show(const Point& p) { return "(" + show(p[0]) + ", " + show(p[1]) + ")"; }
+std::string shown(const Point& p) { return errors::shown(p[0], p[1]); }
 
 std::string indexed(const std::string& name, std::size_t i) {
-  return name + "[" + std::to_string(i) + "]";
+  return fmt::format("{}[{}]", name, i);
 }
 
 }  // namespace anticrack::mesh

@@ -57,8 +57,8 @@ bool ray_meets(const Point& p, std::span<const Segment> edges) noexcept;
 double diagonal(std::span<const Point> points) noexcept;
 
 /// A point as text, for messages.
-std::string show(const Point& p);
-std::string show(double value);
+using errors::shown;
+std::string shown(const Point& p);
 
 /// Throws geometry_invalid with `field` at fault; the parts make up the message.
 template <class... Parts>

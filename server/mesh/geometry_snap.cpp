@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/geometry_steps.hpp"
 
+#include <fmt/core.h>
+
 #include <limits>
 #include <optional>
 
@@ -36,8 +38,8 @@ class Snap {
     }
     if (least > _reach) return;
     if (_moved < most_warnings) {
-      _warnings.push_back(field.shown + which + " " + show(p) + " lies " + show(least) +
-                          " off its line; " + show(to) + " is taken");
+      _warnings.push_back(field.shown + which + " " + shown(p) + " lies " + shown(least) +
+                          " off its line; " + shown(to) + " is taken");
     }
     ++_moved;
     p = to;
@@ -51,7 +53,7 @@ class Snap {
 
   bool finish() {
     if (_moved > most_warnings)
-      _warnings.push_back("and " + std::to_string(_moved - most_warnings) + " more such points");
+      _warnings.push_back(fmt::format("and {} more such points", _moved - most_warnings));
     return _moved > 0;
   }
 

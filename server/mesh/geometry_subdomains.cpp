@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/geometry_steps.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -168,7 +170,7 @@ struct Named {
 
 void check_given_tension(double tension, const Field& field) {
   if (std::isfinite(tension) && tension > 0) return;
-  refuse(field, field, " is ", show(tension), "; a tension is a number above 0");
+  refuse(field, field, " is ", shown(tension), "; a tension is a number above 0");
 }
 
 void check_law(const RegionSpec& region, const Field& field) {
@@ -176,7 +178,7 @@ void check_law(const RegionSpec& region, const Field& field) {
   const std::string fault = fault_of(*region.tension_law);
   if (!fault.empty()) refuse(field, field, ": ", fault);
   if (region.tension != 1)
-    refuse(field, field, " and a tension of ", show(region.tension), " are given; leave one out");
+    refuse(field, field, " and a tension of ", shown(region.tension), " are given; leave one out");
 }
 
 /// The subdomain around the point of a region.
@@ -188,13 +190,13 @@ int subdomain_at(const RegionSpec& region, const Field& field, const Network& ne
     const Segment s{plan.points[at(edges[e][0])], plan.points[at(edges[e][1])]};
     if (!kept[e] || !boxes_meet(s, {region.at, region.at}, network.tolerance)) continue;
     if (distance(region.at, s) > network.tolerance) continue;
-    refuse(field, field, " ", show(region.at), " lies on ",
+    refuse(field, field, " ", shown(region.at), " lies on ",
            network.lines[at(network.chords[e].line)].field,
            "; it must lie inside the subdomain it names");
   }
   const int face = face_at(loops, plan.points, edges, region.at);
   if (face >= 0 && order.subdomain[at(face)] >= 0) return order.subdomain[at(face)];
-  refuse(field, field, " ", show(region.at),
+  refuse(field, field, " ", shown(region.at),
          " lies outside the membrane; it must lie inside the subdomain it names");
 }
 
@@ -212,7 +214,7 @@ int subdomain_within(int region, const Field& field, const Outlines& outlines,
     for (std::size_t c = 0; c < outlines.region.size(); ++c) {
       const std::pair sides = std::minmax({side(loops.left[c]), side(loops.right[c])});
       if (outlines.region[c] == region || sides != std::minmax({own, subdomain})) continue;
-      refuse(field, field, ", at ", show(network.points[at(network.chords[e].a)]),
+      refuse(field, field, ", at ", shown(network.points[at(network.chords[e].a)]),
              ", is crossed by ", network.lines[at(network.chords[c].line)].field,
              outlines.region[c] < 0
                  ? ", which divides it into several subdomains; end the interface at the outline, "
@@ -261,8 +263,7 @@ void note_nested(const std::vector<RegionSpec>& regions, const Outlines& outline
     std::string inner;
     for (std::size_t k = 0; k < listed; ++k)
       inner += (k == 0 ? "" : ", ") + field_of(regions, within[j][k]).shown;
-    if (within[j].size() > listed)
-      inner += " and " + std::to_string(within[j].size() - listed) + " more";
+    if (within[j].size() > listed) inner += fmt::format(" and {} more", within[j].size() - listed);
     const std::string outer = field_of(regions, j).shown;
     warnings.push_back(inner + (within[j].size() == 1 ? " lies" : " lie") + " inside " + outer +
                        ", cut out of it: the tension and the loads of " + outer +
@@ -294,7 +295,7 @@ Named name_subdomains(const Drawn& geometry, const Network& network, const Outli
                ? subdomain_within(static_cast<int>(i), field, outlines, network, loops, order)
                : subdomain_at(region, field, network, plan, edges, kept, loops, order));
     if (!named.name[subdomain].empty()) {
-      refuse(field, field, region.outline ? " holds" : " " + show(region.at) + " lies in",
+      refuse(field, field, region.outline ? " holds" : " " + shown(region.at) + " lies in",
              " the subdomain that ", field_of(geometry.regions, owner[subdomain]),
              " names already; leave one of them out");
     }
@@ -307,7 +308,7 @@ Named name_subdomains(const Drawn& geometry, const Network& network, const Outli
   note_nested(geometry.regions, outlines, plan.warnings);
   for (std::size_t s = 0; s < count; ++s) {
     if (!named.name[s].empty()) continue;
-    named.name[s] = unused_name("omega" + std::to_string(s + 1), used);
+    named.name[s] = unused_name(fmt::format("omega{}", s + 1), used);
     if (any_tension) {
       plan.warnings.push_back("no region names the subdomain " + named.name[s] +
                               ", so its tension is 1; a region with a point of it as `at` gives it "

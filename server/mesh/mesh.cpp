@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/mesh.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -23,16 +25,14 @@ EdgeKey key(std::int32_t a, std::int32_t b) noexcept { return {std::min(a, b), s
 template <class... Parts>
 [[noreturn]] void fail(const Parts&... parts) {
   std::ostringstream text;
-  text.precision(errors::shown_digits);
+  text.precision(8);
   (text << ... << parts);
   throw errors::Error(errors::Reason::mesh_invalid, text.str());
 }
 
 std::string where(const Mesh& mesh, std::int32_t node) {
-  std::ostringstream text;
   const auto [x, y] = position(mesh, node);
-  text << "node " << node << " (" << x << ", " << y << ")";
-  return text.str();
+  return fmt::format("node {} ({:g}, {:g})", node, x, y);
 }
 
 std::string where_edge(const Mesh& mesh, std::int32_t a, std::int32_t b) {
@@ -247,15 +247,15 @@ void check_boundary(const Mesh& mesh, const EdgeTable& edges) {
 std::string fault_of(const TensionLaw& law) {
   if (law.along.empty()) return "the tension along is empty; give an expression in x and y";
   if (std::isfinite(law.angle) && std::abs(law.angle) <= 360) return "";
-  return "the angle of the tension is " + show(law.angle) + "; give degrees from -360 to 360";
+  return "the angle of the tension is " + shown(law.angle) + "; give degrees from -360 to 360";
 }
 
 std::string fault_of(const Motion& motion) {
   if (!motion.fixed) return "";
   if (!std::isfinite(*motion.fixed))
-    return "it is fixed at " + show(*motion.fixed) + "; give a finite displacement";
+    return "it is fixed at " + shown(*motion.fixed) + "; give a finite displacement";
   if (!motion.tilt) return "";
-  return "it is fixed at " + show(*motion.fixed) +
+  return "it is fixed at " + shown(*motion.fixed) +
          " and tilts; an inclusion that is held does not tilt, so leave one of the two out";
 }
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <tuple>
 #include <utility>
 
@@ -25,12 +24,12 @@ constexpr double relative_floor = 1e-13;
 constexpr double few_tips = 16;
 
 [[noreturn]] void refuse_count(const Mesh& base, const Grading& grading, std::size_t limit) {
-  std::ostringstream text;
-  text << "grading " << base.triangle_count() << " triangles to h0 = " << grading.h0
-       << ", m = " << grading.m << " takes more than the " << limit
-       << " triangles allowed; raise h0 (twice the size takes a quarter of the triangles), m or "
-          "tip_size, or the limit";
-  throw errors::Error(errors::Reason::limit_exceeded, text.str()).at("h0");
+  throw errors::Error(
+      errors::Reason::limit_exceeded,
+      "grading {} triangles to h0 = {:g}, m = {:g} takes more than the {} triangles allowed; raise "
+      "h0 (twice the size takes a quarter of the triangles), m or tip_size, or the limit",
+      base.triangle_count(), grading.h0, grading.m, limit)
+      .at("h0");
 }
 
 /// An interface edge as one of its ends sees it.
@@ -153,9 +152,8 @@ Mesh refine(const Mesh& base, std::span<const std::uint8_t> levels, std::size_t 
          p = mesh.corners(t)) {
       if (mesh.bisect(t)) continue;
       throw errors::Error(errors::Reason::limit_exceeded,
-                          "refining " + std::to_string(base.triangle_count()) +
-                              " triangles takes more than the " + std::to_string(max_triangles) +
-                              " allowed");
+                          "refining {} triangles takes more than the {} allowed",
+                          base.triangle_count(), max_triangles);
     }
   }
   return std::move(mesh).finish();

@@ -68,8 +68,8 @@ Mesh refine_uniform(const Mesh& base) {
   constexpr auto most = static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
   if (base.node_count() + base.triangles.size() > most || base.triangle_count() > most / 4) {
     throw errors::Error(errors::Reason::limit_exceeded,
-                        "refining " + std::to_string(base.triangle_count()) +
-                            " triangles would give more than can be numbered");
+                        "refining {} triangles would give more than can be numbered",
+                        base.triangle_count());
   }
   Mesh fine = without_triangles(base);
   fine.xy.reserve(8 * base.node_count());

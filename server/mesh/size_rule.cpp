@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/size_rule.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "base/at.hpp"
 #include "errors/errors.hpp"
@@ -18,22 +19,19 @@ constexpr std::size_t centres_in_a_leaf = 8;
 /// rule requires less than the distance itself.
 constexpr double tip_part = 1e-3;
 
-template <class... Parts>
-[[noreturn]] void refuse_value(const char* field, const Parts&... parts) {
-  std::ostringstream text;
-  (text << ... << parts);
-  throw errors::Error(errors::Reason::invalid_argument, text.str()).at(field);
+void require(bool holds, const char* field, double value, const std::string& rule) {
+  if (holds) return;
+  throw errors::Error(errors::Reason::invalid_argument, "{} = {:g}; it must be {}", field, value,
+                      rule)
+      .at(field);
 }
 
 void check(const Grading& grading) {
-  if (!(std::isfinite(grading.h0) && grading.h0 > 0))
-    refuse_value("h0", "h0 = ", grading.h0, "; it is an edge length and must be positive");
-  if (!(grading.m > 0 && grading.m <= 1))
-    refuse_value("m", "m = ", grading.m, "; it must be positive and at most 1, say 0.2");
-  if (!(std::isfinite(grading.tip_size) && grading.tip_size >= 0)) {
-    refuse_value("tip_size", "tip_size = ", grading.tip_size,
-                 "; it must be an edge length, or 0 for the default");
-  }
+  const auto& [h0, m, tip_size, least] = grading;
+  require(std::isfinite(h0) && h0 > 0, "h0", h0, "an edge length above 0");
+  require(m > 0 && m <= 1, "m", m, "positive and at most 1, say 0.2");
+  require(std::isfinite(tip_size) && tip_size >= 0, "tip_size", tip_size,
+          "an edge length, or 0 for the default");
 }
 
 double squared(const Point& p) noexcept { return p[0] * p[0] + p[1] * p[1]; }
@@ -84,14 +82,12 @@ SizeRule::SizeRule(const Mesh& mesh, std::span<const std::int32_t> centres, cons
     : _h0(grading.h0), _tip_size(grading.h0) {
   check(grading);
   const double floor = std::max(grading.least_tip_size, smallest_tip_size(mesh, centres));
-  if (_h0 < floor) {
-    refuse_value("h0", "h0 = ", _h0, "; in this mesh ", floor, " is the smallest size whose ",
-                 "triangles keep their shape in double precision");
-  }
-  if (grading.tip_size > 0 && grading.tip_size < floor) {
-    refuse_value("tip_size", "tip_size = ", grading.tip_size, "; next to these tips ", floor,
-                 " is the smallest size whose triangles keep their shape in double precision");
-  }
+  const std::string least = fmt::format(
+      "at least {:g}, the smallest size whose triangles keep their shape in double precision next "
+      "to the tips of this mesh",
+      floor);
+  require(_h0 >= floor, "h0", _h0, least);
+  require(!(grading.tip_size > 0 && grading.tip_size < floor), "tip_size", grading.tip_size, least);
   // with m = 1 the size does not depend on the distance, and the exponent would be infinite
   if (grading.m == 1 || centres.empty()) return;
   _exponent = 1 / (1 - grading.m);

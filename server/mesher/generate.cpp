@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesher/generate.hpp"
 
+#include <fmt/core.h>
+
 #include <gmsh.h>
 
 #include <algorithm>
@@ -369,9 +371,9 @@ mesh::Mesh generate(const Gmsh& /*its presence is needed*/, const mesh::Generate
   const std::size_t triangles = mesh.triangle_count() << (2 * halvings);
   if (triangles > request.max_triangles) {
     throw errors::Error(errors::Reason::limit_exceeded,
-                        fmt::format("the mesh has {} triangles, at most {} are allowed; choose a "
-                                    "coarser one",
-                                    triangles, request.max_triangles))
+                        "the mesh has {} triangles, at most {} are allowed; choose a "
+                        "coarser one",
+                        triangles, request.max_triangles)
         .at("options.size");
   }
   for (int i = 0; i < halvings; ++i) mesh = mesh::refine_uniform(mesh);

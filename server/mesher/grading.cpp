@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesher/grading.hpp"
 
+#include <fmt/core.h>
+
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,10 +43,10 @@ std::string option_of(const std::string& field) {
 
 [[noreturn]] void refuse_tip_size(double tip_size, double smallest, double bound) {
   throw errors::Error(errors::Reason::invalid_argument,
-                      fmt::format("options.tip_size is {:g}; the base mesh has such small angles "
-                                  "(bisection may make one of {:g} degrees) that at least {:g} is "
-                                  "needed to keep its triangles in shape",
-                                  tip_size, bound, smallest))
+                      "options.tip_size is {:g}; the base mesh has such small angles "
+                      "(bisection may make one of {:g} degrees) that at least {:g} is "
+                      "needed to keep its triangles in shape",
+                      tip_size, bound, smallest)
       .at("options.tip_size");
 }
 
@@ -76,11 +78,10 @@ mesh::Mesh graded(mesh::Mesh base, const mesh::GradingSpec& spec, std::size_t ma
       spec.m < 1 ? mesh::tips(base) : std::vector<std::int32_t>();
   mesh::Mesh fine = bisected(base, tips, spec, bound, max_triangles);
   if (const double angle = mesh::minimum_angle(fine); !(angle >= bound * (1 - angle_slack))) {
-    throw errors::Error(
-        errors::Reason::internal,
-        fmt::format("grading made an angle of {:g} degrees, below its bound of {:g}; "
-                    "choose a larger options.tip_size, and report this mesh",
-                    angle, bound));
+    throw errors::Error(errors::Reason::internal,
+                        "grading made an angle of {:g} degrees, below its bound of {:g}; "
+                        "choose a larger options.tip_size, and report this mesh",
+                        angle, bound);
   }
   return fine;
 }

@@ -223,8 +223,8 @@ base::Descriptor open_msh(const std::string& path) {
   // pread leaves the offset, which the child shares, at 0
   const ssize_t n = file ? pread(file.get(), start, sizeof start, 0) : -1;
   if (n < 0) {
-    throw Error(Reason::mesh_invalid,
-                "the mesh file cannot be read: " + std::generic_category().message(errno));
+    throw Error(Reason::mesh_invalid, "the mesh file cannot be read: {}",
+                std::generic_category().message(errno));
   }
   format_of(std::string_view(start, static_cast<std::size_t>(n)));
   return file;

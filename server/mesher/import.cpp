@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesher/import.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <map>
@@ -209,10 +211,9 @@ void take_motions(const std::map<std::string, mesh::Motion>& given, Mesh& mesh) 
     const auto found = std::find(mesh.inclusions.begin(), mesh.inclusions.end(), name);
     if (found == mesh.inclusions.end()) {
       throw errors::Error(
-          errors::Reason::invalid_argument,
-          fmt::format("\"{}\" is not an inclusion of the file; {}", printable(name),
-                      mesh.inclusions.empty() ? "it has none"
-                                              : "they are " + list_of(mesh.inclusions, "\"")))
+          errors::Reason::invalid_argument, "\"{}\" is not an inclusion of the file; {}",
+          printable(name),
+          mesh.inclusions.empty() ? "it has none" : "they are " + list_of(mesh.inclusions, "\""))
           .at(fmt::format("options.inclusion_motions[{}]", printable(name)));
     }
     mesh.motions[at(found - mesh.inclusions.begin())] = motion;

@@ -3,7 +3,6 @@
 // anticrack-mesher MEMORY_BYTES CPU_SECONDS generate|import: reads one mesh::MesherRequest from
 // standard input and writes one mesh::MesherReply to standard output. The .msh to import is
 // descriptor 3. Limits and filter are set before any input is read.
-#include <fmt/core.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -111,13 +110,12 @@ mesh::MesherReply answer(bool import, std::uint64_t memory) {
     return error;
   } catch (const std::bad_alloc&) {
     return errors::Error(errors::Reason::mesher_failed,
-                         fmt::format("the mesher ran out of its {} MiB of memory; choose a coarser "
-                                     "mesh (larger size or tip_size) "
-                                     "or raise the limit",
-                                     memory >> 20));
+                         "the mesher ran out of its {} MiB of memory; choose a coarser "
+                         "mesh (larger size or tip_size) "
+                         "or raise the limit",
+                         memory >> 20);
   } catch (const std::exception& error) {
-    return errors::Error(errors::Reason::mesher_failed,
-                         std::string("the mesher failed: ") + error.what());
+    return errors::Error(errors::Reason::mesher_failed, "the mesher failed: {}", error.what());
   }
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesher/msh_file.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <climits>
 #include <cmath>
@@ -393,9 +395,9 @@ class Reader {
 void check_triangle_limit(const MshFile& file, std::size_t max_triangles) {
   if (file.triangles.size() <= max_triangles) return;
   throw errors::Error(errors::Reason::limit_exceeded,
-                      fmt::format("the mesh has more than {} triangles, the limit of this server; "
-                                  "make a coarser one",
-                                  max_triangles));
+                      "the mesh has more than {} triangles, the limit of this server; "
+                      "make a coarser one",
+                      max_triangles);
 }
 
 MshFile read_msh(std::string_view bytes, std::size_t max_triangles) {

@@ -36,8 +36,8 @@ Error in_use(const std::string& id, const char* why) {
 
 void check_title(const std::string& title) {
   if (title.size() <= max_title_bytes) return;
-  throw Error(Reason::invalid_argument,
-              fmt::format("a title of {} bytes: use at most {}", title.size(), max_title_bytes))
+  throw Error(Reason::invalid_argument, "a title of {} bytes: use at most {}", title.size(),
+              max_title_bytes)
       .at("title");
 }
 
@@ -63,12 +63,11 @@ void require_memory(const mesh::Mesh& mesh, std::uint64_t budget) {
   const std::uint64_t wanted = operators::estimate_bytes(mesh);
   if (wanted <= budget) return;
   constexpr std::uint64_t mebibyte = 1 << 20;
-  throw Error(
-      Reason::limit_exceeded,
-      fmt::format("the operators of a finer mesh ({} triangles) need about {} MiB, more "
-                  "than the memory-budget of {} MiB of the server; ask for a larger error, "
-                  "or start the server with more",
-                  mesh.triangle_count(), (wanted + mebibyte - 1) / mebibyte, budget / mebibyte))
+  throw Error(Reason::limit_exceeded,
+              "the operators of a finer mesh ({} triangles) need about {} MiB, more "
+              "than the memory-budget of {} MiB of the server; ask for a larger error, "
+              "or start the server with more",
+              mesh.triangle_count(), (wanted + mebibyte - 1) / mebibyte, budget / mebibyte)
       .at("memory_budget");
 }
 
@@ -101,8 +100,8 @@ struct MeshCatalogue::State {
   // Throws if there is no room for another mesh. With the lock held, as all below:
   void require_room() const {
     if (preparation.queued() + claims < options.max_pending) return;
-    throw Error(Reason::busy, fmt::format("{} meshes are waiting for the mesher: try again later",
-                                          options.max_pending))
+    throw Error(Reason::busy, "{} meshes are waiting for the mesher: try again later",
+                options.max_pending)
         .retry_after(operators::retry_delay);
   }
 
@@ -123,8 +122,8 @@ struct MeshCatalogue::State {
   LiveMesh& claim(const std::string& id) {
     if (index().find(id) == nullptr && index().size() >= options.max_meshes) {
       throw Error(Reason::quota_exceeded,
-                  fmt::format("the server keeps {} meshes and may keep no more: delete some",
-                              options.max_meshes));
+                  "the server keeps {} meshes and may keep no more: delete some",
+                  options.max_meshes);
     }
     LiveMesh& mesh = index().add(id);
     mesh.claimed = true;
@@ -283,7 +282,7 @@ std::shared_ptr<const mesh::Mesh> MeshCatalogue::triangulation(const std::string
   const std::shared_ptr<const mesh::Mesh> mesh = _state->store.triangulation(record.sha256);
   if (!mesh) {
     get(id);  // throws if it was erased meanwhile
-    throw Error(Reason::storage, "the triangulation of meshes/" + id + " is missing");
+    throw Error(Reason::storage, "the triangulation of meshes/{} is missing", id);
   }
   return mesh;
 }
@@ -333,7 +332,7 @@ void MeshCatalogue::erase(const std::string& id) {
   LiveMesh& mesh = index.known(id);
   if (!mesh.users.expired())
     throw in_use(id, "a job that has not ended needs it; wait for it or cancel it");
-  preparation.fail_waits(mesh, Error(Reason::not_found, "meshes/" + id + " was deleted"));
+  preparation.fail_waits(mesh, Error(Reason::not_found, "meshes/{} was deleted", id));
   const std::shared_ptr<Run> run = preparation.give_up(mesh);
   const Stage stage = std::exchange(mesh.stage, Stage::absent);
   mesh.claimed = true;

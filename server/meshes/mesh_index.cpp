@@ -57,8 +57,7 @@ LiveMesh* MeshIndex::find(const std::string& id) {
 LiveMesh& MeshIndex::known(const std::string& id) {
   LiveMesh* mesh = find(id);
   if (mesh == nullptr || mesh->stage == Stage::absent) {
-    throw errors::Error(errors::Reason::not_found,
-                        "there is no meshes/" + id + ": create it first");
+    throw errors::Error(errors::Reason::not_found, "there is no meshes/{}: create it first", id);
   }
   return *mesh;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The work of a run on its thread: the mesher, the factors, theta*, and the record.
-#include <fmt/core.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -105,7 +104,7 @@ void Preparation::perform(Run& run) {
                    .retry_after(operators::retry_delay)
              : Error(Reason::limit_exceeded, "not enough memory for this mesh: make it coarser"));
   } catch (const std::exception& error) {
-    fail(run, Error(Reason::internal, std::string("preparing the mesh failed: ") + error.what()));
+    fail(run, Error(Reason::internal, "preparing the mesh failed: {}", error.what()));
   }
 }
 
@@ -183,9 +182,10 @@ void Preparation::factorize(Run& run, std::shared_ptr<const mesh::Mesh> triangul
       triangulation = _store.triangulation(sha256);
     }
     if (!triangulation) {
-      throw Error(Reason::storage, fmt::format("the triangulation of meshes/{} is not in the data "
-                                               "folder: delete the mesh and create it again",
-                                               run.id));
+      throw Error(Reason::storage,
+                  "the triangulation of meshes/{} is not in the data "
+                  "folder: delete the mesh and create it again",
+                  run.id);
     }
     result = _cache.acquire(sha256, std::move(triangulation), run.stop.get_token(), owner);
   }

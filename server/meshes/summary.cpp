@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshes/summary.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -210,7 +212,7 @@ records::Block mesh_block(const mesh::Mesh& mesh) {
   builder.add("boundary", boundary, {mesh.dirichlet.size(), 2});
   for (std::size_t i = 0; i < mesh.interfaces.size(); ++i) {
     const mesh::Interface& interface = mesh.interfaces[i];
-    const std::string path = "interfaces/" + std::to_string(i) + "/";
+    const std::string path = fmt::format("interfaces/{}/", i);
     builder.add(path + "nodes", interface.nodes);
     builder.add(path + "edge_kind", interface.kind);
     builder.add(path + "edge_inclusion", interface.inclusion);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshes/tension_laws.hpp"
 
+#include <fmt/core.h>
+
 #include <string>
 #include <variant>
 
@@ -20,7 +22,7 @@ void below(const std::string& law, const Check& check) {
   }
 }
 
-std::string region_field(std::size_t i) { return "regions[" + std::to_string(i) + "].tension_law"; }
+std::string region_field(std::size_t i) { return fmt::format("regions[{}].tension_law", i); }
 std::string option_field(const std::string& name) { return "options.tension_laws[" + name + "]"; }
 
 /// The field in which the law of a subdomain was written.

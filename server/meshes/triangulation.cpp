@@ -28,9 +28,9 @@ mesh::MesherRequest request_for(const records::MeshRecord& record, const Catalog
         options.max_triangles};
   }
   if (std::holds_alternative<records::Refinement>(record.definition)) {
-    throw errors::Error(errors::Reason::storage,
-                        "the triangulation of meshes/" + record.id +
-                            ", which a job made, is gone: run the job again");
+    throw errors::Error(
+        errors::Reason::storage,
+        "the triangulation of meshes/{}, which a job made, is gone: run the job again", record.id);
   }
   const auto& upload = std::get<records::UploadRef>(record.definition);
   std::string path = require_upload(store, upload, record.owner);
@@ -54,8 +54,8 @@ std::string require_upload(const store::Store& store, const records::UploadRef& 
                            const std::string& owner) {
   std::optional<std::string> path = store.upload_path(upload.sha256, owner);
   if (!path) {
-    throw errors::Error(errors::Reason::not_found,
-                        "there is no uploads/" + upload.sha256 + ": upload the file first")
+    throw errors::Error(errors::Reason::not_found, "there is no uploads/{}: upload the file first",
+                        upload.sha256)
         .at("upload");
   }
   return std::move(*path);

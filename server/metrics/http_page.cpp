@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "metrics/http_page.hpp"
 
+#include <fmt/core.h>
 #include <microhttpd.h>
 #include <netdb.h>
 #include <sys/socket.h>
@@ -120,7 +121,7 @@ HttpPage::HttpPage(const std::string& address, std::string path, std::string con
       MHD_OPTION_CONNECTION_TIMEOUT, idle_seconds, MHD_OPTION_END));
   if (!_state->daemon) throw std::runtime_error(std::generic_category().message(errno));
   const MHD_DaemonInfo* port = MHD_get_daemon_info(_state->daemon.get(), MHD_DAEMON_INFO_BIND_PORT);
-  _state->address = address.substr(0, colon + 1) + std::to_string(port->port);
+  _state->address = fmt::format("{}{}", address.substr(0, colon + 1), port->port);
 }
 
 HttpPage::~HttpPage() = default;

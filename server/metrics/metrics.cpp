@@ -207,9 +207,9 @@ std::string Metrics::listen(const std::string& address, std::function<Snapshot()
         address, "/metrics", "text/plain; version=0.0.4; charset=utf-8",
         [state = _state.get(), read = std::move(read)] { return state->page(read); });
   } catch (const std::exception& problem) {
-    throw errors::Error(
-        errors::Reason::invalid_argument,
-        "cannot serve metrics on " + address + ": " + problem.what() + "; give another HOST:PORT")
+    throw errors::Error(errors::Reason::invalid_argument,
+                        "cannot serve metrics on {}: {}; give another HOST:PORT", address,
+                        problem.what())
         .at("metrics-listen");
   }
   return _state->http->address();

@@ -129,7 +129,7 @@ void MeshOperator::estimate(std::span<Estimate> all) const {
       Material material{one, load, of_copies(answer.fields), {}, {}};
       if (recovered) answer.fields.clear();
       if (material.u.size() != cut.at.size()) {  // its solution was stopped
-        throw errors::Error(errors::Reason::cancelled, std::string("stopped while ") + bounding);
+        throw errors::Error(errors::Reason::cancelled, "stopped while {}", bounding);
       }
       answer.no_bracket = obstacle_of(material.u, cut.shapes.largest_tension);
       if (!answer.no_bracket.empty()) continue;

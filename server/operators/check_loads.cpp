@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "operators/check_loads.hpp"
 
+#include <fmt/core.h>
+
 #include <variant>
 
 #include "errors/errors.hpp"
@@ -62,7 +64,7 @@ void check(const fem::Load& load, const mesh::Geometry& geometry, const Motions&
   }
 }
 
-std::string path_of(std::size_t load) { return "load_cases[" + std::to_string(load) + "]"; }
+std::string path_of(std::size_t load) { return fmt::format("load_cases[{}]", load); }
 
 }  // namespace
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "operators/condense_loads.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <utility>
 
 #include "base/at.hpp"
@@ -29,9 +30,9 @@ void require_array_fits(const fem::Load& load, const mesh::Mesh& mesh) {
   const std::size_t given = array->values ? array->values->size() : 0;
   if (given != wanted) {
     throw errors::Error(errors::Reason::invalid_argument,
-                        "the array of the force has " + std::to_string(given) +
-                            " values, but the mesh has " + std::to_string(wanted) + what +
-                            ": give one value for each, in the order of ReadMesh")
+                        "the array of the force has {} values, but the mesh has {}{}: give one "
+                        "value for each, in the order of ReadMesh",
+                        given, wanted, what)
         .at("force.array");
   }
 }
@@ -44,25 +45,18 @@ struct Integrated {
   double enough;  ///< the Proof::relative that suffices
 };
 
-std::string place(const fem::Proof& proof) {
-  std::ostringstream text;
-  text.precision(6);
-  text << "(" << proof.worst_x << ", " << proof.worst_y << ")";
-  return text.str();
-}
+std::string place(const fem::Proof& proof) { return errors::shown(proof.worst_x, proof.worst_y); }
 
 /// A warning for the user if the integral is not accurate enough; else empty.
 std::string inexact(const Integrated& one) {
   const std::string who = one.what + " on subdomain \"" + one.subdomain + "\"";
-  std::ostringstream message;
-  message.precision(2);
   if (std::isfinite(one.proof.relative())) {
     if (one.proof.relative() <= one.enough) return "";
-    message << who << " varies too fast near " << place(one.proof)
-            << " to be integrated in a bounded time: up to " << one.proof.relative()
-            << " of its integral is unknown, which the bounds take into account; refine the mesh "
-               "there or smooth the expression";
-    return message.str();
+    return fmt::format(
+        "{} varies too fast near {} to be integrated in a bounded time: up to {:.2g} of its "
+        "integral is unknown, which the bounds take into account; refine the mesh there or smooth "
+        "the expression",
+        who, place(one.proof), one.proof.relative());
   }
   if (!std::isfinite(one.estimate)) {
     return who +
@@ -71,11 +65,10 @@ std::string inexact(const Integrated& one) {
            place(one.proof) + "; change the expression there";
   }
   if (one.estimate <= one.tolerance) return "";
-  message << who << " may be wrong by " << one.estimate
-          << " of its integral (tolerance: " << one.tolerance
-          << "), which is an estimate: the expression has no bound near " << place(one.proof)
-          << "; refine the mesh there or change the expression";
-  return message.str();
+  return fmt::format(
+      "{} may be wrong by {:.2g} of its integral (tolerance: {:.2g}), which is an estimate: the "
+      "expression has no bound near {}; refine the mesh there or change the expression",
+      who, one.estimate, one.tolerance, place(one.proof));
 }
 
 /// The reason why bounds cannot be proved with this integral; empty if they can.
@@ -180,23 +173,22 @@ class Block {
                     const mesh::Mesh& mesh) const {
     constexpr double rounding = 1e-9;
     double sum = 0, size = 0;
-    std::ostringstream values;
+    std::string values;
     for (const auto& [k, factor] : agreement) {
       sum += factor * held[k];
       size = std::max(size, std::abs(factor * held[k]));
       const ddm::Held& one = _decomposition.skeleton.held[at(k)];
-      values << (values.str().empty() ? "" : ", ") << held[k];
+      values += (values.empty() ? "" : ", ") + errors::shown(held[k]);
       if (one.node >= 0)
-        values << " at (" << mesh.xy[2 * at(one.node)] << ", " << mesh.xy[2 * at(one.node) + 1]
-               << ")";
+        values += " at " + errors::shown(mesh.xy[2 * at(one.node)], mesh.xy[2 * at(one.node) + 1]);
     }
     if (std::abs(sum) <= rounding * size) return;
     const auto inclusion = at(_decomposition.skeleton.held[at(agreement.front().index)].inclusion);
     throw errors::Error(
         errors::Reason::invalid_argument,
-        "nothing solves this load: the inclusion \"" + mesh.inclusions[inclusion] +
-            "\" is rigid and cannot have the values " + values.str() +
-            " it is held at; give values that agree, or let it tilt or end inside the membrane")
+        "nothing solves this load: the inclusion \"{}\" is rigid and cannot have the values {} it "
+        "is held at; give values that agree, or let it tilt or end inside the membrane",
+        mesh.inclusions[inclusion], values)
         .at("boundary_value");
   }
 
@@ -277,9 +269,8 @@ class Block {
     }
     for (const NodalForce& force : _placed[i].subdomains[s]) of_nodes[force.node] += force.value;
     if (!of_nodes.allFinite()) {
-      throw errors::Error(
-          errors::Reason::invalid_argument,
-          "the load on subdomain \"" + subdomain.name + "\" overflows; scale it down");
+      throw errors::Error(errors::Reason::invalid_argument,
+                          "the load on subdomain \"{}\" overflows; scale it down", subdomain.name);
     }
   }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "operators/load_bounds.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -67,7 +69,7 @@ std::vector<BalancedLoad> balanced(std::span<const fem::Load* const> loads,
     try {
       result.push_back(balanced(parts, subdomains, cut));
     } catch (errors::Error& error) {
-      error.below("load_cases[" + std::to_string(j) + "]");
+      error.below(fmt::format("load_cases[{}]", j));
       throw;
     }
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "operators/operator_cache.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <condition_variable>
 #include <mutex>
@@ -56,7 +58,7 @@ struct Entry {
 Error stopped() { return {Reason::cancelled, "stopped while waiting for the mesh's operators"}; }
 
 std::string mebibytes(std::uint64_t bytes) {
-  return std::to_string((bytes + (1U << 20U) - 1) >> 20U) + " MiB";
+  return fmt::format("{} MiB", (bytes + (1U << 20U) - 1) >> 20U);
 }
 
 Error too_large(std::uint64_t estimate, std::uint64_t budget) {
@@ -215,7 +217,7 @@ struct OperatorCache::State {
       flight.error->retry_after(retry_delay);
       flight.starved = true;
     } catch (const std::exception& thrown) {
-      flight.error = Error(Reason::internal, std::string("factorising failed: ") + thrown.what());
+      flight.error = Error(Reason::internal, "factorising failed: {}", thrown.what());
     }
     return_freed_memory();  // of a factorisation that stopped or failed
     return nullptr;
@@ -228,10 +230,9 @@ struct OperatorCache::State {
     if (evicted.empty() && pinned_bytes() == 0) {
       flight.error = Error(Reason::limit_exceeded,
                            "there is not enough memory for the operators of this mesh, though the "
-                           "memory budget of " +
-                               mebibytes(budget) +
-                               " has room: use a coarser mesh, or give the server more memory "
-                               "(ulimit -v, its control group)");
+                           "memory budget of {} has room: use a coarser mesh, or give the server "
+                           "more memory (ulimit -v, its control group)",
+                           mebibytes(budget));
     }
     return evicted;
   }

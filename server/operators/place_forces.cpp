@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "operators/condense_loads.hpp"
 
+#include <fmt/core.h>
+
 #include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
-#include <sstream>
 
 #include "base/at.hpp"
 #include "errors/errors.hpp"
@@ -28,11 +29,8 @@ double diagonal(const mesh::Mesh& mesh) {
 }
 
 Error refused(std::size_t index, const fem::PointForce& force, const std::string& why) {
-  std::ostringstream message;
-  message.precision(errors::shown_digits);
-  message << "the point (" << force.x << ", " << force.y << ") is " << why;
-  return Error(Reason::invalid_argument, message.str())
-      .at("point_forces[" + std::to_string(index) + "].at");
+  return Error(Reason::invalid_argument, "the point {} is {}", errors::shown(force.x, force.y), why)
+      .at(fmt::format("point_forces[{}].at", index));
 }
 
 /// The interface edge, other than glue, on which a point lies.
@@ -220,9 +218,9 @@ void add_moments(const fem::Load& load, const mesh::Mesh& mesh,
     const std::size_t j = index_of(mesh.inclusions, name, "inclusion", field);
     if (decomposition.skeleton.motions[j].slope_x.empty()) {
       throw Error(Reason::invalid_argument,
-                  "the inclusion \"" + name +
-                      "\" does not tilt, so a moment on it does nothing: let it tilt, or leave the "
-                      "moment out")
+                  "the inclusion \"{}\" does not tilt, so a moment on it does nothing: let it "
+                  "tilt, or leave the moment out",
+                  name)
           .at(field);
     }
     given[j].moment_x += moment.x;
@@ -241,9 +239,8 @@ std::size_t index_of(const std::vector<std::string>& names, const std::string& n
   for (std::size_t i = 0; i < std::min(names.size(), most_listed); ++i)
     known += (known.empty() ? "\"" : ", \"") + names[i] + "\"";
   known += names.size() > most_listed ? ", ..." : "";
-  throw errors::Error(
-      errors::Reason::invalid_argument,
-      "the mesh has no " + what + " \"" + name + "\"; it has " + (known.empty() ? "none" : known))
+  throw errors::Error(errors::Reason::invalid_argument, "the mesh has no {} \"{}\"; it has {}",
+                      what, name, known.empty() ? "none" : known)
       .at(field);
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Sweeps of a MeshOperator: bases of loads, and rows that are combinations of them.
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -25,11 +27,10 @@ void require_memory(std::size_t loads, const ddm::Decomposition& decomposition, 
     numbers += subdomain.node.size() + (bounds ? 4 * subdomain.part.triangle_count() : 0);
   }
   if (numbers > 0 && loads > max_basis_bytes / sizeof(double) / numbers) {
-    throw errors::Error(
-        errors::Reason::limit_exceeded,
-        std::to_string(loads) + " loads on " + std::to_string(nodes) + " nodes are more than " +
-            std::to_string(max_basis_bytes >> 20U) + " MiB" + (bounds ? " with bounds" : "") +
-            ": combine fewer loads, or take a coarser mesh (larger size or tip_size)");
+    throw errors::Error(errors::Reason::limit_exceeded,
+                        "{} loads on {} nodes are more than {} MiB{}: combine fewer loads, or take "
+                        "a coarser mesh (larger size or tip_size)",
+                        loads, nodes, max_basis_bytes >> 20U, bounds ? " with bounds" : "");
   }
 }
 
@@ -39,7 +40,7 @@ std::vector<LoadOnTraces> sound(std::vector<CondensedOutcome> outcomes) {
   loads.reserve(outcomes.size());
   for (std::size_t j = 0; j < outcomes.size(); ++j) {
     if (auto* error = std::get_if<errors::Error>(&outcomes[j]))
-      throw errors::Error(error->below("load_cases[" + std::to_string(j) + "]"));
+      throw errors::Error(error->below(fmt::format("load_cases[{}]", j)));
     loads.push_back(std::get<LoadOnTraces>(std::move(outcomes[j])));
   }
   return loads;
