@@ -12,7 +12,7 @@
 namespace anticrack::cli {
 namespace {
 
-// One that is unknown is the largest.
+// The larger of two numbers; an unknown one (NaN) counts as the largest.
 double larger(double a, double b) { return std::isnan(a) || b <= a ? a : b; }
 
 double energy_error(const v1::StageAnswer& answer) {
@@ -29,7 +29,7 @@ std::string error_text(double error, double asked) {
 
 std::string unpadded(std::string text) { return text.erase(0, text.find_first_not_of(' ')); }
 
-// A mesh without inclusions has no A.
+// Whether to show the error of A; a mesh without inclusions has no A.
 bool tells_displacement(const StageErrors& stage, const v1::Accuracy& asked) {
   return asked.has_displacement() || std::isfinite(stage.displacement);
 }
@@ -55,7 +55,7 @@ std::string counted(std::size_t count, const std::string& one) {
   return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
 }
 
-// What the error of A is a part of, where there are several.
+// The value to which the error of A is relative, if there are several inclusions.
 std::string scale_of(const v1::Job& job) {
   const auto several = [](const v1::LoadCaseAnswer& answer) {
     return answer.inclusions_size() > 1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// How far a job with an accuracy has come. Pure.
+// The progress of a job with an accuracy, as text. Pure.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,8 @@
 
 namespace anticrack::cli {
 
-/// A stage that has ended. The errors are those that Accuracy asks about, relative, the largest of
-/// all load cases; NaN where one has no bounds.
+/// A stage that has ended. The errors are those for which Accuracy asks: relative, and the largest
+/// of all load cases; NaN if a load case has no bounds.
 struct StageErrors {
   std::string mesh;  ///< "meshes/ID"
   std::uint64_t triangles = 0;
@@ -22,15 +22,15 @@ struct StageErrors {
   double seconds = 0;  ///< since the first stage began
 };
 
-/// Of one that has ended.
+/// The errors of a stage that has ended.
 StageErrors errors_of(const v1::Stage& stage);
 
-/// Those that have ended.
+/// The stages of a job that have ended.
 std::vector<StageErrors> stages_of(const v1::Job& job);
 
 /// "  stage 4    12345 triangles   energy  0.213 % (asked 0.1 %)   A 0.8 %  [######----]" for each
-/// of the last stages, at most `count`. The bar is full where all that is asked for is reached; a
-/// terminal of few columns has none.
+/// of the last stages, at most `count`. The bar is full if everything asked for is reached; a
+/// narrow terminal has none.
 std::vector<std::string> stage_lines(const std::vector<StageErrors>& stages,
                                      const v1::Accuracy& asked, std::size_t width,
                                      std::size_t count);
@@ -38,8 +38,8 @@ std::vector<std::string> stage_lines(const std::vector<StageErrors>& stages,
 /// "stage 4: 12345 triangles, energy 0.213 % (asked 0.1 %), A 0.8 %".
 std::string stage_text(std::size_t number, const StageErrors& stage, const v1::Accuracy& asked);
 
-/// For below the answers: what was reached on which mesh, and what was not and why. Empty of a job
-/// without accuracy.
+/// The text below the answers: what was reached on which mesh, and what was not and why. Empty for
+/// a job without accuracy.
 std::string accuracy_text(const v1::Job& job);
 
 }  // namespace anticrack::cli

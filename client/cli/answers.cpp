@@ -27,10 +27,10 @@ namespace {
 
 struct Moved {
   std::string name;
-  bool tilted = false;  // in one of the loads at least
+  bool tilted = false;  // in at least one of the loads
 };
 
-// All inclusions, each once, in the order of the loads.
+// All inclusions, without repetition, in the order of the loads.
 std::vector<Moved> inclusions_of(const std::vector<results::Load>& loads) {
   std::vector<Moved> all;
   std::map<std::string_view, std::size_t> places;
@@ -48,14 +48,14 @@ bool any_tilts(const std::vector<Moved>& inclusions) {
   return std::ranges::any_of(inclusions, &Moved::tilted);
 }
 
-// Its value or, where it has them, its bounds.
+// The bounds of a number, or its value if it has none.
 std::string text_of(const v1::InclusionAnswer& inclusion, const std::string& number_name) {
   const double lower = results::number_in(inclusion, number_name + "_lower");
   if (!std::isfinite(lower)) return number(results::number_in(inclusion, number_name));
   return results::interval(lower, results::number_in(inclusion, number_name + "_upper"));
 }
 
-// The numbers that are told of an inclusion: of one that never tilts, A alone.
+// The numbers to show for an inclusion: only A, if it never tilts.
 std::span<const std::string> told_of(const Moved& inclusion) {
   static const std::array<std::string, 5> names{"A", "Bx", "By", "Mx", "My"};
   return std::span(names).first(inclusion.tilted ? names.size() : 1);
@@ -65,13 +65,13 @@ std::string dimension_of(const std::string& number_name) {
   return results::entry_of(*v1::InclusionAnswer::descriptor(), number_name)->unit;
 }
 
-// Above a column of the table: without a dimension the second row is empty there.
+// The head of a column; without a dimension its second row is empty.
 struct Head {
   std::string name;
   std::optional<std::string> dimension{};
 };
 
-// What the rows of the table tell of inclusions: each, or of many how far they move.
+// The part of the table about inclusions: each of them or, for many, the range of their motions.
 class Told {
  public:
   explicit Told(std::vector<Moved> inclusions)
@@ -106,7 +106,7 @@ class Told {
     }
   }
 
-  // Below the table.
+  // The hint below the table.
   std::string hint() const {
     if (each()) return "";
     return "all " + std::to_string(_inclusions.size()) +
@@ -175,7 +175,7 @@ std::vector<std::string> row_of(const results::Load& load, const Told& inclusion
   return row;
 }
 
-// Lines for people below the table.
+// The lines below the table.
 std::vector<std::string> remarks_on(const results::Load& load) {
   const v1::LoadCaseAnswer& answer = load.answer;
   std::vector<std::string> remarks;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The table of answers, for people and as JSON. Pure.
+// The table of answers, as text and as JSON. Pure.
 #pragma once
 
 #include <cstddef>
@@ -12,32 +12,32 @@
 
 namespace anticrack::cli {
 
-/// Of more inclusions than this, tables tell how far they move, and not A of each.
+/// With more inclusions than this, tables show the range of their motions instead of each A.
 inline constexpr std::size_t few_inclusions = 6;
 
-/// A head row, a row of units ("-": dimensionless, or of no name), one row per load case; below it,
-/// why load cases did not converge or failed. A column "A" per inclusion, with its name where there
-/// are several; of one that tilts "Bx", "By", "Mx" and "My", too. Of more than few_inclusions how
-/// many they are, the least and the greatest A and, if any tilts, the greatest |B|, and whose these
-/// are. Of Uzawa's method the criterion that stops it, with theta; of the active set, which is
-/// exact, the largest relative KKT residual.
+/// A head row, a row of units ("-": dimensionless, or without a name) and one row per load case;
+/// below the table, why load cases did not converge or failed. There is a column "A" per inclusion,
+/// with its name if there are several; for one that tilts also "Bx", "By", "Mx" and "My". For more
+/// than few_inclusions there are their number, the least and the greatest A and, if any tilts, the
+/// greatest |B|, with the names of these inclusions. For Uzawa's method there are the criterion
+/// that stops it, and theta; for the active set, which is exact, the largest relative KKT residual.
 std::string answers_table(const std::vector<results::Load>& loads, const results::Units& units);
-/// The same of a result; of a sweep how its rows ended, and what they span. Ends with the notes on
-/// it.
+/// The same for a result; for a sweep how its rows ended, and their ranges. Ends with the notes on
+/// the result.
 std::string answers_table(const results::Result& result);
 
-/// A row per load case with an answer and inclusion: A, of those that tilt B and the moment,
-/// resultant and contact length; of a sweep a row per inclusion: what its rows span.
+/// A row per load case with an answer and inclusion: A, for those that tilt also B and the moment,
+/// resultant and contact length. For a sweep a row per inclusion with the ranges of its rows.
 std::string inclusions_table(const results::Result& result);
 
-/// The same as comma-separated text, numbers to full precision, what is unknown left out; of a
-/// sweep sweep_csv.
+/// The same as comma-separated text, with numbers to full precision and unknown values left out;
+/// for a sweep sweep_csv.
 std::string answers_csv(const results::Result& result);
 
-/// For each load case a row for every number of its answer: value, unit, what it is.
+/// For each load case a row for every number of its answer: value, unit, meaning.
 std::string numbers_table(const results::Result& result);
 
-/// {title, file, job, mesh, sizes, timings, notes, answers: [one per load case]}; of a sweep also
+/// {title, file, job, mesh, sizes, timings, notes, answers: [one per load case]}; for a sweep also
 /// {sweep: {rows, converged, ...}}, and the answers are those of the rows whose traces were kept.
 std::string answers_json(const results::Result& result, const std::filesystem::path& file);
 

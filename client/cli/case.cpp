@@ -17,10 +17,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Asks for the server's limit where a text is near it.
+/// Refuses a text above the server's limit, for which it asks only if the text is large.
 void check_size(Session& session, const fs::path& path) {
   constexpr std::uintmax_t near = 1 << 20;
-  std::error_code none;  // of a pipe
+  std::error_code none;  // set for a pipe
   const std::uintmax_t size = fs::file_size(path, none);
   if (none || size < near) return;
   const std::uint32_t most =

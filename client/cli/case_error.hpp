@@ -6,7 +6,7 @@
 
 namespace anticrack::cli {
 
-/// What is wrong in a case, a file of rows, or a flag about them. what(): place, bad value, cure.
+/// A fault in a case, a file of rows, or a flag about them. what(): place, bad value, cure.
 class CaseError : public std::runtime_error {
  public:
   explicit CaseError(const std::string& message) : std::runtime_error(message) {}

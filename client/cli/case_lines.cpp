@@ -14,10 +14,10 @@ namespace {
 constexpr std::size_t widest_name = 24;
 constexpr std::size_t narrowest_name = 8;
 
-/// What a line says about a load case, most detailed first.
+/// The detail that a line shows about a load case, most detailed first.
 enum class Detail { labels, brief, criterion, status };
 
-/// The columns of all lines of a frame.
+/// The widths of the columns, the same for all lines of a frame.
 struct Layout {
   Detail detail = Detail::status;
   std::size_t name_width = 0;
@@ -62,7 +62,7 @@ std::size_t widest_line(const JobProgress& job, const std::vector<std::size_t>& 
   return widest;
 }
 
-// With room for all columns.
+// The layout with room for all columns.
 Layout widest_layout(const JobProgress& job, const std::vector<std::size_t>& shown) {
   Layout layout;
   for (const std::size_t i : shown) {
@@ -72,7 +72,7 @@ Layout widest_layout(const JobProgress& job, const std::vector<std::size_t>& sho
         std::max(layout.iteration_width, std::to_string(progress.iteration).size());
   }
   layout.name_width = std::min(layout.name_width, widest_name);
-  // The columns do not move when load cases end.
+  // Reserve room, so that columns do not move when load cases end.
   layout.status_width = word(results::Status::not_converged).size();
   return layout;
 }
@@ -83,8 +83,8 @@ std::size_t widest_status(const JobProgress& job, const std::vector<std::size_t>
   return widest;
 }
 
-// In a narrow terminal the labels go first, then the bar, then the ends of names, then all numbers
-// but the criterion.
+// The layout for a width. A narrow terminal drops first the labels, then the bar, then the ends of
+// names, then all numbers but the criterion.
 Layout layout_of(const JobProgress& job, const std::vector<std::size_t>& shown, std::size_t width) {
   Layout layout = widest_layout(job, shown);
   for (const bool with_bar : {true, false}) {

@@ -35,7 +35,7 @@ void split_fields(std::string_view line, char separator, std::vector<std::string
   }
 }
 
-/// Independent of the locale. Empty where it is not a number as a whole; infinity where too large.
+/// A number in any locale. None unless the whole text is a number; infinity if it is too large.
 std::optional<double> number(std::string_view text) {
   if (!text.empty() && text.front() == '+') text.remove_prefix(1);
   double value = 0;
@@ -43,14 +43,14 @@ std::optional<double> number(std::string_view text) {
   if (text.empty() || end != text.data() + text.size() || error == std::errc::invalid_argument)
     return std::nullopt;
   if (error == std::errc::result_out_of_range) {
-    // Too small counts as zero; a negative exponent tells it from too large.
+    // A number that is too small counts as zero; its negative exponent tells it from a large one.
     const bool small = text.find("e-") != text.npos || text.find("E-") != text.npos;
     return small ? 0.0 : HUGE_VAL;
   }
   return value;
 }
 
-/// Shortened, without control characters.
+/// A field for messages: shortened, without control characters.
 std::string shown_field(std::string_view value) {
   constexpr std::size_t longest = 40;
   std::string text(value.substr(0, longest));
@@ -109,8 +109,8 @@ class Reader {
     throw CaseError(at_line() + ": column " + std::to_string(column + 1), problem);
   }
 
-  /// The first line is a header if all its fields are names of loads (which may look like numbers)
-  /// or none is a number.
+  /// Whether the first line is a header: all its fields are names of loads (which may look like
+  /// numbers), or none is a number.
   bool is_header() const {
     const auto is_load = [this](std::string_view field) {
       return std::find(_loads.begin(), _loads.end(), field) != _loads.end();
@@ -120,7 +120,7 @@ class Reader {
                         [this](std::string_view field) { return value_of(field).has_value(); });
   }
 
-  /// Of a field. Between semicolons a comma is a decimal point.
+  /// The value of a field. If semicolons separate fields, a comma is a decimal point.
   std::optional<double> value_of(std::string_view field) const {
     if (_separator == ',') return number(field);
     const std::size_t comma = field.find(',');
@@ -131,7 +131,8 @@ class Reader {
     return number(text);
   }
 
-  /// A number with a decimal comma beside one with a decimal point: one of them is of thousands.
+  /// Refuses a number with a decimal comma beside one with a decimal point, as one of the two
+  /// separates thousands.
   void check_decimal_mark(std::size_t column) {
     if (_separator == ',') return;
     const std::string_view field = _fields[column];
@@ -198,13 +199,13 @@ class Reader {
 
   std::string _source;
   const std::vector<std::string>& _loads;
-  std::vector<std::size_t> _columns;  ///< column of the text -> load
+  std::vector<std::size_t> _columns;  ///< load of each column of the text
   std::vector<std::string_view> _fields;
   std::vector<double> _values;
   unsigned _line = 0;
-  char _separator = ',';    ///< of all lines: a semicolon where the first has one
-  char _decimal_mark = 0;   ///< of all numbers; 0: none had one yet
-  unsigned _mark_line = 0;  ///< where it was first
+  char _separator = ',';    ///< for all lines: a semicolon if the first line has one
+  char _decimal_mark = 0;   ///< for all numbers; 0: no number had one yet
+  unsigned _mark_line = 0;  ///< line with the first one
   bool _begun = false;
 };
 

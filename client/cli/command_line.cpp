@@ -37,7 +37,7 @@ constexpr const char* footer =
     "  client/examples in the sources, /usr/share/anticrack/examples in the Debian package\n\n"
     "Example:\n  anticrack --local run paper.toml";
 
-// The code of a command that is over, unless standard output did not take what it had to say.
+// The exit code of a command that has ended; another one if standard output did not take its text.
 int checked_output(int code) {
   const int error = output::print_failure();
   if (error == 0) return code;
@@ -73,7 +73,7 @@ int parse_and_run(int argc, char** argv) {
   add_guide(app, globals, chosen);
   if (argc > 1 && std::string_view(argv[1]) == "--complete") {
     print_document(guide::completions(app, {argv + 2, argv + argc}, [&] {
-      app.parse("server");  // for the flags that the environment sets
+      app.parse("server");  // so that the environment sets the flags
       return case_keys(globals.connection);
     }));
     return exit_ok;
@@ -93,12 +93,12 @@ int parse_and_run(int argc, char** argv) {
     return code;
   } catch (const CLI::ParseError& error) {
     const std::vector<std::string> words(argv + 1, argv + argc);
-    // Whether it was read before the error is a matter of chance.
+    // Looked up here, as the parser may have stopped before it read --json.
     globals.json = std::find(words.begin(), words.end(), "--json") != words.end();
     const std::string problem = usage_text(app, error, words);
     return guarded(globals, [&problem]() -> int { throw UsageError(problem); });
   }
-  if (globals.local) globals.connection = {};  // what the environment names is not meant
+  if (globals.local) globals.connection = {};  // the server of the environment is not meant
   return guarded(globals, chosen);
 }
 

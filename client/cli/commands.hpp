@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The commands, one file per group, and the command line they make up.
+// The commands, one file per group, and the whole command line.
 #pragma once
 
 #include <functional>
@@ -18,8 +18,8 @@ namespace anticrack::cli {
 
 using Command = std::function<int()>;
 
-/// Each adds commands with their options to `app`. When one is parsed, it leaves its action, which
-/// returns the exit code, in `chosen`.
+/// Each function adds commands with their options to `app`. When a command is parsed, its action,
+/// which returns the exit code, is put into `chosen`.
 void add_run(CLI::App& app, const Globals& globals, Command& chosen);
 void add_sweep(CLI::App& app, const Globals& globals, Command& chosen);
 void add_mesh(CLI::App& app, const Globals& globals, Command& chosen);
@@ -27,10 +27,10 @@ void add_job(CLI::App& app, const Globals& globals, Command& chosen);
 void add_files(CLI::App& app, const Globals& globals, Command& chosen);  ///< show, plot, export
 void add_server(CLI::App& app, const Globals& globals, Command& chosen);
 void add_explain(CLI::App& app, const Globals& globals, Command& chosen);
-/// The keys of cases that the server knows, for completion: none where it does not answer in a
+/// The keys of cases that the server knows, for completion; empty if it does not answer within a
 /// second.
 std::vector<std::string> case_keys(const ConnectionFlags& flags);
-/// completion, manual: of `app` as it is when they are run.
+/// Adds completion and manual, which use `app` as it is when they are run.
 void add_guide(CLI::App& app, const Globals& globals, Command& chosen);
 
 /// The whole command line: parses, runs, returns the exit code.

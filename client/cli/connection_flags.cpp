@@ -16,7 +16,7 @@
 namespace anticrack::cli {
 namespace {
 
-// As a shell reads it back.
+// The word in quotes if a shell needs them to read it back.
 std::string quoted_if_needed(const std::string& word) {
   const bool plain = word.find_first_not_of(
                          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"

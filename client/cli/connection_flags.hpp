@@ -27,15 +27,15 @@ struct ConnectionFlags {
 /// The flags, and the environment variables that replace them.
 void add_connection_flags(CLI::App& app, ConnectionFlags& flags);
 
-/// Reads the files. `notice` as in ConnectionOptions. Throws client::Error.
+/// Reads the files. `notice`: as in ConnectionOptions. Throws client::Error.
 client::ConnectionOptions connection_options(const ConnectionFlags& flags,
                                              std::function<void(const std::string&)> notice);
 
-/// The flags as given, for the end of a command line; may be empty.
+/// The flags as they were given, for the end of a command line; may be empty.
 std::string as_flags(const ConnectionFlags& flags);
 
-/// Throws UsageError unless the address is HOST:PORT or has a scheme of gRPC, as unix:PATH: gRPC
-/// would silently use another port.
+/// Throws UsageError unless the address is HOST:PORT or has a scheme of gRPC, like unix:PATH, since
+/// gRPC would silently use another port.
 void check_server_address(const std::string& address);
 
 }  // namespace anticrack::cli

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The file of --csv.
+// The file for --csv.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +8,8 @@
 
 namespace anticrack::cli {
 
-/// `csv` of the command line; empty stays empty. Throws where it cannot be written or is
-/// `result_file`.
+/// The path for `csv` of the command line; empty if that is empty. Throws if the file cannot be
+/// written or is `result_file`.
 std::filesystem::path csv_file(const std::string& csv, const std::filesystem::path& result_file);
 
 }  // namespace anticrack::cli

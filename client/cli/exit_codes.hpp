@@ -10,6 +10,6 @@ inline constexpr int exit_usage = 2;          ///< usage or case file wrong
 inline constexpr int exit_not_converged = 3;  ///< results are saved all the same
 inline constexpr int exit_server = 4;         ///< server unreachable or refusing
 inline constexpr int exit_interrupted = 130;  ///< Ctrl-C: detached or cancelled
-inline constexpr int exit_closed = 141;       ///< who read standard output, as head, has enough
+inline constexpr int exit_closed = 141;       ///< the reader of the output, like head, has enough
 
 }  // namespace anticrack::cli

@@ -82,7 +82,7 @@ std::vector<std::string> case_keys(const ConnectionFlags& flags) {
     for (const v1::CaseKey& key : found.keys())
       for (const std::string& name : key.names()) names.push_back(sanitise(name));
   } catch (const std::exception&) {
-    return {};  // a shell has nowhere to say so
+    return {};  // completion has no way to report the error
   }
   return names;
 }

@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What Python runs: `missing` where it lacks the package, or one that the package takes.
+/// Code for Python; it exits with `missing` if Python lacks the package, or one that this needs.
 constexpr const char* bootstrap =
     "import sys\n"
     "try:\n"
@@ -33,7 +33,7 @@ constexpr const char* bootstrap =
     "sys.exit(main(sys.argv[1:]))\n";
 constexpr int missing = 77;
 
-/// Both ends are closed in programs that are started.
+/// A pipe whose ends are closed in programs that are started.
 class Pipe {
  public:
   Pipe() {
@@ -72,11 +72,11 @@ std::string read_all(int descriptor) {
 std::string interpreter() {
   if (const char* given = std::getenv("ANTICRACK_PYTHON"); given != nullptr && *given != '\0')
     return given;
-  constexpr const char* of_debian = "/usr/bin/python3";  // for which Debian's packages are
+  constexpr const char* of_debian = "/usr/bin/python3";  // the one of Debian's packages
   return access(of_debian, X_OK) == 0 ? of_debian : find_program("python3").string();
 }
 
-/// With the package of a build before others.
+/// The environment, in which the package of a build comes before others.
 std::vector<std::string> environment() {
   std::vector<std::string> all;
   const fs::path built = this_program().parent_path().parent_path() / "python";
@@ -106,7 +106,7 @@ pid_t start(std::vector<std::string> words, int in, int out) {
   return process;
 }
 
-/// Its exit code, 128 and more of one that died of a signal.
+/// The exit code of a process; 128 and more if it died by a signal.
 int code_of(pid_t process) {
   int status = 0;
   while (waitpid(process, &status, 0) < 0)
@@ -143,7 +143,7 @@ int run_in_python(std::vector<std::string> words, std::string_view input, const 
   const pid_t process = start(std::move(words), in.reading(), out.writing());
   in.close_end(0);
   out.close_end(1);
-  // It reads all before it answers; one that ends before tells so by its code.
+  // The process reads everything before it answers; if it ends earlier, its exit code says so.
   output::write_all(in.writing(), std::as_bytes(std::span(input)));
   in.close_end(1);
   const std::string answer = read_all(out.reading());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-//   anticrack show | plot | export: what needs a result file and no server
+//   anticrack show | plot | export: the commands that need a result file and no server
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ namespace {
 struct FileOptions {
   std::string file;
   std::string folder;
-  std::vector<std::string> loads;  ///< none: all
+  std::vector<std::string> loads;  ///< empty: all
   std::string csv;
   bool inclusions = false, all = false;
 };
@@ -44,7 +44,7 @@ struct PlotOptions {
   FigureOptions figures;
 };
 
-// The result with the loads that were asked for, in their order.
+// The result with the requested loads, in their order.
 results::Result read_result(const FileOptions& options) {
   results::Result result = results::read(options.file);
   if (options.loads.empty()) return result;
@@ -61,7 +61,7 @@ results::Result read_result(const FileOptions& options) {
     chosen.push_back(result.loads[static_cast<std::size_t>(found - names.begin())]);
   }
   result.loads = std::move(chosen);
-  result.sweep.reset();  // of which these are rows
+  result.sweep.reset();  // the loads are some of its rows
   return result;
 }
 
@@ -99,7 +99,7 @@ int show_file(const FileOptions& options, const Globals& given) {
   return exit_ok;
 }
 
-// The files that were made, and what was left out.
+// Tells the files that were made, and what was left out.
 int tell_made(const std::vector<std::filesystem::path>& files,
               const std::vector<std::string>& notes, const Globals& globals) {
   if (globals.json) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Programs that this one starts.
+// Finds programs that this one starts.
 #pragma once
 
 #include <filesystem>
@@ -8,11 +8,11 @@
 
 namespace anticrack::cli {
 
-/// This executable, behind all links.
+/// The path of this executable, with all links resolved.
 std::filesystem::path this_program();
 
-/// The program of this name beside `executable`, else the first on `search_path` (as PATH); empty
-/// for none.
+/// The program of this name beside `executable`, else the first on `search_path` (like PATH); empty
+/// if there is none.
 std::filesystem::path find_program(const std::string& name, const std::filesystem::path& executable,
                                    const std::string& search_path);
 

@@ -29,7 +29,7 @@ double steady_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// By two clocks that may differ: never negative.
+// The age of a job by two clocks that may differ; never negative.
 double age_of(const v1::Job& job) {
   return std::max(0., seconds_between(job.create_time(), TimeUtil::GetCurrentTime()));
 }
@@ -81,7 +81,7 @@ class View {
   std::unique_ptr<Frames> _frames;  // last: its thread uses the others
 };
 
-/// What Ctrl-C means while a job is watched: the first one detaches, a second one cancels. With a
+/// Handles Ctrl-C while a job is watched: the first one detaches, a second one cancels. With a
 /// private server the first one cancels.
 class Interrupts {
  public:
@@ -97,11 +97,11 @@ class Interrupts {
           }
         }) {}
 
-  /// Ends the watch.
+  /// The token that ends the watch.
   std::stop_token detached() const noexcept { return _detached.get_token(); }
 
-  /// To be asked when the watch is over: whether the job was to be cancelled. Throws what that
-  /// failed of.
+  /// Whether the job was to be cancelled; to be called after the watch. Throws the error if
+  /// cancelling failed.
   bool asked_to_cancel() {
     _thread.request_stop();
     _thread.join();
@@ -133,7 +133,7 @@ class Interrupts {
   std::jthread _thread;  // last: it uses the others
 };
 
-// The job as it ended; empty where the watch was detached.
+// The job as it ended; empty if the watch was detached.
 std::optional<v1::Job> watch(Session& session, const std::string& job, View& view,
                              const std::stop_token& detached) {
   try {

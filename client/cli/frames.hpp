@@ -13,8 +13,9 @@
 
 namespace anticrack::cli {
 
-/// A Painter where people look (see shows_frames) that follows the terminal's size, and makes room
-/// when the command is stopped (Ctrl-Z) or ended. One at a time.
+/// Has a Painter if a user looks at the terminal (see shows_frames). It follows the terminal's
+/// size, and leaves the screen when the command is stopped (Ctrl-Z) or ended. There may be one at a
+/// time.
 class Frames {
  public:
   /// `render` gives the lines of a frame; it is called on the painter's thread.
@@ -36,7 +37,7 @@ class Frames {
   Frames(const Frames&) = delete;
   Frames& operator=(const Frames&) = delete;
 
-  /// There is something new to draw.
+  /// To be called when there is something new to draw.
   void refresh() { _painter.refresh(); }
 
  private:

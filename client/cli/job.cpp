@@ -69,7 +69,7 @@ const std::map<std::string, v1::Job::State> states{
     {"cancelled", v1::Job::STATE_CANCELLED},
 };
 
-// "3/4": load cases, or rows of a sweep, that have ended.
+// The number of load cases, or rows of a sweep, that have ended, like "3/4".
 std::string ended_text(const v1::Job& job) {
   if (job.has_sweep()) {
     const v1::SweepAnswer& sweep = job.sweep_answer();
@@ -88,7 +88,7 @@ int list_jobs(const JobOptions& options, const Globals& globals) {
   if (!options.mesh.empty()) request.set_mesh(full_name(Collection::meshes, options.mesh));
   request.set_oldest_first(options.oldest_first);
   v1::ListJobsResponse response = client::list_jobs(session.connection(), request, session.stop());
-  // A page of few jobs that fit may be short. MergeFrom keeps the token where the new one is empty.
+  // A page may have fewer jobs than wanted. MergeFrom keeps the token if the new one is empty.
   while (response.jobs_size() < options.limit && !response.next_page_token().empty()) {
     request.set_page_size(options.limit - response.jobs_size());
     request.set_page_token(response.next_page_token());
@@ -106,7 +106,7 @@ int list_jobs(const JobOptions& options, const Globals& globals) {
                     std::string(word(job.state())), ended_text(job), sanitise(job.mesh()),
                     sanitise(job.owner()), sanitise(job.title())});
   }
-  drop_if_empty(rows, 5);  // no users: no owners
+  drop_if_empty(rows, 5);  // without users there are no owners
   print_document(table(rows, {1, 2, 4, 5, 6}));
   if (!response.next_page_token().empty()) say(globals, "There are more; see --limit");
   return exit_ok;
@@ -156,7 +156,7 @@ int watch_job(const JobOptions& options, const Globals& globals) {
   return followed.how == Followed::How::cancelled ? exit_interrupted : exit_code_of(followed.job);
 }
 
-// The load cases of a job, to be solved again on its mesh, which is factorised, with fields.
+// A job that solves the load cases of another one again, with fields, on the same mesh.
 v1::Job with_fields(const v1::Job& job) {
   v1::Job again;
   again.set_title(job.title());
@@ -175,7 +175,7 @@ bool has_fields(const v1::Job& job) {
   return std::ranges::find(job.outputs(), v1::OUTPUT_FIELDS) != job.outputs().end();
 }
 
-// Of a job that has ended without fields: one that is solved anew and has them.
+// Solves a job that has ended without fields anew, with fields.
 Followed solve_with_fields(Session& session, const v1::Job& job) {
   if (job.has_sweep()) {
     throw UsageError(job.name() +

@@ -36,7 +36,7 @@ std::string summary(const results::Result& result, const fs::path& file) {
          " s in all)";
 }
 
-// Why a job came to nothing, line by line, in terms of its case.
+// The reasons why a job has no answers, line by line, in terms of its case.
 std::vector<std::string> causes(const Case& the_case, const v1::Job& job) {
   const auto text_of = [&the_case](const v1::Status& error) {
     return std::string(in_terms_of(the_case, client::decode_error(error)).what());
@@ -56,7 +56,7 @@ std::vector<std::string> causes(const Case& the_case, const v1::Job& job) {
   return lines;
 }
 
-// What an import took for what, or repaired.
+// Prints the warnings of an import: what it assumed, or repaired.
 void tell_warnings(Session& session, const v1::Job& job, const std::stop_token& stop,
                    const Ahead* ahead) {
   const v1::Mesh mesh =
@@ -64,7 +64,7 @@ void tell_warnings(Session& session, const v1::Job& job, const std::stop_token& 
   for (const std::string& warning : mesh.warnings()) say(session.globals(), "mesh: " + warning);
 }
 
-// For who has no results yet though the server has them.
+// Says how to fetch results that the server has but the user has not.
 void tell_fetch(const Session& session, const std::string& job) {
   if (!session.globals().local) {
     say_always(session.globals(),
@@ -89,7 +89,7 @@ auto or_later(const Session& session, const v1::Job& job, const Action& action) 
 fs::path result_file(const std::string& case_file, const std::string& output) {
   fs::path file =
       output.empty() ? fs::path(case_file).filename().replace_extension(".h5") : fs::path(output);
-  std::error_code none;  // a file that is not there is no other file
+  std::error_code none;  // a missing file is no error
   if (fs::equivalent(file, case_file, none))
     throw results::Error(file.string(), "is the case itself", "name another file for the results");
   output::check_writable(file);
@@ -132,7 +132,7 @@ std::optional<results::Result> results_of(Session& session, const Case& the_case
                                           const Followed& followed,
                                           std::chrono::steady_clock::time_point begin) {
   const v1::Job& job = followed.job;
-  // What cancelled the job shall not keep what it had solved from being saved.
+  // The signal that cancelled the job must not prevent saving what it had solved.
   const std::stop_token stop =
       followed.how == Followed::How::cancelled ? std::stop_token() : session.stop();
   Ahead* const ahead = followed.ahead.get().get();

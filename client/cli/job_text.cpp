@@ -17,7 +17,7 @@ namespace {
 
 using google::protobuf::util::TimeUtil;
 
-// What is not as usual, in one line.
+// Unusual circumstances of a job, in one line.
 std::string circumstances(const v1::Job& job) {
   constexpr std::array<std::string_view, 4> priorities{"normal", "interactive", "normal", "bulk"};
   std::string text = "priority " + std::string(word_of(priorities, job.priority()));
@@ -49,7 +49,7 @@ std::string sweep_answer(const v1::Job& job) {
   return text;
 }
 
-// Seconds since it was created, so that one sees how long each state took.
+// The steps with the seconds since the job was created, which show how long each state took.
 std::string timeline(const v1::Job& job) {
   if (job.timeline().empty()) return "";
   const auto& begin = job.has_create_time() ? job.create_time() : job.timeline(0).time();

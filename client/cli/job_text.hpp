@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A job for people. Pure.
+// A job as text for users. Pure.
 #pragma once
 
 #include <string>
@@ -10,13 +10,13 @@
 
 namespace anticrack::cli {
 
-/// State, owner, attempt, the answers so far and what happened when.
+/// State, owner, attempt, the answers so far, and the times of its steps.
 std::string job_text(const v1::Job& job);
 
-/// That the results of a job were removed, and what to do.
+/// A text that says that the results of a job were removed, and what to do.
 std::string expired_text(const v1::Job& job);
 
-/// What did not go as it was asked for in a job that has ended, line by line; none: nothing.
+/// The requests that a job which has ended did not fulfil, line by line; empty if there are none.
 std::vector<std::string> shortfalls(const v1::Job& job);
 
 }  // namespace anticrack::cli

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The output of --json: of our own tables by nlohmann's library, of resources by protobuf's
-// mapping.
+// The output of --json: our own tables by nlohmann's library, resources by protobuf's mapping.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -17,11 +16,11 @@ namespace anticrack::cli {
 /// Members keep their order, unlike those of a protobuf Struct.
 using Json = nlohmann::ordered_json;
 
-/// Indented by two spaces, in ASCII, so that no text reaches a terminal as control characters.
-/// Numbers that are not finite are null, bytes that are not UTF-8 are replaced.
+/// The document as text, indented by two spaces and in ASCII, so that no control characters reach a
+/// terminal. Numbers that are not finite are null; bytes that are not UTF-8 are replaced.
 std::string to_text(const Json& document);
 
-/// With the proto's own field names, and fields that are zero.
+/// A message as JSON, with the proto's field names and including fields that are zero.
 std::string to_json(const google::protobuf::Message& message);
 
 }  // namespace anticrack::cli

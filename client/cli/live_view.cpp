@@ -50,14 +50,14 @@ std::string state_of(const JobProgress& progress) {
          (progress.detail.empty() ? "" : " (" + progress.detail + ")");
 }
 
-// Whole seconds while the job runs, else the text would flicker.
+// The time that has passed; whole seconds while the job runs, as the text would flicker otherwise.
 std::string elapsed_of(const JobProgress& progress) {
   if (!std::isfinite(progress.elapsed)) return "";
   return ", " +
          time_text(client::ended(progress.state) ? progress.elapsed : std::floor(progress.elapsed));
 }
 
-// A narrow terminal drops the name of the job first: it was printed before.
+// The head line. A narrow terminal drops the name of the job first, as it was printed before.
 std::string head_of(const JobProgress& progress, std::size_t width) {
   const std::string name = (progress.job.empty() ? "job" : progress.job) + ": ";
   const std::string state = state_of(progress) + elapsed_of(progress);
@@ -76,7 +76,7 @@ std::string head_of(const JobProgress& progress, std::size_t width) {
   return fit(state + short_done, width);
 }
 
-// A narrow terminal has no room for the bar.
+// The line of a sweep; without the bar on a narrow terminal.
 std::string sweep_line(const SweepProgress& sweep, std::size_t width) {
   const std::string pace = pace_of(sweep);
   const std::size_t used = columns_of(pace);
@@ -89,7 +89,7 @@ std::string count_of(std::int32_t iterations, bool active_set) {
          (iterations == 1 ? "" : "s");
 }
 
-// Not for the active set, which ends when nothing changes any more.
+// The criterion; empty for the active set, which ends when nothing changes any more.
 std::string criterion_of(const CaseProgress& progress, bool active_set) {
   return active_set ? "" : ", criterion " + number(progress.criterion, 2, true);
 }
@@ -97,7 +97,7 @@ std::string criterion_of(const CaseProgress& progress, bool active_set) {
 }  // namespace
 
 std::vector<std::string> frame(const JobProgress& progress, std::size_t width, std::size_t height) {
-  // The last column stays empty: writing it may wrap the line.
+  // The last column stays empty, as writing to it may wrap the line.
   const std::size_t room = std::max<std::size_t>(width, 2) - 1;
   std::vector<std::string> lines{head_of(progress, room)};
   for (const std::string& message : {progress.notice, progress.prompt})
@@ -154,7 +154,7 @@ std::vector<std::string> PlainLog::lines(const JobProgress& progress) {
   for (std::size_t i = 0; i < _cases.size(); ++i) {
     const CaseProgress& now = progress.cases[i];
     Seen& seen = _cases[i];
-    // In each stage again: what goes well there is told by the line of the stage.
+    // Told again in each stage, except for cases that converged: the stage has a line for those.
     const bool told = progress.accuracy && now.status == results::Status::converged;
     const bool newly_ended = ended(now.status) && now.status != seen.status && !told;
     if (newly_ended) {

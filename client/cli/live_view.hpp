@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A job's progress as text: frames for a terminal, lines for a pipe. Pure.
+// The progress of a job as text: frames for a terminal, lines for a pipe. Pure.
 #pragma once
 
 #include <cstddef>
@@ -12,18 +12,18 @@
 namespace anticrack::cli {
 
 /// At most max(`height`, 3) lines of fewer than `width` columns: a head line, lines for a notice
-/// and for the effect of Ctrl-C, then one line per load case. If they do not fit: those running,
-/// the last ones that ended and the next ones, in the order of the job, and a line that counts the
-/// others. With an accuracy a line per stage before them, the last ones if they do not fit. For a
-/// sweep one line: bar, rows per second, time left, rows that did not converge. Narrow terminals
-/// keep state, progress and criterion longest.
+/// and for the effect of Ctrl-C, then one line per load case. If these do not fit, it has those
+/// that run, the last ones that ended and the next ones, in the order of the job, and a line that
+/// counts the others. With an accuracy there is a line per stage before them; if not all fit, only
+/// the last ones. A sweep has one line: bar, rows per second, time left, rows that did not
+/// converge. Narrow terminals keep state, progress and criterion longest.
 std::vector<std::string> frame(const JobProgress& progress, std::size_t width, std::size_t height);
 
 /// Lines for a pipe: changes of state, ends of load cases, iterations 50, 100, 200, ... (doubling,
 /// so that a long iteration does not fill a log), every tenth of a sweep, and stages.
 class PlainLog {
  public:
-  /// What has changed since the last call.
+  /// Lines about the changes since the last call.
   std::vector<std::string> lines(const JobProgress& progress);
 
   static constexpr std::int64_t first_told = 50;
@@ -39,8 +39,8 @@ class PlainLog {
   std::string _prompt;
   std::int32_t _attempt = 0;
   std::vector<Seen> _cases;
-  std::uint64_t _rows = 0;  // printed last
-  std::size_t _stages = 0;  // printed
+  std::uint64_t _rows = 0;  // number printed last
+  std::size_t _stages = 0;  // number of stages printed
 };
 
 /// At most `height` lines, at least 1, of at most `width` columns; see frame.
@@ -48,7 +48,8 @@ std::vector<std::string> case_lines(const JobProgress& progress, std::size_t wid
                                     std::size_t height);
 
 inline constexpr std::size_t bar_room = 12;  ///< fewest columns of a bar
-/// "  [####----]", `fraction` of it full, in at most `room` columns, at least bar_room.
+/// A bar like "  [####----]", of which `fraction` is full, in at most `room` columns (at least
+/// bar_room).
 std::string bar(double fraction, std::size_t room);
 
 }  // namespace anticrack::cli

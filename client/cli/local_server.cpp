@@ -32,7 +32,7 @@ using std::chrono::steady_clock;
 
 constexpr milliseconds start_limit{30'000};
 constexpr milliseconds stop_limit{10'000};
-/// From the end of a connection to that of the process, which closes its files first.
+/// Time between the end of a connection and that of the process, which closes its files first.
 constexpr milliseconds dying_time{1'000};
 
 [[noreturn]] void fail(const std::string& what, int error) {
@@ -44,8 +44,8 @@ void close_once(int& descriptor) noexcept {
   descriptor = -1;
 }
 
-/// Starts it with default signals, in a session of its own: Ctrl-C and the end of the terminal are
-/// for the client, with which it ends.
+/// Starts the server with default signals in its own session: Ctrl-C and the end of the terminal
+/// are for the client, with which it ends.
 pid_t start_server(const fs::path& program, int in, int out, int err) {
   int error = 0;
   const int descriptors[] = {in, out, err};
@@ -55,7 +55,7 @@ pid_t start_server(const fs::path& program, int in, int out, int err) {
   return process;
 }
 
-/// `when`: "", or " before ...".
+/// The text that says how the server ended. `when`: "", or " before ...".
 std::string how_it_ended(int status, const std::string& when = "") {
   if (WIFEXITED(status))
     return "ended with exit code " + std::to_string(WEXITSTATUS(status)) + when;
@@ -72,7 +72,7 @@ std::string how_it_ended(int status, const std::string& when = "") {
   }
 }
 
-/// What a server that died without a chance to has left.
+/// Removes the files of a server that died before it could remove them.
 void remove_left(const std::string& address) noexcept {
   constexpr std::string_view scheme = "unix:";
   if (!address.starts_with(scheme)) return;
@@ -170,7 +170,7 @@ void LocalServer::require_alive() {
 }
 
 void LocalServer::end() noexcept {
-  close_once(_lifeline);  // which asks it to
+  close_once(_lifeline);  // which asks it to end
   if (_process > 0 && !has_ended(stop_limit)) {
     kill(_process, SIGKILL);
     has_ended(stop_limit);

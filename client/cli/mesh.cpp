@@ -49,7 +49,7 @@ int show_mesh(const Globals& globals, const v1::Mesh& mesh, const CaseFacts& fac
   return exit_ok;
 }
 
-// Of a command that is not asked to show the mesh: with --quiet only how to find one it has made.
+// Tells the mesh after a command with another purpose; with --quiet only the name of a new mesh.
 int tell_mesh(const Globals& globals, const v1::Mesh& mesh, bool made,
               const CaseFacts& facts = {}) {
   if (!globals.quiet || globals.json) return show_mesh(globals, mesh, facts);
@@ -104,8 +104,8 @@ Case case_of(Session& session, const MeshOptions& options) {
              : read_case(session, options.name, options.overrides);
 }
 
-/// For what draws it: the message, the layout of the arrays and their bytes, each behind its
-/// length.
+/// The mesh for the program that draws it: the message, the layout of the arrays and their bytes,
+/// each after its length.
 std::string drawn_mesh(const v1::Mesh& mesh, const client::Block& block) {
   std::string all;
   const auto add = [&all](std::string_view part) {
@@ -160,7 +160,7 @@ int list_meshes(const MeshOptions& options, const Globals& globals) {
                     std::to_string(mesh.node_count()), sanitise(mesh.owner()),
                     sanitise(mesh.title())});
   }
-  drop_if_empty(rows, 5);  // no users: no owners
+  drop_if_empty(rows, 5);  // without users there are no owners
   print_document(table(rows, {1, 2, 5, 6}));
   if (!response.next_page_token().empty()) say(globals, "There are more; see --limit");
   return exit_ok;

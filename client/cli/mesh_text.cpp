@@ -26,7 +26,7 @@ std::string motion_of(const Motion& motion) {
   return motion.tilt() ? ", tilts" : "";
 }
 
-/// Which side comes off, walked along the inclusion, where the case says it by left and right.
+/// The side that comes off, seen along the inclusion, if the case gives it as left or right.
 std::string side_of(const v1::Inclusion& inclusion) {
   if (inclusion.has_delaminated() && !inclusion.delaminated()) return "";
   if (inclusion.delaminated_side() == v1::LINE_SIDE_LEFT) return ", its left comes off";
@@ -34,8 +34,8 @@ std::string side_of(const v1::Inclusion& inclusion) {
   return right ? ", its right comes off" : "";
 }
 
-/// How inclusions move that do not just move by u = A, and which side of them comes off, by their
-/// names: the mesh's definition says it.
+/// For inclusions with other motions than u = A, or with a side that comes off: a text about these,
+/// by name, from the definition of the mesh.
 std::map<std::string, std::string> motions_of(const v1::Mesh& mesh) {
   std::map<std::string, std::string> motions;
   for (const v1::Inclusion& each : mesh.geometry().inclusions())
@@ -73,7 +73,7 @@ std::string sizes(const v1::Mesh& mesh) {
   return text;
 }
 
-/// A second head, where the case names any: the dimensions as Units::of takes them, empty for none.
+/// Adds a second head row if the case names units. `dimensions`: as for Units::of, or empty.
 void add_units(const results::Units& units, const std::vector<std::string>& dimensions,
                Rows& rows) {
   if (units == results::Units{}) return;
@@ -135,8 +135,7 @@ std::string tips(const v1::Mesh& mesh, const results::Units& units) {
 }
 
 std::string boundary(const v1::Mesh& mesh, const CaseFacts& facts) {
-  if (mesh.dirichlet_length() + mesh.neumann_length() <= 0)
-    return "";  // of a server that does not say
+  if (mesh.dirichlet_length() + mesh.neumann_length() <= 0) return "";  // the server does not tell
   std::string sides;
   for (const std::string& name : mesh.geometry().neumann_sides())
     sides += (sides.empty() ? ": " : ", ") + sanitise(name);

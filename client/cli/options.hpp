@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What several commands add to the parser.
+// Options that several commands add to the parser.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -15,7 +15,7 @@
 
 namespace anticrack::cli {
 
-/// When `command` is parsed, leaves action(options, globals) in `chosen`.
+/// When `command` is parsed, puts action(options, globals) into `chosen`.
 template <class Options>
 void on(CLI::App& command, const std::shared_ptr<Options>& options, const Globals& globals,
         Command& chosen, std::type_identity_t<int (*)(const Options&, const Globals&)> action) {
@@ -23,12 +23,12 @@ void on(CLI::App& command, const std::shared_ptr<Options>& options, const Global
       [=, &globals, &chosen] { chosen = [=, &globals] { return action(*options, globals); }; });
 }
 
-/// CASE
+/// Adds the argument CASE.
 inline void add_case(CLI::App& command, std::string& file) {
   command.add_option("CASE", file, "The case, a TOML file")->required()->type_name("FILE");
 }
 
-/// --limit and --owner of a command that lists `what`.
+/// Adds --limit and --owner to a command that lists `what`.
 inline void add_list_flags(CLI::App& command, const std::string& what, int& limit,
                            std::string& owner) {
   command.add_option("--limit", limit, "Show at most this many, from 1 to 1000")
@@ -41,17 +41,17 @@ inline void add_list_flags(CLI::App& command, const std::string& what, int& limi
       ->type_name("NAME");
 }
 
-/// The options of commands that draw, as they are passed on to what draws, which checks them.
+/// The options of commands that draw, as passed on to the program that draws, which checks them.
 struct FigureOptions {
   std::optional<std::string> folder, format, dpi, width, font;
   bool no_titles = false;
   std::string folder_help = "Folder of the figures (default: figures)";
 };
 
-/// `options` must outlive the app.
+/// Adds the options. `options` must outlive the app.
 void add_figure_options(CLI::App& app, FigureOptions& options);
 
-/// Those that were given, as words of a command line.
+/// The options that were given, as words of a command line.
 std::vector<std::string> words_of(const FigureOptions& options);
 
 }  // namespace anticrack::cli

@@ -28,7 +28,7 @@ void JobProgress::apply(const v1::WatchJobResponse& event, double seconds) {
     case v1::WatchJobResponse::kPhase:
       enter(event.phase().state(), event.phase().detail());
       if (sweep && state == v1::Job::STATE_RUNNING)
-        sweep->apply(v1::SweepRows(), seconds);  // no rows yet: the rate is measured from here
+        sweep->apply(v1::SweepRows(), seconds);  // without rows: the rate is measured from here on
       break;
     case v1::WatchJobResponse::kHeartbeat:
       enter(event.heartbeat().state(), event.heartbeat().detail());
@@ -59,7 +59,7 @@ void JobProgress::begin_stage() {
   }
 }
 
-// A late watch repeats stages that the snapshot had.
+// Adds a stage, unless the snapshot had it already: a late watch repeats stages.
 void JobProgress::apply(const v1::Stage& stage) {
   _between_stages = true;
   const auto known = std::ranges::find(stages, stage.mesh(), &StageErrors::mesh);
@@ -95,7 +95,7 @@ void JobProgress::apply(const v1::Job& job_now) {
   }
   if (job_now.has_accuracy()) {
     accuracy = job_now.accuracy();
-    begin_stage();  // the answers are those of the newest
+    begin_stage();  // the answers are those of the newest stage
     stages = stages_of(job_now);
     _between_stages =
         !stages.empty() && stages.size() == static_cast<std::size_t>(job_now.stages_size());
@@ -114,7 +114,7 @@ void JobProgress::apply(const v1::Samples& samples) {
     const auto index = static_cast<std::size_t>(samples.load_case(i));
     if (samples.load_case(i) < 0 || index >= cases.size()) continue;
     CaseProgress& progress = cases[index];
-    // Old or late samples: a case that has ended does not run again.
+    // Skip old or late samples, since a case that has ended does not run again.
     if (ended(progress.status) || samples.iteration(i) <= progress.iteration) continue;
     progress.status = Status::running;
     progress.iteration = samples.iteration(i);

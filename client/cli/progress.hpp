@@ -26,27 +26,27 @@ struct CaseProgress {
   std::int32_t contact_count = 0;
   double seconds = 0;        ///< once ended
   std::string remark;        ///< why it did not converge, or failed
-  std::size_t end_rank = 0;  ///< 1 for the first that ended, and so on; 0 before
+  std::size_t end_rank = 0;  ///< 1 for the first that ended, and so on; 0 before its end
 };
 
 struct JobProgress {
   std::string job;
   v1::Job::State state = v1::Job::STATE_UNSPECIFIED;
   std::string detail;        ///< phase, e.g. "meshing"
-  std::string notice;        ///< e.g. that the connection is lost; empty: none
-  std::string prompt;        ///< the effect of Ctrl-C; empty before
-  std::int32_t attempt = 0;  ///< of the server at the job; 0 before the first snapshot
-  bool active_set = false;   ///< a handful of steps, no criterion; else iterations of Algorithm 2
-  double target = 1e-12;     ///< of the criterion; 0: something else ends the iteration
-  std::vector<CaseProgress> cases;       ///< none of a sweep; with an accuracy in the newest stage
-  std::optional<SweepProgress> sweep;    ///< of a sweep
-  std::optional<v1::Accuracy> accuracy;  ///< of a job in stages
-  std::vector<StageErrors> stages;       ///< that have ended
+  std::string notice;        ///< a message, e.g. that the connection is lost; may be empty
+  std::string prompt;        ///< the effect of Ctrl-C; empty before Ctrl-C
+  std::int32_t attempt = 0;  ///< the job's attempt; 0 before the first snapshot
+  bool active_set = false;   ///< few steps, no criterion; else iterations of Algorithm 2
+  double target = 1e-12;     ///< target of the criterion; 0: something else ends the iteration
+  std::vector<CaseProgress> cases;       ///< none for a sweep; with an accuracy of the newest stage
+  std::optional<SweepProgress> sweep;    ///< for a sweep
+  std::optional<v1::Accuracy> accuracy;  ///< for a job in stages
+  std::vector<StageErrors> stages;       ///< stages that have ended
   std::size_t ended_count = 0;
-  /// Seconds since it was submitted; NaN: unknown. Set by the caller until the job has ended.
+  /// Seconds since the job was submitted; NaN: unknown. The caller sets it until the job has ended.
   double elapsed = std::numeric_limits<double>::quiet_NaN();
 
-  /// `seconds`: when the event arrived, on any monotonic clock.
+  /// Updates the progress by an event. `seconds`: when the event arrived, on any monotonic clock.
   void apply(const v1::WatchJobResponse& event, double seconds = 0);
 
  private:
@@ -60,12 +60,12 @@ struct JobProgress {
   bool _between_stages = false;  // the cases are those of a stage that has ended
 };
 
-/// "converged", "not converged", "running", ... for people.
+/// The word for a status: "converged", "not converged", "running", ...
 std::string_view word(results::Status status) noexcept;
-/// "queued", "waiting for the mesh", ... for people.
+/// The word for a state: "queued", "waiting for the mesh", ...
 std::string_view word(v1::Job::State state) noexcept;
 std::string_view word(v1::Mesh::State state) noexcept;
-/// The same, and how far the mesher is: "meshing: bisecting a mesh, 120000 triangles".
+/// The same with the progress of the mesher: "meshing: bisecting a mesh, 120000 triangles".
 std::string state_text(const v1::Mesh& mesh);
 
 /// The status of the API; a later server may send unknown values.
@@ -73,14 +73,14 @@ inline results::Status status_of(const v1::LoadCaseAnswer& answer) {
   return static_cast<results::Status>(answer.status());
 }
 
-/// Whether the load case will not change any more.
+/// Whether a load case with this status no longer changes.
 bool ended(results::Status status) noexcept;
 
-/// For example from creation to end of a job.
+/// Seconds between two times, for example from creation to end of a job.
 double seconds_between(const google::protobuf::Timestamp& from,
                        const google::protobuf::Timestamp& to);
 
-/// The part, 0 to 1, of the way from 1 down to `target` on a log scale.
+/// How much of the way from 1 down to `target` is done, 0 to 1, on a log scale.
 double bar_fraction(double criterion, double target) noexcept;
 
 }  // namespace anticrack::cli

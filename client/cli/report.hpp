@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Errors on their way out: a message for people, a document for --json, an exit code.
+// Reports errors: a message for users, a document for --json, an exit code.
 #pragma once
 
 #include <functional>
@@ -11,17 +11,17 @@
 
 namespace anticrack::cli {
 
-/// A command line that means nothing. what() gives the bad word and the cure.
+/// A command line that cannot be understood. what() gives the bad word and the cure.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// What the shell is told of a call that failed: exit_usage where another case or argument would
-/// help, exit_server where another server or time would.
+/// The exit code for a call that failed: exit_usage if another case or argument would help,
+/// exit_server if another server or another time would.
 int exit_code_of(client::Code code) noexcept;
 
-/// Runs a command; its exit code, or that of what it threw.
+/// Runs a command; returns its exit code, or the one for the exception that it threw.
 int guarded(const Globals& globals, const std::function<int()>& command);
 
 }  // namespace anticrack::cli

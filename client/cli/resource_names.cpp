@@ -14,7 +14,7 @@ namespace {
 constexpr int names_looked_at = 1000;
 
 struct CollectionWords {
-  std::string prefix;  ///< of names
+  std::string prefix;  ///< of the collection's names
   std::string one;
   std::string see;
 };
@@ -85,7 +85,7 @@ client::Error with_cure(Session& session, Collection collection, const std::stri
   try {
     cure = name_cure(collection, name, names_of(session, collection));
   } catch (const client::Error&) {
-    // Report the first error.
+    // Then the first error is reported.
   }
   return client::Error(error.code(), error.what() + cure, error.details());
 }

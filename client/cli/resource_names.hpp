@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Names of meshes and jobs as people type them, and suggestions for unknown ones.
+// Names of meshes and jobs as users type them, and suggestions for unknown ones.
 #pragma once
 
 #include <string>
@@ -13,19 +13,20 @@ namespace anticrack::cli {
 
 enum class Collection { meshes, jobs };
 
-/// "jobs/ID" of "jobs/ID" or "ID". Throws UsageError for anything else.
+/// The full name, "jobs/ID" for "jobs/ID" or "ID". Throws UsageError for anything else.
 std::string full_name(Collection collection, const std::string& given);
 
-/// The cure for a `name` that is not among `known`: the one that begins with it, the nearest, or
-/// where to look. A suggestion only: names must be exact, so that nothing is deleted by mistake.
+/// The cure for a `name` that is not among `known`: the name that begins with it, the nearest one,
+/// or where to look. It is only a suggestion: names must be exact, so that nothing is deleted by
+/// mistake.
 std::string name_cure(Collection collection, const std::string& name,
                       const std::vector<std::string>& known);
 
-/// The error with its cure, from the names that this user may see, newest first.
+/// The error with name_cure(), from the names that this user may see, newest first.
 client::Error with_cure(Session& session, Collection collection, const std::string& name,
                         const client::Error& error);
 
-/// call(). An unknown resource `name` is an error that suggests another name.
+/// Runs call(). The error for an unknown resource `name` suggests another name.
 template <class Call>
 auto about(Session& session, Collection collection, const std::string& name, const Call& call)
     -> decltype(call()) {
@@ -37,7 +38,7 @@ auto about(Session& session, Collection collection, const std::string& name, con
   }
 }
 
-/// call(connection, name, more..., stop), a function of the client library, as in `about`.
+/// Runs call(connection, name, more..., stop), a function of the client library, as `about` does.
 template <class Call, class... More>
 auto call_about(Session& session, Collection collection, const std::string& name, const Call& call,
                 const More&... more) {

@@ -24,7 +24,7 @@ class Selection {
     throw CaseError("--traces " + _text, problem);
   }
 
-  /// Sorted, without overlaps.
+  /// The ranges sorted and without overlaps.
   std::vector<Range> ranges() const {
     if (_text == "none" || _rows == 0) return {};
     if (_text == "all") return {{0, _rows - 1}};

@@ -28,7 +28,7 @@ int run(const RunOptions& options, const Globals& given) {
   Case the_case =
       read_case(session, options.case_file, options.overrides, Loads::needed, options.loads);
   if (the_case.job.priority() == v1::Job::PRIORITY_UNSPECIFIED)
-    the_case.job.set_priority(v1::Job::PRIORITY_INTERACTIVE);  // somebody waits for it
+    the_case.job.set_priority(v1::Job::PRIORITY_INTERACTIVE);  // a user waits for it
   const std::filesystem::path output = result_file(options.case_file, options.output);
   if (!the_case.job.title().empty()) say(globals, the_case.job.title());
   const Followed followed = submit_and_follow(session, the_case);

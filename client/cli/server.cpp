@@ -16,7 +16,7 @@
 namespace anticrack::cli {
 namespace {
 
-// "force: array, constant, ...": a line for each prefix before a dot, one line for the others.
+// Lines like "force: array, constant, ...", one for each prefix before a dot, one for the others.
 std::vector<std::string> feature_lines(const v1::ServerInfo& info) {
   std::map<std::string, std::string> groups;
   for (const std::string& feature : info.features()) {

@@ -63,7 +63,7 @@ void complain(std::string_view line) {
   std::fprintf(stderr, "anticrack: %s\n", sanitise(line).c_str());
 }
 
-// Whatever part of it was not sanitised: a last line of defence, which leaves lines alone.
+// Sanitises whatever was not sanitised before, as a last defence; line breaks stay.
 void print_document(std::string_view text) {
   output::print(with_newline(words::shown(text, "\n\t")));
 }

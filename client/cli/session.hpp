@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What commands share: global options, output, the connection to a server.
+// What all commands use: global options, output, the connection to a server.
 #pragma once
 
 #include <cstdio>
@@ -23,29 +23,30 @@ struct Globals {
   ConnectionFlags connection;
   bool local = false;
   bool json = false;
-  bool quiet = false;  ///< errors, and what was asked for as output
-  /// Standard output is a file of the command, as of -o -: what people read goes to standard error.
+  bool quiet = false;  ///< print only errors and the requested output
+  /// Whether standard output is a file of the command, as with -o -; text for users then goes to
+  /// standard error.
   bool output_taken = false;
 };
 
-/// `globals` of a command that writes to these paths; empty ones are none. Throws UsageError where
-/// standard output would get two things.
+/// The globals for a command that writes to these paths; empty paths do not count. Throws
+/// UsageError if standard output would get two things.
 Globals with_outputs(const Globals& globals, std::initializer_list<std::string> paths);
 
-/// Stream for messages: standard output, or where that is for programs standard error.
+/// The stream for messages: standard output, or standard error if standard output is for programs.
 std::FILE* people(const Globals& globals);
-/// Whether messages are frames drawn over each other and not lines.
+/// Whether messages are frames drawn over each other instead of lines.
 bool shows_frames(const Globals& globals);
 /// Prints a message; nothing with --quiet.
 void say(const Globals& globals, std::string_view line);
-/// The same of one that --quiet does not silence; then it goes to standard error.
+/// The same for a message that --quiet does not silence; it then goes to standard error.
 void say_always(const Globals& globals, std::string_view line);
-/// An error, on standard error.
+/// Prints an error to standard error.
 void complain(std::string_view line);
-/// Prints the document of --json, or the answer of a command. As of `say`, what standard output
-/// does not take is told at the end of the command, by output::print_failure.
+/// Prints the document of --json, or the answer of a command. As with `say`, a failure of standard
+/// output is reported at the end of the command, by output::print_failure.
 void print_document(std::string_view text);
-/// Prints the answer of a command that also writes files, for people.
+/// Prints the answer of a command that also writes files, for users.
 void print_answer(const Globals& globals, std::string_view text);
 
 /// Says that a resource was deleted.
@@ -58,7 +59,7 @@ class Session {
 
   client::Connection& connection() noexcept { return *_connection; }
   Signals& signals() noexcept { return _signals; }
-  /// Requested by the first signal.
+  /// The token that the first signal requests.
   std::stop_token stop() const noexcept { return _signals.first(); }
   const Globals& globals() const noexcept { return _globals; }
   /// The flags that lead to this server, for the end of a command line; may be empty.
@@ -74,10 +75,10 @@ class Session {
   void notice(const std::string& message);
 
   Globals _globals;
-  Signals _signals;  // first: all threads inherit its mask
+  Signals _signals;  // first, as all threads inherit its mask
   std::optional<LocalServer> _local;
   std::optional<client::Connection> _connection;
-  std::mutex _mutex;  ///< of the two below: calls are made on several threads
+  std::mutex _mutex;  ///< guards the next two, as calls are made on several threads
   std::function<void(const std::string&)> _listener;
   std::string _last_notice;
 };

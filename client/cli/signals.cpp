@@ -91,7 +91,7 @@ void Signals::listen() {
   }
 }
 
-// Stops by the signal itself, which does nothing without a shell that could continue the process.
+// Stops the process by the signal itself, which does nothing if there is no shell to continue it.
 void Signals::stop_as_asked() {
   screen(Screen::leaving);
   sigset_t stopping;

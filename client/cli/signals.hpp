@@ -14,40 +14,39 @@
 
 namespace anticrack::cli {
 
-/// Handles the signals while it lives, except those ignored before (nohup). Create it before any
-/// other thread: threads inherit the blocked signals. The third Ctrl-C, SIGTERM or SIGHUP ends the
-/// process at once. SIGPIPE is ignored.
+/// Handles the signals while it lives, except those that were ignored before (nohup). Create it
+/// before any other thread, as threads inherit the blocked signals. The third Ctrl-C, SIGTERM or
+/// SIGHUP ends the process at once. SIGPIPE is ignored.
 class Signals {
  public:
   /// Events that affect a frame on the terminal.
   enum class Screen {
     leaving,  ///< the process is about to be stopped (Ctrl-Z) or ended
-    back,     ///< it continues; others may have written meanwhile
+    back,     ///< the process continues; others may have written meanwhile
     resized,
   };
 
-  /// Starts a thread that waits for them.
+  /// Starts a thread that waits for the signals.
   Signals();
   ~Signals();
   Signals(const Signals&) = delete;
   Signals& operator=(const Signals&) = delete;
 
-  /// From here on a closed pipe ends the process, as it does other programs: for a command that has
+  /// From now on a closed pipe ends the process, as it ends other programs. For a command that has
   /// nothing to save.
   void end_on_closed_output() noexcept;
 
-  /// Requested by the first Ctrl-C, SIGTERM or SIGHUP.
+  /// The token that the first Ctrl-C, SIGTERM or SIGHUP requests.
   std::stop_token first() const noexcept { return _first.get_token(); }
-  /// Waits for the first signal, or for `stop`; whether the signal came.
+  /// Waits for the first signal, or for `stop`; returns whether the signal came.
   bool wait_for_first(const std::stop_token& stop);
-  /// Waits for the second signal, or for `stop`; whether the signal came. Does not wait if the
-  /// first was not Ctrl-C.
+  /// Waits for the second signal, or for `stop`; returns whether the signal came. Does not wait if
+  /// the first was not Ctrl-C.
   bool second_within(std::chrono::milliseconds time, const std::stop_token& stop = {});
-  /// Whether all that came was Ctrl-C.
+  /// Whether all signals so far were Ctrl-C.
   bool interactive();
 
-  /// Sets the function to call on the thread of the signals, in place of the last one; may be
-  /// empty.
+  /// Replaces the function that is called on the thread of the signals; may be empty.
   void tell_screen(std::function<void(Screen)> listener);
 
  private:

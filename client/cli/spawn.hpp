@@ -9,12 +9,12 @@
 
 namespace anticrack::cli {
 
-/// Words as exec takes them: they live as long as `words` do.
+/// The words as exec takes them; the pointers are valid as long as `words` live.
 std::vector<char*> pointers_to(std::vector<std::string>& words);
 
-/// Starts words[0] with default signals and these words. Its descriptor i is descriptors[i].
-/// `flags`: of posix_spawnattr_setflags, besides those of signals. `error`: 0, or the errno with
-/// which it did not start.
+/// Starts words[0] with these words and default signals. Its descriptor i is descriptors[i].
+/// `flags`: for posix_spawnattr_setflags, besides those of signals. `error`: set to 0, or to the
+/// errno if it could not start.
 pid_t spawn(std::vector<std::string> words, std::span<const int> descriptors,
             char* const* environment, short flags, int& error);
 

@@ -22,9 +22,9 @@
 namespace anticrack::cli {
 namespace {
 
-// The server names the upload that it refuses; the user knows the load that it is for.
+// Uploads forces. The server names the upload that it refuses, but the user knows the load.
 void upload_forces(Session& session, const Case& the_case, v1::Job& job) {
-  // One upload for every content: loads often share a file.
+  // One upload for each content, as loads often share a file.
   std::map<std::pair<std::filesystem::path, std::string>, std::size_t> indices;
   std::vector<const ForceFile*> files;
   for (const ForceFile& file : the_case.force_files)
@@ -85,7 +85,7 @@ void add_case_flags(CLI::App& command, std::vector<std::string>& overrides) {
     command
         .add_option_function<std::string>(
             flag,
-            // Quoted, so that it is a text and nothing else of TOML.
+            // Quoted, so that TOML takes it for a text.
             [&overrides, key](const std::string& value) {
               overrides.push_back(key + "='" + value + "'");
             },
@@ -111,7 +111,7 @@ client::Error in_terms_of(const Case& the_case, const client::Error& error) {
   std::string message, told_of, description;
   for (const client::FieldViolation& violation : error.details().fields) {
     const v1::CasePlace* place = the_case.locate(violation.field);
-    // Of two keys that cause it together, the one that the case leaves out.
+    // If two keys cause it together, the one that the case leaves out is skipped.
     if (place && violation.description == description && told_of.starts_with(place->key() + "."))
       continue;
     told_of = place ? place->key() : "";
@@ -124,7 +124,7 @@ client::Error in_terms_of(const Case& the_case, const client::Error& error) {
 
 namespace {
 
-// Once nothing is refused: of a case with an error the error is told alone.
+// Called when nothing was refused: if a case has an error, only the error is told.
 void tell_notes(const Session& session, const Case& the_case) {
   // standard output may be for the name alone
   for (const std::string& note : the_case.notes)
@@ -176,7 +176,7 @@ void tell_submitted(const Session& session, const v1::Job& job) {
     return;
   }
   print_document(job.name());
-  if (isatty(STDOUT_FILENO) == 1) {  // a script wants the name alone
+  if (isatty(STDOUT_FILENO) == 1) {  // a script wants only the name
     say(session.globals(),
         "To watch it: anticrack job watch " + job.name() + session.server_option());
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A case on its way to the server, and answers on their way back.
+// Sends a case to the server, and fetches its answers.
 #pragma once
 
 #include <filesystem>
@@ -25,17 +25,17 @@ class App;
 
 namespace anticrack::cli {
 
-/// --set, and the flags of what stands in [job], which are overrides as well. For commands that
+/// Adds --set, and flags for the keys of [job], which are overrides as well. For commands that
 /// submit a case.
 void add_case_flags(CLI::App& command, std::vector<std::string>& overrides);
 
-/// --load: only these load cases of the case.
+/// Adds --load, which selects load cases of the case.
 void add_load_flag(CLI::App& command, std::vector<std::string>& loads);
 
-/// The server names fields of a request; the user knows lines of a file.
+/// The error with lines of the case, which the user knows, instead of fields of a request.
 client::Error in_terms_of(const Case& the_case, const client::Error& error);
 
-/// Does what the server may refuse; its error is then in terms of the case.
+/// Runs a call that the server may refuse; its error is then in terms of the case.
 template <class Call>
 auto translated(const Case& the_case, const Call& call) -> decltype(call()) {
   try {
@@ -45,48 +45,49 @@ auto translated(const Case& the_case, const Call& call) -> decltype(call()) {
   }
 }
 
-/// Uploads the case's .msh if it has one, and creates its mesh. A refusal names the lines of the
-/// case it is about; else what the case notes is told.
+/// Uploads the case's .msh, if it has one, and creates its mesh. A refusal names the lines of the
+/// case at fault; otherwise the notes of the case are told.
 v1::Mesh create_mesh(Session& session, const Case& the_case);
 
-/// Completes a job before it is submitted: what it needs besides the case has to be uploaded first,
-/// and again for a server that has lost it.
+/// Completes a job before it is submitted: data that it needs besides the case must be uploaded
+/// first, and again for a server that has lost them.
 using Prepare = std::function<void(v1::Job&)>;
 
-/// create_mesh, then the job. Repeating it with the same id is harmless.
+/// Creates the mesh, then the job. Repeating it with the same id is harmless.
 v1::Job submit(Session& session, const Case& the_case, const std::string& request_id,
                const Prepare& prepare = {});
 
-/// What a command that submits and does not wait says.
+/// The message of a command that submits and does not wait.
 void tell_submitted(const Session& session, const v1::Job& job);
 
-/// What a result file needs besides the answers: fetched while the job is solved.
+/// The data that a result file needs besides the answers, fetched while the job is solved.
 struct Ahead {
   v1::Mesh mesh;
   v1::ServerInfo server;
   client::Block mesh_block;
 };
 
-/// Null if the mesh was not READY yet or something failed. Everything is then fetched at the end,
-/// which also reports what is wrong.
+/// Null if the mesh was not READY yet or something failed. Then everything is fetched at the end,
+/// which also reports errors.
 using AheadFuture = std::shared_future<std::shared_ptr<Ahead>>;
 
-/// Begins on a thread of its own; null for a job in stages, which ends on another mesh. The session
-/// must outlive the future.
+/// Begins to fetch on another thread; null for a job in stages, which ends on another mesh. The
+/// session must outlive the future.
 AheadFuture fetch_ahead(Session& session, const v1::Job& job);
 
-/// Everything about a job that has ended and has results. `ahead`: what of it is here already, its
-/// block is taken; may be null.
+/// Fetches everything about a job that has ended and has results. `ahead`: the data that are here
+/// already, whose block is taken; may be null.
 results::Result fetch(Session& session, const v1::Job& job, const std::stop_token& stop,
                       Ahead* ahead = nullptr);
 
-/// Of a job that has ended: exit_ok, exit_not_converged, or exit_job_failed if it or one of its
-/// load cases failed or was cancelled.
+/// The exit code for a job that has ended: exit_ok, exit_not_converged, or exit_job_failed if it or
+/// one of its load cases failed or was cancelled.
 int exit_code_of(const v1::Job& job);
 
-/// Prints as errors what did not go as it was asked for: with --quiet this is all that is told.
+/// Prints the shortfalls of a job as errors; with --quiet nothing else is told.
 void complain_of(const v1::Job& job);
-/// Only why it could not be run to its end, where it left answers: those of its last whole stage.
+/// Prints only why a job could not run to its end though it has answers, which are those of its
+/// last complete stage.
 void complain_of_failure(const v1::Job& job);
 
 }  // namespace anticrack::cli

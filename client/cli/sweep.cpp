@@ -51,11 +51,11 @@ Case read_case(Session& session, const SweepOptions& options) {
   return the_case;
 }
 
-// Nodal rows can only be checked against an existing mesh.
+// Checks nodal rows, which is possible only against an existing mesh.
 void check_mesh(Session& session, const Case& the_case, const SweepInput& input) {
   if (!input.nodal) return;
   const v1::Mesh mesh = follow_mesh(session, create_mesh(session, the_case).name());
-  if (mesh.state() != v1::Mesh::STATE_FAILED)  // else the job gives the reason
+  if (mesh.state() != v1::Mesh::STATE_FAILED)  // otherwise the job gives the reason
     check_nodes(input, mesh.node_count());
 }
 
@@ -75,7 +75,7 @@ void save_csv(const fs::path& csv, const results::Sweep& sweep, const Globals& g
   say(globals, "Rows: " + csv.string());
 }
 
-/// Where the answers are written; empty: nowhere.
+/// The files for the answers; empty paths are not written.
 struct Targets {
   fs::path result;
   fs::path csv;

@@ -23,7 +23,7 @@ struct Dataset {
   std::string path;
 };
 
-// "FILE.h5:/PATH"; empty for the name of a file.
+// The dataset of "FILE.h5:/PATH"; empty for the name of a file.
 std::optional<Dataset> dataset_of(const std::string& name) {
   const std::size_t colon = name.rfind(":/");
   if (colon == std::string::npos || colon == 0) return std::nullopt;
@@ -50,7 +50,7 @@ void read_nodal(const SweepFiles& files, SweepInput& input) {
   take(results::read_matrix(dataset->file, dataset->path), input);
 }
 
-// The load of each column, by the names that the dataset gives its columns.
+// The load of each column, by the names that the dataset has for its columns.
 std::vector<std::size_t> loads_of_columns(const std::vector<std::string>& names,
                                           const std::vector<std::string>& loads,
                                           const std::string& source) {
@@ -69,7 +69,7 @@ std::vector<std::size_t> loads_of_columns(const std::vector<std::string>& names,
   return columns;
 }
 
-// Into the order of the case's loads.
+// Sorts the columns into the order of the case's loads.
 void sort_columns(const std::vector<std::size_t>& loads_of, SweepInput& input) {
   std::vector<double> sorted(input.columns);
   for (auto row = input.values.begin(); row != input.values.end();
@@ -173,7 +173,7 @@ void make_sweep(const SweepInput& input, const v1::ServerLimits& limits, Case& t
   job.mutable_sweep()->mutable_traces()->Add(traces.begin(), traces.end());
   job.mutable_sweep()->set_bounds(input.bounds);
   matrix_of(input, job);
-  // Rows have no fields; a case for `run` often asks for them.
+  // Rows have no fields, but a case for `run` often asks for them.
   job.clear_outputs();
   if (input.nodal) {
     job.clear_load_cases();

@@ -14,46 +14,46 @@
 
 namespace anticrack::cli {
 
-/// As a person names them; exactly one of the two files is given.
+/// The files as the user names them; exactly one of the two is given.
 struct SweepFiles {
-  std::string coefficients;  ///< FILE.csv or FILE.h5:/PATH, without a path /coefficients
+  std::string coefficients;  ///< FILE.csv or FILE.h5:/PATH; the default path is /coefficients
   std::string nodal;         ///< FILE.h5:/PATH
   std::string traces = "none";
   bool bounds = false;
 };
 
 struct SweepInput {
-  bool nodal = false;          ///< rows of f on the nodes; else of coefficients of the loads
-  std::string source;          ///< where they are from
-  std::string traces;          ///< rows whose traces to keep, not looked at yet
-  bool bounds = false;         ///< asked for
+  bool nodal = false;          ///< rows have f on the nodes; else coefficients of the loads
+  std::string source;          ///< where the values come from
+  std::string traces;          ///< rows whose traces to keep, not parsed yet
+  bool bounds = false;         ///< whether bounds are asked for
   std::vector<double> values;  ///< (rows, columns) row-major
   std::size_t rows = 0;
   std::size_t columns = 0;
 
-  /// Of the values.
+  /// The size of the values in bytes.
   std::size_t bytes() const noexcept { return values.size() * sizeof(double); }
 };
 
-/// What is sent within the request; more goes as an upload.
+/// Most bytes of a matrix within the request; a larger one is uploaded.
 inline constexpr std::size_t inline_matrix_bytes = std::size_t{1} << 20;
 
-/// A sweep has one mesh: takes the accuracy out of the case, and the coarse mesh that only it would
-/// begin on. False where there is none.
+/// Removes the accuracy from the case, as a sweep has one mesh, and the coarse mesh with which only
+/// the accuracy would begin. Returns false if there is no accuracy.
 bool leave_out_accuracy(Case& the_case);
 
 /// Reads the matrix and checks it against the case. Throws CaseError and results::Error, with
 /// file, line and cure.
 SweepInput read_sweep_input(const SweepFiles& files, const Case& the_case);
 
-/// Makes the case's job a sweep: all of it but the matrix. Checks against what the server allows;
-/// throws CaseError with the cure.
+/// Makes the case's job a sweep, except the matrix. Checks the limits of the server; throws
+/// CaseError with the cure.
 void make_sweep(const SweepInput& input, const v1::ServerLimits& limits, Case& the_case);
 
 /// Throws CaseError unless there is a column for each node of the mesh.
 void check_nodes(const SweepInput& input, std::uint64_t node_count);
 
-/// Where the job keeps the matrix.
+/// The matrix of the job.
 v1::Sweep::Matrix& matrix_of(const SweepInput& input, v1::Job& job);
 
 /// "all", "none", or numbers from 0 and inclusive ranges, "0,10,20-30", in any order, possibly

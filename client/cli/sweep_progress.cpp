@@ -8,7 +8,7 @@
 namespace anticrack::cli {
 namespace {
 
-constexpr double window = 10;  // of the rate, seconds
+constexpr double window = 10;  // seconds over which the rate is measured
 constexpr double spacing = 0.25;
 
 }  // namespace

@@ -29,7 +29,7 @@ class SweepProgress {
  public:
   std::uint64_t total = 0;  ///< rows; 0: not known yet
 
-  /// Rows that have ended; of these, rows that did not converge and rows that failed.
+  /// The number of rows that have ended; of these, how many did not converge, and how many failed.
   std::uint64_t done() const noexcept { return _counts.done; }
   std::uint64_t not_converged() const noexcept { return _counts.not_converged; }
   std::uint64_t failed() const noexcept { return _counts.failed; }
@@ -37,11 +37,11 @@ class SweepProgress {
   double rate() const noexcept;
   double seconds_left() const noexcept;  ///< NaN: unknown
 
-  /// Rows may repeat, after a new watch. `seconds`: when they arrived, on any monotonic clock.
+  /// Adds rows; a new watch may repeat them. `seconds`: when they arrived, on any monotonic clock.
   void apply(const v1::SweepRows& rows, double seconds);
-  /// Counts of the server; used where larger than those of the rows seen.
+  /// Takes the server's counts, which are used if they are larger than those of the rows seen.
   void apply(const v1::SweepAnswer& answer);
-  /// The server runs the sweep again.
+  /// To be called when the server runs the sweep again.
   void restart();
 
  private:
@@ -58,8 +58,8 @@ class SweepProgress {
   void raise(const Counts& counts);
 
   RowSet _rows;
-  Counts _seen;    // by rows
-  Counts _counts;  // of rows or of the server, the larger
+  Counts _seen;    // counted from rows
+  Counts _counts;  // the larger of rows' and server's
   std::deque<Sample> _samples;
   double _now = std::numeric_limits<double>::quiet_NaN();
 };

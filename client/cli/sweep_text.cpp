@@ -21,7 +21,7 @@ std::string counted(std::size_t count, const char* what) {
 
 constexpr std::array<const char*, 2> slope_parts{"Bx", "By"};
 
-// "A", or "A fibre" where there are several.
+// The name of a number: "A", or "A fibre" if there are several inclusions.
 std::string name_of(const char* number, const results::Sweep& sweep, std::size_t inclusion) {
   return sweep.inclusions.size() == 1 ? number : number + (" " + sweep.inclusions[inclusion]);
 }
@@ -41,7 +41,7 @@ using Rows = std::vector<std::vector<std::string>>;
 
 const std::vector<std::string> head_of_spans{"", "least", "of", "most", "of"};
 
-// To four digits, rounded out of the range (`sign`: below or above), which then lies inside.
+// An end of a range to four digits, rounded outwards (`sign`: down or up).
 std::string end_of(double value, int sign) {
   if (!std::isfinite(value) || value == 0) return number(value);
   const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 3);
@@ -65,14 +65,14 @@ void add_inclusions(const results::Sweep& sweep, const SweepSummary& counts,
   }
 }
 
-/// Without the columns of names where no row has one.
+/// The table without the columns of names that are empty in all rows.
 std::string table_of_spans(Rows rows) {
   for (const std::size_t column : {4U, 2U}) drop_if_empty(rows, column);
   const bool named = rows[0].size() == head_of_spans.size();
   return table(rows, named ? std::vector<std::size_t>{2, 4} : std::vector<std::size_t>{});
 }
 
-/// The least and the most of all inclusions, and whose they are.
+/// Adds the least and the greatest value of all inclusions, with the inclusions' names.
 void add_extremes(const results::Sweep& sweep, const SweepSummary& counts,
                   const results::Units& units, Rows& rows) {
   const std::size_t inclusions = sweep.inclusions.size();
@@ -97,7 +97,7 @@ Json range_json(const SweepSummary::Range& range) {
   return {{"min", range.low}, {"max", range.high}};
 }
 
-/// "rows 3, 7, 12, 20, 21 and 4 more": those of which it holds.
+/// A text like "rows 3, 7, 12, 20, 21 and 4 more", with the rows for which `holds` is true.
 template <class Holds>
 std::string first_rows(const results::Sweep& sweep, const Holds& holds) {
   constexpr std::size_t most = 5;
@@ -111,7 +111,7 @@ std::string first_rows(const results::Sweep& sweep, const Holds& holds) {
          (count > most ? " and " + std::to_string(count - most) + " more" : "");
 }
 
-/// "bounds of 9 rows: of the energy at most 0.89 % wide, of A at most +- 0.0056".
+/// A text like "bounds of 9 rows: of the energy at most 0.89 % wide, of A at most +- 0.0056".
 std::string bounds_text(const results::Sweep& sweep, const SweepSummary& counts,
                         const results::Units& units) {
   if (sweep.energy_lower.empty()) return "";

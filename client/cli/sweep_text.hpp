@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The answers of a sweep for people, for scripts and for spreadsheets. Pure.
+// The answers of a sweep for users, for scripts and for spreadsheets. Pure.
 #pragma once
 
 #include <string>
@@ -10,19 +10,19 @@
 
 namespace anticrack::cli {
 
-/// How many rows ended how, the span of A, contact length and energy, and what went wrong; how wide
-/// the bounds are. With bounds the spans of A and the energy hold those of the membrane itself. Of
-/// many inclusions one span, and whose its ends are.
+/// How many rows ended in which way, the ranges of A, contact length and energy, what went wrong,
+/// and how wide the bounds are. With bounds, the ranges of A and of the energy contain the exact
+/// values of the membrane. For many inclusions there is one range, with the inclusions at its ends.
 std::string sweep_table(const results::Sweep& sweep, const results::Units& units);
 
-/// The span of A of every inclusion, and of B of those that tilt.
+/// The range of A of every inclusion, and of B of those that tilt.
 std::string sweep_inclusions(const results::Sweep& sweep, const results::Units& units);
 
-Json sweep_json(const results::Sweep& sweep);  ///< the same
+Json sweep_json(const results::Sweep& sweep);  ///< the same as JSON
 
 /// A line per row: row, coefficients by the names of their loads, A per inclusion, energy,
-/// contact_length, steps, status; bounds beside what they are of. Numbers to full precision; those
-/// of a row that did not converge are left out. O(size of the sweep).
+/// contact_length, steps, status; bounds stand beside their numbers. Numbers have full precision;
+/// those of a row that did not converge are left out. O(size of the sweep).
 std::string sweep_csv(const results::Sweep& sweep);
 
 }  // namespace anticrack::cli

@@ -18,10 +18,10 @@ constexpr std::chrono::milliseconds frame_time{67};
 // If the terminal has shrunk since it was measured, lines are cut and not wrapped.
 constexpr std::string_view cut_lines = "\x1b[?7l";
 constexpr std::string_view wrap_lines = "\x1b[?7h";
-constexpr std::string_view wipe_line = "\x1b[2K";  // whole: else tmux may join it to another
+constexpr std::string_view wipe_line = "\x1b[2K";  // the whole line, or tmux may join it to another
 constexpr std::string_view wipe_below = "\x1b[J";
 
-// Overwrites the lines; the cursor ends after the last one.
+// The text that overwrites the lines; the cursor ends after the last one.
 std::string joined(const std::vector<std::string>& lines) {
   std::string text = "\r";
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -33,8 +33,8 @@ std::string joined(const std::vector<std::string>& lines) {
   return text;
 }
 
-// In the background output would mix with what the user types, and changing the modes of the
-// terminal would stop the process.
+// Whether the process is in the background, where output would mix with what the user types, and
+// changing the terminal's modes would stop the process.
 bool in_background(std::FILE* terminal) {
   const pid_t group = tcgetpgrp(fileno(terminal));
   return group != -1 && group != getpgrp();
@@ -89,7 +89,7 @@ void Painter::redraw() {
 }
 
 void Painter::pause() {
-  // While the terminal takes no text (Ctrl-S) a draw waits; the process does not.
+  // While the terminal takes no text (Ctrl-S), a draw waits; the process waits only this long.
   constexpr std::chrono::milliseconds patience{500};
   _paused = true;
   const std::unique_lock lock(_drawing, patience);
@@ -141,7 +141,7 @@ void Painter::write(const std::string& text) {
   std::fflush(_terminal);
 }
 
-// An echoed Enter would move the cursor off the frame.
+// Switches the echo of keys off, as an echoed Enter would move the cursor off the frame.
 void Painter::hide_keys() {
   termios modes{};
   if (in_background(_terminal) || tcgetattr(fileno(_terminal), &modes) != 0 ||

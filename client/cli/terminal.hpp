@@ -19,10 +19,10 @@
 
 namespace anticrack::cli {
 
-/// Whether frames can be drawn: a terminal that can move its cursor and `redraws`.
+/// Whether frames can be drawn: on a terminal that can move its cursor, if `redraws` is true.
 bool takes_frames(std::FILE* stream);
 
-/// By the environment: not if TERM is "dumb" or unset or NO_COLOR is set. Either may be null.
+/// Whether the environment allows it: not if TERM is "dumb" or null (unset), or NO_COLOR is set.
 bool redraws(const char* term, const char* no_color) noexcept;
 
 struct Size {
@@ -32,7 +32,7 @@ struct Size {
 /// The current size; 80 by 24 if unknown.
 Size size_of(std::FILE* terminal);
 
-/// Draws on a thread of its own, at most 15 times a second; also at each `tick`, for clocks.
+/// Draws frames on a separate thread, at most 15 times a second; also at each `tick`, for clocks.
 ///
 /// Between frames the cursor is on the frame's first character: a terminal that moves or wraps the
 /// frame when resized moves the cursor along, and the next frame starts there and wipes all below.
@@ -47,12 +47,12 @@ class Painter {
   Painter(const Painter&) = delete;
   Painter& operator=(const Painter&) = delete;
 
-  /// Something new is to be drawn.
+  /// To be called when there is something new to draw.
   void refresh();
-  /// Draws again, even if nothing is new: the size of the terminal has changed.
+  /// Draws again even if nothing is new, as the size of the terminal has changed.
   void redraw();
-  /// Leaves the frame, puts the cursor below it and restores the terminal; draws nothing until
-  /// `resume`. For a process about to be stopped or ended.
+  /// Leaves the frame, puts the cursor below it and restores the terminal; nothing is drawn until
+  /// `resume`. For a process that is about to be stopped or ended.
   void pause();
   /// Draws the next frame at the cursor.
   void resume();
@@ -71,13 +71,13 @@ class Painter {
   std::function<std::vector<std::string>(Size)> _render;
   const std::chrono::milliseconds _tick;
 
-  std::timed_mutex _drawing;  // the terminal, and what follows
+  std::timed_mutex _drawing;  // guards the terminal and the next members
   std::string _drawn;
-  std::size_t _drawn_lines = 0;    // of the frame on the terminal; 0: none
-  std::optional<termios> _before;  // the terminal's modes, while keys are not echoed
+  std::size_t _drawn_lines = 0;    // lines of the frame on the terminal; 0: no frame
+  std::optional<termios> _before;  // the terminal's modes before keys were no longer echoed
   std::atomic<bool> _paused = false;
 
-  std::mutex _mutex;  // what follows
+  std::mutex _mutex;  // guards the members below
   std::condition_variable _woken;
   bool _stale = false;
   bool _anew = false;

@@ -19,7 +19,7 @@ namespace anticrack::cli {
 namespace {
 
 struct Character {
-  std::size_t length;  // bytes
+  std::size_t length;  // in bytes
   std::size_t columns;
 };
 
@@ -129,7 +129,7 @@ std::string clock_text(std::int64_t seconds) {
   const auto time = static_cast<std::time_t>(seconds);
   std::tm local{};
   std::array<char, 64> buffer{};
-  if (localtime_r(&time, &local) == nullptr) return "-";  // no year that fits
+  if (localtime_r(&time, &local) == nullptr) return "-";  // the year does not fit
   return {buffer.data(), std::strftime(buffer.data(), buffer.size(), "%Y-%m-%d %H:%M:%S", &local)};
 }
 
@@ -157,7 +157,7 @@ std::string table(const std::vector<std::vector<std::string>>& rows,
 
 std::string short_table(std::vector<std::vector<std::string>> rows,
                         const std::vector<std::size_t>& left) {
-  constexpr std::size_t most = 11;  // with the head
+  constexpr std::size_t most = 11;  // rows, including the head
   if (rows.size() <= most + 1) return table(rows, left);
   const std::size_t others = rows.size() - most;
   rows.resize(most);

@@ -35,7 +35,7 @@ std::vector<results::ArrayView> views_of(const client::Block& block) {
   std::vector<results::ArrayView> views;
   for (const v1::ArrayLayout& array : block.layout.arrays()) {
     if (array.type() < v1::ArrayLayout::TYPE_FLOAT64 || array.type() > v1::ArrayLayout::TYPE_UINT8)
-      continue;  // of a later version
+      continue;  // a type of a later version
     views.push_back(results::view(array.name(), static_cast<results::ValueType>(array.type()),
                                   {array.shape().begin(), array.shape().end()}, array.offset(),
                                   std::span(block.bytes)));
@@ -56,12 +56,12 @@ void add_names(const v1::Mesh& from, results::Mesh& to) {
   to.inclusions.assign(from.inclusions().begin(), from.inclusions().end());
 }
 
-// All but its columns.
+// The sweep without its columns.
 results::Sweep to_sweep(const Fetched& fetched) {
   results::Sweep sweep;
   for (const v1::LoadCase& load : fetched.job.load_cases()) sweep.loads.push_back(load.name());
   sweep.inclusions.assign(fetched.mesh.inclusions().begin(), fetched.mesh.inclusions().end());
-  // A row beyond int32 becomes negative, which is refused.
+  // A row beyond int32 becomes negative here, which is refused later.
   sweep.kept.assign(fetched.job.sweep().traces().begin(), fetched.job.sweep().traces().end());
   sweep.error = fetched.job.error().message();
   sweep.solve_seconds = results::number_in(fetched.job.sweep_answer(), "solve_seconds");

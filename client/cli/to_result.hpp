@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// From the server's messages to a result. Pure.
+// Makes a result from the server's messages. Pure.
 #pragma once
 
 #include <string>
@@ -22,12 +22,12 @@ struct Fetched {
   client::Block result_block;
 };
 
-/// The mesh that the answers of a job are on: of its last stage that has any.
+/// The name of the mesh to which the answers of a job belong: that of its last stage with answers.
 std::string mesh_of(const v1::Job& job);
 
 results::Units to_units(const v1::Units& units);
 
-/// Throws results::Error for parts that do not fit together.
+/// The result. Throws results::Error for parts that do not fit together.
 results::Result to_result(const Fetched& fetched);
 
 /// The answers so far, without traces, fields and histories: one per load case.

@@ -21,13 +21,13 @@ Words commands_of(const guide::Command& command) {
   return names;
 }
 
-/// Walks the words as CLI11 does, to the command that is meant and the first word it does not know.
+/// Walks the words as CLI11 does, to the command that is meant and the first unknown word.
 class Walk {
  public:
   Walk(const guide::Command& program, const Words& words)
       : _program(program), _level(&program), _words(words) {}
 
-  /// Empty where every word has its place.
+  /// The problem; empty if every word has its place.
   std::string problem() {
     for (; _next < _words.size(); ++_next) {
       const std::string& word = _words[_next];
@@ -40,7 +40,7 @@ class Walk {
   }
 
   const guide::Command& level() const { return *_level; }
-  /// "anticrack job watch".
+  /// The command, like "anticrack job watch".
   std::string path() const {
     return _program.name + (_level->path.empty() ? "" : " " + _level->path);
   }
@@ -86,7 +86,7 @@ class Walk {
     return "";
   }
 
-  // What a person types who forgets the command.
+  // The cure for a user who forgot the command.
   std::string cure(const std::string& word) const {
     for (const auto& [end, command] : {std::pair{".toml", "run"}, std::pair{".h5", "show"}})
       if (word.ends_with(end) && _level == &_program)
@@ -103,7 +103,7 @@ class Walk {
 
 std::string before_colon(const std::string& text) { return text.substr(0, text.find(':')); }
 
-// CLI11's own words, made to say what to do.
+// CLI11's own message, extended by what to do.
 std::string of_error(const CLI::ParseError& error) {
   std::string text = error.what();
   const std::string kind = error.get_name();

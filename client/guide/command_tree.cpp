@@ -12,7 +12,7 @@ namespace {
 Value value_of(const CLI::Option& option) {
   if (option.get_items_expected_max() == 0) return {};
   const std::string type = option.get_type_name();
-  if (type.rfind("FILE", 0) == 0)  // also FILE.csv
+  if (type.rfind("FILE", 0) == 0)  // FILE.csv, too
     return {Value::Kind::file, {}};
   if (type == "DIR") return {Value::Kind::folder, {}};
   if (type == "KEY") return {Value::Kind::key, {}};
@@ -40,7 +40,7 @@ void add_options(const CLI::App& app, Command& command) {
     for (const std::string& name : option->get_lnames()) result.names.push_back("--" + name);
     const bool known = std::any_of(command.options.begin(), command.options.end(),
                                    [&](const Option& o) { return o.names == result.names; });
-    if (!known)  // --help is in each group of options again
+    if (!known)  // --help is repeated in each group of options
       command.options.push_back(std::move(result));
   }
 }
@@ -49,7 +49,7 @@ Command tree_of(const CLI::App& app, const std::string& path) {
   Command command{path, app.get_name(), app.get_description(), {}, {}, {}, app.get_footer()};
   add_options(app, command);
   for (const CLI::App* below : app.get_subcommands({})) {
-    if (below->get_name().empty()) {  // a group of options
+    if (below->get_name().empty()) {  // it is a group of options
       add_options(*below, command);
     } else {
       const std::string& name = below->get_name();

@@ -12,35 +12,44 @@ class App;
 
 namespace anticrack::guide {
 
-/// The value of an option or of a positional.
+/// The value of an option or of a positional argument.
 struct Value {
-  enum class Kind { none, text, file, folder, word, key, assignment };  ///< of a case: key=value
+  enum class Kind {
+    none,
+    text,
+    file,
+    folder,
+    word,
+    key,
+    assignment
+  };  ///< key, key=value of a
+      ///< case
   Kind kind = Kind::none;
-  std::vector<std::string> words;  ///< of Kind::word
+  std::vector<std::string> words;  ///< the choices of Kind::word
 };
 
 struct Option {
-  std::vector<std::string> names;  ///< with their dashes; of a positional its name
-  std::string type;                ///< as --help writes it, e.g. FILE; empty for a flag
+  std::vector<std::string> names;  ///< with their dashes; for a positional argument its name
+  std::string type;                ///< as in --help, e.g. FILE; empty for a flag
   std::string description;
   Value value;
 };
 
 struct Command {
-  std::string path;  ///< words after the program's name; empty: the program
-  std::string name;  ///< the last word
+  std::string path;  ///< words after the program's name; empty for the program itself
+  std::string name;  ///< last word of the path
   std::string description;
   std::vector<Command> commands;
   std::vector<Option> options;
   std::vector<Option> positionals;
-  std::string footer;  ///< what --help ends with
+  std::string footer;  ///< the end of --help
 };
 
-/// The program. Options in groups belong to the command.
+/// The program with all its commands. Options in groups belong to their command.
 Command command_tree(const CLI::App& app);
 
-/// The option with this name that may stand behind the command: its own, or one of the program,
-/// which every command takes. Null for none.
+/// The option with this name that may follow the command: one of its own, or one of the program,
+/// which every command takes. Null if there is none.
 const Option* option_of(const Command& command, const Command& program, const std::string& name);
 
 /// The command and all its subcommands, parents first.

@@ -66,7 +66,7 @@ end
 complete -c anticrack -f -a '(__anticrack_completions)'
 )";
 
-/// The lines for one word.
+/// Collects the lines for one word.
 class Lines {
  public:
   Lines(std::string begin, std::function<std::vector<std::string>()> keys)

@@ -10,7 +10,7 @@
 namespace anticrack::guide {
 namespace {
 
-/// Escaped so that roff prints the text unchanged, "-" included.
+/// The text escaped so that roff prints it unchanged, including "-".
 std::string plain(const std::string& text) {
   std::string result;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -75,7 +75,7 @@ class PageWriter {
     _out << '\n';
   }
 
-  /// A section, unless `write` adds no item.
+  /// Writes a section, unless `write` adds no item.
   template <class Write>
   void listed(const std::string& title, const Write& write) {
     _title = title;
@@ -96,7 +96,7 @@ class PageWriter {
          option.description);
   }
 
-  /// Paragraphs; one whose first line ends with a colon is a section of that name.
+  /// Writes paragraphs; one whose first line ends with a colon becomes a section of that name.
   void footer() {
     std::istringstream lines(_command.footer);
     bool begins = true;
@@ -123,7 +123,7 @@ class PageWriter {
   const Command& _program;
   const Command& _command;
   int _section;
-  std::string _title;  // of a section still empty
+  std::string _title;  // title of a section that is still empty
   bool _described = false;
   std::ostringstream _out;
 };

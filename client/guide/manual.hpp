@@ -17,8 +17,8 @@ struct Page {
   std::string text;  ///< in the man macros of roff
 };
 
-/// Pages of the program and of each command. `section`: 1 for commands, 8 for daemons; `version`:
-/// for the footer, "anticrack 1.0".
+/// The pages of the program and of each command. `section`: 1 for commands, 8 for daemons;
+/// `version`: for the footer, "anticrack 1.0".
 std::vector<Page> manual(const CLI::App& app, int section, const std::string& version);
 
 }  // namespace anticrack::guide

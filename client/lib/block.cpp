@@ -12,7 +12,7 @@
 namespace anticrack::client {
 namespace {
 
-// Most that is reserved for the announced size before its bytes arrive.
+// Most memory to reserve for the announced size before its bytes arrive.
 constexpr std::uint64_t largest_reservation = 64u << 20;
 
 [[noreturn]] void damaged(const std::string& what) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Named arrays in one byte string, as streamed by ReadMesh and ReadResult, reassembled and checked.
+// Reassembles and checks named arrays in one byte string, as ReadMesh and ReadResult stream them.
 #pragma once
 
 #include <cstddef>
@@ -11,28 +11,28 @@
 
 namespace anticrack::client {
 
-/// Received whole and checked against its hash.
+/// A block that was received completely and checked against its hash.
 struct Block {
   v1::BlockLayout layout;
   std::vector<std::byte> bytes;
 };
 
-/// Takes layouts and chunks as they come, over as many streams as it needs.
-/// Throws Error (data_loss) for what does not fit: a chunk whose crc32c or offset is wrong, more
-/// bytes than announced, a layout other than the first one's, a wrong hash in the end.
+/// Takes layouts and chunks as they come, from as many streams as it needs. Throws Error
+/// (data_loss) for parts that do not fit: a chunk with a wrong crc32c or offset, more bytes than
+/// announced, a layout that differs from the first one, a wrong hash at the end.
 class BlockReceiver {
  public:
-  /// First messages of every stream.
+  /// Takes a layout, from the first messages of a stream.
   void accept(const v1::BlockLayout& layout);
   void accept(const v1::BlockChunk& chunk);
 
-  /// Where the next stream has to begin.
+  /// The offset at which the next stream has to begin.
   std::uint64_t offset() const noexcept { return _block.bytes.size(); }
   bool complete() const noexcept {
     return _started && offset() == _block.layout.size() &&
            _block.layout.array_count() <= static_cast<std::uint32_t>(_block.layout.arrays_size());
   }
-  /// Checks the hash. The receiver is empty after.
+  /// Checks the hash and returns the block. The receiver is empty afterwards.
   Block finish();
 
  private:

@@ -12,13 +12,13 @@
 
 namespace anticrack::client {
 
-/// The requests that a case stands for. Threads, retries and Interrupted: as in meshes.hpp.
-/// Error: invalid_argument (Details::reason CASE_INVALID; what() names place, value and cure).
+/// The requests for which a case stands. Threads, retries and Interrupted are as in meshes.hpp.
+/// Error: invalid_argument (Details::reason CASE_INVALID; what() has place, value and cure).
 v1::ReadCaseResponse read_case(Connection& connection, const v1::ReadCaseRequest& request,
                                const std::stop_token& stop = {});
 
-/// What the keys of cases mean, as far as a name chooses them. Threads, retries and Interrupted: as
-/// above. Error: invalid_argument (no such key; what() names the nearest).
+/// The meaning of the keys of cases that a name selects. Threads, retries and Interrupted are as
+/// above. Error: invalid_argument (no such key; what() has the nearest).
 v1::ListCaseKeysResponse list_case_keys(Connection& connection,
                                         const v1::ListCaseKeysRequest& request,
                                         const std::stop_token& stop = {});

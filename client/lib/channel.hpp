@@ -28,9 +28,9 @@ struct Connection::State {
   explicit State(ConnectionOptions chosen);
 
   ConnectionOptions options;
-  std::optional<Proxy> proxy;  ///< between here and the server
+  std::optional<Proxy> proxy;  ///< the proxy between here and the server
   std::shared_ptr<grpc::Channel> channel;
-  std::shared_ptr<grpc::Channel> bulk;  ///< of bulk reads
+  std::shared_ptr<grpc::Channel> bulk;  ///< channel of bulk reads
   std::unique_ptr<v1::CaseService::Stub> cases;
   std::unique_ptr<v1::UploadService::Stub> uploads;
   std::unique_ptr<v1::MeshService::Stub> meshes;
@@ -45,8 +45,8 @@ struct Connection::State {
 /// Puts the token of the connection, if any, on a call that is about to start.
 void authorise(const Connection::State& state, grpc::ClientContext& context);
 
-/// The error of a call that ended with `status`, which is not OK. The messages of
-/// UNAVAILABLE without a reply of the server, and of refused credentials, say how to cure it.
+/// The error of a call that ended with `status`, which is not OK. If there was no reply of the
+/// server (UNAVAILABLE), or credentials were refused, the message has the cure.
 Error error_of(const Connection::State& state, const grpc::Status& status);
 
 /// Waits before the next try of a call, or gives up.
@@ -57,7 +57,7 @@ class Retries {
 
   /// Returns when it is time to try again. Throws `error` to give up, Interrupted on `stop`.
   void wait(const Error& error, const std::stop_token& stop);
-  /// The server has answered.
+  /// To be called when the server has answered.
   void succeeded();
 
  private:
@@ -65,13 +65,13 @@ class Retries {
   grpc::Channel& _channel;
   Backoff _backoff;
   std::optional<std::chrono::steady_clock::time_point> _failing_since;
-  std::optional<Error> _first_error;  ///< since then
+  std::optional<Error> _first_error;  ///< the first error since the last success
 };
 
 /// Sleeps; throws Interrupted on `stop`.
 void sleep(std::chrono::milliseconds time, const std::stop_token& stop);
 
-/// One try of a unary call, ended by `stop`.
+/// Tries a unary call once; `stop` ends it.
 template <class Stub, class Request, class Response>
 grpc::Status try_call(const Connection::State& state, Stub& stub,
                       grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*),
@@ -83,8 +83,9 @@ grpc::Status try_call(const Connection::State& state, Stub& stub,
   return (stub.*method)(&context, request, &response);
 }
 
-/// The response of a unary method; a lost connection is retried with back-off. Throws Error, and
-/// Interrupted once `stop` is requested. `deletes`: NOT_FOUND after a lost response is success.
+/// The response of a unary method; after a lost connection the call is retried with back-off.
+/// Throws Error, and Interrupted once `stop` is requested. `deletes`: NOT_FOUND after a lost
+/// response is success.
 template <class Stub, class Request, class Response>
 Response call(Connection::State& state, Stub& stub,
               grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*),
@@ -104,7 +105,7 @@ Response call(Connection::State& state, Stub& stub,
   }
 }
 
-/// A request that has a name and nothing else.
+/// A request that has only a name.
 template <class Request>
 Request named(const std::string& name) {
   Request request;

@@ -29,23 +29,23 @@ std::shared_ptr<grpc::Channel> make_channel(const ConnectionOptions& options, bo
   // server refuses shorter periods as abuse ("too many pings").
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, 30'000);
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 10'000);
-  // gRPC's own back-off reaches minutes; it must try to connect as often as our back-off does.
+  // gRPC's own back-off reaches minutes, but it must try to connect as often as our back-off does.
   const auto longest =
       static_cast<int>(std::clamp<std::int64_t>(options.retry.longest.count(), 100, 1'000));
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 100);
   arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 1'000);
   arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, longest);
-  // A case may stand for two requests of the size that the server takes.
+  // The answer to a case may have two requests of the size that the server accepts.
   arguments.SetMaxReceiveMessageSize(-1);
-  // Channels of equal arguments share one connection.
+  // A different argument, as channels with equal arguments share one connection.
   arguments.SetInt("anticrack.bulk", bulk ? 1 : 0);
   return grpc::CreateCustomChannel(options.address, credentials_of(options.credentials), arguments);
 }
 
 // Waits at most for `time`. gRPC reconnects promptly only while a thread waits on the channel;
-// a client that sleeps reconnects seconds late.
+// after a plain sleep it would reconnect seconds late.
 void wait_for_connection(grpc::Channel& channel, milliseconds time, const std::stop_token& stop) {
-  constexpr milliseconds slice{50};  // how late a stop is noticed
+  constexpr milliseconds slice{50};  // delay with which a stop is noticed
   const auto end = std::chrono::system_clock::now() + time;
   while (!stop.stop_requested()) {
     const auto next = std::min(end, std::chrono::system_clock::now() + slice);
@@ -58,7 +58,7 @@ bool has(std::string_view text, std::string_view part) {
   return text.find(part) != std::string_view::npos;
 }
 
-// gRPC puts the cause last.
+// The cause, which gRPC puts last.
 std::string_view cause_of(std::string_view story) {
   const std::size_t cause = story.rfind(": ");
   return cause == std::string_view::npos ? story : story.substr(cause + 2);
@@ -72,7 +72,7 @@ std::string roots_of(const Credentials& credentials) {
 
 std::string tls_cure(const std::string& address, const Credentials& credentials,
                      std::string_view story) {
-  // What OpenSSL sometimes reports for a signature by another authority of the same name: 3.0, 3.5.
+  // OpenSSL 3.0 and 3.5 may report this for a signature by another authority of the same name.
   const bool no_signature = (has(story, "asn1 encoding routines") && has(story, "EVP lib")) ||
                             has(story, "provider signature failure");
   if (no_signature || has(story, "CERTIFICATE_VERIFY_FAILED") ||
@@ -122,7 +122,7 @@ std::string unreachable_text(const Connection::State& state, std::string_view st
                      : "start anticrackd, name its address with --server, or use --local");
 }
 
-/// UNAUTHENTICATED and PERMISSION_DENIED: the server's message, and the option that cures it.
+/// Text for UNAUTHENTICATED and PERMISSION_DENIED: the server's message, and the option to cure it.
 std::string refused_text(Code code, const std::string& message, const Credentials& credentials) {
   const std::string file = credentials.files.token.string();
   const std::string token = file.empty() ? "in ANTICRACK_TOKEN" : "in " + file;
@@ -160,8 +160,8 @@ Connection::~Connection() = default;
 const std::string& Connection::address() const noexcept { return _state->options.address; }
 
 void authorise(const Connection::State& state, grpc::ClientContext& context) {
-  // Not as call credentials: gRPC sends those over TLS only, but localhost and unix sockets need
-  // no TLS.
+  // The token is not sent as call credentials, which gRPC sends over TLS only, because localhost
+  // and unix sockets need no TLS.
   if (!state.options.credentials.token.empty())
     context.AddMetadata("authorization", "Bearer " + state.options.credentials.token);
 }
@@ -213,7 +213,7 @@ void Retries::wait(const Error& error, const std::stop_token& stop) {
   if (lost && _channel.GetState(false) != GRPC_CHANNEL_READY)
     wait_for_connection(_channel, *delay, stop);
   else
-    sleep(*delay, stop);  // a proxy that lost the server still holds our connection
+    sleep(*delay, stop);  // needed because a proxy that lost the server still holds our connection
 }
 
 void Retries::succeeded() {

@@ -47,7 +47,7 @@ Certificate first_certificate(const std::string& text) {
   return {PEM_read_bio_X509(bio.get(), nullptr, nullptr, nullptr), &X509_free};
 }
 
-// Without the callback a key with a pass phrase would ask the terminal for it.
+// Without the callback, OpenSSL would ask the terminal for a pass phrase.
 Key private_key(const std::string& text) {
   const Bio bio = bio_of(text);
   const auto no_pass_phrase = [](char*, int, int, void*) { return -1; };
@@ -112,7 +112,7 @@ bool is_loopback(std::string_view any_case) {
   }
   if (address == "::1" || address == "[::1]" || address.starts_with("[::1]:")) return true;
   const std::string_view host = address.substr(0, address.find(':'));
-  // Digits and dots only: "127.evil.example" is an ordinary host name.
+  // Only digits and dots count, as "127.evil.example" is an ordinary host name.
   const bool digits = host.find_first_not_of("0123456789.") == std::string_view::npos;
   return host == "localhost" || host == "localhost." || (host.starts_with("127.") && digits);
 }

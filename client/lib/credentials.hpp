@@ -9,32 +9,33 @@
 
 namespace anticrack::client {
 
-/// As the user gives them; empty: not given.
+/// The files that the user gives; empty: not given.
 struct CredentialFiles {
-  bool tls = false;                   ///< even without files: with the system's roots
+  bool tls = false;                   ///< use TLS even without files, with the system's roots
   std::filesystem::path ca;           ///< PEM; trusted instead of the system's roots
   std::filesystem::path certificate;  ///< PEM; of this client
   std::filesystem::path key;          ///< PEM, without a pass phrase
   std::filesystem::path token;        ///< holds one bearer token
-  /// The token itself, if no file is given. Never from the command line, which other users can
-  /// read.
+  /// The token itself, if no file is given. It never comes from the command line, which other users
+  /// can read.
   std::string token_text;
 };
 
 struct Credentials {
   bool tls = false;
-  std::string roots, certificate, key;  ///< PEM texts; no roots: the system's
+  std::string roots, certificate, key;  ///< PEM texts; empty roots: the system's
   std::string token;                    ///< empty: none
-  CredentialFiles files;                ///< their origin, for error messages
+  CredentialFiles files;                ///< the files they come from, for error messages
 };
 
-/// Whether what is sent to this address stays on the machine: a unix socket, localhost, 127.x.x.x
-/// or ::1.
+/// Whether data sent to this address stay on the machine: a unix socket, localhost, 127.x.x.x or
+/// ::1.
 bool is_loopback(std::string_view address);
 
-/// Reads and checks them before anything is sent. Throws Error (invalid_argument) that names the
-/// file and the cure: one that cannot be read, is not PEM, or whose key is of another certificate;
-/// a certificate without its key; a malformed token, or one that would cross a network unencrypted.
+/// Reads and checks the files before anything is sent. Throws Error (invalid_argument) with the
+/// file and the cure for a file that cannot be read or is not PEM, a key of another certificate, a
+/// certificate without its key, a malformed token, or a token that would cross a network
+/// unencrypted.
 Credentials read_credentials(const CredentialFiles& files, std::string_view address);
 
 }  // namespace anticrack::client

@@ -15,7 +15,7 @@ Code to_code(int code) {
   return code >= 0 && code <= largest_code ? static_cast<Code>(code) : Code::unknown;
 }
 
-// The details have google.rpc's type names; our messages have the same fields.
+// Compares type names: details have those of google.rpc, with the same fields as our messages.
 bool is(const google::protobuf::Any& detail, std::string_view type) {
   const std::string& url = detail.type_url();
   const std::size_t slash = url.rfind('/');

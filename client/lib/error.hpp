@@ -38,7 +38,7 @@ enum class Code {
   unauthenticated = 16,
 };
 
-/// "INVALID_ARGUMENT" and so on; "UNKNOWN" for what is not a code.
+/// The name of a code, like "INVALID_ARGUMENT"; "UNKNOWN" for a number that is no code.
 std::string_view name(Code code) noexcept;
 
 struct FieldViolation {
@@ -46,7 +46,7 @@ struct FieldViolation {
   std::string description;
 };
 
-/// What the server adds to a code and a message; empty where it adds nothing.
+/// What the server adds to a code and a message; members are empty if it adds nothing.
 struct Details {
   std::string reason;  ///< stable, UPPER_SNAKE_CASE
   std::map<std::string, std::string> metadata;
@@ -67,14 +67,14 @@ class Error : public std::runtime_error {
   Details _details;
 };
 
-/// A stop token ended the call.
+/// Thrown when a stop token ended the call.
 class Interrupted : public std::runtime_error {
  public:
   Interrupted() : std::runtime_error("interrupted") {}
 };
 
-/// `details_bin`: the trailing metadata "grpc-status-details-bin", possibly empty. What cannot be
-/// decoded is ignored; code and message remain.
+/// The error of a status. `details_bin`: the trailing metadata "grpc-status-details-bin", possibly
+/// empty. Details that cannot be decoded are ignored; code and message remain.
 Error decode_error(int code, const std::string& message, std::string_view details_bin);
 
 /// The error inside a job, a load case or a mesh.

@@ -32,7 +32,7 @@ namespace anticrack::client {
 v1::Job create_job(Connection& connection, const v1::Job& job, const std::string& request_id,
                    const std::stop_token& stop = {});
 
-/// The job of this name ("jobs/ID") as it is now. Error: not_found.
+/// The present state of the job with this name ("jobs/ID"). Error: not_found.
 v1::Job get_job(Connection& connection, const std::string& name, const std::stop_token& stop = {});
 
 /// One page of the jobs this client may see, the newest first by default, without load cases and
@@ -42,7 +42,7 @@ v1::ListJobsResponse list_jobs(Connection& connection, const v1::ListJobsRequest
                                const std::stop_token& stop = {});
 
 /// Stops a job. Returns at once; the job ends CANCELLED within an iteration and keeps the load
-/// cases it finished. A job that has ended is returned unchanged. Error: not_found.
+/// cases that it has finished. A job that has ended is returned unchanged. Error: not_found.
 v1::Job cancel_job(Connection& connection, const std::string& name,
                    const std::stop_token& stop = {});
 
@@ -50,23 +50,22 @@ v1::Job cancel_job(Connection& connection, const std::string& name,
 /// ended).
 void delete_job(Connection& connection, const std::string& name, const std::stop_token& stop = {});
 
-/// Whether a job will not change any more: SUCCEEDED, NOT_CONVERGED, FAILED or CANCELLED.
+/// Whether a job has ended and no longer changes: SUCCEEDED, NOT_CONVERGED, FAILED or CANCELLED.
 bool ended(v1::Job::State state);
 
 /// Passes on every event of a job after number `after_sequence` (0: from the earliest kept), in
 /// order and once each, until it has ended; returns the job as it ended, also one that FAILED: see
-/// Job.state. After a lost connection goes on behind the last event; where the server keeps that
-/// one no longer, starts over with a snapshot and the earliest event kept (their numbers may then
-/// have been seen before). `event` is called on this thread, for snapshots and heartbeats too; to
-/// leave early it requests `stop` rather than throw. Error: not_found.
+/// Job.state. After a lost connection it goes on after the last event; if the server no longer
+/// keeps the next one, it starts again with a snapshot and the earliest event kept (whose numbers
+/// may have been seen before). `event` is called on this thread, for snapshots and heartbeats too;
+/// to end the watch early it should request `stop` and not throw. Error: not_found.
 v1::Job watch_job(Connection& connection, const std::string& name, std::uint64_t after_sequence,
                   const std::function<void(const v1::WatchJobResponse&)>& event,
                   const std::stop_token& stop = {});
 
-/// Traces and histories of an ended job (the arrays stand at ReadResultResponse in solve.proto); an
-/// interrupted read goes on where it was.
-/// Error: not_found, failed_precondition (not ended, ended without results, or expired), data_loss
-/// (damaged again and again).
+/// Traces and histories of an ended job (ReadResultResponse in solve.proto lists the arrays); after
+/// a lost connection the read goes on where it was. Error: not_found, failed_precondition (not
+/// ended, ended without results, or expired), data_loss (damaged several times in a row).
 Block read_result(Connection& connection, const std::string& name,
                   const std::stop_token& stop = {});
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Meshes on the server: make them, wait for them, read them; and the files they and loads are made
-// from (MeshService, UploadService; requests and answers, with units, are those of
+// Meshes on the server: make them, wait for them, read them; and the files from which meshes and
+// loads are made (MeshService, UploadService; requests and answers, with units, are those of
 // anticrack/v1/mesh.proto and upload.proto).
 //
 // Every function may be called from any thread. It returns when the server has answered, or throws:
@@ -30,24 +30,24 @@ namespace anticrack::client {
 /// Sends a mesh file (MSH 2.0 to 2.2 or 4.1, or of FreeFEM) in chunks of 1 MiB; returns
 /// "uploads/SHA256", for CreateMeshRequest.upload. Sending it again is harmless. Error:
 /// invalid_argument (no .msh, or over the server's upload limit), resource_exhausted. Throws
-/// std::runtime_error when the file cannot be read or changes while it is sent.
+/// std::runtime_error if the file cannot be read or changes while it is sent.
 std::string upload_mesh(Connection& connection, const std::filesystem::path& path,
                         const std::stop_token& stop = {});
 
-/// Sends values as they are (float64, little-endian); returns "uploads/SHA256", for Force.Array and
-/// Sweep.Matrix. They have the unit of what they are used for.
-/// Error: invalid_argument (over the server's upload limit), resource_exhausted.
+/// Sends values unchanged (float64, little-endian); returns "uploads/SHA256", for Force.Array and
+/// Sweep.Matrix. Their unit is that of the quantity for which they are used. Error:
+/// invalid_argument (over the server's upload limit), resource_exhausted.
 std::string upload_array(Connection& connection, std::span<const double> values,
                          const std::stop_token& stop = {});
 
-/// The values of an array. Called on a thread of its own, for one array at a time and in order;
-/// once more for those that a lost connection makes it send again.
+/// Returns the values of an array. It is called on a separate thread, for one array at a time and
+/// in order, and again for arrays that must be sent again after a lost connection.
 using ReadArray = std::function<std::vector<double>(std::size_t index)>;
 
-/// upload_array for `count` arrays. They travel together, each read while the one before is sent,
-/// and the server writes them to the disk together: all of a stream (500 arrays) or none.
-/// Error: as upload_array; Details::metadata "file" is the index of the array at fault. What `read`
-/// throws.
+/// upload_array for `count` arrays. They are sent together, each being read while the one before is
+/// sent, and the server writes them to the disk together: all of a stream (500 arrays) or none.
+/// Error: as upload_array; Details::metadata "file" is the index of the array at fault. Also throws
+/// what `read` throws.
 std::vector<std::string> upload_arrays(Connection& connection, std::size_t count,
                                        const ReadArray& read, const std::stop_token& stop = {});
 
@@ -64,14 +64,14 @@ v1::ListUploadsResponse list_uploads(Connection& connection, const v1::ListUploa
 void delete_upload(Connection& connection, const std::string& name,
                    const std::stop_token& stop = {});
 
-/// Requests the mesh of a geometry or of an upload. Returns before it is made, most often PENDING:
-/// a job may name it at once, wait_for_mesh() waits. Equal requests give the same mesh.
-/// Error: invalid_argument (Details::fields names the fields), not_found (the upload),
+/// Requests the mesh of a geometry or of an upload. Returns before the mesh is made, most often
+/// PENDING; a job may name it at once, and wait_for_mesh() waits for it. Equal requests give the
+/// same mesh. Error: invalid_argument (Details::fields names the fields), not_found (the upload),
 /// resource_exhausted.
 v1::Mesh create_mesh(Connection& connection, const v1::CreateMeshRequest& request,
                      const std::stop_token& stop = {});
 
-/// The mesh of this name ("meshes/ID") as it is now. Error: not_found.
+/// The present state of the mesh with this name ("meshes/ID"). Error: not_found.
 v1::Mesh get_mesh(Connection& connection, const std::string& name,
                   const std::stop_token& stop = {});
 
@@ -80,15 +80,14 @@ v1::Mesh get_mesh(Connection& connection, const std::string& name,
 v1::ListMeshesResponse list_meshes(Connection& connection, const v1::ListMeshesRequest& request,
                                    const std::stop_token& stop = {});
 
-/// Starts factorising it, so that the next job need not wait. `pin` (administrators only) keeps it
-/// in memory until it is evicted. Returns before the mesh is factorised.
-/// Error: not_found, failed_precondition (meshing failed), resource_exhausted (memory budget),
-/// permission_denied.
+/// Starts factorising a mesh, so that the next job need not wait. `pin` (administrators only) keeps
+/// it in memory until it is evicted. Returns before the mesh is factorised. Error: not_found,
+/// failed_precondition (meshing failed), resource_exhausted (memory budget), permission_denied.
 v1::Mesh warm_mesh(Connection& connection, const std::string& name, bool pin,
                    const std::stop_token& stop = {});
 
-/// Frees its factors; the next job makes them again. For administrators.
-/// Error: not_found, failed_precondition (a running job uses them), permission_denied.
+/// Frees the factors of a mesh; the next job makes them again. For administrators. Error:
+/// not_found, failed_precondition (a running job uses them), permission_denied.
 v1::Mesh evict_mesh(Connection& connection, const std::string& name,
                     const std::stop_token& stop = {});
 
@@ -99,14 +98,15 @@ void delete_mesh(Connection& connection, const std::string& name, const std::sto
 bool settled(v1::Mesh::State state);
 
 /// Polls, at most once a second, until the mesh is settled; calls `seen` for every new state, on
-/// this thread. A mesh that FAILED is returned, not thrown: see Mesh.error. Error: not_found.
+/// this thread. A mesh that FAILED is returned and does not throw: see Mesh.error. Error:
+/// not_found.
 v1::Mesh wait_for_mesh(Connection& connection, const std::string& name,
                        const std::function<void(const v1::Mesh&)>& seen = {},
                        const std::stop_token& stop = {});
 
-/// Nodes, triangles and interfaces (the arrays stand at ReadMeshResponse in mesh.proto); an
-/// interrupted read goes on where it was. Coordinates are in the unit of the geometry.
-/// Error: not_found, failed_precondition (not meshed yet), data_loss (damaged again and again).
+/// Nodes, triangles and interfaces (ReadMeshResponse in mesh.proto lists the arrays); after a lost
+/// connection the read goes on where it was. Coordinates are in the unit of the geometry. Error:
+/// not_found, failed_precondition (not meshed yet), data_loss (damaged several times in a row).
 Block read_mesh(Connection& connection, const std::string& name, const std::stop_token& stop = {});
 
 }  // namespace anticrack::client

@@ -28,7 +28,7 @@ struct HostPort {
   std::string port;  ///< empty: none
 };
 
-/// HOST, HOST:PORT, [IPV6]:PORT or IPV6, in lower case.
+/// Splits HOST, HOST:PORT, [IPV6]:PORT or IPV6, in lower case.
 HostPort split(std::string_view text) {
   const std::string all = lower(text);
   if (all.starts_with('[')) {
@@ -41,7 +41,7 @@ HostPort split(std::string_view text) {
   return {all.substr(0, colon), all.substr(colon + 1)};
 }
 
-/// As one of IPv6, where those of IPv4 have a part of their own.
+/// An address in IPv6, of which IPv4 addresses are a part.
 using Ip = std::array<std::uint8_t, 16>;
 
 struct Network {
@@ -59,7 +59,7 @@ std::optional<Ip> ip_of(const std::string& host) {
   return std::nullopt;
 }
 
-/// "10.0.0.0/8".
+/// The network of a text like "10.0.0.0/8".
 std::optional<Network> network_of(const std::string& text) {
   const std::size_t slash = text.find('/');
   if (slash == std::string::npos) return std::nullopt;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// ReadMesh and ReadResult: the same stream of a layout and chunks, resumed by offset. For the
+// Reads the streams of ReadMesh and ReadResult: a layout and chunks, resumed by offset. For the
 // sources of this folder only.
 #pragma once
 
@@ -13,11 +13,11 @@
 
 namespace anticrack::client {
 
-/// A damaged chunk is asked for again; this often in a row, then the error stands.
+/// A damaged chunk is requested again, this often in a row; then the error is thrown.
 inline constexpr int tries_of_damaged_data = 3;
 
-/// The block that a method streams, whole and checked; goes on where it was after a lost
-/// connection. Throws Error, and Interrupted once `stop` is requested.
+/// The block that a method streams, complete and checked. After a lost connection the read goes on
+/// where it was. Throws Error, and Interrupted once `stop` is requested.
 template <class Stub, class Request, class Response>
 Block read_block(Connection::State& state, Stub& stub,
                  std::unique_ptr<grpc::ClientReader<Response>> (Stub::*method)(grpc::ClientContext*,
@@ -41,7 +41,7 @@ Block read_block(Connection::State& state, Stub& stub,
           receiver.accept(response.layout());
         } else if (response.has_chunk()) {
           receiver.accept(response.chunk());
-          if (response.chunk().data().empty()) continue;  // no progress
+          if (response.chunk().data().empty()) continue;  // this is no progress
           retries.succeeded();
           damaged = 0;
         }

@@ -11,7 +11,7 @@ bool is_lost_connection(const Error& error) {
   switch (error.code()) {
     case Code::unavailable:
       return true;
-    case Code::cancelled:  // by a server that stops, not by one that was asked to
+    case Code::cancelled:  // by a server that stops, not on our request
       return error.details().reason.empty();
     case Code::unknown:
       return message.find("Stream removed") != std::string_view::npos;

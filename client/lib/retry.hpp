@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// When a failed call is tried again, and after how long: one policy for all calls, since all can be
-// repeated. CreateJob has its request id, meshes and uploads are named by their content, a watch
-// goes on behind a number, a read at an offset; cancelling, warming and evicting twice is
-// cancelling, warming and evicting; a delete that had gone through says NOT_FOUND. Pure: the caller
-// sleeps.
+// Decides whether a failed call is tried again, and after how long. One policy serves all calls,
+// since all can be repeated: CreateJob has its request id, meshes and uploads are named by their
+// content, a watch goes on after a number, a read at an offset; cancelling, warming and evicting
+// twice has the effect of doing it once; a repeated delete says NOT_FOUND. Pure: the caller sleeps.
 //
 //   UNAVAILABLE                              lost: a killed or draining server reached directly
 //   UNKNOWN "Stream removed"                 lost: the same behind haproxy
@@ -23,30 +22,30 @@
 
 namespace anticrack::client {
 
-/// Whether the connection was lost rather than the call refused.
+/// Whether the connection was lost, and the call was not refused.
 bool is_lost_connection(const Error& error);
 
-/// is_lost_connection, or a refusal that names a delay after which to try again (queue full).
+/// is_lost_connection, or a refusal with a delay after which to try again (queue full).
 bool may_retry(const Error& error);
 
 struct RetryPolicy {
   std::chrono::milliseconds first{100};         ///< delay before the second try
   std::chrono::milliseconds longest{1'000};     ///< bound of the doubling delay
-  std::chrono::milliseconds patience{300'000};  ///< give up when failing for longer than this
+  std::chrono::milliseconds patience{300'000};  ///< give up after failing for longer than this
 };
 
-/// Delays that double, each drawn from its upper half so that many clients do not return at once.
+/// Delays that double, each drawn from its upper half, so that many clients do not return at once.
 class Backoff {
  public:
-  /// `seed`: of the draw; given by tests.
+  /// `seed`: of the random draw; tests give it.
   explicit Backoff(RetryPolicy policy, std::uint32_t seed = std::random_device{}());
 
-  /// Delay before the next try, after having failed for `failing` with `error`; empty: give up,
-  /// the try would come after more than `patience`.
+  /// The delay before the next try, after calls failed for `failing`, last with `error`; empty:
+  /// give up, since the try would come after more than `patience`.
   std::optional<std::chrono::milliseconds> next(const Error& error,
                                                 std::chrono::milliseconds failing,
                                                 std::chrono::milliseconds patience);
-  /// A try went well.
+  /// To be called after a successful try.
   void reset() noexcept { _delay = _policy.first; }
 
  private:
@@ -55,7 +54,7 @@ class Backoff {
   std::minstd_rand _random;
 };
 
-/// The message before a wait; the same text as long as the cause is the same.
+/// The message before a wait; its text is the same as long as the cause is.
 std::string retry_text(const Error& error, const std::string& address,
                        std::chrono::milliseconds patience);
 

@@ -23,15 +23,15 @@ namespace {
 constexpr std::size_t chunk_bytes = 1u << 20;
 constexpr std::size_t files_a_stream = 500;  // the server takes 1000
 
-/// The next chunk of a file, empty at its end.
+/// Returns the next chunk of a file; empty at its end.
 using NextChunk = std::function<std::string()>;
 struct Outgoing {
   v1::CreateUploadsRequest::Header header;
   NextChunk next;
 };
-/// The next file, none at the end.
+/// Returns the next file; none at the end.
 using NextFile = std::function<std::optional<Outgoing>()>;
-/// Begins again with the first file, for every try to send.
+/// Begins with the first file; called for every try to send.
 using Begin = std::function<NextFile()>;
 
 /// The chunks of a file on the disk.
@@ -88,7 +88,7 @@ Outgoing array_file(const std::shared_ptr<const std::vector<double>>& owner,
   return file;
 }
 
-/// Reads and hashes the next arrays while those before are sent: a megabyte of them at a time.
+/// Reads and hashes the next arrays, a megabyte at a time, while those before are sent.
 class ArrayFiles {
  public:
   ArrayFiles(std::size_t first, std::size_t end, const ReadArray& read)
@@ -158,7 +158,7 @@ grpc::Status send_once(Connection::State& state, const Begin& begin,
   return writer->Finish();
 }
 
-/// The names of the `count` files that are sent.
+/// Sends `count` files; returns their names.
 std::vector<std::string> send(Connection& connection, const Begin& begin, std::size_t count,
                               const std::stop_token& stop) {
   Connection::State& state = connection.state();
@@ -178,7 +178,7 @@ std::vector<std::string> send(Connection& connection, const Begin& begin, std::s
   }
 }
 
-/// A stream of one file.
+/// Makes a stream of one file.
 Begin once(std::function<Outgoing()> file) {
   return [file = std::move(file)] {
     return [file, sent = false]() mutable -> std::optional<Outgoing> {

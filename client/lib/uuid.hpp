@@ -5,7 +5,7 @@
 
 namespace anticrack::client {
 
-/// A random UUID (version 4), 36 characters: what makes a submission idempotent.
+/// A random UUID (version 4), 36 characters, which makes a submission idempotent.
 std::string make_uuid();
 
 }  // namespace anticrack::client

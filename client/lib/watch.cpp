@@ -7,7 +7,7 @@
 namespace anticrack::client {
 namespace {
 
-/// How far the streams have come.
+/// The position that the streams have reached.
 struct Position {
   std::uint64_t after;
   std::optional<v1::Job> last;
@@ -34,7 +34,7 @@ v1::Job watch_job(Connection& connection, const std::string& name, std::uint64_t
     v1::WatchJobRequest request;
     request.set_name(name);
     request.set_after_sequence(position.after);
-    grpc::ClientContext context;  // no deadline: a job may take days, heartbeats show it is alive
+    grpc::ClientContext context;  // no deadline: jobs may take days, heartbeats show life
     authorise(state, context);
     const std::stop_callback cancel(stop, [&context] { context.TryCancel(); });
     const auto reader = state.jobs->WatchJob(&context, request);

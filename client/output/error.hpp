@@ -6,7 +6,8 @@
 
 namespace anticrack::output {
 
-/// A file that cannot be written, read or made sense of. what() is "SUBJECT: CAUSE; CURE".
+/// The error of a file that cannot be written, read or understood: what() is "SUBJECT: CAUSE;
+/// CURE".
 class Error : public std::runtime_error {
  public:
   Error(const std::string& subject, const std::string& cause, const std::string& cure)
@@ -15,7 +16,10 @@ class Error : public std::runtime_error {
         _cause(cause),
         _cure(cure) {}
 
-  const std::string& subject() const noexcept { return _subject; }  ///< the path, or whose data
+  const std::string& subject() const noexcept {
+    return _subject;
+  }  ///< the path, or the data's
+     ///< source
   const std::string& cause() const noexcept { return _cause; }
   const std::string& cure() const noexcept { return _cure; }  ///< may be empty
 

@@ -39,7 +39,7 @@ fs::path folder_of(const fs::path& path) {
 class TemporaryFile {
  public:
   explicit TemporaryFile(const fs::path& path) : _target(path) {
-    // O_EXCL with an own name instead of mkstemp: the file gets the permissions of the umask.
+    // O_EXCL with an own name instead of mkstemp: so the file gets the permissions of the umask.
     static std::atomic<unsigned> counter{0};
     do {
       _name = folder_of(path) / ("." + std::to_string(getpid()) + "-" +
@@ -55,7 +55,7 @@ class TemporaryFile {
     if (!_renamed) unlink(_name.c_str());
   }
 
-  /// With the permissions of the file it replaces.
+  /// Writes the bytes and takes the permissions of the file that it replaces.
   void write(std::span<const std::byte> bytes) {
     struct stat former {};
     if (stat(_target.c_str(), &former) == 0) fchmod(_descriptor, former.st_mode & 0777);
@@ -125,7 +125,7 @@ void write_file(const fs::path& path, std::span<const std::byte> bytes, bool kee
   if (keep) {
     const fs::path backup = backup_of(target.path);
     unlink(backup.c_str());
-    // A second name, so that the first is never without a file; not every file system has them.
+    // A hard link, so that the first name always has a file; not every file system has hard links.
     if (link(target.path.c_str(), backup.c_str()) != 0 &&
         rename(target.path.c_str(), backup.c_str()) != 0)
       fail(path, "cannot be kept as " + backup.string(), errno);

@@ -22,7 +22,7 @@ int failure = 0;
 void prepare_process() noexcept {
   for (const int number : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (fcntl(number, F_GETFD) >= 0 || errno != EBADF) continue;
-    // The lowest free number is this one.
+    // open() takes the lowest free number, which is this one.
     if (open("/dev/null", number == STDIN_FILENO ? O_WRONLY : O_RDONLY) != number) return;
   }
   signal(SIGXFSZ, SIG_IGN);
@@ -32,7 +32,7 @@ void prepare_process() noexcept {
 void print(std::span<const std::byte> bytes) noexcept {
   const std::lock_guard lock(printing);
   if (failure != 0) return;
-  // What others left in the buffer of stdout goes first.
+  // Text that others left in the buffer of stdout goes first.
   failure = std::fflush(stdout) != 0 ? errno : write_all(STDOUT_FILENO, bytes);
 }
 
@@ -40,7 +40,7 @@ void print(std::string_view text) noexcept { print(std::as_bytes(std::span(text)
 
 int print_failure() noexcept {
   const std::lock_guard lock(printing);
-  // Some network file systems tell of a full disk when a file is closed.
+  // Some network file systems report a full disk only when a file is closed.
   if (const int copy = failure == 0 ? dup(STDOUT_FILENO) : -1; copy >= 0 && close(copy) != 0)
     failure = errno;
   return failure;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Standard output. What cannot be written is remembered and told once, at the end: a command whose
-// output is closed or full still has results to save.
+// Standard output. A failed write is remembered and reported once, at the end, because a command
+// whose output is closed or full still has results to save.
 #pragma once
 
 #include <cstddef>
@@ -10,19 +10,19 @@
 
 namespace anticrack::output {
 
-/// To be called before anything else is opened. A standard stream that is closed is put in place as
-/// one that cannot be used, lest the next file that is opened be taken for it. A file too large for
-/// the limit of this process (ulimit -f) is an error of the write and not a signal; the ends of
-/// child processes can be waited for, whatever the parent of this one chose.
+/// To be called before anything else is opened. A closed standard stream is replaced by one that
+/// cannot be used, so that the next file to be opened is not taken for it. Writing beyond the limit
+/// of a file's size (ulimit -f) becomes an error of the write instead of a signal. The ends of
+/// child processes can be waited for, whatever the parent of this process chose.
 void prepare_process() noexcept;
 
-/// Writes all of it and flushes; nothing once a write has failed. Thread-safe.
+/// Writes the text and flushes; does nothing once a write has failed. Thread-safe.
 void print(std::string_view text) noexcept;
-/// The same of bytes that are not text.
+/// The same for bytes that are not text.
 void print(std::span<const std::byte> bytes) noexcept;
 
-/// The error number of the first write to standard output that failed, also one that the system has
-/// put off until now; 0: none. EPIPE: whoever read it, as `head`, has enough.
+/// The error number of the first write to standard output that failed, even if the system reports
+/// it only now; 0 if none failed. EPIPE means that the reader, such as `head`, has enough.
 int print_failure() noexcept;
 
 }  // namespace anticrack::output

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Names of files for things that have names.
+// File names made from names of things.
 #pragma once
 
 #include <string>

@@ -25,7 +25,8 @@ const char* const other_path = "choose another path";
               other_path);
 }
 
-/// N of /dev/fd/N and /proc/self/fd/N, whose links lead to names that need not be the open file's.
+/// The N of /dev/fd/N and /proc/self/fd/N, whose links lead to names that may not be those of the
+/// open file.
 std::optional<int> descriptor_named(const fs::path& path) {
   std::error_code none;
   if (!fs::equivalent(path.has_parent_path() ? path.parent_path() : fs::path("."), "/proc/self/fd",
@@ -48,8 +49,8 @@ bool is_terminal(const fs::path& path) {
   return terminal;
 }
 
-/// Which of standard output and standard error is this file; neither: -1. A device such as
-/// /dev/null is one by itself.
+/// The descriptor of standard output or standard error if one of them is this file, else -1. A
+/// device such as /dev/null counts as a stream of its own.
 int standard_stream(const struct stat& file, const fs::path& path) {
   if (S_ISCHR(file.st_mode) && !is_terminal(path)) return -1;
   for (const int number : {STDOUT_FILENO, STDERR_FILENO}) {
@@ -78,13 +79,13 @@ Target target_behind(const fs::path& given, const fs::path& path) {
 
 Target target_of(const fs::path& given) {
   if (given == "-") return {Target::Kind::stream, given, STDOUT_FILENO};
-  constexpr int most_links = 40;  // as the kernel
+  constexpr int most_links = 40;  // the kernel's limit
   fs::path path = given;
   for (int links = 0; links <= most_links; ++links) {
     if (const auto number = descriptor_named(path)) return {Target::Kind::stream, path, *number};
     std::error_code error;
     const fs::path next = fs::read_symlink(path, error);
-    if (error) return target_behind(given, path);  // no link
+    if (error) return target_behind(given, path);  // it is no link
     path = next.is_absolute() ? next : path.parent_path() / next;
   }
   cannot_write(given, ELOOP);

@@ -10,8 +10,8 @@
 
 namespace anticrack::output {
 
-/// Writes all bytes, waiting where the descriptor takes none at the moment. The error number of a
-/// write that failed, 0 for none.
+/// Writes all bytes, and waits while the descriptor takes none. Returns the error number of a write
+/// that failed, 0 if none did.
 inline int write_all(int descriptor, std::span<const std::byte> bytes) noexcept {
   while (!bytes.empty()) {
     const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());

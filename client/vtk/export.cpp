@@ -42,14 +42,14 @@ bool exportable(const Result& result, const std::string& source, const Load& loa
 
 using Corners = std::array<std::int32_t, 3>;
 
-/// For look-ups: in any order, from any corner.
+/// The corners of a triangle sorted, to find it from any corner and in any direction.
 Corners sorted(Corners corners) {
   std::ranges::sort(corners);
   return corners;
 }
 
-/// The indicators by cell: fields have the triangles of a subdomain in an order of their own. NaN
-/// for one that is not of the mesh.
+/// The indicators by cell, since fields have the triangles of a subdomain in another order. NaN for
+/// a triangle that is not in the mesh.
 std::vector<double> indicator_by_cell(const results::Mesh& mesh, const Load& load) {
   const auto corners = [](const std::vector<std::int32_t>& all, std::size_t triangle) {
     return Corners{all[3 * triangle], all[3 * triangle + 1], all[3 * triangle + 2]};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A result as ParaView reads it.
+// Writes a result in the form that ParaView reads.
 #pragma once
 
 #include <filesystem>
@@ -14,8 +14,8 @@
 namespace anticrack::vtk {
 
 /// The membrane under a load. Subdomains share no points, which keeps both faces of cracks and
-/// slits. Point data u, node (index in the mesh); cell data subdomain, tension and, where the
-/// load has it, error_indicator. Needs load.fields.
+/// slits. Point data u, node (index in the mesh); cell data subdomain, tension and, if the load has
+/// it, error_indicator. Needs load.fields.
 UnstructuredGrid membrane(const results::Result& result, const results::Load& load);
 
 /// The interfaces as lines. Point data u_minus, u_plus, jump, pressure, s (arc length), kind
@@ -25,15 +25,15 @@ UnstructuredGrid interfaces(const results::Result& result, const results::Load& 
 
 struct Exported {
   std::vector<std::filesystem::path> files;
-  std::vector<std::string> notes;  ///< what was left out and why
+  std::vector<std::string> notes;  ///< what was left out, and why
 };
 
 /// Writes into `folder` (created if missing), for every load with an answer, LOAD.vtu (the
 /// membrane) and LOAD-interfaces.vtu, and result.pvd, which shows load i at time i. LOAD is the
-/// load's name made safe for a file name, and unique. A sweep has no fields: only the interfaces of
-/// kept rows. Each file is written completely or not at all. Throws results::Error for an answer
-/// without fields (except of a sweep), without any answer, and for a file that cannot be written;
-/// `source` names the result in it.
+/// load's name made safe for a file name, and unique. A sweep has no fields, so only interfaces of
+/// kept rows are written. Each file is written completely or not at all. Throws results::Error for
+/// an answer without fields (except in a sweep), for a result without answers, and for a file that
+/// cannot be written. `source`: the name of the result in messages.
 Exported export_result(const results::Result& result, const std::string& source,
                        const std::filesystem::path& folder);
 

@@ -28,7 +28,7 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
-/// The arrays behind the XML, each after its length in bytes.
+/// The arrays after the XML, each preceded by its length in bytes.
 class Appended {
  public:
   template <class T>

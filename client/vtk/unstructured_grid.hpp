@@ -36,8 +36,8 @@ std::string to_vtu(const UnstructuredGrid& grid);
 
 /// A file of a .pvd.
 struct Member {
-  std::string name;  ///< for people; any text
-  std::string file;  ///< beside the .pvd
+  std::string name;  ///< shown to users; any text
+  std::string file;  ///< path relative to the .pvd
   std::size_t step = 0;
   std::size_t part = 0;
 };

@@ -68,7 +68,7 @@ bool read_digits(std::string_view text, Part& part) {
   return code == std::errc() && end == text.data() + text.size();
 }
 
-/// YYYY-MM-DD.
+/// A day from a text YYYY-MM-DD.
 std::optional<std::chrono::year_month_day> to_day(std::string_view text) {
   unsigned year = 0;
   unsigned month = 0;
@@ -150,7 +150,7 @@ std::optional<Identity> TokenTable::find(std::string_view token,
   digest.add(std::as_bytes(std::span(token)));
   const std::optional<Hash> hash = to_hash(digest.finish());
   const Entry* found = nullptr;
-  for (const Entry& entry : _entries)  // all of them, so that the time reveals nothing
+  for (const Entry& entry : _entries)  // all of them: the time reveals nothing
     if (CRYPTO_memcmp(entry.hash.data(), hash->data(), hash->size()) == 0) found = &entry;
   if (found == nullptr) return std::nullopt;
   if (found->last_day &&

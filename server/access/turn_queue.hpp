@@ -9,8 +9,8 @@
 
 namespace anticrack::access {
 
-/// A queue in which users take turns: what each of them brought stays in its order, and however
-/// much one has brought, another waits for one entry of each user. O(1). Not thread-safe.
+/// A queue in which users take turns: the entries of a user stay in their order, and however many
+/// entries one user has, another waits for at most one entry of each user. O(1). Not thread-safe.
 template <class Entry>
 class TurnQueue {
  public:
@@ -20,7 +20,7 @@ class TurnQueue {
     own.push_back(std::move(entry));
     ++_size;
   }
-  /// Takes the next entry, which there must be.
+  /// Takes the next entry; the queue must not be empty.
   Entry pop() {
     const auto own = _entries.find(_users.front());
     Entry entry = std::move(own->second.front());
@@ -35,7 +35,7 @@ class TurnQueue {
   }
   bool empty() const noexcept { return _size == 0; }
   std::size_t size() const noexcept { return _size; }
-  /// Entries of one user.
+  /// The number of entries of one user.
   std::size_t size_of(const std::string& user) const {
     const auto own = _entries.find(user);
     return own == _entries.end() ? 0 : own->second.size();
@@ -43,7 +43,7 @@ class TurnQueue {
 
  private:
   std::unordered_map<std::string, std::deque<Entry>> _entries;
-  std::deque<std::string> _users;  ///< who have entries, the next first
+  std::deque<std::string> _users;  ///< users who have entries, the next first
   std::size_t _size = 0;
 };
 

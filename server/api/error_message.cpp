@@ -14,7 +14,7 @@ using errors::Reason;
 
 namespace {
 
-/// As in google.rpc; the messages are wire-compatible.
+/// Packs a detail as google.rpc does; the messages are wire-compatible.
 template <class Detail>
 std::string type_url() {
   return "type.googleapis.com/google.rpc." + Detail::descriptor()->name();
@@ -36,7 +36,7 @@ Detail unpacked(const v1::Status& status) {
   return detail;
 }
 
-/// By name: the numbers of the enum change when a reason is added.
+/// The reason with this name; the numbers of the enum change when a reason is added.
 Reason reason_of(const std::string& name) {
   for (int i = 0; i <= static_cast<int>(Reason::internal); ++i)
     if (errors::name(static_cast<Reason>(i)) == name) return static_cast<Reason>(i);
@@ -86,7 +86,7 @@ Error Translation<Error>::read(const v1::Status& from) {
   Error error(reason_of(info.reason()), from.message());
   const auto bad = unpacked<v1::BadRequest>(from);
   for (const auto& violation : bad.field_violations())
-    error.at(violation.field());  // its description is the message
+    error.at(violation.field());  // the description is the message itself
   for (const auto& [key, value] : info.metadata()) error.with(key, value);
   const auto delay =
       read_one<std::chrono::nanoseconds>(unpacked<v1::RetryInfo>(from), "retry_delay");

@@ -23,8 +23,8 @@ struct Budget {
   std::size_t value = all;
 };
 
-/// Message, ErrorInfo, and BadRequest and RetryInfo if the error has fields or a delay. Control
-/// characters and invalid UTF-8 become '?'.
+/// The error as a message with ErrorInfo, and BadRequest and RetryInfo if it has fields or a delay.
+/// Control characters and invalid UTF-8 become '?'.
 v1::Status to_message(const errors::Error& error, const Budget& budget = {});
 
 }  // namespace anticrack::api

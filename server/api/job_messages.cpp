@@ -26,12 +26,12 @@ namespace {
 /// Absolute and relative residuals share a message.
 constexpr const char* relative = "_relative";
 
-/// 0: unset.
+/// Writes a time limit, unless it is 0.
 void write_limit(milliseconds limit, Message& to, const char* name) {
   if (limit.count() > 0) write_field(std::chrono::nanoseconds(limit), to, name);
 }
 
-/// Rounded up, so that a short limit does not become 0 (unset).
+/// A limit in milliseconds, rounded up so that a short one does not become 0 (unset).
 milliseconds limit_of(const Message& from, const char* name) {
   return std::chrono::ceil<milliseconds>(read_one<std::chrono::nanoseconds>(from, name));
 }

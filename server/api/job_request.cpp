@@ -137,7 +137,7 @@ std::string fingerprint(const v1::Job& job) {
         v1::Job::kResultStateFieldNumber, v1::Job::kExpireTimeFieldNumber,
         v1::Job::kLoadCaseCountFieldNumber, v1::Job::kLoadCasesEndedFieldNumber})
     sent.GetReflection()->ClearField(&sent, sent.GetDescriptor()->FindFieldByNumber(number));
-  if (packed_bytes(job) > 0) {  // the same matrix by its name
+  if (packed_bytes(job) > 0) {  // names the same matrix by its upload
     auto& sweep = *sent.mutable_sweep();
     auto& matrix =
         sweep.has_coefficients() ? *sweep.mutable_coefficients() : *sweep.mutable_nodal_forces();

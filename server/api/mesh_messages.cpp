@@ -14,7 +14,7 @@ using errors::Error;
 using errors::Reason;
 using Points = google::protobuf::RepeatedPtrField<v1::Point>;
 
-// Enums travel as their numbers, but for mesh::Preset.
+// Enums travel as their numbers, except mesh::Preset.
 static_assert(int(records::MeshState::failed) == v1::Mesh::STATE_FAILED);
 static_assert(int(mesh::Kind::free) == v1::INTERFACE_KIND_FREE);
 static_assert(int(records::ArrayType::uint8) == v1::ArrayLayout::TYPE_UINT8);

@@ -23,7 +23,7 @@ std::size_t part_count(const v1::Geometry& geometry) {
   return count;
 }
 
-/// Of a v1::InterfaceCurve or v1::Line.
+/// The number of vertices of a v1::InterfaceCurve or v1::Line.
 template <class Line>
 int vertex_count(const Line& line) {
   return line.polyline().points_size() + line.spline().points_size();
@@ -32,7 +32,7 @@ int vertex_count(const v1::Outline& line) {
   return line.polygon().points_size() + line.spline().points_size();
 }
 
-/// The vertices of some lines, together.
+/// Counts the vertices of several lines together.
 class Vertices {
  public:
   explicit Vertices(const char* what) : _what(what) {}

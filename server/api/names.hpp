@@ -9,12 +9,12 @@
 
 namespace anticrack::api {
 
-/// From an id to a name.
+/// The resource name of an id.
 std::string mesh_name(const std::string& id);
 std::string job_name(const std::string& id);
 std::string upload_name(const std::string& sha256);
 
-/// From a name to its id.
+/// The id in a resource name.
 std::string mesh_id(const std::string& name, std::string_view field);
 std::string job_id(const std::string& name, std::string_view field);
 /// The sha256 of "uploads/SHA256".
@@ -23,9 +23,9 @@ std::string upload_sha256(const std::string& name, std::string_view field);
 /// The part after the '/' of a name that was checked before.
 std::string after_slash(const std::string& name, std::string_view field);
 
-/// 1 to 64 letters, digits, '-' and '_'.
+/// Whether a text is an id: 1 to 64 letters, digits, '-' and '_'.
 bool is_id(std::string_view text) noexcept;
-/// 64 lower-case hexadecimal digits.
+/// Whether a text is 64 lower-case hexadecimal digits.
 bool is_sha256(std::string_view text) noexcept;
 
 }  // namespace anticrack::api

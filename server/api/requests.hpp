@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// From requests to the structs of the domain. Pure functions; each checks what those structs cannot
-// express (unset alternatives, names, counts) and throws errors::Error with the path of the field
-// in the request. The domain checks the values.
+// Translates requests to the structs of the domain. The functions are pure. Each checks what the
+// structs cannot express (unset alternatives, names, counts) and throws errors::Error with the path
+// of the field in the request. The domain checks the values.
 #pragma once
 
 #include <chrono>
@@ -16,27 +16,28 @@
 
 namespace anticrack::api {
 
-/// Points of one geometry: its check is quadratic in their number.
+/// Most points of one geometry, as its check is quadratic in their number.
 constexpr std::size_t max_vertices = 10'000;
-/// Inclusions, cracks and delaminated parts of one geometry, together.
+/// Most inclusions, cracks and delaminated parts of one geometry, together.
 constexpr std::size_t max_parts = 1'000;
-/// Interfaces of one geometry, and lines for its mesh to follow.
+/// Most interfaces of one geometry, and most lines for its mesh to follow.
 constexpr std::size_t max_interfaces = 1'000;
-/// Sides of one boundary, and holes in it.
+/// Most sides of one boundary, and most holes in it.
 constexpr std::size_t max_sides = 1'000;
-/// Subdomains named in one geometry, groups named for one upload.
+/// Most subdomains named in one geometry, and most groups named for one upload.
 constexpr std::size_t max_regions = 1'000;
 constexpr std::size_t max_title_bytes = 200;
-/// Bytes of a job without its matrix: every answer repeats them and must stay below 4 MiB.
+/// Most bytes of a job without its matrix, as every answer repeats them and must stay below 4 MiB.
 constexpr std::size_t max_job_bytes = 1u << 20;
-/// Bytes of a matrix inside a job; a larger one must be uploaded.
+/// Most bytes of a matrix inside a job; a larger one must be uploaded.
 constexpr std::size_t max_packed_bytes = 1u << 20;
 
-/// The definition of a mesh, options filled in.
+/// The definition of a mesh, with options filled in.
 records::MeshDefinition to_definition(const v1::CreateMeshRequest& request);
 
-/// SHA-256 of what the client sets in a job, as it was sent: neither defaults nor limits of the
-/// server change it. A packed matrix and its upload have the same. 64 hexadecimal digits.
+/// SHA-256 of what the client sets in a job, as it was sent: defaults and limits of the server do
+/// not change it. A job with a packed matrix and one with its upload have the same fingerprint. 64
+/// hexadecimal digits.
 std::string fingerprint(const v1::Job& job);
 
 /// The limits of a job.
@@ -47,8 +48,8 @@ struct JobLimits {
   std::chrono::milliseconds run_time{0};
 };
 
-/// The job, defaults filled in except time limits. The rows of a sweep are not set; a matrix inside
-/// the job is named by its hash, under which keep_packed_matrix() stores it.
+/// The job, with defaults filled in except time limits. The rows of a sweep are not set; a matrix
+/// inside the job is named by its hash, under which keep_packed_matrix() stores it.
 records::JobSpec to_spec(const v1::Job& job, const JobLimits& limits);
 
 /// A sweep's matrix and its path in the job.

@@ -10,7 +10,7 @@ namespace anticrack::api {
 using google::protobuf::util::TimeUtil;
 using std::chrono::nanoseconds;
 
-/// Beyond 292 years a count of nanoseconds overflows.
+/// Checks the range, as a count of nanoseconds overflows beyond 292 years.
 template <class Time>
 static const Time& within_range(const Time& time) {
   constexpr auto most = std::chrono::floor<std::chrono::seconds>(nanoseconds::max()).count() - 3;

@@ -19,7 +19,8 @@ using errors::Reason;
 
 namespace {
 
-/// "lumped (1) or consistent (2)" of MASS_UNSPECIFIED = 0, MASS_LUMPED = 1, MASS_CONSISTENT = 2.
+/// The values of an enum as text, for example "lumped (1) or consistent (2)" for MASS_UNSPECIFIED =
+/// 0, MASS_LUMPED = 1, MASS_CONSISTENT = 2.
 std::string choices(const google::protobuf::EnumDescriptor& type) {
   const std::size_t prefix = type.value(0)->name().size() - std::string("UNSPECIFIED").size();
   std::string text;

@@ -68,7 +68,7 @@ ANTICRACK_ACCESS(std::uint64_t, UInt64);
 ANTICRACK_ACCESS(std::string, String);
 #undef ANTICRACK_ACCESS
 
-/// Sets a number or text, or appends it to a list.
+/// Sets a number or text of a message, or appends it to a list.
 template <class T>
 void put(Message& to, const FieldDescriptor& field, T value) {
   const auto set = field.is_repeated() ? Access<T>::add : Access<T>::set;
@@ -88,15 +88,15 @@ void put_number(Message& to, const FieldDescriptor& field, int number);
 int get_number(const Message& from, const FieldDescriptor& field, int index);
 /// The message in a field; a new one if the field is a list.
 Message& add(Message& to, const FieldDescriptor& field);
-/// The default if unset. `index` -1: the field is not a list.
+/// The message in a field, a default one if it is not set. `index`: -1 if the field is not a list.
 const Message& message_in(const Message& from, const FieldDescriptor& field, int index);
 /// Throws errors::Error unless the field is set.
 void require(const Message& from, const FieldDescriptor& field);
 int size_of(const Message& from, const FieldDescriptor& field);
 bool has(const Message& from, const FieldDescriptor& field);
-/// errors::Error (internal): a field without translation.
+/// The error (internal) for a field without translation.
 errors::Error untranslated(std::string_view field);
-/// "name" or "name[2]".
+/// The path of a field: "name" or "name[2]".
 std::string path_of(const FieldDescriptor& field, int index);
 
 template <class T>
@@ -153,7 +153,7 @@ void write_field(const T& value, Message& to, const FieldDescriptor& field) {
   }
 }
 
-/// Leaves `value` unchanged if the message does not set an optional number or an enum.
+/// Reads a value; leaves it unchanged if the message does not set an optional number or an enum.
 template <class T>
 void read_field(const Message& from, const FieldDescriptor& field, T& value) {
   if constexpr (fields::is_a<T, std::optional>) {
@@ -177,7 +177,7 @@ void read_field(const Message& from, const FieldDescriptor& field, T& value) {
   }
 }
 
-/// Other fields must be among the exceptions of their struct.
+/// Types whose fields are translated; fields of other types must be exceptions of their struct.
 template <class T>
 concept Translated = Simple<T> || fields::is_a<T, std::optional> || fields::is_a<T, std::vector> ||
     fields::is_a<T, std::map> || requires {
@@ -206,12 +206,12 @@ void read_fields(const Message& from, T& value, Except except) {
   });
 }
 
-/// The same of one field, by its name.
+/// Writes one field, by its name.
 template <class T>
 void write_field(const T& value, Message& to, std::string_view name) {
   write_field(value, to, field_of(to, name));
 }
-/// See write_field().
+/// Reads one field, by its name.
 template <class T>
 void read_field(const Message& from, std::string_view name, T& value) {
   read_field(from, field_of(from, name), value);
@@ -225,7 +225,7 @@ T read_one(const Message& from, std::string_view name) {
 /// Deterministic bytes of a message. Throws std::length_error beyond 2 GB.
 std::string serialized(const Message& message);
 
-/// A value as the message of its Translation.
+/// Makes the message of a value's Translation.
 template <class T>
 typename Translation<T>::Of message(const T& value) {
   typename Translation<T>::Of to;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Translations of structs whose fields differ from those of the message. All others are translated
-// by name (translation.hpp). Reading throws errors::Error (invalid_argument, with the field at
-// fault); the domain checks the values.
+// Translations of structs whose fields differ from those of the message. All other structs are
+// translated field by field (translation.hpp). Reading throws errors::Error (invalid_argument, with
+// the field at fault); the domain checks the values.
 #pragma once
 
 #include <chrono>
@@ -31,11 +31,11 @@ namespace anticrack::api {
 ANTICRACK_TRANSLATION(records::Clock::time_point, google::protobuf::Timestamp);
 ANTICRACK_TRANSLATION(std::chrono::nanoseconds, google::protobuf::Duration);
 
-/// Without the code, at full length; see error_message.hpp.
+/// The error without the code, at full length; see error_message.hpp.
 ANTICRACK_TRANSLATION(errors::Error, v1::Status);
 
 // mesh/
-/// As the others, but reading throws if a single point is not set.
+/// Like the others, but reading throws if a single point is not set.
 template <>
 struct Translation<mesh::Point> {
   using Of = v1::Point;
@@ -60,27 +60,27 @@ ANTICRACK_TRANSLATION(contact::ActiveSetOptions, v1::ActiveSet);
 ANTICRACK_TRANSLATION(contact::SolverOptions, v1::Solver);
 
 // store/
-/// Without its definition.
+/// The record without the definition.
 ANTICRACK_TRANSLATION(records::MeshRecord, v1::Mesh);
 ANTICRACK_TRANSLATION(records::Refinement, v1::Refinement);
-/// Its rows are in Job.sweep_answer.
+/// The number of rows is in Job.sweep_answer.
 ANTICRACK_TRANSLATION(records::SweepSpec, v1::Sweep);
-/// Without the name, which is the load's.
+/// The record without the name, which is that of the load.
 ANTICRACK_TRANSLATION(records::CaseRecord, v1::LoadCaseAnswer);
 ANTICRACK_TRANSLATION(records::AccuracySpec, v1::Accuracy);
 ANTICRACK_TRANSLATION(records::StageRecord, v1::Stage);
 /// The part of Job that the client sets.
 ANTICRACK_TRANSLATION(records::JobSpec, v1::Job);
-/// Without its request id.
+/// The record without the request id.
 ANTICRACK_TRANSLATION(records::JobRecord, v1::Job);
 #undef ANTICRACK_TRANSLATION
 
-/// What a mesh is made from: source and options of a v1::CreateMeshRequest or v1::Mesh; a
-/// refinement only of the latter and of records.
+/// The definition of a mesh: source and options of a v1::CreateMeshRequest or v1::Mesh. A
+/// refinement exists only in the latter and in records.
 void write_definition(const records::MeshDefinition& value, Message& to);
 records::MeshDefinition read_definition(const v1::CreateMeshRequest& from);
 
-/// Arrays in one message of a layout; some 100 bytes each.
+/// Most arrays in one message of a layout; each takes some 100 bytes.
 constexpr std::size_t max_layout_arrays = 4096;
 /// The layout of a block: at most `count` of its arrays, from `first` on.
 v1::BlockLayout layout_of(const records::BlockSource& block, std::size_t first = 0,

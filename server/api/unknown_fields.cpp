@@ -24,14 +24,14 @@ using google::protobuf::Message;
       .at(path);
 }
 
-/// Of an enum or of messages; a map counts by its values.
+/// Whether a field has an enum or messages; a map counts by its values.
 bool has_parts(const FieldDescriptor& field) {
   const FieldDescriptor* of = field.is_map() ? field.message_type()->map_value() : &field;
   return of->cpp_type() == FieldDescriptor::CPPTYPE_ENUM ||
          of->cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE;
 }
 
-/// `path` leads to the message; empty: the request.
+/// Visits a message. `path` leads to it; empty: it is the request.
 void visit(const Message& message, const std::string& path) {
   const auto& reflection = *message.GetReflection();
   const auto& unknown = reflection.GetUnknownFields(message);

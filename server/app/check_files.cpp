@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The folder itself or, where it is yet to be made, the one it will be made in.
+/// Checks that the folder is writable or, if it does not exist, the one in which it will be made.
 void require_writable(const std::string& data) {
   std::error_code code;
   fs::path path = fs::absolute(data).lexically_normal();

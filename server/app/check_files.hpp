@@ -8,8 +8,8 @@
 
 namespace anticrack::app {
 
-/// Opens what the configuration names: certificates, keys, tokens, the data folder, the helper.
-/// One sentence for each that cannot be used. Changes nothing.
+/// Opens all that the configuration names: certificates, keys, tokens, the data folder, the helper.
+/// Returns a sentence for each that cannot be used. Changes nothing.
 std::vector<std::string> problems_of_files(const Config& config);
 
 }  // namespace anticrack::app

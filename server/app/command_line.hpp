@@ -19,7 +19,7 @@ struct CommandLine {
   bool check_config = false;
   bool is_private = false;  ///< see PrivatePlace
   bool check_store = false;
-  bool repair = false;  ///< what check_store finds
+  bool repair = false;  ///< repairs what check_store finds
   std::string backup;   ///< the folder to make; empty: no backup
   /// The output of --help or --version, if one of them was given.
   std::optional<std::string> text;

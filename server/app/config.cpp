@@ -43,7 +43,7 @@ bool is_plain_number(const std::string& text) {
   return text.find_first_not_of("0123456789.") == std::string::npos;
 }
 
-/// Keys that need other keys.
+/// Checks keys that need other keys.
 void check_together(const Config& config) {
   if (config.tls_certificate.empty() != config.tls_key.empty()) {
     throw ConfigError(
@@ -61,8 +61,8 @@ void check_together(const Config& config) {
                 has_tls(config) || config.allow_insecure_remote);
 }
 
-/// Defaults that depend on the machine. Throws ConfigError where ulimit -v (0: none) leaves too
-/// little room.
+/// Sets the defaults that depend on the machine. Throws ConfigError if ulimit -v (0: none) leaves
+/// too little room.
 void fit_machine(const Machine& machine, std::uint64_t address_space, Config& config) {
   if (config.jobs.threads == 0) config.jobs.threads = machine.processors;
   const auto count = [](int number) { return static_cast<std::uint64_t>(number); };

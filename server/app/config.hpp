@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The configuration: one table of keys. Each is a flag of the command line and a key of the TOML
-// file.
+// The configuration: one table of keys, each of which is a flag of the command line and a key of
+// the TOML file.
 #pragma once
 
 #include <chrono>
@@ -24,7 +24,7 @@ struct Config {
   std::string log_level = "info";
   std::string log_format = "text";
   std::string metrics_listen;                ///< empty: no metrics
-  std::chrono::milliseconds drain_delay{0};  ///< still serving, but not ready
+  std::chrono::milliseconds drain_delay{0};  ///< time to go on serving while not ready
   std::chrono::milliseconds drain_time{3'000};
   std::chrono::milliseconds meshing_time{600'000};
 
@@ -36,17 +36,19 @@ struct Config {
   std::string admins;  ///< comma separated
 
   // Options of the layers; options.hpp completes them.
-  store::StoreOptions store;        ///< no folder: default_data_dir()
-  meshes::CatalogueOptions meshes;  ///< no executable of the helper: beside this one
-  /// Memory budget 0: half of Machine::memory_bytes. Connections 0: as fit_connections() sets them.
+  store::StoreOptions store;        ///< empty folder: default_data_dir()
+  meshes::CatalogueOptions meshes;  ///< empty helper executable: the one beside this program
+  /// A memory budget of 0 means half of Machine::memory_bytes; 0 connections means that
+  /// fit_connections() sets them.
   rpc::Limits limits{.connections = 0};
-  /// 0 threads: Machine::processors.
+  /// 0 threads means Machine::processors.
   jobs::EngineOptions jobs{.threads = 0, .max_load_cases = 1'000, .event_log_bytes = 8u << 20};
 };
 
 constexpr std::uint64_t least_memory_budget = 1 << 20;
 
-/// One line: where (file and line, or flag), the bad value and the cure.
+/// A fault of the configuration. The message is one line: where it is (file and line, or flag), the
+/// bad value and the cure.
 class ConfigError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -57,11 +59,11 @@ enum class KeyType { text, number, flag };
 struct Key {
   std::string name;  ///< "memory-budget": the flag is --memory-budget
   KeyType type;
-  std::string placeholder;  ///< of the value in the help
+  std::string placeholder;  ///< stands for the value in the help
   std::string help;
-  /// Throws std::invalid_argument with one sentence.
+  /// Sets the value from text. Throws std::invalid_argument with one sentence.
   std::function<void(Config&, const std::string&)> set;
-  /// The value, as `set` would read it.
+  /// The value as a text that `set` reads.
   std::function<std::string(const Config&)> get;
 };
 
@@ -71,7 +73,7 @@ const std::vector<Key>& keys();
 /// Throws ConfigError for an unknown name; it suggests the most similar key.
 const Key& find_key(const std::string& name, const std::string& where);
 
-/// A value that was given, and where.
+/// A value that was given, and the place.
 struct Setting {
   std::string key;
   std::string value;

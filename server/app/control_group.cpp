@@ -11,11 +11,11 @@
 namespace anticrack::app {
 namespace {
 
-/// A hierarchy of groups in the file system.
+/// A hierarchy of control groups in the file system.
 struct Mount {
-  std::string group;  ///< that its folder shows
+  std::string group;  ///< the group that its folder shows
   std::string folder;
-  bool second = false;                   ///< of version 2
+  bool second = false;                   ///< whether it is of version 2
   std::vector<std::string> controllers;  ///< of version 1
 };
 
@@ -30,7 +30,7 @@ bool contains(const std::vector<std::string>& list, const std::string& word) {
   return std::find(list.begin(), list.end(), word) != list.end();
 }
 
-/// The kernel writes white space and backslashes of paths as \040 and the like.
+/// Undoes the kernel's escapes in paths, where white space and backslashes are \040 and the like.
 std::string unescaped(const std::string& text) {
   const auto digit = [&](std::size_t i) {
     return i < text.size() && text[i] >= '0' && text[i] <= '7';
@@ -61,7 +61,8 @@ std::vector<Mount> mounts(const std::string& root) {
   return result;
 }
 
-/// The process's group in the hierarchy of version 2 (""), or that of a controller; empty: none.
+/// The process's group in the hierarchy of version 2 (controller ""), or in that of a controller;
+/// empty if there is none.
 std::string own_group(const std::string& root, const std::string& controller) {
   std::ifstream file(root + "/proc/self/cgroup");
   for (std::string line; std::getline(file, line);) {
@@ -84,7 +85,7 @@ std::vector<std::string> folders(const Mount& mount, const std::string& group) {
   else if (group.starts_with(mount.group + "/"))
     below = group.substr(mount.group.size());
   else if (group != mount.group && !mount.folder.starts_with("/sys/fs/cgroup"))
-    return {};  // a part of the hierarchy that has nothing to do with this process
+    return {};  // this part of the hierarchy has nothing to do with the process
   if (below.find("/..") != std::string::npos) below.clear();  // outside what can be seen
   std::vector<std::string> result;
   for (; !below.empty() && below != "/"; below.erase(below.rfind('/')))
@@ -100,7 +101,7 @@ std::string first_line(const std::string& path) {
   return line;
 }
 
-/// A whole number from 0; "max", -1 and anything else: none.
+/// A whole number from 0; none for "max", -1 and anything else.
 std::optional<std::uint64_t> number(std::string_view text) {
   std::uint64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

@@ -20,14 +20,14 @@ namespace fs = std::filesystem;
   throw ConfigError("data-dir: " + path + ": " + why + "; choose another with --data-dir");
 }
 
-/// Like mkdir -p with mode 0700 for every folder it makes.
+/// Like mkdir -p, with mode 0700 for every folder that it makes.
 void make_private(const fs::path& path) {
   std::error_code ignored;
   if (path.empty() || fs::is_directory(path, ignored)) return;
   make_private(path.parent_path());
   if (::mkdir(path.c_str(), 0700) == 0) return;
   if (errno != EEXIST) refuse(path, std::generic_category().message(errno));
-  if (fs::is_directory(path, ignored)) return;  // another process was quicker
+  if (fs::is_directory(path, ignored)) return;  // another process has just made it
   refuse(path,
          fs::is_symlink(path, ignored) ? "a symbolic link to what is not there" : "not a folder");
 }

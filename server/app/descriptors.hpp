@@ -7,15 +7,16 @@
 
 namespace anticrack::app {
 
-/// Raises the limit of open files to the hard one, at most to a million, and returns it. The helper
-/// sets its own limit.
+/// Raises the limit of open files to the hard limit, at most to a million, and returns it. The
+/// helper sets its own limit.
 std::uint64_t raise_descriptor_limit() noexcept;
 
-/// Descriptors that are not connections: of the database, helpers, results, uploads and downloads.
+/// How many descriptors others than connections need: database, helpers, results, uploads,
+/// downloads.
 int other_descriptors(const Config& config);
 
-/// Sets the number of connections where none is given, to the default or what `descriptors` leave.
-/// Throws ConfigError where they do not suffice for what is given, or for a server at all.
+/// Sets the number of connections if none is given, to the default or to what `descriptors` leave.
+/// Throws ConfigError if they do not suffice for the given number, or for a server at all.
 void fit_connections(Config& config, std::uint64_t descriptors);
 
 }  // namespace anticrack::app

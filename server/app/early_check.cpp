@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Before libraries are set up: OpenBLAS starts threads then and does not end where there is no
-// address space for them. No library is set up here, so this uses system calls alone.
+// A check that runs before libraries are set up, because OpenBLAS starts threads then and hangs if
+// there is no address space for them. No library is set up here, so this uses only system calls.
 #include <sched.h>
 #include <unistd.h>
 
 #include "app/address_space.hpp"
 
-// Sanitizers set themselves up before, and reserve more than any limit.
+// Sanitizers set themselves up earlier, and reserve more than any limit.
 #ifdef __has_feature  // clang
 #define ANTICRACK_SANITIZED (__has_feature(address_sanitizer) || __has_feature(thread_sanitizer))
 #elif defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -68,7 +68,7 @@ void refuse_too_little_space() {
 }  // namespace
 }  // namespace anticrack::app
 
-// Of the program, before the constructors of its libraries.
+// Runs as part of the program, before the constructors of its libraries.
 [[gnu::used, gnu::section(".preinit_array")]] static void (*const early_check)() =
     anticrack::app::refuse_too_little_space;
 

@@ -21,7 +21,7 @@ std::string message(const std::optional<errors::Error>& error) {
   return error ? std::string(error->what()) : std::string();
 }
 
-/// Ignores errors: a log line that cannot be written must not make anything fail.
+/// Ignores errors of `action`: a log line that cannot be written must not make anything fail.
 template <class Action>
 void quietly(const Action& action) noexcept {
   try {

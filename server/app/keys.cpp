@@ -58,7 +58,7 @@ Key key(const char* name, KeyType type, const char* placeholder, const char* hel
 
 std::string same(const std::string& text) { return text; }
 
-/// An empty text means that the key is not given; the help says what follows.
+/// A key for text; an empty text means that the key is not given, and the help says what follows.
 template <class Part>
 Key text(const char* name, const char* placeholder, const char* help, std::string Part::*field) {
   return key(name, KeyType::text, placeholder, help, field, same, same);

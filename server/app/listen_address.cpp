@@ -39,7 +39,7 @@ bool in_use(const std::string& path) {
   const int connected = ::connect(socket, reinterpret_cast<const sockaddr*>(&name), sizeof(name));
   const bool refused = connected != 0 && errno == ECONNREFUSED;
   ::close(socket);
-  return !refused;  // in doubt it is in use
+  return !refused;  // if in doubt, it counts as in use
 }
 
 }  // namespace

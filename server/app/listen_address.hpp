@@ -5,7 +5,7 @@
 
 namespace anticrack::app {
 
-/// Where the server listens.
+/// The address at which the server listens.
 struct ListenAddress {
   std::string text;         ///< as given
   std::string socket_path;  ///< of unix:PATH, else empty

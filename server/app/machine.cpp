@@ -19,7 +19,7 @@ struct FreeSet {
   void operator()(cpu_set_t* set) const noexcept { CPU_FREE(set); }
 };
 
-/// Those this process may run on.
+/// The number of processors on which this process may run.
 int own_processors() {
   constexpr int most = 1 << 16;
   for (int room = 1024; room <= most; room *= 2) {

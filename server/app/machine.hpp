@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What this process may use of the machine: what defaults are made of.
+// The part of the machine that this process may use, from which defaults are made.
 #pragma once
 
 #include <cstdint>
@@ -10,13 +10,13 @@ namespace anticrack::app {
 
 struct Machine {
   std::uint64_t memory_bytes = 0;
-  std::string memory_limit;  ///< what limits it: "the memory of the machine", or a file
+  std::string memory_limit;  ///< the source of the limit: "the memory of the machine", or a file
   int processors = 1;
 };
 
 /// Memory: the least of what the machine has and its control groups allow (control_group.hpp);
-/// ulimit -v is about address space (address_space.hpp). Processors: those the process may run on
-/// (taskset, cpusets), at most the quota of its control groups, rounded up. `root`: as of
+/// ulimit -v is about address space (address_space.hpp). Processors: those on which the process may
+/// run (taskset, cpusets), at most the quota of its control groups, rounded up. `root`: as for
 /// group_limits().
 Machine this_machine(const std::string& root = "");
 

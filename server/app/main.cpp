@@ -67,12 +67,12 @@ int wait_for_end(const app::Signals& signals, app::Service& service) {
 
 std::atomic<bool> stopping = false;
 
-/// The end of a private server's client is as a signal; and its end takes no time that somebody who
-/// wants the folder gone would notice, whatever threads are at.
+/// Treats the end of a private server's client like a signal. end_soon() then ends the server so
+/// quickly, whatever its threads do, that nobody has to wait until its folder is removed.
 void end_with_client() {
   std::thread([] {
     app::wait_for_end_of_input();
-    if (!stopping) ::kill(::getpid(), SIGTERM);  // a second signal would not let it end in order
+    if (!stopping) ::kill(::getpid(), SIGTERM);  // a second signal would prevent an orderly end
   }).detach();
 }
 
@@ -89,7 +89,7 @@ int serve(const app::Config& config, const app::PrivatePlace* place) {
   app::require_usable_surroundings(config);
   const app::Signals signals;
   auto service = std::make_unique<app::Service>(config);
-  if (place == nullptr) {  // of which nothing is to be kept
+  if (place == nullptr) {  // a private server keeps nothing
     for (const std::string& odd : app::odd_surroundings(config))
       log::warn("surroundings", {{"odd", odd}});
   }
@@ -121,20 +121,20 @@ int start(const app::Config& config, const app::PrivatePlace* place) {
   try {
     return serve(config, place);
   } catch (const std::exception& error) {
-    // In text format main() prints it.
+    // In text format, main() prints the error.
     if (json) log::error("refused to start", {{"message", error.what()}});
     throw;
   }
 }
 
 int run(int argc, char** argv) {
-  // A heap for each thread reserves 64 MiB, and ulimit -v counts them.
+  // Each heap of a thread reserves 64 MiB, which ulimit -v counts.
   if (app::address_space_limit() > 0) ::mallopt(M_ARENA_MAX, 2);
   const app::CommandLine line = app::parse_command_line(argc, argv, rpc::version());
   if (line.text) {
     std::cout << *line.text << std::flush;
     if (std::cout) return 0;
-    if (errno == EPIPE) return 128 + SIGPIPE;  // who read it, as head, has enough
+    if (errno == EPIPE) return 128 + SIGPIPE;  // the reader, such as head, has enough
     throw std::runtime_error("standard output cannot be written");
   }
   std::optional<app::PrivatePlace> place;

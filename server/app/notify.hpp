@@ -9,8 +9,8 @@
 
 namespace anticrack::app {
 
-/// The server accepts calls; accepts no more; is not stuck. `status`: a line for systemctl status.
-/// False where nothing listens at NOTIFY_SOCKET.
+/// Tell that the server accepts calls; that it stops; that it is not stuck. `status`: a line for
+/// systemctl status. They return false if nothing listens at NOTIFY_SOCKET.
 bool notify_ready(const std::string& status);
 void notify_stopping(const std::string& status);
 void notify_alive();

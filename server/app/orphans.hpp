@@ -5,11 +5,11 @@
 
 namespace anticrack::app {
 
-/// The first process of a container inherits the children of others that end there, and has to
-/// wait for them, or they stay in the table of processes.
+/// Reaps orphans: the first process of a container inherits the children of processes that end
+/// there, and must wait for them, or they stay in the table of processes.
 class Orphans {
  public:
-  /// Whether this is such a process.
+  /// Whether this process is the first of a container.
   static bool may_come() noexcept;
   /// To be called now and then: forgets a child that has ended and that nobody has waited for since
   /// the call before. The server's own helpers are waited for within milliseconds.

@@ -30,11 +30,11 @@ const char* variable(const char* name) {
   return value != nullptr && *value != '\0' ? value : nullptr;
 }
 
-/// Held while the server of the folder lives. Some file systems have no locks: then nobody gets
-/// one, and nothing is swept.
+/// Takes the lock that is held while the server of the folder lives. Some file systems have no
+/// locks; then nobody gets one, and nothing is swept.
 bool lock(const base::Descriptor& file) { return ::flock(file.get(), LOCK_EX | LOCK_NB) == 0; }
 
-/// Whether what is in `folder` was left by a server that is gone.
+/// Whether `folder` was left behind by a server that is gone.
 bool is_left(const fs::path& folder) {
   struct stat found {};
   if (::lstat(folder.c_str(), &found) != 0 || !S_ISDIR(found.st_mode) ||
@@ -43,7 +43,7 @@ bool is_left(const fs::path& folder) {
   const base::Descriptor file(
       ::open((folder / lock_name).c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
   if (file.get() >= 0) return lock(file);
-  // Its server may be about to make the file.
+  // The server may be about to make the file.
   constexpr std::chrono::seconds time_to_make_it{60};
   const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
   return errno == ENOENT && now - found.st_mtime > time_to_make_it.count();
@@ -102,12 +102,12 @@ fs::path socket_parent(const fs::path& data_parent) {
 
 }  // namespace
 
-/// A new folder, mine while this object lives.
+/// A new folder that belongs to this object while it lives.
 class PrivatePlace::Folder {
  public:
   explicit Folder(const fs::path& parent) : _lock(-1) {
     sweep(parent);
-    constexpr int tries = 10;  // another that sweeps may take a folder for left before it is locked
+    constexpr int tries = 10;  // another process may sweep a folder before it is locked
     for (int i = 0; i < tries; ++i)
       if (make(parent)) return;
     throw ConfigError(refusal(parent, "a new folder is removed by others at once"));

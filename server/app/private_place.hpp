@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// --private: a server for one client, in folders that go with it.
+// The option --private: a server for one client, in folders that are removed with it.
 #pragma once
 
 #include <filesystem>
@@ -14,28 +14,29 @@
 namespace anticrack::app {
 
 /// A data folder and a socket that only this user can reach, in new folders of TMPDIR (/tmp without
-/// it), removed at the end. What such servers have left that were killed is removed at the start.
+/// it), removed at the end. Folders that killed servers have left are removed at the start.
 class PrivatePlace {
  public:
-  /// The socket lies in XDG_RUNTIME_DIR or /tmp where TMPDIR is too long for one. Throws
-  /// ConfigError, which names the variable, where no folder can be made.
+  /// The socket lies in XDG_RUNTIME_DIR or /tmp if the path of TMPDIR is too long for it. Throws
+  /// ConfigError with the name of the variable if no folder can be made.
   PrivatePlace();
   ~PrivatePlace();
   PrivatePlace(const PrivatePlace&) = delete;
   PrivatePlace& operator=(const PrivatePlace&) = delete;
 
-  /// Where the server lives, for make_config: what the user says otherwise goes before.
+  /// The settings of this place, for make_config; settings of the user override them.
   std::vector<Setting> settings() const;
-  /// What removes all of it, also while threads still write to it; may be called when this is gone.
+  /// A function that removes everything, even while threads still write to it. It may be called
+  /// after this object was destroyed.
   std::function<void()> removal() const;
 
  private:
   class Folder;
   std::unique_ptr<Folder> _data;
-  std::unique_ptr<Folder> _socket;  ///< none: in the other one
+  std::unique_ptr<Folder> _socket;  ///< null: the socket is in _data
 };
 
-/// Returns when standard input has ended, which is when the client has, however it ended.
+/// Returns when standard input has ended, which happens when the client ends, however it ends.
 void wait_for_end_of_input();
 
 }  // namespace anticrack::app

@@ -10,7 +10,7 @@ enum class OthersMay { nothing, read };
 
 /// The content of a file of at most 1 MiB. `key`: the setting that names it, with which messages
 /// begin. Throws ConfigError: the file cannot be read, is too large, or others may do more than
-/// `others_may`. Permissions of its group are not checked: services get credentials through it.
+/// `others_may`. Permissions of the group are not checked, as services get credentials through it.
 std::string read_guarded_file(const std::string& key, const std::string& path,
                               OthersMay others_may);
 

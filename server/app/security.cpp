@@ -31,11 +31,11 @@ access::TokenTable load_tokens(const std::string& path) {
 
 struct ReadFiles {
   rpc::Tls tls;
-  std::optional<int> days_left;  ///< of the certificate
+  std::optional<int> days_left;  ///< until the certificate expires
   access::TokenTable tokens;
 };
 
-/// What is wrong with a file, under the name of its key.
+/// Runs a check of a file; its errors become a ConfigError with the name of the key.
 void as_config_error(const std::function<void()>& check) {
   try {
     check();
@@ -45,8 +45,8 @@ void as_config_error(const std::function<void()>& check) {
   }
 }
 
-/// Reads and checks every file that the configuration names. `attempt` runs a check: a start lets
-/// the first bad one throw, --check-config goes on.
+/// Reads and checks every file that the configuration names. `attempt` runs a check: at a start the
+/// first bad file throws, --check-config goes on.
 ReadFiles read_files(const Config& config,
                      const std::function<void(const std::function<void()>&)>& attempt) {
   ReadFiles files;

@@ -22,7 +22,7 @@ LoadedSecurity load_security(const Config& config);
 /// Adds the message of the ConfigError that `check` throws, if it does.
 void note_problem(std::vector<std::string>& problems, const std::function<void()>& check);
 
-/// What load_security() would refuse, each file by itself: a sentence each.
+/// The faults for which load_security() would throw, a sentence for each file.
 std::vector<std::string> problems_of_security(const Config& config);
 
 /// "ann, bob" -> {"ann", "bob"}; empty names are left out.

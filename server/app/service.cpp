@@ -23,7 +23,7 @@ namespace anticrack::app {
 
 namespace {
 
-/// The kernel ends who takes more.
+/// Warns if the memory limits are too low, as the kernel kills a process that takes more.
 void warn_of_memory(const Config& config) {
   const Machine machine = this_machine();
   if (config.limits.memory_budget_bytes <= machine.memory_bytes) return;
@@ -134,7 +134,7 @@ void Service::check_alive() const noexcept {
   try {
     _parts->snapshot();
   } catch (const std::exception&) {
-    // An error shows that nothing is stuck: a bad disk must not get the process killed.
+    // An error shows that nothing is stuck, and a bad disk must not get the process killed.
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Wires the server's parts together; decides nothing.
+// Connects the server's parts; it decides nothing itself.
 #pragma once
 
 #include <memory>
@@ -12,15 +12,15 @@ namespace anticrack::app {
 
 class Service {
  public:
-  /// Everything up to listening. Throws ConfigError or errors::Error.
+  /// Starts everything up to listening. Throws ConfigError or errors::Error.
   explicit Service(const Config& config);
-  /// Stops at once: metrics first, then calls, jobs, meshes, operators, the store. Unfinished jobs
-  /// are queued again at the next start.
+  /// Stops at once, in this order: metrics, calls, jobs, meshes, operators, the store. Unfinished
+  /// jobs are queued again at the next start.
   ~Service();
 
   /// HOST:PORT with the real port, or unix:PATH.
   const std::string& address() const noexcept;
-  /// Takes the lock of every part. It does not return if one of them is stuck, so that systemd's
+  /// Takes the lock of every part. If one of them is stuck, it does not return, so that systemd's
   /// watchdog ends the process.
   void check_alive() const noexcept;
   /// Reads certificates, key and tokens again; new connections and calls use them. If one of them

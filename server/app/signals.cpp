@@ -37,7 +37,7 @@ extern "C" {
 static void anticrack_note_signal(int number) {
   const int before = errno;
   const auto byte = static_cast<unsigned char>(number);
-  // A full pipe loses nothing: a signal is already waiting to be read.
+  // A full pipe loses nothing, as a signal is already waiting to be read.
   [[maybe_unused]] const ssize_t written = ::write(signal_writer, &byte, 1);
   errno = before;
 }
@@ -87,7 +87,7 @@ void Signals::run_unless_interrupted(const std::function<void()>& work) const {
       work();
       ::eventfd_write(done, 1);
     });
-  } catch (const std::system_error&) {  // no more threads: nothing can interrupt it
+  } catch (const std::system_error&) {  // without another thread, nothing can interrupt the work
     work();
     ::close(done);
     return;

@@ -19,7 +19,7 @@ class Signals {
 
   /// Waits for a signal and returns its number.
   int wait() const;
-  /// The same for at most `time`; none: there was no signal.
+  /// The same, but waits at most `time`; none if there was no signal.
   std::optional<int> wait_for(std::chrono::milliseconds time) const;
   /// Runs `work` on another thread. A signal other than SIGHUP ends the process at once with status
   /// 128 + number.

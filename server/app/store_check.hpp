@@ -8,8 +8,8 @@
 namespace anticrack::app {
 
 /// Implements --check-store: prints the flaws of the data folder, one per line, and with `repair`
-/// moves them aside. Returns the exit code: 0 if the store is sound (now), else 3. Throws
-/// ConfigError if a server uses the folder or it does not exist, and as store::check() and
+/// moves them aside. Returns the exit code: 0 if the store is sound (after a repair), else 3.
+/// Throws ConfigError if a server uses the folder or it does not exist, and as store::check() and
 /// store::repair() do.
 int check_store(const Config& config, bool repair, std::ostream& out);
 

@@ -27,11 +27,11 @@ namespace {
 constexpr rlim_t mib = 1 << 20;
 constexpr rlim_t usual_stack = 8 * mib;
 constexpr rlim_t least_stack = mib;
-/// A database with its log, and a result.
+/// The least limit of a file's size: room for a database with its log, and for a result.
 constexpr rlim_t least_file = 64 * mib;
 
 void open_standard_descriptors() {
-  // The lowest free number is taken, so this fills them in order.
+  // open() takes the lowest free number, so this fills them in order.
   for (int number = STDIN_FILENO; number <= STDERR_FILENO; ++number)
     if (::fcntl(number, F_GETFD) < 0) ::open("/dev/null", O_RDWR);
 }
@@ -39,7 +39,7 @@ void open_standard_descriptors() {
 void settle_signals() {
   struct sigaction with {};
   with.sa_handler = SIG_DFL;
-  ::sigaction(SIGCHLD, &with, nullptr);  // ignored, children would leave no status
+  ::sigaction(SIGCHLD, &with, nullptr);  // if it were ignored, children would leave no status
   with.sa_handler = SIG_IGN;
   ::sigaction(SIGPIPE, &with, nullptr);
   ::sigaction(SIGXFSZ, &with, nullptr);
@@ -54,7 +54,7 @@ void settle_stacks() {
     limit.rlim_cur = std::min(usual_stack, limit.rlim_max);
     ::setrlimit(RLIMIT_STACK, &limit);
   }
-  // Those of threads have the size of that limit at the start of the process, whatever it is.
+  // Stacks of threads have the size of that limit at the start of the process, whatever it is.
   pthread_attr_t attributes;
   if (::pthread_attr_init(&attributes) != 0) return;
   ::pthread_attr_setstacksize(&attributes, usual_stack);
@@ -67,10 +67,10 @@ rlim_t soft_limit(decltype(RLIMIT_AS) resource) {
   return ::getrlimit(resource, &limit) == 0 ? limit.rlim_cur : RLIM_INFINITY;
 }
 
-/// Threads of gRPC, of the engine, of the store, and some to spare.
+/// The threads of gRPC, of the engine and of the store, and some to spare.
 int threads_needed(const Config& config) { return 40 + 2 * config.jobs.threads; }
 
-/// Starts them all at once, for a moment: gRPC would abort where one cannot be had.
+/// Starts all threads at once for a moment, as gRPC would abort if it could not start one.
 void require_threads(int count) {
   std::mutex mutex;
   std::condition_variable woken;
@@ -105,7 +105,7 @@ bool is_set(const char* name) {
   return value != nullptr && *value != '\0';
 }
 
-/// Why a file system is none for a server's data, or nothing.
+/// The reason why a file system is unfit for a server's data; empty if it is fit.
 std::string unfit(const std::string& folder) {
   struct statfs found {};
   if (::statfs(folder.c_str(), &found) != 0) return "";
@@ -132,7 +132,7 @@ void add_folder(const std::string& folder, std::vector<std::string>& odd) {
     odd.push_back(fmt::format("data-dir: {} belongs to user {}, and the server runs as user {}",
                               folder, found.st_uid, ::geteuid()));
   }
-  // Not refused: so are the volumes of some containers.
+  // This is not refused, as the volumes of some containers are like this.
   if ((found.st_mode & S_IWOTH) != 0) {
     odd.push_back("data-dir: every user of this machine may write in " + folder +
                   "; run chmod o-w on it");

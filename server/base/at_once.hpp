@@ -16,9 +16,10 @@
 namespace anticrack::base {
 
 /// Calls worker(i) for i = 0, ..., count - 1 from a shared counter on at most `threads` threads,
-/// the caller's among them, each with its own `make_worker()`. Rethrows the first exception when
-/// all threads have stopped; no index is begun after it. Looks (stop/stop.hpp) ask on all threads
-/// what they ask on the caller's, and there is one before each index.
+/// including that of the caller; each thread has a worker from `make_worker()`. After an exception
+/// no index is begun, and when all threads have stopped the first exception is rethrown. Looks
+/// (stop/stop.hpp) on all threads ask what those of the caller's thread ask; there is a look before
+/// each index.
 template <class MakeWorker>
 void at_once(std::size_t count, int threads, const MakeWorker& make_worker) {
   std::atomic<std::size_t> next{0};
@@ -48,7 +49,7 @@ void at_once(std::size_t count, int threads, const MakeWorker& make_worker) {
           run();
         });
     } catch (const std::system_error&) {
-      // No more threads: those there are do the rest.
+      // If there are no more threads, the present ones do the rest.
     }
     run();
   }

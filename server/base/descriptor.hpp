@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A file, socket or event of the system.
+// Owns a file, socket or event of the system.
 #pragma once
 
 #include <unistd.h>
@@ -10,7 +10,7 @@
 
 namespace anticrack::base {
 
-/// Closed at the end of the scope.
+/// The end of the scope closes it.
 class Descriptor {
  public:
   explicit Descriptor(int number = -1) noexcept : _number(number) {}
@@ -20,13 +20,13 @@ class Descriptor {
     if (this != &other) reset(other.release());
     return *this;
   }
-  /// -1: none.
+  /// The number; -1 if there is none.
   int get() const noexcept { return _number; }
   explicit operator bool() const noexcept { return _number >= 0; }
-  /// The number, which is the caller's to close from then on.
+  /// Returns the number, which the caller must close from then on.
   int release() noexcept { return std::exchange(_number, -1); }
-  /// Closes it now and holds `number` instead. Leaves errno as it is: that of the call that failed,
-  /// which is yet to be reported.
+  /// Closes it now and holds `number` instead. Does not change errno, which may be of a failed call
+  /// that is yet to be reported.
   void reset(int number = -1) noexcept {
     const int code = errno;
     if (_number >= 0) ::close(_number);

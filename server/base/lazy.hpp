@@ -11,12 +11,12 @@
 
 namespace anticrack::base {
 
-/// A value computed once, at the first get(); concurrent callers wait, looking (stop/stop.hpp).
-/// Thread-safe; not movable.
+/// A value that is computed once, at the first get(). Concurrent callers wait and look at their
+/// stop tokens (stop/stop.hpp). Thread-safe; not movable.
 template <class Value>
 class Lazy {
  public:
-  /// If compute() throws, as it does when its caller's work is stopped, the next call tries again.
+  /// If compute() throws, as when its caller's work is stopped, the next call of get() tries again.
   template <class Compute>
   const Value& get(const Compute& compute) const {
     if (const Value* value = known()) return *value;
@@ -32,7 +32,7 @@ class Lazy {
     return *_value;
   }
 
-  /// Null until it is there. Does not wait.
+  /// The value; null if it is not computed yet. Does not wait.
   const Value* known() const noexcept { return _known.load(std::memory_order_acquire); }
 
  private:

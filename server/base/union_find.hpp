@@ -13,7 +13,7 @@ namespace anticrack::base {
 /// Disjoint sets of 0..n-1, each represented by its smallest member. O(log n) a call, amortised.
 class UnionFind {
  public:
-  /// n sets of one member.
+  /// Makes n sets of one member.
   explicit UnionFind(std::size_t n) : _parent(n) { std::iota(_parent.begin(), _parent.end(), 0); }
 
   /// The representative of the set of i.
@@ -24,14 +24,14 @@ class UnionFind {
     }
     return i;
   }
-  /// False if they were in one set already.
+  /// Unites the sets of a and b; returns false if they were in one set already.
   bool unite(std::int32_t a, std::int32_t b) {
     a = find(a);
     b = find(b);
     (a < b ? parent(b) : parent(a)) = a < b ? a : b;
     return a != b;
   }
-  /// Whether they are in one set.
+  /// Whether a and b are in one set.
   bool same(std::int32_t a, std::int32_t b) { return find(a) == find(b); }
 
  private:

@@ -32,7 +32,7 @@ void read_mesh(const Section& root, Case& result) {
     result.mesh.mutable_options()->set_preset(v1::MESH_PRESET_COARSE);
 }
 
-// The text of a line (from 1), shortened.
+// The text of a line (numbered from 1), shortened.
 std::string line_of(const std::string& text, unsigned line) {
   constexpr std::size_t longest = 60;
   std::istringstream lines(text);
@@ -42,7 +42,7 @@ std::string line_of(const std::string& text, unsigned line) {
   return found.size() > longest ? found.substr(0, longest) + "..." : found;
 }
 
-// Of what is wrong behind the = of a key.
+// The cure for a fault behind the = of a key.
 std::string cure_of_value(const std::string& description, const std::string& line,
                           unsigned column) {
   const std::size_t equals = line.find('=');
@@ -78,7 +78,7 @@ void read_output(const Section& root, Case& result) {
     result.spots["outputs"] = output->spot_of("fields");
     result.spots["without_bounds"] = output->spot_of("bounds");
   }
-  // Fields are drawn with where their errors come from, if there are bounds.
+  // If there are bounds, fields are drawn with the indicators of their errors.
   if (job.has_accuracy() ||
       (job.outputs_size() > 0 && job.solver().has_active_set() && !job.without_bounds()))
     job.add_outputs(v1::OUTPUT_INDICATORS);

@@ -6,17 +6,18 @@
 
 namespace anticrack::casefile {
 
-/// Where a value of a case was written.
+/// The place where a value of a case was written.
 struct Spot {
   std::string key;     ///< dotted path, entries by name or index: "load.up.f"; empty: the whole
   std::string source;  ///< the case's file, or the --set that wrote it
   unsigned line = 0;   ///< from 1; 0: no line (a --set, or the whole file)
 };
 
-/// "case.toml:12", without the line where there is none; "line 12" of a case without a name.
+/// The place as text: "case.toml:12", "case.toml" if no line is known, "line 12" if the case has no
+/// name.
 std::string where(const Spot& spot);
 
-/// "case.toml:12: solver.theta: ", without the parts that are unknown.
+/// The beginning of a message: "case.toml:12: solver.theta: ", without the unknown parts.
 std::string prefix(const Spot& spot);
 
 /// A case that cannot be read. what() gives file, line, key, the bad value and the cure.

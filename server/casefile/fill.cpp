@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Values of plain types, from the table of keys into the messages.
+// Reads values of plain types into the messages, by the table of keys.
 #include "casefile/sections.hpp"
 #include "words/duration.hpp"
 
@@ -42,7 +42,7 @@ void set_count(const Place& place, std::int32_t value) {
 }
 
 void set_choice(const Place& place, std::size_t index) {
-  int skipped = 0;  // the value of number 0
+  int skipped = 0;  // number of the value to leave out
   while (place.field->enum_type()->value(skipped)->number() != 0) ++skipped;
   const int value = static_cast<int>(index);
   place.reflection().SetEnum(place.message, place.field,
@@ -74,7 +74,7 @@ void fill_list(const Section& section, const Key& key, const Place& place, const
   }
 }
 
-/// The value of a key that is there.
+/// Reads the value of a key that is present.
 void read(const Section& section, const Key& key, Message& message, const std::string& field,
           Spots& spots) {
   const std::string name(key.name);

@@ -6,7 +6,7 @@
 namespace anticrack::casefile {
 namespace {
 
-// A polygon, or sides.
+// Reads the boundary: a polygon, or sides.
 void read_boundary(const Section& geometry_section, v1::Geometry& geometry, Spots& spots) {
   const toml::node& node = geometry_section.need("boundary");
   if (!lists_tables(node)) {

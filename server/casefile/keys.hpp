@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The keys of cases, a row each. What is written here is what the reader reads, what errors
-// suggest, what `anticrack explain` says and what the guide's table is made of. A key whose value
-// goes into one field of a message as it is needs no more than its row. Pure.
+// The keys of cases, a row each. The reader, the suggestions of errors, `anticrack explain` and the
+// guide's table are all made from these rows. A key whose value goes unchanged into one field of a
+// message needs nothing but its row. Pure.
 #pragma once
 
 #include <google/protobuf/descriptor.h>
@@ -25,12 +25,12 @@ enum class Type {
   boolean,
   choice,      ///< the name of a value of the field's enum, in lower case
   time,        ///< seconds, or text with a unit; a Duration
-  expression,  ///< or a number
+  expression,  ///< an expression, or a number
   point,       ///< [x, y]
-  table,       ///< of the keys `below`
-  list,        ///< of tables of the keys `below`
+  table,       ///< a table of the keys `below`
+  list,        ///< a list of tables of the keys `below`
   structure,   ///< a function of its own reads it
-  refused,     ///< known elsewhere; `meaning` says why not here
+  refused,     ///< a key that is known elsewhere; `meaning` says why it is not allowed here
 };
 
 struct Keys;
@@ -38,45 +38,45 @@ struct Keys;
 struct Key {
   std::string_view name;
   Type type = Type::text;
-  std::string_view form{};       ///< what is written, where the type does not say
+  std::string_view form{};       ///< the form of the value, if the type does not tell
   std::string_view unit{};       ///< L: length, F: force; empty: none
-  std::string_view if_absent{};  ///< the default, or what is needed
-  /// Path in the message of its Keys that plain types are read into; of a structure only errors
-  /// know it. Empty: its name. ".": a table has fields of the message itself.
+  std::string_view if_absent{};  ///< the default, or what is needed instead
+  /// Path of the field, in the message of its Keys, into which a plain type is read; for a
+  /// structure only errors use it. Empty: the key's name. ".": a table whose keys are fields of the
+  /// message itself.
   std::string_view field{};
   std::string_view meaning{};
-  std::string_view need{};  ///< where the key must be there: what to write
-  std::string_view only{};  ///< the value of `method` that it belongs to; empty: any
+  std::string_view need{};  ///< if the key must be present: what to write
+  std::string_view only{};  ///< the value of `method` to which it belongs; empty: any
   const Keys* below = nullptr;
-  bool many = false;  ///< `below` is of each of its entries, by name or index
+  bool many = false;  ///< it has entries, by name or index, with the keys `below`
 
   std::string_view path() const { return field.empty() ? name : field; }
 };
 
 /// The keys of a table of a case.
 struct Keys {
-  const google::protobuf::Descriptor* (*message)();  ///< that the fields are paths in
+  const google::protobuf::Descriptor* (*message)();  ///< the message in which the fields are paths
   std::array<std::span<const Key>, 3> groups;        ///< some are shared by several tables
 
-  const Key* find(std::string_view name) const;  ///< null: there is none
-  /// Those that are not refused, in the order of the table.
+  const Key* find(std::string_view name) const;  ///< null if there is none
+  /// The keys that are not refused, in the order of the table.
   std::vector<const Key*> known() const;
-  /// The field at the path; null: none.
+  /// The field at the path; null if there is none.
   const google::protobuf::FieldDescriptor* field(std::string_view path) const;
 };
 
-/// Of a whole case; all others are below it.
+/// The keys of a whole case; all other keys are below these.
 extern const Keys case_keys;
-/// Of a case that is only the mesh of a .msh file: mesh.
+/// The keys of a case that is only the mesh of a .msh file: mesh.
 extern const Keys msh_keys;
 
-/// The names of the values of an enum as a case has them: MASS_LUMPED is "lumped". Without that of
-/// number 0.
+/// The names of an enum's values in a case, without the value of number 0: MASS_LUMPED is "lumped".
 std::vector<std::string> choices(const google::protobuf::EnumDescriptor& values);
 
-/// The rows that are meant by a key, "mesh.tip_size", "load.opening.f" or short "tip_size", those
-/// directly below included; of an empty one all, in the order of the table. Throws errors::Error:
-/// invalid_argument where there is none, with the nearest.
+/// The rows that a key means, "mesh.tip_size", "load.opening.f" or in short "tip_size", with the
+/// rows directly below; for an empty key all rows, in the order of the table. Throws errors::Error
+/// (invalid_argument), with the nearest key, if there is none.
 v1::ListCaseKeysResponse list_keys(const v1::ListCaseKeysRequest& request);
 
 }  // namespace anticrack::casefile

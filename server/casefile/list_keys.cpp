@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The table of keys for people.
+// Lists the table of keys for users.
 #include <algorithm>
 #include <sstream>
 
@@ -52,7 +52,7 @@ std::string joined(const Words& words, const char* between) {
   return text;
 }
 
-/// Words of the path that are not an entry's.
+/// The words of a path without names of entries.
 Words plain(const Words& path) {
   Words words = path;
   std::erase(words, any_entry);
@@ -61,7 +61,7 @@ Words plain(const Words& path) {
 
 bool is_path(const Words& words, const Row& row) { return plain(row.path) == words; }
 
-/// The same with names or indices of entries.
+/// Whether the words are the path of a row, with names or indices of entries.
 bool is_path_of_entry(const Words& words, const Row& row) {
   Words path = row.path;
   if (row.key->many && words.size() > path.size()) path.emplace_back(any_entry);
@@ -75,7 +75,7 @@ bool ends_in(const Words& words, const Row& row) {
   return words.size() <= all.size() && std::equal(words.rbegin(), words.rend(), all.rbegin());
 }
 
-/// A row and those directly below it.
+/// Whether a row is directly below another.
 bool directly_below(const Row& row, const Row& above) {
   const Words head = plain(above.path);
   Words own = plain(row.path);

@@ -10,13 +10,13 @@ constexpr const char* force_cure =
     "write a number, an expression in x and y in quotes, {region = number} or {file = \"f.h5\", "
     "dataset = \"/f\", per = \"triangle\"}";
 
-// A region may be called "file" too, but its value is a number.
+// Whether a table names a file. A region may be called "file" too, but its value is a number.
 bool names_a_file(const toml::table& table) {
   const toml::node* file = table.get("file");
   return table.contains("dataset") || table.contains("per") || (file && !file->is_number());
 }
 
-// Empty where the values are not in a file.
+// Reads f; returns its file, if the values are in one.
 std::optional<ForceFile> read_force(const Section& section, const std::string& field,
                                     v1::Force& force, Spots& spots) {
   const toml::node& node = section.need("f", force_cure);

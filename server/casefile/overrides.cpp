@@ -25,7 +25,7 @@ std::vector<std::string> split_path(const std::string& path) {
   return parts;
 }
 
-/// Throws for bytes that TOML does not allow: the case is kept as text and must parse again.
+/// Throws for bytes that TOML does not allow, as the case is kept as text and must parse again.
 void require_text(const std::string& assignment) {
   std::string harmless = assignment;
   for (char& c : harmless)
@@ -45,7 +45,7 @@ toml::table parse_value(const std::string& text, const std::string& source) {
     if (one_line && !toml_text::line_of_long_key(text))
       return toml::parse("value = " + text, source);
   } catch (const toml::parse_error&) {
-    // A bare word: text.
+    // A bare word is text.
   }
   toml::table quoted = toml::parse("value = ''", source);
   quoted.get("value")->ref<std::string>() = text;
@@ -59,7 +59,7 @@ std::optional<std::size_t> index_of(const std::string& word) {
   return whole ? std::optional(index) : std::nullopt;
 }
 
-/// Names of the entries of a list of tables, as [[load]]; none unless all have one.
+/// The names of the entries of a list of tables, such as [[load]]; empty unless all have a name.
 std::vector<std::string> names_in(const toml::array& array) {
   std::vector<std::string> names;
   for (const toml::node& entry : array) {
@@ -71,7 +71,7 @@ std::vector<std::string> names_in(const toml::array& array) {
   return names;
 }
 
-/// Walks down a path of the case; its errors name the part walked so far.
+/// Walks down a path of the case; errors have the part of the path walked so far.
 class Walk {
  public:
   Walk(std::string source, std::vector<std::string> parts)
@@ -90,7 +90,7 @@ class Walk {
     throw Error({walked, _source, 0}, problem);
   }
 
-  /// Index of the entry with this index or name; the size of the array for a new one.
+  /// The index of the entry with this index or name; the size of the array for a new entry.
   std::size_t index_in(const toml::array& array) const {
     const std::string& part = _parts[_depth];
     const auto index = index_of(part);

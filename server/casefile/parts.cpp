@@ -11,7 +11,7 @@ void refuse_keys(const Section& section, const std::vector<const char*>& keys,
     if (section.find(key)) throw Error(section.spot_of(key), why);
 }
 
-// Where an inclusion or crack lies: from and to on an interface, or a line of its own.
+// Reads the place of an inclusion or crack: from and to on an interface, or a line of its own.
 template <class Owner>
 void read_place(const Section& section, const std::string& what, const std::string& field,
                 Owner& owner, Spots& spots) {
@@ -40,7 +40,7 @@ std::optional<v1::LineSide> side_named(const std::string& name) {
   return std::nullopt;
 }
 
-// Pairs of points, or of numbers: stretches by arc length.
+// Reads pairs of points, or pairs of numbers, which are stretches by arc length.
 void read_delaminated_parts(const toml::array& list, const std::string& key,
                             const std::string& field, v1::InterfaceParts& parts, Spots& spots) {
   for (std::size_t i = 0; i < list.size(); ++i) {

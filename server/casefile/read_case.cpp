@@ -15,7 +15,7 @@ namespace {
 constexpr int most_overrides = 200;
 constexpr std::size_t most_places = 20'000;  // some 3 MB
 
-/// Each of them may look through all loads.
+/// Limits the overrides, as each of them may look through all loads.
 void check_overrides(const v1::ReadCaseRequest& request) {
   if (request.overrides_size() <= most_overrides) return;
   throw errors::Error(errors::Reason::limit_exceeded,
@@ -52,7 +52,7 @@ std::size_t depth_of(const std::string& field) {
       std::ranges::count_if(field, [](char c) { return c == '.' || c == '['; }));
 }
 
-/// How deep a field may lie whose place is told: of a case with many, those of whole entries only.
+/// The depth up to which places of fields are told; with many fields only those of whole entries.
 std::size_t deepest_told(const std::map<std::string, Spot>& spots) {
   std::vector<std::size_t> of_depth;
   for (const auto& [field, spot] : spots) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// ReadCase of the API (case.proto).
+// The method ReadCase of the API (case.proto).
 #pragma once
 
 #include <cstddef>
@@ -10,11 +10,12 @@
 namespace anticrack::casefile {
 
 struct Limits {
-  int load_cases = 1'000;                            ///< of one job
-  std::size_t request_bytes = std::size_t{4} << 20;  ///< of the requests that come of it
+  int load_cases = 1'000;                            ///< most load cases of one job
+  std::size_t request_bytes = std::size_t{4} << 20;  ///< most bytes of the requests made from it
 };
 
-/// What a case stands for. Throws errors::Error: case_invalid, limit_exceeded. Linear in the text.
+/// The requests for which a case stands. Throws errors::Error: case_invalid, limit_exceeded. Linear
+/// in the text.
 v1::ReadCaseResponse read_case(const v1::ReadCaseRequest& request, const Limits& limits);
 
 }  // namespace anticrack::casefile

@@ -37,7 +37,7 @@ std::string prefix(const Spot& spot) {
 
 namespace {
 
-// By which an override finds the entry of a list.
+// The name or index by which an override finds the entry of a list.
 std::string name_or_index(const toml::table& entry, std::size_t index) {
   const auto name = entry["name"].value_exact<std::string>();
   constexpr std::size_t longest = 64;
@@ -45,7 +45,8 @@ std::string name_or_index(const toml::table& entry, std::size_t index) {
   return short_enough ? *name : std::to_string(index);
 }
 
-// Tables that an override makes on the way to its value have no source of their own.
+// The first node in a table that was written. Tables that an override makes on the way to its value
+// have no source of their own.
 const toml::node& first_written(const toml::node& node) {
   const toml::table* table = node.as_table();
   const toml::array* array = node.as_array();
@@ -93,7 +94,7 @@ std::string shown(const toml::node& node) {
 
 namespace {
 
-/// "100" of "100 mm"; empty of any other text, as "infinite".
+/// The number in a text like "100 mm"; empty for any other text, such as "infinite".
 std::string before_unit(const std::string& text) {
   double value = 0;
   const char* const end = text.data() + text.size();
@@ -299,7 +300,7 @@ const toml::node& Section::need(std::string_view key, std::string_view cure) con
   if (!node) {
     Spot here = spot();
     here.key = path_of(key);
-    here.line = _path.empty() ? 0 : here.line;  // what the whole case lacks has no line
+    here.line = _path.empty() ? 0 : here.line;  // a key missing in the whole case has no line
     throw Error(std::move(here), "missing; " + std::string(cure));
   }
   return *node;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// One function per section of a case, and what they share. For the sources of this folder only.
-// Each reads its section into a message and records in `spots` where every field was written.
+// One function per section of a case, and functions that these share. For this folder only. Each
+// function reads its section into a message and records in `spots` where every field was written.
 #pragma once
 
 #include <concepts>
@@ -20,41 +20,41 @@ namespace anticrack::casefile {
 /// Field of a request -> where its value was written.
 using Spots = std::map<std::string, Spot>;
 
-/// Reads the values of plain types of a section into its message by its table of keys, those of
-/// plain tables below it too, and notes where they were written. Throws Error for a wrong type and
-/// for a key that is needed and missing.
+/// Reads the values of plain types of a section, and of plain tables below it, into its message by
+/// its table of keys, and notes where they were written. Throws Error for a wrong type and for a
+/// key that is needed and missing.
 void fill(const Section& section, google::protobuf::Message& message, const std::string& field,
           Spots& spots);
 
 /// `section` is [geometry].
 v1::Geometry read_geometry(const Section& section, Spots& spots);
 
-/// Notes regions that give no tension where others do, or that none does though there are units.
-/// Once the case is read.
+/// Adds a note if some regions give no tension while others do, or if none does though there are
+/// units. To be called when the case has been read.
 void note_missing_tension(Case& result);
 
 /// `interface` of [geometry]: a list of points, or tables with points, arc or spline. Optional.
 void read_interfaces(const Section& section, v1::Geometry& geometry, Spots& spots);
 
-/// `neumann` of [geometry], once boundary and holes are read.
+/// Reads `neumann` of [geometry], after boundary and holes.
 void read_neumann(const Section& section, v1::Geometry& geometry, Spots& spots);
 
-/// Inclusions and cracks of [geometry].
+/// Reads inclusions and cracks of [geometry].
 void read_parts(const Section& section, v1::Geometry& geometry, Spots& spots);
 
 /// The key among points, arc, spline, circle, center and at that gives the shape of `what`; empty
 /// for none. Throws Error for two.
 std::string shape_of(const Section& section, const std::string& what);
 
-/// Points, arc or spline, by their key.
+/// Reads points, arc or spline, by their key.
 void read_curve(const Section& section, const std::string& key, const std::string& field,
                 v1::InterfaceCurve& curve, Spots& spots);
 
-/// The same, or a center, of which `fill` has read all but that it needs a length.
+/// Reads the same, or checks that a center, which `fill` has read, has its length.
 void read_line(const Section& section, const std::string& key, const std::string& field,
                v1::Line& line, Spots& spots);
 
-/// circle, points or spline, one of them, beside what `fill` reads. Throws Error where there is
+/// Reads one of circle, points and spline, besides what `fill` reads. Throws Error if there is
 /// none.
 void read_outline(const Section& section, const std::string& what, const std::string& field,
                   v1::Outline& outline, Spots& spots);
@@ -68,13 +68,13 @@ v1::MeshOptions read_mesh_options(const Section& section, Spots& spots);
 /// A number, or a law: an expression in quotes, or {along, across, angle}.
 using GivenTension = std::variant<double, v1::Tension>;
 GivenTension tension_of(const toml::node& node, const std::string& path, const Keys& law);
-/// Those by subdomain of a mesh from a file.
+/// Reads the tensions by subdomain of a mesh from a file.
 void read_tensions(const Section& section, v1::MeshOptions& options, Spots& spots);
 
-/// [solver] of the root. Throws Error for a key of the other method.
+/// Reads [solver] of the root. Throws Error for a key of the other method.
 v1::Solver read_solver(const Section& root, Spots& spots);
 
-/// Every [[load]] of the root: fills in the job's load cases, force_files and spots.
+/// Reads every [[load]] of the root: fills in the job's load cases, force_files and spots.
 void read_loads(const Section& root, Case& result);
 
 /// Writes the value of "key=value" into the case. The key is a dotted path. An entry of an array is
@@ -83,20 +83,20 @@ void read_loads(const Section& root, Case& result);
 /// Throws Error for a key that does not exist, control characters and invalid UTF-8.
 void apply_override(toml::table& root, const std::string& assignment);
 
-/// Removes every [[load]] but those of these names. Throws Error for a name that none has.
+/// Removes every [[load]] except those with these names. Throws Error for a name that no load has.
 void keep_loads(toml::table& root, const std::vector<std::string>& names);
 
 /// Records where the section and its values were written, as FIELD and FIELD.PATH, with the path of
 /// each key's row.
 void note(const Section& section, const std::string& field, Spots& spots);
 
-/// Writes both coordinates.
+/// Sets both coordinates.
 inline void set(v1::Point& point, const Point& xy) {
   point.set_x(xy[0]);
   point.set_y(xy[1]);
 }
 
-/// [from, to], points of an interface or of the boundary, into a message with both.
+/// Reads [from, to], points of an interface or of the boundary, into a message with both.
 template <class Part>
 void read_pair(const toml::node& node, const std::string& key, Part& part) {
   const toml::array* pair = node.as_array();
@@ -109,7 +109,7 @@ void read_pair(const toml::node& node, const std::string& key, Part& part) {
   set(*part.mutable_to(), point_of(*pair->get(1), entry_key(key, 1)));
 }
 
-/// "list[3]": the field of an entry of a repeated field.
+/// The field of an entry of a repeated field: "list[3]".
 inline std::string entry_field(const std::string& list, std::integral auto index) {
   return list + "[" + std::to_string(index) + "]";
 }

@@ -6,8 +6,8 @@ namespace {
 
 bool is_override(const Spot& spot) { return spot.source.starts_with("--set "); }
 
-// The keys of one method do not go with another. The cure is where the wrong one of the two was
-// written: in the case, or by --set.
+// Refuses keys of another method. The cure depends on where the method and the key were written: in
+// the case, or by --set.
 void refuse_other_method(const Section& section, const std::string& method,
                          const std::string& other) {
   std::string found, first;

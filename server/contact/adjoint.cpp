@@ -11,8 +11,8 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// Where cracks cross, how the flux shares lambda among them is no part of the answer: a contact
-/// beside another one in its node.
+/// Per contact: whether another contact lies in its node, as where cracks cross. The answer does
+/// not say how such contacts share the flux, so their lambda is not known.
 std::vector<bool> cross(const ddm::Decomposition& decomposition) {
   std::vector<bool> found(decomposition.skeleton.independent, false);
   std::map<std::int32_t, std::int32_t> at_node;
@@ -24,7 +24,7 @@ std::vector<bool> cross(const ddm::Decomposition& decomposition) {
   return found;
 }
 
-/// Force per pair, from the pressures of an answer.
+/// Force on each pair: the pressure of the answer times the lumped mass.
 VectorXd forces_of(const TraceProblem& traces, const Answer& answer) {
   VectorXd force = VectorXd::Zero(traces.pair_count());
   const auto& sides = traces.decomposition().interface_sides;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What a displacement of an inclusion depends on, around an answer: the adjoint of the contact
-// problem with its closed contacts kept, and within the cone of the answer's jumps and pressures.
+// The adjoint of a contact problem at an answer tells how a displacement of an inclusion depends on
+// the load: the closed contacts stay closed, and the adjoint stays in the cone of the answer's
+// jumps and pressures.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,26 +13,26 @@
 
 namespace anticrack::contact {
 
-/// Adjoints of one answer of the active set.
+/// Adjoints of one answer of the active set method.
 class Adjoint {
  public:
-  /// Not `possible` where contacts depend on others. O(n).
+  /// `possible` is false if the mesh has dependent contacts (ddm::Skeleton::dependent). O(n).
   Adjoint(const TraceProblem& traces, const Answer& answer);
   bool possible() const noexcept { return _possible; }
 
-  /// z_0 of a unit force: the closed contacts kept, the others open.
+  /// z_0, the response to a unit force: the closed contacts stay closed, the others are open.
   struct Goal {
     const UnitForce* force;
     Eigen::VectorXd jumps, reactions;
     double compliance = 0;  ///< the goal's own displacement: |z_0|^2
   };
-  /// `opened`: ContactProblem::solve_open with the answer's closed contacts, for force.r.
+  /// `opened`: from ContactProblem::solve_open for force.r and the answer's closed contacts.
   Goal aim(const UnitForce& force, const Opened& opened) const;
 
-  /// Jumps of z: clipped to [-c [u], c [u]].
+  /// Jumps of z: those of z_0, clipped to [-c [u], c [u]].
   Eigen::VectorXd jumps(const Goal& goal, double c) const;
-  /// What z' is loaded with, every contact open: r and the reactions, clipped to [-c lambda,
-  /// c lambda], where cracks cross to 0.
+  /// Load of z' on the contacts, all of which are open: r plus the reactions clipped to [-c lambda,
+  /// c lambda], and to 0 where cracks cross.
   Eigen::VectorXd load(const Goal& goal, double c) const;
 
  private:

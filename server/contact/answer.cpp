@@ -9,7 +9,7 @@
 namespace anticrack::contact {
 namespace {
 
-/// g_D in a node of the Dirichlet boundary; every subdomain that has the node has the same value.
+/// g_D in a node of the Dirichlet boundary, read from any subdomain that has the node.
 double dirichlet_value(const ddm::Decomposition& decomposition,
                        std::span<const ddm::CondensedLoad> loads, std::int32_t node) {
   for (std::size_t s = 0; s < loads.size(); ++s) {

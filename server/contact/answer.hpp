@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// How a load case is solved, and what comes out: plain data, no linear algebra types.
+// Options of the solvers and answers to load cases, as plain data without linear algebra types.
 #pragma once
 
 #include <algorithm>
@@ -26,11 +26,11 @@ enum class Mass {
 /// Parameters of Algorithm 2; the defaults are those of section 8 of the paper.
 struct UzawaOptions {
   std::optional<double> theta = 2.0;  ///< relaxation, > 0; empty: 0.97 theta* of the mesh
-  double epsilon = 1e-12;             ///< stop when the criterion of step 3 is below; > 0
+  double epsilon = 1e-12;             ///< stop when the criterion of step 3 is below this; > 0
   double p = 1e5;                     ///< bound on the multipliers; >= 0
   int max_iterations = 20000;         ///< >= 1
   Mass mass = Mass::lumped;
-  /// > 0: stop by the relative KKT residuals, not by epsilon; also in place of solution_residual
+  /// if set, > 0: bound on the relative KKT residuals, in place of epsilon and of solution_residual
   std::optional<double> kkt_tolerance;
 };
 ANTICRACK_FIELDS(UzawaOptions, theta, epsilon, p, max_iterations, mass, kkt_tolerance)
@@ -84,7 +84,7 @@ class Observer {
   virtual bool on_iteration(const Sample& sample) = 0;
 };
 
-/// Where a load case stands. What is solved ends converged, not_converged or cancelled.
+/// The state of a load case. One that is solved ends converged, not_converged or cancelled.
 enum class Status : std::int32_t {
   pending = 1,
   running,
@@ -96,16 +96,16 @@ enum class Status : std::int32_t {
 
 struct InclusionAnswer {
   std::string name;
-  double displacement = 0;    ///< A, equation (5); of one that tilts u in its middle (x0, y0)
+  double displacement = 0;    ///< A, equation (5); u in its middle (x0, y0) if it tilts
   double resultant = 0;       ///< int [T du/dnu] ds over it, equation (6): the force on it
   double contact_length = 0;  ///< lumped length of its delaminated nodes in contact
-  /// Bx, By of u = A + Bx (x - x0) + By (y - y0) along it, (x0, y0) the middle of the bounding box
-  /// of its nodes; 0 of one that does not tilt.
+  /// Bx, By of u = A + Bx (x - x0) + By (y - y0) along the inclusion, (x0, y0) the middle of the
+  /// bounding box of its nodes; 0 if it does not tilt.
   double slope_x = 0, slope_y = 0;
-  /// Moment on it about its middle: the sum of flux times (x - x0), and times (y - y0). Of one that
-  /// does not tilt the moment that holds its direction.
+  /// Moment on the inclusion about its middle: the sum of flux times (x - x0), and times (y - y0).
+  /// If it does not tilt, this is the moment that keeps it from tilting.
   double moment_x = 0, moment_y = 0;
-  /// Bounds of the membrane's A and B, and an estimate of its A - displacement (estimate/).
+  /// Bounds of the exact A and B, and an estimate of exact A - displacement (estimate/).
   std::optional<double> displacement_lower = {}, displacement_upper = {},
                         displacement_estimated_error = {};
   std::optional<double> slope_x_lower = {}, slope_x_upper = {};
@@ -119,7 +119,7 @@ ANTICRACK_FIELDS(InclusionAnswer, name, displacement, resultant, contact_length,
 struct ContactInterval {
   std::string interface;  ///< its name
   double begin = 0;       ///< arc length of its first node in contact
-  double end = 0;         ///< and of its last
+  double end = 0;         ///< arc length of its last node in contact
 };
 ANTICRACK_FIELDS(ContactInterval, interface, begin, end)
 
@@ -129,7 +129,7 @@ struct Trace {
   std::vector<double> u_plus;
   std::vector<double> jump;      ///< u_plus - u_minus
   std::vector<double> pressure;  ///< multiplier mu: contact pressure on cracks, flux on glue
-  /// 1: crack node with [u] closed under pressure; nodes that just touch (weakly active) are not.
+  /// 1: crack node that is closed under pressure; 0 also where nodes just touch (weakly active).
   std::vector<std::int32_t> contact;
 };
 
@@ -145,7 +145,7 @@ struct AnswerSummary {
   int iterations = 0;
   double criterion = 1;
   double theta = 0;  ///< used
-  /// 2 / lambda_max(M^1/2 (F1+F2) M^1/2), Theorem 4; 0 of the active set, which does without.
+  /// 2 / lambda_max(M^1/2 (F1+F2) M^1/2), Theorem 4; 0 for the active set, which does not need it.
   double theta_star = 0;
   double energy = 0;  ///< Pi(u)
   KktResiduals kkt;
@@ -155,8 +155,8 @@ struct AnswerSummary {
   std::vector<InclusionAnswer> inclusions;  ///< one per Mesh::inclusions
   double contact_length = 0;
   std::vector<ContactInterval> contact_intervals;
-  /// Bounds of the membrane's own Pi, of |u - u_h| in the energy norm, and of this over |u_h|
-  /// (estimate/); none: not asked for, or `no_bracket` says why there cannot be one.
+  /// Bounds of the exact Pi, of |u - u_h| in the energy norm, and of |u - u_h| / |u_h| (estimate/).
+  /// Empty if they were not asked for, or for the reason that `no_bracket` gives.
   std::optional<double> energy_lower, energy_upper, error_bound, error_bound_relative;
   std::string no_bracket;
 };
@@ -169,12 +169,12 @@ struct Answer : AnswerSummary {
   Status status = Status::not_converged;
   std::vector<char> closed;   ///< active set: 1 for each contact condition with d = 0
   std::vector<Trace> traces;  ///< one per Mesh::interfaces
-  /// u on the trace of each subdomain, as it was cut: what its field is recovered from.
+  /// u on the trace of each subdomain of the decomposition; fields are recovered from it.
   std::vector<std::vector<double>> side_traces;
   std::vector<Field> fields;  ///< one per Mesh::subdomains, when asked for
 };
 
-/// Where the interface's nodes are: what traces are drawn over.
+/// Positions of an interface's nodes, over which its traces are drawn.
 struct TraceGeometry {
   std::vector<double> s, x, y;   ///< arc length from the interface's first node, coordinates
   std::vector<mesh::Kind> kind;  ///< condition in the node; a tip is `inclusion` or `glue` (tied)
@@ -208,7 +208,7 @@ struct SweepColumns {
         contact(row_count * contact_count, 0) {}
 
   std::size_t rows() const noexcept { return status.size(); }
-  /// Of the answer to a row, where the columns have them.
+  /// Copies the bounds of the answer to a row; the columns must have been made with `bounded`.
   void take_bounds(std::size_t row, const AnswerSummary& answer) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     energy_lower[row] = answer.energy_lower.value_or(none);
@@ -225,12 +225,12 @@ struct SweepColumns {
   std::vector<Status> status;       ///< only converged rows hold results
   std::vector<std::int32_t> steps;  ///< of the active set
   std::vector<double> energy;       ///< Pi(u)
-  /// Bounds of the membrane's own, NaN where a row has none; empty: not asked for.
+  /// Bounds of the exact Pi, NaN where a row has none; empty if bounds were not asked for.
   std::vector<double> energy_lower, energy_upper;
   std::vector<double> contact_length;  ///< over all cracks and delaminated parts
   std::vector<double> kkt;             ///< largest of the relative KktResiduals
   std::vector<double> displacement;    ///< (rows, inclusions), row-major: A of equation (5)
-  std::vector<double> displacement_lower, displacement_upper;  ///< bounds, as of the energy
+  std::vector<double> displacement_lower, displacement_upper;  ///< bounds of A, as for the energy
   /// (rows, inclusions, 2), row-major: Bx, By of each; empty where no inclusion of the mesh tilts.
   std::vector<double> slope;
   std::vector<std::uint8_t> contact;  ///< (rows, contacts), row-major: 1 closed under pressure

@@ -15,16 +15,16 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Of the preconditioned size of the load: what conjugate gradients end at.
+/// Conjugate gradients end at this fraction of the preconditioned size of the load.
 constexpr double first_tolerance = 0.1, last_tolerance = 1e-13, rounding_tolerance = 1e-15;
-/// Below this part of the load, in scaled numbers, d and lambda are rounding of the solves.
+/// Below this fraction of the load, in scaled numbers, d and lambda are errors of the solves.
 constexpr double solve_rounding = 4 * lcp_rounding;
-/// Loads whose products with themselves are numbers; others are scaled by a power of two.
+/// Range of loads whose squares neither overflow nor vanish; others are scaled by a power of two.
 constexpr double least_load = 1e-100, most_load = 1e100;
-/// Steps of the blocks before single contacts decide; iterations of one run of conjugate gradients.
+/// Most steps of the blocks before single contacts decide; most iterations of conjugate gradients.
 constexpr int block_steps = 25, most_iterations = 400;
 
-/// 1, or what brings a load of this size among them.
+/// The factor that brings a load of this size into that range; 1 if it is there already.
 double factor_for(double size) {
   const bool fits = size == 0 || !std::isfinite(size) || (size >= least_load && size <= most_load);
   return fits ? 1 : std::ldexp(1.0, -std::ilogb(size));
@@ -48,7 +48,7 @@ std::vector<char> BlockLcp::of_block(const ContactBlock& block, const std::vecto
   return result;
 }
 
-/// One load.
+/// The steps of the solution for one load.
 class BlockLcp::Steps {
  public:
   Steps(const BlockLcp& lcp, const VectorXd& r)
@@ -65,7 +65,7 @@ class BlockLcp::Steps {
   VectorXd d, residual;  // r - S^ d
   int solves = 0;
 
-  /// A start from the hats for long cracks.
+  /// Starts from the solution of the contact problem on the hats, if long cracks have hats.
   void start_coarse() {
     if (!_lcp._blocks.coarse()) return;
     const auto& hats = _lcp._blocks.hats();
@@ -77,7 +77,7 @@ class BlockLcp::Steps {
     subtract(d);
   }
 
-  /// Every block's contact problem with the other blocks as they are.
+  /// Solves the contact problem of every block while the jumps of the other blocks stay.
   void propose(double unit) {
     VectorXd next(d.size());
     for (const ContactBlock& block : _blocks) {
@@ -94,7 +94,7 @@ class BlockLcp::Steps {
     move_to(next);
   }
 
-  /// d <- next, and the residual. One solve.
+  /// Sets d to `next` and updates the residual. One solve.
   void move_to(const VectorXd& next) {
     const VectorXd step = next - d;
     if (step.isZero(0)) return;
@@ -112,7 +112,7 @@ class BlockLcp::Steps {
     factorise_hats();
   }
 
-  /// The open part of M^-1 b. Values of closed contacts are 0, and the rows that hold do.
+  /// M^-1 b on the open contacts, 0 on the closed ones; the result satisfies the closed rows.
   VectorXd precondition(const VectorXd& b) const {
     VectorXd result(b.size());
     for (std::size_t k = 0; k < _blocks.size(); ++k) {
@@ -133,7 +133,7 @@ class BlockLcp::Steps {
     return result;
   }
 
-  /// S^ d = r on the open contacts, from d as it is there, or as near as it gets.
+  /// Solves S^ d = r on the open contacts, starting from the present d, as far as it converges.
   void solve_open(double tolerance, double size) {
     restrict();
     factorise();
@@ -157,7 +157,7 @@ class BlockLcp::Steps {
     }
   }
 
-  /// As far as rounding lets it: the residual of the iteration drifts.
+  /// Solves to rounding: the residual is computed afresh once, as that of the iteration drifts.
   void solve_to_rounding(const VectorXd& r, double size) {
     solve_open(last_tolerance, size);
     residual = r - _lcp._membrane.apply(d, true);
@@ -165,7 +165,7 @@ class BlockLcp::Steps {
     solve_open(rounding_tolerance, size);
   }
 
-  /// sqrt(b'M^-1 b) squared of the load with all contacts open, the scale of the tolerance.
+  /// b'M^-1 b with all contacts open: the square of the size that the tolerance is relative to.
   double size_of(const VectorXd& b) {
     std::vector<char> all_open(closed.size(), 0);
     std::swap(all_open, closed);
@@ -174,8 +174,8 @@ class BlockLcp::Steps {
     return b.dot(precondition(b));
   }
 
-  /// What the iteration has to bring to 0: without the forces of the rows that hold, which would
-  /// cancel in products.
+  /// The part of the residual that the iteration brings to 0. The forces of closed rows are taken
+  /// off, as they would cancel in products.
   VectorXd open_residual() const {
     VectorXd left = residual;
     project(left);
@@ -188,14 +188,14 @@ class BlockLcp::Steps {
     ++solves;
   }
 
-  /// Puts d to 0 where closed, and onto the rows that hold.
+  /// Makes d satisfy what is closed: 0 on closed contacts, G d = 0 on closed rows.
   void restrict() {
     VectorXd next = d;
     project(next);
     move_to(next);
   }
 
-  /// Onto the d that are 0 where closed and on the rows that hold.
+  /// Projects values onto those that are 0 on closed contacts and satisfy the closed rows.
   void project(VectorXd& values) const {
     for (Index i = 0; i < values.size(); ++i)
       if (closed[at(i)] != 0) values[i] = 0;
@@ -208,7 +208,7 @@ class BlockLcp::Steps {
     }
   }
 
-  /// Hats wholly on open contacts.
+  /// Factorises P'S^ P for the hats that lie wholly on open contacts.
   void factorise_hats() {
     _open_hats.clear();
     const auto& hats = _lcp._blocks.hats();

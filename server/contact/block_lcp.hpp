@@ -13,22 +13,22 @@ namespace anticrack::contact {
 
 /// DenseLcp's problem for very many contacts, where S^ is applied and never formed.
 ///
-/// Each step: every block solves its own contact problem with the others as they are, which gives
-/// the set of closed contacts; then conjugate gradients for the open ones, preconditioned by the
-/// blocks and the hats, to a tolerance that falls tenfold a step. Where the set no longer changes,
-/// conjugate gradients go on to rounding; the answer has d > 0 on the open contacts and lambda >= 0
-/// on the closed ones. Should the steps not settle, those of the primal-dual method take over,
-/// which look at single contacts.
+/// In each step every block solves its own contact problem while the jumps of the others stay,
+/// which gives the set of closed contacts; then conjugate gradients, preconditioned by the blocks
+/// and the hats, solve for the jumps of the open ones, to a tolerance that falls tenfold a step.
+/// When the set no longer changes, conjugate gradients go on to rounding; the answer has d > 0 on
+/// the open contacts and lambda >= 0 on the closed ones. If the steps do not settle, primal-dual
+/// steps, which open and close single contacts, take over.
 ///
-/// Bits depend on r and on the start. For one thread.
+/// The bits of an answer depend on r and on the start. For one thread.
 class BlockLcp {
  public:
   /// Keeps references.
   BlockLcp(const JoinedMembrane& membrane, const ContactBlocks& blocks,
            const Conditions& conditions);
 
-  /// `magnitude`, `start`: as for DenseLcp::solve; an empty start: all closed, or what the hats
-  /// say.
+  /// `magnitude`, `start`: as for DenseLcp::solve. With an empty `start` all contacts begin closed,
+  /// except those that the problem on the hats opens.
   LcpAnswer solve(const Eigen::VectorXd& r, const Eigen::VectorXd& magnitude,
                   const LcpOptions& options, std::span<const char> start,
                   const OnStep& on_step = {}) const;
@@ -42,7 +42,7 @@ class BlockLcp {
   const JoinedMembrane& _membrane;
   const ContactBlocks& _blocks;
   const Conditions& _conditions;
-  Eigen::VectorXd _scale;  // of the conditions, as DenseLcp's
+  Eigen::VectorXd _scale;  // per condition, as in DenseLcp
 };
 
 }  // namespace anticrack::contact

@@ -60,7 +60,7 @@ void CaseState::fill(const VectorXd& jumps, const VectorXd& lambda) {
                                              _state.trace[at(pair.minus)][pair.minus_trace];
   }
   for (const PairForces::Implied& implied : _traces.pair_forces().implied())
-    if (_state.mu[implied.pair] > 0)  // closed as its contacts are, which the traces round
+    if (_state.mu[implied.pair] > 0)  // closed as its contacts are; traces have rounding errors
       _state.jump[implied.pair] = 0;
   _state.contact.assign(pairs.size(), 0);
   for (std::size_t i = 0; i < pairs.size(); ++i)

@@ -13,22 +13,22 @@
 
 namespace anticrack::contact {
 
-/// State and sample of one load case from what the contact problem gives. Keeps references.
+/// State and sample of one load case, made from jumps and multipliers. Keeps references.
 class CaseState {
  public:
   CaseState(const TraceProblem& traces, const CaseLoads& loads) : _traces(traces), _loads(loads) {}
 
-  /// The state, whose traces and fluxes are set from outside.
+  /// The state; the caller sets its traces and fluxes.
   TraceState& state() noexcept { return _state; }
   const TraceState& state() const noexcept { return _state; }
   Sample& sample() noexcept { return _sample; }
   const Sample& sample() const noexcept { return _sample; }
 
-  /// The motions of the inclusions from the skeleton's values.
+  /// Sets the motions of the inclusions from the skeleton's values w.
   void set_motion(const Eigen::VectorXd& w);
-  /// Pressures, jumps, energy and residuals. `jumps` and `lambda`: of all contacts.
+  /// Computes pressures, jumps, energy and residuals. `jumps` and `lambda`: one per contact.
   void fill(const Eigen::VectorXd& jumps, const Eigen::VectorXd& lambda);
-  /// Nodes that just touch are not in contact: their pressure is rounding.
+  /// Marks the pairs in contact; nodes that just touch are not, since their pressure is rounding.
   void settle_contact(std::vector<char> pressed, const Eigen::VectorXd& lambda);
 
  private:
@@ -38,8 +38,8 @@ class CaseState {
   Sample _sample;
 };
 
-/// The answer of a load case, with its reason where it is not converged. Throws errors::Error
-/// (numerical) where the energy overflows.
+/// Makes the answer of a load case; it has a reason if it has not converged. Throws errors::Error
+/// (numerical) if the energy overflows.
 Answer conclude(const TraceProblem& traces, const mesh::Mesh& mesh, const CaseLoads& loads,
                 const CaseState& solved, const LcpAnswer& solution);
 

@@ -98,11 +98,11 @@ Reduced CondensedProblem::eliminate(const VectorXd& h, std::span<const ddm::Cond
   result.r -= maps().jumps().transpose() * load;
   result.magnitude = maps().jumps().cwiseAbs().transpose() * size;
   for (Index c = 0; c < result.magnitude.size(); ++c) {
-    // One by one: Eigen would make a copy of |W| for the product.
+    // Column by column, since Eigen would make a copy of |W| for one product.
     result.magnitude[c] += _closed_to_open.col(c).cwiseAbs().dot(size_on_free);
   }
   if (refined) {
-    // r of the residual is r of h, for any x, but of smaller terms.
+    // For any x the residual has the same r as h, but it is a sum of smaller terms.
     const VectorXd closed = VectorXd::Zero(result.r.size());
     Reduced correction = eliminate(h - apply(values(result.x, closed, p)), loads, {}, false);
     result.x += correction.x;
@@ -141,7 +141,7 @@ Work CondensedProblem::work(std::span<const ddm::CondensedLoad> loads,
                             const Reduced& reduced) const {
   VectorXd w = values(reduced.x, VectorXd::Zero(reduced.r.size()), reduced.p);
   VectorXd load = traces().gather(loads);
-  VectorXd internal = reduced.p.size() > 0 ? apply(w) : load;  // at rest, h but for what holds p
+  VectorXd internal = reduced.p.size() > 0 ? apply(w) : load;  // = h at rest, unless p is held
   return {std::move(w), std::move(load), std::move(internal)};
 }
 

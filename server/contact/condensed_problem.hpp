@@ -11,8 +11,8 @@
 
 namespace anticrack::contact {
 
-/// All subdomains joined at their traces and condensed to the cracks. With K = sum_i S_i over the
-/// skeleton's unknowns w = Z q - P d + O p (Maps), load h = sum_i g_i - K O p, x is q and
+/// All subdomains are joined at their traces and condensed to the cracks. With K = sum_i S_i over
+/// the skeleton's unknowns w = Z q - P d + O p (Maps), load h = sum_i g_i - K O p, x is q and
 ///
 ///   H = Z'K Z,  C = Z'K P,  D = P'K P,  S^ = D - C'H^-1 C,  r = C'H^-1 Z'h - P'h
 ///   q = H^-1 (Z'h + C d)
@@ -54,7 +54,7 @@ class CondensedProblem final : public ContactProblem {
 
   /// K w. O(n_G^2).
   Eigen::VectorXd apply(const Eigen::VectorXd& w) const;
-  /// What unit jumps of the contacts do to a sum of unknowns. O(c) a term.
+  /// How much a unit jump of each contact changes a sum of unknowns. O(c) a term.
   Eigen::VectorXd response(const ddm::Terms& terms) const;
   const OpenFactor& all_open() const;
 
@@ -62,7 +62,7 @@ class CondensedProblem final : public ContactProblem {
   Eigen::MatrixXd _closed_to_open;  // W = H^-1 C
   NestedStart _nested_start;
   DenseLcp _lcp;
-  base::Lazy<OpenFactor> _all_open;  // of the lcp with every contact open
+  base::Lazy<OpenFactor> _all_open;  // factor of the lcp with every contact open
 };
 
 }  // namespace anticrack::contact

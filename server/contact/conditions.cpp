@@ -58,7 +58,8 @@ double Conditions::balancing(std::size_t k, const std::vector<char>& closed,
   return sum / size;
 }
 
-/// Of least weighted squares among those that leave no lambda below 0, if there are any.
+/// The multiplier of row k with the least weighted sum of squares among those that leave no lambda
+/// below 0, if there is one.
 double Conditions::least(std::size_t k, const VectorXd& lambda) const {
   double sum = 0, size = _weights[row(k)], low = 0, high = std::numeric_limits<double>::infinity();
   for (const auto& [i, factor] : _rows[k]) {

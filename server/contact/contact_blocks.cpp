@@ -22,9 +22,9 @@ using Eigen::VectorXd;
 using Sparse = Eigen::SparseMatrix<double>;
 using Indices = std::vector<std::int32_t>;
 
-/// Contacts of a block at most: beyond, a crack is cut into several.
+/// Most contacts of a block; a crack with more is cut into several blocks.
 constexpr std::size_t most_contacts = 400;
-/// How far the membrane around a block reaches, of the length of its box.
+/// How far the membrane around a block reaches, as a fraction of the length of its box.
 constexpr double reach = 0.2;
 
 struct Partition {
@@ -33,7 +33,7 @@ struct Partition {
   Index hat_count = 0;
 };
 
-/// Hats with their tops at the ends between the blocks of a crack and in their middles.
+/// Adds hats, whose tops are in the middles of a crack's blocks and where two blocks meet.
 void add_hats(const Indices& chain, std::size_t each, Partition& partition) {
   const double half = static_cast<double>(each) / 2;
   const auto count =
@@ -50,7 +50,7 @@ void add_hats(const Indices& chain, std::size_t each, Partition& partition) {
   partition.hat_count += count;
 }
 
-/// Dependent contacts and what they depend on are in one block.
+/// Divides the contacts into blocks; a dependent contact is in the block of those it depends on.
 Partition part(const TraceProblem& traces) {
   Partition result;
   std::vector<Indices> pieces;
@@ -93,7 +93,7 @@ class Places {
     std::iota(_order.begin(), _order.end(), 0);
     std::ranges::sort(_order, {}, [this](std::int32_t i) { return std::pair{_xy[2 * at(i)], i}; });
   }
-  /// Ascending.
+  /// Entries whose places lie in the box, ascending.
   Indices in_box(const std::array<double, 2>& low, const std::array<double, 2>& high) const {
     Indices found;
     auto i = std::ranges::lower_bound(_order, low[0], {},
@@ -151,7 +151,7 @@ class Patch {
  private:
   Index contact(std::int32_t c) const { return _membrane.size() + c; }
 
-  /// Entries of x that B couples to a contact.
+  /// Visits the entries of x that B couples to a contact.
   template <class Visit>
   void each_neighbour(std::int32_t c, const Visit& visit) const {
     for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator entry(_membrane.coupling(), c);
@@ -204,7 +204,7 @@ Indices mark_motions(const JoinedMembrane& membrane) {
   return result;
 }
 
-/// The dependent contacts of a block, in the numbers of the block.
+/// The rows of a block's dependent contacts, in the block's own numbers.
 std::vector<ddm::Terms> rows_of(const Indices& contacts, const ddm::Skeleton& skeleton,
                                 Indices& conditions) {
   std::vector<ddm::Terms> rows;

@@ -14,21 +14,21 @@
 
 namespace anticrack::contact {
 
-/// Contacts of one crack, or of a part of a long one, with S^ of them alone in the membrane around
-/// them: what lies further away than a part of their length is held, and so are other cracks; the
-/// rigid motions of their inclusion are free.
+/// Contacts of one crack, or of a part of a long crack, with their own S^ in the membrane around
+/// them: nodes further away than a fraction of the block's length are held, other cracks stay
+/// closed, and the rigid motions of their inclusion are free.
 struct ContactBlock {
   std::vector<std::int32_t> contacts;    ///< of d, ascending
-  std::vector<std::int32_t> conditions;  ///< those, then the dependent ones among them
+  std::vector<std::int32_t> conditions;  ///< the contacts, then the dependent ones made of them
   DenseLcp lcp;
 };
 
-/// S^ of all contacts by blocks, as a preconditioner and as small contact problems. Cracks of many
-/// blocks have hats as well, each over two of them, on which S^ is exact: they carry what is smooth
-/// along the crack. Immutable.
+/// S^ of all contacts by blocks, as a preconditioner and as small contact problems. A crack of many
+/// blocks has hat functions as well, each over two blocks, on which S^ is exact: they carry what is
+/// smooth along the crack. Immutable.
 class ContactBlocks {
  public:
-  /// O(c m^2) with blocks of m contacts, and a solve for each hat.
+  /// Costs O(c m^2) with blocks of m contacts, and a solve for each hat.
   ContactBlocks(const JoinedMembrane& membrane, const PairForces& forces, int threads);
 
   const std::vector<ContactBlock>& blocks() const noexcept { return _blocks; }

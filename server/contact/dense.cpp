@@ -24,7 +24,7 @@ int stride(const Matrix& matrix) {
   return static_cast<int>(matrix.outerStride());
 }
 
-/// Columns or rows at a time between two looks: about 1e8 operations, on `each` for one of them.
+/// Columns or rows between two looks: about 1e8 operations, where each one takes `each` operations.
 int between_looks(double each) {
   constexpr double most = 1e8, fewest = 32, largest = 1 << 20;
   return static_cast<int>(std::clamp(most / std::max(each, 1.0), fewest, largest));
@@ -32,7 +32,7 @@ int between_looks(double each) {
 
 void look() { stop::look("working on dense matrices"); }
 
-/// Calls part(first, count) for so many columns or rows, and looks before each.
+/// Calls part(first, count) for groups of that many columns or rows, and looks before each call.
 template <class Part>
 void for_each_part(int all, double each, const Part& part) {
   const int most = between_looks(each);
@@ -42,7 +42,7 @@ void for_each_part(int all, double each, const Part& part) {
   }
 }
 
-/// The same in blocks of columns, each ready before the next: what is right of it is reduced.
+/// The same in blocks of columns: each block is finished, and the columns right of it are reduced.
 bool cholesky_in_blocks(Ref<MatrixXd> matrix) {
   constexpr int block = 256;
   const int size = static_cast<int>(matrix.rows()), leading = stride(matrix);

@@ -129,20 +129,20 @@ LcpStatus LcpSequence::find_set() {
   return _ended.value_or(LcpStatus::solved);
 }
 
-/// Factor for the nodes that are open now.
+/// Factorises for the nodes that are open now.
 const OpenFactor& LcpSequence::factor() {
   stop::look("solving for contact");
   _answer.factor.factorise(_matrix, _conditions.rows(), _closed);
   return _answer.factor;
 }
 
-/// d from the set.
+/// Computes d for the present set.
 void LcpSequence::solve_open() {
   factor().solve(_r, _d.head(nodes()));
   _conditions.add_rows(_d);
 }
 
-/// S d - r into _force.
+/// Writes S d - r into _force.
 void LcpSequence::apply() {
   if (_answer.factor.empty()) {
     _force.head(nodes()) = -_r;
@@ -158,8 +158,8 @@ void LcpSequence::set_multipliers() {
   for (Index i = 0; i < _force.size(); ++i) _lambda[i] = _closed[at(i)] == 0 ? 0 : _force[i];
 }
 
-/// Of the method that frees one condition at a time: rows that hold by themselves are not of its
-/// set and take nothing.
+/// Multipliers for the method that frees one condition at a time. Rows whose contacts are all
+/// closed are not in its set and have none.
 void LcpSequence::set_multipliers_of_set() {
   apply();
   _force.tail(_force.size() - nodes()).setZero();
@@ -173,7 +173,7 @@ void LcpSequence::set_multipliers_of_set() {
     _lambda[i] = i < nodes() && _closed[at(i)] == 0 ? 0 : _force[i];
 }
 
-/// Counts and reports a step; false ends the run.
+/// Counts and reports a step; returns false if the run is to end.
 bool LcpSequence::report() {
   ++_answer.steps;
   if (*_given.on_step) {
@@ -189,7 +189,7 @@ bool LcpSequence::may_go_on() {
   return !_ended;
 }
 
-/// True when settled; false when a set recurs or S is singular on the open nodes.
+/// Returns true when settled, false when a set recurs or S is singular on the open nodes.
 bool LcpSequence::primal_dual() {
   _met.clear();
   for (unsigned step = 1;; ++step) {
@@ -214,7 +214,7 @@ bool LcpSequence::primal_dual() {
   }
 }
 
-/// The next set into _next; returns how many conditions change.
+/// Writes the next set into _next; returns how many conditions change.
 Index LcpSequence::find_next() {
   _next = _closed;
   Index changed = 0;
@@ -308,7 +308,7 @@ void LcpSequence::open_one(Index node) {
   settle();
 }
 
-/// To the minimum with the closed conditions as equalities, as far as no open one is violated.
+/// Moves to the minimum with the closed conditions as equalities, without violating an open one.
 void LcpSequence::one_by_one() {
   close_all();
   _d.setZero();
@@ -334,7 +334,7 @@ void LcpSequence::one_by_one() {
   }
 }
 
-/// Shortens the way from `from` to d where an open condition blocks it; returns that, or -1.
+/// Shortens the way from `from` to d if an open condition blocks it; returns that condition, or -1.
 Index LcpSequence::go_towards(const VectorXd& from) {
   double way = 1;
   Index blocking = -1;
@@ -373,7 +373,7 @@ void LcpSequence::close_undecided() {
     _conditions.add_rows(_d);
     set_multipliers();
   }
-  factor();  // of the rows that were closed as well
+  factor();  // which now has the rows closed above
 }
 
 void LcpSequence::finish() {

@@ -15,23 +15,23 @@
 
 namespace anticrack::contact {
 
-/// Values below this fraction of the load are rounding and neither open nor close a node.
+/// Values below this fraction of the load are rounding errors and neither open nor close a node.
 constexpr double lcp_rounding = 256 * std::numeric_limits<double>::epsilon();
 
-/// Whether S on n nodes is regular to rounding; `smallest`: least squared pivot of its Cholesky
-/// factor, whose diagonal was 1.
+/// Whether S on n nodes is regular to rounding. `smallest`: the least squared pivot of the Cholesky
+/// factor of S, scaled to a unit diagonal.
 constexpr bool regular_pivot(double smallest, Eigen::Index n) {
   return smallest > 64 * std::numeric_limits<double>::epsilon() * static_cast<double>(n);
 }
 
-/// Of all conditions. Closed ones have jump 0, open ones lambda = 0.
+/// One step; vectors have an entry per condition. Closed ones have jump 0, open ones lambda = 0.
 struct LcpStep {
   int number = 0;  ///< from 1
   const std::vector<char>& closed;
   const Eigen::VectorXd& d;
   const Eigen::VectorXd& lambda;
 };
-/// Returns false to stop. Empty: nobody is told.
+/// Called after each step; returns false to stop. May be empty.
 using OnStep = std::function<bool(const LcpStep&)>;
 
 enum class LcpStatus {
@@ -41,56 +41,57 @@ enum class LcpStatus {
   stopped,     ///< by on_step
 };
 
-/// Vectors are of all conditions, as in LcpStep.
+/// Vectors have an entry per condition, as in LcpStep.
 struct LcpAnswer {
   LcpStatus status = LcpStatus::step_limit;
   std::vector<char> closed;
   Eigen::VectorXd d;          ///< >= 0
   Eigen::VectorXd lambda;     ///< >= 0
-  std::vector<char> pressed;  ///< lambda above tolerance
+  std::vector<char> pressed;  ///< 1 where lambda is above the tolerance
   int steps = 0;
-  int weakly_active = 0;  ///< neither jump nor lambda above tolerance
+  int weakly_active = 0;  ///< conditions with neither jump nor lambda above the tolerance
   bool fell_back = false;
   int solves = 0;  ///< applications of S^ where it is not formed
-  /// Largest |lambda - (S d - r)| with d and lambda clipped at 0, of the largest of magnitude and
-  /// lambda.
+  /// Largest |lambda - (S d - r)| with d and lambda clipped at 0, relative to the largest magnitude
+  /// or lambda.
   double residual = 0;
-  OpenFactor factor;  ///< of the open nodes, where solved and S is formed: for solve_open
+  OpenFactor factor;  ///< of the open nodes, for solve_open; set if solved and S is formed
 };
 
 struct LcpOptions {
   double tolerance = 1e-12;  ///< of weakly_active, relative to the load
   int max_steps = 1000;
-  bool monotone_only = false;  ///< leaves out the primal-dual steps; to test the fall-back
+  bool monotone_only = false;  ///< skips the primal-dual steps, to test the fall-back
 };
 
 /// Linear complementarity with a dense matrix S, the minimum of d'S d/2 - r'd under Conditions:
 ///
 ///   d >= 0,  lambda = S d - r - G'nu >= 0,  d'lambda = 0,   G d >= 0,  nu >= 0,  nu'G d = 0
 ///
-/// Everything is scaled to a unit diagonal of S, that is c_i = S_ii, and rows of G of norm 1.
+/// Everything is scaled so that S has a unit diagonal (c_i = S_ii) and the rows of G have norm 1.
 /// Immutable after construction; LcpSequence solves it.
 class DenseLcp {
  public:
-  /// `matrix`: (c,c) symmetric, positive semidefinite, positive diagonal. Singular where parts of a
-  /// membrane hold each other by contact only.
-  /// `rows`, `weights`: as in Conditions.
+  /// `matrix`: (c,c) symmetric, positive semidefinite, positive diagonal. It is singular where
+  /// parts of a membrane hold each other by contact only. `rows`, `weights`: as in Conditions.
   explicit DenseLcp(Eigen::MatrixXd matrix, std::vector<ddm::Terms> rows = {},
                     Eigen::VectorXd weights = {});
 
-  /// One r, as LcpSequence::solve from `start`. O(c^3) a step.
+  /// Solves for one r, as LcpSequence::solve does from `start`. O(c^3) a step.
   LcpAnswer solve(const Eigen::VectorXd& r, const Eigen::VectorXd& magnitude,
                   const LcpOptions& options, std::span<const char> start,
                   const OnStep& on_step = {}) const;
 
-  /// x with (S x)_i = b_i on the open nodes of an answer's factor, else 0, for refinement. O(c^2).
+  /// x with (S x)_i = b_i on the open nodes of an answer's factor, 0 elsewhere; for refinement.
+  /// O(c^2).
   Eigen::VectorXd solve_open(const OpenFactor& open, const Eigen::VectorXd& b) const;
 
   /// S d. O(c^2).
   Eigen::VectorXd apply(const Eigen::VectorXd& d) const;
 
-  /// 1 / sqrt(S_ii) of the nodes, the norms of the rows of S-scaled d; S with it on both sides, and
-  /// the conditions on what it scales: what the steps compute with.
+  /// The scaled problem that the steps compute with. scale(): 1 / sqrt(S_ii) of the nodes, then of
+  /// each row of G its norm on scaled d; the matrix is S with the scale on both sides; the
+  /// conditions are those on scaled jumps.
   const Eigen::VectorXd& scale() const noexcept { return _scale; }
   const Eigen::MatrixXd& scaled_matrix() const noexcept { return _matrix; }
   const Conditions& scaled_conditions() const noexcept { return _conditions; }

@@ -65,7 +65,7 @@ Sparse JoinedMembrane::assemble() {
   const Index x = _interior + index(skeleton.free), d = x + index(skeleton.independent);
   const Index all = d + index(skeleton.held.size());
   _places.assign(2 * at(d), 0);
-  // What each value of the skeleton is made of, in the numbers of [x d p].
+  // Each value of the skeleton as a sum over the entries of [x d p].
   std::vector<ddm::Terms> made_of(skeleton.unknowns);
   for (std::size_t i = 0; i < skeleton.unknowns; ++i) {
     for (const auto& [k, factor] : skeleton.rows[i].free)
@@ -109,7 +109,8 @@ Sparse JoinedMembrane::assemble() {
             if (entry.row() == column && b.index > a.index) continue;  // met the other way round
             const double value = entry.value() * a.factor * b.factor;
             entries.emplace_back(std::max(a.index, b.index), std::min(a.index, b.index), value);
-            // Off the diagonal of K an entry stands for two, which may meet on the diagonal here.
+            // An entry off the diagonal of K stands for two, and both may fall on the diagonal
+            // here.
             if (entry.row() != column && a.index == b.index)
               entries.emplace_back(a.index, a.index, value);
           }

@@ -15,54 +15,56 @@
 namespace anticrack::contact {
 
 /// The matrices of a JoinedProblem: the whole membrane with one sparse factor, for interfaces too
-/// long for dense matrices. Unknowns: x, the interior nodes of the subdomains one after another and
-/// then q; d the jumps, p what is held (ddm::Skeleton). S^ is never formed: it is applied by a
-/// solve with the factor of A. Immutable after construction, thread-safe. Keeps a reference.
+/// long for dense matrices. Unknowns: x has the interior nodes of the subdomains one after another
+/// and then q; d are the jumps and p the held values (ddm::Skeleton). S^ is never formed: it is
+/// applied by a solve with the factor of A. Immutable after construction, thread-safe. Keeps a
+/// reference.
 class JoinedMembrane {
  public:
-  /// Throws errors::Error (numerical) when A is not positive definite; cancelled. O(N log N)
-  /// memory.
+  /// Throws errors::Error: numerical when A is not positive definite; cancelled. O(N log N) memory.
   JoinedMembrane(const TraceProblem& traces, int threads);
 
   const TraceProblem& traces() const noexcept { return _traces; }
   const ddm::Decomposition& decomposition() const noexcept { return _traces.decomposition(); }
-  Eigen::Index size() const noexcept { return _a.rows(); }      ///< of x
-  Eigen::Index contacts() const noexcept { return _b.rows(); }  ///< of d
+  Eigen::Index size() const noexcept { return _a.rows(); }      ///< length of x
+  Eigen::Index contacts() const noexcept { return _b.rows(); }  ///< length of d
 
-  /// As ContactProblem::loads: CondensedLoad that condenses nothing. z_interior and g are the load
-  /// in the interior and trace nodes, less what g_D takes.
+  /// As ContactProblem::loads, but nothing is condensed: z_interior and g are the loads in the
+  /// interior and trace nodes, less K_.D g_D.
   std::vector<ddm::CondensedLoad> loads(std::size_t subdomain,
                                         const Eigen::Ref<const Eigen::MatrixXd>& of_nodes,
                                         const Eigen::Ref<const Eigen::MatrixXd>& dirichlet) const;
 
-  /// f in [x d p] of forces h on the skeleton's unknowns and of what `loads` have in the interiors.
+  /// f in [x d p], from forces h on the skeleton's unknowns and the interior part of `loads`.
   Eigen::VectorXd spread(const Eigen::VectorXd& h,
                          std::span<const ddm::CondensedLoad> loads = {}) const;
-  /// Two solves: one of iterative refinement. `force`: in [x d p].
+  /// Eliminates x with every contact closed. `force`: in [x d p]. Two solves, one of them of
+  /// iterative refinement.
   Reduced reduce(const Eigen::VectorXd& force, const Eigen::VectorXd& p) const;
 
   /// S^ d. One solve, or two with a step of iterative refinement.
   Eigen::VectorXd apply(const Eigen::VectorXd& d, bool refined = false) const;
-  /// K [x d 0] in [x d p] from the forces on the nodes. The equation of an inclusion that moves
-  /// sums those of all its nodes, far larger than what is left of them.
+  /// K [x d 0] in [x d p], summed from the forces on the nodes. The equation of an inclusion that
+  /// moves is the sum over all its nodes, whose forces are far larger than their sum.
   Eigen::VectorXd forces_of(const Eigen::VectorXd& x, const Eigen::VectorXd& d) const;
-  /// x for jumps d. Two solves: the residual is that of forces_of.
+  /// x for jumps d. Two solves, the second for the residual by forces_of.
   Eigen::VectorXd solve(const Reduced& load, const Eigen::VectorXd& d) const;
-  /// f and K [y 0 p] of a load with every contact closed, in [x p] as [y p] is.
+  /// [y p], f and K [y 0 p] of a load with every contact closed, all in [x p].
   Work work(const Eigen::VectorXd& force, const Reduced& reduced) const;
 
-  /// u on the free nodes of a subdomain, w the values of the skeleton.
+  /// u on the free nodes of a subdomain. `w`: the values of the skeleton.
   Eigen::VectorXd field(std::size_t subdomain, const Eigen::VectorXd& x,
                         const Eigen::VectorXd& w) const;
-  /// u on the nodes of all, one after another, 0 on the Dirichlet boundary; p is 0.
+  /// u on the nodes of all subdomains, one after another, 0 on the Dirichlet boundary; p is 0.
   std::vector<double> field(const Eigen::VectorXd& x, const Eigen::VectorXd& d) const;
   /// K u on the free nodes of a subdomain. O(N).
   Eigen::VectorXd forces(std::size_t subdomain, const Eigen::VectorXd& u) const;
-  /// f less K u, in [x d p]: the difference in each node first. `loads`: or none. O(N).
+  /// f - K u in [x d p]; the difference is formed in each node before it is summed. `loads` may be
+  /// empty. O(N).
   Eigen::VectorXd residual(std::span<const ddm::CondensedLoad> loads, const Eigen::VectorXd& x,
                            const Eigen::VectorXd& w) const;
 
-  /// K in [x d p], lower triangle, and a place in the plane for each entry of x and d.
+  /// The lower triangle of K in [x d p], and a place (x, y) in the plane for each entry of x and d.
   const Eigen::SparseMatrix<double>& matrix() const noexcept { return _matrix; }
   const std::vector<double>& places() const noexcept { return _places; }
   /// B, by rows.
@@ -78,9 +80,9 @@ class JoinedMembrane {
   const TraceProblem& _traces;
   std::vector<fem::Stiffness> _stiffness;  // per subdomain
   std::vector<Eigen::Index> _first;        // of each subdomain's interior in x
-  Eigen::Index _interior = 0;              // interior nodes of all
+  Eigen::Index _interior = 0;              // number of interior nodes of all subdomains
   std::vector<double> _places;
-  Eigen::SparseMatrix<double> _matrix;              // assemble() sets what is above as well
+  Eigen::SparseMatrix<double> _matrix;              // K; assemble() sets it and the members above
   Eigen::SparseMatrix<double> _a;                   // A, lower triangle
   Eigen::SparseMatrix<double, Eigen::RowMajor> _b;  // B
   Eigen::SparseMatrix<double> _d;                   // D, lower triangle

@@ -124,7 +124,7 @@ void JoinedProblem::recover_fields(std::span<const SolvedCase> cases) const {
   const ddm::Decomposition& decomposition = traces().decomposition();
   const std::vector<ddm::Contact>& contacts = decomposition.skeleton.contacts;
   for (const SolvedCase& one : cases) {
-    // The jumps from the traces, and from those everything else.
+    // The traces give the jumps, and the jumps everything else.
     const VectorXd w = unknowns_of(decomposition, one.answer);
     VectorXd d(_membrane.contacts());
     for (Index c = 0; c < d.size(); ++c) d[c] = w[contacts[at(c)].plus] - w[contacts[at(c)].minus];

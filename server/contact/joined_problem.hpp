@@ -12,16 +12,16 @@
 
 namespace anticrack::contact {
 
-/// Whether a membrane is joined: interfaces of more than `most` values are too long for the dense
-/// matrices of CondensedProblem.
+/// Whether a membrane gets a JoinedProblem: its interfaces have more than `most` values, too many
+/// for the dense matrices of CondensedProblem.
 bool is_joined(const ddm::Decomposition& decomposition, std::size_t most);
 
-/// The contact problem of a JoinedMembrane, with the answers of a CondensedProblem to 1e-10. Its
-/// steps report criterion, energy, gap and complementarity from jumps and multipliers alone: traces
-/// would take a solve.
+/// The contact problem of a JoinedMembrane; its answers agree with those of a CondensedProblem to
+/// 1e-10. Its steps report criterion, energy, gap and complementarity from jumps and multipliers
+/// alone, since traces would cost a solve.
 class JoinedProblem final : public ContactProblem {
  public:
-  /// As JoinedMembrane and ContactBlocks.
+  /// Costs and errors are those of JoinedMembrane and ContactBlocks.
   JoinedProblem(const TraceProblem& traces, int threads);
 
   std::vector<ddm::CondensedLoad> loads(

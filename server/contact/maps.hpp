@@ -14,7 +14,7 @@ namespace anticrack::contact {
 /// the jumps of the independent contacts, p held.
 class Maps {
  public:
-  /// O(terms).
+  /// Copies the terms of Z, P and O into sparse matrices. O(terms).
   explicit Maps(const ddm::Skeleton& skeleton);
 
   /// Lengths of w, q, d and p.
@@ -27,12 +27,12 @@ class Maps {
   const Eigen::SparseMatrix<double>& jumps() const noexcept { return _jumps; }  ///< P
   const Eigen::SparseMatrix<double>& held() const noexcept { return _held; }    ///< O
 
-  /// w. O(n).
+  /// w = Z q - P d + O p. O(n).
   Eigen::VectorXd expand(const Eigen::VectorXd& q, const Eigen::VectorXd& d,
                          const Eigen::VectorXd& p) const;
-  /// Unit forces on a sum of unknowns, shape (w). O(n).
+  /// The force on each unknown, shape (w), of a unit force on a sum of unknowns. O(n).
   Eigen::VectorXd vector_of(const ddm::Terms& sum) const;
-  /// Memory of the three.
+  /// Memory of the three matrices in bytes.
   std::size_t bytes() const noexcept;
 
  private:

@@ -14,9 +14,9 @@ using Eigen::VectorXd;
 using Prolongation = Eigen::SparseMatrix<double>;
 using Chains = std::vector<std::vector<std::int32_t>>;
 
-/// Below, a step from all closed costs as little as anything.
+/// With fewer contacts a coarse problem saves nothing over a start with all contacts closed.
 constexpr Index fewest_contacts = 32;
-/// A coarse problem that takes more is no help.
+/// A coarse problem that takes more steps is no help.
 constexpr int most_steps = 20;
 
 /// Keeps every second contact of each chain, and numbers them anew. Beyond the ends the jump is 0,

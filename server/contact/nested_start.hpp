@@ -11,21 +11,22 @@
 
 namespace anticrack::contact {
 
-/// Where the active set is to start: the same problem with jumps that are linear between every
-/// second contact of a crack, solved from the start that the next coarser one gives. The steps of
-/// the active set move the ends of a contact zone by a few nodes each; of a coarse problem they
-/// cost an eighth or less. Immutable after construction.
+/// Finds a start for the active set: solves the same problem with jumps that are linear between
+/// every second contact of a crack, itself started from the next coarser problem. A step of the
+/// active set moves the ends of a contact zone by a few nodes only; in a coarse problem it costs an
+/// eighth or less. Immutable after construction.
 class NestedStart {
  public:
-  /// `matrix`: S, as DenseLcp takes it. `chains`: contacts that follow each other along a crack,
-  /// each contact once. O(c^2).
+  /// `matrix`: S, as for DenseLcp. `chains`: contacts in their order along each crack, each contact
+  /// once. O(c^2).
   NestedStart(const Eigen::MatrixXd& matrix, std::vector<std::vector<std::int32_t>> chains);
 
-  /// Closed contacts to start from; empty where nothing is gained or known. A function of the load
-  /// alone. `r`, `magnitude`: as DenseLcp::solve takes them. About a third of a solve.
+  /// Closed contacts to start from; empty if the coarse problems are of no help. Depends on the
+  /// load alone. `r`, `magnitude`: as for DenseLcp::solve. Takes about a third of the time of a
+  /// solve.
   std::vector<char> closed(const Eigen::VectorXd& r, const Eigen::VectorXd& magnitude) const;
 
-  /// Memory of the levels.
+  /// Memory of the levels in bytes.
   std::size_t bytes() const noexcept;
 
  private:

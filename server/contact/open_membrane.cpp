@@ -11,7 +11,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// What the second solve may change, of the first: above, rounding decides.
+/// Largest relative change of u by the second solve; beyond it, rounding errors dominate.
 constexpr double most_change = 1e-6;
 
 ddm::SubdomainFactor factor(const JoinedMembrane& membrane) {

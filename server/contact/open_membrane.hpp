@@ -9,15 +9,15 @@
 
 namespace anticrack::contact {
 
-/// The joined membrane with every contact open: a factor of K on [x d] of its own, with which unit
-/// forces take two solves each, many at once. Keeps a reference.
+/// The joined membrane with every contact open. It has a factor of K on [x d], so that each unit
+/// force takes two solves, of many forces at once. Keeps a reference.
 class OpenMembrane {
  public:
-  /// As JoinedMembrane.
+  /// Factorises K on [x d]. Throws as JoinedMembrane does.
   explicit OpenMembrane(const JoinedMembrane& membrane);
 
-  /// u of a unit force on each sum, as fields_of; empty where rounding decides it. Bits are those
-  /// of each alone.
+  /// u of a unit force on each sum, laid out as by ContactProblem::fields_of; empty where rounding
+  /// errors dominate. The bits for a sum do not depend on the others.
   std::vector<std::vector<double>> fields(std::span<const ddm::Terms* const> sums) const;
 
  private:

@@ -18,7 +18,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Not so where it may open, nor where other conditions of a cross point imply its own.
+/// Whether both sides of pair i share an unknown. They do not if the pair may open, or if its
+/// condition follows from others of its cross point.
 bool tied(const ddm::Decomposition& decomposition, std::int32_t i) {
   const ddm::NodePair& pair = decomposition.pairs[at(i)];
   return decomposition.subdomains[at(pair.minus)].unknown[at(pair.minus_trace)] ==
@@ -49,7 +50,8 @@ PairForces::PairForces(const ddm::Decomposition& decomposition, const VectorXd& 
   }
 }
 
-/// Down from the unknown of its plus side, over the contacts of the node: the first way found.
+/// The first path found from the unknown of the plus side down to that of the minus side, over the
+/// contacts of the node; empty if there is none.
 std::vector<std::int32_t> PairForces::path_of(const std::vector<std::int32_t>& pairs_of_node,
                                               std::int32_t pair) const {
   const auto unknown = [this](std::int32_t subdomain, std::int32_t trace) {
@@ -75,8 +77,8 @@ std::vector<std::int32_t> PairForces::path_of(const std::vector<std::int32_t>& p
   return {};
 }
 
-/// Sets mu of the implied pairs; what is left of lambda for the contacts. Where several implied
-/// pairs share contacts, each in turn until it settles.
+/// Sets mu of the implied pairs and returns the part of lambda that is left for the contacts. If
+/// several implied pairs share contacts, they take their parts in turn until these settle.
 VectorXd PairForces::share(const VectorXd& lambda, VectorXd& mu) const {
   constexpr int rounds = 64;
   VectorXd left = lambda;
@@ -122,7 +124,7 @@ PairForces::Knot PairForces::knot_of(const std::vector<std::int32_t>& pairs_of_n
     return found != knot.sides.end() && *found == side ? found - knot.sides.begin() : Index{-1};
   };
 
-  // mu = B (B'M B)^+ b, b the forces on the sides: with M^1/2 mu of least norm.
+  // mu = B (B'M B)^+ b with b the forces on the sides: the mu with the least norm of M^1/2 mu.
   MatrixXd b_root =
       MatrixXd::Zero(static_cast<Index>(knot.sides.size()), static_cast<Index>(knot.pairs.size()));
   VectorXd root(b_root.cols());

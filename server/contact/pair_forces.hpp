@@ -16,29 +16,30 @@ namespace anticrack::contact {
 ///                which Algorithm 2 converges as well.
 /// A side held rigid takes any force; a pair of two such sides has mu = 0. A pair whose condition
 /// follows from contacts of its cross point (contact -1, sides not tied) shares their forces: it
-/// takes the part of them that makes mu'M mu least with no mu below 0. Where one of them is open,
-/// its own mu is 0. Lumped mass. Immutable after construction. O(n) a call.
+/// takes the part of them that makes mu'M mu least with no mu below 0, or 0 if one of these
+/// contacts is open. Lumped mass. Immutable after construction. O(n) a call.
 class PairForces {
  public:
   /// Keeps references to both. `lumped_mass`: shape (pairs).
   PairForces(const ddm::Decomposition& decomposition, const Eigen::VectorXd& lumped_mass);
 
-  /// A pair whose condition follows from contacts: its minus side is below its plus side by them.
+  /// A pair whose condition follows from contacts: its jump is the sum of their jumps.
   struct Implied {
     Eigen::Index pair;
     std::vector<std::int32_t> path;  ///< the contacts between its two sides
   };
   const std::vector<Implied>& implied() const noexcept { return _implied; }
 
-  /// Of each contact: the length that belongs to its pairs.
+  /// The length that belongs to the pairs of each contact, shape (contacts).
   const Eigen::VectorXd& contact_mass() const noexcept { return _contact_mass; }
 
-  /// Which contacts are closed under pressure. `pressed`: those with a force above rounding; where
-  /// there are any, a shorter edge's force may be below, so those with a pressure above 1e-12 of
-  /// the largest one join them. `lambda`: shape (contacts), >= 0. O(n), no allocation.
+  /// Completes `pressed`, the contacts closed under pressure. It comes with the contacts whose
+  /// force is above rounding; if there are any, those whose pressure is above 1e-12 of the largest
+  /// are added, as the force on a short edge may be small. `lambda`: shape (contacts), >= 0. O(n),
+  /// no allocation.
   void complete_contact(const Eigen::VectorXd& lambda, std::vector<char>& pressed) const;
 
-  /// Shape (pairs). `fluxes`: per subdomain, shape (trace); `lambda`: shape (contacts).
+  /// mu, shape (pairs). `fluxes`: per subdomain, shape (trace); `lambda`: shape (contacts).
   Eigen::VectorXd multipliers(const std::vector<Eigen::VectorXd>& fluxes,
                               const Eigen::VectorXd& lambda) const;
 
@@ -47,11 +48,11 @@ class PairForces {
     std::int32_t subdomain, trace;
     auto operator<=>(const Side&) const = default;
   };
-  struct Touch {  // of a contact's pair on a side
+  struct Touch {  // the pair of a contact at a side
     Eigen::Index side, pair;
     double sign;
   };
-  /// Tied pairs that meet in a node, with the sides that must be in balance.
+  /// Tied pairs that meet in a node, and the sides on which their forces must balance the fluxes.
   struct Knot {
     std::vector<std::int32_t> pairs;
     std::vector<Side> sides;
@@ -70,7 +71,7 @@ class PairForces {
   std::vector<Knot> _knots;
 };
 
-/// Whether all contacts of a path are closed under pressure, given by `pressed`.
+/// Whether all contacts of a path are closed under pressure. `pressed`: per contact.
 bool pressed_through(const std::vector<std::int32_t>& path, const std::vector<char>& pressed);
 
 }  // namespace anticrack::contact

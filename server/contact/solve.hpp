@@ -23,39 +23,39 @@ inline void add(RigidForce& sum, const RigidForce& force, double factor) {
   sum.moment_y += factor * force.moment_y;
 }
 
-/// The force F_j on an inclusion: what acts on its trace nodes, and what only those who hold it
-/// feel.
+/// The force F_j on an inclusion: the part that acts on its trace nodes, and the part that goes to
+/// whatever holds it.
 struct InclusionForce {
   RigidForce on_nodes;
   RigidForce on_holders;
 };
 
-/// Condensed loads, one per subdomain, and the forces on inclusions, of which on_nodes are already
-/// in them (one per inclusion, or none at all).
+/// Condensed loads, one per subdomain, and the forces on inclusions, one per inclusion or none at
+/// all. The loads include the forces' on_nodes.
 struct CaseLoads {
   std::span<const ddm::CondensedLoad> subdomains;
   std::span<const InclusionForce> inclusion_forces = {};
 };
 
-/// Work of a force on a motion (A, Bx, By).
+/// Work that a force does on a motion (A, Bx, By).
 double work(const RigidForce& force, const Eigen::Ref<const Eigen::Vector3d>& motion);
 
-/// p of a load: the values that are held.
+/// The held values p of a load.
 Eigen::VectorXd held_values(const ddm::Decomposition& decomposition,
                             std::span<const ddm::CondensedLoad> loads);
 
-/// The exact contact problem with iterative refinement; one sample a step, whose criterion is that
-/// of step 3 of Algorithm 2, 1 in the first (of a joined membrane: the work of the step, of all
-/// work). The bits of a condensed problem depend on the final set only, not on `start`: closed
-/// contacts (Answer::closed of another load); empty: those that the problem knows. Ends
-/// not_converged at max_steps, if a part of the membrane held by contact only is pulled off, or if
-/// a relative residual is above solution_residual. Throws errors::Error (numerical) where the
-/// energy overflows.
+/// Solves the exact contact problem, with iterative refinement. Each step reports a sample; its
+/// criterion is that of step 3 of Algorithm 2, 1 in the first step (for a joined membrane: the work
+/// of the step relative to all work). `start`: closed contacts to start from (Answer::closed of
+/// another load); empty: the problem chooses. The bits of a condensed problem depend on the final
+/// set only. Ends not_converged at max_steps, if a part of the membrane held by contact only is
+/// pulled off, or if a relative residual is above solution_residual. Throws errors::Error
+/// (numerical) if the energy overflows.
 Answer solve_active_set(const ContactProblem& problem, const mesh::Mesh& mesh,
                         const CaseLoads& loads, const ActiveSetOptions& options, bool fields,
                         Observer& observer, std::span<const char> start = {});
 
-/// w of an answer, from its traces. O(n).
+/// The skeleton's values w, from the traces of an answer. O(n).
 Eigen::VectorXd unknowns_of(const ddm::Decomposition& decomposition, const Answer& answer);
 
 /// A load case to recover fields for; its answer has side_traces.
@@ -69,12 +69,12 @@ void recover_fields(const TraceProblem& problem, std::span<const SolvedCase> cas
 
 /// Fills an answer from the last state and sample: energy, residuals, traces, contact, inclusions.
 /// The resultant on inclusion j is the sum of the fluxes of its sides (its own and, through
-/// contact, the delaminated ones), of the load without the force F_j on the inclusion: F_j in the
-/// solution unless it is held or shares nodes; the moment is that of the same forces.
+/// contact, the delaminated ones), computed without the force F_j in the load. In the solution it
+/// equals F_j unless the inclusion is held or shares nodes. The moment is that of the same fluxes.
 void describe(const TraceProblem& problem, const mesh::Mesh& mesh, const CaseLoads& loads,
               const TraceState& state, const Sample& sample, Answer& answer);
 
-/// The relative residuals, for messages.
+/// The relative residuals as text, for messages.
 std::string residuals_of(const Answer& answer);
 
 /// Positions and conditions of the nodes of every interface.

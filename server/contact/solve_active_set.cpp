@@ -15,7 +15,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// One load.
+/// The solution of one load case.
 class Case {
  public:
   Case(const ContactProblem& problem, const CaseLoads& loads)
@@ -46,15 +46,15 @@ class Case {
     _solved.sample().iteration = step.number;
   }
 
-  /// To the solution by iterative refinement, with multipliers from the forces themselves. One step
-  /// is enough for a condensed problem, and none for a joined one, whose x is refined, but where
-  /// terms far larger than the load cancel, as between inclusions that nearly touch.
+  /// Improves the solution by iterative refinement, with multipliers from the forces themselves. A
+  /// condensed problem needs one step and a joined one, whose x is refined already, none; both need
+  /// more where terms far larger than the load cancel, as between inclusions that nearly touch.
   void finish(const LcpAnswer& solution) {
     const bool condensed = _problem.condensed();
     if (condensed && solution.status != LcpStatus::solved) return;
     const double enough = condensed ? 1e-11 : 1e-12;
     constexpr int most_steps = 5;
-    // After the last sample, nodes open by rounding were closed.
+    // Nodes that were open by rounding only have been closed since the last sample.
     const VectorXd d = solution.d.head(_position.d.size());
     if (!condensed || d != _position.d) move_to(d);
     if (!condensed) settle(solution);
@@ -81,21 +81,21 @@ class Case {
     show();
   }
 
-  /// Traces, fluxes and motions of the position.
+  /// Computes traces, fluxes and motions of the position.
   void show() {
     const VectorXd w = _problem.values(_position.x, _position.d, _position.load.p);
     _problem.fill(_loads, _position.x, w, _solved.state());
     _solved.set_motion(w);
   }
 
-  /// Pressures and contact of the position.
+  /// Computes pressures and contact of the position.
   void settle(const LcpAnswer& solution) {
     const VectorXd lambda = _problem.multipliers(state(), solution.closed).cwiseMax(0.0);
     _solved.fill(_problem.conditions().jumps(_position.d, solution.closed), lambda);
     _solved.settle_contact(solution.pressed, lambda);
   }
 
-  /// A sample from jumps and multipliers alone: traces would take a solve.
+  /// Fills a sample from jumps and multipliers alone, as traces would cost a solve.
   void sample_jumps(const VectorXd& d, const LcpStep& step) {
     Sample& sample = _solved.sample();
     const VectorXd& r = reduced().r;
@@ -114,7 +114,7 @@ class Case {
     _position.d = d;
   }
 
-  /// max_i |u_k - u_{k-1}|_V^2 / |u_k|_V^2, of scaled traces and fluxes, whose squares do not
+  /// max_i |u_k - u_{k-1}|_V^2 / |u_k|_V^2, from scaled traces and fluxes whose squares do not
   /// overflow.
   double criterion(const std::vector<VectorXd>& previous_trace,
                    const std::vector<VectorXd>& previous_flux) const {

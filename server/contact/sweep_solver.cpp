@@ -15,14 +15,14 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Numbers of a row in SweepColumns::slope.
+/// How many numbers of SweepColumns::slope a row has.
 std::size_t slopes(const SweepColumns& rows) {
   return rows.slope.empty() ? 0 : 2 * rows.inclusions;
 }
 
 std::size_t bytes_of(const MatrixXd& matrix) { return sizeof(double) * at(matrix.size()); }
 
-/// Rows of a mesh's inclusions: A of each, then where any tilts Bx and By of each.
+/// Motions of the inclusions as sums of unknowns: A of each, then, if any tilts, Bx and By of each.
 std::vector<ddm::Terms> sweep_motions(const ddm::Skeleton& skeleton) {
   std::vector<ddm::Terms> rows;
   bool tilting = false;
@@ -37,12 +37,12 @@ std::vector<ddm::Terms> sweep_motions(const ddm::Skeleton& skeleton) {
   return rows;
 }
 
-/// Whether numbers hold inclusions.
+/// Whether any inclusion is held at a given number.
 bool held_by_numbers(const ddm::Skeleton& skeleton) {
   return std::ranges::any_of(skeleton.held, [](const ddm::Held& held) { return held.value != 0; });
 }
 
-/// Of the held values the part that a load gives, or that numbers give.
+/// The part of the held values p that comes from a load (g_D), or from given numbers if `numbers`.
 VectorXd held_part(const ddm::Decomposition& decomposition,
                    std::span<const ddm::CondensedLoad> loads, bool numbers) {
   const std::vector<ddm::Held>& held = decomposition.skeleton.held;
@@ -57,7 +57,7 @@ VectorXd held_part(const ddm::Decomposition& decomposition,
   return values;
 }
 
-/// Takes the work of forces on held inclusions from the energy.
+/// Subtracts the work of forces on held inclusions from the energy.
 void take_from_holders(std::span<const CaseLoads> loads, SweepLoads& reduced) {
   for (std::size_t i = 0; i < loads.size(); ++i) {
     const auto inclusions = static_cast<Index>(loads[i].inclusion_forces.size());
@@ -174,7 +174,7 @@ void SweepSolver::solve(const SweepLoads& loads, std::span<const double> coeffic
 
 bool SweepSolver::combine(const SweepLoads& loads, std::span<const double> coefficients) {
   VectorXd& c = _coefficients;
-  c.setOnes(loads.r.cols());  // of the held values
+  c.setOnes(loads.r.cols());  // the load of given numbers always has coefficient 1
   std::copy(coefficients.begin(), coefficients.end(), c.begin());
   _sizes = c.cwiseAbs();
   multiply(loads.r, c, _r);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Many load cases on one mesh for the numbers of their answers alone, without traces: what is
-// linear in the load is done once, for a basis of loads.
+// Solves many load cases on one mesh for the numbers of their answers alone, without traces.
+// Whatever is linear in the load is computed once, for a basis of loads.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,14 +22,14 @@ namespace anticrack::contact {
 struct SweepGeometry {
   explicit SweepGeometry(const TraceProblem& traces);
 
-  /// Nodes of the interfaces that may open (interface, index of the node in it), and the contact
-  /// condition of each: one is there twice where interfaces cross.
+  /// Interface nodes that may open (interface, index of the node in it), and the contact condition
+  /// of each. A condition occurs twice where interfaces cross.
   std::vector<std::array<std::int32_t, 2>> nodes;
   std::vector<std::int32_t> contact;
-  Eigen::VectorXd length;  ///< of each contact: lumped mass of its pairs
-  /// Pairs of cross points that are closed where several contacts are.
+  Eigen::VectorXd length;  ///< per contact: lumped mass of its pairs
+  /// A pair of a cross point that is closed if all contacts of a path are closed.
   struct Implied {
-    std::vector<std::int32_t> path;  ///< those contacts
+    std::vector<std::int32_t> path;  ///< contacts from its plus to its minus side
     double length = 0;
   };
   std::vector<Implied> implied;
@@ -38,9 +38,9 @@ struct SweepGeometry {
   std::size_t bytes() const noexcept;
 };
 
-/// Loads with every contact closed, a column each. Of a combination sum_j c_j f_j all but the
-/// energy are linear in c, and that is c' energy c. Where numbers hold inclusions they are a load
-/// of their own, the last column, and every row has it once.
+/// Loads with every contact closed, one per column. For a combination sum_j c_j f_j the energy is
+/// c' energy c, and everything else is linear in c. If inclusions are held at given numbers, these
+/// are one more load in the last column, which every row takes with coefficient 1.
 struct SweepLoads {
   Eigen::MatrixXd r, magnitude;  ///< (contacts, loads), as in Reduced
   Eigen::MatrixXd motion;        ///< (motions, loads)
@@ -50,32 +50,31 @@ struct SweepLoads {
   std::size_t bytes() const noexcept;
 };
 
-/// `constants`: (loads, loads), the part of the energy that the traces do not change (sum over the
-/// subdomains of ddm::LoadProducts::energy; of one load: of energy_constant). O(n^2) a load; where
-/// the membrane is joined two solves.
+/// Reduces a basis of loads. `constants`: (loads, loads), the part of the energy that does not
+/// depend on the traces: the sum over the subdomains of ddm::LoadProducts::energy (for one load, of
+/// energy_constant). O(n^2) a load; two solves if the membrane is joined.
 SweepLoads reduce(const ContactProblem& problem, std::span<const CaseLoads> loads,
                   const Eigen::MatrixXd& constants);
 
-/// Solves row after row, each from the contact of the one before. A row's numbers are those of
-/// solve_active_set for the same load, to rounding, and do not depend on the rows before. No
-/// allocation in a row but as LcpSequence says. One object belongs to one thread. Keeps references
-/// to what it is made of.
+/// Solves row after row, each starting from the contact of the one before. The numbers of a row are
+/// those of solve_active_set for the same load, to rounding, and do not depend on the rows before.
+/// A row allocates only where LcpSequence does. One object belongs to one thread. Keeps references
+/// to the arguments of its constructor.
 ///   Pi = Pi(closed) - r'd/2                          (from d'lambda = 0)
 ///   A  = A(closed) + what the jumps do, and so the slopes
-///   kkt: LcpAnswer::residual, the largest |lambda - (S^ d - r)| relative to the largest force on
-///   the
-///        contacts, of all the loads that are summed, with d and lambda clipped at 0 and one of
-///        them 0 in each: what is wrong with equilibrium, gap, sign or complementarity of the
-///        contacts is in it. The nodes between are in equilibrium by elimination, to rounding; it
-///        is not measured row by row.
+///   kkt: LcpAnswer::residual, the largest |lambda - (S^ d - r)| of all summed loads, relative to
+///        the largest force on the contacts, with d and lambda clipped at 0 and one of them 0 in
+///        each contact. It covers errors of equilibrium, gap, sign and complementarity at the
+///        contacts. The nodes between are in equilibrium to rounding, by elimination, which is not
+///        measured row by row.
 class SweepSolver {
  public:
-  /// `start`: closed contacts; empty: all.
+  /// `start`: closed contacts to start the first row from; empty: all are closed.
   SweepSolver(const ContactProblem& problem, const SweepGeometry& geometry,
               const ActiveSetOptions& options, std::span<const char> start);
 
-  /// Writes one row. Ends not_converged, with zeros, where max_steps is reached, where a part that
-  /// only contact holds is pulled off, and where a number is beyond the range of double.
+  /// Solves and writes one row. It ends not_converged, with zeros, if max_steps is reached, if a
+  /// part that only contact holds is pulled off, or if a number is beyond the range of double.
   void solve(const SweepLoads& loads, std::span<const double> coefficients, std::size_t row,
              SweepColumns& rows);
 

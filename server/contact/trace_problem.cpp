@@ -117,7 +117,7 @@ Eigen::SparseMatrix<double> root(const Eigen::VectorXd& mass) {
   return Eigen::SparseMatrix<double>(mass.cwiseSqrt().asDiagonal());
 }
 
-/// Inclusion whose motion an unknown follows or hangs on.
+/// Per unknown: the inclusion whose motion it follows or depends on through conditions, or -1.
 std::vector<std::int32_t> inclusions_of(const ddm::Skeleton& skeleton) {
   std::vector<std::int32_t> of_free(skeleton.free, -1), result(skeleton.unknowns, -1);
   for (std::size_t i = 0; i < skeleton.unknowns; ++i)
@@ -142,7 +142,7 @@ std::vector<std::vector<std::int32_t>> find_carriers(const ddm::Decomposition& d
     for (std::size_t i = 0; i < of_trace.size(); ++i)
       if (of_trace[i] < 0) of_trace[i] = inclusion[at(subdomain.unknown[i])];
   }
-  // Of a body of several inclusions: the one that lies on the other side.
+  // If the body has several inclusions, the flux acts on the one at the other side of the pair.
   for (const ddm::NodePair& pair : decomposition.pairs) {
     std::int32_t& minus = result[at(pair.minus)][at(pair.minus_trace)];
     if (pair.inclusion >= 0 && minus >= 0 &&

@@ -25,7 +25,7 @@ class TraceProblem {
   TraceProblem(const TraceProblem&) = delete;
   TraceProblem& operator=(const TraceProblem&) = delete;
 
-  /// `uzawa`: Algorithm 2 applies (ddm::uzawa_obstacle is empty).
+  /// `uzawa`: whether Algorithm 2 applies (ddm::uzawa_obstacle is empty).
   TraceProblem(const ddm::Decomposition& decomposition,
                const std::vector<ddm::SubdomainOperator>& operators, bool uzawa = true);
 
@@ -33,21 +33,21 @@ class TraceProblem {
   const std::vector<ddm::SubdomainOperator>& operators() const noexcept { return _operators; }
   const Maps& maps() const noexcept { return _maps; }
   const PairForces& pair_forces() const noexcept { return _pair_forces; }
-  /// Per subdomain and trace node: the inclusion that its flux acts on, directly or through
+  /// Per subdomain and trace node: the inclusion on which the node's flux acts, directly or through
   /// contact, or -1.
   const std::vector<std::vector<std::int32_t>>& carriers() const noexcept { return _carriers; }
-  /// Contacts that follow each other along a crack, in order: cut where a node is tied. One that
-  /// several interfaces share is with the first of them. Where cracks cross there are more pairs
-  /// than the interfaces read: their contacts come last, each alone. O(n).
+  /// Contacts in their order along each crack; a chain ends where a node is tied. A contact that
+  /// several interfaces share is in the chain of the first. Where cracks cross, some pairs belong
+  /// to no interface: their contacts come last, each a chain of its own. O(n).
   std::vector<std::vector<std::int32_t>> chains() const;
   /// Pairs of nodes, tied ones included.
   Eigen::Index pair_count() const noexcept { return _lumped.size(); }
 
-  /// Sum over the subdomains of forces on their traces, shape (unknowns); of loads, their g, or
-  /// none.
+  /// Sum over the subdomains of the forces on their traces, shape (unknowns). For loads these are
+  /// their g; `loads` may be empty.
   Eigen::VectorXd gather(std::span<const Eigen::VectorXd> on_traces) const;
   Eigen::VectorXd gather(std::span<const ddm::CondensedLoad> loads) const;
-  /// Values on the traces from those of the unknowns.
+  /// Values on the traces of each subdomain, from those of the skeleton's unknowns.
   std::vector<Eigen::VectorXd> scatter(const Eigen::VectorXd& w) const;
 
   /// Diagonal of the lumped interface mass: the length that belongs to each pair.

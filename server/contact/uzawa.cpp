@@ -12,7 +12,7 @@ using Eigen::MatrixXd;
 
 namespace {
 
-/// The tolerance of weakly active nodes by default, see ActiveSetOptions.
+/// The default tolerance of weakly active nodes, see ActiveSetOptions.
 constexpr double weak_pressure = 1e-12;
 
 }  // namespace
@@ -76,7 +76,7 @@ void Uzawa::step(int columns) {
   }
 }
 
-/// Changes nothing before the first iteration: there mu and the jump are zero.
+/// Changes nothing before the first iteration, where mu and the jump are zero.
 void Uzawa::update_multipliers(int c) {
   Column& column = _columns[index(c)];
   const Eigen::VectorXd& mass = _problem.lumped_mass();
@@ -188,7 +188,7 @@ TraceState Uzawa::state(int column) const {
   state.mu = _mu.col(column);
   state.force = _pair_force.col(column);
   state.jump = _jump.col(column);
-  // A step of mu is theta times a jump: less comes from the rounding of traces that just touch.
+  // A step of mu is theta times a jump; smaller ones come from rounding in traces that just touch.
   const double weak = weak_pressure * _problem.theta_star(_mass) * largest(_trace.col(column));
   for (std::size_t i = 0; i < _pairs.size(); ++i)
     state.contact.push_back(_pairs[i].unilateral && _mu(static_cast<Index>(i), column) > weak);

@@ -17,7 +17,8 @@ struct Iterate {
   int number = 0;        ///< 1 for the paper's k = 0
   double criterion = 1;  ///< step 3; 1 in the first iteration
   double energy = 0;     ///< Pi_1 + Pi_2
-  double size = 0;       ///< max_i |u_i|_V / sqrt(T_i): of the displacement in the subdomains
+  double size = 0;       ///< max_i |u_i|_V / sqrt(T_i), the size of the displacement in the
+                         ///< subdomains
   bool turned = false;   ///< the change of mu points against the change before (in the M product)
 };
 
@@ -30,31 +31,31 @@ struct Iterate {
 /// section 6 projection, so w_k, y_k^0, y_k and A_k = -c_k/b_k of the paper are inside it.
 /// Norms and energies need no further product: t'S t = t'(g + B'M mu) as t = F(g + B'M mu), and the
 /// same holds for the change of t.
-/// F_i times all columns is one product of matrices, so the columns under way are the first ones;
-/// the caller assigns them to load cases (UzawaBlock). The columns are independent.
-/// All memory is allocated on construction: O(n_G capacity). One object belongs to one thread.
+/// F_i times all columns is one product of matrices, so the columns that iterate must be the first
+/// ones; the caller assigns columns to load cases (UzawaBlock). The columns are independent. All
+/// memory is allocated on construction: O(n_G capacity). One object belongs to one thread.
 class Uzawa {
  public:
   /// Keeps a reference to the problem. Every subdomain must have a flexibility, and every inclusion
   /// its rigid sides in one subdomain (ddm::uzawa_obstacle).
   Uzawa(const TraceProblem& problem, Mass mass, int capacity);
 
-  /// Puts a load at the beginning of the iteration, mu_0 = 0, into a column. `loads`, one per
-  /// subdomain, stay the caller's while the column is used.
+  /// Starts the iteration of a load in a column, with mu_0 = 0. `loads`, one per subdomain, must
+  /// outlive the use of the column.
   void start(int column, std::span<const ddm::CondensedLoad> loads, double theta, double p);
   /// Computes the next iterate of the first `columns` columns. O(n_G^2 columns), no allocation.
   void step(int columns);
-  /// Two columns change places. O(n_G), no allocation.
+  /// Exchanges two columns. O(n_G), no allocation.
   void exchange(int a, int b);
 
-  /// What step() computed last in a column.
+  /// The iterate that step() computed last in a column.
   const Iterate& iterate(int column) const { return _columns[index(column)].iterate; }
-  /// Of u_{i,k}, per subdomain.
+  /// The trace of u_{i,k} on a subdomain.
   Eigen::Ref<const Eigen::VectorXd> trace(int column, std::size_t subdomain) const {
     const Side& side = _sides[subdomain];
     return _trace.col(column).segment(side.first, side.size);
   }
-  /// mu_k, per pair: what u_k was computed from.
+  /// mu_k, per pair, from which u_k was computed.
   Eigen::MatrixXd::ConstColXpr mu(int column) const { return _mu.col(column); }
   /// u+ - u-, per pair.
   Eigen::MatrixXd::ConstColXpr jump(int column) const { return _jump.col(column); }
@@ -65,10 +66,10 @@ class Uzawa {
 
   /// equilibrium_residual of the iterate. O(n_G^2), no allocation.
   double equilibrium(int column);
-  /// What its residuals are relative to. O(n_G), no allocation.
+  /// The scales of a column's relative residuals. O(n_G), no allocation.
   Scales scales(int column) const;
-  /// Pairs whose mu is at its bound p and would go beyond it, by a gap above rounding: there the
-  /// iterate tends to another problem's solution. O(n_G), no allocation.
+  /// Number of pairs whose mu is at its bound p and, by a gap above rounding, would go beyond it.
+  /// With such pairs the iteration tends to the solution of another problem. O(n_G), no allocation.
   int held_at_bound(int column) const;
   /// The iterate with its forces and fluxes. O(n_G^2).
   TraceState state(int column) const;
@@ -80,11 +81,11 @@ class Uzawa {
     double p = 0;
     Iterate iterate;
   };
-  struct Side {  // one subdomain: its rows, workspace (skeleton, capacity)
+  struct Side {  // one subdomain: its rows, and workspace (skeleton, capacity)
     Eigen::Index first = 0, size = 0;
     Eigen::MatrixXd reduced, skeleton;
   };
-  struct Pair {  // rows of its sides
+  struct Pair {  // rows of its two sides
     Eigen::Index minus = 0, plus = 0;
     bool unilateral = false;
   };
@@ -101,7 +102,7 @@ class Uzawa {
   std::vector<Column> _columns;
   std::vector<Side> _sides;
   std::vector<Pair> _pairs;
-  std::vector<Eigen::Index> _inclusion_row;          // one at which A_j is found
+  std::vector<Eigen::Index> _inclusion_row;          // a row that holds A_j
   Eigen::MatrixXd _mu, _jump, _pair_force, _change;  // (pairs, capacity)
   // (traces of all subdomains below each other, capacity); force is g + B'M mu.
   Eigen::MatrixXd _g, _trace, _force;

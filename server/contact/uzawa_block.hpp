@@ -65,16 +65,16 @@ class UzawaBlock {
   /// throws errors::Error as TraceProblem::theta_star does.
   UzawaBlock(const TraceProblem& problem, const mesh::Mesh& mesh, Mass mass, int capacity);
 
-  /// Load cases that iterate, and how many may at once.
+  /// The number of load cases that iterate now, and of those that may at once.
   int columns() const noexcept { return _running; }
   int capacity() const noexcept { return static_cast<int>(_cases.size()); }
 
-  /// Joins with mu_0 = 0. The place, below capacity(), is the case's until its answer was taken.
-  /// What `loads` refers to and the observer outlive that. `options.mass` must be the block's.
-  /// Throws errors::Error (internal) for another mass and without a free place.
+  /// Adds a load case, which starts with mu_0 = 0. Returns its place, below capacity(), which it
+  /// keeps until its answer is taken; what `loads` refers to and the observer must live until then.
+  /// Throws errors::Error (internal) if `options.mass` is not the block's or no place is free.
   int add(const CaseLoads& loads, const UzawaOptions& options, bool fields, Observer& observer);
 
-  /// One iteration of every column; each observer gets its own. Columns that end stay, without
+  /// Iterates every column once and calls the observer of each. Columns that end stay, without
   /// further iterations, until they are taken. O(n_G^2 columns), no allocation.
   void step();
 
@@ -82,8 +82,8 @@ class UzawaBlock {
     int place = 0;
     Answer answer;
   };
-  /// What has ended, in the order of the places. Throws errors::Error (limit_exceeded) without
-  /// memory for fields; nothing is taken then.
+  /// Takes the answers of the cases that have ended, in the order of their places. Throws
+  /// errors::Error (limit_exceeded) if there is no memory for fields; nothing is taken then.
   std::vector<Ended> take_ended();
 
  private:
@@ -113,7 +113,8 @@ class UzawaBlock {
   const Mass _mass;
   const double _theta_star;
   Uzawa _uzawa;
-  // Columns of _uzawa and their cases: those under way, those that have ended, free ones.
+  // The cases in the columns of _uzawa: first those that iterate, then those that have ended, then
+  // free places.
   std::vector<Case> _cases;
   int _running = 0;
   int _ended = 0;

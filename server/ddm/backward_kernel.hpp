@@ -4,14 +4,14 @@
 namespace anticrack::ddm {
 namespace {
 
-/// Rows whose products are summed apart; a column of a factor starts anywhere.
+/// Rows whose products are summed separately; a column of a factor need not be aligned.
 constexpr int rows_at_once = 8;
 using Rows = double __attribute__((vector_size(rows_at_once * sizeof(double))));
 using UnalignedRows =
     double __attribute__((vector_size(rows_at_once * sizeof(double)), aligned(sizeof(double))));
 
-/// a b + c as the processor does it best, and as the compiler does it of vectors: a sum that it
-/// makes into one of vectors would be rounded twice.
+/// a b + c, fused if the processor does that fast, as in the compiler's code for vectors. Written
+/// as a plain sum, it would be rounded twice where the compiler vectorises it.
 inline double multiply_add(double a, double b, double c) {
 #ifdef __FP_FAST_FMA
   return __builtin_fma(a, b, c);
@@ -20,7 +20,7 @@ inline double multiply_add(double a, double b, double c) {
 #endif
 }
 
-/// The lanes of `sums` in the order of every kernel and of blocks.
+/// The sum of the lanes of `sums`, in the order that all kernels and block widths use.
 inline double total(const Rows& sums) {
   using Half = double __attribute__((vector_size(rows_at_once * sizeof(double) / 2)));
   const Half half = __builtin_shufflevector(sums, sums, 0, 1, 2, 3) +
@@ -28,11 +28,12 @@ inline double total(const Rows& sums) {
   return (half[0] + half[2]) + (half[1] + half[3]);
 }
 
-// Rows that are not a whole number of lanes end with the last of the column: lanes whose rows were
-// taken before add nothing. What a factor has above its diagonal is multiplied by zero there.
+// If the rows are not a whole number of lanes, the last group ends with the last row of the column,
+// and its lanes of rows already summed add nothing: whatever a factor has above its diagonal is
+// multiplied by zero there.
 
-/// sum_k = sum of L_ik y_i over the rows from `from` on, for columns that follow each other from l
-/// on: the entries of y are fetched once for all of them. The first `own` rows are those of x.
+/// sum_k = sum of L_ik y_i over the rows from `from` on, for consecutive columns from l on; the
+/// entries of y are fetched once for all columns. The first `own` entries of y are in x.
 template <int columns>
 inline void add_products(const double* l, int height, int own, const int* rows, int from,
                          const double* x, const double* y, double* sum) {
@@ -75,7 +76,7 @@ inline void add_products(const double* l, int height, int own, const int* rows, 
   for (int k = 0; k < columns; ++k) sum[k] += total(sums[k]);
 }
 
-/// Columns of a supernode that go together, from `begin` on: all rows below, then their triangle.
+/// Solves for columns of a supernode from `begin` on: first all rows below, then their triangle.
 template <int columns>
 inline void solve_backward(const double* l, int height, int own, const int* rows, int begin,
                            double* x, const double* y) {
@@ -89,12 +90,12 @@ inline void solve_backward(const double* l, int height, int own, const int* rows
     value[k] = x[begin + k] - value[k];
 #pragma GCC unroll 8
     for (int i = columns - 1; i > k; --i) value[k] = multiply_add(-column[i], value[i], value[k]);
-    value[k] *= 1 / column[k];  // the quotient needs no x and is ready before
+    value[k] *= 1 / column[k];  // needs no x, so it is ready early
     x[begin + k] = value[k];
   }
 }
 
-/// As add_products() of one column, for a block: the same products, summed in the same order.
+/// As add_products() for one column, on a block: the same products, summed in the same order.
 template <int groups>
 inline void add_products_of_block(const double* column, int height, int own, const int* rows,
                                   int from, const Lanes* x, const Lanes* y, Lanes* sum) {
@@ -150,7 +151,7 @@ inline void for_supernodes(const Supernodes& factor, const Solve& solve) {
     if (end <= first) continue;
     const int* rows = factor.rows + factor.row_begin[s];
     const int height = factor.row_begin[s + 1] - factor.row_begin[s];
-    const int own = factor.super[s + 1] - first;  // rows that follow each other
+    const int own = factor.super[s + 1] - first;  // these rows are consecutive
     solve(factor.values + factor.value_begin[s], height, own, rows, first, end - first);
   }
 }

@@ -18,7 +18,7 @@ void require_threadsafe_blas() {
                         "factors come out wrong under threads",
                         openblas_get_parallel());
   }
-  // Once: it is a global setting that others may be computing under by now.
+  // Done once only, as it is a global setting and other threads may be computing by now.
   static const bool set = [] {
     openblas_set_num_threads(1);
     return true;

@@ -3,8 +3,8 @@
 
 namespace anticrack::ddm {
 
-/// Throws errors::Error (internal) unless BLAS is the pthread build of OpenBLAS (the serial build
-/// gave 40 wrong factors of 44 under threads, silently). Sets it to one thread a caller, once.
+/// Throws errors::Error (internal) unless BLAS is the pthread build of OpenBLAS: under threads, the
+/// serial build gave 40 wrong factors of 44, without an error. Sets one thread per caller.
 void require_threadsafe_blas();
 
 }  // namespace anticrack::ddm

@@ -14,7 +14,7 @@ namespace {
 
 using mesh::Point;
 
-/// Of its length, that the nodes of a straight body may lie off its line.
+/// How far the nodes of a straight body may lie off its line, relative to its length.
 constexpr double straight = 1e-9;
 
 struct Box {
@@ -55,7 +55,7 @@ void hold(Body& body, const mesh::Motion& motion, const std::string& name) {
   body.fixed = motion.fixed;
 }
 
-/// The axes of a body whose inclusions all tilt.
+/// Sets the axes of a body whose inclusions all tilt.
 void let_tilt(Body& body, const std::vector<Point>& nodes) {
   const auto from_centre = [&](const Point& p) {
     return Point{p[0] - body.centre[0], p[1] - body.centre[1]};

@@ -7,8 +7,8 @@
 #include "ddm/blas.hpp"
 #include "errors/errors.hpp"
 
-// From OpenMP's run-time library, which Debian's libcholmod is linked with. Its header is not
-// included: compiling with OpenMP would make Eigen start threads as well.
+// Declared here, as OpenMP's header is not included: compiling with OpenMP would make Eigen start
+// threads as well. Debian's libcholmod is linked with OpenMP's run-time library.
 extern "C" void omp_set_max_active_levels(int);
 
 namespace anticrack::ddm {
@@ -18,11 +18,11 @@ class Context {
  public:
   Context() {
     require_threadsafe_blas();
-    // CHOLMOD starts four threads in every factorisation. Ours run in parallel already; without
+    // CHOLMOD starts four threads in every call. Our threads run in parallel already; with no
     // active levels the calling thread works alone.
     omp_set_max_active_levels(0);
     cholmod_start(&_common);
-    _common.print = 0;  // it would write to the standard output
+    _common.print = 0;  // otherwise it writes to the standard output
     _common.nmethods = 1;
     _common.method[0].ordering = CHOLMOD_GIVEN;
     _common.supernodal = CHOLMOD_SUPERNODAL;

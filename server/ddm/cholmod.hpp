@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// CHOLMOD's analysis; the only header that includes it.
+// CHOLMOD's analysis. This is the only header that includes CHOLMOD.
 #pragma once
 
 #include <cholmod.h>
@@ -15,13 +15,13 @@ struct FreeFactor {
   void operator()(cholmod_factor* factor) const;
 };
 
-/// May be freed by any thread: memory comes from malloc.
+/// Any thread may free it, since the memory comes from malloc.
 using FactorPtr = std::unique_ptr<cholmod_factor, FreeFactor>;
 
 /// Permutation and supernodal pattern of the factor of a symmetric matrix, without values. `lower`:
-/// its lower triangle, compressed; `permutation`: the order of elimination, which keeps the
-/// unknowns from `interior` on last and in their order. Throws errors::Error (limit_exceeded for
-/// memory).
+/// the lower triangle of the matrix, compressed; `permutation`: the order of elimination, in which
+/// the unknowns from `interior` on stay last and in their order. Throws errors::Error
+/// (limit_exceeded) if there is not enough memory.
 FactorPtr analyse(const Eigen::SparseMatrix<double>& lower, std::vector<int> permutation,
                   Eigen::Index interior);
 

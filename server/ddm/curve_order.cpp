@@ -18,7 +18,7 @@ struct Keyed {
 
 constexpr unsigned cell_bits = 16;
 
-/// Moves bit i of a cell's number to place 2i.
+/// Moves bit i of a cell's coordinate to place 2i.
 std::uint32_t spread(std::uint32_t bits) {
   bits = (bits | bits << 8) & 0x00ff00ffU;
   bits = (bits | bits << 4) & 0x0f0f0f0fU;
@@ -40,7 +40,7 @@ struct Axis {
   }
 };
 
-/// A pass of a radix sort: by `digit_bits` bits of the key, keeping the order of equals.
+/// One pass of a radix sort: sorts by `digit_bits` bits of the key and keeps the order of equals.
 constexpr unsigned digit_bits = 11;
 
 void sort_by_digit(const std::vector<Keyed>& from, unsigned shift, std::vector<Keyed>& to) {

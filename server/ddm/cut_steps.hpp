@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The steps of cut(): the sides of interface nodes, what ties them, and what holds the parts.
+// The steps of cut(): find the sides of interface nodes, tie sides, find parts that nothing holds.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ struct CutEdge {
   mesh::Kind kind = mesh::Kind::glue;
   std::int32_t inclusion = -1;
   std::array<std::int32_t, 2> node{};
-  /// Side at each end, -1 in a Dirichlet node. The same one on both faces at the tip of a slit.
+  /// Side at each end, -1 in a Dirichlet node. At the tip of a slit both are the same.
   std::array<std::int32_t, 2> minus{-1, -1};
   std::array<std::int32_t, 2> plus{-1, -1};
 };
@@ -34,18 +34,18 @@ struct CutEdge {
 struct Sides {
   std::vector<Side> sides;           ///< in the order in which the interfaces meet them
   std::vector<CutEdge> edges;        ///< of all interfaces, one after another
-  std::vector<std::int32_t> corner;  ///< (3m) side a triangle's corner belongs to, or -1
+  std::vector<std::int32_t> corner;  ///< (3m) side to which a triangle's corner belongs, or -1
   std::vector<char> on_dirichlet;    ///< (n) the node is on the Dirichlet boundary
 };
 
-/// Throws errors::Error (mesh_invalid) for an interface edge without a triangle on each side, or
-/// glue within one subdomain. O(m + k log k), k the number of interface edges.
+/// Finds the sides. Throws errors::Error (mesh_invalid) for an interface edge without a triangle on
+/// each side, or for glue within one subdomain. O(m + k log k), k the number of interface edges.
 Sides find_sides(const mesh::Mesh& mesh);
 
-/// "(x, y)" of a node, for messages.
+/// The position of a node as "(x, y)", for messages.
 std::string place(const mesh::Mesh& mesh, std::int32_t node);
 
-// Which sides share one value, and the conditions that remain between the others.
+// Tells which sides share one value, and the conditions that remain between the others.
 
 /// Two sides of a node with an interface edge between them.
 struct Couple {
@@ -55,18 +55,18 @@ struct Couple {
 };
 
 struct Ties {
-  std::vector<std::int32_t> unknown;  ///< (sides) entry of w
-  std::vector<std::int32_t> rigid;    ///< (sides) inclusion it is the plus side of, or -1
+  std::vector<std::int32_t> unknown;  ///< (sides) its entry of w
+  std::vector<std::int32_t> rigid;    ///< (sides) inclusion whose plus side it is, or -1
   Skeleton skeleton;
   std::vector<Couple> couples;                      ///< in the order of the edges
   std::vector<std::array<std::int32_t, 2>> of_end;  ///< (edges) couple at each end, or -1
 };
 
-/// Tied sides share an unknown; what is left are conditions, independent or not. Throws
-/// errors::Error as `cut` does. O(k log k).
+/// Gives tied sides one unknown and numbers the conditions between the other sides, the independent
+/// ones first. Throws errors::Error as `cut` does. O(k log k).
 Ties tie(const mesh::Mesh& mesh, const Sides& sides);
 
-// Parts of the membrane that could move as a whole, which makes matrices singular.
+// Parts of the membrane that could move as a whole, which would make matrices singular.
 
 /// Sets Subdomain::floating. O(n). Throws errors::Error: mesh_invalid for a part with neither
 /// Dirichlet nor interface nodes; numerical for a part that no chain of tied sides joins to a

@@ -22,7 +22,7 @@ std::int32_t count_of(const std::vector<std::int32_t>& list) {
   return static_cast<std::int32_t>(list.size());
 }
 
-/// Triangles by their smallest node: a loop over them then finds the nodes in the cache. O(m).
+/// Sorts triangles by their smallest node, so that a loop over them finds nodes in the cache. O(m).
 void sort_by_first_node(Subdomain& subdomain) {
   const std::size_t count = subdomain.triangle.size();
   const std::int32_t* corner = subdomain.part.triangles.data();
@@ -150,8 +150,8 @@ class Numbering {
 
   const mesh::Mesh& _mesh;
   const Sides& _sides;
-  std::vector<std::int32_t> _side_trace;  // trace number of each side in its subdomain
-  std::vector<std::int32_t> _local;       // of each node in the subdomain at work, or -1
+  std::vector<std::int32_t> _side_trace;  // trace index of each side in its subdomain
+  std::vector<std::int32_t> _local;       // of each node in the present subdomain, or -1
   std::vector<Subdomain> _subdomains;
 };
 
@@ -189,7 +189,7 @@ std::vector<fem::MassEdge> place_edges(const mesh::Mesh& mesh, const Sides& side
   edges.reserve(sides.edges.size());
   for (std::size_t e = 0; e < sides.edges.size(); ++e) {
     const std::size_t a = at(sides.edges[e].node[0]), b = at(sides.edges[e].node[1]);
-    const bool free = sides.edges[e].kind == Kind::free;  // it takes no pressure
+    const bool free = sides.edges[e].kind == Kind::free;  // it carries no pressure
     edges.push_back(
         {free ? std::array{-1, -1} : ties.of_end[e],
          std::hypot(mesh.xy[2 * b] - mesh.xy[2 * a], mesh.xy[2 * b + 1] - mesh.xy[2 * a + 1])});
@@ -197,7 +197,7 @@ std::vector<fem::MassEdge> place_edges(const mesh::Mesh& mesh, const Sides& side
   return edges;
 }
 
-/// Sides at one end of an edge.
+/// The two sides at one end of an edge.
 SidePair side_pair(const Decomposition& decomposition, const Sides& sides, const Ties& ties,
                    const std::vector<std::int32_t>& side_trace, std::size_t edge, std::size_t end) {
   SidePair result;
@@ -234,7 +234,7 @@ std::vector<std::vector<SidePair>> place_sides(const mesh::Mesh& mesh,
   return result;
 }
 
-/// Where the held values on the Dirichlet boundary are found.
+/// Sets the subdomain and the index in which each held value of the Dirichlet boundary is found.
 void place_held(const std::vector<Subdomain>& subdomains, std::vector<Held>& held) {
   for (Held& one : held) {
     for (std::size_t s = 0; s < subdomains.size() && one.node >= 0 && one.subdomain < 0; ++s) {

@@ -11,7 +11,7 @@ using Sparse = Eigen::SparseMatrix<double>;
 
 constexpr const char* listing = "listing the neighbours of unknowns";
 
-/// Rows j+1..interior-1 of column j, as places in the matrix.
+/// The rows j+1..interior-1 of column j, as a range of positions in the arrays of the matrix.
 struct Rows {
   std::int32_t begin, end;
 };

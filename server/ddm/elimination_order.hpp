@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A fill-reducing order from the coordinates of a mesh's nodes: a set of nodes is cut by a line or
-// circle, a smallest separator of the halves comes last, and the halves are cut in turn.
+// A fill-reducing order from the coordinates of a mesh's nodes: a line or circle cuts a set of
+// nodes in halves, a smallest separator of the halves comes last, and the halves are cut in turn.
 //
 // A. George, Nested dissection of a regular finite element mesh, SIAM J. Numer. Anal. 10 (1973);
 // R. Lipton, D. Rose and R. Tarjan, Generalized nested dissection, SIAM J. Numer. Anal. 16 (1979);
@@ -24,8 +24,8 @@ namespace anticrack::ddm {
 struct SmallGraph {
   static constexpr std::size_t most = 64;
   std::size_t size = 0;
-  std::array<std::uint64_t, most> inside{};  ///< of each vertex: its neighbours, itself included
-  std::array<std::uint64_t, most> around{};  ///< and those that stay
+  std::array<std::uint64_t, most> inside{};  ///< per vertex: neighbours to eliminate and itself
+  std::array<std::uint64_t, most> around{};  ///< per vertex: neighbours that stay
 };
 
 /// Minimum degree order with true degrees, ties by number. Destroys the graph. O(size^2).
@@ -34,10 +34,9 @@ void minimum_degree(SmallGraph& graph, std::array<std::int32_t, SmallGraph::most
 /// Vertices 0..n-1.
 struct Graph {
   std::vector<std::int32_t> begin = {0};  ///< (n+1) into `neighbour`
-  std::vector<std::int32_t>
-      neighbour;  ///< each edge from both its ends, none of a vertex to itself
+  std::vector<std::int32_t> neighbour;    ///< each edge occurs at both its ends; no loops
 
-  /// Vertices.
+  /// The number of vertices.
   std::size_t size() const noexcept { return begin.size() - 1; }
 };
 
@@ -46,9 +45,9 @@ struct Graph {
 /// nodes have nearby numbers. 50 bytes a vertex besides the graph.
 std::vector<std::int32_t> nested_dissection(const Graph& graph, std::span<const double> xy);
 
-/// The first `interior` unknowns of a subdomain in the order of elimination, by nested dissection.
-/// On triangulations of 3 k to 250 k nodes it costs as much as approximate minimum degree and
-/// halves the operations of the factorisation; METIS takes seven times as long for 7 % less fill.
+/// Orders the first `interior` unknowns of a subdomain for elimination, by nested dissection. On
+/// triangulations of 3 k to 250 k nodes it costs as much as approximate minimum degree and halves
+/// the operations of the factorisation; METIS takes seven times as long for 7 % less fill.
 /// `stiffness`: lower triangle, rows of a column ascending; `xy`: (interior,2) row-major or longer.
 std::vector<std::int32_t> elimination_order(const Eigen::SparseMatrix<double>& stiffness,
                                             Eigen::Index interior, std::span<const double> xy);

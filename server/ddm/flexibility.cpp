@@ -13,8 +13,8 @@
 namespace anticrack::ddm {
 namespace {
 
-/// y = a x by BLAS, which uses the machine's instructions. One column is bound by memory, so only
-/// half of the symmetric matrix is read.
+/// y = a x by BLAS, which uses all instructions of the processor. With one column memory is the
+/// bottleneck, so only half of the symmetric matrix is read.
 void multiply(const Eigen::MatrixXd& a, const Eigen::Ref<const Eigen::MatrixXd>& x,
               Eigen::Ref<Eigen::MatrixXd> y) {
   const int size = static_cast<int>(a.rows()), columns = static_cast<int>(x.cols());
@@ -68,7 +68,7 @@ Flexibility::Flexibility(const Eigen::MatrixXd& schur, std::span<const std::int3
                   std::min(at_once, n - first), 1, reduced.data(), n, _inverse.col(first).data(),
                   n);
   }
-  // dsymv reads a triangle, dgemm the whole matrix: make it symmetric to the bit.
+  // dsymv reads one triangle and dgemm the whole matrix, so it must be symmetric to the bit.
   _inverse.triangularView<Eigen::StrictlyUpper>() = _inverse.transpose();
 }
 

@@ -9,10 +9,10 @@ using Lanes = double __attribute__((vector_size(lanes * sizeof(double))));
 /// Columns of a supernode whose part of y stays in the first-level cache while rows are updated.
 constexpr int panel_columns = 16;
 
-// Every entry is y_i <- y_i - L_ik y_k for k = 0, 1, ..., one after the other, as a fused operation
-// where the processor has one: whatever the shape of the loops around, the bits are the same.
+// Every entry is computed as y_i <- y_i - L_ik y_k for k = 0, 1, ..., in this order, as a fused
+// operation where the processor has one. So the bits do not depend on how the loops are grouped.
 
-/// Rows [from, to) of y at `row`, from columns that are solved; l is the first of them, x their y.
+/// Updates the rows [from, to) of y at `row` from solved columns; l is the first column, x their y.
 template <int columns, class Row>
 inline void update_one(const double* l, int height, const double* x, int from, int to, double* y,
                        Row row) {
@@ -31,7 +31,7 @@ inline void update_one(const double* l, int height, const double* x, int from, i
   }
 }
 
-/// Columns of a supernode that go together, from `begin` on: their triangle, then all rows below.
+/// Solves for columns of a supernode from `begin` on: first their triangle, then all rows below.
 template <int columns>
 inline void solve_panel(const double* l, int height, int own, const int* rows, int begin, double* x,
                         double* y) {
@@ -55,11 +55,11 @@ void solve_one(const Supernodes& factor, double* y) {
     const int end = factor.super[s + 1] < factor.columns ? factor.super[s + 1] : factor.columns;
     const int* rows = factor.rows + factor.row_begin[s];
     const int height = factor.row_begin[s + 1] - factor.row_begin[s];
-    const int own = factor.super[s + 1] - first;  // rows that follow each other
+    const int own = factor.super[s + 1] - first;  // these rows are consecutive
     const double* l = factor.values + factor.value_begin[s];
     double* x = y + first;
     turns.take(end - first, height);
-    // Eight at once: to fetch and store the entries of y takes longer than a few columns do.
+    // Eight columns at once: fetching and storing the entries of y takes longer than a few columns.
     int begin = 0;
     for (; begin + 8 <= end - first; begin += 8) solve_panel<8>(l, height, own, rows, begin, x, y);
     if (begin + 4 <= end - first) {
@@ -74,7 +74,7 @@ void solve_one(const Supernodes& factor, double* y) {
   }
 }
 
-/// Rows of y at `row`, from the columns [begin, end) of a supernode that are solved; x is its y.
+/// Updates rows of y at `row` from the solved columns [begin, end) of a supernode, whose y is x.
 template <int groups, int count, class Row>
 inline void update(const double* l, int height, int begin, int end, const Lanes* x, int i, Lanes* y,
                    Row row) {

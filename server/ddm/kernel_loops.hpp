@@ -2,8 +2,8 @@
 //
 // The loops of kernels.hpp: include it once in a file compiled for an instruction set, with
 // ANTICRACK_KERNELS the name of the Kernels and ANTICRACK_ROWS the rows of a block that fit its
-// registers. Calls no function of a library: an inline one compiled here could be linked into code
-// for any processor.
+// registers. It calls no library function, because the linker could use an inline function compiled
+// here in code for every processor.
 #include "ddm/kernels.hpp"
 
 namespace anticrack::ddm {
@@ -11,8 +11,8 @@ namespace {
 
 /// Prefetches `count` values of L. The processor predicts long columns only, and most columns of a
 /// factor are short: without this, forward substitution takes a sixth longer, backward three
-/// tenths. Into the second-level cache, as the first holds the vector. Addresses outside the factor
-/// do no harm.
+/// tenths. Values go to the second-level cache, as the first holds the vector. Addresses outside
+/// the factor do no harm.
 inline void fetch(const double* values, int count) {
   constexpr int cache_line = 64 / sizeof(double);
   for (int i = 0; i < count; i += cache_line) __builtin_prefetch(values + i, 0, 2);
@@ -21,14 +21,14 @@ inline void fetch(const double* values, int count) {
 /// How far ahead, in values: some panels of a small supernode.
 constexpr int ahead = 1024;
 
-/// Calls Supernodes::look each time that so much of L has been used.
+/// Calls Supernodes::look each time a certain amount of L has been used.
 class Turns {
  public:
-  /// `width` of the block.
+  /// `width`: of the block of right-hand sides.
   Turns(const Supernodes& factor, int width)
       : _look(factor.look), _each(a_turn / (width / lanes + 1)), _left(_each) {}
 
-  /// Before `columns` of this height.
+  /// To be called before the work on `columns` columns of this height.
   void take(long columns, int height) {
     _left -= columns * height;
     if (_left > 0) return;
@@ -37,7 +37,7 @@ class Turns {
   }
 
  private:
-  static constexpr long a_turn = 1 << 19;  // values, for one column
+  static constexpr long a_turn = 1 << 19;  // values of L, if the block has one column
   void (*const _look)();
   const long _each;
   long _left;
@@ -47,7 +47,7 @@ class Turns {
 }  // namespace anticrack::ddm
 
 #include "ddm/forward_kernel.hpp"
-// Needs the forward kernel.
+// This uses names of the forward kernel.
 #include "ddm/backward_kernel.hpp"
 #include "ddm/front_kernel.hpp"
 

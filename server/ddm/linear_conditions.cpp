@@ -9,8 +9,7 @@
 namespace anticrack::ddm {
 namespace {
 
-/// What is left of a factor after others have cancelled it is rounding of levers, which are at most
-/// 1.
+/// A factor below this is the rounding error of levers that cancelled, which are at most 1.
 constexpr double rounding = 1e-12;
 
 void add(Terms& sum, const Terms& terms, double factor) {
@@ -50,8 +49,8 @@ Row LinearConditions::reduced(const Row& row) {
   return result;
 }
 
-/// condition = 0, solved for the last of its unknowns or, if those are motions only, for the one
-/// with the largest factor. False if it has none.
+/// Solves condition = 0 for the last of its unknowns or, if all are motions, for the one with the
+/// largest factor. Returns false if it has no unknowns.
 bool LinearConditions::solve(Row condition) {
   if (condition.free.empty()) return false;
   auto pivot = std::prev(condition.free.end());

@@ -30,7 +30,7 @@ MatrixXd block(std::span<const CondensedLoad* const> loads, Index first, Index c
   return result;
 }
 
-/// (loads, loads): a_i'b_j, by blocks of rows: whole matrices would double the loads' memory.
+/// a_i'b_j, shape (loads, loads), by blocks of rows: whole matrices would double the loads' memory.
 template <VectorXd CondensedLoad::*a, VectorXd CondensedLoad::*b>
 MatrixXd inner(std::span<const CondensedLoad* const> loads) {
   constexpr Index at_once = 2048;

@@ -21,7 +21,7 @@ void minimum_degree(SmallGraph& graph, std::array<std::int32_t, SmallGraph::most
     }
     order[i] = static_cast<std::int32_t>(next);
     left &= ~(one << next);
-    // What was joined to it is joined to each other from now on.
+    // The neighbours of an eliminated vertex become neighbours of each other.
     const std::uint64_t inside = graph.inside[next] & left, around = graph.around[next];
     for (std::uint64_t rest = inside; rest != 0; rest &= rest - 1) {
       const auto v = static_cast<std::size_t>(std::countr_zero(rest));

@@ -25,7 +25,7 @@ using Sparse = Eigen::SparseMatrix<double>;
 
 constexpr const char* factorising = "factorising a mesh";
 
-/// Entries of the permuted K, by column; its G-G part is in S.
+/// Entries of the permuted K by column, without the G-G part, which is in S.
 struct SparseColumns {
   std::vector<int> begin;
   std::vector<int> row;
@@ -77,20 +77,19 @@ SparseColumns permuted(const Sparse& stiffness, std::span<const int> place, int 
   return columns;
 }
 
-/// The remainder of a front, (size,size) column-major, lower triangle, for `size` rows from `row`
-/// on.
+/// The remainder of a front, (size,size) column-major, lower triangle; row[0..size-1] are its rows.
 struct Update {
   std::unique_ptr<double[]> values;
   const int* row = nullptr;
   int size = 0;
-  int next = -1;  ///< another child of the same parent
+  int next = -1;  ///< the next child of the same parent, or -1
 };
 
-/// A front at work, and where rows are in it.
+/// The front that a thread works on, and the places of rows in it.
 struct Front {
   explicit Front(std::size_t unknowns) : place(unknowns) {}
 
-  /// Where the rows of a child's update are.
+  /// Finds the places of the rows of a child's update.
   void find_places(const Update& child) {
     relative.resize(at(child.size));
     for (int i = 0; i < child.size; ++i) {
@@ -103,13 +102,14 @@ struct Front {
     }
   }
 
-  /// Of the child whose places were found last: rows among the first `own` of the front.
+  /// How many rows of the child passed to find_places() last are among the first `own` of the
+  /// front.
   int columns_before(int own) const {
     return static_cast<int>(std::lower_bound(relative.begin(), relative.end(), own) -
                             relative.begin());
   }
 
-  /// Its columns [from, to) into the columns of the front that `target` gives.
+  /// Adds the columns [from, to) of a child to columns of the front, which `target` gives.
   template <class Target>
   void add(const Update& child, int from, int to, int shift, const Target& target) const {
     for (int j = from; j < to; ++j) {
@@ -121,8 +121,8 @@ struct Front {
 
   const int* rows = nullptr;
   int height = 0;
-  std::vector<int> place;     // of each unknown that has a row in it
-  std::vector<int> relative;  // of each row of a child
+  std::vector<int> place;     // of each unknown: its row in the front, if it has one
+  std::vector<int> relative;  // of each row of a child: its row in the front
 };
 
 class Elimination {
@@ -147,7 +147,7 @@ class Elimination {
     const Subtrees subtrees =
         threads > 1 ? part(tree(), threads) : Subtrees{{}, std::vector<int>(at(_count), -1)};
     if (!run(subtrees, threads)) return false;
-    // Updates are passed on in serial order, so the bits do not depend on the threads.
+    // Updates are passed on in serial order, so the bits do not depend on the number of threads.
     Front front = new_front();
     for (int s = 0; s < _count; ++s) {
       const int root = subtrees.root[at(s)];
@@ -176,7 +176,7 @@ class Elimination {
     return result;
   }
 
-  /// The subtrees, on as many threads; false where one is not positive definite.
+  /// Eliminates the subtrees on `threads` threads; false if a front is not positive definite.
   bool run(const Subtrees& subtrees, int threads) {
     std::atomic<bool> definite{true};
     base::at_once(subtrees.nodes.size(), threads, [&] {
@@ -193,7 +193,8 @@ class Elimination {
     return definite;
   }
 
-  /// Leaves in _update what is left of it. On one thread with its children, or after them.
+  /// Eliminates the front of supernode s and leaves the remainder in _update. The children must
+  /// have been eliminated before.
   bool eliminate(int s, Front& front) {
     if (s % 16 == 0 || work_of(s) > large) stop::look(factorising);
     const int first = _pattern.super[s], columns = own(s);
@@ -208,7 +209,7 @@ class Elimination {
       for (int e = _columns.begin[at(first + j)]; e < _columns.begin[at(first + j) + 1]; ++e)
         column[front.place[at(_columns.row[at(e)])]] += _columns.value[at(e)];
     }
-    // Columns of the children that are eliminated here; the others are added to the update.
+    // Add the children's columns that are eliminated here; the others go to the update below.
     for (int c = _child[at(s)]; c >= 0; c = _update[at(c)].next) {
       const Update& child = _update[at(c)];
       front.find_places(child);
@@ -233,7 +234,7 @@ class Elimination {
     return true;
   }
 
-  /// To the parent, or to S if no interior unknown is left.
+  /// Passes the remainder on to the parent, or adds it to S if no interior unknown is left in it.
   void pass_on(int s) {
     const int interior = _pattern.columns;
     Update& update = _update[at(s)];
@@ -259,8 +260,8 @@ class Elimination {
   Eigen::MatrixXd& _schur;
   int _count = 0;               // supernodes with interior columns
   std::vector<int> _supernode;  // of each interior column
-  std::vector<int> _child;      // of each supernode, the last one passed on, or -1
-  std::vector<Update> _update;  // of each supernode, until its parent has taken it
+  std::vector<int> _child;      // of each supernode: the child passed on last, or -1
+  std::vector<Update> _update;  // of each supernode: its remainder, until the parent has added it
 };
 
 }  // namespace
@@ -273,14 +274,14 @@ bool positive_diagonal(int columns, const double* panel, int height) {
   return true;
 }
 
-/// Of a product, rows that take some milliseconds at `each` multiplications a row. A multiple of
-/// what BLAS takes at once.
+/// How many rows of a product take some milliseconds, at `each` multiplications a row. A multiple
+/// of the rows that BLAS takes at once.
 int rows_between_looks(double each) {
   constexpr double most = 5e7, together = 96, largest = 1 << 20;
   return static_cast<int>(together * std::clamp(std::floor(most / each / together), 1.0, largest));
 }
 
-/// Calls part(first, count) for the rows of a product, and looks before each.
+/// Calls part(first, count) for groups of rows of a product, and looks before each call.
 template <class Part>
 void for_rows(int rows, double each, const Part& part) {
   const int most = rows_between_looks(each);

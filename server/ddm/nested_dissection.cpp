@@ -19,18 +19,19 @@ constexpr const char* ordering = "ordering the unknowns of a mesh";
 
 struct Node {
   double x, y;
-  float reach, reach_x, reach_y;  // no neighbour is farther away, in all and along each axis
+  float reach, reach_x, reach_y;  // greatest distance of a neighbour, in all and along each axis
   std::int32_t vertex;
 };
 
-/// Where the halves of a set meet: at a distance `middle` along a direction, or from a centre.
+/// Line or circle where the halves of a set meet, at distance `middle` along an axis or from a
+/// centre.
 struct Cut {
   enum class Shape : char { across_x, across_y, circle };
   Shape shape = Shape::across_x;
   double x = 0, y = 0;
   double middle = 0;
 
-  /// Signed distance from the cut: the vertex's neighbours differ from it by at most its reach.
+  /// Signed distance from the cut; that of a neighbour differs by at most the node's reach.
   double distance(const Node& node) const {
     switch (shape) {
       case Shape::across_x:
@@ -56,16 +57,16 @@ struct Cut {
   }
 };
 
-/// Nodes first..last-1 of the order, all of `part`.
+/// Nodes first..last-1 of the order; all of them belong to `part`.
 struct Set {
   std::size_t first, last;
   std::int32_t part;
-  Node finest;  ///< the one whose neighbours are nearest
+  Node finest;  ///< the node whose neighbours are nearest
 
   std::size_t size() const { return last - first; }
 };
 
-/// Counts the nodes that a circle meets, without a root.
+/// Tells whether a circle meets a node, without a square root.
 class Circle {
  public:
   explicit Circle(const Cut& cut) : _cut(cut), _square(cut.middle * cut.middle) {}
@@ -116,7 +117,7 @@ class Dissection {
       }
       halve(set);
       const auto [first, second] = move_apart(set);
-      // A set that cannot be halved, as that of a complete graph, keeps its order.
+      // A set that cannot be halved, such as a complete graph, keeps its order.
       if (first.size() > 0 && second.size() > 0) {
         open.push_back(first);
         open.push_back(second);
@@ -133,7 +134,7 @@ class Dissection {
 
   static float rounded_up(double reach) { return static_cast<float>(reach * (1 + 1e-6)); }
 
-  /// The median of the distances, from a sample.
+  /// The median distance of the nodes from the cut, estimated from a sample.
   double median(const Set& set, const Cut& cut) {
     const std::size_t count = std::min<std::size_t>(set.size(), 127);
     _sample.clear();
@@ -151,8 +152,8 @@ class Dissection {
     return found == nodes.end() ? Node{} : *found;
   }
 
-  /// The cut that seems to meet the fewest nodes. Meshes are graded to points, and circles around
-  /// those meet few.
+  /// The cut that meets the fewest nodes, of two lines and a circle. Meshes are graded towards
+  /// points, and circles around such points meet few nodes.
   Cut choose(const Set& set) {
     std::array<Cut, 3> cuts;
     for (const Cut::Shape shape :
@@ -231,7 +232,7 @@ class Dissection {
       }
     }
     const bool whole_side = in_band[0] == sizes[0] || in_band[1] == sizes[1];
-    if (whole_side) {  // nothing is left to be parted: choose among the ends of the edges cut
+    if (whole_side) {  // nothing would be left to part: choose among the ends of cut edges
       for (; _taken.size() > at_cut; _taken.pop_back()) _local[at(_taken.back())] = -1;
       in_band = in_cut;
     }
@@ -265,11 +266,11 @@ class Dissection {
     }
   }
 
-  /// Layers of nodes around the cut among which the separator is looked for. Those of large sets
-  /// cost the most fill and are few.
+  /// Layers of nodes around the cut in which the separator is sought. The separators of large sets
+  /// cause the most fill and are few, so more layers pay.
   static int layers(std::size_t size) { return size > 4096 ? 6 : 1; }
 
-  /// The first part, the second, the separator.
+  /// Reorders the set into first part, second part and separator; returns the two parts.
   std::pair<Set, Set> move_apart(const Set& set) {
     const std::int32_t first = _parts - 1, second = _parts;
     std::size_t end = set.first, seconds = 0;
@@ -301,7 +302,7 @@ class Dissection {
     small.size = set.size();
     for (std::size_t i = 0; i < small.size; ++i)
       _local[at(_nodes[set.first + i].vertex)] = static_cast<std::int32_t>(i);
-    _taken.clear();  // the nodes around, as many as there is room for
+    _taken.clear();  // the nodes around the leaf, as many as there is room for
     constexpr auto most = static_cast<std::int32_t>(SmallGraph::most);
     constexpr std::uint64_t one = 1;
     for (std::size_t i = 0; i < small.size; ++i) {
@@ -333,11 +334,11 @@ class Dissection {
   const Graph& _graph;
   std::vector<Node> _nodes;          // in the order of elimination, as far as it is known
   std::vector<std::int32_t> _part;   // of each vertex, or `separator`
-  std::vector<std::int32_t> _local;  // of each vertex in the band or leaf at work, or -1
+  std::vector<std::int32_t> _local;  // number of each vertex in the present band or leaf, or -1
   std::int32_t _parts = 0;
   VertexSeparator _separate;
   Band _band;
-  // Work space.
+  // Workspace.
   std::vector<std::int32_t> _near, _taken;
   std::vector<double> _sample;
   std::vector<Node> _moved, _on_separator;

@@ -11,13 +11,13 @@
 namespace anticrack::ddm {
 namespace {
 
-/// 3t + k of the side from corner k of triangle t to the next.
+/// The index 3t + k of the side that goes from corner k of triangle t to the next corner.
 std::size_t corner(const mesh::Mesh& mesh, const mesh::EdgeUse& use) {
   const std::int32_t* node = &mesh.triangles[3 * at(use.triangle)];
   return 3 * at(use.triangle) + at(std::find(node, node + 3, use.from) - node);
 }
 
-/// Of each triangle of the mesh in its subdomain.
+/// The index of each triangle of the mesh in its subdomain.
 std::vector<std::size_t> places(const Decomposition& decomposition, std::size_t triangles) {
   std::vector<std::size_t> result(triangles);
   for (const Subdomain& subdomain : decomposition.subdomains)

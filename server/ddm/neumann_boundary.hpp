@@ -12,23 +12,24 @@
 
 namespace anticrack::ddm {
 
-/// The Neumann boundary: edges of one triangle that are not in Mesh::dirichlet. Found at the first
-/// call, which only tractions make: O(m), 12 bytes a side of a triangle meanwhile. Thread-safe.
+/// The Neumann boundary: the edges of only one triangle that are not in Mesh::dirichlet. It is
+/// found at the first call, which only tractions make: O(m), with 12 bytes for each side of a
+/// triangle meanwhile. Thread-safe.
 class NeumannBoundary {
  public:
-  /// Refers to both; the decomposition is the mesh's.
+  /// Keeps references to both; the decomposition must be that of the mesh.
   NeumannBoundary(const mesh::Mesh& mesh, const Decomposition& decomposition)
       : _mesh(mesh), _decomposition(decomposition) {}
 
   using Edges = std::vector<std::array<std::int32_t, 2>>;
-  /// Local nodes of the edges on a subdomain, counterclockwise about their triangle.
+  /// Edges of a subdomain as pairs of local nodes, counterclockwise about their triangle.
   const Edges& of(std::size_t subdomain) const;
   std::size_t bytes() const noexcept;
 
  private:
   const mesh::Mesh& _mesh;
   const Decomposition& _decomposition;
-  base::Lazy<std::vector<Edges>> _edges;  // of each subdomain
+  base::Lazy<std::vector<Edges>> _edges;  // per subdomain
 };
 
 }  // namespace anticrack::ddm

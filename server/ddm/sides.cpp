@@ -41,7 +41,7 @@ std::vector<CutEdge> list_edges(const mesh::Mesh& mesh) {
   return edges;
 }
 
-/// The triangles that touch an interface, and how their corners are connected.
+/// The triangles that touch an interface, and the fans that their corners form.
 class Neighbourhood {
  public:
   Neighbourhood(const mesh::Mesh& mesh, const std::vector<CutEdge>& edges)
@@ -52,8 +52,8 @@ class Neighbourhood {
     join_fans(edges);
   }
 
-  /// Corner of the fan on the left of a -> b at each of the two ends; the places are local to the
-  /// neighbourhood. -1 where the edge has no triangle there.
+  /// The fans on the left of a -> b at a and at b, each by the local number of one of its corners;
+  /// -1 if the edge has no triangle there.
   std::array<std::int32_t, 2> left(std::int32_t a, std::int32_t b) {
     for (const mesh::EdgeUse& use : _table.find(a, b))
       if (use.from == a)
@@ -166,7 +166,7 @@ Sides find_sides(const mesh::Mesh& mesh) {
     edge.plus[1] = side(plus[1], b);
     on_interface[at(a)] = on_interface[at(b)] = 1;
   }
-  // Where the membrane pinches, a fan may touch the node without one of the interface's edges.
+  // Where the membrane pinches, a fan may touch the node without having an interface edge.
   for (std::size_t i = 0; i < number.size(); ++i) {
     const std::size_t corner = 3 * at(around.triangles()[i / 3]) + i % 3;
     if (const std::int32_t node = mesh.triangles[corner]; on_interface[at(node)] != 0)

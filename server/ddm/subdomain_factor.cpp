@@ -23,8 +23,9 @@ struct FreeValues {
 };
 using Values = std::unique_ptr<double, FreeValues>;
 
-/// Uninitialised, aligned to a cache line; large blocks to huge pages, if available, as page faults
-/// took a tenth of the factorisation. Throws errors::Error (limit_exceeded) without memory.
+/// Allocates values, uninitialised and aligned to a cache line; large blocks are on huge pages if
+/// available, as page faults took a tenth of the factorisation. Throws errors::Error
+/// (limit_exceeded) if there is not enough memory.
 Values make_values(std::size_t count) {
   constexpr std::size_t cache_line = 64, huge_page = std::size_t{2} << 20;
   const std::size_t bytes = sizeof(double) * count;
@@ -37,7 +38,7 @@ Values make_values(std::size_t count) {
         "no memory for the factor of a subdomain; take a coarser mesh (larger size or tip_size)");
   }
   if (alignment == huge_page) {
-    // Only a hint: small pages work as well.
+    // This is only a hint: small pages work as well.
     static_cast<void>(madvise(values.get(), bytes / huge_page * huge_page, MADV_HUGEPAGE));
   }
   return values;
@@ -47,7 +48,7 @@ Values make_values(std::size_t count) {
 
 struct SubdomainFactor::Factor {
   FactorPtr analysis;      // CHOLMOD's permutation and pattern, without values
-  std::vector<int> place;  // of each unknown in L
+  std::vector<int> place;  // position of each unknown in L
   Values values;           // of L_II and L_GI
   Supernodes l;
 };
@@ -67,7 +68,7 @@ Supernodes pattern(const cholmod_factor& factor, Eigen::Index interior) {
           [] { stop::look("solving on a mesh"); }};
 }
 
-/// Values of the supernodes that have columns of the interior.
+/// How many values the supernodes with columns of the interior have.
 std::size_t value_count(const Supernodes& l) {
   int end = 0;
   while (end < l.count && l.super[end] < l.columns) ++end;
@@ -87,8 +88,8 @@ void for_tiles(int rows, int columns, const Take& take) {
 
 /// Solves columns in blocks of up to columns_at_once(rows): `solve(width, block)` works on a
 /// row-major block. `put` and `take` (column, begin, end, at, stride) write and read rows [begin,
-/// end) of a column, row i of the block being at[i * stride]. Where rows are permuted, begin and
-/// end count rows of the column.
+/// end) of a column; row i of the block is at[i * stride]. If rows are permuted, begin and end
+/// count rows of the column, not of the block.
 template <class Put, class Solve, class Take>
 void in_blocks(int rows, int columns, const Put& put, const Solve& solve, const Take& take) {
   const auto whole = [](int count) { return count == 1 ? 1 : (count + lanes - 1) / lanes * lanes; };

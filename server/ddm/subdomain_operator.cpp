@@ -44,7 +44,7 @@ std::vector<CondensedLoad> SubdomainOperator::condense(
     const Eigen::Ref<const Eigen::MatrixXd>& dirichlet) const {
   const Eigen::Index free = _free_dirichlet.rows(), columns = loads.cols();
   Eigen::Index solves = columns;
-  std::vector<Eigen::Index> boundary(at(columns), -1);  // the column of g_D alone
+  std::vector<Eigen::Index> boundary(at(columns), -1);  // per load: the extra column for g_D alone
   for (Eigen::Index j = 0; j < columns; ++j)
     boundary[at(j)] = dirichlet.col(j).isZero(0.0) ? -1 : solves++;
   const auto solved = [&] {

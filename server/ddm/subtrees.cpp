@@ -12,7 +12,7 @@ namespace anticrack::ddm {
 Subtrees part(const EliminationTree& tree, int threads) {
   constexpr double subtrees_a_thread = 4;
   const int count = static_cast<int>(tree.parent.size());
-  std::vector<double> work = tree.work;  // of the subtree
+  std::vector<double> work = tree.work;  // work of the whole subtree of each node
   std::vector<std::vector<int>> children(at(count));
   double all = 0;
   std::priority_queue<std::pair<double, int>> candidates;
@@ -35,7 +35,7 @@ Subtrees part(const EliminationTree& tree, int threads) {
     descend(node);
   }
   Subtrees result{{}, std::vector<int>(at(count), -1)};
-  std::vector<int> place(at(count), -1);  // of the subtree of each node
+  std::vector<int> place(at(count), -1);  // index in result.nodes of each node's subtree
   for (; !candidates.empty(); candidates.pop()) {
     const int root = candidates.top().second;
     result.root[at(root)] = root;

@@ -36,7 +36,8 @@ constexpr const char* all_neumann =
     "of "
     "the boundary Dirichlet's";
 
-/// Per part, by the node that stands for it: has a Dirichlet node; first trace number, or -1.
+/// For each part, at the index of its representative node: whether it has a Dirichlet node, and its
+/// first trace node, or -1.
 struct PartNodes {
   std::vector<char> dirichlet;
   std::vector<std::int32_t> trace;
@@ -55,7 +56,7 @@ PartNodes nodes_of_parts(const Subdomain& subdomain, base::UnionFind& parts) {
   return result;
 }
 
-/// Joins what is tied: the unknowns of w, and the ground as the last member.
+/// Joins the unknowns of w that the parts of a subdomain connect. The ground is the last member.
 void join(const Subdomain& subdomain, base::UnionFind& parts, const PartNodes& nodes,
           std::int32_t ground, base::UnionFind& held) {
   for (std::size_t i = 0; i < subdomain.trace; ++i) {
@@ -74,7 +75,7 @@ void find_floating_parts(Decomposition& decomposition) {
   const auto ground = static_cast<std::int32_t>(decomposition.skeleton.unknowns);
   const Skeleton& skeleton = decomposition.skeleton;
   base::UnionFind held(skeleton.unknowns + 1);
-  // Along each of its edges a body that tilts has the values of one part: what holds A holds it.
+  // A body that tilts moves with the part along its edges, so all its motions count as held with A.
   for (std::size_t i = 0; i < skeleton.inclusion.size(); ++i)
     if (const std::int32_t j = skeleton.inclusion[i]; j >= 0)
       held.unite(static_cast<std::int32_t>(i), skeleton.motions[at(j)].displacement.front().index);
@@ -117,7 +118,7 @@ void find_floating_parts(Decomposition& decomposition) {
 
 namespace {
 
-/// What an inclusion does that Algorithm 2 does not know, or empty.
+/// A motion of the inclusion that Algorithm 2 does not allow, in words; empty if there is none.
 std::string moves_otherwise(const Skeleton& skeleton, std::size_t inclusion) {
   const RigidMotion& motion = skeleton.motions[inclusion];
   const auto j = static_cast<std::int32_t>(inclusion);

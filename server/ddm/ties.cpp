@@ -16,8 +16,8 @@ namespace {
 
 using mesh::Kind;
 
-/// Sets of tied sides. Members: the bodies (of one that does not tilt, with all its nodes), the
-/// nodes of bodies that tilt, the sides.
+/// Sets of tied sides. Their members are the bodies, the nodes of bodies that tilt, and the sides.
+/// A body that does not tilt stands for all its nodes.
 class Classes {
  public:
   Classes(const mesh::Mesh& mesh, const Sides& sides, const Bodies& bodies)
@@ -39,8 +39,8 @@ class Classes {
   }
   void unite(std::int32_t a, std::int32_t b) { _sets.unite(a, b); }
 
-  /// The motions first, then the other sets in the order of their first sides. Returns the unknown
-  /// of each side.
+  /// Numbers the unknowns: first the motions, then the other sets in the order of their first
+  /// sides. Returns the unknown of each side.
   std::vector<std::int32_t> number(std::size_t sides, Skeleton& skeleton) {
     std::vector<std::int32_t> of_class(_rigid + sides, -1), result(sides);
     for (std::size_t b = 0; b < _bodies.bodies.size(); ++b) {
@@ -65,12 +65,13 @@ class Classes {
     return result;
   }
 
-  /// Unknowns that are motions.
+  /// The number of unknowns that are motions.
   std::size_t motions() const {
     return _motion.empty() ? 0 : at(_motion.back()) + 1 + _bodies.bodies.back().axes.size();
   }
 
-  /// What holds and what follows the motions, and the motions of each inclusion.
+  /// Adds the conditions of nodes that follow motions and of motions that are held, and sets the
+  /// motions of each inclusion.
   void move_bodies(LinearConditions& conditions, Skeleton& skeleton) const {
     for (const Follower& one : _follower)
       if (one.unknown >= 0) conditions.follow(one.unknown, value(one.body, position(one.node)));
@@ -125,7 +126,7 @@ class Classes {
     if (edge.inclusion >= 0) _sets.unite(plus, body);
   }
 
-  /// u of a body in a point.
+  /// u of a body at a point, as a sum over its motions.
   Terms value(std::int32_t body, const mesh::Point& x) const {
     const Body& of = _bodies.bodies[at(body)];
     Terms terms{{_motion[at(body)], 1}};
@@ -144,7 +145,7 @@ class Classes {
 
   const mesh::Mesh& _mesh;
   const Bodies& _bodies;
-  std::size_t _rigid;                  // members that are rigid
+  std::size_t _rigid;                  // number of members that are bodies or nodes of bodies
   std::vector<std::int32_t> _at_node;  // (nodes) the rigid member there, or -1
   std::vector<Follower> _follower;
   std::vector<std::int32_t> _motion;  // (bodies) unknown that is A; the slopes follow
@@ -158,7 +159,7 @@ struct Above {
   auto operator<=>(const Above&) const = default;
 };
 
-/// There is a way down from `upper` to `lower` that does not use `without`.
+/// Whether a chain of conditions leads down from `upper` to `lower` without using `without`.
 bool leads(const std::vector<Above>& conditions, std::int32_t upper, std::int32_t lower,
            const Above* without) {
   std::vector<std::int32_t> open = {upper};
@@ -183,7 +184,7 @@ std::vector<Above> each_once(std::vector<Above> conditions) {
   return conditions;
 }
 
-/// The conditions on cycles a >= b >= ... >= a, whose values are all equal. O(k^2).
+/// The conditions on cycles a >= b >= ... >= a; the values on a cycle are all equal. O(k^2).
 std::vector<Above> on_cycles(const std::vector<Above>& conditions) {
   const std::vector<Above> all = each_once(conditions);
   std::vector<Above> result;
@@ -192,8 +193,8 @@ std::vector<Above> on_cycles(const std::vector<Above>& conditions) {
   return result;
 }
 
-/// Transitive reduction: each pair once, none of a value with itself, none that follows from
-/// others. Unique without cycles; sorted. O(k^2).
+/// Transitive reduction: drops repeated conditions, those of a value with itself, and those that
+/// follow from others. The result is sorted, and unique if there are no cycles. O(k^2).
 std::vector<Above> without_implied(std::vector<Above> conditions) {
   const std::vector<Above> all = each_once(std::move(conditions));
   std::vector<Above> result;
@@ -202,7 +203,7 @@ std::vector<Above> without_implied(std::vector<Above> conditions) {
   return result;
 }
 
-/// Every end of an edge that may open, those of one node next to one another.
+/// An end of an edge that may open, and the sides there.
 struct OpenEnd {
   std::int32_t node, minus, plus;
 };
@@ -227,7 +228,7 @@ struct NodeContacts {
 };
 
 /// The conditions that remain between the classes of each node. Values on a cycle of conditions are
-/// equal: their classes are united.
+/// equal, so their classes are united.
 std::vector<NodeContacts> contacts_by_node(const Sides& sides, Classes& classes) {
   const std::vector<OpenEnd> ends = open_ends(sides);
   std::vector<NodeContacts> result;
@@ -246,8 +247,8 @@ std::vector<NodeContacts> contacts_by_node(const Sides& sides, Classes& classes)
   return result;
 }
 
-/// Conditions in the order of the couples, so that they follow the cracks; those that earlier ones
-/// determine come last.
+/// Numbers the conditions in the order of the couples, so that they follow the cracks. Conditions
+/// that depend on earlier ones come last.
 void number_contacts(const std::vector<NodeContacts>& nodes, Classes& classes,
                      LinearConditions& conditions, Ties& ties) {
   constexpr std::int32_t unseen = -1;
@@ -280,8 +281,8 @@ void number_contacts(const std::vector<NodeContacts>& nodes, Classes& classes,
   skeleton.contacts.insert(skeleton.contacts.end(), dependent.begin(), dependent.end());
 }
 
-/// A free crack has none of its own; where it meets another edge between the same sides, that
-/// one's.
+/// Lists the couples of all edges but free cracks. A free crack makes no couples; its end gets that
+/// of another edge between the same sides, if there is one.
 void list_couples(const Sides& sides, Ties& ties) {
   std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> number;
   ties.of_end.assign(sides.edges.size(), {-1, -1});

@@ -32,7 +32,7 @@ void VertexSeparator::each_before(const Band& band, std::int32_t state, const Re
     reach(left(band.neighbour[at(e)]));
 }
 
-/// And with those that it leads to.
+/// Calls `reach` with the states that `state` leads to.
 template <class Reach>
 void VertexSeparator::each_after(const Band& band, std::int32_t state, const Reach& reach) const {
   const std::int32_t v = vertex_of(state), next = _next[at(v)];
@@ -78,7 +78,7 @@ std::int32_t VertexSeparator::find_levels(const Band& band) {
   return last;
 }
 
-/// An untried state one level below that `state` leads to, or -1.
+/// A state one level below `state` that it leads to and that was not tried yet, or -1.
 std::int32_t VertexSeparator::step(const Band& band, std::int32_t state) {
   const std::int32_t v = vertex_of(state), level = _level[at(state)] - 1;
   if (!is_left(state)) {
@@ -119,14 +119,14 @@ void VertexSeparator::push() {
     if (is_left(state))
       _next[at(v)] = i + 1 < _way.size() ? vertex_of(_way[i + 1]) : a_side;
     else if (i > 0 && _way[i - 1] == left(v))
-      _previous[at(v)] = _next[at(v)] = none;  // the ways go past it now
+      _previous[at(v)] = _next[at(v)] = none;  // no path goes through it any more
     else
       _previous[at(v)] = i > 0 ? vertex_of(_way[i - 1]) : a_side;
   }
 }
 
-/// Parts from the states with a level, which `near` reaches without crossing the separator. Returns
-/// how many more vertices the first part has than the second.
+/// Assigns the parts: states with a level are those that `near` reaches without crossing the
+/// separator. Returns how many more vertices the first part has than the second.
 std::ptrdiff_t VertexSeparator::assign(Part near, std::vector<Part>& parts) const {
   const Part far = near == Part::first ? Part::second : Part::first;
   std::ptrdiff_t excess = 0;
@@ -139,7 +139,7 @@ std::ptrdiff_t VertexSeparator::assign(Part near, std::vector<Part>& parts) cons
   return excess;
 }
 
-/// Levels of the states that the first side leads to.
+/// Sets the levels of the states that the first side leads to.
 void VertexSeparator::search_from_first(const Band& band) {
   std::fill(_level.begin(), _level.end(), -1);
   _open.clear();
@@ -166,10 +166,10 @@ const std::vector<Part>& VertexSeparator::find(const Band& band, std::ptrdiff_t 
           find_way(band, entered(v)))
         push();
   }
-  // The last search reached all states that lead to the second side.
+  // The last search has given levels to all states that lead to the second side.
   _part.resize(band.size());
   const std::ptrdiff_t excess = first - second + assign(Part::second, _part);
-  if (8 * std::abs(excess) > first + second + n) {  // the other separator may be more balanced
+  if (8 * std::abs(excess) > first + second + n) {  // the other separator may balance better
     search_from_first(band);
     _other.resize(band.size());
     if (std::abs(first - second + assign(Part::first, _other)) < std::abs(excess))

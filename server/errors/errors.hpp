@@ -20,10 +20,10 @@ namespace anticrack::errors {
 enum class Reason {
   invalid_argument,     ///< a value that is never accepted
   case_invalid,         ///< a case with a key or value that is not possible
-  geometry_invalid,     ///< not a membrane cut by interfaces
+  geometry_invalid,     ///< the geometry is not a membrane cut by interfaces
   mesh_invalid,         ///< a .msh that cannot be read or is not a cut membrane
   expression_invalid,   ///< syntax error, unknown symbol, or a value that is not finite
-  request_id_reused,    ///< same request id, different request
+  request_id_reused,    ///< the same request id with a different request
   limit_exceeded,       ///< beyond a fixed limit of the server
   not_found,            ///< no such mesh, job or upload
   not_ready,            ///< another state is needed first (not meshed, not ended)

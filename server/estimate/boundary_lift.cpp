@@ -16,9 +16,9 @@ constexpr std::size_t points = EdgePolynomial::points, halves = BoundarySamples:
 
 double length_of(const Vector& v) { return std::hypot(v[0], v[1]); }
 
-/// What r = g_D - its polynomials, 0 in points of each half, adds.
+/// Adds the part of r = g_D - its polynomials, which is 0 in some points of each half.
 void add_unknown(Lift& lift, double slope, const Vector& second, const Vector& third, double area) {
-  const double most = std::sqrt(1.0 / halves) * slope;  // of |r|
+  const double most = std::sqrt(1.0 / halves) * slope;  // bound of |r|
   const Vector both{second[0] + third[0], second[1] + third[1]};
   const double gradient = std::max(length_of(second), length_of(both)) * slope +
                           length_of(third) * most;  // |r' (second + s third) - r third|
@@ -37,7 +37,7 @@ std::vector<Lift> lifts(const CutMesh& cut, const BoundarySamples& samples,
     stop::look_at_turn(f, "lifting the boundary");
     if (!has_boundary_value(cut.faces[f])) continue;
     const auto corners = corners_of(cut.faces[f]);
-    // From P_1 to P_2, and from P_3 to P_1.
+    // The vectors from P_1 to P_2 and from P_3 to P_1.
     const Vector side = cut.shapes.side(corners[2]), back = cut.shapes.side(corners[1]);
     const double area = 0.5 * (side[1] * back[0] - side[0] * back[1]);
     // Gradients of l_2 and l_3.

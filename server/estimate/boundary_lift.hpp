@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Boundary values that are not linear along the edges of the mesh: u_h has g_D in the nodes alone,
-// u_h + w on the edges as well. On a triangle with corners P_1, P_2 on the boundary and P_3,
+// Boundary values that are not linear along the edges of the mesh: u_h equals g_D in the nodes
+// only, u_h + w on whole edges. On a triangle with corners P_1, P_2 on the boundary and P_3,
 //
 //   w = (1 - l_3) phi(s),   phi = g_D - its linear interpolant,   s = l_2 / (1 - l_3).
 #pragma once
@@ -14,17 +14,18 @@
 
 namespace anticrack::estimate {
 
-/// w on the triangle of a face, of s from its end 0 to its end 1.
+/// w on the triangle of a face; s runs from the face's end 0 to its end 1.
 struct Lift {
   std::int32_t face = 0;
   double mean = 0;              ///< int_0^1 phi ds
   double first = 0;             ///< int_0^1 s phi ds
   double gradient_squared = 0;  ///< int |grad w|^2 after the map of the tension (Shapes)
-  double unknown = 0;           ///< >= what integrals of phi times at most 1 are wrong by
+  double unknown = 0;           ///< >= the error of integrals of phi times at most 1
 };
 
-/// From g_D, and u_h in the copies. By Gauss's rule in each half of an edge, and what is unknown of
-/// g_D: gradient_squared is an upper bound, the means are wrong by `unknown` at most.
+/// Makes the lifts from samples of g_D and from u_h in the copies, by Gauss's rule in each half of
+/// an edge and bounds of the unknown part of g_D: gradient_squared is an upper bound, and the means
+/// are wrong by at most `unknown`.
 std::vector<Lift> lifts(const CutMesh& cut, const BoundarySamples& samples,
                         std::span<const double> u);
 

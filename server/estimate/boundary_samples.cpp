@@ -22,19 +22,18 @@ using expression::Jet;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr const char* field = "boundary_value";
 
-/// Greatest distance of an interval's values from one.
+/// Greatest distance of the values in an interval from `value`.
 double farthest(const expression::Interval& from, double value) {
   return std::max(std::abs(from.low - value), std::abs(from.high - value));
 }
 
-/// Half an edge, from one of its nodes.
+/// Half of an edge, which begins or ends in a node.
 struct Half {
   Vector node, along;
-  bool from_node;  ///< else it ends there
+  bool from_node;  ///< else it ends in the node
 };
 
-/// g as a function of t = -1/2 ... 1/2 on half an edge, beside the polynomial p through its
-/// samples.
+/// g as a function of t = -1/2 ... 1/2 on half an edge, and the polynomial p through its samples.
 class Line {
  public:
   Line(Enclosure& g, double in_node, const Half& half, const EdgePolynomial& p)
@@ -45,8 +44,9 @@ class Line {
         _at_node(half.from_node ? -0.5 : 0.5),
         _p(p) {}
 
-  /// >= int (g' - p')^2 dt. Pieces are halved where it may be greatest, until it is small beside
-  /// that of p and its chord. Infinite where g is not proved to be continuous, also in the node.
+  /// >= int (g' - p')^2 dt. The piece with the greatest bound is halved until all are small
+  /// compared with the integral for p and its chord. Infinite unless g is proved to be continuous,
+  /// also in the node.
   double missed() const {
     if (!meets_node()) return infinite;
     const double chord = _p(0.5) - _p(-0.5);
@@ -80,8 +80,8 @@ class Line {
     bool operator<(const Piece& other) const { return missed < other.missed; }
   };
 
-  /// Ends are rounded outwards, so that a jump in the end of a piece lies in two pieces, but not in
-  /// the node: what begins there is on one side of it.
+  /// Ends are rounded outwards, so that a jump at the end of a piece lies in both pieces. The node
+  /// is not rounded, as the edge lies on one side of it.
   expression::Interval box(std::size_t d, double from, double to) const {
     const auto place = [&](double t) { return _node[d] + (t - _at_node) * _along[d]; };
     const double a = place(from), b = place(to);
@@ -91,7 +91,7 @@ class Line {
       (_node[d] < place(-_at_node) ? result.low : result.high) = _node[d];
     return result;
   }
-  /// Whether what g tends to in the node is its value there, which u_h has.
+  /// Whether the limit of g in the node is its value there, which u_h takes.
   bool meets_node() const {
     constexpr double near = 1e-9, rounding = 1e-12;
     const double to = _at_node * (1 - near);
@@ -114,8 +114,8 @@ class Line {
     return sum;
   }
 
-  /// Interpolation keeps Taylor's polynomial of degree k < 5 with the middle of the k-th
-  /// coefficient; the rest is r <= radius |t|^k, r' <= radius k |t|^(k-1).
+  /// A bound by interpolation, which is exact for the Taylor polynomial of degree k < 5 with the
+  /// midpoint of the k-th coefficient; the rest is r <= radius |t|^k, r' <= radius k |t|^(k-1).
   double by_interpolation() const {
     const Jet jet = enclose(-0.5, 0.5, Jet::most);
     const double steepest = EdgePolynomial::steepest();
@@ -127,7 +127,7 @@ class Line {
     return least * least;
   }
 
-  /// By the values of g', or by g' in the middle and the values of g''.
+  /// A bound on a piece, from the values of g', or from g' in the middle and the values of g''.
   Piece piece(double from, double to) const {
     const double middle = 0.5 * (from + to), reach = 0.5 * (to - from);
     const double slope = _p(middle, 1), bend = _p(middle, 2);
@@ -148,7 +148,7 @@ class Line {
   }
 
   Enclosure& _g;
-  const double _in_node;  // g there
+  const double _in_node;  // g in the node
   const Vector _node, _along;
   const double _at_node;
   const EdgePolynomial& _p;

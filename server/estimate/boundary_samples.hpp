@@ -16,25 +16,26 @@ namespace anticrack::estimate {
 /// Whether a face lies on the Dirichlet boundary.
 bool has_boundary_value(const Face& face);
 
-/// Corners of CutMesh::copy at a face's ends 0 and 1, and the third of its triangle.
+/// The corners at a face's ends 0 and 1, and the third one of its triangle: indices into
+/// CutMesh::copy.
 std::array<std::size_t, 3> corners_of(const Face& face);
 
-/// Of s = 0 ... 1 along each such face, in two halves.
+/// Samples of g_D along each such face, s = 0 ... 1, in two halves.
 struct BoundarySamples {
   static constexpr std::size_t halves = 2;
 
-  /// (faces, 2, 5) row-major, g_D at Gauss's points of the halves, from end 0 of the face.
+  /// (faces, 2, 5) row-major: g_D at the Gauss points of the halves, from end 0 of the face.
   std::vector<double> values;
   /// (faces) >= sqrt(int (g' - p')^2 ds) with the polynomials p of the halves, by interval
-  /// arithmetic. Not finite where g_D is not proved to be continuous with a finite derivative.
+  /// arithmetic. Not finite if g_D cannot be proved to be continuous with a finite derivative.
   std::vector<double> unknown;
 
   bool empty() const noexcept { return values.empty(); }
 };
 
-/// Of an expression. Up to a hundred boxes (expression/enclosure.hpp) an edge that has a kink, two
-/// for others. Throws errors::Error (expression_invalid, also where a sample is not finite;
-/// cancelled).
+/// Samples an expression. An edge with a kink takes up to a hundred boxes
+/// (expression/enclosure.hpp), another edge two. Throws errors::Error (expression_invalid, also if
+/// a sample is not finite; cancelled).
 BoundarySamples boundary_samples(const CutMesh& cut, const std::string& text);
 
 }  // namespace anticrack::estimate

@@ -11,7 +11,7 @@
 namespace anticrack::estimate {
 namespace {
 
-/// All edges of one triangle on the boundary.
+/// Sums over all edges of one triangle on the boundary.
 struct OnTriangle {
   double norm = 0;        ///< >= |w| in the energy norm
   double difference = 0;  ///< int (sigma - T grad u_h) . grad w
@@ -52,13 +52,13 @@ Bracket bracket(const CutMesh& cut, const EquilibratedFlux& flux, const LoadBala
     all.norm += one.norm;
     all.difference += one.difference();
     all.energy += one.product - one.work;
-    unknown += 2 * one.unknown;  // once in either
+    unknown += 2 * one.unknown;  // once for each of them
   }
 
   Bracket result;
   result.indicator = flux.distance();
   const bool varies = !cut.shapes.variation.empty();
-  double half_distance = 0;  // eta^2 / 2, less |w|^2 / 2, which Pi(v) has as well, if T is known
+  double half_distance = 0;  // eta^2 / 2; if T is known, without |w|^2 / 2, which cancels in Pi(v)
   double squared = 0, work = 0, lift_energy = 0, lift_norm = 0;
   for (std::size_t t = 0; t < result.indicator.size(); ++t) {
     stop::look_at_turn(t, "computing bounds of the energy");
@@ -79,7 +79,7 @@ Bracket bracket(const CutMesh& cut, const EquilibratedFlux& flux, const LoadBala
     }
     const OnTriangle& w = lifted[t];
     const double distance = std::max(0.0, one - 2 * w.difference + w.norm * w.norm);
-    const double rest = oscillation * (j_11 / std::numbers::pi * w.norm);  // of int f w
+    const double rest = oscillation * (j_11 / std::numbers::pi * w.norm);  // error of int f w
     const double norm = of.above * w.norm, beyond = spread * norm + rest;  // of int T grad u.grad w
     const double size = of.below * std::sqrt(distance) + spread + of.most() * w.norm + oscillation;
     half_distance += 0.5 * size * size + beyond + rest;
@@ -98,8 +98,8 @@ Bracket bracket(const CutMesh& cut, const EquilibratedFlux& flux, const LoadBala
   }
   const double distance = std::sqrt(squared) + lack;
   half_distance += lack * (std::sqrt(squared) + lack / 2);
-  // Without interval arithmetic: rounding is some 1e-14, also of products of u that cancel, as
-  // where a membrane is lifted. Means of T are known less well.
+  // Allows for rounding without interval arithmetic: it is some 1e-14, also of products of u that
+  // cancel, as in a membrane that is lifted. Means of T are less accurate.
   double largest = 0;
   for (const double value : u) largest = std::max(largest, std::abs(value));
   const double rounding = 1e-12 * (std::abs(energy) + flux.norm_squared()) +

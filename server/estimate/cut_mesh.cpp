@@ -41,7 +41,7 @@ class Cutting {
     return std::move(_cut);
   }
 
-  /// Per side: the side of the neighbour, or negative.
+  /// Per side: the side of the neighbour, negative if there is none.
   const std::vector<std::int32_t>& across() const { return _across; }
 
  private:
@@ -90,7 +90,7 @@ class Cutting {
         if (line.kind[i] != mesh::Kind::glue) cut_edge(line, i);
     for (const auto& [a, b] : _mesh.dirichlet)
       for (const mesh::EdgeUse& use : _edges.find(a, b)) add_face(side_of(use), Condition::free);
-    // In the order of ddm::NeumannBoundary.
+    // Neumann faces are numbered in the order of ddm::NeumannBoundary.
     std::vector<std::vector<std::int32_t>> neumann(_decomposition.subdomains.size());
     std::size_t turn = 0;
     _edges.each([&](std::span<const mesh::EdgeUse> uses) {
@@ -154,8 +154,8 @@ class Cutting {
     _cut.faces[at(down)].other = up;
   }
 
-  /// The corner of the same node across the side before it (clockwise) or after it; -1 - face where
-  /// there is none.
+  /// The corner of the same node across the side before (clockwise) or after this corner; -1 - face
+  /// if a face is there.
   std::int32_t clockwise(std::int32_t corner) const {
     const std::int32_t side = _across[at(previous(corner))];
     return side < 0 ? side : previous(side);
@@ -170,8 +170,8 @@ class Cutting {
     return condition == Condition::crack_minus || condition == Condition::crack_plus;
   }
 
-  /// The first corner of the fan of a corner: behind a face that is not a crack's. Of a fan that
-  /// goes all round behind a crack, if there is one, else any.
+  /// The first corner of the fan of a corner. The fan begins at a face that is not of a crack; a
+  /// fan that goes all round begins at a crack if it has one, else anywhere.
   std::int32_t first_of(std::int32_t corner) const {
     std::int32_t behind_crack = -1;
     for (std::int32_t now = corner;;) {
@@ -223,15 +223,16 @@ class Cutting {
     }
   }
 
-  /// Inclusions that share nodes are one body, whose displacement is the first term of theirs.
+  /// Inclusions that share nodes are one body, with the first unknown of their displacement as its
+  /// name.
   std::int32_t body_of(std::int32_t inclusion) const {
     if (inclusion < 0) return -1;
     return _decomposition.skeleton.motions[at(inclusion)].displacement.front().index;
   }
 
-  /// Contact of two rigid bodies, or of one with the boundary, in a single node where the sides of
-  /// the delaminated inclusion lie in two fans: the force between the bodies is then no part of
-  /// either fan.
+  /// Finds contact of two rigid bodies, or of one with the boundary, in a single node where the
+  /// sides of the delaminated inclusion lie in two fans: the force between the bodies is then in
+  /// neither fan.
   void find_obstacle() {
     std::vector<std::int32_t> ends(_mesh.node_count(), 0);
     for (std::size_t fan = 0; fan < _cut.fan_count() && _cut.obstacle.empty(); ++fan) {

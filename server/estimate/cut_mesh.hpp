@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The triangles of a membrane cut along its cracks and inclusions, and how they lie around nodes.
+// The triangles of a membrane cut along its cracks and inclusions, and their fans around nodes.
 #pragma once
 
 #include <array>
@@ -16,13 +16,13 @@
 
 namespace anticrack::estimate {
 
-/// What holds of the outward flux w through a face.
+/// The condition on the outward flux w through a face.
 enum class Condition : std::uint8_t {
   free,         ///< Dirichlet boundary, bonded inclusion, plus face of a delaminated one: any w
   given,        ///< Neumann boundary: w = int g; faces of a free crack: w = 0
   pressed,      ///< minus face of a delaminated inclusion: w <= 0
   crack_minus,  ///< w <= 0
-  crack_plus,   ///< the negative of w on the other face
+  crack_plus,   ///< w is minus that through the other face
 };
 
 /// An edge that belongs to one triangle of the cut membrane. Its ends are numbered 0, 1
@@ -30,59 +30,60 @@ enum class Condition : std::uint8_t {
 struct Face {
   std::int32_t side = 0;  ///< 3 T + i: the edge opposite to corner i of triangle T
   Condition condition = Condition::free;
-  std::int32_t inclusion = -1;  ///< index into Mesh::inclusions
+  std::int32_t inclusion = -1;  ///< index into Mesh::inclusions, or -1
   std::int32_t other = -1;      ///< face of the same edge on the other side
-  std::int32_t traction = -1;   ///< number among the Neumann edges, subdomain after subdomain
+  std::int32_t traction = -1;   ///< index among the Neumann edges, subdomain after subdomain
 };
 
-/// Whether w <= 0 through it: minus faces, whose pressure is -w.
+/// Whether w <= 0 must hold, as on minus faces, whose pressure is -w.
 constexpr bool presses(Condition condition) noexcept {
   return condition == Condition::pressed || condition == Condition::crack_minus;
 }
 
-/// Where a fan meets a face: the flux x through spoke `spoke` is w = sign x through the face.
+/// Where a fan meets a face, a flux x through spoke `spoke` is the flux w = sign x through the
+/// face.
 struct Stop {
   std::int32_t spoke = 0;
   std::int32_t face = 0;
-  std::int32_t end = 0;  ///< of the face: 0 where the fan begins at it (sign -1), 1 where it ends
+  std::int32_t end = 0;  ///< end of the face: 0 where the fan begins (sign -1), 1 where it ends
   double sign() const noexcept { return end == 0 ? -1 : 1; }
 };
 
-/// Where a triangle of a tree sends what flows into it.
+/// The side by which flux that enters a triangle of a tree goes on.
 struct WayOut {
-  std::int32_t side = 0;   ///< its own, 3 T + i
-  std::int32_t into = -1;  ///< the same edge of its neighbour; -1: the Dirichlet boundary
+  std::int32_t side = 0;   ///< side of the triangle, 3 T + i
+  std::int32_t into = -1;  ///< the same edge in the neighbour; -1: the Dirichlet boundary
 };
 
-/// Triangles T are numbered subdomain after subdomain in the order of ddm::Subdomain::triangle,
-/// nodes likewise ("copies": a node of a crack has one on each side, a node of glue one in each
-/// subdomain). Corners are 3 T + i, and so are sides: the edge opposite to corner i.
+/// Triangles T are numbered subdomain after subdomain in the order of ddm::Subdomain::triangle.
+/// Nodes are numbered likewise, as "copies": a node of a crack has one on each side, a node of glue
+/// one in each subdomain. Corner 3 T + i is corner i of T; side 3 T + i is the edge opposite to it.
 struct CutMesh {
   std::vector<std::int32_t> first_triangle;  ///< (subdomains + 1)
   std::vector<std::int32_t> first_copy;      ///< (subdomains + 1)
-  std::vector<std::int32_t> copy;            ///< (corners)
+  std::vector<std::int32_t> copy;            ///< (corners) the copy at each corner
   std::vector<Vector> at;                    ///< (copies) coordinates
-  std::vector<std::int32_t> triangle;        ///< (triangles) index into the mesh's
+  std::vector<std::int32_t> triangle;        ///< (triangles) index into the mesh's triangles
 
   std::vector<Face> faces;
-  std::vector<char> tilts;  ///< (inclusions) 1: the flux needs its moment as well
+  std::vector<char> tilts;  ///< (inclusions) 1: the flux must balance its moment as well
 
-  /// A fan: the corners about a node, counterclockwise from face to face or all round. It goes on
-  /// through cracks, whose flux is the same on both faces. Between its corners are spokes 0, ...,
-  /// m; of a closed fan the last is the first.
+  /// A fan has the corners about a node, counterclockwise from face to face or all round. It goes
+  /// on across cracks, whose flux is the same on both faces. Spokes 0, ..., m are between its
+  /// corners; in a closed fan the last spoke is the first.
   std::vector<std::int32_t> first_corner;  ///< (fans + 1) index into corners
   std::vector<std::int32_t> corners;       ///< of all fans
   std::vector<std::int32_t> first_stop;    ///< (fans + 1) index into stops
   std::vector<Stop> stops;
-  /// Ways from all triangles to the Dirichlet boundary that cross no crack and no inclusion, a
-  /// triangle after those that it leads to; what has no such way is missing.
+  /// Ways from triangles to the Dirichlet boundary that cross no crack and no inclusion. A triangle
+  /// comes after those that its way leads through; triangles without a way are left out.
   std::vector<WayOut> ways_out;
   Shapes shapes;
-  std::vector<Vector> centre;  ///< (inclusions) about which moments on them are
+  std::vector<Vector> centre;  ///< (inclusions) the point about which its moments are taken
   Ways ways;
 
-  /// Why no flux can be equilibrated fan by fan, with the place, or no bounds be proved; empty: it
-  /// can.
+  /// The reason why no flux can be equilibrated fan by fan, with the place, or no bounds can be
+  /// proved; empty if they can.
   std::string obstacle;
 
   std::size_t triangle_count() const noexcept { return triangle.size(); }
@@ -96,7 +97,7 @@ struct CutMesh {
   std::size_t bytes() const noexcept;
 };
 
-/// O(m log m).
+/// Cuts the mesh into fans. O(m log m).
 CutMesh cut_mesh(const mesh::Mesh& mesh, const ddm::Decomposition& decomposition);
 
 }  // namespace anticrack::estimate

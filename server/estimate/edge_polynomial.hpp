@@ -9,8 +9,8 @@
 
 namespace anticrack::estimate {
 
-/// The polynomial of degree 4 through values at Gauss's five points of a line, of t from -1/2 at
-/// its start to 1/2 at its end.
+/// The polynomial of degree 4 through values at the five Gauss points of a line; t runs from -1/2
+/// at its start to 1/2 at its end.
 class EdgePolynomial {
  public:
   static constexpr std::size_t points = fem::line_5.size;
@@ -21,7 +21,7 @@ class EdgePolynomial {
       for (std::size_t m = 0; m < points; ++m) _factor[m] += values[j] * basis()[j][m];
   }
 
-  /// The polynomial, or its derivative of this order.
+  /// The value of the polynomial or of its derivative at t.
   double operator()(double t, int derivative = 0) const {
     double sum = 0;
     for (std::size_t m = points; m-- > static_cast<std::size_t>(derivative);) {
@@ -32,7 +32,7 @@ class EdgePolynomial {
     return sum;
   }
 
-  /// Greatest |derivative| anywhere for values of at most 1, at least.
+  /// An upper bound of |derivative| on the line, if all values are at most 1.
   static double steepest() {
     double sum = 0;
     for (const Values& one : basis())
@@ -42,7 +42,7 @@ class EdgePolynomial {
   }
 
  private:
-  /// Row j: 1 at the j-th point and 0 at the others, by ascending powers of t.
+  /// Row j: the polynomial that is 1 at point j and 0 at the others, by ascending powers of t.
   static const std::array<Values, points>& basis() {
     static const std::array<Values, points> rows = [] {
       std::array<Values, points> result{};

@@ -29,8 +29,8 @@ constexpr std::size_t previous(std::size_t corner) {
   return corner % 3 == 0 ? corner + 2 : corner - 1;
 }
 
-/// Uninitialised memory of the loops, aligned to cache lines, which a thread keeps unless it is
-/// much: page faults take longer than the loops. Much has huge pages, if available.
+/// Uninitialised memory of the loops, aligned to cache lines. A thread keeps it unless it is large,
+/// since page faults take longer than the loops. Large memory has huge pages, if available.
 class Scratch {
  public:
   explicit Scratch(std::size_t doubles) {
@@ -113,7 +113,7 @@ std::vector<EquilibratedFlux> EquilibratedFlux::of_all(const CutMesh& cut,
   return fluxes;
 }
 
-/// Lanes beyond are those of the last load.
+/// If loads are fewer than lanes, the last load fills the rest.
 void EquilibratedFlux::make(std::span<EquilibratedFlux> fluxes, std::span<const FaceBounds> bounds,
                             int polish) {
   static const FluxKernels& kernels = *supported_flux_kernels(0);
@@ -151,9 +151,9 @@ double EquilibratedFlux::jump(std::size_t face, std::size_t end) const {
          _balance.u[at(_cut.ends(own)[end])];
 }
 
-/// The moment of w_0, w_1 in the ends of a face less that of their even flux along it is
-/// (w_0 - w_1)/2 (x_0 - x_1), that of kappa curl(l_0 l_1) is kappa/6 (x_0 - x_1). Where one face
-/// may not be pulled the other takes both.
+/// Fluxes w_0, w_1 at the ends of a face have the moment (w_0 - w_1)/2 (x_0 - x_1) more than their
+/// sum spread evenly along it; kappa curl(l_0 l_1) has the moment kappa/6 (x_0 - x_1). If one face
+/// may not be pulled, the other face takes both.
 void EquilibratedFlux::turn() {
   const auto defect = [this](std::size_t face) {
     return 3 * (_through[2 * face] - _through[2 * face + 1]);
@@ -205,7 +205,7 @@ Vector EquilibratedFlux::difference(std::size_t triangle,
   }
   for (auto one = first_turn(triangle); one != _turns.end() && one->side < 3 * triangle + 3;
        ++one) {
-    // curl l_j of a corner is half its opposite edge over the area.
+    // curl l_j of a corner is half the opposite edge over the area.
     const std::size_t j = next(one->side), k = previous(one->side);
     const double scale = one->kappa / (2 * _area[triangle]);
     add(result, scale * place[j % 3], side(k));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The loops of EquilibratedFlux, for one load or several at once, compiled for several instruction
-// sets (flux_loops.hpp). The bits of a load depend neither on the others nor on the processor: all
-// do the same operations in the same order, none fused.
+// sets (flux_loops.hpp). The bits of a load depend neither on the other loads nor on the processor,
+// since all versions do the same operations in the same order, and none is fused.
 #pragma once
 
 #include <cstddef>
@@ -12,10 +12,10 @@
 
 namespace anticrack::estimate {
 
-/// Loads at once; more are not faster, as their numbers leave the cache.
+/// Loads at once; more are not faster, as their data exceed the cache.
 constexpr std::size_t flux_lanes = 4;
 
-/// What of a CutMesh the loops need.
+/// The data of a CutMesh that the loops need.
 struct FluxMesh {
   std::size_t triangles, fans, faces, largest_fan;
   const std::int32_t *copy, *first_corner, *first_stop;
@@ -23,18 +23,18 @@ struct FluxMesh {
   const FanCorner* around;
   const Stop* stops;
   const Face* face;
-  /// Called each `flux_turn` triangles or fans; throws where the work is to end.
+  /// Called every `flux_turn` triangles or fans; throws if the work is to end.
   void (*look)();
 };
 
 constexpr std::size_t flux_turn = 8192;
 
-/// A load; no traction and no force: 0.
+/// The arrays of one load; null traction or force means 0.
 struct FluxLane {
   const double* u;
   const double* force;
   const double* traction;
-  const double* bounds;  ///< none: the pressure
+  const double* bounds;  ///< null: w <= 0 on minus faces
   double* mean;          ///< (triangles, 2) of sigma - T grad u, times sqrt(area / T)
   double* distance;      ///< (triangles) int |sigma - T grad u|^2 / T
   double* through;       ///< (faces, 2)
@@ -42,7 +42,8 @@ struct FluxLane {
   double imbalance;
 };
 
-/// All lanes have a force or none, bounds or none. `scratch`: scratch_of() doubles for each lane.
+/// All lanes have a force or none has; the same holds for bounds. `scratch`: scratch_of() doubles a
+/// lane.
 using FluxLoop = void (*)(const FluxMesh& mesh, FluxLane* lanes, int polish, double* scratch);
 
 constexpr std::size_t scratch_of(const FluxMesh& mesh) {
@@ -50,10 +51,10 @@ constexpr std::size_t scratch_of(const FluxMesh& mesh) {
 }
 
 struct FluxKernels {
-  FluxLoop one, several;  ///< 1 lane, `flux_lanes`
+  FluxLoop one, several;  ///< for 1 lane, and for `flux_lanes`
 };
 
-/// The versions that this processor supports, from 0, the best first; null beyond the last.
+/// The kernels that this processor supports: rank 0 is the best; null beyond the last.
 const FluxKernels* supported_flux_kernels(int rank) noexcept;
 
 }  // namespace anticrack::estimate

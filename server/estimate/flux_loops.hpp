@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The loops of flux_kernels.hpp: include it once in a file compiled for an instruction set, with
-// ANTICRACK_FLUX_KERNELS the name of the FluxKernels. Calls no inline function of another header:
-// one compiled here could be linked into code for any processor.
+// ANTICRACK_FLUX_KERNELS the name of the FluxKernels. It calls no inline function of another
+// header, because the linker could use one compiled here in code for every processor.
 #include "estimate/flux_kernels.hpp"
 
 namespace anticrack::estimate {
 namespace {
 
-/// A number of each lane, and a vector of each.
+/// The types that hold a number, and a vector, for each lane.
 template <std::size_t lanes>
 struct Numbers;
 template <>
@@ -102,12 +102,12 @@ class Flux {
     return of_lanes([&](std::size_t l) { return _lane[l].force[corner]; });
   }
 
-  /// Minus half the outward flux of T grad u through each side: with G = sum of u_i e_i, that of
-  /// side i is -T^2 G.e_i / 2. And what the load makes of sigma - T grad u besides: d/2 (x -
-  /// centroid) with the divergence d, and the bubble
+  /// Computes minus half the outward flux of T grad u through each side, which is -T^2 G.e_i / 2
+  /// for side i with G = sum of u_i e_i. Also the part of sigma - T grad u that comes from the
+  /// load: d/2 (x - centroid) with the divergence d, and the bubble
   ///   b = 1/3 sum_(i<j) (f_j - f_i)(P_j - P_i) l_i l_j,  div b = -(f - mean f),
   /// which has no flux through the sides. With the loads f_i, their sum s and d_i = f_k - f_j this
-  /// is a part -(f_0 e_2 + f_1 e_0 + f_2 e_1) of the mean, and the square of what is left
+  /// adds -(f_0 e_2 + f_1 e_0 + f_2 e_1) to the mean, and the square of the rest is
   ///   4 sum_i e_i.e_i (s^2 / 144 + (2 d_i^2 - d_j d_k - s (s - 3 f_i)) / 45).
   template <bool loaded>
   void measure() {
@@ -148,9 +148,9 @@ class Flux {
     for (std::size_t l = 0; l < lanes; ++l) _lane[l].norm_squared = of(norm_squared, l);
   }
 
-  /// The fan of corner i adds to the flux through the sides j and k of its triangle x out and x'
-  /// in, where fans to come stand for half of T grad u. With a = x less half of T grad u through
-  /// side j this adds a e_i to the mean of sigma - T grad u, the load apart.
+  /// The fan of corner i adds x out through side j and x' in through side k of the triangle; fans
+  /// not yet built count as half of T grad u. With a = x less half of T grad u through side j, this
+  /// adds a e_i to the mean of sigma - T grad u, apart from the load.
   void build() {
     V imbalance{};
     for (std::size_t place = 0; place < 2 * _mesh.faces; ++place) _through[place] = V{};
@@ -197,7 +197,7 @@ class Flux {
     if (turn % flux_turn == 0) _mesh.look();
   }
 
-  /// `flux` round the node.
+  /// Adds `flux` to that through all spokes of the fan, which runs round the node.
   void rotate(std::size_t fan, const V& flux) {
     const FanCorner* const end = _mesh.around + _mesh.first_corner[fan + 1];
     for (const FanCorner* one = _mesh.around + _mesh.first_corner[fan]; one != end; ++one)
@@ -209,7 +209,7 @@ class Flux {
     return face.condition == Condition::pressed || face.condition == Condition::crack_minus;
   }
 
-  /// Copy at an end of a face.
+  /// The copy at an end of a face.
   std::int32_t at_end(const Face& face, std::int32_t end) const {
     return _mesh.copy[face.side - face.side % 3 + (face.side % 3 + 1 + end) % 3];
   }
@@ -217,7 +217,7 @@ class Flux {
     return u(at_end(_mesh.face[face.other], 1 - end)) - u(at_end(face, end));
   }
 
-  /// Derivative of int p [u] by the flux through the fan's spokes.
+  /// Derivative of int p [u] with respect to the flux through the fan's spokes.
   V slope_of_work(std::size_t fan) const {
     V slope{};
     if (!_pressure) return slope;
@@ -229,7 +229,7 @@ class Flux {
     return slope;
   }
 
-  /// Changes the flux through the fan's spokes to the least distance that is allowed; how far.
+  /// Changes the flux through the fan's spokes to the least allowed distance; returns the change.
   V step(std::size_t fan, const V& slope) {
     const V best = -slope * _mesh.softness[fan];
     const std::int32_t first = _mesh.first_stop[fan], last = _mesh.first_stop[fan + 1];
@@ -242,7 +242,7 @@ class Flux {
     return change;
   }
 
-  /// The nearest change by which all faces of the fan stay within their bounds.
+  /// The change nearest to `best` with which all faces of the fan stay within their bounds.
   V allowed(std::int32_t first, std::int32_t last, const V& best) const {
     V low = V{} - __builtin_inf(), high = V{} + __builtin_inf();
     for (std::int32_t s = first; s < last; ++s) {
@@ -275,7 +275,7 @@ class Flux {
       }
     }
     const V within = smaller(larger(best, low), high);
-    return low > high ? 0.5 * (low + high) : within;  // by rounding
+    return low > high ? 0.5 * (low + high) : within;  // only by rounding
   }
 
   void finish() {
@@ -298,13 +298,11 @@ class Flux {
   const FluxMesh& _mesh;
   FluxLane* const _lane;
   const bool _pressure;
-  /// (corners, 2): less the load, half the flux out through the spoke after the corner, and with
-  /// that of the one after the next.
   V* _spoke;
   Pair* _mean;
   V* _rest;  // (triangles) int |sigma - T grad u - its mean|^2 / T
   V* _through;
-  V* _x;  // through the spokes of a fan
+  V* _x;  // fluxes through the spokes of a fan
 };
 
 template <std::size_t lanes>

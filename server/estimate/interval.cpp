@@ -19,19 +19,21 @@ double largest_of(std::span<const double> values) {
   return largest;
 }
 
-/// How far jumps or pressures leave the cone, against what is rounding and what may be.
+/// How far jumps or pressures leave the cone: values up to `rounding` count as 0, and `beyond` may
+/// be at most `most`.
 struct Cone {
   double rounding = 0, most = 0, beyond = 0;
-  double all_beyond = 0;  ///< sum
+  double all_beyond = 0;  ///< sum over all
   bool left() const { return beyond > most; }
-  /// What is in it of a number that may be `bound`.
+  /// The part of a number within `bound`; 0 if it is rounding.
   double kept(double of, double bound) const {
     return std::abs(of) <= rounding ? 0 : std::clamp(of, -bound, bound);
   }
 };
 
-/// Integrals of tau - T grad z with itself and with sigma - T grad u_h, and of that with itself,
-/// over T. Where T varies on triangles, bounds; `slack` of the error of `mixed`.
+/// Integrals of products over T: of tau - T grad z with itself (`square`) and with sigma - T grad
+/// u_h (`mixed`), and of the latter with itself (`distance`). If T varies on triangles they are
+/// bounds, and `slack` bounds the error of `mixed`.
 struct Products {
   double square = 0;
   double mixed = 0;
@@ -46,7 +48,8 @@ struct Products {
   }
 };
 
-/// Of a triangle from those with the mean of T: see bracket.hpp. |1/T - 1/T_h| T_h <= `change`.
+/// The products of a triangle from those with T_h, as in bracket.hpp. |1/T - 1/T_h| T_h <=
+/// `change`.
 Products varied(const Products& by_mean, const fem::Variation& variation, double norm_of_z,
                 double norm_of_u) {
   const double a = variation.below * std::sqrt(by_mean.square), b = variation.spread * norm_of_z,
@@ -81,8 +84,8 @@ class Sum {
     return sum;
   }
 
-  /// int (tau - T grad z) . grad w over int phi, by its mean where it is not constant: w is on the
-  /// outer boundary.
+  /// int (tau - T grad z) . grad w divided by int phi, with the mean of tau - T grad z if that is
+  /// not constant. w is 0 but at the outer boundary.
   double lifted(const Lift& lift) const {
     const auto side = at(_primal.cut.faces[at(lift.face)].side);
     const Vector normal = _primal.flux.normal_of(side), mean = _tau.mean_difference(side / 3),
@@ -123,7 +126,7 @@ class Sum {
   std::vector<double> _rest;
 };
 
-/// |q| <= c p; where p < 0 by rounding, 0.
+/// The bounds c p of |q|; 0 if p < 0 by rounding.
 std::vector<double> cone_of(const EquilibratedFlux& sigma, double c) {
   std::vector<double> bounds = sigma.through_faces();
   for (double& bound : bounds) bound = c * std::max(0.0, -bound);
@@ -153,17 +156,17 @@ Interval interval(const Aimed& aimed, const EquilibratedFlux& tau) {
   }
 
   double above = 0, below = 0, work = 0;
-  // Fluxes are sums of T grad z', whose rounding is of T |z'|.
+  // Fluxes are sums of T grad z', whose rounding errors are relative to T |z'|.
   const double of_jumps = 1e-12 * largest_of(dual.z),
                of_pressures = 1e-12 * largest_of(tau.through_faces()) +
                               1e-13 * cut.shapes.largest_tension * largest_of(dual.reacting);
-  // Conjugate gradients leave more than rounding in z', which Ways bring out of the membrane.
+  // Conjugate gradients leave more than rounding errors in z'; Ways lead them out of the membrane.
   const bool bridged = std::isfinite(cut.ways.triangle);
   std::vector<double> kept(cut.faces.size(), 0);
   Cone jumps{of_jumps, of_jumps}, pressures{of_pressures, 1000 * of_pressures};
   const auto limit = [&](Cone& cone, double of_dual, double of_primal) {
     const double most = dual.c * std::max(0.0, of_primal), size = std::abs(of_dual);
-    if (size <= cone.rounding) {  // counts as 0: its sign would choose the constant of a side
+    if (size <= cone.rounding) {  // counts as 0, as its sign means nothing
       cone.all_beyond += size;
       return;
     }
@@ -191,7 +194,7 @@ Interval interval(const Aimed& aimed, const EquilibratedFlux& tau) {
     work -= 0.5 * kept[f] * (sigma.jump(f, 0) + sigma.jump(f, 1));
     limit(pressures, outward, pressure_of);
   }
-  if (jumps.left() || pressures.left()) return {};  // another c is better
+  if (jumps.left() || pressures.left()) return {};  // no bounds: another c is better
   double beyond = 0;
   for (const double one : primal.load.oscillation) beyond += one * one;
   const double off = std::sqrt(std::max(0.0, distance)), of_dual = std::sqrt(products.square);

@@ -8,11 +8,11 @@
 namespace anticrack::estimate {
 namespace {
 
-/// On a body, about Ways::Body::from.
+/// The force on a body, and the moment about Ways::Body::from.
 struct OnBody {
   double force = 0;
   Vector moment{};
-  double beyond = 0;  ///< of what goes through its faces
+  double beyond = 0;  ///< sum of the inadmissible fluxes through its faces
 
   void add(double by, const Vector& from, const Vector& x) {
     force += by;

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What a flux lacks of equilibrium: made fan by fan from a u_h that solves its problem to rounding,
-// or a little worse, it has the right divergence on every triangle, but
+// What a flux lacks of equilibrium. Made fan by fan from a u_h that solves its problem only to
+// rounding or a little worse, a flux has the right divergence on every triangle, but
 //
-//   about a node off all faces what is left of the sum goes through one spoke on one side only,
-//   through faces that are given, may not be pulled, or have a partner goes a little else,
-//   out of a body goes a little else than the force on it.
+//   about a node off all faces the rest of the sum goes through one side of one spoke only,
+//   the flux through faces that are given, may not be pulled, or have a partner is slightly wrong,
+//   the flux out of a body is not quite the force on it.
 //
-// Each of these is a unit flux from a side, or off a body, times its amount: Ways bring them to
-// where they may leave. So sigma + s is admissible, with |s| <= Lack::flux: the bounds are those of
-// sigma + s, of which only the norm of s has to be known.
+// Each of these errors is an amount times a unit flux from a side, or off a body, and Ways lead it
+// to a place where it may leave. So sigma + s is admissible with |s| <= Lack::flux. The bounds are
+// those of sigma + s, of which only the norm of s has to be known.
 #pragma once
 
 #include <cmath>
@@ -20,25 +20,25 @@
 
 namespace anticrack::estimate {
 
-/// A force on an inclusion, and its moment about the middle of it (ddm::RigidMotion::centre).
+/// A force on an inclusion, and its moment about the inclusion's middle (ddm::RigidMotion::centre).
 struct ForceOn {
   double force = 0;
   Vector moment{};
 };
 
 struct Lack {
-  /// >= |s|; not finite where Ways lead nowhere.
+  /// >= |s|; not finite if Ways lead nowhere.
   double flux = 0;
-  /// |l(z) - a(u_h, z)| <= work max |z| for z in the nodes, [z] = 0 where [u_h] is.
+  /// |l(z) - a(u_h, z)| <= work max |z| for nodal values z with [z] = 0 where [u_h] = 0.
   double work = 0;
 };
 
-/// `traction`: as Balance::traction. `forces`: on each inclusion; empty: 0. `kept`: (faces) what of
-/// the outward flux through a minus face is admissible. O(faces).
+/// `traction`: as Balance::traction. `forces`: on each inclusion; empty: 0. `kept`: (faces) the
+/// admissible part of the outward flux through a minus face. O(faces).
 Lack lack_of(const CutMesh& cut, const EquilibratedFlux& flux, std::span<const double> traction,
              std::span<const ForceOn> forces, std::span<const double> kept);
 
-/// The flux through each face; kept of a pressure: at most 0.
+/// `kept` for a pressure: the flux through each face, at most 0 on minus faces.
 std::vector<double> pressing(const CutMesh& cut, const EquilibratedFlux& flux);
 
 }  // namespace anticrack::estimate

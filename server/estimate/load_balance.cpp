@@ -14,8 +14,8 @@ namespace {
 constexpr double trace_constant = 0.329;
 constexpr const char* balancing = "balancing a load";
 
-/// The diameter of a triangle over the root of its least tension, by which Poincare's and the trace
-/// inequality hold in the energy norm.
+/// The diameter of a triangle over the root of its least tension: with it, Poincare's inequality
+/// and the trace inequality hold in the energy norm.
 double size_of(const CutMesh& cut, std::size_t t) {
   const auto corner = [&](std::size_t i) { return cut.at[at(cut.copy[3 * t + i])]; };
   const Vector p = corner(0), q = corner(1), r = corner(2);
@@ -34,11 +34,11 @@ double size_of(const CutMesh& cut, std::size_t t) {
          (cut.shapes.variation.empty() ? 1 : cut.shapes.variation[t].below);
 }
 
-/// Adds |tau| for the sources of all triangles, and what they do to a w that is 0 on the sides of
-/// its triangle alone (bracket).
+/// Adds |tau| for the sources of all triangles, and their effect on the w of bracket.hpp, which is
+/// not 0 on all sides of its triangle.
 void carry_out(const CutMesh& cut, std::vector<double>& source, std::vector<double>& oscillation) {
   const Shapes& shapes = cut.shapes;
-  std::vector<double> through(source.size(), 0);  // in and out
+  std::vector<double> through(source.size(), 0);  // flux in plus flux out
   std::vector<char> led(source.size(), 0);
   for (auto way = cut.ways_out.rbegin(); way != cut.ways_out.rend(); ++way) {
     stop::look_at_turn<stop::quick>(at(way - cut.ways_out.rbegin()), balancing);

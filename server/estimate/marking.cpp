@@ -12,14 +12,14 @@ namespace {
 
 constexpr const char* choosing = "choosing which triangles to bisect";
 
-/// Of one stage; more would trust the indicators of a coarse mesh too far.
+/// Most levels of one stage; more would trust the indicators of a coarse mesh too far.
 constexpr double most_levels = 8;
 
-/// Of the sum of the indicators.
+/// The fraction of the sum of the indicators that Doerfler's marking takes.
 constexpr double doerfler = 0.5;
 
-/// sqrt(tau), for  sum_K eta_K^2 / max(1, eta_K / sqrt(tau)) = target. From below, in a few steps:
-/// which triangles stay whole decides the rest.
+/// sqrt(tau), for sum_K eta_K^2 / max(1, eta_K / sqrt(tau)) = target. Found from below in a few
+/// steps: the set of triangles that stay whole determines tau.
 double root_of_tau(std::span<const double> indicator, double target) {
   for (double root = 0;;) {
     stop::look(choosing);
@@ -57,7 +57,7 @@ std::vector<std::uint8_t> levels(std::span<const double> indicator, double reduc
     stop::look_at_turn<stop::quick>(turn++, choosing);
     return of(a) > of(b) || (of(a) == of(b) && a < b);
   });
-  // Triangles that are each other's image under a symmetry differ by rounding only: all or none.
+  // Triangles that are images under a symmetry differ by rounding only: mark all of them or none.
   constexpr double equal = 1 - 1e-6;
   double marked = 0;
   double last = 0;

@@ -53,7 +53,7 @@ class Search {
     return std::hypot(x[0] - body.from[0], x[1] - body.from[1]);
   }
 
-  // Breadth first; _way is a square until its triangle leaves the queue.
+  // Breadth-first step; _way holds a square until its triangle leaves the queue.
 
   void reach(std::size_t t, double squared) {
     if (std::isfinite(_way[t])) return;
@@ -72,7 +72,8 @@ class Search {
     }
   }
 
-  /// Through a body to triangles beyond it: the longest way up to there, 0 where it has none.
+  /// Passes through a body to triangles around it that have no way yet. Returns the longest way up
+  /// to the body; 0 if it has no way, or no such triangle.
   double hand_on(std::size_t b) {
     Ways::Body& body = _ways.bodies[b];
     if (body.held) return 0;
@@ -119,7 +120,7 @@ class Search {
     for (std::size_t b = 0; b < first.size(); ++b) describe(b, *first[b], nodes[b]);
   }
 
-  /// A motion that nothing else has a say in.
+  /// Whether the unknown is free and a value of its own, which no other unknown determines.
   bool is_free(std::int32_t unknown) const {
     const ddm::Row& row = _skeleton.rows[at(unknown)];
     return row.free.size() == 1 && row.jumps.empty() && row.held.empty();
@@ -197,7 +198,7 @@ class Search {
   std::vector<double> _way;
   std::vector<std::size_t> _queue;
   std::size_t _next = 0;
-  std::vector<std::vector<std::int32_t>> _faces;  // of each body, where any flux may go through
+  std::vector<std::vector<std::int32_t>> _faces;  // per body: faces that any flux may pass
   bool _possible = true;
   Ways _ways;
 };

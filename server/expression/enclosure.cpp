@@ -19,7 +19,7 @@ bool Enclosure::slopes(const Jet& a) const noexcept {
 }
 
 Enclosure::Truth Enclosure::truth(const Jet& a) const noexcept {
-  if (!a.defined) return Truth::unknown;  // what has no value counts as true
+  if (!a.defined) return Truth::unknown;  // an operand without a value counts as true
   if (a.value().is(0)) return Truth::no;
   return !a.value().holds(0) || slopes(a) ? Truth::yes : Truth::unknown;
 }
@@ -45,7 +45,7 @@ const Jet& Enclosure::operator()(const Interval& x, const Interval& y, int order
 
 std::optional<Enclosure::Choice> Enclosure::choice() const {
   if (_undecided.empty()) return std::nullopt;
-  // Backwards through what the result depends on in this box.
+  // Go backwards through the operations on which the result depends in this box.
   std::vector<bool> matters(_jets.size(), false);
   matters[static_cast<std::size_t>(_tape.result())] = true;
   const auto need = [&](Ref of) { matters[static_cast<std::size_t>(of)] = true; };
@@ -131,7 +131,7 @@ Jet Enclosure::compare(Ref number, const Operation& operation) {
   if (const Choice* const choice = given(number))
     return take(*choice, difference, exactly(1), exactly(0));
   if (!difference.defined) return undecided(number, {0, 1});  // what has no value compares as false
-  // Where the difference slopes, both are equal on a line, which has no area.
+  // If the difference slopes, both are equal on a line only, which has no area.
   const bool sloping = slopes(difference);
   if (equality) {
     if (u.high < v.low || v.high < u.low || sloping) return exactly(no);
@@ -156,7 +156,7 @@ Jet Enclosure::quadrant(Ref number, const Jet& y, const Jet& x) {
   if (x.value().low > 0) return turned(y, x, {});
   if (y.value().low > 0) return -turned(x, y, -half);
   if (y.value().high < 0) return -turned(x, y, half);
-  if (x.value().high < 0 && slopes(y)) {  // y is 0, perhaps -0, on a set without area at most
+  if (x.value().high < 0 && slopes(y)) {  // y is 0, perhaps -0, at most on a set without area
     if (y.value().low >= 0) return turned(y, x, whole);
     if (y.value().high <= 0) return turned(y, x, -whole);
   }

@@ -7,7 +7,7 @@
 namespace anticrack::expression {
 namespace {
 
-/// Time of a point by Code, ns, measured.
+/// Measured time of a point by Code, in ns.
 #define COST(code, name, cost, value) cost,
 constexpr double costs[] = {0, 0, 0, ANTICRACK_OPERATIONS(COST)};
 #undef COST
@@ -16,7 +16,7 @@ constexpr double costs[] = {0, 0, 0, ANTICRACK_OPERATIONS(COST)};
 
 Evaluator::Evaluator(const Tape& tape, std::span<const Ref> roots) {
   const std::vector<Operation>& operations = tape.operations();
-  // The last operation that uses each; roots are kept to the end.
+  // The last operation that uses each result; roots are kept to the end.
   const std::size_t never = operations.size() + 1;
   std::vector<std::size_t> last_use(operations.size(), 0);
   const std::vector<bool> needed = tape.needed(roots);

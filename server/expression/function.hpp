@@ -17,7 +17,7 @@ class Function {
 
   const Tape& tape() const noexcept { return _tape; }
 
-  /// One point; Evaluator is for many. Throws as require_finite().
+  /// The value at one point; use Evaluator for many. Throws as require_finite().
   double operator()(double x, double y) const;
 
   /// Throws errors::Error (expression_invalid) naming the point when the value is not finite.

@@ -27,8 +27,8 @@ struct Interval {
 inline constexpr Interval everything{-std::numeric_limits<double>::infinity(),
                                      std::numeric_limits<double>::infinity()};
 
-/// From ends that are wrong by `ulps` units in the last place, or by the smallest normal number;
-/// from ends that are no numbers, everything.
+/// The interval around ends that are wrong by `ulps` units in the last place, or by the smallest
+/// normal number; everything, if an end is NaN.
 inline Interval outward(double low, double high, double ulps = 1) {
   constexpr double unit = std::numeric_limits<double>::epsilon(),
                    tiny = std::numeric_limits<double>::min(),
@@ -55,7 +55,7 @@ inline Interval operator-(const Interval& a, const Interval& b) { return a + -b;
 inline Interval operator*(const Interval& a, const Interval& b) {
   if (a.is(0) || b.is(0)) return {};
   const double p = a.low * b.low, q = a.low * b.high, r = a.high * b.low, s = a.high * b.high;
-  // An end that is infinite times one that is 0 is no number: nothing is known then.
+  // An infinite end times an end that is 0 is NaN: nothing is known then.
   if (std::isnan(p + q + r + s) &&
       !(std::isfinite(p) && std::isfinite(q) && std::isfinite(r) && std::isfinite(s)))
     return everything;
@@ -73,7 +73,7 @@ inline Interval square(const Interval& a) {
   const Interval result = outward(least * least, most * most);
   return {std::max(0.0, result.low), result.high};
 }
-/// Of an interval that holds 0, everything.
+/// The reciprocal; everything, if the interval holds 0.
 inline Interval reciprocal(const Interval& a) {
   return a.holds(0) ? everything : outward(1 / a.high, 1 / a.low);
 }

@@ -19,8 +19,8 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 /// Derivatives over an interval, the k-th over k!.
 using Series = std::array<Interval, Jet::most + 1>;
 
-/// A sum of products of intervals, whose rounding is allowed for once, at its end. Without terms,
-/// exactly 0.
+/// A sum of products of intervals. Its rounding is allowed for once, at the end; without terms it
+/// is exactly 0.
 class Sum {
  public:
   void add(const Interval& a, const Interval& b) {
@@ -100,8 +100,8 @@ Jet compose_linear(const Interval& u, const Interval& v, const Series& f, int kn
   return result;
 }
 
-/// f(a) by Horner's rule in what a varies. That has no constant, so with k products to come all
-/// above the degree known - k falls away.
+/// f(a) by Horner's rule in the varying part of a. This has no constant, so with k products to come
+/// all terms above the degree known - k fall away.
 Jet compose_any(const Jet& a, const Series& f, int known) {
   Jet vary = a;
   vary.of[0] = {};
@@ -144,7 +144,8 @@ Interval exp_of(const Interval& a) {
 Interval cosine(const Interval& a) {
   constexpr double pi = std::numbers::pi, farthest = 1e8;
   if (!(a.magnitude() < farthest)) return {-1, 1};
-  // Extremes lie at the multiples of pi, even ones above; those that nearly are in it count too.
+  // Extremes lie at multiples of pi, maxima at even ones; those just outside the interval count
+  // too.
   const double near = 1e-15 * (1 + a.magnitude());
   const double first = std::ceil(a.low / pi - near), last = std::floor(a.high / pi + near);
   const double p = std::cos(a.low), q = std::cos(a.high);
@@ -169,7 +170,7 @@ Interval positive_power(const Interval& a, double e) {
   return e >= 0 ? outward(low, high, ulps) : outward(high, low, ulps);
 }
 
-/// a^e for any a where e is a whole number, else for the part of a that is not negative.
+/// a^e: for any a if e is a whole number, else for the part of a that is not negative.
 Interval constant_power(const Interval& a, double e) {
   if (e == 0) return {1, 1};
   if (a.low >= 0) return positive_power(a, e);
@@ -219,8 +220,8 @@ Series arc_series(const Interval& u, const Interval& value, double sign) {
           sign * 0.125 * ((u * (Interval{3, 3} + 2 * square(u))) * (q * square(q3)))};
 }
 
-/// Of 1 / (1 - s u^2) = w as the derivative: w, s u w^2, (s + 3 u^2) w^3 / 3, u (1 + s u^2) w^4
-/// with s = 1 or -1.
+/// Series of the function whose derivative is w = 1 / (1 - s u^2): w, s u w^2, (s + 3 u^2) w^3 / 3,
+/// u (1 + s u^2) w^4 with s = 1 or -1.
 Series rational_series(const Interval& u, const Interval& value, double s) {
   const Interval w = reciprocal(unity - s * square(u));
   return {value, w, s * (u * square(w)),
@@ -402,7 +403,7 @@ Jet power(const Jet& base, const Jet& exponent, int order) {
   if (a.low > 0)
     return elementary(Code::exponential, exponent * elementary(Code::logarithm, base, order),
                       order);
-  Jet result;  // monotone in either, so extreme in the corners
+  Jet result;  // monotone in either operand, so extremes are at corners
   result.order = 0;
   result.degree = Jet::most;
   result.defined = base.defined && exponent.defined && a.low >= 0;

@@ -9,7 +9,7 @@ namespace anticrack::expression {
 
 Jet constant_jet(const Interval& value);
 
-/// Coefficients that hold those of both, up to `order`.
+/// The smallest jet that holds both, up to `order`.
 Jet hull(const Jet& a, const Jet& b, int order);
 Jet operator-(const Jet& a);
 Jet operator+(const Jet& a, const Jet& b);
@@ -17,8 +17,8 @@ Jet operator-(const Jet& a, const Jet& b);
 Jet operator*(const Jet& a, const Jet& b);
 Jet square(const Jet& a);
 
-/// An elementary function of one operand, by its code, up to `order`. Where the operand leaves the
-/// function's domain, of the part inside.
+/// An elementary function of one operand, by its code, up to `order`. If the operand leaves the
+/// function's domain, the result is for the part inside.
 Jet elementary(Code code, const Jet& a, int order);
 Jet power(const Jet& base, const Jet& exponent, int order);
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The kernels for `Numbers`, one or several at once. A source that includes this defines Numbers,
-// ELEMENTARY, PERIODIC, EXACT and ANTICRACK_KERNELS, the name of the table. Uses no inline function
-// of the standard library: the linker could take one compiled for AVX2 for the whole program.
+// ELEMENTARY, PERIODIC, EXACT and ANTICRACK_KERNELS, the name of the table. It uses no inline
+// function of the standard library: the linker could take one compiled for AVX2 for the whole
+// program.
 #include "expression/kernels.hpp"
 
 namespace anticrack::expression {

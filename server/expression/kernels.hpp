@@ -14,18 +14,18 @@ using Kernel = void (*)(const double* a, const double* b, const double* c, doubl
                         std::size_t n);
 constexpr std::size_t kernel_width = 8;
 
-/// By Code.
+/// One kernel per Code.
 using Kernels = std::array<Kernel, static_cast<std::size_t>(Code::count)>;
 
-/// One number at a time, by the C library. Reads and writes exactly n numbers.
+/// Kernels for one number at a time, by the C library. They read and write exactly n numbers.
 extern const Kernels plain_kernels;
 
-/// Four and eight numbers at a time, by SLEEF: asinh and acosh of numbers above 1e154 are infinite.
-/// Only in programs for x86-64.
+/// Kernels for four and eight numbers at a time, by SLEEF: asinh and acosh of numbers above 1e154
+/// are infinite. Only in programs for x86-64.
 extern const Kernels avx2_kernels, avx512_kernels;
 
-/// The fastest that this processor can run. Elementary functions are accurate to 1 unit in the last
-/// place, sine and cosine to 3.5; the same processor always gives the same bits.
+/// The fastest kernels that this processor can run. Elementary functions are accurate to 1 unit in
+/// the last place, sine and cosine to 3.5; the same processor always gives the same bits.
 const Kernels& fastest_kernels();
 
 }  // namespace anticrack::expression

@@ -3,9 +3,9 @@
 
 /// All operations: X(code, name as a function of expressions, time of a point in ns, value).
 /// The value is a formula of the operands a, b, c, which is compiled for one number at a time and
-/// for four or eight (kernel_table.hpp). ELEMENTARY: a function of the C library, or the same of
-/// SLEEF. PERIODIC: the same to 3.5 units in the last place, in three quarters of the time. EXACT:
-/// the same, for functions that the processor rounds correctly.
+/// for four or eight (kernel_table.hpp). ELEMENTARY: a function of the C library, or that of SLEEF.
+/// PERIODIC: the same, accurate to 3.5 units in the last place, in three quarters of the time.
+/// EXACT: the same, for functions that the processor rounds correctly.
 #define ANTICRACK_OPERATIONS(X)                                           \
   X(add, "sum", 0.3, a + b)                                               \
   X(subtract, "", 0.3, a - b)                                             \

@@ -57,7 +57,7 @@ void prepare_locale() {
   }();
 }
 
-/// The number of "3 N/mm"; of "3 x", where a sign is forgotten, none.
+/// The number of a text like "3 N/mm"; none for "3 x", where an operator was forgotten.
 std::optional<std::string> number_with_unit(const std::string& text) {
   double value = 0;
   const char* const end = text.data() + text.size();
@@ -72,7 +72,7 @@ std::optional<std::string> number_with_unit(const std::string& text) {
   return std::string(first, rest);
 }
 
-/// muParser says whether a text is an expression, and what is wrong where it is none.
+/// Lets muParser check whether a text is an expression, and explain what is wrong if it is not.
 void require_syntax(const std::string& text, const std::string& field) {
   require_plain(text, field);
   prepare_locale();
@@ -106,14 +106,14 @@ void require_syntax(const std::string& text, const std::string& field) {
 
 enum class Role { open, unary, binary, question, colon };
 
-/// Waits on the stack for its right operand.
+/// An operation that waits on the stack for its right operand.
 struct Pending {
   Role role;
   int precedence;
   Code code = Code::count;
   bool swapped = false;            ///< a > b is b < a
   std::string_view function = {};  ///< of an opening parenthesis
-  std::size_t arguments = 0;       ///< so far
+  std::size_t arguments = 0;       ///< read so far
 };
 
 struct Operator {
@@ -181,7 +181,7 @@ class Reader {
     return value;
   }
 
-  /// True where another operand is to follow.
+  /// Reads an operand; true if another operand must follow.
   bool read_operand() {
     const char c = _text[_at];
     if (c == '(') {
@@ -199,7 +199,7 @@ class Reader {
       const auto [end, error] =
           std::from_chars(_text.data() + _at, _text.data() + _text.size(), value);
       if (error == std::errc::invalid_argument) fail();
-      if (error == std::errc::result_out_of_range) value = 0;  // muParser refuses what is too large
+      if (error == std::errc::result_out_of_range) value = 0;  // muParser refuses large ones
       _at = static_cast<std::size_t>(end - _text.data());
       _values.push_back(_tape.constant(value));
       return false;
@@ -263,7 +263,7 @@ class Reader {
     fail();
   }
 
-  /// Applies what waits and binds at least as strongly.
+  /// Applies waiting operations that bind at least as strongly.
   void reduce(int precedence) {
     while (!_pending.empty() &&
            (_pending.back().role == Role::unary || _pending.back().role == Role::binary) &&

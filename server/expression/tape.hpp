@@ -34,7 +34,7 @@ struct Operation {
   double value;           ///< of a constant
 };
 
-/// Where the tape's value may jump or bend: where operation `of` changes its sign or, for `steps`,
+/// A cause of jumps or bends of the tape's value: operation `of` changes its sign or, for `steps`,
 /// passes an integer.
 struct Switch {
   Ref of;
@@ -57,16 +57,16 @@ class Tape {
 
   const std::vector<Operation>& operations() const noexcept { return _operations; }
   const Operation& operator[](Ref of) const { return _operations[static_cast<std::size_t>(of)]; }
-  /// By number of an operation: whether one of `roots` depends on it.
+  /// For each operation, by number: whether one of `roots` depends on it.
   std::vector<bool> needed(std::span<const Ref> roots) const;
   Ref result() const noexcept { return _result; }
   const std::vector<Switch>& switches() const noexcept { return _switches; }
 
-  /// Upper bound of the degree as a polynomial in x and y; `no_polynomial` for all else, or
-  /// above 20.
+  /// Upper bound of the degree as a polynomial in x and y; `no_polynomial` if it is none, or above
+  /// 20.
   int degree(Ref of) const noexcept { return _degrees[static_cast<std::size_t>(of)]; }
   static constexpr int no_polynomial = 100;
-  /// The same where no switch changes.
+  /// The same for parts of the plane where no switch changes.
   int degree_between_switches(Ref of) const noexcept {
     return _pieces[static_cast<std::size_t>(of)];
   }

@@ -17,28 +17,28 @@
 namespace anticrack::fem {
 namespace {
 
-/// Triangles that are sampled at once.
+/// How many triangles are sampled at once.
 constexpr std::size_t width = Cutter::width;
 static_assert(width * rule_5.size <= Sampler::block);
 
 using Lane = Cutter::Lane;
 
-/// Three points on the medians, each nearest to one corner or farthest from it: their numbers in
-/// rule_5 by that corner.
+/// Points of rule_5 on the medians, by corner: the outer one is nearest to the corner, the inner
+/// one farthest from it.
 constexpr std::array<std::size_t, 3> outer_points{4, 6, 5}, inner_points{1, 3, 2};
 
-/// Terms of the samples by degree. The points of rule_5 and the corners lie on the medians. With r
-/// the signed distance from the centroid (1 at a corner), the part that is equal on all medians is
-/// spanned by 1, r^2, r^3, r^4, the part that differs by r, r^2, r^3. Each part has a basis that is
-/// orthonormal on the samples.
+/// The terms of the samples by degree. The points of rule_5 and the corners lie on the medians.
+/// With r the signed distance from the centroid (1 at a corner), 1, r^2, r^3, r^4 span the part
+/// that is equal on all medians, and r, r^2, r^3 the part that differs between them. Each part has
+/// a basis that is orthonormal on the samples.
 struct Terms {
-  using Four = std::array<double, 4>;   // centroid, then as below
+  using Four = std::array<double, 4>;   // centroid, inner points, outer points, corners
   using Three = std::array<double, 3>;  // inner points, outer points, corners
   Four equal_2, equal_3, equal_4;
   Three other_1, other_2, other_3;
 
   Terms() {
-    const auto distance = [](std::size_t point) {  // the first coordinate is 1/3 + 2/3 r
+    const auto distance = [](std::size_t point) {  // from 1 - b - c = 1/3 + 2/3 r
       return 1.5 * (1 - rule_5.b[point] - rule_5.c[point] - 1.0 / 3);
     };
     const Three r{distance(inner_points[0]), distance(outer_points[0]), 1};
@@ -85,7 +85,7 @@ class LoadIntegrator {
         _count(integration.triangles.size() / 3),
         _exact(integration.exact) {}
 
-  /// `first_work`: see IntegrationLimits.
+  /// Integrates f. `first_work`: see IntegrationLimits.
   void operator()(double first_work) {
     const double each = Integration::price(rule_5.size, _integration.f.cost()) + _cutter.cost();
     if (each * static_cast<double>(_count) > first_work) {
@@ -140,7 +140,7 @@ class LoadIntegrator {
     _integration.interpolated = true;
     for (std::size_t t = 0; t < _count; ++t)
       _integration.area += std::max(0.0, _integration.frame(static_cast<std::int32_t>(t)).area);
-    const bool exact = std::exchange(_exact, false);  // gather() is to read the corners
+    const bool exact = std::exchange(_exact, false);  // so that gather() reads the corners
     double error = 0, absolute = 0;
     for (std::size_t first = 0; first < _count; first += width) {
       const std::size_t n = std::min(width, _count - first);
@@ -220,7 +220,8 @@ class LoadIntegrator {
     }
   }
 
-  /// Error of a nodal value over the area: the terms of degree 5, if the decay goes on.
+  /// Estimates the error of a nodal value divided by the area: the terms of degree 5, if the decay
+  /// of the terms goes on.
   void estimate(const double* values) {
     static const Terms terms;
     const auto [e2, e3, e4] = std::array{terms.equal_2, terms.equal_3, terms.equal_4};
@@ -252,7 +253,7 @@ class LoadIntegrator {
                    b3 = o3[0] * bi + o3[1] * bp + o3[2] * bc;
       const double linear = a1 * a1 + b1 * b1, quadratic = equal2 * equal2 + a2 * a2 + b2 * b2,
                    cubic = equal3 * equal3 + equal4 * equal4 + a3 * a3 + b3 * b3;
-      // The quadratic term may vanish by chance, then the mean of its neighbours; 3 for safety.
+      // The quadratic term may vanish by chance; then use the mean of its neighbours. 3 for safety.
       const double mean = std::sqrt(linear * cubic);
       const double before = quadratic > mean ? quadratic : mean;
       const double ratio = 3 * cubic / (before + std::numeric_limits<double>::min());

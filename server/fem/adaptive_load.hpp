@@ -14,24 +14,25 @@
 namespace anticrack::fem {
 
 struct IntegrationLimits {
-  double relative_tolerance = 1e-10;  ///< of int |f|
-  /// Work after the first samples, ns, roughly. Counted in operations, not measured, so that
-  /// results are reproducible.
+  double relative_tolerance = 1e-10;  ///< relative to int |f|
+  /// Limit of the work after the first samples, roughly in ns. It is counted in operations, not
+  /// measured, so that results are reproducible.
   double work = 1e9;
-  /// Work of the first samples, ns, roughly. An expression that takes longer is interpolated
-  /// linearly between the nodes; some of the triangles give the estimate of the error.
+  /// Limit of the work of the first samples, roughly in ns. An expression that takes longer is
+  /// interpolated linearly between the nodes, and some of the triangles give an estimate of the
+  /// error.
   double first_work = 1e12;
-  double proof_tolerance = 1e-6;  ///< of what is unknown (ProofOptions)
-  double proof_work = 1e9;        ///< of the proof, ns, roughly
+  double proof_tolerance = 1e-6;  ///< for the unknown part (ProofOptions)
+  double proof_work = 1e9;        ///< limit of the work of the proof, roughly in ns
 };
 
-/// What is unknown of a force, relative to int |f|, matters little beside the error of linear
-/// elements, about 1 / sqrt(triangles).
+/// Tolerance of the unknown part of a force, relative to int |f|: small beside the error of linear
+/// elements, which is about 1 / sqrt(triangles).
 inline double proof_tolerance(std::size_t triangles) {
   return 3e-2 / std::sqrt(static_cast<double>(triangles) + 1);
 }
 
-/// Work so that integrating never takes more than a few times what solving does, some 40 ns a
+/// Limits with which integrating never takes more than a few times as long as solving, some 40 ns a
 /// triangle.
 inline IntegrationLimits limits_of(double tolerance, std::size_t triangles) {
   const auto count = static_cast<double>(triangles);
@@ -41,10 +42,10 @@ inline IntegrationLimits limits_of(double tolerance, std::size_t triangles) {
 
 struct IntegrationReport {
   /// Sum of the estimated errors of the nodal values over int |f| (0 for f = 0). Above the
-  /// tolerance only if the work was limited. Infinite: no estimate is possible, int f may not
-  /// exist.
+  /// tolerance only if the work was limited. Infinite if no estimate is possible, since int f may
+  /// not exist.
   double relative_error_estimate = 0;
-  Proof proof;  ///< of f - f_h
+  Proof proof;  ///< bounds of f - f_h
   std::size_t evaluations = 0;
   std::size_t cut_triangles = 0;  ///< triangles in which a jump or a kink was found
 };
@@ -56,15 +57,15 @@ struct IntegrationReport {
 ///    such a switch changes its sign are cut along that line (cut_cells.hpp).
 /// 2. The others are integrated by 7 points, exactly for f of degree 4. The samples at these points
 ///    and at the corners give the terms of degree 1 to 4; their decay gives the error.
-/// 3. What is not accurate enough goes to refine_cells(): rules of degree 8 and 12, then quarters.
-/// The arguments of exp, sin, 1/u and the like show where f has more than its samples.
+/// 3. Triangles that are not accurate enough go to refine_cells(): rules of degree 8 and 12, then
+///    quarters. The arguments of exp, sin, 1/u and the like show where f has more than its samples.
 ///
 /// Each triangle of area a is allowed relative_tolerance / 2 of (a mean|f| + its own int |f|).
 /// Reproducible on one kind of processor. Memory O(m). About n + 7 m evaluations if f is smooth.
-/// Triangles with zero area to rounding have no load. Throws errors::Error (expression_invalid if f
-/// is not finite inside a triangle; cancelled: it looks every few milliseconds).
-/// What samples missed is added (load_proof.hpp). `parts`, if given, receives the load by triangles
-/// and what is proved of the rest; `spread` the values of f.
+/// Triangles whose area is zero to rounding have no load. What the samples missed is added
+/// (load_proof.hpp). Throws errors::Error (expression_invalid if f is not finite inside a triangle;
+/// cancelled: it looks every few milliseconds). `parts`, if given, receives the load by triangles
+/// and bounds of the rest; `spread` receives the values of f.
 IntegrationReport integrate_load(std::span<const double> xy,
                                  std::span<const std::int32_t> triangles,
                                  const expression::Function& f, std::span<double> load,

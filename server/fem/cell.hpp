@@ -12,7 +12,7 @@
 
 namespace anticrack::fem {
 
-/// A point of a triangle by its second and third barycentric coordinate.
+/// A point of a triangle, by its second and third barycentric coordinates.
 struct Place {
   double b;
   double c;
@@ -22,19 +22,19 @@ inline Place between(const Place& from, const Place& to, double part) {
   return {from.b + part * (to.b - from.b), from.c + part * (to.c - from.c)};
 }
 
-/// A triangle in a triangle of the mesh.
+/// A triangle that is a part of a triangle of the mesh.
 struct Cell {
   std::array<Place, 3> corners{{{0, 0}, {1, 0}, {0, 1}}};
   std::int32_t triangle = 0;
   std::int32_t depth = 0;  ///< how often it was divided
-  double share = 1;        ///< of the error that its triangle may have
-  bool divisible = true;   ///< false: a jump is left in it that is not worth more work
+  double share = 1;        ///< its share of the error that its triangle may have
+  bool divisible = true;   ///< false: it keeps a jump that is not worth more work
 
   Place at(double b, double c) const {
     return {corners[0].b + b * (corners[1].b - corners[0].b) + c * (corners[2].b - corners[0].b),
             corners[0].c + b * (corners[1].c - corners[0].c) + c * (corners[2].c - corners[0].c)};
   }
-  /// Part of the area of its triangle; negative if clockwise.
+  /// Its area as a fraction of that of its triangle; negative if clockwise.
   double part() const {
     return (corners[1].b - corners[0].b) * (corners[2].c - corners[0].c) -
            (corners[1].c - corners[0].c) * (corners[2].b - corners[0].b);
@@ -52,11 +52,11 @@ struct Cell {
   }
 };
 
-/// Where a triangle of the mesh is.
+/// The position of a triangle of the mesh.
 struct Frame {
-  double x, y;            ///< of its first corner
-  double bx, by, cx, cy;  ///< from there to the others
-  double area;            ///< not positive: as small as coordinates resolve
+  double x, y;            ///< its first corner
+  double bx, by, cx, cy;  ///< vectors from there to the other corners
+  double area;            ///< if not positive, too small for the coordinates
 
   double at_x(const Place& p) const { return x + p.b * bx + p.c * cx; }
   double at_y(const Place& p) const { return y + p.b * by + p.c * cy; }
@@ -93,7 +93,7 @@ struct Moments {
   }
 };
 
-/// Greatest difference of a nodal value.
+/// The greatest difference of a nodal value.
 inline double difference(const Moments& p, const Moments& q) {
   const double whole = p.value[0] - q.value[0], b = p.value[1] - q.value[1],
                c = p.value[2] - q.value[2];

@@ -40,7 +40,7 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// Sum with the least of what is unknown.
+/// Keeps the integral whose radius is less.
 void keep_closer(Enclosed& result, double integral, double radius) {
   if (!(radius < result.radius)) return;
   result.integral = integral;
@@ -56,8 +56,8 @@ Interval box_y(const Centred& at) {
           at.y + *std::max_element(at.dy.begin(), at.dy.end())};
 }
 
-/// Where f is smooth: f = f(c) + f_x dx + ... at the centroid, and derivatives of the highest known
-/// degree anywhere in the triangle.
+/// Bounds for smooth f: f = f(c) + f_x dx + ... at the centroid c, with the derivatives of the
+/// highest known degree enclosed over the whole triangle.
 void by_derivatives(Enclosure& f, const Centred& at, const Jet& jet, Enclosed& result) {
   if (jet.order < 1) return;
   const Jet centre = f({at.x, at.x}, {at.y, at.y}, jet.order - 1);
@@ -92,7 +92,7 @@ void by_derivatives(Enclosure& f, const Centred& at, const Jet& jet, Enclosed& r
               at.area * (value.radius() + wide(centre) + rest));
 }
 
-/// A convex polygon, of points about the centroid of the triangle.
+/// A convex polygon; its points are relative to the centroid of the triangle.
 class Polygon {
  public:
   static constexpr std::size_t most = 8;
@@ -120,7 +120,7 @@ class Polygon {
     return part;
   }
 
-  /// Its area, and its centroid.
+  /// The area and the centroid.
   struct Measure {
     double area = 0, dx = 0, dy = 0;
   };
@@ -149,7 +149,7 @@ class Polygon {
   std::size_t _count = 0;
 };
 
-/// Along the straight lines in place of those where choices change.
+/// Bounds on the two sides of straight lines, which stand for the lines where choices change.
 class Sides {
  public:
   Sides(Enclosure& f, const Centred& at) : _f(f), _at(at), _x(box_x(at)), _y(box_y(at)) {}
@@ -162,7 +162,7 @@ class Sides {
   }
 
  private:
-  static constexpr std::size_t most = 4;  // choices, one within the other
+  static constexpr std::size_t most = 4;  // nested choices
   static constexpr double rounding = 1e-15;
 
   const Jet& in_box(int order) { return _f(_x, _y, order, _taken); }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What is proved of an expression on one triangle, by interval arithmetic.
+// Bounds of an expression on one triangle, proved by interval arithmetic.
 #pragma once
 
 #include <array>
@@ -12,10 +12,10 @@ namespace anticrack::fem {
 
 using expression::Interval;
 
-/// A triangle about its centroid.
+/// A triangle relative to its centroid.
 struct Centred {
   double x, y;                   ///< the centroid
-  std::array<double, 3> dx, dy;  ///< from there to the corners
+  std::array<double, 3> dx, dy;  ///< vectors from there to the corners
   double area;
   double reach_x, reach_y;    ///< greatest |dx| and |dy|
   double length_x, length_y;  ///< fourth roots of the means of dx^4 and dy^4
@@ -24,7 +24,7 @@ struct Centred {
   double xx() const { return mean(dx, dx); }
   double xy() const { return mean(dx, dy); }
   double yy() const { return mean(dy, dy); }
-  /// Of squared distances to corner i.
+  /// Mean of the squared distance to corner i.
   double squared_distance(std::size_t i) const {
     return xx() + yy() + dx[i] * dx[i] + dy[i] * dy[i];
   }
@@ -37,15 +37,15 @@ struct Centred {
 };
 
 struct Enclosed {
-  double integral = 0;  ///< int f is within `radius` of it; that may be infinite
+  double integral = 0;  ///< int f is within `radius` of this; `radius` may be infinite
   double radius = 0;
-  Interval values;  ///< of f
+  Interval values;  ///< holds the values of f
 };
 
-/// int f and the values of f on a triangle. By the mean value form of degree 3 where f is smooth,
-/// of degree 1 where it has kinks. Where lines of jumps and kinks pass, by straight lines in their
-/// places, with strips about those in which either side is possible. Else by the values alone.
-/// Rounding in the places of points is not enclosed: some 1e-15 of the coordinates.
+/// Encloses int f and the values of f on a triangle: by the mean value form, of degree 3 where f is
+/// smooth and of degree 1 where it has kinks; where lines of jumps or kinks pass, by straight lines
+/// in their places, with strips about these in which either side is possible; else by the values
+/// alone. Rounding of the points is not enclosed: some 1e-15 of the coordinates.
 Enclosed enclose(expression::Enclosure& f, const Centred& triangle);
 
 }  // namespace anticrack::fem

@@ -16,31 +16,31 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-/// Cells whose switches are sampled at once.
+/// How many cells are sampled at once.
 constexpr std::size_t width = Cutter::width;
 static_assert(width * places <= expression::Evaluator::block);
 
-/// Cells below this part of their triangle are not cut.
+/// Cells smaller than this fraction of their triangle are not cut.
 constexpr double sliver = 1e-11;
 constexpr std::int32_t deepest = 60;
 
-/// From an apex inside or on a cell; t is where the switch changes.
+/// A ray from an apex inside or on a cell; at parameter t the switch changes.
 struct Ray {
   Place from;
-  Place to;  ///< t = 1
+  Place to;  ///< the point at t = 1
   double far;
   double t = 0;
 };
 
-/// A triangle whose side opposite the apex is the line where the switch changes; `beyond`: and what
-/// lies between that line and the chord.
+/// A triangle whose side opposite to the apex is the line where the switch changes; with `beyond`,
+/// the part between that line and the chord as well.
 struct Sector {
   Place apex;
   Place u, v;
   bool beyond;
 };
 
-/// Corners are turned so that the first is the odd one.
+/// A cell with a curved line; its corners are rotated so that the odd one comes first.
 struct Curved {
   Cell cell;
   double level;
@@ -51,7 +51,7 @@ double cross(const Place& o, const Place& p, const Place& q) {
   return (p.b - o.b) * (q.c - o.c) - (p.c - o.c) * (q.b - o.b);
 }
 
-/// Error of a rule if the coefficients of the Legendre polynomials of the values go on decaying.
+/// Error of a rule, if the coefficients of the values in Legendre polynomials go on decaying.
 template <std::size_t N>
 double line_error(const LineRule<N>& rule, const std::array<double, N>& values) {
   std::array<double, N> coefficients{};
@@ -72,7 +72,7 @@ double line_error(const LineRule<N>& rule, const std::array<double, N>& values) 
 
 std::vector<expression::Switch> in_order(const expression::Tape& tape) {
   std::vector<expression::Switch> switches = tape.switches();
-  // Straight lines come first: they leave triangles.
+  // Straight lines come first, as they leave triangles.
   std::stable_partition(switches.begin(), switches.end(),
                         [&](const expression::Switch& one) { return tape.degree(one.of) <= 1; });
   return switches;
@@ -124,7 +124,7 @@ class Cutter::Work {
       Lane low, high;
       extremes(_arguments.values(s), places, low, high);
       for (std::size_t i = 0; i < width; ++i) {
-        // A bound for the low and high of their SwitchView.
+        // A bound of `low` and `high` of their SwitchView.
         const double beyond = 8 * (high[i] - low[i]);
         const double least = low[i] - beyond, greatest = high[i] + beyond;
         const bool far = _switches[s].steps ? std::floor(least) == std::floor(greatest)
@@ -155,7 +155,7 @@ class Cutter::Work {
       for (std::size_t s = 0; s < _switches.size(); ++s) cut_curved(s);
       cells.swap(_next);
     }
-    // Measuring them is counted by refine_cells().
+    // refine_cells() counts the work of measuring them.
     _integration.work += Integration::price(points_of_cell * _done.size(), _integration.f.cost());
     return std::move(_done);
   }
@@ -179,7 +179,7 @@ class Cutter::Work {
     _arguments(_x.data(), _y.data(), width * places);
   }
 
-  /// Over the longest edge.
+  /// The height of the cell over its longest edge.
   static double height(const Cell& cell, const Frame& frame) {
     double longest = 0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -230,8 +230,8 @@ class Cutter::Work {
     return false;
   }
 
-  /// Turns the corners: first the one on the line if that passes between the two others, else the
-  /// one alone on its side; last the one farther from the line.
+  /// Orders the corners: first the one on the line if the line passes between the two others, else
+  /// the one alone on its side; last the one farther from the line.
   static void turn(const Cell& cell, const SwitchView& seen, double level,
                    const std::array<int, 3>& side, Curved& result) {
     const std::size_t k = odd_corner(side);
@@ -264,7 +264,7 @@ class Cutter::Work {
     ++part.depth;
     push(part);
   }
-  /// Counts the least work that the cell will take.
+  /// Adds a cell, and counts the least work that it will take.
   void push(const Cell& cell) {
     _next.push_back(cell);
     _integration.work -= price_of_cell();
@@ -295,7 +295,7 @@ class Cutter::Work {
     push(cell, a, r, b);
   }
 
-  /// Cells with one curve of switch s.
+  /// Cuts the cells that have one curve of switch s.
   void cut_curved(std::size_t s) {
     std::vector<Curved> curved;
     curved.swap(_curved[s]);
@@ -327,8 +327,8 @@ class Cutter::Work {
     }
   }
 
-  /// At which part of a ray, in units of its `to`, it leaves the cell: where the coordinate of its
-  /// corner, the apex, is 0.
+  /// The parameter at which a ray leaves the cell, in units of its `to`: where the barycentric
+  /// coordinate of its apex, a corner, is 0.
   static double far_end(const Cell& cell, const Place& apex, const Place& to) {
     for (std::size_t k = 0; k < 3; ++k) {
       if (cell.corners[k].b == apex.b && cell.corners[k].c == apex.c) {
@@ -351,7 +351,7 @@ class Cutter::Work {
     return {{{p, a, b, false}, {r, a, b, false}}};
   }
 
-  /// Finds where the switch changes along rays, `each` of every cell; t < 0: nowhere.
+  /// Finds where the switch changes along rays, `each` of them for every cell; t < 0: nowhere.
   void follow(std::size_t s, const std::vector<Curved>& curved, std::span<Ray> rays,
               std::size_t each) {
     constexpr std::size_t block = expression::Evaluator::block;
@@ -382,7 +382,7 @@ class Cutter::Work {
       low.fill(0);
       for (std::size_t i = 0; i < n; ++i) {
         high[i] = some[i].far;
-        // At an end of the line, rounding may put the change outside.
+        // At an end of the line, rounding may put the change outside the ray.
         const bool nearly = std::abs(at_high[i]) < 1e-6 * std::abs(at_low[i]);
         some[i].t = at_low[i] * at_high[i] < 0 ? 0 : nearly ? high[i] : -1;
       }
@@ -432,7 +432,7 @@ class Cutter::Work {
     _integration.spend(n, _integration.f.cost());
     Moments found;
     double error = 0;
-    for (std::size_t first = 0; first < n; first += 5 * points) {  // a sector, or what is beyond
+    for (std::size_t first = 0; first < n; first += 5 * points) {  // sector or the part beyond
       std::array<double, 5> along{};
       for (std::size_t i = 0; i < 5; ++i) {
         std::array<double, points> across{};
@@ -455,7 +455,7 @@ class Cutter::Work {
     _integration.curved.resize(_integration.triangles.size() / 3);
     _integration.curved[static_cast<std::size_t>(one.cell.triangle)] = 1;
     _integration.add(one.cell.triangle, found, error);
-    if (one.side[0] != 0 && !sectors[0].beyond)  // the rest of the cell
+    if (one.side[0] != 0 && !sectors[0].beyond)  // the rest of the cell is a triangle
       push(one.cell, sectors[0].u, one.cell.corners[1], one.cell.corners[2]);
     return true;
   }

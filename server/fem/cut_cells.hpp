@@ -14,7 +14,7 @@ namespace anticrack::fem {
 /// argument of a switch is approximated on a cell by a polynomial of degree 2 through 6 samples; a
 /// seventh checks it. A straight line leaves triangles. A curved line leaves a triangle and two
 /// cells with a curved side, whose points are found along rays. Cells with more than one line, or
-/// with the end of one, are quartered until they are too small to matter.
+/// with the end of a line, are quartered until they are too small to matter.
 class Cutter {
  public:
   explicit Cutter(Integration& integration);
@@ -25,7 +25,7 @@ class Cutter {
   /// Time of find() for a triangle, ns.
   double cost() const noexcept;
 
-  /// Triangles that find() takes at once.
+  /// How many triangles find() takes at once.
   static constexpr std::size_t width = 32;
   using Lane = std::array<double, width>;
   /// The first corner of each, and the vectors from there to the two others.
@@ -36,7 +36,7 @@ class Cutter {
   /// Marks the triangles that are to be cut.
   void find(const Frames& frames, std::array<bool, width>& cut);
 
-  /// Cuts triangles; adds what lies along curves to the load, and returns the triangles left.
+  /// Cuts triangles; adds the parts along curves to the load and returns the triangles left.
   std::vector<Cell> cut(const std::vector<std::int32_t>& triangles);
 
  private:

@@ -16,7 +16,7 @@ using expression::Interval;
 using expression::Jet;
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
-/// Of what is unknown of all edges, over int |g|.
+/// Bound of the unknown part of all edges, relative to int |g|, at which halving ends.
 constexpr double enough = 1e-8;
 constexpr int finest = 48;
 
@@ -97,10 +97,10 @@ class EdgeProver {
   }
 
  private:
-  /// What is known of some pieces.
+  /// The bounds of some pieces together.
   struct Known {
     double unknown = 0, absolute = 0;
-    std::size_t without = 0;  ///< of which nothing is known
+    std::size_t without = 0;  ///< pieces of which nothing is known
     void count(const Half& one, int sign) {
       const double radius = one.length * one.found.radius;
       if (std::isfinite(radius)) {
@@ -152,7 +152,7 @@ class EdgeProver {
 
   bool enough_is_known() {
     if (!_known.suffices()) return false;
-    _known = {};  // what was large before has left its rounding
+    _known = {};  // large terms that were subtracted have left their rounding
     each_piece([&](const Half& one) { _known.count(one, 1); });
     return _known.suffices();
   }
@@ -177,7 +177,7 @@ class EdgeProver {
       const double slack = sum.radius + 1e-14 * std::abs(sum.integral);
       const double doubt =
           1e-9 * (std::abs(sum.integral) + _known.absolute / static_cast<double>(_edges.size()));
-      if (std::abs(own[0] + own[1] - sum.integral) > slack + doubt)  // samples missed something
+      if (std::abs(own[0] + own[1] - sum.integral) > slack + doubt)  // the samples missed something
         replace(e, {sum.integral - sum.at_second, sum.at_second});
       _parts.unknown[e] = std::abs(own[0] + own[1] - sum.integral) + slack;
       _proof.unknown += _parts.unknown[e];
@@ -197,7 +197,7 @@ class EdgeProver {
     }
   }
 
-  /// Of g - g_h.
+  /// Bounds g - g_h.
   void bound_rest() {
     _parts.beyond.assign(_edges.size(), 0);
     each_piece([&](const Half& one) {

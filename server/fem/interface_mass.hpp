@@ -11,7 +11,7 @@
 
 namespace anticrack::fem {
 
-/// Edge between two multiplier nodes; -1 is an end without one (a Dirichlet node).
+/// An edge between two multiplier nodes; -1 is an end without one (a Dirichlet node).
 struct MassEdge {
   std::array<std::int32_t, 2> node;
   double length;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What acts on the membrane in one load case.
+// The loads on the membrane in one load case.
 #pragma once
 
 #include <cstddef>
@@ -30,7 +30,7 @@ ANTICRACK_FIELDS(PerRegion, values)
 struct Array {
   std::string upload = {};  ///< sha256 of the bytes the values came from
   bool per_triangle = false;
-  /// Set where the load is solved; a job that waits holds the name only.
+  /// Set when the load is solved; a job that waits has the name only.
   std::shared_ptr<const std::vector<double>> values = nullptr;
 };
 ANTICRACK_FIELDS(Array, upload, per_triangle, values)
@@ -46,8 +46,9 @@ struct PointForce {
 };
 ANTICRACK_FIELDS(PointForce, x, y, value)
 
-/// On an inclusion that tilts, about (x0, y0), the middle of the bounding box of its nodes: its
-/// work is x Bx + y By. A force F at a point p of the inclusion has the moment F (p - (x0, y0)).
+/// A moment on an inclusion that tilts, about (x0, y0), the middle of the bounding box of its
+/// nodes. Its work is x Bx + y By. A force F at a point p of the inclusion has the moment F (p -
+/// (x0, y0)).
 struct Moment {
   double x = 0;
   double y = 0;
@@ -66,9 +67,9 @@ struct Load {
 ANTICRACK_FIELDS(Load, name, force, boundary_value, traction, point_forces, inclusion_forces,
                  inclusion_moments)
 
-/// Of one load case.
+/// Most point forces of one load case.
 constexpr std::size_t max_point_forces = 10'000;
-/// Regions of a PerRegion, inclusions with a force, and those with a moment.
+/// Most regions of a PerRegion, inclusions with a force, and inclusions with a moment.
 constexpr std::size_t max_named_forces = 1'000;
 
 /// Throws errors::Error (expression_invalid) if a text is longer.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A load triangle by triangle: what an equilibrated flux has to balance.
+// A load triangle by triangle, which an equilibrated flux has to balance.
 #pragma once
 
 #include <optional>
@@ -20,23 +20,24 @@ inline constexpr double j_11 = 3.8317059702075123;
 
 /// f on the triangles K of a subdomain.
 struct ForceParts {
-  std::vector<double> load;  ///< (m,3) int_K f phi_i for the corners i, as they are in the load
-  /// (m) >= |f - f_h|, the norm of the square; f_h is the linear function of that load. Or what has
-  /// the effect of such a norm at most (fem/load_proof.cpp). Empty: f is linear on every triangle.
+  std::vector<double> load;  ///< (m,3) int_K f phi_i for the corners i, as in the load vector
+  /// (m) >= |f - f_h| in the L2 norm, where f_h is the linear function with that load; or a number
+  /// that bounds the effect of f - f_h as such a norm would (fem/load_proof.cpp). Empty: f is
+  /// linear on every triangle.
   std::vector<double> beyond;
   std::vector<double> unknown;  ///< (m) >= |int_K (f - f_h)|; empty: 0
 };
 
 /// g_N on the edges of the Neumann boundary of a subdomain.
 struct TractionParts {
-  std::vector<double> load;  ///< (edges,2) int g phi_i for both ends
-  std::vector<double>
-      beyond;  ///< (edges) >= |g - g_h|, the norm of the square, g_h the mean of that load
+  std::vector<double> load;     ///< (edges,2) int g phi_i for both ends
+  std::vector<double> beyond;   ///< (edges) >= |g - g_h| in the L2 norm, g_h the mean of that load
   std::vector<double> unknown;  ///< (edges) >= |int (g - g_h)|
 };
 
 /// The parts of a force that is linear on every triangle: a constant, an array, an expression of
-/// degree 0 or 1. None: it is integrated, and load_vector() says them (LoadContext::parts). O(m).
+/// degree 0 or 1. None for any other force, whose parts load_vector() gives (LoadContext::parts).
+/// O(m).
 std::optional<ForceParts> linear_parts(const Triangulation& part, const Force& force,
                                        const std::string& region, const LoadContext& context);
 

@@ -20,10 +20,10 @@ using expression::Enclosure;
 using expression::Jet;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-/// Boxes of no more triangles are not divided, but each triangle is looked at.
+/// Boxes with at most this many triangles are not divided; each triangle is looked at instead.
 constexpr std::size_t few = 12;
 constexpr std::int32_t deepest = 48;
-/// Of a sum of some terms of double precision.
+/// Relative rounding error of a sum of some terms.
 constexpr double rounding = 1e-14;
 
 Centred centred(const Frame& frame, const Cell& cell) {
@@ -35,7 +35,7 @@ Centred centred(const Frame& frame, const Cell& cell) {
   return {x, y};
 }
 
-/// f_h on a triangle, by its moments.
+/// f_h on a triangle, from its moments.
 struct Linear {
   std::array<double, 3> corner;
   Linear(const double* moments, double area) {
@@ -96,7 +96,7 @@ class ForceProver {
   };
   struct Box {
     Interval x{infinite, -infinite}, y{infinite, -infinite};
-    double length_x = 0, length_y = 0;  ///< greatest of its triangles
+    double length_x = 0, length_y = 0;  ///< the greatest of its triangles
     void add(double px, double py) {
       x = {std::min(x.low, px), std::max(x.high, px)};
       y = {std::min(y.low, py), std::max(y.high, py)};
@@ -168,7 +168,7 @@ class ForceProver {
     return {std::sqrt(squared_x(f)), std::sqrt(squared_y(f))};
   }
 
-  /// Separates what is on both sides of the middle of the box; returns how many are on the first.
+  /// Separates the triangles at the middle of the box; returns how many are on the first side.
   std::size_t divide(std::span<std::int32_t> own, const Box& box) const {
     const bool wide = box.x.high - box.x.low > box.y.high - box.y.low;
     const double middle = 3 * (wide ? box.x : box.y).middle();
@@ -183,9 +183,9 @@ class ForceProver {
 
   double mean() const { return _proof.absolute / _area; }
 
-  /// Greatest error of the integral over a triangle of these lengths, by its area. Rules integrate
-  /// the function of degree 4 with the middles of the fourth derivatives exactly, and have positive
-  /// weights.
+  /// Greatest error of the integral over a triangle of these lengths, divided by its area. Rules
+  /// have positive weights and integrate exactly the function of degree 4 that has the midpoints of
+  /// the fourth derivatives.
   double miss(const Jet& jet, double u, double v) const {
     const auto& c = jet.of;
     if (_options.exact) return 0;
@@ -213,7 +213,7 @@ class ForceProver {
            std::isfinite(bend(jet, u, v));
   }
 
-  /// Whether a box tells of its triangles about what each would tell by itself.
+  /// Whether the bounds from a box are about as good as those from each of its triangles.
   bool suffices(const Jet& jet, const Box& box) const {
     const double u = box.length_x, v = box.length_y, all = bend(jet, u, v);
     if (!known(jet, u, v)) return false;
@@ -232,14 +232,14 @@ class ForceProver {
     const auto [u, v] = lengths(frame);
     const double missed = miss(jet, u, v), all = bend(jet, u, v),
                  size = rounding * jet.value().magnitude();
-    // f is within `all` of its tangent plane in the mean square; the plane is integrated exactly.
-    // The moments of f are wrong by `missed` in all, those of a linear function of that norm 7
-    // times as large at most.
+    // f is within `all` of its tangent plane in the mean square, and the plane is integrated
+    // exactly. The moments of f are wrong by `missed` in all; the linear function with such moments
+    // has a norm at most 7 times as large.
     _parts.unknown[t] = frame.area * (missed + size);
     _parts.beyond[t] = std::sqrt(frame.area) * (all + 3.5 * missed + size);
     if (_options.spread == nullptr) return;
     spread_smooth(t, jet, all, missed);
-    if (!((*_options.spread)[t].values.low > 0)) keep(t);  // a tension has to be above 0
+    if (!((*_options.spread)[t].values.low > 0)) keep(t);  // a tension must be above 0
   }
 
   void spread_smooth(std::size_t t, const Jet& jet, double all, double missed) {
@@ -265,7 +265,7 @@ class ForceProver {
     !curved&& known(jet, own.length_x, own.length_y) ? settle(t, jet) : keep(t);
   }
 
-  /// For quarters.
+  /// Keeps a triangle to be quartered.
   void keep(std::size_t t) {
     Quarter one;
     one.cell.triangle = static_cast<std::int32_t>(t);
@@ -294,11 +294,11 @@ class ForceProver {
 
   /// Quarters the parts of which most is unknown.
   void quarter() {
-    using Entry = std::pair<double, std::int64_t>;  // of equals the first
+    using Entry = std::pair<double, std::int64_t>;  // among equals the first one comes first
     std::priority_queue<Entry> queue;
     double unknown = 0, absolute = 0;
-    std::size_t without = 0;  // of which nothing is known
-    std::size_t urgent = 0;   // that may have another sign than the rest
+    std::size_t without = 0;  // parts of which nothing is known
+    std::size_t urgent = 0;   // parts that may have another sign than the rest
     bool refused = false;
     const auto signs = [&](const Quarter& one) {
       return _options.spread != nullptr && one.found.values.low <= 0 && one.found.values.high > 0;
@@ -327,7 +327,7 @@ class ForceProver {
         _proof.absolute = std::max(_options.absolute, absolute);
         return without == 0 && urgent == 0 && unknown <= _options.tolerance * _proof.absolute;
       };
-      if (enough()) {  // what was large before has left its rounding
+      if (enough()) {  // large terms that were subtracted have left their rounding
         unknown = absolute = 0;
         for (const Quarter& one : _quarters)
           if (one.children < 0) count(one, 1);
@@ -349,7 +349,7 @@ class ForceProver {
     conclude();
   }
 
-  /// From the quarters up.
+  /// Adds the quarters up to the results of the triangles.
   void conclude() {
     const std::size_t roots = _first.size();
     struct Sum {
@@ -377,7 +377,7 @@ class ForceProver {
       const auto t = at(_first[i]);
       const Sum& sum = sums[i];
       const double slack = sum.radius + rounding * std::abs(sum.integral);
-      // Samples are closer than rounding here, but where they missed something.
+      // The samples are closer than the rounding here, unless they missed something.
       const double doubt = 1e-9 * (std::abs(sum.integral) + mean() * whole(t).area);
       if (std::abs(sum_of(t) - sum.integral) > slack + doubt)
         replace(t, {sum.integral - sum.at_b - sum.at_c, sum.at_b, sum.at_c});
@@ -394,14 +394,14 @@ class ForceProver {
     }
   }
 
-  /// Of f - f_h on the triangles that were quartered: by its norm, or by a flux among the quarters
-  /// of quarters, whichever is less (THEORY.md).
+  /// Bounds f - f_h on the triangles that were quartered: by its norm, or by a flux between the
+  /// quarters at all levels, whichever is less (THEORY.md).
   void bound_rest(std::size_t roots) {
     struct Rest {
       double sum = 0;      ///< int (f - f_h)
-      double radius = 0;   ///< what is unknown of it
+      double radius = 0;   ///< bound of the error of `sum`
       double squared = 0;  ///< >= int (f - f_h)^2
-      double dual = 0;     ///< >= int (f - f_h - its mean) v over |grad v|, squared
+      double dual = 0;     ///< >= the square of int (f - f_h - its mean) v / |grad v|
     };
     std::vector<Rest> rests(_quarters.size());
     for (std::size_t i = _quarters.size(); i-- > 0;) {
@@ -431,13 +431,13 @@ class ForceProver {
         rest.squared += child.squared;
         rest.dual += child.dual;
       }
-      // Quarter k at corner k sends its surplus to the fourth, through the side between them.
+      // The quarter at corner k sends its surplus to the fourth one, through the side between them.
       double corners = 0, through_centre = 0;
       for (std::size_t k = 0; k < 3; ++k) {
         const Rest& child = rests[at(one.children) + k];
         const double flux =
             std::abs(child.sum - 0.25 * rest.sum) + child.radius + 0.25 * rest.radius;
-        // A flux of 1 through one side of a triangle: |(x - P) / (2 area)|.
+        // The norm of a flux of 1 through one side of a triangle: |(x - P) / (2 area)|.
         const double norm = std::sqrt(0.25 * own.squared_distance(k) / own.area);
         corners += flux * norm * flux * norm;
         through_centre += flux * norm;
@@ -449,7 +449,7 @@ class ForceProver {
     for (std::size_t i = 0; i < roots; ++i) {
       const auto t = at(_first[i]);
       const Centred own = whole(t);
-      // By Poincare's inequality a norm of `beyond` stands for diameter / j_11 of it.
+      // By Poincare's inequality a norm `beyond` acts like a flux of `beyond` diameter / j_11.
       const double by_flux = std::sqrt(rests[i].dual) * j_11 / own.diameter();
       const double by_norm = std::sqrt(rests[i].squared);
       _parts.beyond[t] = std::isfinite(by_norm) ? std::min(by_norm, by_flux) : by_flux;
@@ -470,7 +470,7 @@ class ForceProver {
         continue;
       }
       const Interval& values = one.found.values;
-      const double least = values.high <= 0 ? -infinite : values.low;  // what is proved first
+      const double least = values.high <= 0 ? -infinite : values.low;  // to be proved first
       if (least < _lowest) {
         _lowest = least;
         const Centred own = centred(frame_of(_xy, _triangles, t), one.cell);
@@ -496,7 +496,7 @@ class ForceProver {
   double _area = 0, _most_unknown = 0, _lowest = infinite;
   Proof _proof;
   std::vector<Quarter> _quarters;    ///< the whole triangles first
-  std::vector<std::int32_t> _first;  ///< their numbers
+  std::vector<std::int32_t> _first;  ///< their triangles' numbers
 };
 
 }  // namespace

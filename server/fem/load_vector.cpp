@@ -28,7 +28,7 @@ double area(const Triangulation& part, std::size_t t) {
 }
 
 template <int width>
-using Rows = Eigen::Matrix<double, width, Eigen::Dynamic>;  // a column is a node's
+using Rows = Eigen::Matrix<double, width, Eigen::Dynamic>;  // each column belongs to a node
 
 /// int f phi_i of `width` fields at once, by the exact mass matrix of a triangle, area/12 (1 +
 /// delta_ij).
@@ -48,7 +48,7 @@ void linear_on_triangles(const Triangulation& part, const Rows<width>& of_node, 
   }
 }
 
-/// Arrays into columns of `loads` from `first` on, `width` at once.
+/// Integrates arrays into the columns of `loads` from `first` on, `width` at once.
 template <int width>
 void integrate_arrays(const Triangulation& part, std::span<const std::int32_t> node,
                       std::span<const double* const> arrays, Eigen::Index first,
@@ -63,7 +63,7 @@ void integrate_arrays(const Triangulation& part, std::span<const std::int32_t> n
         of_node(j, i) = arrays[static_cast<std::size_t>(j)][node[static_cast<std::size_t>(i)]];
     }
     linear_on_triangles<width>(part, of_node, load);
-    constexpr Eigen::Index tile = 64;  // of the rows that stay in the first-level cache
+    constexpr Eigen::Index tile = 64;  // as many rows as stay in the first-level cache
     for (Eigen::Index begin = 0; begin < loads.rows(); begin += tile) {
       stop::look_at_turn<stop::quick>(static_cast<std::size_t>(begin), summing);
       const Eigen::Index rows = std::min(tile, loads.rows() - begin);
@@ -74,7 +74,7 @@ void integrate_arrays(const Triangulation& part, std::span<const std::int32_t> n
   }
 }
 
-/// Of a function at points (n,2).
+/// Values of a function at points (n,2).
 std::vector<double> at_points(std::span<const double> xy, const expression::Function& function) {
   const std::size_t count = xy.size() / 2;
   constexpr std::size_t block = expression::Evaluator::block;
@@ -107,7 +107,7 @@ struct AssembleForce {
     return Eigen::VectorXd::Zero(static_cast<Eigen::Index>(part.node_count()));
   }
 
-  /// int f phi_i for f constant on triangles; value(t) on the t-th.
+  /// int f phi_i for f constant on triangles, value(t) on triangle t.
   template <class Value>
   Eigen::VectorXd constant_on_triangles(const Value& value) const {
     Eigen::VectorXd load = zero();
@@ -167,7 +167,7 @@ struct LinearParts {
   const LoadContext& context;
   using Result = std::optional<ForceParts>;
 
-  /// value(corner) of each corner of all triangles.
+  /// Calls value(corner) for each corner of all triangles.
   template <class Value>
   Result linear(const Value& value) const {
     ForceParts parts;
@@ -230,7 +230,7 @@ Eigen::MatrixXd load_vectors(const Triangulation& part, std::span<const std::int
   Eigen::MatrixXd loads(static_cast<Eigen::Index>(part.node_count()),
                         static_cast<Eigen::Index>(arrays.size()));
   const std::size_t rest = arrays.size() % together;
-  const std::size_t alone = rest > 2 ? 0 : rest;  // so few are faster one by one
+  const std::size_t alone = rest > 2 ? 0 : rest;  // one or two are faster one by one
   const std::size_t in_blocks = arrays.size() - alone;
   integrate_arrays<together>(part, node, arrays.first(in_blocks), 0, loads);
   integrate_arrays<1>(part, node, arrays.last(alone), static_cast<Eigen::Index>(in_blocks), loads);

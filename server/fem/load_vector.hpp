@@ -15,15 +15,15 @@ namespace anticrack::fem {
 struct ForceParts;
 struct IntegrationReport;
 
-/// Inputs and results of integration besides the values.
+/// Further inputs and results of integration.
 struct LoadContext {
-  /// Mesh numbers of the subdomain's nodes and triangles: where its entries of an Array are.
+  /// Mesh numbers of the subdomain's nodes and triangles: indices of its entries in an Array.
   std::span<const std::int32_t> node = {};
   std::span<const std::int32_t> triangle = {};
-  /// Receives how well an expression was integrated.
+  /// Receives the accuracy with which an expression was integrated.
   IntegrationReport* report = nullptr;
-  /// Receives the parts of an expression that is integrated (load_parts.hpp); of a force that is
-  /// linear on every triangle nothing.
+  /// Receives the parts of an expression that is integrated (load_parts.hpp); stays empty for a
+  /// force that is linear on every triangle.
   ForceParts* parts = nullptr;
 };
 
@@ -35,18 +35,19 @@ constexpr double force_tolerance(std::size_t triangles) {
 /// Tolerance of a traction relative to int |g_N|.
 constexpr double traction_tolerance = 1e-10;
 
-/// b_i = int f phi_i dx for every node of a subdomain, shape (n). Constants and arrays exactly, an
-/// expression that is linear exactly, any other adaptively (adaptive_load.hpp).
-/// `region` is the subdomain's name. An Array has its values, as many as the mesh has nodes or
-/// triangles, and the context's numbers point into them. Throws errors::Error (expression_invalid
-/// where the expression is not finite, cancelled). O(m), about 7 evaluations a triangle where the
+/// b_i = int f phi_i dx for every node of a subdomain, shape (n). Constants, arrays and linear
+/// expressions are integrated exactly, other expressions adaptively (adaptive_load.hpp). `region`
+/// is the subdomain's name. An Array must have its values, as many as the mesh has nodes or
+/// triangles; the context's numbers are indices into them. Throws errors::Error (expression_invalid
+/// if the expression is not finite, cancelled). O(m), with about 7 evaluations a triangle if the
 /// expression is smooth.
 Eigen::VectorXd load_vector(const Triangulation& part, const Force& force,
                             const std::string& region, const LoadContext& context = {});
 
-/// load_vector() of arrays given at the nodes of the mesh, a column for each, shape (n, arrays):
-/// the same bits, at less than half the time for a dozen, because triangles are walked for several
-/// at once. `arrays`: as many values as the mesh has nodes; `node` as in LoadContext. O(m arrays).
+/// load_vector() for arrays given at the nodes of the mesh, one column for each, shape (n, arrays).
+/// The bits are the same, but a dozen take less than half the time, because several are integrated
+/// in one pass over the triangles. `arrays`: each with as many values as the mesh has nodes;
+/// `node`: as in LoadContext. O(m arrays).
 Eigen::MatrixXd load_vectors(const Triangulation& part, std::span<const std::int32_t> node,
                              std::span<const double* const> arrays);
 
@@ -54,8 +55,8 @@ Eigen::MatrixXd load_vectors(const Triangulation& part, std::span<const std::int
 /// (expression_invalid).
 bool is_linear(const std::string& text);
 
-/// An expression at points (n,2) row-major, shape (n). Throws errors::Error (expression_invalid
-/// where it is not finite).
+/// Values of an expression at points (n,2) row-major, shape (n). Throws errors::Error
+/// (expression_invalid if one is not finite).
 std::vector<double> values_at(std::span<const double> xy, const std::string& text,
                               const std::string& field);
 

@@ -52,7 +52,7 @@ std::vector<Location> locate(const Triangulation& part, const PointSet& points, 
       const auto node = static_cast<std::size_t>(part.triangles[3 * t + i]);
       corners[i] = {part.xy[2 * node], part.xy[2 * node + 1]};
     }
-    if (!(cross(corners[0], corners[1], corners[2]) > 0))  // as small as coordinates resolve
+    if (!(cross(corners[0], corners[1], corners[2]) > 0))  // too small for the coordinates
       continue;
     points.visit_near(corners, tolerance, [&](std::size_t i) {
       Location here = locate_in(corners, points[i]);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// In which triangle, and on which edge, given points lie.
+// Finds the triangle, and the edge, in which given points lie.
 #pragma once
 
 #include <algorithm>
@@ -17,18 +17,18 @@ namespace anticrack::fem {
 
 using PlanePoint = std::array<double, 2>;
 
-/// Points ordered so that those in a box are found without looking at all of them.
+/// Points in an order that allows finding those in a box without looking at all of them.
 class PointSet {
  public:
-  /// Keeps the points, under the indices they have. O(n log n).
+  /// Keeps the points with their indices. O(n log n).
   explicit PointSet(std::span<const PlanePoint> points);
 
-  /// How many points there are.
+  /// The number of points.
   std::size_t size() const noexcept { return _points.size(); }
   const PlanePoint& operator[](std::size_t i) const { return _points[i]; }
 
-  /// visit(i) for every point i in the box of `corners` widened by `margin`, in no special order.
-  /// O(log n + points in the box's range of x).
+  /// Calls visit(i) for every point i in the bounding box of `corners` widened by `margin`, in no
+  /// special order. O(log n + points in the box's range of x).
   template <std::size_t N, class Visit>
   void visit_near(const std::array<PlanePoint, N>& corners, double margin, Visit&& visit) const {
     PlanePoint low = corners[0], high = corners[0];
@@ -52,7 +52,7 @@ class PointSet {
   std::vector<std::size_t> _order;  ///< by x
 };
 
-/// Where a point lies in a triangulation.
+/// The place of a point in a triangulation.
 struct Location {
   std::int32_t triangle = -1;      ///< -1: outside
   std::array<double, 3> weight{};  ///< barycentric, none negative, sum 1
@@ -60,8 +60,8 @@ struct Location {
   double depth = -std::numeric_limits<double>::infinity();
 };
 
-/// For each point the triangle in which it lies deepest, the first of equals; one that is outside
-/// all of them by more than `tolerance` (length unit) is in none. O(m log k + hits), k points.
+/// For each point the triangle in which it lies deepest, the first among equals; none if it is
+/// outside all triangles by more than `tolerance` (length unit). O(m log k + hits) for k points.
 std::vector<Location> locate(const Triangulation& part, const PointSet& points, double tolerance);
 
 /// Distance of a point from the segment a b.

@@ -13,24 +13,24 @@ namespace anticrack::fem {
 namespace {
 
 constexpr std::int32_t deepest = 40;
-/// What changes by more than this part of the change before is not taken for convergent.
+/// A change of more than this fraction of the change before does not count as convergence.
 constexpr double slowest = 0.97;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// How far the arguments of steep functions may vary for rules of so many points.
+/// How far the arguments of steep functions may vary for rules with this many points.
 constexpr double room = 2.5;
 
-/// What is known of a cell.
+/// What has been measured of a cell.
 struct Measured {
   Cell cell;
   Moments found;
-  double error = 0;   ///< of the worst nodal value, estimated
-  double before = 0;  ///< by how much dividing changed what the cell came from, its part
+  double error = 0;   ///< estimated error of the worst nodal value
+  double before = 0;  ///< the cell's part of the change when its parent was divided
   Trust trust = Trust::sound;
-  double area = 0;  ///< of the whole triangle
+  double area = 0;  ///< area of the whole triangle
 };
 
-/// Cells of one call of the sampler, `Rule` after `Rule` for each.
+/// The cells of one call of the sampler; each has one set of the points of `Rule`.
 class Batch {
  public:
   explicit Batch(Integration& integration) : _integration(integration) {}
@@ -66,7 +66,7 @@ class Batch {
     return values;
   }
 
-  /// Throws if a value among n, from `first` on, is not finite.
+  /// Throws if one of n values from `first` on is not finite.
   void require_finite(const double* values, std::size_t first, std::size_t n) const {
     for (std::size_t i = first; i < first + n; ++i)
       _integration.f.function().require_finite(_x[i], _y[i], values[i]);
@@ -79,8 +79,8 @@ class Batch {
 
 /// Means over a cell.
 struct Means {
-  std::array<double, 3> nodal;  ///< of f phi_i, for the cell's own phi_i
-  double absolute;              ///< of |f|
+  std::array<double, 3> nodal;  ///< means of f phi_i, with the cell's own phi_i
+  double absolute;              ///< mean of |f|
 };
 
 template <std::size_t N>
@@ -160,14 +160,14 @@ class Refinement {
     for (Measured& one : cells) settle_or_keep(one, one.error, rest);
   }
 
-  /// A narrow peak may be most of f, and found only now.
+  /// Corrects int |f|, as a narrow peak that is most of f may be found only now.
   void note_size(const std::vector<Measured>& cells) {
     double absolute = _integration.settled;
     for (const Measured& one : cells) absolute += one.found.absolute;
     _integration.absolute = std::max(_integration.absolute, absolute);
   }
 
-  /// Leaves those that are worth the work that is left, the worst; settles the others with what is
+  /// Keeps the worst cells, as many as the remaining work allows; settles the others with what is
   /// known.
   template <class Part>
   void choose(std::vector<Part>& all, std::size_t points_each) {
@@ -191,7 +191,7 @@ class Refinement {
     _integration.add(triangle, found, error);
   }
 
-  /// `left`: the error if it is not divided further.
+  /// Settles a cell, or keeps it to be divided. `left`: its error if it is not divided further.
   void settle_or_keep(Measured& one, double left, std::vector<Measured>& rest) {
     const bool sound = one.error <= allowed(one) && one.trust == Trust::sound;
     if (sound || !one.cell.divisible || one.cell.depth >= deepest || at_rounding(one)) {
@@ -202,7 +202,7 @@ class Refinement {
     }
   }
 
-  /// So small that points of its parts would coincide.
+  /// Whether the cell is so small that points of its parts would coincide.
   bool at_rounding(const Measured& one) const {
     const Frame frame = _integration.frame(one.cell.triangle);
     constexpr double least = 1e3 * std::numeric_limits<double>::epsilon();
@@ -238,7 +238,8 @@ class Refinement {
         }
         settle_or_keep(child, own, rest);
       }
-      // What goes on shares the change by its errors: along a line twice as many go on each time.
+      // Cells that go on share the change in proportion to their errors, as along a line twice as
+      // many go on each time.
       double going_on = 0;
       for (std::size_t k = known; k < rest.size(); ++k) going_on += rest[k].before;
       for (std::size_t k = known; k < rest.size(); ++k)
@@ -247,7 +248,7 @@ class Refinement {
     return rest;
   }
 
-  /// All further changes, if they go on like the last two.
+  /// The sum of all further changes, if they decay as between the last two.
   static double tail(double change, const Measured& parent) {
     if (!(parent.before > 0)) return 0;
     const double decay = change / parent.before;
@@ -258,13 +259,13 @@ class Refinement {
     return change * decay / (1 - decay);
   }
 
-  /// Replaces what is known of a cell; the greatest change of a nodal value.
+  /// Replaces what is known of a cell; returns the greatest change of a nodal value.
   double replace(Measured& one, const Means& by) {
     const Moments found = to_triangle(one.cell, area(one), by);
     return fem::difference(std::exchange(one.found, found), found);
   }
 
-  /// By one rule: judge(cell, means, its number, its values).
+  /// Samples cells by one rule and calls judge(cell, means, its number, its values).
   template <class Rule, class Judge>
   void measure_by(const Rule& rule, std::span<Measured* const> cells, const Judge& judge) {
     constexpr std::size_t at_once = Sampler::block / Rule::size;
@@ -287,7 +288,7 @@ class Refinement {
       measure_by(rule_5, all,
                  [&](Measured& one, const Means& by_5, std::size_t, const double* values) {
                    replace(one, by_5);
-                   // A jump is in it.
+                   // There is a jump in it.
                    one.error = one.cell.divisible ? 0 : area(one) * mean_bend(rule_5, values, by_5);
                  });
       return;
@@ -301,7 +302,7 @@ class Refinement {
     });
   }
 
-  /// By rule_8, and by rule_5 if not known; finds those that rule_12 is likely to settle.
+  /// Measures by rule_8, and by rule_5 if not known; finds those that rule_12 is likely to settle.
   void measure_by_8(std::span<Measured* const> cells, Known known, std::vector<Measured*>& finer,
                     std::vector<double>& bends) {
     const std::size_t first_of_8 = known == Known::nothing ? rule_5.size : 0;
@@ -325,7 +326,7 @@ class Refinement {
         one.error = bend > 0 ? change * std::min(1.0, 10 * change / bend) : 0;
         one.trust = _integration.f.watches() ? _integration.f.trust(i * points, points, room)
                                              : Trust::sound;
-        if (!one.cell.divisible) one.error = std::max(one.error, bend);  // a jump is in it
+        if (!one.cell.divisible) one.error = std::max(one.error, bend);  // there is a jump in it
         if (one.error > allowed(one) && one.error < 0.3 * bend) {
           finer.push_back(&one);
           bends.push_back(bend);

@@ -14,17 +14,17 @@ using expression::Code;
 
 namespace {
 
-/// An exponential is neglected where its argument is so far below the greatest one.
+/// An exponential is neglected if its argument is this far below the greatest one.
 constexpr double negligible = 40;
 
-/// The branch of a ? b : c through which alone the tape's value depends on an operation.
+/// The branch of a ? b : c if the tape's value depends on an operation through this branch only.
 struct Branch {
-  expression::Ref condition = -1;  ///< -1: it depends on it elsewhere, too
-  bool taken = true;               ///< b
+  expression::Ref condition = -1;  ///< -1: the value depends on it elsewhere, too
+  bool taken = true;               ///< whether the branch is b
   friend bool operator==(const Branch&, const Branch&) = default;
 };
 
-/// By number of an operation. Of nested branches the outermost counts.
+/// The branch of each operation, by number. Of nested branches the outermost counts.
 std::vector<Branch> branches(const expression::Tape& tape) {
   const auto& operations = tape.operations();
   std::vector<std::optional<Branch>> found(operations.size());
@@ -103,7 +103,7 @@ std::vector<Sampler::Watch> Sampler::watches(const expression::Tape& tape, Jumps
       case Code::power: {
         const expression::Operation& exponent = tape[operation.of[1]];
         const bool known = exponent.code == Code::constant;
-        if (!known || exponent.value < 0)  // others have no poles
+        if (!known || exponent.value < 0)  // other powers have no poles
           watch(0, Kind::ratio, known ? -2 / exponent.value : 2);
         break;
       }

@@ -11,16 +11,16 @@
 
 namespace anticrack::fem {
 
-/// Whether samples of a function show what it does between them.
+/// Whether samples of a function show its behaviour between them.
 enum class Trust {
   sound,
   unresolved,  ///< it may jump or oscillate between them; |f| is about as sampled
-  singular,    ///< a divisor or the like may vanish nearby: only convergence can tell
+  singular,    ///< a divisor or the like may vanish nearby; only convergence can tell
   spiking,     ///< it may be much greater between them
 };
 
-/// The least and the greatest of `lanes` sets of `count` values; the values of a set are `lanes`
-/// apart.
+/// The least and the greatest value of each of `lanes` sets of `count` values; values of a set are
+/// `lanes` apart.
 template <std::size_t lanes>
 void extremes(const double* values, std::size_t count, std::array<double, lanes>& low,
               std::array<double, lanes>& high) {
@@ -41,20 +41,20 @@ class Sampler {
  public:
   static constexpr std::size_t block = expression::Evaluator::block;
 
-  /// Whether samples on both sides of a switch (Tape::switches) are unresolved.
+  /// Whether samples on both sides of a switch (Tape::switches) count as unresolved.
   enum class Jumps { ignored, watched };
 
   explicit Sampler(const expression::Function& function, Jumps jumps = Jumps::ignored);
 
-  /// Values at n <= block points; both arrays are read to the next multiple of 4. Not all need be
-  /// finite.
+  /// Values at n <= block points, which need not be finite; both arrays are read up to the next
+  /// multiple of 4.
   const double* operator()(const double* x, const double* y, std::size_t n);
 
-  /// Of the `count` points from `first` on of the last call; `room` widens what a rule of so many
-  /// points can be trusted with.
+  /// The trust in `count` points of the last call, from `first` on; `room` is how much variation a
+  /// rule with so many points can be trusted with.
   Trust trust(std::size_t first, std::size_t count, double room) const;
 
-  /// The same of `lanes` sets of `count` points at once, the points of a set `lanes` apart.
+  /// The same for `lanes` sets of `count` points at once; points of a set are `lanes` apart.
   template <std::size_t lanes>
   void trust(std::size_t count, double room, std::array<Trust, lanes>& result) const {
     result.fill(Trust::sound);
@@ -67,8 +67,8 @@ class Sampler {
   }
   bool watches() const noexcept { return !_watches.empty(); }
 
-  /// Keeps the greatest argument of each exponential over the n points of the last call: what is
-  /// e^40 below the greatest is neglected.
+  /// Notes the greatest argument of each exponential over the n points of the last call: values
+  /// e^40 times smaller are neglected.
   void note_peaks(std::size_t n);
 
   const expression::Function& function() const noexcept { return _function; }
@@ -80,9 +80,9 @@ class Sampler {
   struct Watch {
     expression::Ref argument;
     Kind kind;
-    double range;  ///< of the argument over samples that can be trusted
-    /// Only where this operation is not 0 (`taken`) or is 0 does the value depend on the argument:
-    /// a branch of a ? b : c. -1: everywhere.
+    double range;  ///< most variation of the argument over samples that can be trusted
+    /// The value depends on the argument only where this operation is not 0 (`taken`) or is 0, as
+    /// in a branch of a ? b : c. -1: everywhere.
     expression::Ref guard = -1;
     bool taken = true;
     std::size_t guard_root = 0;  ///< number of the guard's values in the evaluator
@@ -99,10 +99,11 @@ class Sampler {
     for (std::size_t i = 0; i < count && result < found; ++i)
       if (applies(watch, first + i * step)) result = found;
   }
-  /// Of samples whose argument lies between two values.
+  /// The trust in samples whose argument lies between two values.
   static Trust judge(const Watch& watch, double low, double high, double room);
   static std::vector<Watch> watches(const expression::Tape& tape, Jumps jumps);
-  /// The function, the arguments, then the guards, whose numbers are noted.
+  /// The roots to evaluate: the function, the arguments, then the guards, whose numbers are noted
+  /// in the watches.
   static std::vector<expression::Ref> roots(const expression::Tape& tape,
                                             std::vector<Watch>& watches);
   Sampler(const expression::Function& function, std::vector<Watch> watches);

@@ -35,7 +35,7 @@ Place place_in(std::int32_t a, std::int32_t b, std::int32_t free) {
   return low < free && high >= free ? Place{low, high} : Place{high, low};
 }
 
-/// The columns, still with an entry for each triangle, diagonals apart.
+/// The columns, with an entry for each triangle before merging; diagonals are kept apart.
 class Columns {
  public:
   Columns(const Triangulation& part, const Tension& tension, std::int32_t free)
@@ -60,7 +60,7 @@ class Columns {
     }
   }
 
-  /// Columns first..last-1 with their rows from..to-1; `diagonals` as the first of each.
+  /// Columns first..last-1 with their rows from..to-1; `diagonals`: each begins with its diagonal.
   Sparse block(std::int32_t first, std::int32_t last, std::int32_t from, std::int32_t to,
                bool diagonals) const {
     Sparse result(to - from, last - first);
@@ -110,8 +110,9 @@ class Columns {
     }
   }
 
-  /// Sorts column j, which begins at `begin`, by rows and adds what has the same row. A column has
-  /// few entries, and those of one row must keep their order. Returns where the next one begins.
+  /// Sorts column j, which begins at `begin`, by rows and adds the entries of the same row. A
+  /// column has few entries, and those of one row must keep their order. Returns where the next
+  /// begins.
   std::int32_t merge(std::size_t j, std::int32_t begin) {
     const std::int32_t end = _end[j];
     Entry* const first = _entries.data() + begin;

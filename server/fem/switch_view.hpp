@@ -13,18 +13,18 @@
 
 namespace anticrack::fem {
 
-/// Where it is sampled: at the corners, the middles of the edges (i is opposite corner i) and the
+/// It is sampled at the corners, the middles of the edges (i is opposite to corner i) and the
 /// centroid.
 inline constexpr std::size_t places = 7;
 inline constexpr std::array<double, places> place_b{0, 1, 0, 0.5, 0, 0.5, 1.0 / 3};
 inline constexpr std::array<double, places> place_c{0, 0, 1, 0.5, 0.5, 0, 1.0 / 3};
 
-/// Samples are moved towards the centroid by this part, so that a cell with a jump along its edge
-/// sees its own side only. A line within `nothing` of an edge is taken to lie on it.
+/// Samples are moved towards the centroid by this fraction, so that a cell with a jump along its
+/// edge sees its own side only. A line within `nothing` of an edge counts as lying on it.
 inline constexpr double drawn_in = 1e-12, nothing = 4e-12;
 
-/// Of three sides, -1, 0 (on the line) or 1: the corner on the line, if it passes between the two
-/// others; else the one on a side of its own.
+/// The odd corner by the sides of three corners, -1, 0 (on the line) or 1: the corner on the line,
+/// if the line passes between the two others, else the one that is alone on its side.
 inline std::size_t odd_corner(const std::array<int, 3>& side) {
   for (std::size_t k = 0; k < 3; ++k)
     if (side[k] == 0 && side[(k + 1) % 3] * side[(k + 2) % 3] < 0) return k;
@@ -35,12 +35,12 @@ inline std::size_t odd_corner(const std::array<int, 3>& side) {
 
 struct SwitchView {
   std::array<double, places> g{};
-  std::array<double, 6> bernstein{};  ///< of the polynomial of degree 2
+  std::array<double, 6> bernstein{};  ///< coefficients of the polynomial of degree 2
   double low = 0, high = 0;           ///< bounds of g
   double zero = 0;                    ///< smaller values are 0 to rounding
   double bent = 0;                    ///< greatest distance from a linear function
 
-  /// `rounding`: of coordinates over the cell's size.
+  /// `rounding`: that of coordinates, relative to the cell's size.
   SwitchView(const std::array<double, places>& values, double rounding) : g(values) {
     std::copy_n(g.begin(), 3, bernstein.begin());
     for (std::size_t i = 0; i < 3; ++i) {
@@ -69,7 +69,7 @@ struct SwitchView {
     return first <= last ? std::optional(std::floor(0.5 * (first + last))) : std::nullopt;
   }
 
-  /// -1, 0 or 1.
+  /// The side of a place: -1, 0 (on the line) or 1.
   int side(std::size_t place, double level) const {
     const double off = g[place] - level;
     return std::abs(off) <= zero ? 0 : off > 0 ? 1 : -1;

@@ -31,7 +31,7 @@ void require_positive(const std::string& field, const std::string& region, doubl
                             errors::shown(x, y)));
 }
 
-/// From what is proved of T on a triangle of mean `mean`.
+/// The variation that follows from the bounds of T on a triangle with the mean `mean`.
 Variation variation(const Spread& spread, double mean, double unknown) {
   const auto& [least, most] = spread.values;
   Variation result{std::max(1.0, std::sqrt(mean / least)), std::max(1.0, std::sqrt(most / mean))};
@@ -40,7 +40,7 @@ Variation variation(const Spread& spread, double mean, double unknown) {
   return result;
 }
 
-/// The larger of each.
+/// Takes the larger of each member.
 void widen(Variation& to, const Variation& by) {
   to.below = std::max(to.below, by.below);
   to.above = std::max(to.above, by.above);
@@ -65,7 +65,7 @@ class Direction {
     }
   }
 
-  /// Of each triangle, widened by this expression's.
+  /// Widens the variation of each triangle by that of this expression.
   void add_variation(std::vector<Variation>& to) const {
     if (_spread.empty()) return;
     to.resize(_part.triangle_count());
@@ -80,7 +80,7 @@ class Direction {
     ForceParts parts;
     std::vector<double> load(_part.node_count());
     IntegrationLimits limits = limits_of(tension_tolerance, _part.triangle_count());
-    // The energy is as wrong as T, and the error of linear elements about 1 / triangles of it.
+    // The energy has the relative error of T, and linear elements have one of about 1 / triangles.
     limits.proof_tolerance = 1e-2 / static_cast<double>(_part.triangle_count() + 100);
     const IntegrationReport report =
         integrate_load(_part.xy, _part.triangles, _function, load, limits, &parts, &_spread);
@@ -88,7 +88,7 @@ class Direction {
     _unknown.resize(mean.size(), 0);
     for (std::size_t t = 0; t < mean.size(); ++t) {
       const Frame frame = frame_of(_part.xy, _part.triangles, t);
-      if (!(frame.area > 0)) {  // to rounding: nothing is integrated
+      if (!(frame.area > 0)) {  // area 0 to rounding: nothing is integrated
         mean[t] = _function(frame.x, frame.y);
         require_positive(_field, _region, frame.x, frame.y, mean[t]);
         continue;
@@ -101,7 +101,7 @@ class Direction {
     }
   }
 
-  /// Where T is proved not to be above 0, or is not proved to be.
+  /// Refuses a law where T is proved not to be above 0, or cannot be proved to be.
   [[noreturn]] void refuse_near(std::size_t t, const Proof& proof) const {
     const Spread& spread = _spread[t];
     const double x = proof.lowest_x, y = proof.lowest_y;
@@ -124,10 +124,10 @@ class Direction {
   std::string _field;
   const std::string& _region;
   std::vector<Spread> _spread;   ///< (m) empty: T is constant
-  std::vector<double> _unknown;  ///< (m) of the means, relative
+  std::vector<double> _unknown;  ///< (m) relative errors of the means
 };
 
-/// T of two eigenvalues.
+/// The matrix T from its two eigenvalues.
 std::array<double, 3> matrix(double along, double across, double cosine, double sine) {
   return {along * cosine * cosine + across * sine * sine, (along - across) * cosine * sine,
           along * sine * sine + across * cosine * cosine};

@@ -15,8 +15,8 @@
 
 namespace anticrack::fem {
 
-/// A map of the plane that keeps areas, x' = A x with A symmetric, and the number that is the
-/// tension after it: int grad v.T grad u dx = tension int grad' v.grad' u dx'.
+/// A map of the plane that keeps areas, x' = A x with A symmetric, after which the tension is a
+/// number: int grad v.T grad u dx = tension int grad' v.grad' u dx'.
 struct Isotropic {
   double xx = 1, xy = 0, yy = 1;  ///< A
   double tension = 1;             ///< sqrt(det T)
@@ -26,8 +26,8 @@ struct Isotropic {
   }
 };
 
-/// How T varies on a triangle about its mean T_h, as integrated: of the direction where it varies
-/// most.
+/// How T varies on a triangle about its mean T_h, as integrated, in the direction in which it
+/// varies most.
 struct Variation {
   double below = 1;    ///< >= sqrt(T_h / T)
   double above = 1;    ///< >= sqrt(T / T_h)
@@ -40,8 +40,8 @@ struct Variation {
 struct Tension {
   Tension(double number = 1) : mean(number) {}  // NOLINT(google-explicit-constructor)
 
-  double mean;  ///< of a law over the subdomain and both directions
-  /// (m) Txx, Txy, Tyy of a law: the mean of each over the triangle. Empty: `mean` everywhere.
+  double mean;  ///< for a law: mean over the subdomain and both directions
+  /// (m) Txx, Txy, Tyy of a law, each the mean over the triangle. Empty: T is `mean` everywhere.
   std::vector<std::array<double, 3>> of_triangle{};
   std::vector<Variation> variation{};  ///< (m) empty: T is constant on every triangle
 
@@ -49,16 +49,16 @@ struct Tension {
   std::size_t bytes() const noexcept;
 };
 
-/// Of the integral of T over a subdomain, by samples.
+/// Relative tolerance of the integral of T over a subdomain, by samples.
 constexpr double tension_tolerance = 1e-10;
 
 /// `region`: the subdomain's name, for errors. Throws errors::Error (expression_invalid at
-/// "along" or "across" where T is not finite and above 0, or not proved to be, with the point;
-/// cancelled). O(m), some 10 evaluations of each expression a triangle.
+/// "along" or "across", with the point, if T is not finite and above 0 or cannot be proved to be;
+/// cancelled). O(m), with some 10 evaluations of each expression a triangle.
 Tension tension(const Triangulation& part, const mesh::TensionLaw& law, const std::string& region);
 
-/// Checks what can be checked without a mesh: syntax, symbols, lengths, constants above 0; T in a
-/// point, if there is one. Throws errors::Error (expression_invalid) at "along" or "across".
+/// Checks what can be checked without a mesh: syntax, symbols, lengths, constants above 0; T at a
+/// point, if one is given. Throws errors::Error (expression_invalid) at "along" or "across".
 void check(const mesh::TensionLaw& law, std::size_t max_expression_bytes,
            const std::array<double, 2>* point = nullptr);
 

@@ -16,9 +16,9 @@ namespace {
 
 constexpr double rounding = std::numeric_limits<double>::epsilon();
 constexpr double infinite = std::numeric_limits<double>::infinity();
-/// A jump is enclosed by so many halvings.
+/// At most this many halvings enclose a jump.
 constexpr int most_halvings = 44;
-/// ns, roughly: of a point its price and the rest.
+/// Limit of the work, and the work of a point besides its evaluation, roughly in ns.
 constexpr double most_work = 2e7, overhead = 20;
 
 struct Edge {
@@ -44,7 +44,7 @@ struct Segment {
   int depth = 0;
   /// int g, int g phi_1, int |g| over the edge, by its length
   double whole = 0, at_second = 0, absolute = 0;
-  double before = 0, first = 0;  ///< change when it was made, and its edge's first
+  double before = 0, first = 0;  ///< change when it was made, and first change of its edge
   Trust trust = Trust::sound;
 };
 
@@ -126,8 +126,8 @@ class EdgeIntegrator {
       const double change = std::max(std::abs(whole - segments[i].whole),
                                      std::abs(at_second - segments[i].at_second));
       Trust trust = std::max(low.trust, high.trust);
-      // Further changes are expected to decay like the last one; at a singularity, whose samples
-      // come closer and farther by chance, like all so far.
+      // Further changes are expected to decay like the last one. At a singularity, where samples
+      // are near or far by chance, they are expected to decay like all changes so far.
       const double before = segments[i].before, first = segments[i].first;
       double decay = before > 0 ? change / before : 0.5;
       if (trust >= Trust::singular && first > 0)

@@ -46,7 +46,7 @@ class Orbits {
 
 }  // namespace rules
 
-/// Of degree 5 (J. Radon, 1948): exact for f phi_i with f of degree 4.
+/// Rule of degree 5 (J. Radon, 1948): exact for f phi_i with f of degree 4.
 inline constexpr TriangleRule<7> rule_5 =
     rules::Orbits<7>()
         .centre(0.225)
@@ -54,8 +54,8 @@ inline constexpr TriangleRule<7> rule_5 =
         .three(0.470142064105115089770441, 0.132394152788506180737649)
         .made();
 
-/// Of degrees 8 and 12: D. A. Dunavant, High degree efficient symmetrical Gaussian quadrature rules
-/// for the triangle, IJNME 21 (1985), with the digits he left out.
+/// Rules of degrees 8 and 12: D. A. Dunavant, High degree efficient symmetrical Gaussian quadrature
+/// rules for the triangle, IJNME 21 (1985), with the digits that he left out.
 inline constexpr TriangleRule<16> rule_8 =
     rules::Orbits<16>()
         .centre(0.144315607677787168003)

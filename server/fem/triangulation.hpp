@@ -12,7 +12,7 @@ struct Triangulation {
   std::vector<double> xy;               ///< (n,2) row-major
   std::vector<std::int32_t> triangles;  ///< (m,3) row-major
 
-  /// n and m of the shapes above.
+  /// The numbers n of nodes and m of triangles.
   std::size_t node_count() const noexcept { return xy.size() / 2; }
   std::size_t triangle_count() const noexcept { return triangles.size() / 3; }
 };

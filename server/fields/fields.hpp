@@ -25,7 +25,7 @@ concept Listed = requires(T& value) {
   fields_of(value);
 };
 
-/// visit(Field) of each, in the order of the list.
+/// Calls visit(Field) for each field, in the order of the list.
 template <Listed T, class Visit>
 void for_each(T& value, Visit&& visit) {
   std::apply([&](const auto&... field) { (visit(field), ...); }, fields_of(value));

@@ -18,13 +18,13 @@
 
 namespace anticrack::fields {
 
-/// T is a Container of something, e.g. is_a<T, std::vector>.
+/// Whether T is a Container of something, e.g. is_a<T, std::vector>.
 template <class T, template <class...> class Container>
 inline constexpr bool is_a = false;
 template <template <class...> class Container, class... Items>
 inline constexpr bool is_a<Container<Items...>, Container> = true;
 
-/// Integers, enums and bool.
+/// Whether T is an integer, an enum or bool.
 template <class T>
 concept Whole = std::is_integral_v<T> || std::is_enum_v<T>;
 

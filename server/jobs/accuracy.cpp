@@ -17,20 +17,20 @@ namespace {
 using errors::Error;
 using errors::Reason;
 
-/// Below the first the smallest triangles at a tip leave a larger error.
+/// Below this accuracy, the smallest triangles at a tip leave a larger error.
 constexpr double finest = 1e-6;
 constexpr double coarsest = 1;
 
-/// Their answers are in the job's record once for each stage.
+/// Limited because the job's record has their answers once for each stage.
 constexpr std::size_t most_loads = 256;
 constexpr std::size_t most_stages = 40;
 
-/// Stages without a smaller error after which there is no hope.
+/// After this many stages without a smaller error, there is no hope.
 constexpr std::size_t patience = 3;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Of an error relative to a value that is 0 but for its rounding: no stage makes it smaller.
+/// Cap of an error relative to a value that is 0 up to rounding: no stage makes it smaller.
 constexpr double of_zero = 1e6;
 
 void check_tolerance(const std::optional<double>& value, const char* field) {
@@ -40,7 +40,7 @@ void check_tolerance(const std::optional<double>& value, const char* field) {
       .at(field);
 }
 
-/// The worst load case, and its excess.
+/// The load case with the largest excess.
 struct Worst {
   std::size_t load = 0;
   double excess = 0;
@@ -52,7 +52,8 @@ Worst worst_of(const records::StageRecord& stage, const records::AccuracySpec& w
   return worst;
 }
 
-/// Whether a load case that has not reached it comes nearer still: than in all stages long past.
+/// Whether any load case that has not reached the accuracy is now clearly nearer to it than in all
+/// stages before the last few (`patience`).
 bool improves(const std::vector<records::StageRecord>& stages,
               const records::AccuracySpec& wanted) {
   for (std::size_t i = 0; i < stages.back().answers.size(); ++i) {
@@ -65,7 +66,7 @@ bool improves(const std::vector<records::StageRecord>& stages,
   return false;
 }
 
-/// Empty: it has bounds.
+/// The reason why a load case has no bounds; empty if it has them.
 std::string why_unbounded(const records::CaseRecord& one) {
   if (one.error) return one.error->what();
   return one.status == contact::Status::converged ? one.answer.no_bracket : one.answer.reason;
@@ -76,14 +77,14 @@ double relative_width(const records::StageAnswer& answer) {
   return width > 0 ? width / std::abs(answer.energy) : 0;
 }
 
-/// As the client tells the errors of a stage.
+/// An error as text, in the format of the client.
 std::string in_per_cent(double error, double asked) {
   return fmt::format("{:.3g} % (asked {:g} %)", 100 * error, 100 * asked);
 }
 
-/// Bounds with 0 between them: of a value that an error relative to it says nothing of.
+/// A value whose bounds have 0 between them, so that a relative error means nothing.
 struct AroundZero {
-  std::string name;      ///< as users ask for it
+  std::string name;      ///< the name by which users ask for it
   double within = -1;    ///< the largest amount it may have
   std::string others{};  ///< how to leave it out
 
@@ -101,7 +102,7 @@ AroundZero energy_around_zero(const records::StageAnswer& answer,
   return found;
 }
 
-/// Of the inclusion that the error is relative to, of a load case that has bounds of A.
+/// The A to which the error is relative, if its bounds have 0 between them.
 AroundZero displacement_around_zero(const contact::AnswerSummary& answer,
                                     const records::AccuracySpec& wanted) {
   AroundZero found{"A"};
@@ -117,7 +118,7 @@ AroundZero displacement_around_zero(const contact::AnswerSummary& answer,
     const double half = (*one.displacement_upper - *one.displacement_lower) / 2;
     const double size = wanted.each_inclusion ? amount(one) : largest;
     if (!(half > *wanted.displacement * size)) continue;
-    if (!wanted.each_inclusion && amount(one) < largest) continue;  // not what it is relative to
+    if (!wanted.each_inclusion && amount(one) < largest) continue;  // not the A in question
     const double before = found.within;
     found.add(one.displacement_lower, one.displacement_upper);
     if (wanted.each_inclusion && answer.inclusions.size() > 1 && found.within > before) {
@@ -132,7 +133,7 @@ std::string within(const AroundZero& value) {
   return fmt::format("{} is 0 within {:.2g}", value.name, value.within);
 }
 
-/// Why no stage helps.
+/// The reason why no further stage helps.
 std::string no_hope(const records::StageAnswer& answer, const contact::AnswerSummary& summary,
                     const records::AccuracySpec& wanted) {
   if (const AroundZero of_a = displacement_around_zero(summary, wanted))
@@ -192,11 +193,11 @@ void tighten(records::CaseRecord& answer, const records::CaseRecord& before) {
     if (!other_lower || !other_upper) return;
     const double low = lower ? std::max(*lower, *other_lower) : *other_lower;
     const double high = upper ? std::min(*upper, *other_upper) : *other_upper;
-    if (low > high) return;  // by rounding
+    if (low > high) return;  // only by rounding
     lower = low;
     upper = high;
   };
-  if (!answer.answer.energy_lower) return;  // it says why it has no bounds
+  if (!answer.answer.energy_lower) return;  // no_bracket says why it has no bounds
   closer(answer.answer.energy_lower, answer.answer.energy_upper, before.answer.energy_lower,
          before.answer.energy_upper);
   const std::size_t both =

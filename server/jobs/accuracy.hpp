@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// When a job with an accuracy goes on to another stage: the policy, without threads or locks.
+// The policy of when a job with an accuracy goes on to another stage, without threads or locks.
 #pragma once
 
 #include <cstdint>
@@ -16,38 +16,38 @@ namespace anticrack::jobs {
 /// job that cannot be solved in stages.
 void check_accuracy(const records::JobSpec& spec);
 
-/// Bounds are of the membrane, whatever the mesh: those of the stage before hold for the answer of
-/// this one as well, where they are closer.
+/// Takes the bounds of the stage before where they are closer: bounds hold for the exact solution,
+/// whatever the mesh.
 void tighten(records::CaseRecord& answer, const records::CaseRecord& before);
 
-/// What is kept of an answer. Its displacement_error is half the width of the bounds of A over the
-/// largest |A| of the load case, or over that of each, the largest of all inclusions; unset where
-/// one has no bounds.
+/// The numbers of an answer that are kept. Its displacement_error is the largest, over all
+/// inclusions, of half the width of the bounds of A divided by the largest |A| of the load case,
+/// or, with `each_inclusion`, by the inclusion's own |A|; unset if an inclusion has no bounds.
 records::StageAnswer stage_answer(const records::CaseRecord& ended_case,
                                   bool each_inclusion = false);
 
-/// The largest of the errors over the accuracies asked for: at most 1 where they are reached,
-/// infinity without bounds. Errors above 1e6 are those of a value that is 0, and count as 1e6.
+/// The largest ratio of an error to the accuracy asked for: at most 1 if all are reached, infinity
+/// without bounds. A relative error above 1e6 is that of a value that is 0, and counts as 1e6.
 double excess(const records::StageAnswer& answer, const records::AccuracySpec& wanted);
 
-/// After a stage: whether it was the last, and what was not reached, why, with the cure.
+/// The decision after a stage: whether it was the last, and why an accuracy was not reached.
 struct Verdict {
   bool over = false;
   std::string not_reached;
   bool fall_back = false;  ///< the answers of the stage before are better: they have bounds
 };
-/// `stages`: all have ended; `cases`: of the last; `seconds`: since the first began.
+/// `stages`: all, each ended; `cases`: those of the last; `seconds`: since the first began.
 Verdict judge(const std::vector<records::StageRecord>& stages,
               const std::vector<const records::CaseRecord*>& cases, const records::JobSpec& spec,
               std::uint64_t max_triangles, double seconds);
 
-/// "not reached" with the accuracy that is farthest from it, for another reason to stop. `cases`:
-/// of that stage, which say what is 0 within its bounds; empty: not known.
+/// A message with the accuracy that is farthest from being reached and with `why` the job stops.
+/// `cases`: those of that stage, which tell what is 0 within its bounds; may be empty.
 std::string not_reached(const records::StageRecord& last,
                         std::span<const records::CaseRecord* const> cases,
                         const records::JobSpec& spec, const std::string& why);
 
-/// Which limit on the triangles of a mesh it is, with the cure.
+/// A message that says which limit on triangles is reached, with the cure.
 std::string limit_reached(const records::JobSpec& spec, std::uint64_t max_triangles);
 
 }  // namespace anticrack::jobs

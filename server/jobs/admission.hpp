@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Whether a job is taken in: the policy, without threads or locks.
+// The policy of which jobs are taken in, without threads or locks.
 #pragma once
 
 #include <chrono>
@@ -12,30 +12,30 @@
 namespace anticrack::jobs {
 
 struct AdmissionLimits {
-  std::size_t jobs = 1'000;             ///< that have not ended
-  std::uint64_t cases = 100'000;        ///< of one mesh, of jobs started or not, not ended
-  std::uint64_t memory = 512ULL << 20;  ///< bytes of definitions, events and answers of all jobs
+  std::size_t jobs = 1'000;             ///< jobs that have not ended
+  std::uint64_t cases = 100'000;        ///< load cases of one mesh, of all jobs that have not ended
+  std::uint64_t memory = 512ULL << 20;  ///< bytes, for definitions, events and answers of all jobs
 };
 
-/// Counts what is admitted and not ended. Of jobs and of memory, for their definitions, an owner
-/// has a share (access/share.hpp); without a name, on a server without authentication, everything.
-/// Not thread-safe.
+/// Counts the jobs that are admitted and have not ended. An owner has a share (access/share.hpp) of
+/// the jobs and of the memory for their definitions; the empty owner, of a server without
+/// authentication, may have everything. Not thread-safe.
 class Admission {
  public:
   explicit Admission(const AdmissionLimits& limits) : _limits(limits) {}
 
-  /// Throws errors::Error: limit_exceeded where the job alone is over a bound, else busy with a
-  /// retry delay that grows with the queue. A job that passes is counted with `add`. `bytes`: of
-  /// its definition; `memory`: what all jobs use.
+  /// Throws errors::Error: limit_exceeded if the job alone is over a bound, else busy with a retry
+  /// delay that grows with the queue. Count a job that passes by `add`. `bytes`: of its definition;
+  /// `memory`: the bytes that all jobs use.
   void check(const std::string& owner, const std::string& mesh, std::uint64_t cases,
              std::uint64_t bytes, std::uint64_t memory) const;
   void add(const std::string& owner, const std::string& mesh, std::uint64_t cases,
            std::uint64_t bytes);
 
-  /// A job that was counted has started, or ends without a start.
+  /// To be called when a counted job starts, or ends without a start.
   void started() noexcept { --_waiting; }
   void cases_ended(const std::string& mesh, std::uint64_t count);
-  /// A job is known to the store as ended, or left to the next start.
+  /// To be called when the store has a job as ended, or the job is left to the next start.
   void ended(const std::string& owner, std::uint64_t bytes);
 
   std::size_t waiting() const noexcept { return _waiting; }  ///< jobs that have not started

@@ -75,7 +75,7 @@ CaseOutcome solved_case(const Task& task, const contact::Answer& answer,
                         const std::vector<contact::Sample>& history,
                         std::vector<double> indicator) {
   auto record = new_record(task, answer.status);
-  record->answer = answer;  // without its arrays
+  record->answer = answer;  // only the summary, without the arrays
   CaseOutcome outcome{std::move(record)};
   if (answer.status != Status::cancelled)
     outcome.result =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// How a load case ended, and who listens while it iterates.
+// How a load case ended, and the observers while it iterates.
 #pragma once
 
 #include <atomic>
@@ -17,24 +17,24 @@ namespace anticrack::jobs {
 
 struct CaseOutcome {
   std::shared_ptr<const records::CaseRecord> record;
-  std::optional<ResultPart> result{};  ///< converged and not_converged only
-  std::vector<double> indicator{};     ///< (triangles), of a job with an accuracy
+  std::optional<ResultPart> result{};  ///< only if converged or not_converged
+  std::vector<double> indicator{};     ///< (triangles), only for a job with an accuracy
 };
 
 /// Keeps a load case's history, and stops the case when its job must stop. One object belongs to
 /// the thread that solves.
 class History : public contact::Observer {
  public:
-  /// Counts every iteration in `iterations`, which must outlive it.
+  /// Adds every iteration to `iterations`, which must outlive this object.
   History(const Task& task, std::atomic<std::uint64_t>& iterations);
   bool on_iteration(const contact::Sample& sample) override;
-  /// The load case has ended for its job: nothing more is kept of it.
+  /// To be called when the load case has ended for its job: no more samples are kept.
   void give_up() noexcept { _given_up = true; }
   const std::vector<contact::Sample>& history() const noexcept { return _samples; }
 
   EventLog& log() const noexcept { return *_log; }
   std::int32_t load_case() const noexcept { return _load_case; }
-  /// Appends what came since the last call.
+  /// Appends the samples that came since the last call.
   void append_new(std::vector<SampleEvent>& to);
 
  private:
@@ -54,19 +54,19 @@ class Recorder final : public History {
   bool on_iteration(const contact::Sample& sample) override;
 };
 
-/// The end of a load case that was solved or stopped; `history`: its iterations. Its arrays go into
-/// the job's spool.
+/// The end of a load case that was solved or stopped. `history`: its iterations. The arrays of the
+/// answer go into the job's spool.
 CaseOutcome solved_case(const Task& task, const contact::Answer& answer,
                         const std::vector<contact::Sample>& history,
                         std::vector<double> indicator = {});
-/// What was thrown, whatever it is.
+/// Any exception as an error.
 errors::Error error_of(const std::exception_ptr& failure);
 
-/// What is thrown while a load case is solved, as its end: nothing but a stop is lost. The error
-/// has its place in the job ("load_cases[i]...", or "solver.uzawa" where the method cannot solve on
-/// this mesh).
+/// The end of a load case whose solution threw: cancelled if it was stopped, else failed with the
+/// error. The error's field is that in the job ("load_cases[i]...", or "solver.uzawa" if the method
+/// cannot solve on this mesh).
 CaseOutcome failed_case(const Task& task, const std::exception_ptr& failure);
-/// The end of a load case whose job's result is large enough already.
+/// The end of a load case whose job's result has no room for more.
 CaseOutcome refused_case(const Task& task, std::uint64_t max_result_bytes);
 CaseOutcome cancelled_case(const Task& task);
 

@@ -145,7 +145,7 @@ std::string fingerprint(const records::JobSpec& spec) {
     if constexpr (std::is_same_v<T, const std::optional<records::SweepSpec>>) {
       std::optional<records::SweepSpec> sweep = field.value;
       if (sweep) {
-        sweep->rows = 0;  // they follow from the upload and the mesh
+        sweep->rows = 0;  // not part of the request: they follow from the upload and the mesh
         sweep->packed = false;
       }
       hash.add_all(sweep);

@@ -34,7 +34,7 @@ class AnyStop {
   std::list<std::stop_callback<std::function<void()>>> _callbacks;
 };
 
-/// One pass; returns the cases that another's stop took with it.
+/// Condenses once; returns the cases that were interrupted by the stop of another job.
 std::vector<Loaded> pass(const operators::MeshOperator& mesh_operator, std::vector<Loaded> cases,
                          Condensed& result) {
   std::vector<const fem::Load*> loads;

@@ -10,12 +10,12 @@ namespace anticrack::jobs {
 
 struct Condensed {
   std::vector<PreparedCase> prepared;
-  std::vector<EndedCase> ended;  ///< what was wrong with a load is the end of its case
+  std::vector<EndedCase> ended;  ///< cases whose loads have errors
 };
 
-/// Condenses the loads of the cases with one pass over the factors of their mesh. A job that is
-/// stopped meanwhile takes its own cases out: the others are condensed again, without them. Throws
-/// nothing. Without a lock.
+/// Condenses the loads of the cases with one pass over the factors of their mesh. If a job is
+/// stopped meanwhile, its cases are taken out and the others are condensed again. Throws nothing.
+/// Call it without the lock.
 Condensed condense(const operators::MeshOperator& mesh_operator, const std::vector<Task>& tasks,
                    const store::Store& store);
 

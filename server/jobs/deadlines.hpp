@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What is due when, without threads or locks.
+// The times at which something of a job is due, without threads or locks.
 #pragma once
 
 #include <chrono>
@@ -15,17 +15,17 @@ namespace anticrack::jobs {
 
 enum class Due {
   queue_time,  ///< the job has waited as long as it may
-  run_time,    ///< it has run as long as it may
-  start,       ///< its start failed and is tried again then
+  run_time,    ///< the job has run as long as it may
+  start,       ///< the job's start failed and is to be tried again
 };
 
-/// At most one time of each kind for each job, by its number. Not thread-safe.
+/// At most one time of each kind for each job; jobs are given by their numbers. Not thread-safe.
 class Deadlines {
  public:
   using Time = std::chrono::steady_clock::time_point;
   using Entry = std::pair<std::uint64_t, Due>;
 
-  /// Replaces the one of the same job and kind.
+  /// Sets the time of a job and kind, in place of the old one.
   void set(std::uint64_t job, Due due, Time time) {
     clear(job, due);
     _times.emplace(Entry{job, due}, time);
@@ -39,16 +39,16 @@ class Deadlines {
       _times.erase(found);
     }
   }
-  /// All of a job.
+  /// Clears all times of a job.
   void clear(std::uint64_t job) {
     for (const Due due : {Due::queue_time, Due::run_time, Due::start}) clear(job, due);
   }
 
-  /// The earliest of all; none when nothing is due ever.
+  /// The earliest time of all; none if there are no times.
   std::optional<Time> next() const {
     return _order.empty() ? std::nullopt : std::optional<Time>(_order.begin()->first);
   }
-  /// Takes out what is due at `now`, earliest first.
+  /// Takes out all that is due at `now`, the earliest first.
   std::vector<Entry> take(Time now) {
     std::vector<Entry> due;
     while (!_order.empty() && _order.begin()->first <= now) {

@@ -7,7 +7,7 @@
 namespace anticrack::jobs {
 
 std::shared_ptr<EventLog> end_alone(const records::JobRecord& record) {
-  constexpr std::size_t any_size = 1;  // the end event stays whatever the limit
+  constexpr std::size_t any_size = 1;  // the end event is kept whatever the limit
   auto log = std::make_shared<EventLog>(any_size, sequence_base(record.attempt + 1));
   log->append(EndEvent{std::make_shared<const records::JobRecord>(record)});
   return log;

@@ -14,26 +14,26 @@
 
 namespace anticrack::jobs {
 
-/// The first number of attempt n is one above this: there are never 2^40 events.
+/// The first event of attempt n has a number one above this; no attempt has 2^40 events.
 constexpr std::uint64_t sequence_base(int attempt) {
   return static_cast<std::uint64_t>(attempt - 1) << 40U;
 }
 
-/// The log of a job that ended in the past: its end event alone, above all others it had.
+/// The log of a job that ended in the past: only its end event, with a number above all others.
 std::shared_ptr<EventLog> end_alone(const records::JobRecord& record);
 
-/// Keeps logs within half of the budget, which they leave to new jobs where it is exceeded: the
-/// oldest go first. Not thread-safe.
+/// Keeps logs within half of the budget. When the budget is exceeded they make room for new jobs;
+/// the oldest go first. Not thread-safe.
 class EndedLogs {
  public:
   explicit EndedLogs(std::shared_ptr<const MemoryBudget> budget) : _budget(std::move(budget)) {}
 
-  /// `bytes`: of the log with its end event, which may be still to come.
+  /// `bytes`: of the log with its end event, which may not have been appended yet.
   void add(const std::string& job, std::shared_ptr<EventLog> log, std::uint64_t bytes);
   void remove(const std::string& job);
-  /// Lets logs go until so many bytes more fit into the budget, or none is left.
+  /// Drops logs until `bytes` more fit into the budget, or none is left.
   void make_room(std::uint64_t bytes);
-  std::shared_ptr<EventLog> find(const std::string& job) const;  ///< null: not kept
+  std::shared_ptr<EventLog> find(const std::string& job) const;  ///< null if it is not kept
   std::uint64_t bytes() const noexcept { return _bytes; }
 
  private:

@@ -25,7 +25,7 @@ using records::JobState;
 constexpr std::chrono::milliseconds retry_write{1'000};
 constexpr const char* writing = "writing the result";
 
-/// Whether the same call may succeed later.
+/// Whether the error comes from the disk, so that the same call may succeed later.
 bool is_of_the_disk(const Error& error) {
   return error.reason() == Reason::disk_full || error.reason() == Reason::storage;
 }
@@ -89,7 +89,8 @@ void EndingThread::work() {
 EndingThread::End EndingThread::conclude_job(const JobPtr& job) {
   Lock lock(_core.mutex);
   const Outcome outcome = conclude(*job);
-  const bool stopped = job->why != Stop::none;  // what it has is written, whoever stops it again
+  const bool stopped = job->why != Stop::none;  // its answers are written even if it is stopped
+                                                // again
   if (job->started) add_step(job->timeline, JobState::running, writing);
   End end{job, {}, nullptr, stopped ? std::stop_token() : job->writing.get_token()};
   const JobSnapshot snapshot(*job);
@@ -113,7 +114,7 @@ EndingThread::End EndingThread::conclude_job(const JobPtr& job) {
   } catch (const std::exception& exception) {
     end.fail(exception);
   }
-  job->mesh_operator.reset();  // however long the disk takes
+  job->mesh_operator.reset();  // released before the writing, which may take long
   job->spool.reset();
   if (job->sweep) {
     job->sweep->basis.reset();
@@ -146,11 +147,11 @@ bool EndingThread::finish(End& end) {
     _core.store.finish(end.record, end.result);
     return true;
   } catch (const std::bad_alloc&) {
-    return false;  // like a disk that refuses
+    return false;  // treated like a disk that refuses
   } catch (const std::exception& exception) {
     const auto* error = dynamic_cast<const Error*>(&exception);
     if (!end.result || (error && is_of_the_disk(*error))) return false;
-    end.fail(exception);  // no later try would do better
+    end.fail(exception);  // a later try would fail as well
     return finish(end);
   }
 }
@@ -171,7 +172,7 @@ void EndingThread::announce(const End& end) {
   _core.logs.add(job->id(), job->log, log_bytes);
   _core.jobs.erase(job->id());
   _core.admission.ended(job->created.owner, job->spec_bytes);
-  ++_core.ended;  // before the end event, so that its watchers find the job counted
+  ++_core.ended;  // before the end event, so that watchers find the job counted
   lock.unlock();
   job->log->append(EndEvent{record});
   lock.lock();
@@ -187,7 +188,7 @@ void EndingThread::forget_meshes(const LiveJob& job) {
     try {
       _core.catalogue.erase(mesh);
     } catch (const std::exception&) {
-      // It stays among the owner's meshes, who may delete it.
+      // The mesh stays among those of the owner, who may delete it.
     }
   }
 }

@@ -21,10 +21,10 @@ using records::JobState;
 /// between the arrays that went, and would keep their pages.
 constexpr std::uint64_t trim_every = std::uint64_t{16} << 20U;
 
-/// See LiveStages::indicator. Largest values: the order in which load cases end does not matter.
+/// Updates LiveStages::indicator by maxima, so the order in which load cases end does not matter.
 void add_indicator(LiveStages& stages, const records::AccuracySpec& wanted,
                    const records::CaseRecord& record, std::vector<double>& indicator) {
-  constexpr double most = 1e3;  // where bounds of A are missing yet
+  constexpr double most = 1e3;  // for a case that has no bounds of A yet
   const double factor = std::min(excess(stage_answer(record, wanted.each_inclusion), wanted), most);
   const double sum = std::accumulate(indicator.begin(), indicator.end(), 0.0);
   if (!(factor > 1) || !(sum > 0)) return;
@@ -76,7 +76,7 @@ void EngineCore::add(const JobPtr& job) {
   if (const auto mesh = enter_mesh(job); !mesh->phase.empty()) {
     job->enter(Phase::waiting_for_mesh);
     add_step(job->timeline, JobState::waiting_for_mesh, mesh->phase);
-    // There are no watchers yet.
+    // Appending with the lock held is safe here, as there are no watchers yet.
     job->log->append(PhaseEvent{JobState::waiting_for_mesh, mesh->phase});
   }
 }

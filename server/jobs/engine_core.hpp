@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the engine's threads share: its jobs, where each stands, and the one mutex.
+// The data that the engine's threads share: the jobs, the state of each, and the one mutex.
 //
-// A job goes this way: the schedule (its units wait: load cases, or chunks of its sweep) -> solver
-// threads (blocks, prepared cases) -> `to_end`, the ending thread's. LiveJob::active counts its
-// units between the first and the last step. Threads are those of SolverPool,
-// EndingThread, keep_time_limits and remove_what_is_too_old; each works on this with the mutex, and
-// does what takes long without it. What becomes of meshes is heard on a thread of the catalogue
-// (hear).
+// A job passes through the schedule (where its units wait: load cases, or chunks of its sweep), the
+// solver threads (blocks, prepared cases) and `to_end`, the queue of the ending thread.
+// LiveJob::active counts its units between the first and the last step. The threads are those of
+// SolverPool, EndingThread, keep_time_limits and remove_what_is_too_old; each changes the shared
+// data with the mutex held, and does long work without it. A thread of the catalogue tells the news
+// of meshes (hear).
 #pragma once
 
 #include <array>
@@ -41,7 +41,7 @@
 
 namespace anticrack::jobs {
 
-/// A load case condensed for the active set, which any thread may solve.
+/// A load case that is condensed for the active set; any thread may solve it.
 struct PreparedCase {
   Task task;
   operators::PreparedLoad load;
@@ -52,24 +52,24 @@ struct MeshWork {
   explicit MeshWork(std::string mesh) : id(std::move(mesh)) {}
 
   const std::string id;
-  std::map<std::uint64_t, JobPtr> jobs;  ///< that wait or run, by number
+  std::map<std::uint64_t, JobPtr> jobs;  ///< jobs that wait or run, by number
   std::shared_ptr<const operators::MeshOperator> mesh_operator;
-  /// For the operators; ends with the first turn on the mesh. 0: none.
+  /// The number of the wait for the operators, which ends with the first turn on the mesh. 0: none.
   std::uint64_t wait = 0;
-  std::string phase;  ///< of its preparation, told to the jobs
+  std::string phase;  ///< phase of its preparation, which jobs are told
   std::chrono::steady_clock::time_point progress_told{};
-  int threads = 0;                                  ///< that have a turn on it
+  int threads = 0;                                  ///< threads that have a turn on it
   std::array<std::uint64_t, lane_count> waiting{};  ///< units that no thread has taken
-  std::vector<std::shared_ptr<BlockRun>> blocks;    ///< all, those put down included
-  std::array<std::deque<std::shared_ptr<BlockRun>>, lane_count> parked;  ///< put down
+  std::vector<std::shared_ptr<BlockRun>> blocks;    ///< all blocks, including those put down
+  std::array<std::deque<std::shared_ptr<BlockRun>>, lane_count> parked;  ///< blocks put down
   std::deque<PreparedCase> prepared;
 };
 
 class EngineCore;
 
-/// All jobs that wait for the mesh hear it: phases and progress as events, operators as turns on
-/// solver threads, an error as their end. Called by the catalogue, without the lock
-/// (mesh_news.cpp).
+/// Passes news of a mesh on to all jobs that wait for it: phases and progress become events,
+/// operators give turns on solver threads, an error ends the jobs. The catalogue calls it, without
+/// the lock (mesh_news.cpp).
 void hear(EngineCore& core, const meshes::MeshNews& news);
 
 /// The mutex guards everything but the constants and `iterations`. It is never held over I/O, a
@@ -79,7 +79,7 @@ class EngineCore {
   using Lock = std::unique_lock<std::mutex>;
   using Clock = std::chrono::steady_clock;
 
-  /// Keeps references to both. Nothing runs yet.
+  /// Keeps references to both. Starts no thread.
   EngineCore(EngineOptions engine_options, store::Store& records, meshes::MeshCatalogue& meshes);
 
   const EngineOptions options;
@@ -88,12 +88,12 @@ class EngineCore {
   std::atomic<std::uint64_t> iterations{0};
 
   mutable std::mutex mutex;
-  /// Work for each kind of thread.
+  /// Signalled when there is work for the kind of thread.
   std::condition_variable solvers, ending, sweeping, limits;
-  std::condition_variable settled;  ///< fewer jobs live or end
-  bool draining = false;            ///< no job starts any more
-  bool interrupting = false;  ///< what the store does not take at once is left to the next start
-  bool stop_noted = false;    ///< noted in the store
+  std::condition_variable settled;  ///< signalled when fewer jobs are live or ending
+  bool draining = false;            ///< whether no job may start any more
+  bool interrupting = false;        ///< ends that the store refuses are left to the next start
+  bool stop_noted = false;          ///< whether the store has a note of it
   bool quitting = false;
   bool ended_since_sweep = true;
 
@@ -103,67 +103,67 @@ class EngineCore {
   Retention retention;
   const std::shared_ptr<MemoryBudget> memory;
   EndedLogs logs;
-  std::unordered_map<std::string, JobPtr> jobs;  ///< that have not ended, by id
+  std::unordered_map<std::string, JobPtr> jobs;  ///< jobs that have not ended, by id
   std::unordered_map<std::uint64_t, JobPtr> numbers;
   std::unordered_map<std::string, std::shared_ptr<MeshWork>> meshes;
-  access::TurnQueue<JobPtr> to_end;     ///< owners take turns
-  access::TurnQueue<JobPtr> to_refine;  ///< a stage ended; counted in LiveJob::active
+  access::TurnQueue<JobPtr> to_end;     ///< jobs to end; owners take turns
+  access::TurnQueue<JobPtr> to_refine;  ///< jobs of which a stage ended; counted in LiveJob::active
 
   std::uint64_t last_number = 0;
   std::uint64_t created = 0;
   std::uint64_t ended = 0;
   std::uint64_t cases_ended = 0;  ///< rows of sweeps included
   std::uint64_t results_expired = 0;
-  int live = 0;           ///< jobs that are not in the ending thread's hands
-  int not_announced = 0;  ///< jobs in its hands
+  int live = 0;           ///< jobs that the ending thread does not have yet
+  int not_announced = 0;  ///< jobs that the ending thread has and whose end was not told
   int running = 0;        ///< jobs that started and have not ended
-  int columns = 0;        ///< load cases on solver threads, one for a chunk
+  int columns = 0;        ///< load cases on solver threads; a chunk counts as one
 
-  /// For meshes. The last member: nothing is heard once the others go.
+  /// Waits for meshes. It is the last member, so that no news comes when the others are destroyed.
   meshes::MeshWaits waits;
 
   // With the lock held:
 
-  /// Takes in a new job that is in the store and counted by `admission`.
+  /// Adds a new job, which is in the store and counted by `admission`.
   void add(const JobPtr& job);
   /// Puts a job's waiting units into the schedule.
   void offer(const JobPtr& job);
-  /// The job's next stage begins: it waits for the last of its meshes.
+  /// Begins the job's next stage: it waits for the last of its meshes.
   void move_on(const JobPtr& job);
-  /// The job waits for the stage before instead.
+  /// Makes the job wait for the mesh of the stage before instead.
   void move_back(const JobPtr& job);
   /// Takes a job's waiting units out of the schedule.
   void withdraw(const JobPtr& job);
-  /// The chunks of a sweep that starts are known: they are its units from now on.
+  /// Sets the chunks of a sweep that starts; they are its units from now on.
   void begin_sweep(const JobPtr& job, SweepPlan plan);
-  /// Call it when a case of the job ended or the job must stop: passes on a job that has nothing
-  /// left.
+  /// Call it when a case of the job ended or the job must stop: a job that has nothing left goes to
+  /// the next step.
   void settle(const JobPtr& job);
-  /// The operators of the mesh, if it waits for them, have been taken up or are not wanted.
+  /// Ends the wait for the operators, if there is one: they are in use now, or not wanted.
   void end_wait(MeshWork& mesh);
   /// Releases the mesh's operator if nothing needs it.
   void release(const std::shared_ptr<MeshWork>& mesh);
 
   // Without the lock:
 
-  /// Tells all threads to end.
+  /// Makes all threads end.
   void quit();
-  /// A thread that does `work`. Where there can be none (std::system_error) the others are told to
-  /// end, so that whoever owns them can join them.
+  /// Starts a thread that does `work`. If that is impossible (std::system_error), it makes the
+  /// other threads end, so that their owners can join them.
   std::jthread start(std::function<void()> work);
 
   /// Reports the cases and counts them as ended.
   void deliver(std::vector<EndedCase> cases);
   /// Reports the rows of a chunk and counts it as ended.
   void deliver(EndedChunk chunk);
-  /// Stops a job wherever it is. The first reason counts; one that only waits for the disk can be
-  /// cancelled.
+  /// Stops a job, whatever its phase. The first reason counts; a job that only waits for the disk
+  /// can still be cancelled.
   void stop(const JobPtr& job, Stop why, const std::optional<errors::Error>& failure = {});
 
  private:
-  /// Load cases of stopped jobs that no thread iterates: put down, or prepared.
+  /// Takes the load cases of stopped jobs on which no thread works: put down, or prepared.
   std::vector<EndedCase> take_stopped(MeshWork& mesh);
-  /// Among the jobs of its mesh, and out of them.
+  /// Adds a job to the jobs of its mesh; removes it from them.
   std::shared_ptr<MeshWork> enter_mesh(const JobPtr& job);
   void leave_mesh(const JobPtr& job);
   void leave(const JobPtr& job);

@@ -20,8 +20,8 @@ namespace {
 using errors::Error;
 using errors::Reason;
 
-/// A wake function that can be switched off. One thread at a time calls it: whoever comes while a
-/// call is under way, or from that call, leaves another one to its thread.
+/// A wake function that can be switched off. One thread at a time calls it: if a call is requested
+/// during another call, or by it, the thread of that call makes it.
 class Wake {
  public:
   explicit Wake(std::function<void()> call) : _call(std::move(call)) {}
@@ -40,7 +40,7 @@ class Wake {
     _idle.notify_all();
   }
 
-  /// Waits for a call on another thread, but not for the call that it comes from.
+  /// Waits for a call on another thread, but not for the call in which it is called.
   void close() {
     std::unique_lock lock(_mutex);
     _closed = true;
@@ -52,14 +52,14 @@ class Wake {
   const std::function<void()> _call;
   std::mutex _mutex;
   std::condition_variable _idle;
-  std::thread::id _caller;  ///< none: no call is under way
+  std::thread::id _caller;  ///< none: no call is running
   bool _due = false;
   bool _closed = false;
 };
 
 using Wakes = std::vector<std::shared_ptr<Wake>>;
 
-/// Any event but a sample: rare, so it is kept as it is, with its number.
+/// Any event but a sample. Such events are rare, so each is kept as it is, with its number.
 struct Kept {
   NumberedEvent numbered;
   std::size_t bytes = 0;
@@ -84,7 +84,7 @@ Batch as_batch(const Event& event) {
   return std::visit(
       []<class Kind>(const Kind& kind) -> Batch {
         if constexpr (std::is_same_v<Kind, SampleEvent> || std::is_same_v<Kind, CaseEvent>)
-          return {};  // progress goes together
+          return {};  // progress is put into one batch
         else
           return kind;
       },
@@ -118,12 +118,12 @@ struct EventLog::State {
   std::uint64_t earliest;
   std::uint64_t latest;
   bool ended = false;
-  /// Replaced, never changed, so that the writer can walk it without the lock.
+  /// The list is replaced, never changed, so that a writer can go through it without the lock.
   std::shared_ptr<const Wakes> wakes = std::make_shared<const Wakes>();
 
   std::size_t bytes() const { return samples.bytes() + other_bytes; }
 
-  /// Calls `add(*this)` unless the log is complete, then lets the oldest go and wakes the
+  /// Calls `add(*this)` unless the log is complete, then drops the oldest events and wakes the
   /// listeners.
   template <class Add>
   void append(const Add& add) {
@@ -139,7 +139,7 @@ struct EventLog::State {
     for (const std::shared_ptr<Wake>& wake : *to_wake) (*wake)();
   }
 
-  /// The newest event stays whatever its size: the end event is always the newest.
+  /// Keeps the newest event whatever its size; the end event is always the newest.
   void trim() {
     const std::size_t limit =
         share.budget_exceeded() ? std::min(byte_limit, least_bytes) : byte_limit;
@@ -162,12 +162,12 @@ struct EventLog::State {
     if (after + 1 < earliest || after > latest) throw trimmed(after, earliest, latest);
   }
 
-  /// What comes after event `after`: the first event that is not a sample, and the first sample.
+  /// The positions after event `after`: first event that is not a sample, and first sample.
   std::pair<std::deque<Kept>::const_iterator, std::uint64_t> next(std::uint64_t after) const {
     const auto other = std::lower_bound(
         others.begin(), others.end(), after + 1,
         [](const Kept& kept, std::uint64_t sequence) { return kept.numbered.sequence < sequence; });
-    // Between the earliest event and this one lie as many samples as there are numbers not taken.
+    // From the earliest event to here, every number that no other event has is that of a sample.
     return {other, after + 1 - earliest - static_cast<std::uint64_t>(other - others.begin())};
   }
 

@@ -19,7 +19,7 @@
 
 namespace anticrack::jobs {
 
-/// The job passed into another state, or another phase of it.
+/// The job entered another state, or another phase of its state.
 struct PhaseEvent {
   records::JobState state = records::JobState::queued;
   std::string detail;  ///< e.g. "meshing"
@@ -31,18 +31,18 @@ struct CaseEvent {
   std::shared_ptr<const records::CaseRecord> record;
 };
 
-/// Consecutive rows of a sweep have ended; few enough to travel in one message.
+/// Consecutive rows of a sweep ended; they are few enough for one message.
 struct RowsEvent {
   std::uint64_t first_row = 0;
   std::shared_ptr<const contact::SweepColumns> rows;
 };
 
-/// A stage of a job with an accuracy ended, after its load cases.
+/// A stage of a job with an accuracy ended; it comes after the ends of the stage's load cases.
 struct StageEvent {
   std::shared_ptr<const records::StageRecord> stage;
 };
 
-/// The job ended: always the last event.
+/// The job ended. This is always the last event.
 struct EndEvent {
   std::shared_ptr<const records::JobRecord> job;
 };
@@ -54,14 +54,14 @@ struct NumberedEvent {
   Event event;
 };
 
-/// Samples and ends of load cases that follow each other. Each end belongs after the samples of its
-/// load case, wherever it stood among those of others.
+/// Consecutive samples and ends of load cases. Each end comes after the samples of its own load
+/// case; its order relative to other load cases is not kept.
 struct ProgressEvents {
   std::vector<SampleRun> samples;
   std::vector<CaseEvent> ended;
 };
 
-/// What goes to a watcher in one message: the progress of load cases, or one other event.
+/// The events that a watcher gets in one message: progress of load cases, or one other event.
 using Batch = std::variant<ProgressEvents, PhaseEvent, RowsEvent, StageEvent, EndEvent>;
 
 struct NumberedBatch {
@@ -69,48 +69,47 @@ struct NumberedBatch {
   Batch events;
 };
 
-/// Thread-safe; any number of writers and readers. A listener costs a writer one wake call an
-/// append.
+/// Thread-safe; any number of writers and readers. Each append wakes every listener by one call.
 class EventLog {
  public:
   static constexpr std::size_t batch_bytes = std::size_t{64} << 10;
   static constexpr std::size_t least_bytes = std::size_t{64} << 10;
 
-  /// `byte_limit`: the oldest events go when the log is larger (the end event never). While
-  /// `budget`, which counts the log, is exceeded, the log keeps least_bytes.
-  /// `base`: the first event has the number after it.
+  /// `byte_limit`: if the log is larger, the oldest events are dropped (never the end event). While
+  /// `budget`, in which the log is counted, is exceeded, the log keeps only least_bytes. `base`:
+  /// the first event gets the number base + 1.
   explicit EventLog(std::size_t byte_limit, std::uint64_t base = 0,
                     std::shared_ptr<MemoryBudget> budget = {});
   ~EventLog();
 
-  /// Nothing comes after the end event: what is appended then is dropped.
+  /// Appends an event; events after the end event are dropped.
   void append(Event event);
-  /// The same as each of them after the other, for one lock and one wake. O(samples).
+  /// Appends the samples one after the other, with one lock and one wake. O(samples).
   void append(std::span<const SampleEvent> samples);
 
-  std::uint64_t earliest() const;  ///< sequence of the oldest event kept; latest()+1 when none is
-  std::uint64_t latest() const;    ///< the base before the first
-  /// Held now, at most about the limit. What an event shares with others (a case's record,
-  /// the rows of a sweep) counts in full, because the log may be the last to hold it.
+  std::uint64_t earliest() const;  ///< sequence of the oldest event kept; else latest()+1
+  std::uint64_t latest() const;    ///< `base` before the first event
+  /// The memory held now, at most about the limit. Data that an event shares (a case's record, the
+  /// rows of a sweep) count in full, because the log may be the last holder.
   std::size_t bytes() const;
-  bool complete() const;  ///< the end event is in it: latest() stays what it is
+  bool complete() const;  ///< whether it has the end event, so that latest() no longer changes
 
-  /// The events after `after` that go together, at most `count` of them, and not many more ends of
-  /// load cases than take `batch_bytes`; no samples, and `last` is `after`, when there is none yet.
-  /// Copies no sample. O(count / page + ends + log n) in n events.
-  /// Throws errors::Error (sequence_trimmed, metadata earliest_sequence and latest_sequence) when
-  /// event after+1 is no longer kept, or `after` is larger than latest().
+  /// The events after `after` that go into one message: at most `count`, with ends of load cases of
+  /// about `batch_bytes` at most. If there are none yet, the batch is empty and `last` is `after`.
+  /// Copies no sample. O(count / page + ends + log n) in n events. Throws errors::Error
+  /// (sequence_trimmed, metadata earliest_sequence and latest_sequence) when event after+1 is no
+  /// longer kept, or `after` is larger than latest().
   NumberedBatch batch(std::uint64_t after, std::size_t count) const;
-  /// Up to `count` events after `after` one by one, in order. Empty when there is none yet. Throws
-  /// like batch().
+  /// Up to `count` events after `after`, one by one and in order; empty if there are none yet.
+  /// Throws as batch() does.
   std::vector<NumberedEvent> read(std::uint64_t after, std::size_t count) const;
 
   class Listener;
-  /// `wake` is called after each append until the handle is destroyed, on a writer's thread and
-  /// with no lock held; never by two at once: one call under way goes on for all who append
-  /// meanwhile. It may append itself; it must be quick and not throw. Destroying the handle waits
-  /// for a call under way, unless it is destroyed by that call: do not destroy it under a lock that
-  /// `wake` takes.
+  /// Calls `wake` after each append until the handle is destroyed, on a writer's thread and with no
+  /// lock held. No two threads call it at once: the one that is in a call makes another call for
+  /// those who append meanwhile. `wake` may append events itself; it must be quick and not throw.
+  /// Destroying the handle waits for a running call, unless that call destroys it: so do not
+  /// destroy it under a lock that `wake` takes.
   std::shared_ptr<Listener> listen(std::function<void()> wake);
 
  private:

@@ -11,7 +11,7 @@ namespace anticrack::jobs {
 
 namespace {
 
-/// A case on its way to its end.
+/// A solved case whose outcome is not made yet.
 struct Solved {
   contact::Answer answer;
   std::vector<contact::Sample> history;
@@ -61,12 +61,12 @@ void recover_fields(const std::vector<PreparedCase>& cases, std::vector<Solved>&
   const stop::Scope scope([&cases](const stop::Look&) { return all_stopped(cases); });
   try {
     cases.front().task.job->mesh_operator->recover_fields(loads, answers);
-  } catch (...) {  // out of memory fails every load case of the block
+  } catch (...) {  // without memory every load case of the block fails
     for (std::exception_ptr* failure : failures) *failure = std::current_exception();
   }
 }
 
-/// From the fields, which are kept only where they are asked for.
+/// Computes the bounds from the fields, and drops the fields of cases that do not ask for them.
 void add_bounds(const std::vector<PreparedCase>& cases, std::vector<Solved>& solved) {
   std::vector<operators::MeshOperator::Estimate> estimates;
   std::vector<Solved*> of_estimates;
@@ -79,7 +79,7 @@ void add_bounds(const std::vector<PreparedCase>& cases, std::vector<Solved>& sol
   }
   try {
     cases.front().task.job->mesh_operator->estimate(estimates);
-  } catch (...) {  // no memory for the mesh's own part
+  } catch (...) {  // no memory for the part that belongs to the mesh
     for (auto& one : estimates) one.failure = std::current_exception();
   }
   for (std::size_t i = 0; i < estimates.size(); ++i) {
@@ -97,7 +97,7 @@ void add_bounds(const std::vector<PreparedCase>& cases, std::vector<Solved>& sol
 }  // namespace
 
 std::vector<PreparedCase> take_together(std::deque<PreparedCase>& prepared, int share) {
-  constexpr std::size_t most_fields = 16;  // in memory at once; more are not faster
+  constexpr std::size_t most_fields = 16;  // fields in memory at once; more are not faster
   const std::size_t most =
       std::min(most_fields, (prepared.size() + static_cast<std::size_t>(share) - 1) /
                                 static_cast<std::size_t>(share));

@@ -11,13 +11,13 @@
 
 namespace anticrack::jobs {
 
-/// Takes the first prepared case and, where it needs fields, those after it that do, up to an equal
-/// `share` of all: fields are recovered in blocks.
+/// Takes the first prepared case and, if it needs fields, the next ones that need them too, up to
+/// an equal `share` of all, since fields are recovered in blocks.
 std::vector<PreparedCase> take_together(std::deque<PreparedCase>& prepared, int share);
 
-/// Solves each by the active set, then recovers the fields of all that need them in one pass over
-/// the factors, and from these the bounds. All on one mesh. The bits of a case do not depend on the
-/// others. Throws nothing. Without a lock.
+/// Solves each case by the active set, then recovers the fields of all that need them in one pass
+/// over the factors, and computes the bounds from the fields. All cases must be on one mesh. The
+/// bits of a case do not depend on the others. Throws nothing. Call it without the lock.
 std::vector<EndedCase> solve_exactly(const std::vector<PreparedCase>& cases,
                                      std::atomic<std::uint64_t>& iterations);
 

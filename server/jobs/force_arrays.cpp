@@ -64,7 +64,7 @@ fem::Load ForceArrays::resolve(const fem::Load& load, const store::Store& store)
 }
 
 ForceArrays::Values ForceArrays::take(const std::string& sha256, const store::Store& store) {
-  // Held while reading: another case that wants the same values waits for them.
+  // The mutex is held while reading, so that another case that needs the same values waits.
   const std::lock_guard lock(_mutex);
   Entry& entry = _entries.at(sha256);
   const bool last = --entry.cases_left == 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The arrays that the load cases of one job take their forces from.
+// The arrays from which the load cases of one job take their forces.
 #pragma once
 
 #include <cstddef>
@@ -14,23 +14,23 @@
 
 namespace anticrack::jobs {
 
-/// Throws errors::Error at "load_cases[i].force.array": not_found where the store has no such
-/// upload of this owner, invalid_argument where it is not an array.
+/// Throws errors::Error at "load_cases[i].force.array": not_found if the store has no such upload
+/// of this owner, invalid_argument if it is not an array.
 void require_arrays(const std::vector<fem::Load>& loads, const store::Store& store,
                     const std::string& owner);
 
-/// Reads each upload when its first load case is solved and shares the values among all; they are
-/// let go with the last case that names them, or when `max_kept_bytes` are kept already (the next
-/// case then reads them again). Thread-safe.
+/// Reads each upload when its first load case is solved, and shares the values among all. They are
+/// freed after the last case that names them, or at once if `max_kept_bytes` are kept already (the
+/// next case then reads them again). Thread-safe.
 class ForceArrays {
  public:
   static constexpr std::size_t max_kept_bytes = std::size_t{512} << 20;
 
-  /// `owner`: whose uploads they are. Reads nothing yet.
+  /// `owner`: the owner of the uploads. Reads nothing yet.
   ForceArrays(const std::vector<fem::Load>& loads, std::string owner);
 
-  /// The load, with values where its force is an array. To be called once for each load case.
-  /// Throws errors::Error at "force.array" as require_arrays does, and where a value is not finite.
+  /// The load, with values if its force is an array. To be called once for each load case. Throws
+  /// errors::Error at "force.array" as require_arrays does, and if a value is not finite.
   fem::Load resolve(const fem::Load& load, const store::Store& store);
 
  private:

@@ -23,7 +23,7 @@ using errors::Reason;
 using records::JobRecord;
 using records::JobState;
 
-/// Unique across restarts as well, so it cannot be a counter.
+/// An id that is unique across restarts as well, so it cannot be a counter.
 std::string new_id() {
   std::random_device random;
   std::string id;
@@ -56,10 +56,10 @@ std::shared_ptr<void> use(EngineCore& core, const std::string& mesh) {
   }
 }
 
-/// A place in the queue, given back unless the job takes it.
+/// A place in the queue; the destructor gives it back unless the job has taken it.
 class Place {
  public:
-  /// Throws errors::Error (draining, limit_exceeded, busy).
+  /// Reserves the place. Throws errors::Error (draining, limit_exceeded, busy).
   Place(EngineCore& core, const JobRecord& record, std::uint64_t cases)
       : _core(core),
         _owner(record.owner),
@@ -97,7 +97,7 @@ class Place {
   bool _taken = false;
 };
 
-/// Rows of nodal forces are known once the mesh is, when the job starts.
+/// Sets the number of rows. For nodal forces it needs the mesh and is set when the job starts.
 void measure(records::SweepSpec& sweep, const JobRecord& record, const EngineCore& core) {
   const std::uint64_t values = find_matrix(sweep, core.store, record.owner).values;
   sweep.rows = sweep.cases == records::SweepSpec::Cases::combinations
@@ -105,15 +105,14 @@ void measure(records::SweepSpec& sweep, const JobRecord& record, const EngineCor
                    : 0;
 }
 
-/// With the lock held.
+/// Queues a job. With the lock held.
 void queue(EngineCore& core, const JobPtr& job, EngineCore::Clock::time_point deadline) {
   core.deadlines.set(job->number, Due::queue_time, deadline);
   core.limits.notify_one();
   core.add(job);
 }
 
-/// Whether the last server crashed. A disk that refuses cannot be told; the jobs then count no
-/// crash.
+/// Whether the last run of the server crashed. If the disk refuses the note, jobs count no crash.
 bool crashed(EngineCore& core) {
   try {
     return core.store.set_running(true);
@@ -138,7 +137,7 @@ TakenIn take_in(EngineCore& core, const Submission& submission) {
   JobRecord record = new_record(submission);
   const std::string print =
       submission.fingerprint.empty() ? fingerprint(record.spec) : submission.fingerprint;
-  // First: the same request again is answered however full the queue, and though its mesh is gone.
+  // Checked first: a repeated request is answered even if the queue is full or its mesh is gone.
   if (auto made = core.store.created_before(record, print)) return {std::move(*made), false};
   std::shared_ptr<void> mesh_use = use(core, record.spec.mesh);
   const records::MeshRecord mesh = core.catalogue.get(record.spec.mesh);
@@ -152,10 +151,10 @@ TakenIn take_in(EngineCore& core, const Submission& submission) {
   Place place(core, record, cases);
   JobRecord stored = core.store.create(record, print);
   if (stored.id != record.id)
-    return {std::move(stored), false};  // made by the same request in this moment
+    return {std::move(stored), false};  // the same request has just made it
   const EngineCore::Lock lock(core.mutex);
   ++core.created;
-  if (!core.draining) {  // else it is kept for the next start
+  if (!core.draining) {  // otherwise the job stays for the next start
     const auto job =
         std::make_shared<LiveJob>(++core.last_number, record, cases, core.options.event_log_bytes,
                                   std::move(mesh_use), core.memory);
@@ -184,7 +183,7 @@ void recover(EngineCore& core) {
       try {
         stage_use = core.catalogue.use(record.stages.back().mesh);
       } catch (const Error&) {
-        record.stages.clear();  // its mesh is gone: it begins anew
+        record.stages.clear();  // the mesh of its stage is gone, so it begins anew
       }
     }
     std::optional<Error> gone = too_many_crashes(record, core.options);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// How jobs come in: from clients, and from the last start of the server.
+// Takes in jobs from clients, and those that the last run of the server left.
 #pragma once
 
 #include "jobs/engine_core.hpp"
@@ -9,13 +9,13 @@ namespace anticrack::jobs {
 
 struct TakenIn {
   records::JobRecord record;
-  bool is_new = false;  ///< else made by the same request before
+  bool is_new = false;  ///< false: the same request made it before
 };
 
-/// JobEngine::submit, without the lock.
+/// Does the work of JobEngine::submit. Call it without the lock.
 TakenIn take_in(EngineCore& core, const Submission& submission);
 
-/// Queues the store's unfinished jobs and gives retention its ended ones. Call it once,
+/// Queues the unfinished jobs of the store and adds the ended ones to retention. Call it once,
 /// before there are threads.
 void recover(EngineCore& core);
 

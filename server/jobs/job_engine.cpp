@@ -24,14 +24,14 @@ using records::JobRecord;
 }  // namespace
 
 struct JobEngine::State {
-  /// The threads start when the jobs of the last start are queued.
+  /// Starts the threads only after the jobs of the last run are queued.
   State(EngineOptions options, store::Store& store, meshes::MeshCatalogue& catalogue)
       : core(std::move(options), store, catalogue) {
     recover(core);
     pools.emplace(core);
   }
 
-  /// The live job, null where it has ended or there never was one.
+  /// The live job; null if it has ended or never existed.
   JobPtr live(const std::string& id) const {
     const std::lock_guard lock(core.mutex);
     return find(id);
@@ -49,7 +49,7 @@ struct JobEngine::State {
     }
     return snapshot ? std::optional(snapshot->record()) : std::nullopt;
   }
-  /// Of a job that has ended.
+  /// The record of a job that has ended.
   JobRecord stored(const std::string& id) const {
     std::optional<JobRecord> record = core.store.job(id);
     if (!record) throw Error(Reason::not_found, "there is no jobs/" + id);
@@ -176,7 +176,7 @@ void JobEngine::stop(std::chrono::milliseconds grace) {
   try {
     core.store.set_running(false);
   } catch (const Error&) {
-    // The disk refuses: the jobs that ran count a crash.
+    // If the disk refuses, the jobs that ran will count a crash.
   }
 }
 

@@ -27,7 +27,7 @@ std::chrono::milliseconds limit(std::chrono::milliseconds own, std::chrono::mill
   return own.count() > 0 ? own : server;
 }
 
-/// What a sweep makes of its mesh and matrix; empty: the job has none.
+/// The plan of the job's sweep, from its mesh and matrix; empty if it has no sweep.
 std::optional<SweepPlan> plan_of(const EngineCore& core, const LiveJob& job,
                                  const operators::MeshOperator& mesh_operator) {
   const std::optional<records::SweepSpec>& sweep = job.spec->sweep;
@@ -42,7 +42,7 @@ std::optional<SweepPlan> plan_of(const EngineCore& core, const LiveJob& job,
   return plan_sweep(*job.spec, std::move(matrix), mesh_operator, core.options);
 }
 
-/// False where the store could not take it.
+/// Writes the start; returns false if the store could not take it.
 bool store_start(EngineCore& core, const JobSnapshot& snapshot,
                  const std::optional<SweepPlan>& plan, const LiveStages* stages) {
   try {
@@ -65,15 +65,15 @@ void try_again_later(EngineCore& core, const LiveJob& job) {
   core.limits.notify_one();
 }
 
-/// The first stage is known once the job starts, or was recovered; the others since their meshes
-/// were made.
+/// Fills in the record of the first stage when the job starts, or of a recovered one; the other
+/// stages have theirs since their meshes were made.
 void begin_stage(LiveStages& stages, const std::string& id, const mesh::Mesh& mesh) {
   if (!stages.begun) stages.begun = EngineCore::Clock::now();
   if (stages.records.empty()) stages.records.push_back({id, mesh.triangle_count()});
 }
 
-/// The loads that a sweep combines: before any thread takes a chunk, so that none waits for another
-/// here. Without the lock.
+/// Condenses the loads that a sweep combines, before any thread takes a chunk, so that no thread
+/// waits for another here. Without the lock.
 void condense(EngineCore& core, const JobPtr& job) {
   try {
     job->sweep->basis = condense_basis(*job, *job->mesh_operator, core.store);
@@ -99,7 +99,7 @@ bool may_start(EngineCore& core, const JobPtr& job) {
     try_again_later(core, *job);
     return false;
   }
-  ++job->active;  // it cannot end before its first event is in the log
+  ++job->active;  // so that it cannot end before its first event is in the log
   return true;
 }
 
@@ -141,7 +141,7 @@ void start_job(EngineCore& core, std::shared_ptr<const operators::MeshOperator> 
                        EngineCore::Clock::now() + run_limit(*job, core.options));
     core.limits.notify_one();
   }
-  const auto tell = [&](const std::string& phase) {  // the job runs, in this phase
+  const auto tell = [&](const std::string& phase) {  // tells that the job runs, in this phase
     add_step(job->timeline, JobState::running, phase);
     lock.unlock();
     job->log->append(PhaseEvent{JobState::running, phase});

@@ -21,7 +21,7 @@ using records::JobState;
 
 constexpr std::size_t max_steps = 48;
 
-/// The error with another message and other fields, the metadata kept.
+/// The error with another message and other fields, but the same metadata.
 Error retold(const Error& error, const std::string& message,
              const std::vector<std::string>& fields) {
   Error result(error.reason(), message);
@@ -64,7 +64,7 @@ Outcome conclude_sweep(LiveJob& job) {
   return {JobState::cancelled, std::nullopt};
 }
 
-/// A stage was cut short: back to the answers of the one before, if there is one.
+/// Returns to the answers of the stage before, if there is one, after a stage was cut short.
 void fall_back(LiveJob& job) {
   if (job.stages->last.cases.empty()) return;
   job.cases = std::move(job.stages->last.cases);
@@ -113,7 +113,7 @@ void LiveJob::enter(Phase next) {
 }
 
 JobState LiveJob::state() const noexcept {
-  if (phase == Phase::over) return JobState::queued;  // by the next start
+  if (phase == Phase::over) return JobState::queued;  // the next start will queue it
   return started ? JobState::running : timeline.back().state;
 }
 
@@ -128,7 +128,7 @@ std::size_t case_count(const records::JobSpec& spec) { return spec.sweep ? 0 : s
 
 void add_step(std::vector<records::Step>& timeline, JobState state, std::string detail) {
   if (timeline.size() >= max_steps)
-    timeline.erase(timeline.begin() + 1);  // the first says when it was queued
+    timeline.erase(timeline.begin() + 1);  // keeps the first, which says when it was queued
   timeline.push_back({records::Clock::now(), state, std::move(detail)});
 }
 

@@ -14,19 +14,19 @@
 
 namespace anticrack::jobs {
 
-/// Where in the job's spool the answers of a chunk are.
+/// The places of a chunk's answers in the job's spool.
 struct SweepChunk {
   std::optional<store::Spool::Run> columns;  ///< of chunk_arrays(); empty: not solved
-  std::optional<ResultPart> traces;          ///< of the rows that keep them
+  std::optional<ResultPart> traces;          ///< of the rows that keep traces
 };
 
-/// Made when the job starts. Plan and basis do not change once its chunks are taken; the chunks are
-/// guarded by the engine's mutex until the job ends, and belong to the thread that ends it then.
+/// Made when the job starts. Plan and basis do not change once chunks are taken. The engine's mutex
+/// guards the chunks until the job ends; then they belong to the thread that ends it.
 struct LiveSweep {
   explicit LiveSweep(SweepPlan its_plan) : plan(std::move(its_plan)), chunks(plan.chunks()) {}
 
   const SweepPlan plan;
-  std::shared_ptr<const operators::LoadBasis> basis;  ///< null: nodal forces
+  std::shared_ptr<const operators::LoadBasis> basis;  ///< null for nodal forces
   std::vector<SweepChunk> chunks;
 };
 

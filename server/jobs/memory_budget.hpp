@@ -10,14 +10,14 @@
 
 namespace anticrack::jobs {
 
-/// Thread-safe. Its holders look at it before they take more: jobs are refused, starts wait, event
-/// logs keep less and logs of ended jobs go.
+/// Thread-safe. Its users ask before they take more: when it is exceeded, jobs are refused, starts
+/// wait, event logs keep less, and logs of ended jobs are dropped.
 class MemoryBudget {
  public:
   explicit MemoryBudget(std::uint64_t limit) : _limit(limit) {}
   std::uint64_t limit() const noexcept { return _limit; }
   std::uint64_t used() const noexcept { return _used; }
-  /// Whether `more` bytes are too many.
+  /// Whether `more` bytes would exceed the budget.
   bool exceeded_by(std::uint64_t more) const noexcept { return used() + more > _limit; }
   bool exceeded() const noexcept { return exceeded_by(0); }
 
@@ -27,7 +27,7 @@ class MemoryBudget {
   std::atomic<std::uint64_t> _used{0};
 };
 
-/// What one holder uses, given back at its end. Without a budget it counts nothing.
+/// The part that one user has; the destructor gives it back. Counts nothing without a budget.
 class MemoryShare {
  public:
   explicit MemoryShare(std::shared_ptr<MemoryBudget> budget = {}, std::uint64_t bytes = 0)

@@ -16,7 +16,7 @@ using meshes::MeshNews;
 using records::JobState;
 using PhaseEvents = std::vector<std::pair<std::shared_ptr<EventLog>, PhaseEvent>>;
 
-/// Each is an event in the logs of jobs.
+/// The least time between reports, as each is an event in the logs of jobs.
 constexpr std::chrono::seconds between_reports{2};
 
 const char* text_of(MeshNews::Phase phase) {
@@ -27,7 +27,7 @@ const char* text_of(MeshNews::Phase phase) {
                                      : "factorising";
 }
 
-/// "meshing: bisecting a mesh, 120000 triangles".
+/// The progress as text, like "meshing: bisecting a mesh, 120000 triangles".
 std::string text_of(const records::MeshProgress& progress) {
   std::string text = text_of(MeshNews::Phase::meshing);
   if (!progress.doing.empty()) text += ": " + progress.doing;
@@ -37,13 +37,13 @@ std::string text_of(const records::MeshProgress& progress) {
   return text;
 }
 
-/// With the lock held.
+/// The events for the jobs of a mesh. With the lock held.
 PhaseEvents events_of(MeshWork& mesh, const MeshNews& news) {
   const std::string text = news.progress ? text_of(*news.progress) : text_of(news.phase);
   if (!news.progress) mesh.phase = text;
   PhaseEvents events;
   for (const auto& [number, job] : mesh.jobs) {
-    if (job->started) {  // a stage of it, whose mesh is not made by the mesher
+    if (job->started) {  // a later stage, whose mesh the mesher does not make
       if (!news.progress)
         events.push_back({job->log, {JobState::running, stage_name(*job) + ": " + text}});
       continue;
@@ -57,7 +57,7 @@ PhaseEvents events_of(MeshWork& mesh, const MeshNews& news) {
   return events;
 }
 
-/// The jobs that fail with their mesh. With the lock held.
+/// Returns the jobs that fail with their mesh. With the lock held.
 std::vector<JobPtr> fail(EngineCore& core, MeshWork& mesh, const Error& why) {
   core.end_wait(mesh);
   mesh.phase.clear();

@@ -31,7 +31,7 @@ void add_history(BlockBuilder& builder, const std::string& folder,
       arrays::history<contact::Sample>);
 }
 
-/// Of a subdomain, for all loads.
+/// The nodes and triangles of a subdomain, which all loads share.
 struct Subdomain {
   std::span<const std::int32_t> nodes, triangles;
 };

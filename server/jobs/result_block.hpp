@@ -15,26 +15,26 @@
 
 namespace anticrack::jobs {
 
-/// Traces, history, fields and indicator (empty: none) of a load case, with the index of the case
-/// in the arrays' names.
+/// Traces, history, fields and indicator (may be empty) of a load case; the arrays' names have the
+/// index of the case.
 records::Block case_arrays(std::size_t index, const contact::Answer& answer,
                            const std::vector<contact::Sample>& history,
                            const std::vector<double>& indicator = {});
 
-/// The arrays of ReadResult for the cases that have an answer, in their order; null when none has.
+/// The arrays of ReadResult for the cases that have an answer, in their order; null if none has.
 /// Throws errors::Error (storage).
 std::shared_ptr<const records::BlockSource> result_block(const LiveJob& job);
 
-/// Throws errors::Error (limit_exceeded, at load_cases or sweep.traces) where the result of the job
-/// would have more than `max_arrays` arrays on a mesh of that many interfaces and subdomains.
+/// Throws errors::Error (limit_exceeded, at load_cases or sweep.traces) if the job's result would
+/// have more than `max_arrays` arrays on a mesh of that many interfaces and subdomains.
 void require_result_arrays(const records::JobSpec& spec, std::uint64_t interfaces,
                            std::uint64_t subdomains, std::uint64_t max_arrays);
 
-/// Of the answers of a job, which travel in one message with its definition.
+/// Most bytes of the answers of a job, which are in one message with its definition.
 constexpr std::uint64_t max_answer_bytes = std::uint64_t{5} << 19U;
 
-/// Throws errors::Error (limit_exceeded, at load_cases) where the answers of the job on a mesh with
-/// these inclusions may take more than max_answer_bytes.
+/// Throws errors::Error (limit_exceeded, at load_cases) if the job's answers on a mesh with these
+/// inclusions may take more than max_answer_bytes.
 void require_answers(const records::JobSpec& spec, const std::vector<std::string>& inclusions);
 
 }  // namespace anticrack::jobs

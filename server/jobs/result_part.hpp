@@ -9,13 +9,13 @@
 
 namespace anticrack::jobs {
 
-/// Arrays of a result, and where in the job's spool their bytes are.
+/// Arrays of a result, and the place of their bytes in the job's spool.
 struct ResultPart {
   std::vector<records::ArrayLayout> arrays;
   store::Spool::Run run;
 };
 
-/// Puts the block's bytes into the spool.
+/// Writes the block's bytes to the spool.
 inline ResultPart spooled(store::Spool& spool, records::Block block) {
   const store::Spool::Run run = spool.append(block.bytes);
   return {std::move(block.arrays), run};

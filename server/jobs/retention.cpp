@@ -13,16 +13,16 @@ auto find(auto& jobs, const std::string& id) {
   return std::find_if(jobs.begin(), jobs.end(), [&](const auto& job) { return job.id == id; });
 }
 
-/// Of one owner, the oldest first.
+/// The jobs of one owner, the oldest first.
 struct Holdings {
   std::deque<const store::EndedJob*> jobs;
   std::deque<const store::EndedJob*> results;
-  std::uint64_t bytes = 0;  ///< of the results
+  std::uint64_t bytes = 0;  ///< bytes of the results
 };
 
 using Jobs = std::deque<const store::EndedJob*>;
 
-/// Whose `jobs` come to most; of several the one whose oldest ended first.
+/// The owner with the most in `jobs`; among equals, the one whose oldest job ended first.
 Holdings& most(std::map<std::string, Holdings>& owners, Jobs Holdings::*jobs, const auto& measure) {
   const auto less = [&](const auto& a, const auto& b) {
     const Jobs &mine = a.second.*jobs, &others = b.second.*jobs;
@@ -89,7 +89,7 @@ Expiry Retention::due(records::Clock::time_point now) const {
       give_up_oldest_result(owner);
     }
   }
-  if (newest != _jobs.rend()) {  // it stays
+  if (newest != _jobs.rend()) {  // the newest result stays
     Holdings& owner = owners[newest->owner];
     if (!owner.results.empty() && owner.results.back() == &*newest) {
       owner.results.pop_back();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Which results expire and which records go: the policy, without threads or locks.
+// The policy of which results expire and which records are erased, without threads or locks.
 #pragma once
 
 #include <chrono>
@@ -21,24 +21,24 @@ struct RetentionLimits {
 };
 
 struct Expiry {
-  std::vector<std::string> expire;  ///< jobs whose results go
-  std::vector<std::string> erase;   ///< jobs whose records go, and their results
+  std::vector<std::string> expire;  ///< jobs whose results are deleted
+  std::vector<std::string> erase;   ///< jobs whose records are deleted, with their results
 };
 
-/// The ended jobs the store has, oldest end first. Not thread-safe.
+/// The ended jobs of the store, in the order of their ends. Not thread-safe.
 class Retention {
  public:
   explicit Retention(const RetentionLimits& limits) : _limits(limits) {}
 
-  /// A job ended; one was erased.
+  /// Adds a job that has ended; removes one that was erased.
   void add(store::EndedJob job);
   void remove(const std::string& id);
-  void expired(const std::string& id);  ///< has no result any more
+  void expired(const std::string& id);  ///< the job's result has been deleted
 
-  /// What has to go at `now`, each job in one of the two lists: what is too old; then, while there
-  /// is too much, the oldest of the owner who has most, so that nobody's jobs push out another's.
-  /// The newest record stays, and the newest result whatever its size unless it is too old, or
-  /// nobody could read it. O(n + k owners) for k jobs that go.
+  /// What has to be deleted at `now`, each job in one of the two lists: all that is too old; then,
+  /// while there is too much, the oldest of the owner who has most, so that one owner's jobs do not
+  /// push out another's. The newest record stays. So does the newest result, whatever its size,
+  /// unless it is too old: otherwise nobody could read it. O(n + k owners) for k jobs deleted.
   Expiry due(records::Clock::time_point now) const;
 
  private:

@@ -27,7 +27,7 @@ void sweep(EngineCore& core, bool uploads) {
       remove();
       return true;
     } catch (const Error& error) {
-      return error.reason() == Reason::not_found;  // erased by a client in this moment
+      return error.reason() == Reason::not_found;  // a client has just erased it
     }
   };
   for (const std::string& id : expiry.expire)

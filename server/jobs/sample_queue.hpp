@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Samples in the order they came, as columns in pages: 60 bytes each, one allocation in 256.
+// Samples in the order they came, as columns in pages: 60 bytes each, one allocation per 256.
 #pragma once
 
 #include <algorithm>
@@ -14,15 +14,15 @@
 
 namespace anticrack::jobs {
 
-/// Grows at the back, shrinks at the front. Not thread-safe; but the runs it gave out may be read
-/// while it grows and shrinks, because entries are written once, before they are given out.
+/// Grows at the back and shrinks at the front. Not thread-safe, but runs that it gave out may be
+/// read while it grows and shrinks, because an entry is written once, before it is given out.
 class SampleQueue {
  public:
   std::size_t size() const noexcept { return _size; }
-  /// Memory of the samples.
+  /// Memory of the samples in bytes.
   std::size_t bytes() const noexcept { return _size * SamplePage::bytes_per_sample; }
 
-  /// All of them, or none where there is no memory (std::bad_alloc).
+  /// Appends all of them, or none if there is no memory (std::bad_alloc).
   void push_back(std::span<const SampleEvent> events) {
     while (_begin + _size + events.size() > _pages.size() * SamplePage::capacity)
       _pages.push_back(std::make_shared_for_overwrite<SamplePage>());
@@ -36,7 +36,7 @@ class SampleQueue {
     }
   }
 
-  /// At most size() of them.
+  /// Removes the first `count` samples, at most size().
   void pop_front(std::size_t count) noexcept {
     _size -= count;
     _begin += count;
@@ -75,7 +75,7 @@ class SampleQueue {
   }
 
   std::deque<std::shared_ptr<SamplePage>> _pages;
-  std::size_t _begin = 0;  ///< of the first sample, in the first page
+  std::size_t _begin = 0;  ///< index of the first sample in the first page
   std::size_t _size = 0;
 };
 

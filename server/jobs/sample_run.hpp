@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Samples as columns: how a log keeps them and how its readers get them.
+// Samples as columns, as a log keeps them and its readers get them.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ struct SampleEvent {
   contact::Sample sample;
 };
 
-/// Consecutive samples: entry k of every column belongs together.
+/// Consecutive samples; entry k of every column belongs to sample k.
 struct SamplePage {
   static constexpr std::size_t capacity = 256;
   static constexpr std::size_t bytes_per_sample = 3 * sizeof(std::int32_t) + 6 * sizeof(double);
@@ -31,14 +31,14 @@ struct SamplePage {
 };
 static_assert(sizeof(SamplePage) == SamplePage::capacity * SamplePage::bytes_per_sample);
 
-/// Samples of a page, in the log's own memory: nothing is copied. They do not change, and stay as
-/// long as the run does, whatever the log drops.
+/// Samples of a page, in the log's own memory, so that nothing is copied. They do not change, and
+/// stay as long as the run exists, even if the log drops them.
 struct SampleRun {
   std::shared_ptr<const SamplePage> page;
   std::size_t first = 0;
   std::size_t count = 0;
 
-  /// Its part of a column of the page, e.g. &SamplePage::energy.
+  /// The run's part of a column of the page, e.g. of &SamplePage::energy.
   template <class T>
   std::span<const T> column(SamplePage::Column<T> SamplePage::*member) const noexcept {
     return std::span<const T>((*page).*member).subspan(first, count);

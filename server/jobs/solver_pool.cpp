@@ -19,7 +19,7 @@ namespace {
 
 using Clock = EngineCore::Clock;
 
-/// Beyond EngineOptions::threads.
+/// Threads beyond EngineOptions::threads.
 constexpr std::size_t most_spare_threads = 8;
 constexpr int most_stage_ends = 4;  // at once
 
@@ -68,7 +68,7 @@ void SolverPool::keep_a_spare() {
   try {
     _threads.emplace_back([this] { work(); });
   } catch (const std::system_error&) {
-    // Long steps then hold up the others, as they do when there are too many of them.
+    // Without a spare thread long steps hold up other work, as too many of them do anyway.
   }
 }
 
@@ -176,12 +176,12 @@ void SolverPool::admit(const Mesh& mesh, Lane lane, std::shared_ptr<BlockRun>& b
   const bool under_way = block && block->columns() > 0;
   if (under_way && idle() > 0) {
     if (mesh->waiting[index(lane)] > 0)
-      _core.solvers.notify_one();  // for another thread, which has nothing else to do
+      _core.solvers.notify_one();  // another thread may have nothing else to do
     return;
   }
   const int room = block ? block->free() : std::max(1, _core.options.columns);
   lock.unlock();
-  // A start waits for the disk: where columns wait meanwhile, one start at a time.
+  // A start waits for the disk, so while columns wait there is only one start at a time.
   const int max_starts = under_way ? 1 : std::numeric_limits<int>::max();
   const std::vector<Task> tasks = take(mesh, lane, room, max_starts);
   if (tasks.empty()) return;
@@ -196,7 +196,7 @@ void SolverPool::admit(const Mesh& mesh, Lane lane, std::shared_ptr<BlockRun>& b
           std::make_shared<BlockRun>(mesh->mesh_operator, mass_of(lane), room, _core.iterations);
     }
     condensed = condense(*mesh->mesh_operator, tasks, _core.store);
-  } catch (...) {  // the mesh has no block: none of its cases can be solved like this
+  } catch (...) {  // no block can be made on this mesh, so all its cases fail
     for (const Task& task : tasks)
       condensed.ended.push_back({task, failed_case(task, std::current_exception())});
   }

@@ -19,14 +19,14 @@ namespace {
 using errors::Error;
 using errors::Reason;
 
-/// How far below the accuracy the next stage aims: bounds fall a little less than predicted.
+/// The next stage aims at this fraction of the accuracy: bounds fall a little less than predicted.
 constexpr double aim = 0.85;
 
-/// Of the indicators in one stage: those of a coarse mesh say little of a very fine one.
+/// Most reduction of the indicators in a stage: a coarse mesh says little about a very fine one.
 constexpr double most_reduction = 8;
 constexpr double least_reduction = 1.2;
 
-/// What is bisected so that the mesh conforms, over what is asked for.
+/// Growth of the number of triangles by bisections that only make the mesh conform.
 constexpr double conforming = 1.25;
 
 std::uint64_t most_triangles(const EngineCore& core, const LiveJob& job) {
@@ -35,7 +35,7 @@ std::uint64_t most_triangles(const EngineCore& core, const LiveJob& job) {
   return asked > 0 ? std::min(asked, server) : server;
 }
 
-/// The mesh of the next stage: as much finer as the accuracy and the limit let it. Throws
+/// Makes the mesh of the next stage, as fine as the accuracy asks for and the limit allows. Throws
 /// errors::Error.
 records::MeshRecord next_mesh(EngineCore& core, const LiveJob& job,
                               const std::vector<double>& indicator, std::uint64_t most) {
@@ -60,11 +60,11 @@ void evict(EngineCore& core, const std::string& mesh) {
   try {
     core.catalogue.evict(mesh);
   } catch (const Error&) {
-    // Somebody uses them: they go when memory is needed.
+    // Somebody uses them; they will be evicted when memory is needed.
   }
 }
 
-/// How far it is, for the next start of the server; without it the stage is solved again then.
+/// Stores the progress for the next start of the server, which otherwise solves the stage again.
 void store_progress(EngineCore& core, const JobSnapshot& snapshot,
                     const std::vector<records::StageRecord>& stages) {
   try {
@@ -72,7 +72,7 @@ void store_progress(EngineCore& core, const JobSnapshot& snapshot,
     record.stages = stages;
     core.store.put(record);
   } catch (const std::exception&) {
-    // A disk that refuses now is asked again at the next stage.
+    // If the disk refuses now, the next stage tries again.
   }
 }
 
@@ -99,8 +99,8 @@ void end_stage(EngineCore& core, const JobPtr& job) {
   Verdict verdict = judge(records, cases, *job->spec, most, ended.seconds);
   LiveStages::Complete complete;
   std::shared_ptr<void> use;
-  std::string finer;   // the mesh that was made
-  bool begun = false;  // the next stage
+  std::string finer;   // id of the mesh that was made
+  bool begun = false;  // whether the next stage has begun
   if (!verdict.over && !stages.no_finer.empty())
     verdict = {true, not_reached(*event, cases, *job->spec, stages.no_finer)};
   if (!verdict.over) {
@@ -127,7 +127,7 @@ void end_stage(EngineCore& core, const JobPtr& job) {
   --job->active;
   if (!finer.empty()) stages.made.push_back(finer);
   if (verdict.over || job->why != Stop::none) {
-    // After a restart of the server they are gone.
+    // After a restart of the server, the answers of the stage before are gone.
     const bool fall_back = verdict.fall_back && !stages.last.cases.empty();
     if (begun || fall_back) records.pop_back();
     if (fall_back)

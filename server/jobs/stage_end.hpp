@@ -5,14 +5,14 @@
 
 namespace anticrack::jobs {
 
-/// All load cases of the job's stage have ended: decides whether it was the last, else makes the
-/// mesh of the next, stores and tells how far the job is, and puts it back into the queue. Counted
-/// in LiveJob::active meanwhile. Without the lock.
+/// Call it when all load cases of the job's stage have ended. Decides whether the stage was the
+/// last; if not, makes the mesh of the next one, stores and tells the progress, and puts the job
+/// back into the queue. Counts in LiveJob::active meanwhile. Without the lock.
 void end_stage(EngineCore& core, const JobPtr& job);
 
-/// The mesh of a job's stage turned out to be too large for the memory: the job ends with the
-/// answers of the stage before, or solves that again where a restart has lost them. False: there is
-/// none, or it must stop anyway. With the lock held.
+/// Call it when the mesh of a job's stage turned out to be too large for the memory: the job ends
+/// with the answers of the stage before, or solves that stage again if a restart has lost them.
+/// Returns false if there is no stage before, or the job must stop anyway. With the lock held.
 bool fall_back_a_stage(EngineCore& core, const JobPtr& job, const errors::Error& error);
 
 }  // namespace anticrack::jobs

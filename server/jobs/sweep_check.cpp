@@ -19,7 +19,7 @@ using records::SweepSpec;
 
 constexpr std::uint64_t combinations_a_case = 256;
 constexpr std::uint64_t forces_a_case = (1U << 20U) / sizeof(double);
-constexpr std::uint64_t bounded_cost = 32;  // of a row with bounds, in rows without
+constexpr std::uint64_t bounded_cost = 32;  // cost of a row with bounds, in rows without
 
 std::uint64_t parts(std::uint64_t whole, std::uint64_t part) {
   return std::max<std::uint64_t>(1, (whole + part - 1) / part);
@@ -154,7 +154,7 @@ std::uint64_t queued_cases(const records::JobSpec& spec, const store::Store& sto
     return combines(*spec.sweep) ? parts(values, combinations_a_case / cost * spec.loads.size())
                                  : parts(values, forces_a_case / cost);
   } catch (const Error&) {
-    return 1;  // it will fail when it starts
+    return 1;  // the job will fail when it starts
   }
 }
 

@@ -23,7 +23,7 @@ using contact::SweepColumns;
 using errors::Error;
 using errors::Reason;
 
-/// Thrown when the job must stop.
+/// The error that is thrown when the job must stop.
 Error stopped() { return {Reason::cancelled, "the job was stopped"}; }
 
 /// Stops a solve with its job; the steps of a row are not reported.
@@ -69,7 +69,7 @@ class ChunkRows {
     return finish([&](std::size_t row) { return loads[row]; });
   }
 
-  /// Why rows have no bounds, and what else is said of them.
+  /// The reasons why rows have no bounds, and other warnings.
   const std::vector<std::string>& warnings() const noexcept { return _warnings; }
 
  private:
@@ -136,7 +136,8 @@ class ChunkRows {
     return answer;
   }
 
-  /// Of the rows that converged, as of load cases: a chunk is what is estimated together.
+  /// Computes bounds of the rows that converged, as for load cases; the rows of a chunk are
+  /// estimated together.
   template <class Load>
   void add_bounds(const Load& load) {
     std::vector<std::size_t> rows;
@@ -161,7 +162,7 @@ class ChunkRows {
     }
   }
 
-  /// The columns, and the traces of the rows that keep them.
+  /// Writes the columns, and the traces of the rows that keep them, to the spool.
   template <class Load>
   SweepChunk spool(const Load& load) const {
     const std::vector<std::uint32_t>& rows = _job.spec->sweep->traces;

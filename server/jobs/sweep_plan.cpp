@@ -16,20 +16,20 @@ using records::SweepSpec;
 
 constexpr std::size_t most_combinations = 256;
 constexpr std::size_t fewest_combinations = 16;
-/// A row costs more than its contacts, in proportion.
+/// Contacts of all rows of a chunk; a row costs more than in proportion to its contacts.
 constexpr std::size_t contacts_a_chunk = std::size_t{1} << 15U;
 /// Loads are condensed in blocks of 32 columns: more would not make a row cheaper.
 constexpr std::size_t most_forces = 32;
 constexpr std::size_t force_bytes_a_chunk = std::size_t{64} << 20U;
-/// A chunk is one message to a watcher, and how inclusions moved is most of it: half a megabyte.
+/// A chunk is one message to a watcher, and the motions are most of it: half a megabyte.
 constexpr std::size_t motions_a_chunk = std::size_t{1} << 16U;
 
-/// Numbers that say how the inclusions moved in a row: A of each and, where one tilts, Bx, By.
+/// How many numbers are the motions of a row: A of each inclusion and, if any tilts, Bx, By.
 std::size_t motions(const mesh::Mesh& mesh) {
   return mesh.inclusions.size() * (contact::tilts(mesh) ? 3 : 1);
 }
 
-/// Of the arrays of sweep_result.hpp.
+/// The bytes of the arrays of sweep_result.hpp.
 std::uint64_t result_bytes(const operators::MeshOperator& mesh_operator, std::uint64_t rows,
                            std::uint64_t traces, bool bounds) {
   constexpr std::uint64_t a_row = 2 * sizeof(std::int32_t) + 3 * sizeof(double);

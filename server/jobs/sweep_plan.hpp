@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// How a sweep is cut into the pieces that solver threads take.
+// Divides a sweep into the pieces that solver threads take.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +14,8 @@
 
 namespace anticrack::jobs {
 
-/// Known once the mesh is. A chunk is a run of rows that one thread solves, from the first on with
-/// nothing but the rows themselves: the numbers do not depend on who solves what.
+/// Known once the mesh is. A chunk is a run of rows that one thread solves in order, using only
+/// these rows, so the numbers do not depend on which thread solves what.
 struct SweepPlan {
   std::string matrix;  ///< path of its file
   std::uint64_t rows = 0;
@@ -23,26 +23,27 @@ struct SweepPlan {
   std::size_t chunk_rows = 1;
   std::uint64_t result_bytes = 0;  ///< of the result block, its arrays' alignment included
 
-  /// How many there are; the last may be shorter.
+  /// The number of chunks; the last may have fewer rows.
   std::size_t chunks() const noexcept {
     return static_cast<std::size_t>((rows + chunk_rows - 1) / chunk_rows);
   }
-  /// Of a chunk, index base 0.
+  /// The first row of a chunk, index base 0.
   std::uint64_t first_row(std::size_t chunk) const noexcept { return chunk * chunk_rows; }
-  /// Of a chunk.
+  /// The number of rows of a chunk.
   std::size_t rows_in(std::size_t chunk) const noexcept {
     return static_cast<std::size_t>(std::min<std::uint64_t>(chunk_rows, rows - first_row(chunk)));
   }
 };
 
-/// Rows of a chunk: about what a thread solves in some milliseconds, long against the lock and the
-/// event it costs, short against a turn. `motions`: numbers that say how the inclusions moved.
+/// Rows of a chunk: as many as a thread solves in some milliseconds, which is long compared with
+/// the lock and the event that a chunk costs, and short compared with a turn. `motions`: how many
+/// numbers give the motions of the inclusions.
 std::size_t chunk_rows(records::SweepSpec::Cases cases, std::size_t nodes, std::size_t contacts,
                        std::size_t motions);
 
-/// With bounds a chunk is what MeshOperator::estimate takes together at most: rows are as slow as
-/// load cases. Throws errors::Error as rows_of does, and limit_exceeded at matrix_field where the
-/// columns of the answers would be larger than a result may be.
+/// With bounds, rows are as slow as load cases, and a chunk has at most as many as
+/// MeshOperator::estimate takes together. Throws errors::Error as rows_of does, and limit_exceeded
+/// at matrix_field if the columns of the answers would be larger than a result may be.
 SweepPlan plan_sweep(const records::JobSpec& spec, MatrixFile matrix,
                      const operators::MeshOperator& mesh_operator, const EngineOptions& options);
 

@@ -20,14 +20,14 @@ using records::ArrayLayout;
 using records::BlockBuilder;
 using store::Spool;
 
-/// A chunk of that many rows without an answer.
+/// A chunk of `rows` rows without answers.
 records::Block no_answers(const LiveJob& job, std::size_t rows, contact::Status status) {
   SweepColumns columns = unsolved_rows(job, rows);
   std::ranges::fill(columns.status, status);
   return chunk_arrays(columns);
 }
 
-/// Puts the chunks' columns of each array one after the other.
+/// Joins the chunks' columns of each array, one after the other.
 void add_columns(store::SpooledBlock& result, const LiveJob& job, contact::Status unsolved) {
   const LiveSweep& sweep = *job.sweep;
   const records::Block whole = no_answers(job, sweep.plan.rows_in(0), unsolved);

@@ -10,13 +10,13 @@
 
 namespace anticrack::jobs {
 
-/// Columns for that many rows on the job's mesh, none with an answer yet.
+/// Columns for `rows` rows on the job's mesh, still without answers.
 contact::SweepColumns unsolved_rows(const LiveJob& job, std::size_t rows);
 
 /// The rows of a chunk: the arrays of arrays::sweep_rows and sweep_matrices.
 records::Block chunk_arrays(const contact::SweepColumns& columns);
 
-/// The arrays of ReadResult for a sweep; null when no row has an answer. Rows that have none have
+/// The arrays of ReadResult for a sweep; null if no row has an answer. Rows without an answer have
 /// the status `unsolved` and zeros. Throws errors::Error (storage).
 std::shared_ptr<const records::BlockSource> sweep_result(const LiveJob& job,
                                                          contact::Status unsolved);

@@ -13,7 +13,7 @@
 
 namespace anticrack::jobs {
 
-/// The arrays of a table, from one record; `folder` ends with a slash.
+/// Adds the arrays of a table, from one record; `folder` ends with a slash.
 template <class Table, class Record>
 void add_arrays(records::BlockBuilder& builder, const std::string& folder, const Table& table,
                 const Record& record) {
@@ -28,7 +28,7 @@ void add_arrays(records::BlockBuilder& builder, const std::string& folder, const
       table);
 }
 
-/// The nodes of all interfaces.
+/// Adds the positions of the nodes of all interfaces.
 inline void add_geometry(records::BlockBuilder& builder,
                          const std::vector<contact::TraceGeometry>& interfaces) {
   for (std::size_t i = 0; i < interfaces.size(); ++i) {
@@ -37,7 +37,7 @@ inline void add_geometry(records::BlockBuilder& builder,
   }
 }
 
-/// The traces along all interfaces; `folder` ends with a slash.
+/// Adds the traces along all interfaces; `folder` ends with a slash.
 inline void add_traces(records::BlockBuilder& builder, const std::string& folder,
                        const std::vector<contact::Trace>& traces) {
   for (std::size_t i = 0; i < traces.size(); ++i)

@@ -10,11 +10,11 @@ namespace anticrack::log {
 /// Bytes kept of a value; a longer one is cut and ends in "...".
 inline constexpr std::size_t longest_value = 4096;
 
-/// `value` for the inside of a JSON string. Escapes quotes, backslashes and what is hidden
-/// (words/shown.hpp); invalid UTF-8 becomes \ufffd. O(n).
+/// `value` for the inside of a JSON string. Escapes quotes, backslashes and characters that are not
+/// shown (words/shown.hpp); invalid UTF-8 becomes \ufffd. O(n).
 std::string escape(std::string_view value);
 
-/// `value` for a text line: bare if that is unambiguous, else escaped and in quotes.
+/// `value` for a text line: unchanged if that is unambiguous, else escaped and in quotes.
 std::string quote_if_needed(std::string_view value);
 
 }  // namespace anticrack::log

@@ -33,7 +33,7 @@ std::string text_line(std::string_view event, const Fields& fields) {
   return line;
 }
 
-/// The pattern adds time, level and braces.
+/// The members of a JSON line; the pattern adds time, level and braces.
 std::string json_members(std::string_view event, const Fields& fields) {
   std::string line = fmt::format(R"("event":"{}")", escape(event));
   for (const auto& [key, value] : fields) {

@@ -16,7 +16,7 @@ enum class Format { text, json };
 /// Call it once before logging. `level`: trace, debug, info, warn, error or off.
 void start(const std::string& level, Format format);
 
-/// A text, or a number, which JSON has without quotes.
+/// A text, or a number, which has no quotes in JSON.
 class Value {
  public:
   template <class Text>
@@ -24,7 +24,7 @@ class Value {
       : _text(std::forward<Text>(text)) {}
   template <std::integral Number>
   Value(Number number) : _text(std::to_string(number)), _is_number(true) {}
-  /// To a thousandth, as seconds are told. Not finite: null in JSON.
+  /// A number with three decimals, as for seconds; null in JSON if it is not finite.
   Value(double number);
 
   const std::string& text() const noexcept { return _text; }

@@ -41,12 +41,12 @@ std::uint64_t edge_key(std::int32_t a, std::int32_t b) noexcept {
   return low << 32U | high;
 }
 
-/// The nodes a refinement put on edges. Memory 16 bytes an edge of a line cut.
+/// The nodes that a refinement put on edges. Takes 16 bytes for each edge of a line that was cut.
 class Midpoints {
  public:
-  /// Node `first + i` is the midpoint of the edge between the two nodes parents[i]. Keeps those of
-  /// edges between nodes `on_line`, and adds them there: all that lines are cut by. O(k + c log c)
-  /// for c of them.
+  /// Node `first + i` is the midpoint of the edge between the two nodes parents[i]. Keeps only
+  /// midpoints of edges between nodes `on_line`, and adds them to `on_line`: these include all that
+  /// cut lines. O(k + c log c) for c of them.
   Midpoints(std::int32_t first, std::span<const std::array<std::int32_t, 2>> parents,
             std::vector<bool> on_line);
 
@@ -212,8 +212,8 @@ void Bisection::bisect_along_reference(std::int32_t t) {
   const std::int32_t t_new = append_triangle(t);
   const std::int32_t n_new = n < 0 ? -1 : append_triangle(n);
 
-  // (a, b, c) with reference edge ab becomes (c, a, m), in its place, and (b, c, m); seen from
-  // across ab, where a and b change roles, the half at a borders the new triangle there.
+  // (a, b, c) with reference edge ab becomes (c, a, m), in its place, and (b, c, m). For the
+  // triangle across ab, a and b change roles, so the half at a borders the new triangle there.
   const auto split = [&](std::int32_t old, std::int32_t fresh, std::int32_t across_old,
                          std::int32_t across_fresh) {
     const auto i = at(old);
@@ -230,14 +230,14 @@ void Bisection::bisect_along_reference(std::int32_t t) {
   if (n >= 0) split(n, n_new, t, t_new);
 }
 
-// Why the walk across reference edges ends. A base triangle has generation 0, children one more
-// than their parent. An edge of a triangle of generation g has level g if it is the reference edge,
-// else g + 1. Within a base triangle both sides of an edge agree on its level; on an edge of the
-// base, and its pieces, they differ by at most one, the lower level being on the side where it was
-// the reference edge. So a step from T across its reference edge e to N, whose reference
-// edge is another one, never raises the generation. It keeps the generation only if e is a piece of
-// the reference edge of T's base ancestor but not of N's; N's ancestor then has an edge that is
-// larger in the strict order than any of T's. So no triangle is met twice.
+// The walk across reference edges ends for this reason. A base triangle has generation 0, children
+// one more than their parent. An edge of a triangle of generation g has level g if it is the
+// reference edge, else g + 1. Within a base triangle both sides of an edge agree on its level; on
+// an edge of the base, and its pieces, they differ by at most one, the lower level being on the
+// side where it was the reference edge. So a step from T across its reference edge e to N, whose
+// reference edge is another one, never raises the generation. It keeps the generation only if e is
+// a piece of the reference edge of T's base ancestor but not of N's; N's ancestor then has an edge
+// that is larger in the strict order than any of T's. So no triangle is met twice.
 bool Bisection::bisect(std::size_t triangle) {
   _waiting.assign(1, static_cast<std::int32_t>(triangle));
   while (!_waiting.empty()) {

@@ -15,7 +15,7 @@
 namespace anticrack::mesh {
 namespace {
 
-// The first eight bytes: what follows, and the version of the format.
+// The first eight bytes name the kind of message and the version of the format.
 constexpr std::string_view mesh_tag = "ACMESH2\n";
 constexpr std::string_view moving_mesh_tag = "ACMESH3\n";     // motions follow
 constexpr std::string_view mesh_with_laws_tag = "ACMESH4\n";  // motions and tension laws follow
@@ -24,13 +24,13 @@ constexpr std::string_view reply_tag = "ACMREP3\n";
 
 constexpr auto last_reason = static_cast<std::int32_t>(errors::Reason::internal);
 
-/// Whether an inclusion moves otherwise than by default.
+/// Whether any inclusion has a motion other than the default.
 bool moves(const Mesh& mesh) {
   return std::ranges::any_of(mesh.motions, [](const Motion& m) { return m != Motion(); });
 }
 
-/// Fields that do not count for the hash of a mesh, and motions and laws, which are new: a mesh
-/// without them keeps its hash.
+/// Fields that are not part of the hash of a mesh. Motions and laws are among them, as they were
+/// added later: a mesh without them keeps its hash.
 bool is_beside(std::string_view field) {
   return field == "warnings" || field == "bisection_bound" || field == "motions" ||
          field == "tension_laws";
@@ -45,9 +45,9 @@ void put(Writer& out, const Mesh& mesh) {
   });
 }
 
-/// Of a mesh as bytes, about.
+/// About the size of an encoded mesh.
 std::size_t bytes_of(const Mesh& mesh) {
-  constexpr std::size_t lines = 64;  // interfaces, the boundary and names, of triangles: a few
+  constexpr std::size_t lines = 64;  // for interfaces, the boundary and names
   return mesh.xy.size() * sizeof(double) +
          (mesh.triangles.size() + mesh.subdomain.size()) * sizeof(std::int32_t) +
          mesh.dirichlet.size() * lines + lines * lines;
@@ -95,7 +95,8 @@ void check_indices(const Plan& plan) {
   }
 }
 
-/// Field violations are sent as paths; their description is the message (errors::Error::at).
+/// Writes an error; its fields are sent as paths, as their description is the message
+/// (errors::Error::at).
 void put(Writer& out, const errors::Error& error) {
   out.number(static_cast<std::int32_t>(error.reason()));
   out.text(error.what());

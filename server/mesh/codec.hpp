@@ -24,13 +24,14 @@ Bytes encode(const Mesh& mesh);
 /// Throws errors::Error (mesh_invalid) for malformed bytes.
 Mesh decode_mesh(std::span<const std::byte> bytes);
 
-/// Mesh this plan, then grade.
+/// Asks the helper to mesh this plan, then to grade the mesh.
 struct GenerateRequest {
   Plan plan;
   std::size_t max_triangles = 0;
 };
 ANTICRACK_FIELDS(GenerateRequest, plan, max_triangles)
-/// Read this .msh, then grade or refine as the options say; the file begins with $MeshFormat.
+/// Asks the helper to read this .msh file, which begins with $MeshFormat, then to grade or refine
+/// the mesh as the options say.
 struct ImportRequest {
   std::string path;
   MeshOptions options;

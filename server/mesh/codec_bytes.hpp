@@ -31,13 +31,13 @@ static_assert(std::endian::native == std::endian::little,
 
 class Writer {
  public:
-  /// `bytes`: about as many as will be written.
+  /// `bytes`: about how many will be written.
   explicit Writer(std::string_view tag, std::size_t bytes = 0) {
     _bytes.reserve(bytes);
     raw(tag.data(), tag.size());
   }
 
-  /// Little-endian, as in memory.
+  /// Writes a number, little-endian as in memory.
   template <class T>
   void number(T value) {
     static_assert(std::is_arithmetic_v<T>);
@@ -45,13 +45,14 @@ class Writer {
     if constexpr (std::is_floating_point_v<T>) value += T{0};
     raw(&value, sizeof value);
   }
-  /// A length of a list or text, which follows it.
+  /// Writes the length of a list or text that follows.
   void count(std::size_t n) { number(static_cast<std::uint64_t>(n)); }
   void text(const std::string& value) {
     count(value.size());
     raw(value.data(), value.size());
   }
-  /// Numbers, texts, containers and listed structs, nested at will; a list after its length.
+  /// Writes numbers, texts, containers and structs with a list of fields, nested at will; the
+  /// length of a list comes first.
   template <class T>
   void value(const T& from) {
     if constexpr (std::is_enum_v<T> || std::is_same_v<T, bool>) {
@@ -78,7 +79,7 @@ class Writer {
     }
   }
 
-  /// All bytes; empties the writer.
+  /// Returns all bytes and empties the writer.
   Bytes take() { return std::move(_bytes); }
 
  private:
@@ -131,7 +132,7 @@ class Reader {
     return bytes.size() >= tag.size() && std::memcmp(bytes.data(), tag.data(), tag.size()) == 0;
   }
 
-  /// The next of what Writer::number wrote.
+  /// Reads what Writer::number wrote.
   template <class T>
   T number() {
     static_assert(std::is_arithmetic_v<T>);
@@ -141,8 +142,8 @@ class Reader {
     _at += sizeof value;
     return value;
   }
-  /// The length of a list whose items take at least `item_bytes` each, checked against what is
-  /// left.
+  /// Reads the length of a list whose items take at least `item_bytes` each, and checks it against
+  /// the bytes that are left.
   std::size_t count(std::size_t item_bytes) {
     const auto n = number<std::uint64_t>();
     if (n > left() / item_bytes) {
@@ -150,7 +151,7 @@ class Reader {
     }
     return static_cast<std::size_t>(n);
   }
-  /// The next of what Writer::text wrote.
+  /// Reads what Writer::text wrote.
   std::string text() {
     const std::size_t n = count(1);
     std::string value(n, '\0');
@@ -158,7 +159,7 @@ class Reader {
     _at += n;
     return value;
   }
-  /// The next of what Writer::value wrote. Of an enum: what choices_of() gives for it.
+  /// Reads what Writer::value wrote. An enum must be in the range that choices_of() gives for it.
   template <class T>
   void read(T& to) {
     if constexpr (std::is_enum_v<T>) {
@@ -199,7 +200,7 @@ class Reader {
       for (auto& item : to) read(item);  // a std::array
     }
   }
-  /// A number from `first` to `last`.
+  /// Reads a number from `first` to `last`.
   std::int32_t choice(std::int32_t first, std::int32_t last, const char* what) {
     const auto value = number<std::int32_t>();
     if (value < first || value > last) {
@@ -207,7 +208,7 @@ class Reader {
     }
     return value;
   }
-  /// Fails unless everything was read.
+  /// Throws unless everything was read.
   void end() const {
     if (left() > 0) fail(fmt::format("{} bytes are left over", left()));
   }

@@ -9,8 +9,8 @@
 
 namespace anticrack::mesh {
 
-/// One side of one triangle, walked in the triangle's direction: from -> to, the triangle on the
-/// left when it is counterclockwise.
+/// One side of one triangle, walked in the triangle's direction from -> to; a counterclockwise
+/// triangle is on the left.
 struct EdgeUse {
   std::int32_t from = 0;
   std::int32_t to = 0;
@@ -30,7 +30,7 @@ class EdgeTable {
   /// The sides of the edge between two nodes, in either order; empty if there is none. O(log m).
   std::span<const EdgeUse> find(std::int32_t a, std::int32_t b) const noexcept;
 
-  /// Calls `visit(std::span<const EdgeUse>)` once an edge, in order of (low, high).
+  /// Calls `visit(std::span<const EdgeUse>)` once for each edge, in the order of (low, high).
   template <class Visit>
   void each(Visit&& visit) const {
     for (std::size_t i = 0; i < _uses.size();) {

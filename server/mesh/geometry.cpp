@@ -18,29 +18,29 @@
 namespace anticrack::mesh {
 namespace {
 
-/// Gives the square of the paper 5,700 triangles a subdomain, as many as its mesh has.
+/// Gives the paper's square 5,700 triangles a subdomain, as many as the paper's mesh has.
 constexpr double paper_growth = 0.057;
 
-/// A fiftieth of the diagonal when nothing is graded. Graded, the square of the paper with its
-/// inclusion ends at about as many triangles as the paper's mesh has.
+/// Without grading, the default size is a fiftieth of the diagonal. With grading, the paper's
+/// square with its inclusion gets about as many triangles as the paper's mesh has.
 constexpr double uniform_divisions = 50;
 constexpr double graded_divisions = 20.3;
 
-/// Of many tips: h0 as a part of the reach of a tip that has no more than its share.
+/// With many tips: h0 is the reach of a tip that has no more than its share, divided by this.
 constexpr double share_divisions = 2.75;
 
-/// Default size of preset coarse over that of graded.
+/// Ratio of the default size of preset coarse to that of graded.
 constexpr double coarsening = 4;
 
 /// Limit of the curves of a plan; the work on them grows nearly quadratically.
 constexpr std::size_t curve_limit = 50'000;
 
-/// Equilateral triangles of this edge length fill the area, or line its boundary.
+/// How many equilateral triangles of this edge length fill the area, or line its boundary.
 double expected_triangles(double area, double size, double pieces) {
   return std::max(area / (std::sqrt(3.0) / 4 * size * size), pieces);
 }
 
-/// The ends of inclusions, of their delaminated parts, and of cracks.
+/// The number of ends of inclusions, of their delaminated parts, and of cracks.
 std::size_t tip_count(const Geometry& geometry) {
   std::set<Point> ends;
   std::size_t within = 0;
@@ -55,16 +55,16 @@ std::size_t tip_count(const Geometry& geometry) {
   return ends.size() + within;
 }
 
-/// The edge length where none is given.
+/// The edge length if none is given.
 double default_size(const Geometry& geometry, Preset preset, double across, double area) {
   if (!graded(preset)) return across / uniform_divisions;
-  if (!(area > 0)) return across / graded_divisions;  // the holes are refused later
+  if (!(area > 0)) return across / graded_divisions;  // wrong holes are refused later
   const double share = tip_share(0.5 * std::sqrt(area), tip_count(geometry));
   const double size = std::min(across / graded_divisions, share / share_divisions);
   return preset == Preset::coarse ? coarsening * size : size;
 }
 
-/// What is expected, as a count.
+/// The expected number as an integer; throws if it is above `max_triangles`.
 std::size_t bounded(double expected, std::size_t max_triangles, const std::string& cause,
                     const std::string& field) {
   if (expected <= static_cast<double>(max_triangles)) return static_cast<std::size_t>(expected);
@@ -85,12 +85,12 @@ void check_held(const Geometry& geometry, const Plan& plan) {
          "whole; leave a side or a hole out of neumann, or hold an inclusion, as by fixed = 0");
 }
 
-/// Refuses inclusions and cracks beside which a piece of the membrane would be held in a point
-/// alone: at the end of a side that is held, or between two that end in a point of one.
+/// Refuses inclusions and cracks beside which a piece of the membrane would be held in a single
+/// point: the end of a side that is held, or a point of a held side in which two of them end.
 void check_contacts(const Layout& layout, const Plan& plan) {
   struct Ends {
-    int held = 0;   ///< curves of the boundary where u is held
-    int free = 0;   ///< and others
+    int held = 0;   ///< boundary curves where u is held
+    int free = 0;   ///< other boundary curves
     int parts = 0;  ///< curves of inclusions and cracks
   };
   std::vector<Ends> ends(plan.points.size());
@@ -118,7 +118,7 @@ void check_contacts(const Layout& layout, const Plan& plan) {
   }
 }
 
-/// The stretch that each chord of an interface lies on, or null.
+/// The stretch on which each chord of an interface lies, or null.
 std::vector<const Stretch*> stretches_of(const Layout& layout, const Network& network) {
   std::vector<const Stretch*> stretches;
   stretches.reserve(network.chords.size());
@@ -149,7 +149,8 @@ void add_curves(const Layout& layout, const Network& network,
   }
 }
 
-/// The numerics let the minus side come off; on a crack the plus side is the user's left.
+/// How each chord must be walked: the numerics let the minus side come off, and the plus side of a
+/// crack is the left side of the user's line.
 std::vector<Walk> walks_of(const std::vector<const Stretch*>& stretches) {
   std::vector<Walk> walks;
   walks.reserve(stretches.size());
@@ -188,7 +189,7 @@ void plan_paper(double area, std::size_t max_triangles, Plan& plan) {
                            "options.preset");
 }
 
-/// Before anything is cut: the area and the lines need at most `max_triangles`.
+/// Checks before anything is cut that the area and the lines need at most `max_triangles`.
 std::size_t check_size(const Network& network, double area, double size,
                        std::size_t max_triangles) {
   double pieces = 0;
@@ -197,7 +198,7 @@ std::size_t check_size(const Network& network, double area, double size,
                  "an edge length of " + shown(size), "options.size");
 }
 
-/// Says how far the chords lie from the curve that they miss most.
+/// Adds a warning with the largest distance of chords from their curve.
 void note_chords(const Network& network, std::vector<std::string>& warnings) {
   std::vector<int> pieces(network.lines.size());
   double most = 0;
@@ -246,7 +247,7 @@ Plan plan(const Geometry& given, const MeshOptions& options, std::size_t max_tri
       options.size > 0 ? options.size : default_size(geometry, options.preset, across, area);
   std::size_t triangles = 0;
   if (options.preset != Preset::paper) triangles = check_size(network, area, size, max_triangles);
-  // The lines alone first, so that their faults are not reported as faults of the parts on them.
+  // The lines are cut alone first, so that their faults are not reported as faults of their parts.
   Network lines = network;
   ChordRule rule{size};
   if (options.chord_angle > 0) rule.turn = options.chord_angle * std::numbers::pi / 180;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The parametric geometry of a case: a boundary, holes and interfaces in it, what lies on them.
-// Pure data and checks, without the mesher.
+// The parametric geometry of a case: a boundary, holes, interfaces, and what lies on these. Pure
+// data and checks, without the mesher.
 #pragma once
 
 #include <cstdint>
@@ -25,11 +25,11 @@ ANTICRACK_FIELDS(Part, from, to)
 
 enum class Shape { polyline, arc, spline, segment, circle };
 
-/// A line with two ends: through `points`, or a segment.
+/// A line with two ends, through `points`, or a segment.
 struct LineSpec {
   Shape shape = Shape::polyline;  ///< no circle
   std::vector<Point> points;      ///< as of InterfaceSpec; segment: its middle
-  double angle = 0;   ///< segment: degrees, counterclockwise from the x axis, of its direction
+  double angle = 0;   ///< segment: its direction, degrees, counterclockwise from the x axis
   double length = 0;  ///< segment: > 0
   bool operator==(const LineSpec&) const = default;
 };
@@ -44,8 +44,8 @@ struct OutlineSpec {
 };
 ANTICRACK_FIELDS(OutlineSpec, shape, points, radius)
 
-/// A line in the membrane, plus side on its left. Ends on the boundary, on another interface, or
-/// free: see InterfaceCurve of the API.
+/// A line in the membrane; its plus side is on its left. It ends on the boundary, on another
+/// interface, or freely: see InterfaceCurve of the API.
 struct InterfaceSpec {
   std::string name;
   Shape shape = Shape::polyline;  ///< no segment; a circle only within plan(): centre, radius
@@ -67,12 +67,12 @@ enum class LineSide : std::int32_t { unspecified = 0, left = 1, right = 2 };
 
 struct InclusionSpec {
   std::string name;
-  Part part;                      ///< on an interface; means nothing where `line` is set
+  Part part;                      ///< on an interface; ignored if `line` is set
   std::vector<Part> delaminated;  ///< parts of `part`; the rest is bonded. {part}: all delaminated
   Motion motion{};
-  std::optional<LineSpec> line{};        ///< all of an interface of its own, with its name
-  std::vector<StretchSpec> stretches{};  ///< delaminated as well
-  LineSide delaminated_side = LineSide::unspecified;  ///< that comes off; unset: the minus side
+  std::optional<LineSpec> line{};                     ///< its own interface, instead of `part`
+  std::vector<StretchSpec> stretches{};               ///< further delaminated stretches of `line`
+  LineSide delaminated_side = LineSide::unspecified;  ///< side that comes off; unset: minus
 };
 ANTICRACK_FIELDS(InclusionSpec, name, part, delaminated, motion, line, stretches, delaminated_side)
 
@@ -86,14 +86,14 @@ ANTICRACK_FIELDS(CrackSpec, name, part, contact, line)
 
 struct RegionSpec {
   std::string name;
-  Point at{};          ///< inside the subdomain it names; means nothing where `outline` is set
+  Point at{};          ///< inside the subdomain that it names; ignored if `outline` is set
   double tension = 1;  ///< T > 0
-  std::optional<OutlineSpec> outline{};     ///< an interface of glue with its name: what is inside
+  std::optional<OutlineSpec> outline{};     ///< around it: glue with its name
   std::optional<TensionLaw> tension_law{};  ///< in place of `tension`
 };
 ANTICRACK_FIELDS(RegionSpec, name, at, tension, outline, tension_law)
 
-/// A side of the boundary. Begins where the one before it ends.
+/// A side of the boundary, which begins where the one before it ends.
 struct SideSpec {
   std::string name;  ///< empty: side-1, side-2, ...
   LineSpec line;
@@ -114,7 +114,7 @@ struct Geometry {
   std::vector<InterfaceSpec> interfaces;
   std::vector<InclusionSpec> inclusions;
   std::vector<CrackSpec> cracks;
-  std::vector<Part> neumann;  ///< of the outer boundary, counterclockwise; from == to: all of it
+  std::vector<Part> neumann;  ///< parts of the outer boundary, counterclockwise; from == to: all
   std::vector<RegionSpec> regions;
   std::vector<SideSpec> sides{};  ///< in place of `boundary`, either orientation
   std::vector<HoleSpec> holes{};
@@ -123,7 +123,7 @@ struct Geometry {
 ANTICRACK_FIELDS(Geometry, boundary, interfaces, inclusions, cracks, neumann, regions, sides, holes,
                  neumann_sides)
 
-/// Coarse: graded, from a default size four times as large.
+/// `coarse` is `graded` with a default size four times as large.
 enum class Preset { graded, paper, uniform, coarse };
 constexpr bool graded(Preset preset) noexcept {
   return preset == Preset::graded || preset == Preset::coarse;
@@ -133,9 +133,9 @@ struct MeshOptions {
   Preset preset = Preset::graded;
   double size = 0;       ///< edge length away from tips; 0: chosen, see MeshOptions of the API
   double tip_size = 0;   ///< graded: smallest edge wanted; 0: chosen, see mesh/refine.hpp
-  double grading = 0.2;  ///< graded: m
+  double grading = 0.2;  ///< graded: exponent m
   std::vector<std::vector<Point>> align{};  ///< geometry: lines that edges must follow
-  // An upload's:
+  // Options of an upload:
   std::map<std::int32_t, std::string>
       curve_groups{};  ///< physical tag -> "crack", "inclusion:NAME"...
   std::map<std::int32_t, std::string> surface_groups{};  ///< physical tag -> subdomain
@@ -147,44 +147,44 @@ struct MeshOptions {
 ANTICRACK_FIELDS(MeshOptions, preset, size, tip_size, grading, align, curve_groups, surface_groups,
                  tension, inclusion_motions, tension_laws, chord_angle)
 
-/// What a straight curve of the plan is.
+/// The role of a straight curve of the plan.
 enum class Role : std::int32_t { dirichlet, neumann, interface, align };
 
-/// From points[a] to points[b], cut into `intervals` equal pieces.
+/// A straight curve from points[a] to points[b], cut into `intervals` equal pieces.
 struct PlannedCurve {
   int a = 0;
   int b = 0;
   int intervals = 1;
   Role role = Role::dirichlet;
   int left = -1;   ///< face on the left of a-b, -1: outside the membrane, or in a hole
-  int right = -1;  ///< and on its right; equal to `left` for a curve inside a face
+  int right = -1;  ///< face on its right; equal to `left` for a curve inside a face
   // of an interface:
   Kind kind = Kind::glue;
   int inclusion = -1;
 };
 ANTICRACK_FIELDS(PlannedCurve, a, b, intervals, role, left, right, kind, inclusion)
 
-/// A chain of curves, each from a to b, end to start; plus side on the left.
+/// A chain of curves from a to b, each beginning where the last ends; the plus side is on the left.
 struct PlannedInterface {
   std::string name;
   std::vector<int> curves;
 };
 ANTICRACK_FIELDS(PlannedInterface, name, curves)
 
-/// A face of the arrangement of all curves. Faces separated by align lines only are one subdomain,
-/// share its name, tension and law, and follow each other. Loops hold +-(curve index + 1), negative
-/// where they walk from b to a.
+/// A face of the arrangement of all curves. Faces that only align lines separate are one subdomain:
+/// they share its name, tension and law, and are consecutive. Loops hold +-(curve index + 1),
+/// negative if they walk the curve from b to a.
 struct PlannedFace {
   std::string name;
   double tension = 1;
-  TensionLaw law;                       ///< in place of `tension`, if it has one
+  TensionLaw law;                       ///< in place of `tension`, if the face has a law
   std::vector<int> outer;               ///< counterclockwise, the face on its left
   std::vector<std::vector<int>> holes;  ///< clockwise, the face on its left
   std::vector<int> embedded;            ///< indices of curves inside it that bound no other face
 };
 ANTICRACK_FIELDS(PlannedFace, name, tension, law, outer, holes, embedded)
 
-/// How to grade a mesh; see mesh/refine.hpp. h0 = 0: no grading.
+/// Parameters of the grading; see mesh/refine.hpp. h0 = 0: no grading.
 struct GradingSpec {
   double h0 = 0;
   double m = 0.2;
@@ -202,28 +202,28 @@ struct Plan {
   std::vector<Motion> motions;  ///< (inclusions)
   double growth = 0.3;          ///< how much longer edges become per length away from a finer curve
   GradingSpec grading;
-  std::size_t triangles = 0;            ///< to be expected, before grading
+  std::size_t triangles = 0;            ///< expected number, before grading
   std::vector<std::string> warnings{};  ///< for Mesh::warnings: points that were moved onto a line
 };
 ANTICRACK_FIELDS(Plan, points, curves, interfaces, faces, inclusions, motions, growth, grading,
                  triangles, warnings)
 
 /// Checks a geometry and cuts it into curves with the intervals of the preset. An interface is
-/// walked against its direction where another side of an inclusion comes off than its minus side.
-/// Throws errors::Error with the field at fault ("boundary", "sides[2].line",
+/// walked against its direction where the plus side of an inclusion comes off instead of the minus
+/// side. Throws errors::Error with the field at fault ("boundary", "sides[2].line",
 /// "interfaces[0].polyline", "inclusions[1].part.from", "inclusions[1].line.segment",
 /// "inclusions[0].fixed", "regions[0].at", "options.size", ...): geometry_invalid (the boundary
 /// crosses itself or does not close, nothing is held, a hole lies outside or touches something, an
-/// interface leaves the membrane or runs along another, a part lies on no interface or
-/// overlaps another, ends where u is held on one side only, values are not finite, names are empty,
+/// interface leaves the membrane or runs along another, a part lies on no interface or overlaps
+/// another, ends where u is held on one side only, values are not finite, names are empty,
 /// malformed, unknown or used twice, a motion has a fault); invalid_argument for options;
 /// limit_exceeded for more than 20,000 vertices or more than `max_triangles` expected triangles.
 /// O(v^2) for v vertices.
 Plan plan(const Geometry& geometry, const MeshOptions& options, std::size_t max_triangles);
 
-/// Check the options of a geometry (all but the points of `align`, which plan() checks) and of an
-/// upload, before a mesh is known. Throw errors::Error (invalid_argument) with the field at fault
-/// ("options.size", "options.align", "options.curve_groups[3]", ...).
+/// Check options before a mesh is known: those of a geometry (all but the points of `align`, which
+/// plan() checks) and those of an upload. They throw errors::Error (invalid_argument) with the
+/// field at fault ("options.size", "options.align", "options.curve_groups[3]", ...).
 void check_for_geometry(const MeshOptions& options);
 void check_for_upload(const MeshOptions& options);
 

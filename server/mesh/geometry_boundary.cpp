@@ -42,7 +42,7 @@ std::vector<Curve> curves_of(const Geometry& geometry) {
   return curves;
 }
 
-/// The sides end to end: gaps of rounding are closed, larger ones refused.
+/// Joins the sides end to end: gaps by rounding are closed, larger ones refused.
 void join(std::vector<Curve>& curves, double reach) {
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const Curve& before = curves[(i + curves.size() - 1) % curves.size()];
@@ -64,7 +64,7 @@ std::vector<Point> polygon_of(std::span<const NetworkLine> lines) {
   std::vector<Point> polygon;
   for (const NetworkLine& line : lines) {
     std::vector<Point> own = polygon_of(line.line);
-    if (!line.line.closed()) own.pop_back();  // the first of the next one
+    if (!line.line.closed()) own.pop_back();  // it is the first point of the next line
     polygon.insert(polygon.end(), own.begin(), own.end());
   }
   return polygon;

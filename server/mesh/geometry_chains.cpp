@@ -10,7 +10,7 @@
 namespace anticrack::mesh {
 namespace {
 
-/// Of all curves of a chain, which agree.
+/// How all curves of a chain must be walked; they agree.
 Walk walk_of(const std::vector<int>& chain, const std::vector<Walk>& walks) {
   for (const int curve : chain)
     if (walks[at(curve)] != Walk::either) return walks[at(curve)];
@@ -24,7 +24,7 @@ bool agree(Walk a, Walk b) { return a == Walk::either || b == Walk::either || a 
 void add_chains(const Network& network, const std::vector<std::string>& names,
                 const std::vector<bool>& kept, const std::vector<Walk>& walks, Plan& plan) {
   std::vector<std::vector<std::vector<int>>> chains(names.size());
-  Walk walk = Walk::either;  // of the last chain
+  Walk walk = Walk::either;  // of the present chain
   for (std::size_t e = 0; e < network.chords.size(); ++e) {
     const auto line = at(network.chords[e].line);
     if (network.lines[line].role != Role::interface || !kept[e]) continue;

@@ -48,7 +48,7 @@ class Meetings {
     return distance(point(other(s, common)), segment(t)) <= _tolerance ||
            distance(point(other(t, common)), segment(s)) <= _tolerance;
   }
-  /// Direction of the line where the chord leaves `end`: on a curve its tangent, not the chord.
+  /// Direction of the line where the chord leaves `end`: the tangent of a curve, not the chord.
   Point direction(const Chord& chord, int end) const {
     const Line& on = line(chord).line;
     if (on.straight()) {
@@ -105,14 +105,14 @@ class Meetings {
            shown(between * 180 / std::numbers::pi),
            " degrees, nearly along each other; let them meet at more than one degree");
   }
-  /// Of two lines that pass through a point, whichever way they are walked.
+  /// Checks the angle of two lines that pass through a point, whichever way they are walked.
   void check_passing(const Chord& s, const Chord& t, const Point& at, const Point& d,
                      const Point& e) const {
     const double between = angle(d, e);
     check_angle(s, t, at, std::min(between, std::numbers::pi - between));
   }
 
-  /// Two sides, which may meet at their ends, or a hole and another line.
+  /// Checks two sides, which may meet at their ends, or a hole and another line of the boundary.
   void between_boundaries(const Chord& s, const Chord& t, int common) const {
     const bool sides = at(t.line) < _network.outer;
     const bool follow = sides && common >= 0 && (s.b == t.a || t.b == s.a);
@@ -127,7 +127,7 @@ class Meetings {
     if (follow) check_angle(s, t, common);
   }
 
-  /// `s` is the boundary's.
+  /// Checks a line against the boundary, of which `s` is a chord.
   void against_boundary(const Chord& s, const Chord& t, int common) const {
     const NetworkLine& other_line = line(t);
     const Field& field = other_line.field;
@@ -160,8 +160,8 @@ class Meetings {
     check_meetings(_crossings.size(), _most);
   }
 
-  /// Newton on c1(t1) = c2(t2), which are nearly straight within their chords. Lines along each
-  /// other, where the system is singular to rounding, are refused first.
+  /// Solves c1(t1) = c2(t2) by Newton's method; the curves are nearly straight within their chords.
+  /// Lines along each other, for which the system is singular to rounding, are refused first.
   void refine(const Chord& s, const Chord& other, std::array<double, 2>& t) const {
     const Line& first = line(s).line;
     const Line& second = line(other).line;

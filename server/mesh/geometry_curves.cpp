@@ -9,13 +9,13 @@
 namespace anticrack::mesh {
 namespace {
 
-/// Refuses points far outside the membrane first: products of such coordinates would overflow.
+/// Refuses points far outside the membrane, before products of such coordinates can overflow.
 void check_near(const Point& p, const Field& field, const Outline& outline) {
   if (distance(p, outline.boundary.front()) > 10 * outline.tolerance / relative_tolerance)
     refuse(field, field, " ", shown(p), " lies outside the boundary; it must lie in the membrane");
 }
 
-/// Of a polyline or spline.
+/// Checks the points of a polyline or spline.
 void check_vertices(const std::vector<Point>& points, const Field& owner, const Field& field,
                     const Outline& outline) {
   check_points(points, field);
@@ -66,8 +66,8 @@ Line arc_of(const InterfaceSpec& spec, const Field& owner, const Outline& outlin
     refuse(owner + ".to", owner, " starts and ends at the same point ", shown(a));
   const double ab = distance(a, b), bc = distance(b, c), ac = distance(a, c);
   const double twice_area = std::abs(signed_area(std::array{a, b, c})) * 2;
-  // A flatter arc's centre is lost to rounding: its radius ab bc ac / (2 twice_area) exceeds the
-  // membrane by far. The negation also catches NaN.
+  // The centre of a flatter arc is lost to rounding, since its radius ab bc ac / (2 twice_area)
+  // exceeds the membrane by far. The negation also catches NaN.
   const bool flat = distance(b, Segment{a, c}) <= 1e3 * tolerance ||
                     !(ab * bc * ac <= 1e15 * tolerance * twice_area);
   if (flat || ab <= tolerance || bc <= tolerance) {

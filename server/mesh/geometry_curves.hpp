@@ -12,10 +12,10 @@
 
 namespace anticrack::mesh {
 
-/// The line of a shape; `outline`: of the membrane in which it lies. Throws errors::Error
+/// The line of a shape. `outline`: that of the membrane in which it lies. Throws errors::Error
 /// (geometry_invalid, limit_exceeded) at `field` or below it: too few points, one far outside, two
-/// equal ones, a polyline that meets itself, a flat arc. O(v log v) and the pairs of edges over the
-/// same x.
+/// equal ones, a polyline that meets itself, a flat arc. O(v log v + pairs of edges over the same
+/// x).
 Line lay_curve(const InterfaceSpec& spec, const Field& field, const Outline& outline);
 
 /// The vertices of a line, and ends of chords of at most five degrees where it is curved.

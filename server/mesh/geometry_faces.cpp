@@ -54,7 +54,7 @@ class Walker {
     return twice / 2;
   }
 
-  /// From the lowest to the highest coordinates.
+  /// The bounding box of a loop, from the lowest to the highest coordinates.
   Segment box(const std::vector<int>& loop) const {
     Segment box{start_point(loop.front()), start_point(loop.front())};
     for (const int half : loop) {
@@ -126,11 +126,11 @@ class Walker {
   std::vector<int> _next;
 };
 
-/// Loops that pass no vertex twice, which together walk the half-edges of `loop`.
+/// Splits `loop` into loops that pass no vertex twice and together walk its half-edges.
 std::vector<std::vector<int>> simple_loops(const Walker& walker, const std::vector<int>& loop) {
   std::vector<std::vector<int>> all;
   std::vector<int> path;
-  std::unordered_map<int, std::size_t> place;  // on the path, of each vertex it passes
+  std::unordered_map<int, std::size_t> place;  // position on the path of each vertex that it passes
   for (const int half : loop) {
     const auto found = place.find(walker.start(half));
     if (found != place.end()) {
@@ -177,7 +177,7 @@ Arrangement arrange(std::span<const Point> points, EdgeSpan edges, const std::ve
     return part[at(walker.start(loops[loop].front()))];
   };
   std::vector<double> area(loops.size());
-  // each connected part has one loop around it, the one with the least area
+  // each connected part has one loop around it: the one with the least (signed) area
   std::vector<std::size_t> around(points.size(), loops.size());
   for (std::size_t i = 0; i < loops.size(); ++i) {
     area[i] = walker.area(loops[i]);
@@ -201,7 +201,7 @@ Arrangement arrange(std::span<const Point> points, EdgeSpan edges, const std::ve
   }
   for (std::size_t i = 0; i < loops.size(); ++i) {
     if (around[at(part_of(i))] != i) continue;
-    // the smallest loop of another part that holds it
+    // the face whose outer loop is the smallest of another part that holds this part
     int home = Arrangement::outside;
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t f = 0; f < loop_of.size(); ++f) {

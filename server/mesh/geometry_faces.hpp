@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The faces a planar straight-line graph cuts the plane into (M. de Berg et al., Computational
-// Geometry, chapter 2).
+// The faces into which a planar straight-line graph cuts the plane (M. de Berg et al.,
+// Computational Geometry, chapter 2).
 #pragma once
 
 #include <array>
@@ -13,22 +13,23 @@
 
 namespace anticrack::mesh {
 
-/// A loop walks edges with the face on its left: +-(edge + 1), the sign negative from end to start.
+/// A loop walks edges with the face on its left: +-(edge + 1), negative from end to start of the
+/// edge.
 using Loop = std::vector<int>;
 
 struct Face {
   Loop outer;               ///< counterclockwise
   std::vector<Loop> holes;  ///< clockwise
   double area = 0;          ///< within `outer`
-  Segment box{};            ///< around it, from the lowest to the highest coordinates
+  Segment box{};            ///< bounding box, from the lowest to the highest coordinates
 };
 
 struct Arrangement {
   static constexpr int outside = -1;
 
   std::vector<Face> faces;
-  std::vector<int> left;   ///< per edge: the face on its left, or `outside`; also if not used
-  std::vector<int> right;  ///< and on its right
+  std::vector<int> left;   ///< per edge, used or not: the face on its left, or `outside`
+  std::vector<int> right;  ///< per edge: the face on its right
 };
 
 /// The faces between the used edges, which meet only at their ends. A loop passes each vertex once.

@@ -9,23 +9,23 @@
 
 namespace anticrack::mesh {
 
-/// A field of a geometry, and what messages call it: "inclusions[0].line.arc.from" is shown as
-/// inclusion "stiffener": from, by the name and the key of the case.
+/// A field of a geometry, and the text that messages show for it: "inclusions[0].line.arc.from" is
+/// shown as inclusion "stiffener": from, with the name and the key of the case.
 struct Field {
   std::string path;
   std::string shown;
-  bool of_part = false;  ///< `shown` ends with the part, no key below it
+  bool of_part = false;  ///< whether `shown` ends with the part, without a key
 
-  /// One that has no name but its path.
+  /// A field that is shown by its path.
   Field(const char* plain) : Field(std::string(plain)) {}
   Field(std::string plain) : path(std::move(plain)), shown(path) {}
-  /// Entry i of the list of a kind of parts: "inclusion" is in inclusions.
+  /// Entry i of the list of parts of a kind; an "inclusion" is in the list inclusions.
   Field(const std::string& kind, std::size_t i, const std::string& name)
       : path(fmt::format("{}s[{}]", kind, i)),
         shown(kind + (name.empty() ? fmt::format(" {}", i + 1) : " \"" + name + "\"")),
         of_part(true) {}
 
-  /// `below`: ".arc.from"; `key`: of the case, empty where the case has none.
+  /// A field below this one. `below`: ".arc.from"; `key`: that of the case, empty if it has none.
   Field at(const std::string& below, const std::string& key) const {
     Field field = *this;
     field.path += below;
@@ -34,7 +34,7 @@ struct Field {
     field.of_part = false;
     return field;
   }
-  /// The same of one that the case calls as the API does.
+  /// The same for a field whose key in the case is its name in the API.
   Field operator+(const std::string& below) const {
     return at(below, below.starts_with('.') ? below.substr(1) : below);
   }

@@ -26,10 +26,10 @@ void share(const Plan& plan, const std::vector<PlannedCurve*>& curves) {
   for (std::size_t i = 0; i < curves.size(); ++i) curves[i]->intervals = shares[i];
 }
 
-/// An edge is at most so many times as long as what is near it.
+/// An edge is at most this many times as long as the distance to what is near it.
 constexpr double ratio = 2;
 
-/// A point near which edges are no longer than `size`.
+/// A point near which edges must be no longer than `size`.
 struct Fine {
   Point at{};
   double size = 0;
@@ -59,7 +59,7 @@ std::vector<Fine> fine_points(const Plan& plan, double size) {
   return fine;
 }
 
-/// For each curve, the curves it is too long for; none that shares a point with it.
+/// For each curve, the curves without a common point that are near it and for which it is too long.
 std::vector<std::vector<int>> near_curves(const Plan& plan, double size) {
   std::vector<Segment> segments;
   segments.reserve(plan.curves.size());
@@ -91,7 +91,7 @@ class Cutter {
     for (const Fine& fine : _fine) _least = std::min(_least, fine.size);
   }
 
-  /// Where the curve is to be cut, in (0,1), in order.
+  /// The places in (0,1) where the curve is to be cut, in order.
   std::vector<double> cuts(std::size_t curve) {
     _cuts.clear();
     const Segment whole = segment_of(_plan, _plan.curves[curve]);
@@ -154,12 +154,12 @@ class Cutter {
   std::vector<double> _cuts;
 };
 
-/// gmsh takes as long for a curve as for a few hundred triangles, so that many equal pieces in a
-/// row are the intervals of one.
+/// gmsh takes as long for a curve as for a few hundred triangles, so this many equal pieces in a
+/// row become intervals of one curve.
 constexpr std::size_t least_row = 32;
 
-/// How many pieces from cut `i` on, the first of which begins at `from`, are one curve. The lengths
-/// are powers of two.
+/// How many pieces from cut `i` on become one curve; the first begins at `from`. Lengths are powers
+/// of two.
 std::size_t equal_pieces(const std::vector<double>& cuts, std::size_t i, double from) {
   const double length = cuts[i] - from;
   std::size_t count = 1;
@@ -189,7 +189,7 @@ void set_paper_intervals(Plan& plan) {
 
 void set_intervals(Plan& plan, double size) {
   for (PlannedCurve& curve : plan.curves) {
-    // a length that is a whole number of sizes but for rounding is cut into just as many
+    // a length that is, up to rounding, a whole number of sizes is cut into just as many pieces
     const double piece = length_of(plan, curve) / curve.intervals;
     curve.intervals *= static_cast<int>(std::max(1.0, std::ceil(piece / size - 1e-9)));
   }
@@ -199,11 +199,11 @@ std::vector<int> apportion(std::span<const double> lengths, int total) {
   const std::size_t k = lengths.size();
   const double sum = std::accumulate(lengths.begin(), lengths.end(), 0.0);
   std::vector<int> shares(k, 1);
-  std::vector<double> owed(k, 0.0);  // what a curve's quota exceeds its share by
+  std::vector<double> owed(k, 0.0);  // by how much a curve's quota exceeds its share
   int left = total;
   for (std::size_t i = 0; i < k; ++i) {
     const double quota = total * (lengths[i] / sum);
-    // a quota that is a whole number but for rounding counts as one
+    // a quota that is a whole number up to rounding counts as this number
     shares[i] = std::max(1, static_cast<int>(std::floor(quota + 1e-9)));
     owed[i] = quota - shares[i];
     left -= shares[i];
@@ -213,7 +213,7 @@ std::vector<int> apportion(std::span<const double> lengths, int total) {
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return owed[a] > owed[b] + 1e-9; });
   for (std::size_t i = 0; left > 0; i = (i + 1) % k, --left) ++shares[order[i]];
-  // curves raised to one interval are paid for by those that have most above their quota
+  // the intervals of curves raised to one are taken from the curves that are most above their quota
   while (left < 0) {
     std::size_t richest = k;
     for (std::size_t i = 0; i < k; ++i) {

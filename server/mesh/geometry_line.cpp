@@ -77,7 +77,7 @@ Line Line::circle(const Point& centre, double radius) {
 Line Line::spline(std::vector<Point> points, bool closed) {
   Line line(Shape::spline, closed, std::move(points));
   const auto n = static_cast<int>(line._vertices.size());
-  // beyond an open end the line goes on as it came
+  // beyond an open end the line goes straight on
   const auto point = [&](int i) -> Point {
     if (closed) return line._vertices[static_cast<std::size_t>((i + n) % n)];
     const auto mirrored = [&](int end, int next) -> Point {
@@ -140,7 +140,7 @@ Line::Box Line::box_of(std::size_t first, std::size_t last) const noexcept {
   return box;
 }
 
-/// How far the curve of a span leaves the chords of its samples at most: h^2/8 of the largest
+/// Bound of the distance of a span's curve from the chords of its samples: h^2/8 times the largest
 /// second derivative, which is linear within a span of a spline.
 double Line::bulge(int k) const noexcept {
   const double h = 1.0 / samples_in_span();
@@ -239,8 +239,8 @@ Point Line::derivative(double t) const noexcept {
   return d;
 }
 
-/// The parameter of the point nearest to `p` between two samples: that on their chord, then Newton
-/// on (c - p).c' with a curvature-free slope, which is exact near the line.
+/// The parameter of the point nearest to `p` between two samples: starts on their chord, then
+/// applies Newton's method to (c - p).c' without curvature in the slope, exact near the line.
 double Line::closest(const Point& p, const Sample& low, const Sample& high) const noexcept {
   double t = low.t + (high.t - low.t) * nearest(p, Segment{low.p, high.p});
   for (int i = 0; i < 4; ++i) {
@@ -257,7 +257,7 @@ std::optional<double> Line::locate(const Point& p, double tolerance) const {
     return boxes_meet(box.diagonal, {p, p}, tolerance + box.slack);
   };
   if (!near(_boxes[1])) return std::nullopt;
-  // An arc leaves its circle by rounding alone.
+  // An arc is off its circle by rounding alone.
   const double rounding = 8 * std::numeric_limits<double>::epsilon() * _radius;
   if (!_angles.empty() && std::abs(distance(p, _centre) - _radius) > 2 * tolerance + rounding)
     return std::nullopt;
@@ -277,7 +277,7 @@ std::optional<double> Line::locate(const Point& p, double tolerance) const {
     }
   };
   const auto spans = static_cast<std::size_t>(_spans);
-  std::array<std::size_t, 64> open{1};  // nodes of the tree; deeper ones replace their parent
+  std::array<std::size_t, 64> open{1};  // stack of nodes; children replace their parent
   for (std::size_t count = 1; count > 0;) {
     const std::size_t node = open[--count];
     const Box& box = _boxes[node];

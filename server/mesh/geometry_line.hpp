@@ -15,7 +15,8 @@
 
 namespace anticrack::mesh {
 
-/// How curves are cut: a chord is at most `size` long, and the curve turns by at most `turn` on it.
+/// Rule to cut curves: a chord is at most `size` long, and the curve turns by at most `turn` along
+/// it.
 struct ChordRule {
   double size = 0;
   double turn = std::numbers::pi / 36;  ///< radians
@@ -24,13 +25,13 @@ struct ChordRule {
 /// Span k of a line runs over the parameters [k, k+1]; the ends of the spans are its vertices.
 class Line {
  public:
-  /// Straight between its points, which follow each other at a distance.
+  /// Straight between its points; consecutive points must differ.
   static Line polyline(std::vector<Point> points, bool closed);
-  /// From a through b to c, all three vertices; they are not on one straight line.
+  /// From a through b to c, which are its vertices and must not be on one straight line.
   static Line arc(const Point& a, const Point& b, const Point& c);
-  /// Clockwise from the point above the centre; four spans. The radius is positive.
+  /// Clockwise from the point above the centre, in four spans. The radius must be positive.
   static Line circle(const Point& centre, double radius);
-  /// At least 3 points, no two consecutive ones equal.
+  /// Through at least 3 points; consecutive points must differ.
   static Line spline(std::vector<Point> points, bool closed);
 
   bool closed() const noexcept { return _closed; }
@@ -38,27 +39,28 @@ class Line {
   bool straight() const noexcept { return _shape == Shape::polyline; }
   int spans() const noexcept { return _spans; }
   double length() const noexcept { return _length; }
-  /// Points at the parameters 0, 1, ...; of a closed line the last is left out.
+  /// Points at the parameters 0, 1, ...; without the last one if the line is closed.
   const std::vector<Point>& vertices() const noexcept { return _vertices; }
 
-  /// A parameter at most one turn off a closed line in [0, spans), one of an open line clipped.
+  /// Brings a parameter onto the line: for a closed line, one that is at most one turn off into [0,
+  /// spans); for an open line it is clipped.
   double on_line(double t) const noexcept;
 
-  /// The point at a parameter, clipped to the line, and its derivative by the parameter.
+  /// The point at a parameter, which is clipped to the line, and the derivative by the parameter.
   Point at(double t) const noexcept;
   Point derivative(double t) const noexcept;
 
-  /// Where the line passes within `tolerance` of `p`; in [0, spans), of an open line also spans.
-  /// O(log(spans)) where the line does not come near `p` many times.
+  /// The parameter at which the line passes within `tolerance` of `p`, in [0, spans), or up to
+  /// spans if the line is open. O(log(spans)) if the line does not come near `p` many times.
   std::optional<double> locate(const Point& p, double tolerance) const;
-  /// Of `p` from the line; exact for a polyline, else from fine chords.
+  /// Distance of `p` from the line; exact for a polyline, else that from fine chords.
   double distance_to(const Point& p) const noexcept;
-  /// The parameter up to which the line from `from` on has a part of its length up to `to`.
-  /// O(samples).
+  /// The parameter up to which the line from `from` on has the fraction `part` of its length up to
+  /// `to`. O(samples).
   double along(double from, double to, double part) const;
-  /// How many chords of a rule the line takes from one parameter to another. Not for polylines.
+  /// How many chords the line needs by a rule between two parameters. Not for polylines.
   double chords_between(double from, double to, const ChordRule& rule) const;
-  /// Parameters strictly between that cut this part of the line into such chords.
+  /// The parameters, strictly between the two, that cut this part of the line into such chords.
   std::vector<double> cuts_between(double from, double to, const ChordRule& rule) const;
 
  private:
@@ -68,7 +70,7 @@ class Line {
   };
   struct Box {
     Segment diagonal;
-    double slack = 0;  ///< a curve leaves the chords of its samples by less
+    double slack = 0;  ///< a curve is nearer than this to the chords of its samples
   };
   Line(Shape shape, bool closed, std::vector<Point> vertices);
   void sample();
@@ -89,12 +91,12 @@ class Line {
   double _length = 0;
   std::vector<Point> _vertices;
   std::vector<Point> _out;  ///< spline: derivative at the beginning of each span
-  std::vector<Point> _in;   ///< and at its end
+  std::vector<Point> _in;   ///< spline: derivative at the end of each span
   Point _centre{};
   double _radius = 0;
-  std::vector<double> _angles;   ///< arc, circle: where each span begins and ends, from the centre
-  std::vector<Sample> _samples;  ///< as many in every span
-  std::vector<Box> _boxes;       ///< a tree: node i is around 2i and 2i + 1, span k is spans + k
+  std::vector<double> _angles;   ///< arc, circle: angles at the centre where spans begin and end
+  std::vector<Sample> _samples;  ///< equally many in every span
+  std::vector<Box> _boxes;       ///< tree: node i has 2i and 2i + 1, span k is spans + k
 };
 
 }  // namespace anticrack::mesh

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Lines by their length, and cut into chords.
+// Measures lines, and cuts them into chords.
 #include <algorithm>
 #include <cmath>
 

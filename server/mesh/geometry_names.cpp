@@ -18,7 +18,7 @@ class Names {
   void add(const std::string& name, const std::string& owner, const char* all) {
     const std::string field = owner + ".name";
     if (!valid_name(name)) {
-      // what is quoted goes into messages and logs
+      // the quoted text goes into messages and logs
       const bool printable =
           std::all_of(name.begin(), name.end(), [](char c) { return c >= ' ' && c <= '~'; });
       refuse(field, field, " is ",
@@ -71,7 +71,7 @@ std::vector<std::string> check_names(const Drawn& geometry) {
     sides.add(boundary[i], i < outer ? indexed("sides", i) : indexed("holes", i - outer),
               "side and hole");
   }
-  // a line of its own has the name of its owner, which is good
+  // a line of an inclusion, crack or region has the owner's name, which has been checked
   Names lines;
   std::vector<std::string> interfaces;
   interfaces.reserve(geometry.interfaces.size());

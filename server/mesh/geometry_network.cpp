@@ -41,7 +41,7 @@ int point_at(Network& network, const Point& p) {
   return point;
 }
 
-/// Adds a station at a point to all lines through it except one. Returns how many there are.
+/// Adds a station at a point to all lines through it except `but`. Returns how many it added.
 std::size_t mark_others(Network& network, const Point& p, int point, std::size_t but) {
   std::size_t through = 0;
   for (std::size_t l = 0; l < network.lines.size(); ++l) {
@@ -54,7 +54,7 @@ std::size_t mark_others(Network& network, const Point& p, int point, std::size_t
   return through;
 }
 
-/// Cells are four tolerances wide.
+/// The key of the cell of a point, shifted by dx, dy cells. Cells are four tolerances wide.
 std::uint64_t cell(const Point& p, double tolerance, int dx, int dy) {
   const auto part = [&](double value, int shift) {
     // far outside the membrane all share one cell
@@ -105,8 +105,8 @@ void cut_line(Network& network, std::size_t l, const ChordRule& rule, std::size_
   }
 }
 
-/// Refuses lines that run outside the membrane, by a chord of each: a ray from a point in the
-/// membrane meets the boundary in an odd number of points.
+/// Refuses lines that run outside the membrane. One chord of each line is tested: a ray from a
+/// point in the membrane meets the boundary in an odd number of points.
 void check_inside(const Network& network) {
   std::vector<std::vector<Segment>> edges(network.boundary);
   for (const Chord& chord : network.chords)
@@ -170,14 +170,14 @@ Network lay_lines(const Drawn& geometry, const MeshOptions& options, std::size_t
          lay_curve({"", Shape::polyline, options.align[i]}, field, boundary.outline),
          {}});
   }
-  std::size_t stations = 0;  // that are vertices of another line
+  std::size_t stations = 0;  // stations that are vertices of another line
   for (std::size_t l = 0; l < network.lines.size(); ++l) {
     const std::vector<Point> vertices = network.lines[l].line.vertices();
     for (std::size_t v = 0; v < vertices.size(); ++v) {
       const std::size_t before = network.points.size();
       const int point = point_at(network, vertices[v]);
       add_station(network.lines[l], static_cast<double>(v), point);
-      // A point that was known has its stations.
+      // A point that was known before has its stations already.
       if (network.points.size() > before) stations += mark_others(network, vertices[v], point, l);
     }
     check_meetings(stations, max_meetings);
@@ -193,7 +193,7 @@ int PointIndex::find(const std::vector<Point>& points, const Point& p, double to
       for (auto entry = first; entry != last; ++entry) {
         const int number = entry->second;
         if (distance(points[at(number)], p) > tolerance) continue;
-        // the first of several, whatever the order of the table
+        // the one with the lowest number, whatever the order of the table
         if (best < 0 || number < best) best = number;
       }
     }
@@ -229,7 +229,7 @@ void cut(Network& network, const ChordRule& rule, std::size_t max_chords) {
       check_inside(network);
       return;
     }
-    network.points.resize(known);  // a crossing is not an end of a chord that is cut anew
+    network.points.resize(known);  // chords are cut anew: keep only stations
     for (const Crossing& crossing : found) {
       const int point = point_at(network, crossing.at);
       add_station(network.lines[at(crossing.line[0])], crossing.t[0], point);

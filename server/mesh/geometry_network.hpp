@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// All lines of a geometry cut into straight chords that meet only at their ends.
+// All lines of a geometry, cut into straight chords that meet only at their ends.
 #pragma once
 
 #include <array>
@@ -26,15 +26,15 @@ struct NetworkLine {
   Field field;  ///< "boundary", "sides[2].line.arc", "interfaces[0].arc", "options.align[0]"
   Role role = Role::interface;
   Line line;
-  std::vector<Station> stations;  ///< in order; a closed line's first is not there again
+  std::vector<Station> stations;  ///< in order; the first of a closed line is not repeated
 };
 
-/// From points[a] to points[b] along a line, in its order.
+/// A chord from points[a] to points[b] along a line, in its direction.
 struct Chord {
   int line = 0;
   int a = 0;
   int b = 0;
-  double from = 0;  ///< parameters of the line; from < to, also where a closed line ends
+  double from = 0;  ///< parameters of the line; from < to, also across the joint of a closed line
   double to = 0;
 };
 
@@ -54,8 +54,8 @@ struct Network {
   /// (clockwise), interfaces, align.
   std::vector<NetworkLine> lines;
   bool turned = false;       ///< the outer boundary was written clockwise
-  std::size_t outer = 0;     ///< so many lines are the outer boundary,
-  std::size_t boundary = 0;  ///< and so many that and the holes
+  std::size_t outer = 0;     ///< number of lines of the outer boundary
+  std::size_t boundary = 0;  ///< number of lines of the outer boundary and the holes
   std::vector<Point> points;
   PointIndex stations;        ///< the points that are stations of a line
   double tolerance = 0;       ///< points closer than this are one
@@ -63,7 +63,7 @@ struct Network {
 };
 
 /// The boundary, the interfaces and the align lines, each checked by itself; no chords yet.
-/// Throws errors::Error: geometry_invalid; limit_exceeded, also where more than `max_meetings`
+/// Throws errors::Error: geometry_invalid; limit_exceeded, also if more than `max_meetings`
 /// vertices of lines lie on other lines.
 Network lay_lines(const Drawn& geometry, const MeshOptions& options, std::size_t max_meetings);
 
@@ -71,31 +71,30 @@ Network lay_lines(const Drawn& geometry, const MeshOptions& options, std::size_t
 /// there, if any. Returns the number of the point.
 int mark(Network& network, const Point& p);
 
-/// The parameter of the line's station at a point of the network; -1 where it has none.
+/// The parameter of the line's station at a point of the network; -1 if it has none there.
 double station_of(const NetworkLine& line, int point) noexcept;
 
-/// Cuts the lines at their stations and crossings; curved lines into chords of the rule with ends
-/// on the curve. Throws errors::Error: geometry_invalid where lines run along each other,
-/// leave the membrane or meet at too small an angle; limit_exceeded at "options.size" beyond
+/// Cuts the lines at their stations and crossings, and curved lines into chords of the rule with
+/// ends on the curve. Throws errors::Error: geometry_invalid if lines run along each other, leave
+/// the membrane or meet at too small an angle; limit_exceeded at "options.size" beyond
 /// `max_chords`.
 void cut(Network& network, const ChordRule& rule, std::size_t max_chords);
 
-/// Two lines that meet where at least one has no station.
+/// Two lines that meet at a place where at least one of them has no station.
 struct Crossing {
   std::array<int, 2> line{};
   std::array<double, 2> t{};
   Point at{};
 };
 
-/// Throws errors::Error (limit_exceeded) at "interfaces" where lines meet in more than `most`
-/// points.
+/// Throws errors::Error (limit_exceeded) at "interfaces" if lines meet in more than `most` points.
 void check_meetings(std::size_t count, std::size_t most);
 
-/// Checks every pair of chords and returns the crossings that are no stations yet. Throws
+/// Checks every pair of chords and returns the crossings that have no stations yet. Throws
 /// geometry_invalid for a line that meets itself, leaves the membrane, touches the boundary other
 /// than with its ends, runs along another line or meets it at less than a degree, and for a hole
-/// that touches another line of the boundary; limit_exceeded where there are more than `most`.
-/// O(c log c + pairs of chords over the same x).
+/// that touches another line of the boundary; limit_exceeded for more than `most` crossings. O(c
+/// log c + pairs of chords over the same x).
 std::vector<Crossing> find_crossings(const Network& network, std::size_t most);
 
 }  // namespace anticrack::mesh

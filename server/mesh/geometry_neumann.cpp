@@ -10,10 +10,10 @@
 namespace anticrack::mesh {
 namespace {
 
-constexpr std::size_t most_names = 20;  ///< in one message
+constexpr std::size_t most_names = 20;  ///< most names in one message
 
-/// A part of the outer boundary by its parameter: that of the lines, one after the other. `end` may
-/// lie past the last one.
+/// A part of the outer boundary, by a parameter that runs through its lines one after the other.
+/// `end` may lie past the last line.
 struct Placed {
   double begin = 0;
   double end = 0;
@@ -87,7 +87,7 @@ class Neumann {
            " off the boundary; it must lie on it, to ", shown(snap_distance(_network)));
   }
 
-  /// Of the side with this place in the user's order.
+  /// The parameters of the side with this index in the user's order.
   std::pair<double, double> side(std::size_t index) const {
     if (_geometry.sides.empty()) {
       const std::size_t n = _geometry.boundary.size();
@@ -98,7 +98,7 @@ class Neumann {
     return {_first[line], _first[line + 1]};
   }
 
-  /// The line at a parameter, and the line's own.
+  /// The line at a parameter of the boundary, and the parameter of that line.
   std::pair<const Line*, double> at_parameter(double t) const {
     t = std::fmod(t, total());
     std::size_t l = 0;
@@ -120,7 +120,7 @@ class Neumann {
     return true;
   }
 
-  /// A side written clockwise would silently be all the others.
+  /// Refuses what is probably one side written clockwise, which would silently mean all the others.
   void check_direction(const Part& part, double begin, double end, const Field& field) const {
     const bool vertices = begin == std::floor(begin) && end == std::floor(end);
     if (!vertices || straight(begin, end) || !straight(end, begin + total())) return;
@@ -146,7 +146,7 @@ class Neumann {
            _names.size() > most_names ? ", ..." : "");
   }
 
-  /// Line by line.
+  /// Adds a part as stretches, line by line.
   void add_stretches(const Placed& placed) {
     for (const double shift : {0.0, total()}) {
       for (std::size_t l = 0; l < _network.outer; ++l) {
@@ -162,7 +162,7 @@ class Neumann {
   const Geometry& _geometry;
   Network& _network;
   std::vector<std::string> _names;
-  std::vector<double> _first{0};  ///< parameter at which each line begins, and the total
+  std::vector<double> _first{0};  ///< the parameter at which each line begins, and the total
   std::vector<Placed> _placed;
   std::vector<Stretch> _stretches;
 };

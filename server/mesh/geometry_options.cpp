@@ -45,7 +45,7 @@ void check_sizes(const MeshOptions& options) {
   }
 }
 
-/// What is quoted goes into messages and logs.
+/// The quoted text goes into messages and logs.
 std::string quoted(const std::string& text) {
   std::string result = "\"";
   for (const char c : text.substr(0, 80)) result += c >= ' ' && c <= '~' ? c : '?';
@@ -116,7 +116,7 @@ void check_for_upload(const MeshOptions& options) {
   for (const auto& [tag, name] : options.surface_groups)
     check_subdomain(name, fmt::format("options.surface_groups[{}]", tag));
   for (const auto& [name, tension] : options.tension) {
-    // Whether such a subdomain exists is checked by the import, which numbers unnamed ones.
+    // The import, which numbers unnamed subdomains, checks whether such a subdomain exists.
     if (std::isfinite(tension) && tension > 0) continue;
     const std::string field = "options.tension[" + name + "]";
     refuse_option(field, field + " is " + shown(tension) + "; a tension is a number above 0");
@@ -129,7 +129,7 @@ void check_for_upload(const MeshOptions& options) {
       refuse_option(field, field + " and options.tension[" + name + "] are given; leave one out");
   }
   for (const auto& [name, motion] : options.inclusion_motions) {
-    // As above: the import knows the inclusions.
+    // The import checks whether such an inclusion exists.
     const std::string field = "options.inclusion_motions[" + name + "]";
     const std::string fault = fault_of(motion);
     if (!fault.empty()) refuse_option(field, field + ": " + fault);

@@ -63,7 +63,7 @@ bool meet(std::span<const Point> points, bool closed, std::size_t edges, std::si
   return distance(s, t) <= tolerance;
 }
 
-/// The first two such edges; none: {edges, edges}.
+/// The first two edges that meet so; {edges, edges} if there are none.
 std::pair<std::size_t, std::size_t> first_meeting(std::span<const Point> points, bool closed,
                                                   std::size_t edges, double tolerance) {
   std::vector<Segment> segments;

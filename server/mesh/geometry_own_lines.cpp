@@ -32,7 +32,7 @@ void check_length(double value, const Field& field, const char* what) {
   refuse(field, field, " is ", shown(value), "; a ", what, " is a number above 0");
 }
 
-/// Cosine and sine, exact where they are 0 or 1.
+/// Cosine and sine of an angle, exact if they are 0 or 1.
 Point direction(double degrees) {
   const double turn = std::remainder(degrees, 360);
   if (std::remainder(turn, 90) == 0) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Inclusions, cracks and regions that are given by lines of their own, as interfaces.
+// Makes interfaces of the lines by which inclusions, cracks and regions are given.
 #pragma once
 
 #include <string>
@@ -15,19 +15,19 @@ namespace anticrack::mesh {
 struct Drawn : Geometry {
   explicit Drawn(const Geometry& given) : Geometry(given) {}
 
-  std::vector<Field> fields;         ///< of each interface: "interfaces[0].polyline"
-  std::vector<int> inclusion_lines;  ///< of each inclusion its own interface; -1: it has a part
-  std::vector<int> crack_lines;      ///< of each crack
-  std::vector<int> region_lines;     ///< of each region; -1: it has a point inside
+  std::vector<Field> fields;         ///< per interface: like "interfaces[0].polyline"
+  std::vector<int> inclusion_lines;  ///< per inclusion: its own interface; -1: it has a part
+  std::vector<int> crack_lines;      ///< per crack
+  std::vector<int> region_lines;     ///< per region; -1: it is given by a point inside
 };
 
-/// The parts of inclusions and cracks with a line get its ends. Throws errors::Error
+/// The parts of inclusions and cracks that have a line get its ends. Throws errors::Error
 /// (geometry_invalid) at "inclusions[1].line.segment.length", "regions[0].outline.circle.radius",
-/// "inclusions[0].part" (where neither is given), ... O(size).
+/// "inclusions[0].part" (if neither part nor line is given), ... O(size).
 Drawn draw(const Geometry& given);
 
-/// A line or outline as an interface without a name; `field`: of the line, to which its shape is
-/// added. Throws as draw().
+/// A line or outline as an interface without a name. `field`: that of the line; its shape is
+/// appended. Throws as draw().
 InterfaceSpec curve_of(const LineSpec& line, Field& field);
 InterfaceSpec curve_of(const OutlineSpec& outline, Field& field);
 

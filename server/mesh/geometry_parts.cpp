@@ -21,7 +21,7 @@ struct Ends {
   int to = 0;
 };
 
-/// Lines of a role that have a station at a point.
+/// The lines of a role that have a station at a point.
 std::vector<int> lines_at(const Network& network, Role role, int point) {
   std::vector<int> lines;
   for (std::size_t l = 0; l < network.lines.size(); ++l) {
@@ -53,7 +53,7 @@ Ends mark_ends(Network& network, const Part& part) {
   return {mark(network, part.from), mark(network, part.to)};
 }
 
-/// The interface both ends of a part lie on.
+/// The interface on which both ends of a part lie.
 int line_of(const Network& network, const Part& part, const Ends& ends, const Field& field) {
   const std::vector<int> from = lines_at(network, Role::interface, ends.from);
   const std::vector<int> to = lines_at(network, Role::interface, ends.to);
@@ -75,7 +75,7 @@ int line_of(const Network& network, const Part& part, const Ends& ends, const Fi
   return both[0];
 }
 
-/// The stations of a part on its line, in order.
+/// A part between its stations on a line, in the line's order.
 PlacedPart place(const Network& network, int l, const Ends& ends) {
   const NetworkLine& line = network.lines[at(l)];
   PlacedPart placed;
@@ -93,7 +93,7 @@ PlacedPart place(const Network& network, int l, const Ends& ends) {
   return placed;
 }
 
-/// All of an inclusion's or crack's own line.
+/// A part that is all of an inclusion's or crack's own line.
 PlacedPart place_own(const Network& network, std::size_t l) {
   const std::vector<Station>& stations = network.lines[l].stations;
   PlacedPart placed{static_cast<int>(l), stations.front(), stations.back()};
@@ -101,7 +101,7 @@ PlacedPart place_own(const Network& network, std::size_t l) {
   return placed;
 }
 
-/// The place of an inclusion where it has a part of its length, walked from its start.
+/// The place of an inclusion that has the fraction `part` of its length before it.
 Station place_at(Network& network, const PlacedPart& whole, double part) {
   if (part == (whole.reversed ? 1 : 0)) return whole.begin;
   if (part == (whole.reversed ? 0 : 1)) return whole.end;
@@ -112,7 +112,7 @@ Station place_at(Network& network, const PlacedPart& whole, double part) {
   return {own < whole.begin.t ? own + line.spans() : own, point};
 }
 
-/// The stretches of an inclusion that are given by their lengths.
+/// Places the stretches of an inclusion, which are given by fractions of its length.
 std::vector<PlacedPart> place_stretches(Network& network, const InclusionSpec& inclusion,
                                         const PlacedPart& whole) {
   const Field list = whole.field.at(".delaminated_parts.stretches", "delaminated");
@@ -136,7 +136,7 @@ std::vector<PlacedPart> place_stretches(Network& network, const InclusionSpec& i
   return parts;
 }
 
-/// The delaminated parts of an inclusion, in order.
+/// Places the delaminated parts of an inclusion, in order.
 std::vector<PlacedPart> place_delaminated(Network& network, const InclusionSpec& inclusion,
                                           const PlacedPart& whole) {
   const Field list = whole.field.at(".delaminated_parts", "delaminated");
@@ -179,7 +179,7 @@ std::vector<PlacedPart> place_delaminated(Network& network, const InclusionSpec&
   return parts;
 }
 
-/// Bonded and delaminated stretches of one inclusion.
+/// Adds the bonded and the delaminated stretches of one inclusion.
 void add_inclusion(const PlacedPart& whole, LineSide side,
                    const std::vector<PlacedPart>& delaminated, Layout& layout) {
   const LineSide plus = whole.reversed ? LineSide::right : LineSide::left;

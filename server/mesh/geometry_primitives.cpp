@@ -81,9 +81,9 @@ bool boxes_meet(const Segment& s, const Segment& t, double tolerance) noexcept {
 
 namespace {
 
-/// Segments over a direction: the sweep visits those whose parts of it overlap.
+/// Projections of segments onto a direction; the sweep visits pairs whose projections overlap.
 struct Sweep {
-  std::vector<double> low, high;   ///< of each segment
+  std::vector<double> low, high;   ///< ends of the projection of each segment
   std::vector<std::size_t> order;  ///< by `low`
 };
 
@@ -103,7 +103,7 @@ Sweep sweep_along(std::span<const Segment> segments, double dx, double dy) {
   return sweep;
 }
 
-/// Pairs that overlap along the direction.
+/// The number of pairs that overlap along the direction.
 double pairs_of(const Sweep& sweep, double reach) {
   std::vector<double> lows;
   lows.reserve(sweep.order.size());

@@ -25,18 +25,18 @@ struct Segment {
   Point b{};
 };
 
-/// From a point to a point, or to the nearest one of a segment.
+/// Distance of two points, or of a point from a segment.
 double distance(const Point& a, const Point& b) noexcept;
 double distance(const Point& p, const Segment& s) noexcept;
 /// a + t (b - a).
 constexpr Point point_on(const Segment& s, double t) noexcept {
   return {s.a[0] + t * (s.b[0] - s.a[0]), s.a[1] + t * (s.b[1] - s.a[1])};
 }
-/// The t of the point of `s` nearest to `p`, in [0, 1].
+/// The t in [0, 1] of the point of `s` that is nearest to `p`.
 double nearest(const Point& p, const Segment& s) noexcept;
-/// 0 where they cross.
+/// Distance of two segments, 0 if they cross.
 double distance(const Segment& s, const Segment& t) noexcept;
-/// Where two segments come nearest, as parts of each of them; where they cross, if they do.
+/// The parameters of the points where two segments are nearest to each other, or cross.
 std::pair<double, double> meeting_point(const Segment& s, const Segment& t) noexcept;
 /// Whether the bounding boxes, grown by `tolerance`, have a point in common. Cheap.
 bool boxes_meet(const Segment& s, const Segment& t, double tolerance) noexcept;
@@ -47,16 +47,16 @@ bool boxes_meet(const Segment& s, const Segment& t, double tolerance) noexcept;
 void each_near_pair(std::span<const Segment> segments, double reach,
                     const std::function<void(std::size_t, std::size_t)>& visit);
 
-/// Positive for a counterclockwise polygon. Shoelace about the first vertex.
+/// The area of a polygon, positive if counterclockwise. Shoelace formula about the first vertex.
 double signed_area(std::span<const Point> polygon) noexcept;
 /// Whether a point that is not on the boundary lies inside.
 bool inside(const Point& p, std::span<const Point> polygon) noexcept;
 /// Whether a ray from `p` crosses an odd number of these edges.
 bool ray_meets(const Point& p, std::span<const Segment> edges) noexcept;
-/// Diagonal of the bounding box.
+/// The length of the diagonal of the bounding box.
 double diagonal(std::span<const Point> points) noexcept;
 
-/// For messages.
+/// A point as text, for messages.
 using errors::shown;
 std::string shown(const Point& p);
 

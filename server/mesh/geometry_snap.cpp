@@ -18,8 +18,8 @@ class Snap {
   Snap(const Network& network, std::vector<std::string>& warnings)
       : _network(network), _reach(snap_distance(network)), _warnings(warnings) {}
 
-  /// Onto a line for which `holds` is true, unless one passes through the point already. Throws
-  /// geometry_invalid for a point that is not finite.
+  /// Moves a point onto a line for which `holds` is true, unless one passes through it already.
+  /// Throws geometry_invalid for a point that is not finite.
   template <class Holds>
   void move(Point& p, const Field& field, const Holds& holds, const char* which = "") {
     check_point(p, field);

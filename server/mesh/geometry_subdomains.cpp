@@ -25,11 +25,11 @@ Edges edges_of(const Plan& plan) {
   return edges;
 }
 
-/// The curves of the outlines of regions, and on which side of each its inside lies.
+/// The curves of the outlines of regions, and the side of each on which the inside lies.
 struct Outlines {
-  std::vector<int> region;                   ///< of each curve; -1: no outline's
-  std::vector<bool> inside;                  ///< of each region: on the left
-  std::vector<std::vector<Point>> polygons;  ///< of each region; empty: no outline
+  std::vector<int> region;                   ///< per curve; -1: not of an outline
+  std::vector<bool> inside;                  ///< per region: whether the inside is on the left
+  std::vector<std::vector<Point>> polygons;  ///< per region; empty: no outline
 };
 
 Outlines find_outlines(const Drawn& geometry, const Network& network, const Plan& plan) {
@@ -55,8 +55,8 @@ int inner_face(const Outlines& outlines, const Arrangement& arrangement, std::si
   return (left ? arrangement.left : arrangement.right)[curve];
 }
 
-/// The faces of one subdomain as a set: align lines do not separate subdomains, nor do cracks and
-/// inclusions within the outline of a region.
+/// Joins the faces of each subdomain to a set: align lines do not separate subdomains, nor do
+/// cracks and inclusions within the outline of a region.
 base::UnionFind join_faces(const Plan& plan, const Outlines& outlines,
                            const Arrangement& arrangement, const std::vector<bool>& used) {
   base::UnionFind subdomains(arrangement.faces.size());
@@ -96,7 +96,7 @@ std::vector<bool> kept_curves(const Plan& plan, const Outlines& outlines, const 
   return kept;
 }
 
-/// Faces bounded by loops, and the curves inside each that bound no other face.
+/// Faces with their loops, and the curves inside each face that bound no other face.
 struct Faces {
   Arrangement loops;
   std::vector<std::vector<int>> embedded;
@@ -110,7 +110,7 @@ Faces find_faces(const Plan& plan, const Edges& edges, const std::vector<bool>& 
   Faces faces{arrange(plan.points, edges, bounding), {}};
   Arrangement& loops = faces.loops;
   faces.embedded.resize(loops.faces.size());
-  // every face is bounded by curves, which tell its new number
+  // every face has curves on its boundary, which tell its new number
   std::vector<int> now(first.faces.size(), Arrangement::outside);
   for (std::size_t e = 0; e < edges.size(); ++e) {
     if (!bounding[e]) continue;
@@ -140,7 +140,7 @@ Order order_faces(const Plan& plan, const Outlines& outlines, const Arrangement&
   Order order;
   const std::size_t n = loops.faces.size();
   order.subdomain.assign(n, -1);
-  std::vector<int> number(n, -1);  // of the set of a face
+  std::vector<int> number(n, -1);  // per set of faces: the number of its subdomain
   std::vector<bool> met(n, false);
   const auto meet = [&](int face) {
     if (face < 0 || met[at(face)]) return;
@@ -229,7 +229,7 @@ Field field_of(const std::vector<RegionSpec>& regions, std::size_t i) {
   return {"region", i, regions[i].name};
 }
 
-/// Of each region the smallest one whose outline is around its own; -1: none.
+/// For each region, the smallest region whose outline is around it; -1: none.
 std::vector<int> regions_around(const Outlines& outlines) {
   const auto& polygons = outlines.polygons;
   std::vector<double> area;
@@ -249,7 +249,7 @@ std::vector<int> regions_around(const Outlines& outlines) {
   return around;
 }
 
-/// Says which regions are cut out of another one, as people take them for parts of it.
+/// Notes the regions that are cut out of another one, as users may take them for parts of it.
 void note_nested(const std::vector<RegionSpec>& regions, const Outlines& outlines,
                  std::vector<std::string>& warnings) {
   constexpr std::size_t most_listed = 3;
@@ -271,7 +271,7 @@ void note_nested(const std::vector<RegionSpec>& regions, const Outlines& outline
   }
 }
 
-/// Warns in the plan of a tension that nobody gave.
+/// Names the subdomains and sets their tension; the plan gets a warning if a tension is not given.
 Named name_subdomains(const Drawn& geometry, const Network& network, const Outlines& outlines,
                       const Edges& edges, const std::vector<bool>& kept, const Arrangement& loops,
                       const Order& order, Plan& plan) {

@@ -81,7 +81,7 @@ void check_triangles(const Mesh& mesh) {
       fail("triangle ", t, " is in subdomain ", s, "; there are ", subdomains);
     subdomain_used[at(s)] = true;
     const double size = area(mesh, t);
-    // written so that an area that is not a number fails as well
+    // written so that NaN fails as well
     if (!(size > 0)) {
       fail("triangle ", t, " at ", where(mesh, mesh.triangles[3 * t]), " has area ", size,
            "; its nodes must run counterclockwise around a positive area");
@@ -130,7 +130,7 @@ void check_motions(const Mesh& mesh) {
   }
 }
 
-/// Sorts edges; fails where one is there twice.
+/// Sorts edges; throws if one occurs twice.
 void sort_once(const Mesh& mesh, std::vector<EdgeKey>& edges, const char* fault) {
   std::ranges::sort(edges);
   const auto twice = std::ranges::adjacent_find(edges);
@@ -174,7 +174,7 @@ void check_interface_shape(const Mesh& mesh, const Interface& interface) {
   }
 }
 
-/// Edges of all interfaces, sorted.
+/// Checks the interfaces; returns the edges of all, sorted.
 std::vector<EdgeKey> check_interfaces(const Mesh& mesh, const EdgeTable& edges) {
   std::vector<EdgeKey> seen;
   for (const Interface& interface : mesh.interfaces) {

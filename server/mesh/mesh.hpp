@@ -26,13 +26,14 @@ enum class Kind : std::int32_t {
   free = 5,         ///< T du/dn = 0 on both faces, [u] of either sign: a crack without contact
 };
 
-/// How an inclusion moves. By default along its line u = A, the paper's; it keeps its direction.
+/// How an inclusion moves. By default it keeps its direction: u = A along its line, as in the
+/// paper.
 struct Motion {
-  /// u = A + B s of a straight one, s the arc length from its middle (negative at its first node);
-  /// of any other u = A + Bx (x - x0) + By (y - y0), (x0, y0) the middle of its bounding box: the
-  /// rigid motions of a thin plate.
+  /// If true, a straight inclusion has u = A + B s, s the arc length from its middle (negative at
+  /// its first node); any other has u = A + Bx (x - x0) + By (y - y0), (x0, y0) the middle of its
+  /// bounding box. These are the rigid motions of a thin plate.
   bool tilt = false;
-  std::optional<double> fixed;  ///< held at u = this; does not tilt
+  std::optional<double> fixed;  ///< held at this u; excludes `tilt`
   bool operator==(const Motion&) const = default;
 };
 ANTICRACK_FIELDS(Motion, tilt, fixed)
@@ -60,16 +61,16 @@ struct Mesh {
   std::vector<std::int32_t> subdomain;   ///< (m) index into subdomains
   std::vector<std::string> subdomains;   ///< names
   std::vector<double> tension;           ///< (subdomains) T > 0 of each; empty: 1 everywhere
-  std::vector<TensionLaw> tension_laws;  ///< (subdomains) in place of `tension`; empty: none
+  std::vector<TensionLaw> tension_laws;  ///< (subdomains) in place of `tension`; empty: no laws
   std::vector<std::string> inclusions;   ///< names
   std::vector<Motion> motions;           ///< (inclusions) of each; empty: all keep their direction
   std::vector<Interface> interfaces;
   std::vector<std::array<std::int32_t, 2>> dirichlet;  ///< edges of the boundary where u = g_D
   std::vector<std::string> warnings;                   ///< what was repaired or assumed
-  /// Degrees: lower bound of the angles of any bisection of the unrefined mesh. 0: not refined
+  /// Lower bound, in degrees, of the angles of any bisection of the unrefined mesh. 0: not refined.
   double bisection_bound = 0;
 
-  /// n and m of the shapes above.
+  /// The numbers n of nodes and m of triangles.
   std::size_t node_count() const noexcept { return xy.size() / 2; }
   std::size_t triangle_count() const noexcept { return triangles.size() / 3; }
 };
@@ -79,7 +80,7 @@ ANTICRACK_FIELDS(Mesh, xy, triangles, subdomain, subdomains, tension, tension_la
 /// Throws errors::Error (mesh_invalid) naming the first invariant violated and where. O(m log m).
 void validate(const Mesh& mesh);
 
-/// What is wrong with a motion, and the cure; empty: nothing.
+/// The fault of a motion, with the cure; empty if there is none.
 std::string fault_of(const Motion& motion);
 
 /// Signed area of a triangle, length unit squared; positive when counterclockwise.

@@ -13,7 +13,7 @@ namespace anticrack::mesh {
 /// Smallest angle over all triangles, degrees. O(m).
 double minimum_angle(const Mesh& mesh) noexcept;
 
-/// In the unit of the mesh. O(m).
+/// Length of the longest edge, in the unit of the mesh. O(m).
 double longest_edge(const Mesh& mesh) noexcept;
 
 /// The angles at a, b and c, degrees; from differences of coordinates, so accurate for tiny

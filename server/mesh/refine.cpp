@@ -17,10 +17,10 @@
 namespace anticrack::mesh {
 namespace {
 
-/// Elements smaller than this part of a coordinate lose their shape to the rounding of midpoints.
+/// Elements smaller than this fraction of a coordinate lose their shape by rounding of midpoints.
 constexpr double relative_floor = 1e-13;
 
-/// So few tips grade the membrane as one alone would.
+/// Up to this many tips, each has the reach that it would have alone.
 constexpr double few_tips = 16;
 
 [[noreturn]] void refuse_count(const Mesh& base, const Grading& grading, std::size_t limit) {
@@ -56,7 +56,7 @@ std::vector<EdgeEnd> interface_edge_ends(const Mesh& mesh) {
   return ends;
 }
 
-/// Glue between subdomains of one tension: nothing changes at it.
+/// Whether an edge is glue between subdomains of the same tension, across which nothing changes.
 bool is_seam(const Mesh& mesh, const EdgeTable& edges, const EdgeEnd& end) {
   if (end.kind != Kind::glue) return false;
   const auto uses = edges.find(end.node, end.other);
@@ -140,7 +140,7 @@ Mesh refine(const Mesh& base, std::span<const std::uint8_t> levels, std::size_t 
     for (const auto& [x, y] : p) largest = std::max({largest, std::abs(x), std::abs(y)});
     return std::pow(relative_floor * largest, 2);
   };
-  // Halves are exact but for rounding: half a level lies between.
+  // Areas are halved up to rounding, so half a level separates enough from not enough.
   std::vector<double> enough(base.triangle_count());
   for (std::size_t t = 0; t < enough.size(); ++t) {
     stop::look_at_turn(t, bisecting);

@@ -31,23 +31,23 @@ namespace anticrack::mesh {
 ///
 ///   h_T <= min(h0, max(h_tip, h0 (r_t/R_t)^{1-m})).
 ///
-/// R_t is how far the grading of a tip reaches. Up to 16 tips: over the membrane, R_t = R =
-/// characteristic_length(mesh). Of more tips each has a share of it, R_t = R sqrt(16/tips), or the
-/// length of the crack or of the part of an inclusion that ends in it if that is longer, at most R.
-/// So n short fibres at distances d are graded up to about 1.4 d from their tips, whatever n, and
-/// not all over one another. At distances far below R_t cracks that differ in length by any factor
-/// have the same rule: a small one is resolved as well as a large one. Lengths in the unit of the
-/// mesh; R makes the rule independent of it.
+/// R_t is how far the grading of a tip reaches. With up to 16 tips it reaches over the membrane:
+/// R_t = R = characteristic_length(mesh). With more tips each has a share, R_t = R sqrt(16/tips),
+/// or, if longer, the length of the crack or of the part of an inclusion that ends there, at most
+/// R. So n short fibres at distances d are graded up to about 1.4 d from their tips, whatever n,
+/// and their gradings do not pile up. At distances far below R_t the rule is the same for cracks of
+/// any length: a small one is resolved as well as a large one. Lengths are in the unit of the mesh;
+/// R makes the rule independent of it.
 ///
-/// Closer to a tip than R_t (h0/R_t)^{1/m} the rule requires less than the distance itself, and
-/// only triangles at the tip are still cut, about a dozen per halving of h_tip. Stopping at h_tip
-/// costs an error of order (h_tip/R_t)^{1/2} in A; h_tip = R (h0/R)^{1/m} doubles the error of
-/// Example 3 at 20,000 triangles. So the default is the smallest size for up to 16 tips. For more,
-/// whose halvings would be most of the mesh, it is R_t (h0/R_t)^{1/m} / 1000: an error 30 times
-/// smaller than that, and of higher order in h0 than those away from tips.
+/// Closer to a tip than R_t (h0/R_t)^{1/m} the required size is below the distance itself, so only
+/// triangles at the tip are still cut, about a dozen per halving of h_tip. Stopping at h_tip causes
+/// an error of order (h_tip/R_t)^{1/2} in A; with h_tip = R (h0/R)^{1/m} the error of Example 3 at
+/// 20,000 triangles doubles. So with up to 16 tips the default is the smallest size. With more,
+/// whose halvings would be most of the mesh, it is R_t (h0/R_t)^{1/m} / 1000: the error at tips is
+/// then 30 times smaller, and of higher order in h0 than the errors away from tips.
 struct Grading {
   double h0 = 0;              ///< longest edge allowed at a distance of R_t and more, > 0
-  double m = 0.2;             ///< 0 < m < 1 below the exponent of the solution at a tip; 1: uniform
+  double m = 0.2;             ///< 0 < m < 1, below the solution's exponent at a tip; 1: uniform
   double tip_size = 0;        ///< h_tip; 0: see above
   double least_tip_size = 0;  ///< h_tip is at least this, and `smallest_tip_size`
 };
@@ -55,7 +55,7 @@ struct Grading {
 /// Half the side of a square of the mesh's area: 1 for (-1,1) x (-1,1).
 double characteristic_length(const Mesh& mesh);
 
-/// The part of a length, R, that each of so many tips has for itself: sqrt(16/tips), at most 1.
+/// The share of a length R that each of `tip_count` tips has: R sqrt(16/tips), at most R.
 double tip_share(double length, std::size_t tip_count) noexcept;
 
 /// 1e-13 max(R, largest |coordinate| of a node of `centres`): at least 450 ulp there, so rounding
@@ -70,20 +70,21 @@ double smallest_tip_size(const Mesh& mesh, std::span<const std::int32_t> centres
 /// Corners of an interface or of the boundary are no tips. O(m log m).
 std::vector<std::int32_t> tips(const Mesh& mesh);
 
-/// Grades towards tips(base); without tips every edge is at most h0. Triangles that are fine enough
-/// stay. Throws errors::Error: invalid_argument at "h0", "m" or "tip_size"; limit_exceeded at "h0"
-/// beyond `max_triangles`; mesh_invalid for an edge of three triangles. O(n log n) for n triangles
-/// of the result; 60 bytes a triangle besides the result.
+/// Grades the mesh towards tips(base); if there are no tips, every edge becomes at most h0.
+/// Triangles that are fine enough stay. Throws errors::Error: invalid_argument at "h0", "m" or
+/// "tip_size"; limit_exceeded at "h0" beyond `max_triangles`; mesh_invalid for an edge of three
+/// triangles. O(n log n) for n triangles of the result; 60 bytes a triangle besides the result.
 Mesh grade(const Mesh& base, const Grading& grading, std::size_t max_triangles);
 
-/// The same towards given nodes of the base.
+/// Grades the mesh towards given nodes of the base.
 Mesh grade(const Mesh& base, std::span<const std::int32_t> centres, const Grading& grading,
            std::size_t max_triangles);
 
-/// Bisects triangle t of the base until its parts have at most 2^-levels[t] of its area, and what
-/// must be bisected with them; levels (m). Parts of an area below (1e-13 |coordinate|)^2 / 2 stay:
-/// rounding of midpoints would spoil their shape. With `bisection_bound`. Throws errors::Error:
-/// limit_exceeded beyond `max_triangles`; mesh_invalid as grade(). Complexity of grade().
+/// Bisects triangle t of the base until its parts have at most 2^-levels[t] of its area, and others
+/// where the mesh must conform; levels (m). Parts with an area below (1e-13 |coordinate|)^2 / 2
+/// stay, since rounding of midpoints would spoil their shape. Sets `bisection_bound`. Throws
+/// errors::Error: limit_exceeded beyond `max_triangles`; mesh_invalid as grade() does. Costs as
+/// grade().
 Mesh refine(const Mesh& base, std::span<const std::uint8_t> levels, std::size_t max_triangles);
 
 /// Lower bound, degrees, of all angles that bisection can make of this base: four classes of

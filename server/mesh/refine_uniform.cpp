@@ -12,7 +12,7 @@
 namespace anticrack::mesh {
 namespace {
 
-/// The midpoints of all edges, numbered on from the nodes of the base.
+/// The midpoints of all edges; their numbers follow those of the base's nodes.
 class Midpoints {
  public:
   Midpoints(const Mesh& base, std::vector<double>& xy)
@@ -27,7 +27,7 @@ class Midpoints {
     });
   }
 
-  /// Of the side from corner i of a triangle to the next.
+  /// The midpoint of the side from corner i of a triangle to the next.
   std::int32_t operator()(std::size_t triangle, std::size_t i) const {
     return _of_side[3 * triangle + i];
   }
@@ -64,7 +64,7 @@ Interface cut(const Interface& whole, const Midpoints& midpoint) {
 }  // namespace
 
 Mesh refine_uniform(const Mesh& base) {
-  // as many midpoints as sides at most
+  // there are at most as many midpoints as sides
   constexpr auto most = static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
   if (base.node_count() + base.triangles.size() > most || base.triangle_count() > most / 4) {
     throw errors::Error(errors::Reason::limit_exceeded,

@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t centres_in_a_leaf = 8;
 
-/// With more tips than have the membrane to themselves, the part of the radius R (h0/R)^{1/m},
-/// where the rule ends, at which bisection stops.
+/// With many tips, bisection stops at this fraction of the radius R (h0/R)^{1/m}, below which the
+/// rule requires less than the distance itself.
 constexpr double tip_part = 1e-3;
 
 void require(bool holds, const char* field, double value, const std::string& rule) {
@@ -47,7 +47,7 @@ double squared_distance(const Point& p, const Point& q) noexcept {
   return squared({p[0] + t * e[0], p[1] + t * e[1]});
 }
 
-/// Of a triangle from a point that is not inside it.
+/// Squared distance of a triangle from a point that is not inside it.
 double squared_distance(const std::array<Point, 3>& triangle, const Point& from) noexcept {
   const Point a = minus(triangle[0], from);
   const Point b = minus(triangle[1], from);
@@ -162,7 +162,7 @@ bool SizeRule::too_large(const std::array<Point, 3>& triangle) const noexcept {
       std::sqrt(std::max({squared(minus(b, a)), squared(minus(c, b)), squared(minus(a, c))}));
   if (diameter > _h0) return true;
   if (diameter <= _tip_size) return false;
-  // the rule solved for r/R: closer to a centre than this, the diameter is too large
+  // the rule solved for r/R: the diameter is too large closer to a centre than this
   return search(0, triangle, diameter, std::pow(diameter / _h0, _exponent));
 }
 

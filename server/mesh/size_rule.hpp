@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The rule of `Grading` for the tips of a mesh, asked for one triangle after another.
+// The rule of `Grading` for the tips of a mesh, applied to one triangle after another.
 #pragma once
 
 #include <array>
@@ -13,15 +13,15 @@
 
 namespace anticrack::mesh {
 
-/// Keeps nothing of the mesh. A tree of bounding boxes of the tips.
+/// A tree of bounding boxes of the tips. Keeps no reference to the mesh.
 class SizeRule {
  public:
   /// Throws errors::Error (invalid_argument) at "h0", "m" or "tip_size". O(m + c log c) for m
   /// triangles and c centres.
   SizeRule(const Mesh& mesh, std::span<const std::int32_t> centres, const Grading& grading);
 
-  /// Whether the longest edge exceeds what some centre allows; distances from exact differences to
-  /// the centre. Usually O(log c).
+  /// Whether the longest edge is longer than some centre allows. Distances are computed from exact
+  /// differences to the centre. Usually O(log c).
   bool too_large(const std::array<Point, 3>& triangle) const noexcept;
 
  private:
@@ -33,10 +33,10 @@ class SizeRule {
   struct Box {
     Point low{};
     Point high{};
-    double reach = 0;  ///< largest inside
+    double reach = 0;  ///< the largest inside the box
     std::size_t begin = 0;
-    std::size_t end = 0;   ///< of its centres
-    std::size_t left = 0;  ///< its parts; 0: none
+    std::size_t end = 0;   ///< end of the range of its centres
+    std::size_t left = 0;  ///< index of its two parts; 0: none
     std::size_t right = 0;
   };
 
@@ -46,7 +46,7 @@ class SizeRule {
 
   double _h0;
   double _exponent = 1;  ///< 1/(1-m)
-  double _tip_size;      ///< the smallest
+  double _tip_size;      ///< the smallest of all
   std::vector<Centre> _centres;
   std::vector<Box> _boxes;
 };

@@ -11,13 +11,13 @@ namespace anticrack::mesh {
 /// matrix T has the eigenvalue `along` in the direction `angle` and `across` perpendicular to it.
 struct TensionLaw {
   std::string along;   ///< expression in x and y, > 0, force per length; empty: no law
-  std::string across;  ///< the same; empty: as along
+  std::string across;  ///< the same; empty: equal to `along`
   double angle = 0;    ///< degrees, counterclockwise from the x axis
   bool operator==(const TensionLaw&) const = default;
 };
 ANTICRACK_FIELDS(TensionLaw, along, across, angle)
 
-/// What is wrong with a law whose expressions are not looked at, and the cure; empty: nothing.
+/// The fault of a law, with the cure, or empty. Does not look at its expressions.
 std::string fault_of(const TensionLaw& law);
 
 }  // namespace anticrack::mesh

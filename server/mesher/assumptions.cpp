@@ -9,7 +9,7 @@
 namespace anticrack::mesher {
 namespace {
 
-/// Continue "it lies" and "they lie", in the order of Assumed.
+/// Words that follow "it lies" and "they lie", in the order of Assumed.
 constexpr std::array words{
     "on the boundary: taken for dirichlet",
     "on the boundary: taken for neumann",

@@ -32,8 +32,8 @@ using FileActions = Owned<posix_spawn_file_actions_t, posix_spawn_file_actions_i
                           posix_spawn_file_actions_destroy>;
 using Attributes = Owned<posix_spawnattr_t, posix_spawnattr_init, posix_spawnattr_destroy>;
 
-/// Moves a descriptor out of 0 to 2, which are free if the parent has closed them: dup2 to 0 and 1
-/// would overwrite it.
+/// Moves a descriptor out of 0 to 2, which it may get if the parent has closed these: dup2 to 0 and
+/// 1 would overwrite it.
 base::Descriptor above_standard(base::Descriptor descriptor) {
   if (descriptor.get() > STDERR_FILENO) return descriptor;
   base::Descriptor moved(fcntl(descriptor.get(), F_DUPFD_CLOEXEC, STDERR_FILENO + 1));
@@ -41,7 +41,7 @@ base::Descriptor above_standard(base::Descriptor descriptor) {
   return moved;
 }
 
-/// One thread per library, no message catalogues, none of the server's secrets.
+/// Environment with one thread per library, no message catalogues, none of the server's secrets.
 std::vector<std::string> environment() {
   std::vector<std::string> variables{"LC_ALL=C", "OMP_NUM_THREADS=1", "OPENBLAS_NUM_THREADS=1"};
   for (const char* name :
@@ -63,7 +63,7 @@ std::vector<char*> pointers(std::vector<std::string>& strings) {
 Child::Child(const std::string& executable, const std::vector<std::string>& arguments,
              base::Descriptor file) {
   int ends[2] = {-1, -1};
-  // close-on-exec at once: a spawn in another thread must not inherit them
+  // close-on-exec from the start, as a spawn in another thread must not inherit them
   check_spawn(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0 ? errno : 0,
               "socketpair");
   base::Descriptor ours(ends[0]);
@@ -80,7 +80,7 @@ Child::Child(const std::string& executable, const std::vector<std::string>& argu
               "dup2");
   int first_closed = STDERR_FILENO + 1;
   if (has_file) {
-    // last, as it may replace `theirs`; dup2 of a number to itself clears close-on-exec
+    // this comes last, as it may replace `theirs`; dup2 of a number to itself clears close-on-exec
     check_spawn(posix_spawn_file_actions_adddup2(&actions.value, file.get(), file_descriptor),
                 "dup2");
     first_closed = file_descriptor + 1;

@@ -20,11 +20,11 @@ namespace anticrack::mesher {
 /// no SIGPIPE in the server when the helper dies.
 class Child {
  public:
-  /// The child's number of its file.
+  /// The number that the file has in the child.
   static constexpr int file_descriptor = 3;
 
-  /// `file` becomes the child's `file_descriptor`, unless empty. Throws std::system_error, also for
-  /// a missing executable.
+  /// Starts the child. `file`, unless empty, becomes its `file_descriptor`. Throws
+  /// std::system_error, also for a missing executable.
   Child(const std::string& executable, const std::vector<std::string>& arguments,
         base::Descriptor file);
   ~Child();
@@ -32,13 +32,13 @@ class Child {
   Child& operator=(const Child&) = delete;
 
   int socket() const noexcept { return _socket.get(); }
-  /// Sends what the socket takes now and returns its size; 0 also if the child no longer reads.
+  /// Sends what the socket takes now, and returns its size; 0 also if the child no longer reads.
   std::size_t send(std::span<const std::byte> bytes);
   /// Ends the child's input.
   void end_input() noexcept;
-  /// SIGKILL to its whole process group.
+  /// Sends SIGKILL to its whole process group.
   void kill() noexcept;
-  /// Reaps it if it has ended; then true, and status() is waitpid's.
+  /// Reaps the child if it has ended; then returns true, and status() is that of waitpid.
   bool ended() noexcept;
   int status() const noexcept { return _status; }
 

@@ -11,10 +11,10 @@
 namespace anticrack::mesher {
 namespace {
 
-/// The triangles of a coarse mesh: the shapes of so many are those of a finer one.
+/// Least triangles of a coarse mesh: with so many, shapes are as good as those of a finer mesh.
 constexpr double coarse_triangles = 10'000;
 
-/// How many more triangles may come of halving than of meshing at once.
+/// By which fraction halving may make more triangles than meshing at once.
 constexpr double most_in_excess = 0.05;
 
 double interval(const mesh::Plan& plan, const mesh::PlannedCurve& curve) {
@@ -30,20 +30,20 @@ double longest_interval(const mesh::Plan& plan) {
   return longest;
 }
 
-/// One interval in place of `parts`. Those much shorter than others, `longest`, are so short for
-/// what is near them, and stay.
+/// The intervals of a curve in the coarse mesh: one in place of `parts`. Intervals much shorter
+/// than the `longest` ones are so short because of what is near them, and stay.
 int coarse_intervals(const mesh::Plan& plan, const mesh::PlannedCurve& curve, double longest,
                      int parts) {
   if (interval(plan, curve) < longest / 2) return curve.intervals;
   return (curve.intervals + parts - 1) / parts;
 }
 
-/// About as many more triangles as halving makes along all curves and around them. Where edges are
-/// shorter by a factor r, they grow away from the curve by `growth` a length: on both sides of it a
-/// band has more triangles, and around it a disc.
+/// An estimate of how many more triangles halving makes along all curves and around them. Edges
+/// that are shorter by a factor r grow by `growth` per length away from the curve: a band on both
+/// sides of it and discs around its ends have more triangles.
 double excess(const mesh::Plan& plan, int halvings) {
   const int parts = 1 << halvings;
-  const double triangle = std::sqrt(3.0) / 4;  // area of one of edge length 1
+  const double triangle = std::sqrt(3.0) / 4;  // area of an equilateral one with edge length 1
   const double longest = longest_interval(plan);
   double coarse = 0;
   for (const mesh::PlannedCurve& curve : plan.curves) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// gmsh takes forty microseconds a triangle, halving one its fortieth part. So of a fine mesh gmsh
+// gmsh takes forty microseconds a triangle, halving a fortieth of that. So for a fine mesh gmsh
 // makes a coarse one, whose triangles are then cut into similar ones.
 #pragma once
 
@@ -8,13 +8,14 @@
 
 namespace anticrack::mesher {
 
-/// How often a coarse mesh of the plan is to be halved. As often as leaves gmsh a mesh fine enough
-/// for its triangles to be in shape, and as gives hardly more triangles than meshing at once:
-/// curves with edges shorter than others keep them, and those shorter than the coarse edges get
-/// too short ones. 0 for plans of fewer than 40,000 triangles. O(c) for c curves.
+/// How often a coarse mesh of the plan is to be halved. The coarse mesh must be fine enough for
+/// good shapes, and the result must have hardly more triangles than meshing at once: curves with
+/// edges shorter than others keep them in the coarse mesh, and curves shorter than the coarse edges
+/// end with edges that are too short. 0 for plans of fewer than 40,000 triangles. O(c) for c
+/// curves.
 int halvings(const mesh::Plan& plan);
 
-/// The plan of the coarse mesh: halved as often, no curve has fewer intervals than in `plan`. O(c).
+/// The plan of the coarse mesh; once halved, no curve has fewer intervals than in `plan`. O(c).
 mesh::Plan coarsened(mesh::Plan plan, int halvings);
 
 }  // namespace anticrack::mesher

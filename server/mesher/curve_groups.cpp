@@ -19,8 +19,8 @@ constexpr const char* choices =
 struct Keyword {
   std::string_view word;
   CurveRole role;
-  bool alone;  ///< may stand without a name
-  bool named;  ///< may have one
+  bool alone;  ///< whether it may stand without a name
+  bool named;  ///< whether it may have a name
 };
 constexpr Keyword keywords[] = {{"dirichlet", CurveRole::dirichlet, true, false},
                                 {"neumann", CurveRole::neumann, true, false},
@@ -30,7 +30,7 @@ constexpr Keyword keywords[] = {{"dirichlet", CurveRole::dirichlet, true, false}
                                 {"inclusion", CurveRole::inclusion, false, true},
                                 {"delaminated", CurveRole::delaminated, false, true}};
 
-/// In lower case, in any locale.
+/// The text in lower case, whatever the locale.
 std::string lower(std::string_view text) {
   std::string result(text);
   for (char& c : result)
@@ -94,7 +94,7 @@ CurveMeaning given_meaning(std::int32_t tag, const std::string& text) {
                                          : fmt::format("its {}s are {}", what, list_of(tags))));
 }
 
-/// Names without elements: gmsh leaves the groups out of MSH 2 where it saves all elements.
+/// Refuses names without elements: gmsh leaves the groups out of MSH 2 if it saves all elements.
 void refuse_lost_groups(const MshFile& file) {
   for (const auto& [tag, name] : file.curve_names) {
     const CurveGroup group = named_by_file(tag, true, name);
@@ -135,13 +135,13 @@ CurveGroups read_curve_groups(const MshFile& file,
   result.physical =
       file.lines.empty() || std::any_of(file.lines.begin(), file.lines.end(),
                                         [](const auto& line) { return line.group != 0; });
-  // who says what the elementary curves are need not save them in groups
+  // a user who says what the elementary curves are need not save them in groups
   if (!result.physical && given.empty()) refuse_lost_groups(file);
   for (const auto& [tag, name] : file.curve_names)
     if (result.physical) result.groups.emplace(tag, named_by_file(tag, true, name));
   for (const auto& line : file.lines) {
     const std::int32_t tag = result.physical ? line.group : line.entity;
-    // physical tag 0 stands for none
+    // physical tag 0 stands for no group
     if ((result.physical && tag == 0) || result.groups.contains(tag)) continue;
     result.groups.emplace(tag, named_by_file(tag, result.physical, ""));
   }

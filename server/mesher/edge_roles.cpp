@@ -121,7 +121,7 @@ class Reading {
     });
   }
 
-  /// Collects what all edges say before any is decided.
+  /// Collects the marks of all edges before any edge is decided.
   void look(Uses uses, std::span<const Mark> marks) {
     const CurveGroup* group = deciding(_mesh, marks);
     if (group != nullptr) _any_meaning = true;

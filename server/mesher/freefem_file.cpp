@@ -11,7 +11,7 @@
 namespace anticrack::mesher {
 namespace {
 
-/// What both formats have in common.
+/// The parts that both formats have in common.
 class PlaneReader {
  public:
   PlaneReader(std::string_view bytes, std::size_t max_triangles)
@@ -119,7 +119,7 @@ class MeditReader : PlaneReader {
     }
   }
 
-  /// What is about the mesh and no part of it: numbers, a text in quotation marks, a comment.
+  /// Skips what is no part of the mesh itself: numbers, a text in quotation marks, a comment.
   void skip_section() {
     const auto is_key = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
     while (!_in.at_end() && !is_key(_in.next())) {

@@ -10,9 +10,10 @@
 
 namespace anticrack::mesher {
 
-// A label of an edge is its group, 0: none; that of a triangle its surface. Nodes are numbered from
-// 1. Both throw errors::Error: mesh_invalid (damaged, a negative label, elements other than edges
-// and triangles), limit_exceeded (more than `max_triangles`). Linear in the size of the file.
+// The label of an edge is its group, 0 for none; the label of a triangle is its surface. Nodes are
+// numbered from 1. Both throw errors::Error: mesh_invalid (damaged, a negative label, elements
+// other than edges and triangles), limit_exceeded (more than `max_triangles`). Linear in the size
+// of the file.
 
 /// Reads FreeFEM's own .msh: the counts of vertices, triangles and edges, then x y label, three
 /// vertices and a label, two vertices and a label.

@@ -35,8 +35,8 @@ constexpr int triangle_type = 2;
 constexpr int delaunay = 5;
 constexpr int frontal_delaunay = 6;
 
-/// With so many intervals most triangles are small and near lines, where Delaunay makes as good
-/// ones in two thirds of the time.
+/// With so many intervals most triangles are small and near lines, and Delaunay makes triangles as
+/// good in two thirds of the time.
 constexpr int many_intervals = 8'000;
 
 template <class... Values>
@@ -52,9 +52,9 @@ template <class... Values>
       what);
 }
 
-/// Between the user's coordinates and gmsh's: scales to a box of about (-1,1)^2, for gmsh's
-/// absolute tolerances. The factor is a power of two, so nothing is rounded; the paper's square
-/// does not change.
+/// Converts between the user's coordinates and gmsh's: scales to a box of about (-1,1)^2, for
+/// gmsh's absolute tolerances. The factor is a power of two, so nothing is rounded; the paper's
+/// square does not change.
 class Frame {
  public:
   /// The frame of the bounding box of `points`, at least one.
@@ -71,11 +71,11 @@ class Frame {
     const double extent = std::max(high[0] - low[0], high[1] - low[1]);
     _exponent = static_cast<int>(std::lround(std::log2(extent / 2)));
   }
-  /// From the user's coordinates.
+  /// Converts from the user's coordinates.
   mesh::Point to_gmsh(const mesh::Point& p) const {
     return {std::ldexp(p[0] - _centre[0], -_exponent), std::ldexp(p[1] - _centre[1], -_exponent)};
   }
-  /// To the user's coordinates.
+  /// Converts to the user's coordinates.
   mesh::Point from_gmsh(double x, double y) const {
     return {std::ldexp(x, _exponent) + _centre[0], std::ldexp(y, _exponent) + _centre[1]};
   }
@@ -172,7 +172,7 @@ void choose_options(int algorithm, std::vector<SizedCurve> curves, double growth
   // Newer versions of gmsh give one more argument, the size they would have chosen.
   gmsh::model::mesh::setSizeCallback(
       [size, nodes = std::size_t{0}](int, int, double x, double y, auto...) mutable {
-        // It asks once for each node, and there are two triangles a node.
+        // gmsh asks once for each node, and there are two triangles for each node.
         ++nodes;
         stop::look_at_turn<256>(nodes, "generating a mesh", 2 * nodes);
         return size({x, y});
@@ -192,7 +192,7 @@ class Nodes {
     const std::size_t i = 3 * _place.at(tag);
     return with_place(tag, _frame.from_gmsh(_xyz[i], _xyz[i + 1]));
   }
-  /// The same, at an exact place if it is new.
+  /// The same; a new node gets the exact place `p`.
   std::int32_t with_place(std::size_t tag, const Point& p) {
     std::int32_t& index = _index[_place.at(tag)];
     if (index < 0) {
@@ -362,7 +362,7 @@ mesh::Mesh generate(const Gmsh& /*its presence is needed*/, const mesh::Generate
     gmsh::model::mesh::generate(2);
   } catch (const std::bad_alloc&) {
     throw;
-  } catch (const std::string& what) {  // as gmsh's interface reports its errors
+  } catch (const std::string& what) {  // this is how gmsh reports errors
     gave_up(what);
   } catch (const std::exception& error) {
     gave_up(error.what());

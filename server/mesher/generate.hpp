@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// From a plan to a mesh with gmsh. The only file that uses gmsh.
+// Makes a mesh from a plan with gmsh. Only this part uses gmsh.
 #pragma once
 
 #include "mesh/codec.hpp"
@@ -8,8 +8,8 @@
 
 namespace anticrack::mesher {
 
-/// gmsh, silent and on one thread. The constructor reads files (preferences), later calls do not.
-/// One per process: gmsh is global.
+/// gmsh, silent and on one thread. The constructor reads files (preferences); later calls do not.
+/// Make one per process, as gmsh is global.
 class Gmsh {
  public:
   /// Starts gmsh.
@@ -19,11 +19,11 @@ class Gmsh {
   Gmsh& operator=(const Gmsh&) = delete;
 };
 
-/// Meshes every face of the plan, ungraded, a fine one by halving a coarse mesh (coarsening.hpp);
-/// faces with the same name are one subdomain. The nodes of every planned curve lie at
-/// a + (b-a) k/n, n at least its intervals, and just as many without halving. Deterministic. One
-/// call per process. Throws errors::Error: limit_exceeded (too many triangles), mesher_failed (gmsh
-/// failed).
+/// Meshes every face of the plan, without grading; a fine mesh is made by halving a coarse one
+/// (coarsening.hpp). Faces with the same name are one subdomain. The nodes of every planned curve
+/// lie at a + (b-a) k/n with n at least its intervals, and equal to them without halving.
+/// Deterministic. One call per process. Throws errors::Error: limit_exceeded (too many triangles),
+/// mesher_failed (gmsh failed).
 mesh::Mesh generate(const Gmsh& gmsh, const mesh::GenerateRequest& request);
 
 }  // namespace anticrack::mesher

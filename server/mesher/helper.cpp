@@ -32,9 +32,9 @@ using Clock = std::chrono::steady_clock;
 using errors::Error;
 using errors::Reason;
 
-/// Processor time beyond the wall time: the wall clock, with its better message, comes first.
+/// Processor time beyond the wall time, so that the wall clock, with its better message, is first.
 constexpr std::chrono::seconds cpu_slack{10};
-/// More than a triangle with its nodes and edges takes; names and warnings come on top.
+/// More than a triangle with its nodes and edges takes, without names and warnings.
 constexpr std::size_t reply_bytes_a_triangle = 256;
 constexpr std::size_t other_reply_bytes = 16U << 20;
 
@@ -91,7 +91,7 @@ class StopSignal {
  private:
   struct Wake {
     int descriptor;
-    // If the counter is full, it is readable already.
+    // If the counter is full, the descriptor is readable already.
     void operator()() const noexcept { eventfd_write(descriptor, 1); }
   };
   base::Descriptor _event;
@@ -127,7 +127,7 @@ class Conversation {
       if ((events & (POLLIN | POLLHUP | POLLERR)) != 0) open = receive(reply);
       if (!_replies) take_reports(reply);
     }
-    // It closes its output just before it ends.
+    // The child closes its output just before it ends.
     while (!_child.ended()) wait(0, std::chrono::milliseconds(2));
     if (!WIFEXITED(_child.status()) || WEXITSTATUS(_child.status()) != 0 || reply.empty())
       throw failed(ending(_child.status(), _options));
@@ -156,7 +156,7 @@ class Conversation {
     return polled[0].revents;
   }
 
-  /// False at the end of the child's output.
+  /// Receives bytes; false at the end of the child's output.
   bool receive(mesh::Bytes& reply) {
     constexpr std::size_t step = 1U << 18;
     const std::size_t used = reply.size();
@@ -173,7 +173,7 @@ class Conversation {
     return n < 0 && (errno == EAGAIN || errno == EINTR);
   }
 
-  /// Takes the reports off the beginning of what was received, and the mark of the reply.
+  /// Takes the reports, and then the mark of the reply, off the beginning of the received bytes.
   void take_reports(mesh::Bytes& received) {
     std::size_t taken = 0;
     while (taken < received.size() && received[taken] == report_mark) {
@@ -184,14 +184,14 @@ class Conversation {
     }
     if (taken < received.size() && received[taken] != report_mark) {
       _replies = true;
-      taken += received[taken] == reply_mark ? 1 : 0;  // else it makes no sense, as will be seen
+      taken += received[taken] == reply_mark ? 1 : 0;  // otherwise decoding will fail
     }
     received.erase(received.begin(), received.begin() + static_cast<std::ptrdiff_t>(taken));
   }
 
   const HelperOptions& _options;
   const ProgressListener& _listener;
-  bool _replies = false;  ///< the reports have ended
+  bool _replies = false;  ///< whether the reports have ended
   std::stop_token _stop;
   StopSignal _wake;
   Clock::time_point _deadline;
@@ -215,8 +215,8 @@ mesh::Bytes converse(const HelperOptions& options, const mesh::MesherRequest& re
   }
 }
 
-/// Opens a file that begins as one that is read does. The check and the child use the same
-/// descriptor, so the file cannot be exchanged in between.
+/// Opens a file and checks by its beginning that its format can be read. The check and the child
+/// use the same descriptor, so the file cannot be exchanged in between.
 base::Descriptor open_msh(const std::string& path) {
   base::Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   char start[start_bytes] = {};

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Runs the helper process anticrack-mesher, which alone links gmsh: gmsh has global state (two
-// threads in one process gave 21 bad meshes of 40), runs shell commands from any file that looks
-// like a script, and may crash. The helper has limits of memory, time and descriptors and can open
-// no files, start no programs and make no connections (restrict.hpp). The .msh to import is opened
-// here and handed over.
+// Runs the helper process anticrack-mesher. Only this process links gmsh, because gmsh has global
+// state (two threads in one process gave 21 bad meshes of 40), runs shell commands from any file
+// that looks like a script, and may crash. The helper has limits of memory, time and descriptors
+// and can open no files, start no programs and make no connections (restrict.hpp). The .msh file to
+// import is opened here and handed over.
 #pragma once
 
 #include <chrono>
@@ -21,11 +21,11 @@ namespace anticrack::mesher {
 
 struct HelperOptions {
   std::string executable;                   ///< path of anticrack-mesher
-  std::chrono::seconds time_limit{600};     ///< wall time, then it is killed
+  std::chrono::seconds time_limit{600};     ///< wall time after which it is killed
   std::uint64_t memory_limit = 6ULL << 30;  ///< bytes of address space (RLIMIT_AS)
 };
 
-/// Receives how far the helper is, about every second.
+/// Called about every second with the progress of the helper.
 using ProgressListener = std::function<void(const Progress&)>;
 
 /// Sends the request to a new helper process and returns its mesh, validated. Blocks; `stop` kills
@@ -34,14 +34,14 @@ using ProgressListener = std::function<void(const Progress&)>;
 mesh::Mesh run(const HelperOptions& options, const mesh::MesherRequest& request,
                std::stop_token stop, const ProgressListener& listener = {});
 
-/// Throws errors::Error (mesh_invalid) unless the file begins as one that is read does
-/// (mesh_start.hpp).
+/// Throws errors::Error (mesh_invalid) unless the beginning of the file is that of a format that
+/// can be read (mesh_start.hpp).
 void require_msh(const std::string& path);
 
-/// What the program anticrack-mesher of this version has in it.
+/// A text that only the program anticrack-mesher of this version contains.
 const char* mark() noexcept;
 
-/// Whether a file is that program, or a script, which may start it. False where it cannot be read.
+/// Whether a file is that program, or a script, which may start it. False if it cannot be read.
 bool is_helper(const std::string& path);
 
 /// Path of anticrack-mesher beside the running executable, or in ../libexec/anticrack.

@@ -82,7 +82,7 @@ void check_sides(const MshFile& file, const PlaneMesh& plane) {
   });
 }
 
-/// Lines between nodes of triangles. Others are left out, or refused if they have a meaning.
+/// Lines between nodes of triangles. Other lines are left out, or refused if they have a meaning.
 std::vector<CurveEdge> take_lines(const MshFile& file, const PlaneMesh& plane,
                                   const Welding& welding, const CurveGroups& groups, Mesh& mesh) {
   std::vector<CurveEdge> lines;
@@ -110,7 +110,7 @@ std::vector<CurveEdge> take_lines(const MshFile& file, const PlaneMesh& plane,
   return lines;
 }
 
-/// An inclusion of which the file has the name alone would be missing without a word.
+/// Warns of empty groups: an inclusion with a name but no lines would be missing without a word.
 void note_empty_groups(const MshFile& file, const CurveGroups& groups, Mesh& mesh) {
   std::set<const CurveGroup*> met;
   for (const auto& line : file.lines) met.insert(groups.of(line));
@@ -143,7 +143,7 @@ void take_interfaces(const EdgeRoles& roles, const std::vector<bool>& on_boundar
                      const DirectedLines& lines, Mesh& mesh) {
   std::vector<Chain> chains = build_chains(roles.interfaces, on_boundary);
   const bool single = chains.size() == 1;
-  std::map<std::string, std::int32_t> inclusions;  // numbered in the order in which they are met
+  std::map<std::string, std::int32_t> inclusions;  // numbers, in the order met
   const auto inclusion_of = [&](const CurveMeaning& meaning) -> std::int32_t {
     if (!is_rigid(meaning.role)) return -1;
     const auto next = static_cast<std::int32_t>(inclusions.size());
@@ -168,7 +168,7 @@ void take_interfaces(const EdgeRoles& roles, const std::vector<bool>& on_boundar
   }
 }
 
-/// As check_contacts in mesh/geometry.cpp: no piece of the membrane is held in a point alone.
+/// As check_contacts in mesh/geometry.cpp: no piece of the membrane may be held in one point alone.
 void check_contacts(const mesh::EdgeTable& edges, const Mesh& mesh) {
   struct Ends {
     int held = 0;

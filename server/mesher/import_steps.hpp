@@ -42,17 +42,17 @@ PlaneMesh read_plane(const MshFile& file);
 
 enum class CurveRole { neumann, dirichlet, glue, crack, free, inclusion, delaminated };
 
-/// Whether it is (a part of) an inclusion.
+/// Whether the role is that of an inclusion or of a part of one.
 constexpr bool is_rigid(CurveRole role) noexcept {
   return role == CurveRole::inclusion || role == CurveRole::delaminated;
 }
 
 struct CurveMeaning {
   CurveRole role = CurveRole::glue;
-  std::string name;  ///< of the inclusion or crack, else empty
+  std::string name;  ///< name of the inclusion or crack, else empty
 };
 
-/// A text read as a keyword. Neither a meaning nor a fault: the text is not a keyword.
+/// A text read as a keyword. If there is neither a meaning nor a fault, the text is no keyword.
 struct ReadMeaning {
   std::optional<CurveMeaning> meaning;
   std::string fault;  ///< not empty: what is wrong with the NAME of a keyword
@@ -68,7 +68,7 @@ struct CurveGroup {
 };
 
 struct CurveGroups {
-  /// False if no line is in a physical group: the groups are then the elementary curves.
+  /// False if no line is in a physical group; the groups are then the elementary curves.
   bool physical = true;
   std::map<std::int32_t, CurveGroup> groups;
 
@@ -76,10 +76,10 @@ struct CurveGroups {
   const CurveGroup* of(const MshElement<2>& line) const;
 };
 
-/// `given` (physical tag -> meaning) overrides the names of the file. Throws errors::Error:
-/// invalid_argument at "options.curve_groups[TAG]" for a tag that the file lacks or a text that is
-/// not a keyword; mesh_invalid for a bad NAME, one shared by a crack and an inclusion, or names of
-/// groups that no line is in.
+/// Reads the groups. `given` (physical tag -> meaning) overrides the names of the file. Throws
+/// errors::Error: invalid_argument at "options.curve_groups[TAG]" for a tag that the file lacks or
+/// a text that is not a keyword; mesh_invalid for a bad NAME, one shared by a crack and an
+/// inclusion, or names of groups that no line is in.
 CurveGroups read_curve_groups(const MshFile& file,
                               const std::map<std::int32_t, std::string>& given);
 
@@ -89,7 +89,7 @@ CurveGroups read_curve_groups(const MshFile& file,
 /// Two edges of the file at the same place: after welding one edge with a triangle on each side.
 struct DoubledEdge {
   std::int32_t low = 0;   ///< welded nodes, low < high
-  std::int32_t high = 0;  ///< as above
+  std::int32_t high = 0;  ///< welded node
   /// The two sides are not connected over common nodes of the file: they were meshed separately.
   /// The sides of a crack are connected at its tips.
   bool apart = false;
@@ -97,7 +97,7 @@ struct DoubledEdge {
 
 struct Welding {
   std::vector<std::int32_t> node;    ///< (n) new number of each node, in order of first occurrence
-  std::size_t node_count = 0;        ///< afterwards
+  std::size_t node_count = 0;        ///< after welding
   std::vector<DoubledEdge> doubled;  ///< by (low, high)
 
   /// Null if the edge is not doubled. O(log).
@@ -112,7 +112,7 @@ struct Welding {
 Welding weld(std::span<const double> xy, std::span<const std::int32_t> triangles,
              std::span<const std::uint64_t> tags);
 
-// From surfaces of the file to subdomains.
+// Makes subdomains from the surfaces of the file.
 
 /// Fills mesh.subdomain, mesh.subdomains and mesh.tension, with assumptions in mesh.warnings. Every
 /// physical surface is a subdomain, in the order of tags; its name comes from
@@ -125,7 +125,7 @@ void read_surfaces(const MshFile& file, const mesh::MeshOptions& options,
                    const mesh::EdgeTable& edges,
                    std::span<const std::pair<std::int32_t, std::int32_t>> cuts, mesh::Mesh& mesh);
 
-// The role of every edge of the mesh, from its groups or from its surroundings.
+// Decides the role of every edge of the mesh, from its groups or from its surroundings.
 
 /// A line of the file with node numbers of the mesh.
 struct CurveEdge {
@@ -163,7 +163,7 @@ struct EdgeRoles {
 EdgeRoles read_edges(const mesh::EdgeTable& edges, std::span<const CurveEdge> lines,
                      const CurveGroups& groups, const Welding& welding, mesh::Mesh& mesh);
 
-// Edges of interfaces joined to chains, and their plus sides.
+// Joins the edges of interfaces to chains and finds their plus sides.
 
 /// A chain of nodes with subdomain `left` on its left and `right` on its right; both are equal for
 /// a slit.
@@ -173,13 +173,14 @@ struct Chain {
   std::vector<std::int32_t> nodes;          ///< k; a closed chain repeats its first node
   std::vector<const InterfaceEdge*> edges;  ///< k-1
 
-  /// Whether it is a ring.
+  /// Whether the chain is a ring.
   bool closed() const noexcept { return nodes.front() == nodes.back(); }
 };
 
-/// Chains end at free ends, at the boundary and at cross points (nodes without exactly two edges).
-/// An open chain starts at its lower end node, a ring at its lowest node. Sorted by (lower, higher)
-/// subdomain, then by node. `on_boundary` (n). O(e log e) for e edges.
+/// Joins edges to chains. Chains end at free ends, at the boundary and at cross points (nodes that
+/// do not have exactly two edges). An open chain starts at its lower end node, a ring at its lowest
+/// node. Sorted by (lower, higher) subdomain, then by node. `on_boundary` (n). O(e log e) for e
+/// edges.
 std::vector<Chain> build_chains(std::span<const InterfaceEdge> edges,
                                 const std::vector<bool>& on_boundary);
 
@@ -188,10 +189,11 @@ using DirectedLines = std::set<std::pair<std::int32_t, std::int32_t>>;
 
 struct Oriented {
   Chain chain;       ///< plus side on its left
-  std::string note;  ///< not empty: a warning that rule 3 applied
+  std::string note;  ///< a warning that rule 3 applied, or empty
 };
 
-/// The plus side is, by the first rule that applies:
+/// Turns the chain so that its plus side is on the left. The plus side is, by the first rule that
+/// applies:
 ///   1. between two subdomains: the one called `plus`, or the one that faces `minus`;
 ///   2. the side left of the lines on its cracks and inclusions (else of all lines), if they agree;
 ///   3. between two subdomains: the one with the higher number; inside one: the left of the chain
@@ -206,7 +208,7 @@ enum class Assumed {
   neumann,   ///< on the boundary, in no group
   glue,      ///< between two subdomains
   welded,    ///< glue between subdomains that were meshed separately
-  joined,    ///< nothing, between separately meshed parts of a subdomain
+  joined,    ///< no interface, between separately meshed parts of a subdomain
   crack,     ///< doubled nodes
   nothing,   ///< a line inside one subdomain
   left_out,  ///< no edge of a triangle
@@ -216,17 +218,17 @@ class Assumptions {
  public:
   /// Adds an edge in a group without meaning.
   void add(const CurveGroup& group, Assumed assumed);
-  /// Adds an edge in no group, by one of its nodes.
+  /// Adds an edge in no group. `node`: one of its nodes.
   void add(Assumed assumed, std::int32_t node);
 
-  /// Adds to mesh.warnings: one per group and meaning; one per meaning for edges without group, and
-  /// for curves of a file without groups.
+  /// Adds the warnings to mesh.warnings: one per group and meaning; for edges without a group, and
+  /// for curves of a file without groups, one per meaning.
   void tell(const CurveGroups& groups, mesh::Mesh& mesh) const;
 
  private:
   struct Bare {
     std::size_t edges = 0;
-    std::int32_t node = 0;  ///< of the first
+    std::int32_t node = 0;  ///< a node of the first edge
   };
 
   std::map<std::pair<std::int32_t, Assumed>, std::size_t> _by_group;

@@ -14,7 +14,7 @@ class Walker {
  public:
   Walker(std::span<const InterfaceEdge> edges, const std::vector<bool>& on_boundary)
       : _edges(edges), _on_boundary(on_boundary), _taken(edges.size(), false) {
-    // edges come by (low, high), so those of a node come by their other node
+    // edges are sorted by (low, high), so those of a node are sorted by their other node
     for (std::size_t i = 0; i < edges.size(); ++i) {
       _at[edges[i].from].push_back(i);
       _at[edges[i].to].push_back(i);
@@ -92,7 +92,7 @@ double turning(const mesh::Mesh& mesh, const Chain& chain) {
   return sum;
 }
 
-/// Rule 3; by coordinates, so that it does not depend on node numbers.
+/// Whether the chain runs as rule 3 says, by coordinates, so that node numbers do not matter.
 bool runs_as_by_rule(const mesh::Mesh& mesh, const Chain& chain) {
   if (chain.left != chain.right) return chain.left > chain.right;
   if (chain.closed()) return turning(mesh, chain) > 0;

@@ -63,7 +63,7 @@ void write_all(int descriptor, std::span<const std::byte> bytes) {
   }
 }
 
-/// Writes how far it is at the first look of the work, and then about once a second.
+/// Writes the progress when the work first looks at its stop token, and then about once a second.
 class Reporter {
  public:
   bool operator()(const stop::Look& at) {

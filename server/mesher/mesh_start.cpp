@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view blanks = " \t\r\n";
 
-/// Takes the first word; empty unless something ends it.
+/// Takes the first word off the text; empty if the text ends before the word does.
 std::string_view take_word(std::string_view& text) {
   const std::size_t end = text.find_first_of(blanks);
   if (end == std::string_view::npos) return {};
@@ -25,7 +25,7 @@ bool is_count(std::string_view word) {
          std::ranges::all_of(word, [](char c) { return c >= '0' && c <= '9'; });
 }
 
-/// The counts of vertices, triangles and edges alone on the first line.
+/// Whether the first line has the counts of vertices, triangles and edges, and nothing else.
 bool begins_like_freefem(std::string_view text) {
   text = text.substr(0, text.find('\n') + 1);
   std::size_t counts = 0;

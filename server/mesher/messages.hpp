@@ -15,14 +15,14 @@
 
 namespace anticrack::mesher {
 
-/// Throws errors::Error (mesh_invalid): the file is not a usable mesh.
+/// Throws errors::Error (mesh_invalid), as the file is not a usable mesh.
 template <class... Values>
 [[noreturn]] void refuse(fmt::format_string<Values...> message, Values&&... values) {
   throw errors::Error(errors::Reason::mesh_invalid,
                       fmt::format(message, std::forward<Values>(values)...));
 }
 
-/// "3, 4, 7", or with quotes "\"a\", \"b\"": at most twenty, then "and 5 more".
+/// A list as text: "3, 4, 7", or with quotes "\"a\", \"b\"": at most twenty, then "and 5 more".
 template <class Items>
 std::string list_of(const Items& items, const char* quote = "") {
   constexpr std::size_t most = 20;
@@ -35,7 +35,7 @@ std::string list_of(const Items& items, const char* quote = "") {
   return count > most ? fmt::format("{} and {} more", text, count - most) : text;
 }
 
-/// "(x, y)" of a node.
+/// The position of a node as "(x, y)".
 inline std::string place_of(const mesh::Mesh& mesh, std::int32_t node) {
   return fmt::format("({:g}, {:g})", mesh.xy[2 * at(node)], mesh.xy[2 * at(node) + 1]);
 }

@@ -7,12 +7,12 @@
 namespace anticrack::mesher {
 namespace {
 
-/// Limits the copies of a line, one per group.
+/// Limits the copies of a line, as there is one for each group.
 constexpr std::size_t max_groups = 64;
 
 constexpr int dimensions = 4;
 
-/// Calls for each entity, with its dimension.
+/// Calls read(dimension) for each entity.
 template <class Read>
 void each_entity(MshScanner& in, const Read& read) {
   std::array<std::size_t, dimensions> counts{};
@@ -28,7 +28,7 @@ void each_entity(MshScanner& in, const Read& read) {
 
 int MshEntities::read_group(MshScanner& in) {
   const int group = in.number<int>();
-  // its negative, the same group backwards, must be a number too
+  // its negative, which is the same group backwards, must be a number too
   if (group == std::numeric_limits<int>::min()) in.fail("a physical group out of range");
   return group;
 }
@@ -90,7 +90,7 @@ EntityGroups MshEntities::of(int dimension, int tag) const {
   result.entity = tag;
   if (const auto part = _part.find({dimension, tag}); part != _part.end()) {
     const Key& key = part->second.whole;
-    // a parent of -1: none
+    // a parent of -1 means that there is none
     const bool has_whole = key.first >= 0 && key.second > 0;
     result.between_parts = has_whole && key.first != dimension;
     if (has_whole && !result.between_parts) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The geometry of an MSH 4.1 file: in which physical groups its entities are.
+// The geometry of an MSH 4.1 file: the physical groups of its entities.
 #pragma once
 
 #include <cstddef>
@@ -13,9 +13,9 @@
 
 namespace anticrack::mesher {
 
-/// What the elements of an entity belong to.
+/// The groups to which the elements of an entity belong.
 struct EntityGroups {
-  int entity = 0;           ///< elementary tag; of a part, that of the whole
+  int entity = 0;           ///< elementary tag; for a part, that of the whole
   std::vector<int> groups;  ///< physical tags, at least one; {0}: none
   /// Made by gmsh where two parts of a partitioned mesh meet: no line of the user's.
   bool between_parts = false;
@@ -25,20 +25,20 @@ class MshEntities {
  public:
   /// Reads the inside of $Entities.
   void read(MshScanner& in);
-  /// Reads the inside of $PartitionedEntities, which replace those of $Entities in a mesh that gmsh
-  /// has partitioned, and belong to them.
+  /// Reads the inside of $PartitionedEntities. In a mesh that gmsh has partitioned, these parts
+  /// replace the entities of $Entities, to which they belong.
   void read_partitioned(MshScanner& in);
 
-  /// Of the elements of this dimension in this entity. A part is in the groups of the whole.
+  /// Groups of the elements of this dimension in this entity. A part is in the groups of the whole.
   EntityGroups of(int dimension, int tag) const;
   /// Whether a section had any entity.
   bool any() const noexcept { return _any; }
-  /// How many parts the mesh was divided into; 0: it was not.
+  /// Into how many parts the mesh was divided; 0 if it was not.
   std::size_t parts() const noexcept { return _parts; }
-  /// Of these, those with a surface in this file.
+  /// How many of these parts have a surface in this file.
   std::size_t parts_here() const noexcept { return _parts_here.size(); }
 
-  /// A group as in files: negative where it takes the entity backwards.
+  /// Reads a group; it is negative if it contains the entity backwards.
   static int read_group(MshScanner& in);
 
  private:

@@ -22,7 +22,7 @@ constexpr int line_type = 1;
 constexpr int triangle_type = 2;
 constexpr int point_type = 15;
 
-/// Of a name in format 2.0.
+/// The dimension of a name in format 2.0, which does not give it.
 constexpr int any_dimension = -1;
 
 std::string refused_element(int type) {
@@ -180,8 +180,8 @@ class Reader {
     }
   }
 
-  /// Format 2.0 does not say whether a name is that of a curve or of a surface: it is that of what
-  /// has the tag.
+  /// Format 2.0 does not say whether a name is that of a curve or of a surface: it is given to
+  /// whichever has the tag.
   void give_names() {
     const auto has = [](const auto& elements, int tag) {
       return std::any_of(elements.begin(), elements.end(),
@@ -223,7 +223,7 @@ class Reader {
     }
   }
 
-  /// The number of a node: 4 bytes in binary files, any length as text.
+  /// Reads the number of a node: 4 bytes in binary files, any length as text.
   std::uint64_t read_node_22() {
     const std::int64_t tag =
         _in.binary() ? _in.raw<std::int32_t>() : _in.text_number<std::int64_t>();
@@ -231,7 +231,7 @@ class Reader {
     return static_cast<std::uint64_t>(tag);
   }
 
-  /// The entity of a node and its place on it.
+  /// Skips the entity of a node and the node's parameters on it.
   void skip_parameters() {
     if (!_in.binary()) {
       _in.rest_of_line();
@@ -292,7 +292,7 @@ class Reader {
     }
   }
 
-  /// Binary elements come in blocks with a common header. Returns their number.
+  /// Reads a block of binary elements, which have a common header. Returns their number.
   std::size_t read_block_22(std::size_t left) {
     const int type = _in.number<std::int32_t>();
     const int follow = _in.number<std::int32_t>();
@@ -310,8 +310,8 @@ class Reader {
     EntityGroups of;
     of.groups = {tags > 0 ? MshEntities::read_group(_in) : 0};
     of.entity = tags > 1 ? _in.number<int>() : 0;
-    // 2.2: how many parts the element is in, its own, and as negatives those whose ghost it is; an
-    // older file has its own alone
+    // 2.2: the number of parts that the element is in, its own part, and as negatives the parts
+    // whose ghost it is; an older file has only its own part
     const int parts = tags > 3 ? _in.number<int>() : 0;
     for (int i = 3; i < tags; ++i) {
       const int part = _in.number<int>();
@@ -353,7 +353,7 @@ class Reader {
       const std::uint64_t b = node();
       if (of.between_parts) return;
       for (const int group : of.groups) {
-        // a negative group takes the curve backwards
+        // a negative group contains the curve backwards
         const bool backwards = group < 0;
         _file.lines.push_back(
             {tag, {backwards ? b : a, backwards ? a : b}, backwards ? -group : group, of.entity});
@@ -385,7 +385,7 @@ class Reader {
   MshEntities _entities;
   std::vector<std::pair<int, std::string>> _names_of_any;
   std::set<int> _own_parts;                            ///< of triangles in format 2
-  std::set<int> _ghost_parts;                          ///< whose ghosts they are
+  std::set<int> _ghost_parts;                          ///< parts whose ghosts they are
   std::map<std::pair<int, std::string>, int> _tag_of;  ///< a name's physical tag, by dimension
   MshFile _file;
 };

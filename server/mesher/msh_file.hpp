@@ -23,7 +23,7 @@ struct MshElement {
 
 struct MshFile {
   std::map<int, std::string> curve_names;    ///< physical tag -> name, from $PhysicalNames
-  std::map<int, std::string> surface_names;  ///< as above
+  std::map<int, std::string> surface_names;  ///< the same for surfaces
   std::vector<std::uint64_t> node_tags;      ///< (n)
   std::vector<double> xyz;                   ///< (n,3) row-major
   /// One entry for each physical group of a line. The direction is that of the file, reversed if
@@ -33,18 +33,18 @@ struct MshFile {
 };
 
 /// Reads MSH 2.0 to 2.2 and 4.1, ascii and binary, without gmsh: its reader tolerates damaged files
-/// and may take a file for a script. Skips points and what else is no mesh (results, periodicity).
+/// and may take a file for a script. Skips points and all that is no mesh (results, periodicity).
 /// The parts of a partitioned mesh are in the groups of the whole. Throws errors::Error:
 /// mesh_invalid (damaged, another version, geometry without a mesh, one part of a mesh saved in
 /// parts, elements other than 2-node lines and 3-node triangles, names used twice), limit_exceeded
 /// (more than `max_triangles`). Linear in the size of the file.
 MshFile read_msh(std::string_view bytes, std::size_t max_triangles);
 
-/// The same for a file of any format that is read: a .msh, or what FreeFEM's savemesh writes
+/// The same for a file of any format that can be read: a .msh, or a file of FreeFEM's savemesh
 /// (freefem_file.hpp).
 MshFile read_mesh_file(std::string_view bytes, std::size_t max_triangles);
 
-/// Throws errors::Error (limit_exceeded) for more triangles.
+/// Throws errors::Error (limit_exceeded) if the file has more than `max_triangles` triangles.
 void check_triangle_limit(const MshFile& file, std::size_t max_triangles);
 
 }  // namespace anticrack::mesher

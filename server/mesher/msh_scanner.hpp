@@ -13,37 +13,37 @@
 
 namespace anticrack::mesher {
 
-/// Least bytes of so many numbers as text: a digit and a separator each.
+/// The least bytes that `numbers` numbers take as text: a digit and a separator each.
 constexpr std::size_t text_bytes(std::size_t numbers) noexcept { return 2 * numbers; }
 
-/// For messages: at most 32 characters, '?' for those that cannot be printed.
+/// A text for messages: at most 32 characters, with '?' for those that cannot be printed.
 std::string printable(std::string_view text);
 
 /// Reads the bytes of a file in order. Every failure is an errors::Error (mesh_invalid) that says
 /// where.
 class MshScanner {
  public:
-  /// `file`: what it is, for messages.
+  /// `file`: the kind of file, for messages.
   explicit MshScanner(std::string_view bytes, const char* file = ".msh file") noexcept
       : _bytes(bytes), _file(file) {}
 
-  /// The format of the numbers that follow; at first text.
+  /// Sets the format of the numbers that follow, which at first is text.
   void set_binary(bool binary) noexcept { _binary = binary; }
   bool binary() const noexcept { return _binary; }
-  /// The section for messages, "$Nodes".
+  /// Sets the section for messages, e.g. "$Nodes".
   void enter(std::string section) { _section = std::move(section); }
 
   /// Moves past the mark of UTF-8 (BOM) with which some editors begin a file.
   void skip_mark() noexcept;
   /// True when only white space is left.
   bool at_end() noexcept;
-  /// The first character of the next word; fails at the end of the file.
+  /// The first character of the next word; throws at the end of the file.
   char next();
-  /// The next word between white space; fails at the end of the file.
+  /// The next word between white space; throws at the end of the file.
   std::string_view word();
   /// The rest of the line, without its end.
   std::string_view rest_of_line();
-  /// Fails unless the next word is this one.
+  /// Throws unless the next word is this one.
   void expect(std::string_view wanted);
   /// Moves past the next line that begins with this word; false if there is none.
   bool skip_past(std::string_view wanted);
@@ -52,7 +52,7 @@ class MshScanner {
   template <class T>
   T text_number() {
     const std::string_view token = word();
-    // C's printf writes a plus where it is asked to, which from_chars does not take
+    // C's printf may write a plus, which from_chars does not accept
     const std::string_view digits = token.substr(token.starts_with('+') ? 1 : 0);
     T value{};
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
@@ -66,7 +66,7 @@ class MshScanner {
   T number() {
     return _binary ? raw<T>() : text_number<T>();
   }
-  /// A number as in memory, little-endian. Fails at the end of the file.
+  /// A number as in memory, little-endian. Throws at the end of the file.
   template <class T>
   T raw() {
     static_assert(std::is_arithmetic_v<T>);
@@ -77,7 +77,7 @@ class MshScanner {
     return value;
   }
 
-  /// Fails unless the rest of the file can hold this many items of `least_bytes` each.
+  /// Throws unless the rest of the file can hold `count` items of `least_bytes` each.
   void require_room(std::size_t count, std::size_t least_bytes) const;
 
   /// Throws errors::Error (mesh_invalid) with the section, the line or byte, and the message.

@@ -21,7 +21,7 @@ namespace {
   throw std::system_error(errno, std::system_category(), what);
 }
 
-/// `slack`: how far the hard limit is above the soft one, which only sends a signal.
+/// Sets a limit. `slack`: how far the hard limit is above the soft one, which only sends a signal.
 void limit(decltype(RLIMIT_AS) resource, rlim_t value, const char* name, rlim_t slack = 0) {
   rlimit current{};
   if (getrlimit(resource, &current) != 0) fail(name);
@@ -30,8 +30,8 @@ void limit(decltype(RLIMIT_AS) resource, rlim_t value, const char* name, rlim_t 
   if (setrlimit(resource, &wanted) != 0) fail(name);
 }
 
-/// Calls needed to compute: those seen with strace while gmsh meshed and .msh files were read, and
-/// others that the C library's allocator, qsort (sysinfo), abort and clocks may make.
+/// Calls that computing needs: those that strace showed while gmsh meshed and .msh files were read,
+/// and others that the C library's allocator, qsort (sysinfo), abort and clocks may make.
 constexpr int allowed[] = {SCMP_SYS(read),
                            SCMP_SYS(write),
                            SCMP_SYS(brk),
@@ -79,7 +79,7 @@ void load_filter() {
   // a library may have started a thread
   check(seccomp_attr_set(filter.get(), SCMP_FLTATR_CTL_TSYNC, 1), "seccomp");
   for (const int call : allowed) allow(filter.get(), call);
-  // memory, never code
+  // memory may be mapped, but never as code
   for (const int call : {SCMP_SYS(mmap), SCMP_SYS(mprotect)})
     allow(filter.get(), call, {{2, SCMP_CMP_MASKED_EQ, PROT_EXEC, 0}});
   // abort() signals its own thread; the server then names SIGABRT

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the helper process forbids to itself before it reads its input.
+// Restrictions that the helper process sets on itself before it reads its input.
 #pragma once
 
 #include <cstdint>

@@ -16,9 +16,9 @@ struct SizedCurve {
   double size = 0;
 };
 
-/// h(x) = min(longest size, min over curves c of (size_c + growth dist(x, c))). gmsh's own way, to
-/// extend lengths from the boundary, makes 4 % more triangles than the paper's mesh has. A tree of
-/// bounding boxes: usually O(log k) per query for k curves.
+/// h(x) = min(longest size, min over curves c of (size_c + growth dist(x, c))). gmsh's own method,
+/// which extends lengths from the boundary, makes 4 % more triangles than the paper's mesh has.
+/// This is a tree of bounding boxes, with usually O(log k) per query for k curves.
 class SizeField {
  public:
   /// `curves` must not be empty; growth >= 0.
@@ -30,10 +30,10 @@ class SizeField {
   struct Box {
     mesh::Point low{};
     mesh::Point high{};
-    double least = 0;  ///< smallest size inside
+    double least = 0;  ///< smallest size inside the box
     std::size_t begin = 0;
-    std::size_t end = 0;   ///< of its curves
-    std::size_t left = 0;  ///< its parts; 0: none
+    std::size_t end = 0;   ///< end of the range of its curves
+    std::size_t left = 0;  ///< index of its two parts; 0: none
     std::size_t right = 0;
   };
 

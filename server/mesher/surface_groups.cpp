@@ -70,7 +70,8 @@ void check_given(const Surfaces& surfaces, const std::map<std::int32_t, std::str
   }
 }
 
-/// Surfaces to which the request gives the same name are one subdomain; other names must differ.
+/// Makes a subdomain of each surface; surfaces to which the request gives the same name are one
+/// subdomain, and other names must differ.
 void take_tags(const MshFile& file, const Surfaces& surfaces,
                const std::map<std::int32_t, std::string>& given, Mesh& mesh) {
   struct Named {
@@ -99,7 +100,7 @@ void take_tags(const MshFile& file, const Surfaces& surfaces,
   for (const auto& t : file.triangles) mesh.subdomain.push_back(index_of.at(surfaces.tag_of(t)));
 }
 
-/// Every piece of the mesh between the cuts is a subdomain, in the order of their first triangles.
+/// Makes a subdomain of every piece between the cuts, in the order of their first triangles.
 void take_pieces(const mesh::EdgeTable& edges,
                  std::span<const std::pair<std::int32_t, std::int32_t>> cuts, Mesh& mesh) {
   base::UnionFind pieces(mesh.triangle_count());
@@ -126,7 +127,7 @@ void take_pieces(const mesh::EdgeTable& edges,
                                 count, list_of(mesh.subdomains, "\""))));
 }
 
-/// The number of the subdomain that a tension is given for.
+/// The number of the subdomain for which a tension is given.
 std::size_t subdomain_of(const std::string& name, const std::string& field, const Mesh& mesh) {
   const auto found = std::find(mesh.subdomains.begin(), mesh.subdomains.end(), name);
   if (found == mesh.subdomains.end()) {

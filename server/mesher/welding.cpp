@@ -17,14 +17,14 @@
 namespace anticrack::mesher {
 namespace {
 
-/// Relative to the extent. gmsh integrates along curves: nodes of a line meshed from either end
-/// differ by 3e-12.
+/// Relative to the extent. gmsh integrates along curves, so the nodes of a line that is meshed from
+/// either end differ by 3e-12.
 constexpr double same_place = 1e-9;
 /// Relative to the shortest rim edge, for meshes graded below `same_place`.
 constexpr double same_place_of_edge = 1e-3;
 /// Radians within which two edges from one node lie on each other. Opened notches are wider.
 constexpr double same_direction = 1e-9;
-/// Limit of the same with the rounding of short edges.
+/// Most of this angle when the rounding of short edges is added.
 constexpr double widest_same_direction = 1e-3;
 
 constexpr const char* matching_nodes =
@@ -138,7 +138,7 @@ void find_coincident(const Places& places, const std::vector<RimEdge>& rim,
     }
   };
   for (const Entry& entry : entries) {
-    // half of the neighbours; the other half find this cell
+    // only half of the neighbouring cells, as the other half find this cell
     const auto [i, j] = entry.cell;
     for (const auto& cell : {std::array{i, j}, std::array{i, j + 1}, std::array{i + 1, j - 1},
                              std::array{i + 1, j}, std::array{i + 1, j + 1}})
@@ -243,7 +243,7 @@ Welding number(std::size_t node_count, base::UnionFind& same) {
   for (std::size_t i = 0; i < node_count; ++i) {
     const auto node = static_cast<std::int32_t>(i);
     const std::int32_t first = same.find(node);
-    // the first node of a place already has its number
+    // the first node of a place has its number already
     welding.node.push_back(first == node ? static_cast<std::int32_t>(welding.node_count++)
                                          : welding.node[at(first)]);
   }

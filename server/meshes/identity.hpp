@@ -7,12 +7,12 @@
 
 namespace anticrack::meshes {
 
-/// Hash of a definition, 64 hexadecimal digits: equal if they give the same mesh. Ignores options
-/// without effect (tip size without grading). O(size of the definition).
+/// Hash of a definition, 64 hexadecimal digits. Definitions have equal hashes if they give the same
+/// mesh; options without effect are ignored (tip size without grading). O(size of the definition).
 std::string identity(const records::MeshDefinition& definition);
 
-/// Hash of the definition and the owner, whose first digits are the mesh's id; for an empty owner
-/// that of the definition.
+/// Hash of the definition and the owner, whose first digits are the mesh's id. For an empty owner
+/// it is the hash of the definition.
 std::string identity(const records::MeshDefinition& definition, const std::string& owner);
 
 }  // namespace anticrack::meshes

@@ -41,7 +41,7 @@ void check_title(const std::string& title) {
       .at("title");
 }
 
-/// Hears of the end of the last job on a mesh, which may come after that of the catalogue.
+/// Is told when the last job on a mesh has ended, which may be after the catalogue was destroyed.
 class Ends {
  public:
   explicit Ends(Preparation& preparation) : _preparation(&preparation) {}
@@ -86,7 +86,7 @@ struct MeshCatalogue::State {
   operators::OperatorCache& cache;
   Preparation preparation;
   const std::shared_ptr<Ends> ends = std::make_shared<Ends>(preparation);
-  std::size_t claims = 0;  ///< meshes on their way into the queue; guarded by the lock
+  std::size_t claims = 0;  ///< meshes being claimed for the queue; guarded by the lock
 
   MeshIndex& index() { return preparation.index(); }
 
@@ -97,7 +97,7 @@ struct MeshCatalogue::State {
     return mesh == nullptr || mesh->stage != Stage::meshed ? std::string() : mesh->sha256;
   }
 
-  // With the lock held:
+  // Throws if there is no room for another mesh. With the lock held, as all below:
   void require_room() const {
     if (preparation.queued() + claims < options.max_pending) return;
     throw Error(Reason::busy, "{} meshes are waiting for the mesher: try again later",
@@ -105,12 +105,12 @@ struct MeshCatalogue::State {
         .retry_after(operators::retry_delay);
   }
 
-  /// For a mesh that is created again: resumes its preparation if that was interrupted. False: the
-  /// mesh must be made.
+  /// For a mesh that is created again: resumes its preparation if that was interrupted. Returns
+  /// false if the mesh must be made.
   bool resume(const LiveMesh* mesh, const std::string& id, bool for_job) {
     if (mesh == nullptr || mesh->stage == Stage::failed) return false;
     if (mesh->stage != Stage::pending) return true;
-    if (mesh->for_job && !for_job) return false;  // its record is to say so
+    if (mesh->for_job && !for_job) return false;  // the record must change
     if (!mesh->run) {
       require_room();
       preparation.begin(id, !mesh->for_job);
@@ -131,7 +131,7 @@ struct MeshCatalogue::State {
     return mesh;
   }
 
-  /// The claimed record has been written, or (null) could not be; `begin`: prepare it.
+  /// Ends a claim. `record`: as it was written, null if it could not be; `begin`: prepare the mesh.
   void end_claim(const std::string& id, const MeshRecord* record, bool begin = true) {
     LiveMesh& mesh = index().add(id);
     mesh.claimed = false;
@@ -182,7 +182,7 @@ MeshRecord MeshCatalogue::create(const records::MeshDefinition& definition,
   MeshRecord record;
   try {
     std::optional<MeshRecord> failed = _state->store.mesh(id);
-    // No mesh fails for the disk: that is one whose record is damaged, and has nothing to keep.
+    // No mesh fails for the disk: a mesh with this error has a damaged record, and nothing to keep.
     if (failed && !(failed->error && failed->error->reason() == Reason::storage)) {
       record = std::move(*failed);
       record.error.reset();
@@ -228,7 +228,8 @@ MeshRecord MeshCatalogue::refine(const Parent& parent, std::span<const std::uint
   try {
     const auto start = std::chrono::steady_clock::now();
     mesh::Mesh coarse = *triangulation(parent.mesh);
-    // Its encoding does not have it; without it bisection would begin at the longest edges again.
+    // The encoding of a mesh does not have the bound, without which bisection would begin at the
+    // longest edges again.
     coarse.bisection_bound = get(parent.mesh).bisection_bound;
     const mesh::Mesh fine =
         mesh::refine(coarse, levels, std::min(max_triangles, _state->options.max_triangles));

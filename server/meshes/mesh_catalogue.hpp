@@ -21,19 +21,19 @@ namespace anticrack::meshes {
 struct CatalogueOptions {
   mesher::HelperOptions helper;
   std::size_t max_triangles = 4'000'000;
-  std::size_t max_pending = 64;     ///< meshes waiting for the mesher; then `busy`
-  std::size_t max_meshes = 10'000;  ///< records; then quota_exceeded
+  std::size_t max_pending = 64;     ///< most meshes that wait for the mesher; above: `busy`
+  std::size_t max_meshes = 10'000;  ///< most records; above: quota_exceeded
   std::size_t max_expression_bytes = 4096;
   /// Called without a lock for each mesh that the helper made or failed to make. Must not throw.
   std::function<void(const records::MeshRecord&)> meshed = {};
 };
 
 /// Meshes and factorises new meshes in the background, in the order of queue.hpp; MeshWaits
-/// gives them to who needs them. Thread-safe.
+/// hands them to those who need them. Thread-safe.
 ///
 /// On disk a mesh is PENDING, EVICTED (meshed) or FAILED. At start, meshes that are still PENDING
-/// are scheduled, oldest first, but for those that are only there for jobs. A mesh for which the
-/// disk has no room stays PENDING; its waiters get the error, and it is tried again until it has.
+/// are scheduled, oldest first, except those that only jobs want. A mesh for which the disk has no
+/// room stays PENDING; its waiters get the error, and it is tried again until there is room.
 class MeshCatalogue {
  public:
   /// Schedules the pending meshes of the store. `store` and `cache` must outlive the catalogue.
@@ -43,9 +43,9 @@ class MeshCatalogue {
 
   /// Returns the record of an equal definition, or writes and returns a new, pending one. A failed
   /// mesh is tried again. Does not wait for the mesher. Owners share triangulations and operators
-  /// of equal meshes, but not records. `for_job`: only its jobs want it; it is stopped when the
-  /// last of them has ended. Throws errors::Error: geometry_invalid, invalid_argument, not_found
-  /// (upload), busy, quota_exceeded, disk_full.
+  /// of equal meshes, but not records. `for_job`: only jobs want the mesh; its preparation stops
+  /// when the last of them has ended. Throws errors::Error: geometry_invalid, invalid_argument,
+  /// not_found (upload), busy, quota_exceeded, disk_full.
   records::MeshRecord create(const records::MeshDefinition& definition, const std::string& title,
                              const std::string& owner, bool for_job = false);
 
@@ -54,15 +54,15 @@ class MeshCatalogue {
     std::string job;   ///< id of the job that refines it
     std::string owner;
   };
-  /// A mesh whose triangles are bisected, levels (m) as mesh::refine() has them: made at once and
-  /// written, its operators when they are prepared. The same parent and levels give the same mesh.
-  /// Throws errors::Error: not_found, not_ready (the parent), limit_exceeded (the triangles, or at
-  /// "memory_budget" what its operators would take), quota_exceeded, disk_full, numerical (what is
-  /// to be bisected is as small as mesh::refine() makes triangles), cancelled at a look
-  /// (stop/stop.hpp).
+  /// Bisects the triangles of a mesh; levels (m) as for mesh::refine(). The new mesh is made and
+  /// written at once, its operators later, in the background. The same parent and levels give the
+  /// same mesh. Throws errors::Error: not_found, not_ready (the parent), limit_exceeded (too many
+  /// triangles, or at "memory_budget" too much memory for its operators), quota_exceeded,
+  /// disk_full, numerical (the triangles to bisect are as small as mesh::refine() makes them),
+  /// cancelled at a look (stop/stop.hpp).
   records::MeshRecord refine(const Parent& parent, std::span<const std::uint8_t> levels,
                              std::size_t max_triangles);
-  std::size_t max_triangles() const noexcept;  ///< of a mesh
+  std::size_t max_triangles() const noexcept;  ///< most triangles of a mesh
 
   records::MeshRecord get(const std::string& id) const;                  ///< throws not_found
   std::vector<records::MeshRecord> list(const store::Page& page) const;  ///< newest first
@@ -75,11 +75,11 @@ class MeshCatalogue {
   /// Frees the operators, if any; the definition and the triangulation stay. Throws not_found,
   /// in_use (a running job or a factorisation needs them).
   records::MeshRecord evict(const std::string& id);
-  /// Stops its preparation. Throws not_found, in_use (a job that has not ended uses it).
+  /// Stops the preparation and deletes the mesh. Throws not_found, in_use (an unfinished job uses
+  /// it).
   void erase(const std::string& id);
-  /// Marks the mesh as used by an unfinished job: erase() refuses until all results are released.
-  /// Then the preparation of a mesh for jobs stops.
-  /// Throws not_found.
+  /// Marks the mesh as used by an unfinished job: erase() refuses until all pointers returned here
+  /// are released. Then the preparation stops if only jobs wanted the mesh. Throws not_found.
   std::shared_ptr<void> use(const std::string& id);
 
   /// Whether the operators are in memory.
@@ -87,11 +87,11 @@ class MeshCatalogue {
 
   bool pinned(const std::string& id) const;  ///< by warm(), for any owner of an equal mesh
   std::uint64_t meshings() const noexcept;   ///< runs of the helper so far
-  int pending() const;                       ///< meshes waiting for the mesher or in it
+  int pending() const;                       ///< meshes that wait for the mesher or are in it
 
  private:
   friend class MeshWaits;
-  /// Throws as read().
+  /// The triangulation of a mesh. Throws as read().
   std::shared_ptr<const mesh::Mesh> triangulation(const std::string& id) const;
 
   struct State;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The state of every mesh in memory. Not thread-safe: guarded by Preparation's mutex.
+// The state of every mesh, kept in memory. Not thread-safe: Preparation's mutex guards it.
 #pragma once
 
 #include <chrono>
@@ -21,20 +21,20 @@ namespace anticrack::meshes {
 
 /// The state of the record on disk.
 enum class Stage {
-  absent,  ///< being made or erased: treated as missing
+  absent,  ///< being made or erased; treated as missing
   pending,
   meshed,
   failed,
 };
 
-/// Measured when the operators were last in memory.
+/// Sizes that were measured when the operators were last in memory.
 struct Measured {
   std::uint64_t bytes = 0;  ///< 0: never measured
   double theta_star = 0;
   double seconds = 0;
 };
 
-/// Somebody waits for the operators of a mesh.
+/// A wait for the operators of a mesh.
 struct Wait {
   const std::uint64_t number;
   const MeshWaits* const whose;
@@ -42,9 +42,9 @@ struct Wait {
   const records::Priority priority;
   const std::chrono::steady_clock::time_point since;
   std::optional<MeshNews::Phase> told = {};
-  bool joined = false;      ///< a run that was there
-  bool over = false;        ///< given up
-  std::uint64_t place = 0;  ///< that it holds in the queue, with the operators
+  bool joined = false;      ///< whether it joined a run that was there
+  bool over = false;        ///< whether it was given up
+  std::uint64_t place = 0;  ///< place in the queue that it holds, with the operators
 };
 
 /// The preparation of a mesh up to its operators, shared by all its waits. A run that is not in the
@@ -55,13 +55,13 @@ struct Run {
   const std::uint64_t place = 0;  ///< in the queue
   std::stop_source stop = {};
 
-  records::MeshState phase = records::MeshState::pending;  ///< or meshing, factorizing
-  bool background = false;                                 ///< goes on without waits
-  bool measures = false;                                   ///< theta* as well
+  records::MeshState phase = records::MeshState::pending;  ///< then meshing, factorizing
+  bool background = false;                                 ///< whether it goes on without waits
+  bool measures = false;                                   ///< whether it measures theta* as well
   bool visible = false;                                    ///< the operators, to every caller
-  bool ending = false;                                     ///< only its outcome has to be written
-  bool writing = false;                                ///< its record: it is not given up meanwhile
-  std::optional<records::MeshProgress> progress = {};  ///< of the mesher
+  bool ending = false;                                     ///< only its outcome is to be written
+  bool writing = false;                                ///< its record; it is not given up meanwhile
+  std::optional<records::MeshProgress> progress = {};  ///< progress of the mesher
   std::shared_ptr<const operators::MeshOperator> result = {};  ///< until theta* is measured
 };
 
@@ -72,15 +72,15 @@ struct LiveMesh {
   std::string definition;     ///< hash, without the owner
   std::string owner;
   std::string sha256;                  ///< of the triangulation; empty: not meshed
-  std::optional<errors::Error> error;  ///< when failed
+  std::optional<errors::Error> error;  ///< if the mesh failed
   Measured operators;
   int size_class = 0;                        ///< by its actual or expected triangles
-  bool for_job = false;                      ///< nobody wants it but its jobs
-  bool used = false;                         ///< by a job, at some time
-  int refusals = 0;                          ///< by the disk, one after another
+  bool for_job = false;                      ///< only jobs want it
+  bool used = false;                         ///< whether a job has ever used it
+  int refusals = 0;                          ///< how often in a row the disk has refused
   bool pin = false;                          ///< pin its operators once they are made
   std::shared_ptr<Run> run;                  ///< null: it is not being prepared
-  std::vector<std::shared_ptr<Wait>> waits;  ///< that have no outcome yet, in their order
+  std::vector<std::shared_ptr<Wait>> waits;  ///< waits without an outcome yet, in their order
   std::weak_ptr<void> users;                 ///< jobs that have not ended
 };
 
@@ -99,22 +99,22 @@ class MeshIndex {
   // References stay good until remove().
   /// Null if there is none.
   LiveMesh* find(const std::string& id);
-  /// Throws errors::Error (not_found), also for an absent one.
+  /// Like find(), but throws errors::Error (not_found) for a missing or absent mesh.
   LiveMesh& known(const std::string& id);
 
-  /// Meshes waiting for the mesher or in it. O(n).
+  /// Meshes that wait for the mesher or are in it. O(n).
   int pending() const;
-  /// Another mesh made from the same definition that has a triangulation; empty: none. O(n).
+  /// Another mesh with the same definition that has a triangulation; empty if there is none. O(n).
   std::string twin(const std::string& id) const;
-  /// Another mesh has the same triangulation. O(n).
+  /// Whether another mesh has the same triangulation. O(n).
   bool shared(const std::string& id) const;
 
  private:
   std::unordered_map<std::string, LiveMesh> _meshes;
 };
 
-/// Whether the same mesh would always meet this error again, so that the mesh has failed. After any
-/// other error it stays as it was, and its waiters get the error.
+/// Whether the same mesh would always meet this error again, so that the mesh counts as failed.
+/// After any other error its state does not change, and its waiters get the error.
 inline bool lasting(const errors::Error& error) noexcept {
   using errors::Reason;
   const Reason reason = error.reason();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// How one waits for meshes without a thread that sleeps.
+// Lets a user wait for meshes without a thread that sleeps.
 #pragma once
 
 #include <chrono>
@@ -19,26 +19,26 @@ namespace anticrack::meshes {
 class MeshCatalogue;
 class Preparation;
 
-/// What has become of a mesh that somebody waits for.
+/// News of a mesh for which somebody waits.
 struct MeshNews {
   enum class Phase { queued, meshing, factorising, waits_for_memory, ready, failed };
 
   std::uint64_t wait = 0;
   std::string mesh = {};  ///< id
   Phase phase = Phase::queued;
-  std::optional<records::MeshProgress> progress = {};  ///< of the mesher, about every second
-  std::shared_ptr<const operators::MeshOperator> mesh_operator = {};  ///< ready
-  std::optional<errors::Error> error = {};                            ///< failed
+  std::optional<records::MeshProgress> progress = {};  ///< while meshing, about every second
+  std::shared_ptr<const operators::MeshOperator> mesh_operator = {};  ///< if ready
+  std::optional<errors::Error> error = {};                            ///< if failed
 };
 
-/// The waits of one who needs operators. Thread-safe; no method but the
-/// destructor blocks, so they may be called under any lock. The destructor gives up all waits and
-/// returns when no call is under way: destroy it outside of those calls, and under no lock that
-/// they take.
+/// The waits of one user of operators. Thread-safe; no method but the destructor blocks, so methods
+/// may be called under any lock. The destructor gives up all waits and returns when no call of
+/// `tell` is running: destroy it outside of `tell`, and under no lock that `tell` takes.
 ///
-/// News is told on a thread of the catalogue, call after call and in order, with no lock held. The
-/// last of a wait is `ready` or `failed`; none begins after end(), but one may be under way. After
-/// `waits_for_memory` the mesh is tried again by itself, whenever the cache says.
+/// A thread of the catalogue calls `tell` with news, one call at a time and in order, with no lock
+/// held. The last news of a wait is `ready` or `failed`. No call for a wait begins after end(), but
+/// one may still be running. After `waits_for_memory` the mesh is tried again when the cache says
+/// so.
 class MeshWaits {
  public:
   using Tell = std::function<void(const MeshNews&)>;
@@ -49,15 +49,16 @@ class MeshWaits {
   MeshWaits(const MeshWaits&) = delete;
   MeshWaits& operator=(const MeshWaits&) = delete;
 
-  /// Meshes and factorises if necessary; returns the number of the wait, above 0. It fails with the
-  /// error of a failed mesh, not_found, or disk_full or storage if the mesh could not be written.
+  /// Begins a wait for a mesh, which is meshed and factorised if necessary; returns the number of
+  /// the wait, above 0. The wait fails with the error of a failed mesh, not_found, or disk_full or
+  /// storage if the mesh could not be written.
   std::uint64_t begin(const std::string& mesh, records::Priority priority,
                       std::chrono::steady_clock::time_point since);
-  /// One more with this priority waits.
+  /// Adds another one who waits, with this priority.
   void join(std::uint64_t wait, records::Priority priority,
             std::chrono::steady_clock::time_point since);
-  /// Gives up; or after `ready`, the operators have been taken up: until then they hold a place of
-  /// those that are made ahead (queue.hpp). Does nothing if there is no such wait.
+  /// Gives the wait up. After `ready`, call it when the operators are in use: until then they hold
+  /// one of the places for operators made ahead (queue.hpp). Does nothing if there is no such wait.
   void end(std::uint64_t wait);
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What waits, is begun again or given up.
+// Begins runs, retries them and gives them up, and tells those who wait.
 #include "meshes/preparation.hpp"
 
 #include <algorithm>
@@ -121,7 +121,7 @@ void Preparation::recover() {
     if (records.size() < records_a_page) break;
     page.after = records.back().id;
   }
-  // Those for jobs begin when their jobs ask for them.
+  // Meshes for jobs begin when their jobs ask for them.
   for (auto id = unmeshed.rbegin(); id != unmeshed.rend(); ++id)
     if (!_index.known(*id).for_job) begin(*id, true);
 }
@@ -185,7 +185,7 @@ void Preparation::serve(const std::string& id) {
   if (measured && (!mesh->run || mesh->run->visible))
     if (const Operator ready = _cache.find(mesh->sha256, mesh->owner))
       return hand_over(*mesh, ready, 0);
-  if (mesh->run && mesh->run->ending) return;  // it serves them when it has ended
+  if (mesh->run && mesh->run->ending) return;  // the run serves them when it has ended
   const Run& run = begin(id, false);
   for (const auto& wait : mesh->waits) _queue.await(run.place, wait->priority, wait->since);
   tell_phase(*mesh, phase_of(run.phase));
@@ -234,7 +234,7 @@ void Preparation::tell(const std::shared_ptr<Wait>& wait, MeshNews news) {
 
 void Preparation::tell_phase(LiveMesh& mesh, Phase phase) {
   for (const auto& wait : mesh.waits) {
-    // A mesh that waits for memory is tried every second, perhaps for hours: it is told once.
+    // A mesh that waits for memory is tried every second, perhaps for hours: this is told once.
     if (wait->told == phase || wait->told == Phase::waits_for_memory) continue;
     if (phase == Phase::factorising && std::exchange(wait->joined, false)) _cache.count_join();
     tell(wait, {.phase = phase});
@@ -290,7 +290,7 @@ void Preparation::begin_due() {
   }
 }
 
-/// Soon, and then more and more rarely, up to each half minute.
+/// Schedules another try: soon at first, then more and more rarely, at last every half minute.
 void Preparation::begin_later(LiveMesh& mesh, const std::string& id) {
   constexpr int most_doublings = 5;
   constexpr std::chrono::seconds first{1}, longest{30};

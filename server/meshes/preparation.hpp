@@ -27,12 +27,12 @@
 
 namespace anticrack::meshes {
 
-/// Each requested mesh has a run (mesh_index.hpp) on one thread, when the queue says so. What a
-/// run is can be read in preparation_run.cpp; what waits, is begun again or given up, and how who
-/// waits is told, in preparation.cpp.
+/// Each requested mesh has a run (mesh_index.hpp) on one thread, which begins when the queue says
+/// so. preparation_run.cpp has the work of a run; preparation.cpp begins runs, retries them and
+/// gives them up, and tells the news to those who wait.
 ///
 /// The mutex guards the index, the queue and the runs; it is never held during calls of the store,
-/// of those who wait, or of a stop. A record has one writer at a time: whoever claimed it (to make
+/// of `tell`, or of a stop. A record has one writer at a time: the thread that claimed it (to make
 /// or erase it), else its run. The index follows the disk: a stage changes after the record has
 /// been written.
 class Preparation {
@@ -42,7 +42,7 @@ class Preparation {
 
   /// Reads all records and begins those that are pending, oldest first.
   Preparation(CatalogueOptions options, store::Store& store, operators::OperatorCache& cache);
-  /// Stops all runs. Nobody may wait any more.
+  /// Stops all runs. There must be no waits left.
   ~Preparation();
 
   Preparation(const Preparation&) = delete;
@@ -50,7 +50,7 @@ class Preparation {
 
   /// Locks the index and the runs.
   Lock lock() const { return Lock(_mutex); }
-  /// Locks when no thread writes the record of the mesh, or there is no such mesh.
+  /// Locks as soon as no thread writes the record of the mesh, or there is no such mesh.
   Lock lock_settled(const std::string& id);
 
   // With the lock held:
@@ -59,17 +59,17 @@ class Preparation {
   void notify() { _changed.notify_all(); }
   /// Starts a run or keeps the one there is. The mesh must be known and settled.
   Run& begin(const std::string& id, bool background);
-  /// Does what the mesh's waits need: gives them the operators, its error, or a run.
+  /// Gives the waits of the mesh what they need: the operators, its error, or a run.
   void serve(const std::string& id);
   /// Takes the run off the mesh, which must be settled. Request its stop without the lock. Null if
   /// there is none.
   std::shared_ptr<Run> give_up(LiveMesh& mesh);
-  /// Ends the waits of the mesh without operators.
+  /// Ends the waits of the mesh with an error.
   void fail_waits(LiveMesh& mesh, const errors::Error& why);
-  /// Number of background runs, and of meshes to be meshed, that have not begun.
+  /// The number of background runs and of meshes to be meshed that have not begun.
   std::size_t queued() const;
 
-  // Without it:
+  // Without the lock:
   /// The record with its current state. Throws errors::Error (not_found).
   records::MeshRecord record(const std::string& id);
   /// The last job that used the mesh has ended: stops its run if nobody else wants it.
@@ -85,28 +85,28 @@ class Preparation {
   records::MeshRecord stored(const std::string& id) const;
   /// The mesh of a run; null if the run is over or was abandoned.
   LiveMesh* mesh_of(const Run& run);
-  /// Takes the run off the mesh if nobody wants it, and has it stopped.
+  /// Takes the run off the mesh and has it stopped, if nobody wants it.
   void give_up_unwanted(LiveMesh& mesh);
 
-  // What those who wait are told:
+  // News for those who wait:
   void tell(const std::shared_ptr<Wait>& wait, MeshNews news);
   void tell_phase(LiveMesh& mesh, MeshNews::Phase phase);
-  /// Ends the waits of the mesh: with operators, which pin `place` of the queue if it is not 0.
+  /// Ends the waits of the mesh with operators, which hold `place` of the queue if it is not 0.
   void hand_over(LiveMesh& mesh, const Operator& ready, std::uint64_t place);
-  /// The thread that tells it, and stops what was given up.
+  /// The work of the thread that tells the news and stops runs that were given up.
   void deliver();
 
   // On the thread of a run:
   void work();
-  /// Activates the next run that may begin; null if there is none.
+  /// Takes the next run that may begin; null if there is none.
   RunPtr take();
   void perform(Run& run);
   std::shared_ptr<const mesh::Mesh> triangulate(Run& run);
-  /// Locks when nobody else writes the record of the run's mesh, and marks that the run does; null:
-  /// the run was given up.
+  /// Locks as soon as nobody else writes the record of the run's mesh, and marks that the run
+  /// writes it. The mesh is null if the run was given up.
   std::pair<Lock, LiveMesh*> lock_to_write(Run& run);
   void end_writing(Run& run);
-  /// Begins again what the disk refused or had no memory, now that it is due.
+  /// Begins the runs again that are due after the disk refused or memory was short.
   void begin_due();
   void begin_later(LiveMesh& mesh, const std::string& id);
   void factorize(Run& run, std::shared_ptr<const mesh::Mesh> triangulation);
@@ -125,15 +125,15 @@ class Preparation {
   Queue _queue;
   std::map<std::uint64_t, RunPtr> _queued, _under_way;    ///< by number in the queue
   std::multimap<Steady::time_point, std::string> _later;  ///< meshes to retry
-  std::map<std::uint64_t, std::shared_ptr<Wait>> _waits;  ///< that have not been ended
+  std::map<std::uint64_t, std::shared_ptr<Wait>> _waits;  ///< waits before their end()
   std::uint64_t _last_wait = 0;
   std::condition_variable _to_deliver, _delivered;
   std::deque<std::pair<std::shared_ptr<Wait>, MeshNews>> _news;
-  std::vector<RunPtr> _unwanted;        ///< to be stopped
-  const MeshWaits* _telling = nullptr;  ///< whose call is under way
+  std::vector<RunPtr> _unwanted;        ///< runs to be stopped
+  const MeshWaits* _telling = nullptr;  ///< the one whose `tell` is running
   std::stop_source _stopping;
   int _idle = 0;
-  std::list<std::jthread> _threads;  ///< one to deliver, one more than the most active runs so far
+  std::list<std::jthread> _threads;  ///< one that delivers, the others for runs
 };
 
 }  // namespace anticrack::meshes

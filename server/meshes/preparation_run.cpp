@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A run on its thread: the mesher, the factors, theta*, and its record.
+// The work of a run on its thread: the mesher, the factors, theta*, and the record.
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -26,16 +26,16 @@ using Phase = MeshNews::Phase;
 
 constexpr std::chrono::milliseconds shortest_retry{100};
 
-/// The calling thread, and what it starts, gets a third of the share of others where both want a
-/// processor, and all that they leave. For good: nobody needs a privilege to give way, but one to
-/// take it back.
+/// Gives the calling thread, and those it starts, a third of the share of other threads when both
+/// want a processor, and all the time that the others leave. This cannot be undone: a thread needs
+/// no privilege to give way, but one to take it back.
 void give_way() {
   constexpr int niceness = 5;
   const auto self = static_cast<id_t>(::gettid());
   if (::getpriority(PRIO_PROCESS, self) < niceness) ::setpriority(PRIO_PROCESS, self, niceness);
 }
 
-/// 0 if it cannot be computed; Algorithm 2 reports why.
+/// theta*, or 0 if it cannot be computed; Algorithm 2 reports why.
 double theta_star(const operators::MeshOperator& mesh_operator) {
   try {
     return mesh_operator.theta_star();
@@ -74,7 +74,7 @@ void Preparation::work() {
       try {
         _threads.emplace_back([this] { work(); });
       } catch (const std::system_error&) {
-        // The existing threads take the waiting runs one after the other.
+        // Then the existing threads take the waiting runs one after the other.
       }
     }
     held.unlock();
@@ -158,7 +158,7 @@ std::shared_ptr<const mesh::Mesh> Preparation::triangulate(Run& run) {
     run.progress.reset();
     run.writing = false;
     tell_phase(mesh, Phase::factorising);
-    // Its last job may have ended while it was written.
+    // The last job of the mesh may have ended while the record was written.
     if (mesh.used && mesh.users.expired()) give_up_unwanted(mesh);
     _changed.notify_all();
   }
@@ -219,7 +219,7 @@ void Preparation::factorize(Run& run, std::shared_ptr<const mesh::Mesh> triangul
     mesh = mesh_of(run);
     if (mesh == nullptr) return;
     measure(theta);
-    result.reset();  // first, so that the operators can be evicted once they are announced
+    result.reset();  // before they are announced, so that the operators can be evicted then
     run.result.reset();
     run.visible = true;
     run.ending = true;
@@ -228,7 +228,7 @@ void Preparation::factorize(Run& run, std::shared_ptr<const mesh::Mesh> triangul
     held.lock();
   }
   finish(run);
-  serve(run.id);  // those who came too late for its result
+  serve(run.id);  // waits that came too late for the result
 }
 
 std::pair<Preparation::Lock, LiveMesh*> Preparation::lock_to_write(Run& run) {
@@ -280,7 +280,7 @@ void Preparation::fail(Run& run, Error error) {
       failed->error = error;
       _store.put(*failed);
     } catch (const Error& disk) {
-      // Not recorded: waiters get the error, and a later attempt fails again.
+      // The failure is not recorded: waiters get the error, and a later attempt fails again.
       failed.reset();
       error = meshed ? error : disk;
     }

@@ -34,7 +34,7 @@ double length(const mesh::Mesh& mesh, std::int32_t a, std::int32_t b) noexcept {
   return mesh::distance(mesh::position(mesh, a), mesh::position(mesh, b));
 }
 
-/// The shortest and the longest.
+/// The lengths of the shortest and the longest edge.
 std::pair<double, double> edge_lengths(const mesh::Mesh& mesh, std::size_t triangle) noexcept {
   const std::int32_t* node = &mesh.triangles[3 * triangle];
   return std::minmax({length(mesh, node[0], node[1]), length(mesh, node[1], node[2]),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The summary of a triangulation, and its arrays.
+// Makes the summary of a triangulation, and its arrays.
 #pragma once
 
 #include "mesh/mesh.hpp"

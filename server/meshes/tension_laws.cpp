@@ -12,7 +12,7 @@
 namespace anticrack::meshes {
 namespace {
 
-/// Calls check(), whose errors are about a field of the law.
+/// Calls check() and puts the field of the law before the fields of its errors.
 template <class Check>
 void below(const std::string& law, const Check& check) {
   try {
@@ -25,7 +25,7 @@ void below(const std::string& law, const Check& check) {
 std::string region_field(std::size_t i) { return fmt::format("regions[{}].tension_law", i); }
 std::string option_field(const std::string& name) { return "options.tension_laws[" + name + "]"; }
 
-/// Where the law of a subdomain was written.
+/// The field in which the law of a subdomain was written.
 std::string field_of(const records::MeshDefinition& definition, const std::string& subdomain) {
   if (std::holds_alternative<records::UploadRef>(definition)) return option_field(subdomain);
   if (const auto* source = std::get_if<records::GeometrySource>(&definition)) {
@@ -36,7 +36,7 @@ std::string field_of(const records::MeshDefinition& definition, const std::strin
   return "tension_law";
 }
 
-/// The triangles of a subdomain with nodes of their own.
+/// The triangles of a subdomain, with their own numbers of nodes.
 fem::Triangulation part_of(const mesh::Mesh& mesh, std::size_t subdomain) {
   fem::Triangulation part;
   std::vector<std::int32_t> local(mesh.node_count(), -1);

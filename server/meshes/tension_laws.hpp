@@ -13,8 +13,8 @@ namespace anticrack::meshes {
 /// "options.tension_laws[top].across".
 void check_laws(const records::MeshDefinition& definition, std::size_t max_expression_bytes);
 
-/// Sets tension and law of the record's subdomains. Throws errors::Error (expression_invalid) where
-/// a law is not above 0 on the mesh, at "geometry.regions[0].tension_law.along" and the like. O(m).
+/// Sets tension and law of the record's subdomains. Throws errors::Error (expression_invalid) at
+/// "geometry.regions[0].tension_law.along" and the like if a law is not above 0 on the mesh. O(m).
 void summarize_tension(const mesh::Mesh& mesh, records::MeshRecord& record);
 
 }  // namespace anticrack::meshes

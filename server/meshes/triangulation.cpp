@@ -36,13 +36,13 @@ mesh::MesherRequest request_for(const records::MeshRecord& record, const Catalog
   std::string path = require_upload(store, upload, record.owner);
   try {
     store::require_intact_upload(path, upload.sha256);
-  } catch (const errors::Error& damaged) {  // for good, unlike what the disk refuses
+  } catch (const errors::Error& damaged) {  // unlike an error of the disk, this is for good
     throw errors::Error(errors::Reason::not_found, damaged.what()).at("upload");
   }
   return mesh::ImportRequest{std::move(path), upload.options, options.max_triangles};
 }
 
-/// Triangles that the mesher makes, roughly; 0 where bisection decides.
+/// Roughly how many triangles the mesher makes; 0 if bisection decides.
 std::uint64_t expected_of(const mesh::MesherRequest& request) {
   const auto* generate = std::get_if<mesh::GenerateRequest>(&request);
   return generate == nullptr || generate->plan.grading.h0 > 0 ? 0 : generate->plan.triangles;
@@ -82,7 +82,7 @@ std::size_t expected_triangles(const records::MeshRecord& record, const Catalogu
   try {
     return check_definition(record.definition, record.owner, options, store);
   } catch (const errors::Error&) {
-    return 0;  // its run will say so
+    return 0;  // the run will report the error
   }
 }
 

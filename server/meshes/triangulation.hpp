@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// From the definition of a mesh to its triangulation and summary.
+// Makes the triangulation and the summary of a mesh from its definition.
 #pragma once
 
 #include <chrono>
@@ -17,7 +17,7 @@ namespace anticrack::meshes {
 
 struct Triangulation {
   std::shared_ptr<const mesh::Mesh> mesh;
-  records::MeshRecord record;  ///< with the summary; not in the store yet
+  records::MeshRecord record;  ///< has the summary; not in the store yet
 };
 
 /// Path of an upload of `owner`. Throws errors::Error (not_found, at "upload").
@@ -32,11 +32,11 @@ std::size_t check_definition(const records::MeshDefinition& definition, const st
 std::size_t expected_triangles(const records::MeshRecord& record, const CatalogueOptions& options,
                                const store::Store& store);
 
-/// Fills in what a record says of its triangulation, which took since `start` to make. O(m log m).
+/// Fills in the record's data of the triangulation, whose making began at `start`. O(m log m).
 void meshed(const mesh::Mesh& mesh, std::chrono::steady_clock::time_point start,
             records::MeshRecord& record);
 
-/// Receives how far the mesher is, about every second.
+/// Called about every second with the progress of the mesher.
 using ProgressListener = std::function<void(const records::MeshProgress&)>;
 
 /// Runs the helper: seconds to minutes. Throws as mesher::run, mesh::plan and require_upload do.
@@ -44,7 +44,7 @@ Triangulation triangulate(records::MeshRecord record, const CatalogueOptions& op
                           const store::Store& store, const std::stop_token& stop,
                           const ProgressListener& progress);
 
-/// The triangulation of another mesh with the same definition; none if that has gone. O(m).
+/// The triangulation of another mesh with the same definition; none if it was erased. O(m).
 std::optional<Triangulation> copy_of(const std::string& twin, records::MeshRecord record,
                                      const store::Store& store);
 

@@ -16,9 +16,9 @@
 namespace anticrack::metrics {
 namespace {
 
-/// Beyond these the oldest connection is closed, so that a new one never waits.
+/// Most connections; with more, the oldest one is closed, so that a new one never waits.
 constexpr std::size_t most_connections = 64;
-/// Those that are being closed come on top.
+/// Descriptors, including those of connections that are being closed.
 constexpr unsigned most_descriptors = 2 * most_connections;
 constexpr unsigned idle_seconds = 10;
 
@@ -53,7 +53,7 @@ MHD_Result respond(MHD_Connection* connection, unsigned status, const std::strin
 }  // namespace
 
 struct HttpPage::State {
-  std::deque<int> connections;  ///< their descriptors, the oldest first; for MHD's thread alone
+  std::deque<int> connections;  ///< their descriptors, the oldest first; used by MHD's thread alone
   std::string path;
   std::string content_type;
   std::function<std::string()> make;
@@ -61,7 +61,8 @@ struct HttpPage::State {
   std::unique_ptr<MHD_Daemon, Release<MHD_stop_daemon>>
       daemon;  ///< declared last: it uses the others
 
-  /// Clients that ask for nothing, or ever so slowly, must not keep out one that does.
+  /// Notes connections and closes the oldest: clients that ask for nothing, or very slowly, must
+  /// not keep out others.
   static void note(void* self, MHD_Connection* connection, void** /*kept*/,
                    MHD_ConnectionNotificationCode what) {
     auto& open = static_cast<State*>(self)->connections;

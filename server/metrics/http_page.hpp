@@ -7,8 +7,8 @@
 
 namespace anticrack::metrics {
 
-/// Serves one page over HTTP, made anew for each GET, on a separate thread. Connections that idle
-/// are closed, and beyond a number of them the oldest, so that no client can keep out another.
+/// Serves one page over HTTP, made anew for each GET, on a separate thread. Idle connections are
+/// closed, and if there are too many, the oldest is, so that no client can keep out another.
 ///
 /// Uses libmicrohttpd instead of prometheus-cpp's exposer, whose threads have 100 kB of stack:
 /// thread-local variables of OpenBLAS and METIS take 90 kB of it.
@@ -18,7 +18,7 @@ class HttpPage {
   /// std::runtime_error if the address cannot be used.
   HttpPage(const std::string& address, std::string path, std::string content_type,
            std::function<std::string()> make);
-  /// Waits for a page that is being made.
+  /// Waits until a page that is being made is done.
   ~HttpPage();
   HttpPage(const HttpPage&) = delete;
   HttpPage& operator=(const HttpPage&) = delete;

@@ -78,7 +78,7 @@ void append(std::vector<prometheus::MetricFamily>& all,
   std::move(more.begin(), more.end(), std::back_inserter(all));
 }
 
-/// Metrics must never make anything else fail.
+/// Ignores errors of `action`, as metrics must never make anything else fail.
 template <class Action>
 void quietly(const Action& action) noexcept {
   try {
@@ -95,7 +95,7 @@ struct Metrics::State {
            "1, with the version and the build as labels.")
         .Add({{"version", version}, {"build", build}})
         .Set(1);
-    // From zero: a rate over a counter that appears with its first event misses that event.
+    // Begin at zero: a rate over a counter that appears with its first event misses that event.
     for (const auto state : {records::JobState::succeeded, records::JobState::not_converged,
                              records::JobState::failed, records::JobState::cancelled})
       jobs_ended.Add({{"state", std::string(name(state))}});
@@ -107,7 +107,7 @@ struct Metrics::State {
     return methods.contains(method) ? method : "other";
   }
 
-  /// Leaves out what cannot be read; an alert fires on its absence.
+  /// The page. Values that cannot be read are left out; an alert fires on their absence.
   std::string page(const std::function<Snapshot()>& read) const noexcept {
     std::vector<prometheus::MetricFamily> all;
     quietly([&] {

@@ -39,11 +39,11 @@ struct Snapshot {
 /// Counts and times events between scrapes. Thread-safe. Counting is quick and never throws.
 class Metrics {
  public:
-  /// Both are labels of anticrack_build_info.
+  /// `version` and `build` are labels of anticrack_build_info.
   Metrics(const std::string& version, const std::string& build);
   ~Metrics();
 
-  /// `method`: "/anticrack.v1.UploadService/CreateUploads"; `code`: gRPC's.
+  /// Counts a call. `method`: "/anticrack.v1.UploadService/CreateUploads"; `code`: that of gRPC.
   void call_ended(const std::string& method, int code, std::chrono::duration<double> time) noexcept;
   /// Counts the job by state and reason, and its time in each phase.
   void job_ended(const records::JobRecord& job) noexcept;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// How long a job spent in each phase, and the API's names of states.
+// The time that a job spent in each phase, and the API's names of states.
 #pragma once
 
 #include <array>
@@ -14,12 +14,12 @@ namespace anticrack::metrics {
 enum class Phase { queued, waiting, meshing, factorizing, solving, writing };
 inline constexpr std::size_t phase_count = 6;
 
-/// The label of a phase, "factorizing".
+/// The label of a phase, like "factorizing".
 std::string_view name(Phase phase) noexcept;
 std::string_view name(records::JobState state) noexcept;     ///< "SUCCEEDED"
 std::string_view name(records::Priority priority) noexcept;  ///< "BULK"
 
-/// The phase that begins with a step; `waiting`: for a mesh that another job is preparing.
+/// The phase that begins with a step; `waiting` is for a mesh that another job is preparing.
 Phase phase_of(const records::Step& step) noexcept;
 
 using PhaseTimes = std::array<std::chrono::duration<double>, phase_count>;

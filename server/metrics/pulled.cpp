@@ -47,7 +47,7 @@ MetricFamily disk_family(const store::Usage& disk) {
   return family;
 }
 
-/// Those with the most bytes and jobs, and the sum of the rest.
+/// The owners with the most bytes and jobs, and the sum of the others.
 std::vector<store::OwnerUsage> bounded(std::vector<store::OwnerUsage> owners) {
   if (owners.size() <= most_owners) return owners;
   std::ranges::sort(owners, [](const store::OwnerUsage& a, const store::OwnerUsage& b) {

@@ -9,7 +9,7 @@
 
 namespace anticrack::metrics {
 
-/// Owners with labels of their own; the others together are "(others)".
+/// How many owners have their own labels; the others together are "(others)".
 constexpr std::size_t most_owners = 50;
 
 /// The families that are read at a scrape. Pure.

@@ -70,7 +70,7 @@ std::vector<const ddm::Terms*> sums(std::span<const Aim> goals) {
   return sums;
 }
 
-/// As contact::OpenMembrane::fields.
+/// Fields of the unit forces, as by contact::OpenMembrane::fields.
 std::vector<std::vector<double>> open_fields(const MeshOperator::Parts& parts,
                                              std::span<const Aim> goals) {
   std::vector<Eigen::VectorXd> r;

@@ -13,18 +13,18 @@
 
 namespace anticrack::operators {
 
-/// A displacement of an inclusion, A or a slope, the unit force that works on it, and where its
-/// bounds go.
+/// A displacement of an inclusion, A or a slope, with the unit force that does work on it and the
+/// members of the answer that take its bounds.
 struct Aim {
   const ddm::Terms& goal;
   std::size_t inclusion;
-  fem::Moment moment;  ///< of a slope
+  fem::Moment moment;  ///< the unit moment, for a slope
   double contact::InclusionAnswer::*value;
   std::optional<double> contact::InclusionAnswer::*lower, contact::InclusionAnswer::*upper;
   std::optional<double> contact::InclusionAnswer::*estimate = nullptr;
 
   fem::Load force(const mesh::Mesh& mesh) const;
-  /// The same, of each of so many inclusions.
+  /// The unit force as forces on all inclusions, of which there are `inclusions`.
   std::vector<estimate::ForceOn> unit(std::size_t inclusions) const;
   double value_in(const contact::Answer& answer) const {
     return answer.inclusions[inclusion].*value;
@@ -35,16 +35,17 @@ struct Aim {
   }
 };
 
-/// Of all inclusions: A, then the slopes where one tilts. Refer to the decomposition.
+/// The aims of all inclusions: A, then the slopes if it tilts. They refer to the decomposition.
 std::vector<Aim> aims(const MeshOperator::Parts& parts);
 
-/// As contact::ContactProblem::unit_force.
+/// contact::ContactProblem::unit_force for each goal.
 std::vector<contact::UnitForce> unit_forces(const MeshOperator::Parts& parts,
                                             std::span<const Aim> goals);
 
-/// |tau| of each goal's unit force, tau in equilibrium with it and nothing through contacts;
-/// infinite where contact alone holds a part, 0 of a held inclusion. Made once for the mesh: a
-/// linear solve, a field and a flux each; of many on a joined membrane after a factor.
+/// |tau| for each goal, where tau is a flux in equilibrium with the goal's unit force that passes
+/// nothing through contacts. Infinite if contact alone holds a part, 0 for a held inclusion. Made
+/// once for the mesh, at the cost of a linear solve, a field and a flux each; many goals on a
+/// joined membrane take a factorisation first.
 const std::vector<double>& flux_norms(const MeshOperator::Parts& parts,
                                       const estimate::CutMesh& cut, std::span<const Aim> goals);
 

@@ -25,7 +25,7 @@ void append(std::string& key, std::uint64_t value) {
 
 void append(std::string& key, double value) { append(key, std::bit_cast<std::uint64_t>(value)); }
 
-/// With its length, so that no two lists run into the same bytes.
+/// Appends the length too, so that different lists never give the same bytes.
 void append(std::string& key, const std::string& text) {
   append(key, std::uint64_t{text.size()});
   key += text;

@@ -26,35 +26,36 @@ namespace anticrack::operators {
 /// Loads of one mesh, condensed and reduced for the rows of a sweep. Does not keep the mesh.
 struct CondensedBasis {
   contact::SweepLoads reduced;
-  std::vector<LoadOnTraces> loads;  ///< without z_boundary, parts; z_interior: joined, or bounded
+  std::vector<LoadOnTraces> loads;          ///< no z_boundary, parts; z_interior if joined, bounded
   std::vector<ddm::LoadProducts> products;  ///< per subdomain
-  std::vector<BalancedLoad> balanced;       ///< of each load; empty: rows have no bounds
-  std::vector<std::string> warnings;        ///< of all loads, each once
+  std::vector<BalancedLoad> balanced;       ///< per load; empty: rows have no bounds
+  std::vector<std::string> warnings;        ///< of all loads, without repetition
 
-  /// Memory of its arrays.
+  /// Memory of the arrays in bytes.
   std::size_t bytes() const noexcept;
 };
 
-/// Key of a list of loads, with or without bounds: equal if and only if all their fields but the
-/// names are; an array is represented by the hash of its upload. None if an array has no hash.
+/// Key of a list of loads, with or without bounds. Two keys are equal if and only if all fields of
+/// the loads but their names are; the hash of its upload stands for an array. None if an array has
+/// no hash.
 std::optional<std::string> key_of(std::span<const fem::Load* const> loads, bool bounds = false);
 
-/// The bases of one mesh used last: at most 8, and 64 MiB with their keys. The least recently used
-/// one is dropped first; a basis too large alone is not kept. Thread-safe; no lock is held while a
-/// basis is made.
+/// The most recently used bases of one mesh, at most 8 and, with their keys, 64 MiB. The least
+/// recently used one is dropped first; a basis above the limit alone is not kept. Thread-safe; no
+/// lock is held while a basis is made.
 class BasisCache {
  public:
   using Basis = std::shared_ptr<const CondensedBasis>;
   static constexpr std::size_t most_bases = 8;
   static constexpr std::size_t most_bytes = std::size_t{64} << 20;
 
-  /// The basis of `key`, made if missing. Of concurrent callers the first makes it, the others get
-  /// the same or the same error; if its maker was stopped, the next one makes it. Throws what
+  /// The basis of `key`, made if missing. Of concurrent callers the first makes it and the others
+  /// get the same basis or error; if the maker is stopped, the next caller makes it. Throws what
   /// `make` throws, and errors::Error (cancelled) when stopped while waiting.
   Basis get(const std::string& key, const std::stop_token& stop,
             const std::function<Basis()>& make);
 
-  /// Of the bases kept.
+  /// The memory of the bases kept.
   std::size_t bytes() const noexcept { return _bytes; }
 
  private:
@@ -70,7 +71,7 @@ class BasisCache {
 
   std::mutex _mutex;
   std::condition_variable_any _landed;
-  Entries _entries;  // used last first; so few that looking through them is nothing
+  Entries _entries;  // the last used first; so few that a linear search is fast
   std::unordered_map<std::string, std::shared_ptr<Flight>> _flights;
   std::atomic<std::size_t> _bytes{0};
 };

@@ -14,7 +14,7 @@
 namespace anticrack::operators {
 namespace {
 
-/// Of fields, fluxes and scratch.
+/// Memory of fields, fluxes and scratch, in bytes.
 constexpr std::size_t bytes_per_triangle_and_load = 450;
 
 constexpr const char* bounding = "computing bounds";
@@ -29,7 +29,7 @@ std::string obstacle_of(const LoadOnTraces& load, const estimate::CutMesh& cut,
   return "";
 }
 
-/// Energies are squares: of what is very small or very large nothing is left of them.
+/// Energies are squares, which vanish or overflow if u is very small or very large.
 std::string obstacle_of(std::span<const double> u, double tension) {
   constexpr double least = 1e-250, most = 1e280;
   double largest = 0;
@@ -41,7 +41,7 @@ std::string obstacle_of(std::span<const double> u, double tension) {
       largest, square < least ? "up" : "down");
 }
 
-/// What the bounds of an answer are made from.
+/// The data from which the bounds of an answer are made.
 struct Material {
   MeshOperator::Estimate& of;
   const LoadOnTraces& load;
@@ -64,7 +64,7 @@ void find_bounds(const MeshOperator::Parts& parts, const estimate::CutMesh& cut,
   for (std::size_t i = 0; i < materials.size(); ++i) {
     const auto& [of, load, u, lifts, balance, parts_energy] = materials[i];
     contact::Answer& answer = *of.answer;
-    constexpr double most_cancelled = 1e3;  // what rounding leaves of more is beyond the bracket's
+    constexpr double most_cancelled = 1e3;  // beyond, rounding exceeds the bracket's
     if (parts_energy > most_cancelled * (std::abs(answer.energy) + fluxes[i].norm_squared())) {
       answer.no_bracket =
           "the loads that are combined cancel, and rounding is not small beside what they leave: "
@@ -99,7 +99,7 @@ std::vector<double> MeshOperator::estimate(const PreparedLoad& load, contact::An
 
 std::size_t MeshOperator::estimated_together() const noexcept {
   constexpr std::size_t most_together = 8;         // more are not faster
-  constexpr std::size_t most_triangles = 600'000;  // of all: 270 MB
+  constexpr std::size_t most_triangles = 600'000;  // of all answers together: 270 MB
   return std::clamp(most_triangles / _parts->mesh->triangle_count(), std::size_t{1}, most_together);
 }
 
@@ -147,7 +147,7 @@ void MeshOperator::estimate(std::span<Estimate> all) const {
       one.failure = std::current_exception();
     }
   }
-  if (materials.empty()) return;  // all were stopped or have none
+  if (materials.empty()) return;  // all were stopped, or none has bounds
   try {
     find_bounds(*_parts, cut, materials);
     for (const Material& one : materials) {

@@ -47,7 +47,7 @@ void check(const fem::Load& load, const mesh::Geometry& geometry, const Motions&
            "sides or holes there");
   }
   if (const auto* force = std::get_if<fem::PerRegion>(&load.force)) {
-    // Where a subdomain has no region it is omega1, omega2, ...: only its mesh tells how many.
+    // Subdomains without a region are called omega1, omega2, ...; only the mesh tells how many.
     for (const auto& [name, value] : force->values)
       if (!name.starts_with("omega"))
         require_known(name, "region", regions, path + ".force.per_region[" + name + "]");

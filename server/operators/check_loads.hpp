@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What can be said of loads before their mesh is made.
+// The checks of loads that need the geometry but no mesh.
 #pragma once
 
 #include <map>
@@ -13,13 +13,12 @@
 namespace anticrack::operators {
 
 /// Throws errors::Error (invalid_argument) for the first load that names a region or an inclusion
-/// that the geometry does not have, and for one by which nothing moves: a traction without a
-/// Neumann boundary, a force on an inclusion that is held, a moment on one that does not tilt. Its
-/// field is "load_cases[I].traction", "load_cases[I].inclusion_forces[NAME]", ... Linear in the
-/// names, times their logarithm.
+/// that the geometry does not have, or that acts on nothing: a traction without a Neumann boundary,
+/// a force on an inclusion that is held, a moment on one that does not tilt. The error's field is
+/// "load_cases[I].traction", "load_cases[I].inclusion_forces[NAME]", ... O(n log n) for n names.
 void check_loads(const std::vector<fem::Load>& loads, const mesh::Geometry& geometry);
 
-/// The same of a mesh from a file, of which only the motions of some inclusions are known.
+/// The same for a mesh from a file, of which only the motions of some inclusions are known.
 void check_loads(const std::vector<fem::Load>& loads,
                  const std::map<std::string, mesh::Motion>& motions);
 

@@ -37,17 +37,17 @@ void require_array_fits(const fem::Load& load, const mesh::Mesh& mesh) {
   }
 }
 
-/// How an expression was integrated.
+/// The accuracy with which an expression was integrated.
 struct Integrated {
   std::string what, subdomain;
-  double estimate, tolerance;  ///< of the samples, relative
+  double estimate, tolerance;  ///< relative, from samples
   const fem::Proof& proof;
-  double enough;  ///< of Proof::relative
+  double enough;  ///< the Proof::relative that suffices
 };
 
 std::string place(const fem::Proof& proof) { return errors::shown(proof.worst_x, proof.worst_y); }
 
-/// What a user has to know of it; empty: nothing.
+/// A warning for the user if the integral is not accurate enough; else empty.
 std::string inexact(const Integrated& one) {
   const std::string who = one.what + " on subdomain \"" + one.subdomain + "\"";
   if (std::isfinite(one.proof.relative())) {
@@ -71,7 +71,7 @@ std::string inexact(const Integrated& one) {
       who, one.estimate, one.tolerance, place(one.proof));
 }
 
-/// Why nothing can be proved with it; empty: it can.
+/// The reason why bounds cannot be proved with this integral; empty if they can.
 std::string no_proof(const Integrated& one) {
   if (std::isfinite(one.proof.unknown)) return "";
   return one.what + " on subdomain \"" + one.subdomain + "\" has no bound near " +
@@ -79,7 +79,7 @@ std::string no_proof(const Integrated& one) {
          ", so that no bounds can be proved; let the expression stay finite there";
 }
 
-/// Loads that are condensed together.
+/// A block of loads that are condensed together.
 class Block {
  public:
   Block(std::span<const fem::Load* const> loads, const mesh::Mesh& mesh,
@@ -109,7 +109,7 @@ class Block {
     Eigen::MatrixXd dirichlet(static_cast<Eigen::Index>(subdomain.dirichlet), columns);
     std::vector<std::size_t> sound;
     Eigen::MatrixXd of_nodes = integrate_arrays(subdomain), apart;
-    if (of_nodes.cols() < columns) {  // not all are arrays: those move to their places
+    if (of_nodes.cols() < columns) {  // not all are arrays: put these into their columns
       apart.swap(of_nodes);
       of_nodes.resize(static_cast<Eigen::Index>(subdomain.node.size()), columns);
     }
@@ -137,12 +137,12 @@ class Block {
           condense(s, of_nodes.leftCols(width), dirichlet.leftCols(width));
       for (std::size_t k = 0; k < sound.size(); ++k)
         std::get<LoadOnTraces>(_outcomes[sound[k]]).subdomains.push_back(std::move(condensed[k]));
-    } catch (const errors::Error& error) {  // out of memory fails every load of the block
+    } catch (const errors::Error& error) {  // without memory every load of the block fails
       for (const std::size_t i : sound) _outcomes[i] = error;
     }
   }
 
-  /// A body held in several places needs values there that it can have.
+  /// Throws if a body is held in several places at values that no motion of it can have.
   void require_agreement(const mesh::Mesh& mesh) {
     const ddm::Skeleton& skeleton = _decomposition.skeleton;
     if (skeleton.agreements.empty()) return;
@@ -192,7 +192,7 @@ class Block {
         .at("boundary_value");
   }
 
-  /// An error of a load becomes its outcome.
+  /// Does the work for load i; an error that it throws becomes the load's outcome.
   template <class Work>
   void attempt(std::size_t i, const Work& work) {
     if (auto* result = std::get_if<LoadOnTraces>(&_outcomes[i])) {
@@ -205,7 +205,7 @@ class Block {
     }
   }
 
-  /// Of a sound load whose force is given at the nodes; else null.
+  /// The values of load i, if it has no error and its force is given at the nodes; else null.
   const double* nodal_values(std::size_t i) const {
     const auto* array = std::get_if<fem::Array>(&_loads[i]->force);
     const bool given = array != nullptr && !array->per_triangle &&
@@ -213,7 +213,7 @@ class Block {
     return given ? array->values->data() : nullptr;
   }
 
-  /// Of all loads with nodal values together, which is faster than one by one.
+  /// Integrates all loads with nodal values together, which is faster than one by one.
   Eigen::MatrixXd integrate_arrays(const ddm::Subdomain& subdomain) const {
     std::vector<const double*> arrays;
     for (std::size_t i = 0; i < _loads.size(); ++i)
@@ -253,7 +253,7 @@ class Block {
         .at("traction");
   }
 
-  /// Traction and point forces.
+  /// Adds traction and point forces.
   void add_rest(std::size_t i, std::size_t s, LoadOnTraces& result,
                 Eigen::Ref<Eigen::VectorXd> of_nodes) const {
     const ddm::Subdomain& subdomain = _decomposition.subdomains[s];
@@ -282,7 +282,7 @@ class Block {
   std::vector<CondensedOutcome> _outcomes;
 };
 
-/// Nodes of the largest subdomain: the rows of what is solved at once.
+/// The number of nodes of the largest subdomain, which is the number of rows of a block.
 Eigen::Index most_nodes(const ddm::Decomposition& decomposition) {
   std::size_t most = 0;
   for (const ddm::Subdomain& subdomain : decomposition.subdomains)

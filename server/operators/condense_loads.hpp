@@ -20,13 +20,13 @@
 
 namespace anticrack::operators {
 
-/// What acts on each triangle and Neumann edge, for bounds of the error.
+/// The load on each triangle and Neumann edge, for bounds of the error.
 struct LoadParts {
   fem::Force force;
-  std::vector<fem::ForceParts> integrated;   ///< per subdomain; empty parts: fem::linear_parts
-  std::vector<fem::TractionParts> traction;  ///< per subdomain; none: 0
+  std::vector<fem::ForceParts> integrated;   ///< per subdomain; empty: from fem::linear_parts
+  std::vector<fem::TractionParts> traction;  ///< per subdomain; empty: no traction
   std::string boundary_value;                ///< g_D; empty: linear along edges
-  std::string obstacle;                      ///< why there are no bounds, and the cure
+  std::string obstacle;                      ///< why there are no bounds, with the cure
 };
 
 /// A load case condensed to the traces.
@@ -36,10 +36,10 @@ struct LoadOnTraces {
   /// `subdomains`.
   std::vector<contact::InclusionForce> inclusion_forces;
   std::vector<std::string> warnings;  ///< integrals that reached a limit, with their error bound
-  LoadParts parts;                    ///< if asked for
+  LoadParts parts;                    ///< only if asked for
 };
 
-/// (subdomain, int f phi_i of all its nodes, g_D in its Dirichlet nodes), a load each column.
+/// (subdomain, int f phi_i of all its nodes, g_D in its Dirichlet nodes); each column is a load.
 using Condense = std::function<std::vector<ddm::CondensedLoad>(
     std::size_t, const Eigen::Ref<const Eigen::MatrixXd>&,
     const Eigen::Ref<const Eigen::MatrixXd>&)>;
@@ -47,11 +47,11 @@ using Condense = std::function<std::vector<ddm::CondensedLoad>(
 using CondensedOutcome = std::variant<LoadOnTraces, errors::Error>;
 
 /// Integrates all loads on the membrane (paper: f, g_D; tractions, point forces, forces on
-/// inclusions) and condenses them to the traces: one forward solve per subdomain and load, two
-/// where g_D is not zero, in blocks of loads. Entry i holds the result or error of loads[i]:
+/// inclusions) and condenses them to the traces by one forward solve per subdomain and load, two if
+/// g_D is not zero, in blocks of loads. Entry i holds the result or error of loads[i]:
 /// invalid_argument (unknown subdomain or inclusion, array of another length, point force outside
-/// or on a crack, overflow), expression_invalid, or cancelled (stop/stop.hpp). `parts`: with
-/// LoadOnTraces::parts.
+/// or on a crack, overflow), expression_invalid, or cancelled (stop/stop.hpp). `parts`: whether to
+/// fill LoadOnTraces::parts.
 std::vector<CondensedOutcome> condense_loads(std::span<const fem::Load* const> loads,
                                              const mesh::Mesh& mesh,
                                              const ddm::Decomposition& decomposition,
@@ -62,11 +62,11 @@ std::vector<CondensedOutcome> condense_loads(std::span<const fem::Load* const> l
 // Point forces and forces on inclusions as forces on nodes.
 
 /// Index of `name` among the mesh's `what` ("subdomain", "inclusion"). Throws errors::Error
-/// (invalid_argument at `field`) with the names there are.
+/// (invalid_argument at `field`), whose message lists the known names.
 std::size_t index_of(const std::vector<std::string>& names, const std::string& name,
                      const std::string& what, const std::string& field);
 
-/// Added to the load of one node of a subdomain.
+/// A force to add to the load of one node of a subdomain.
 struct NodalForce {
   std::int32_t node = 0;  ///< in the subdomain's numbering
   double value = 0;
@@ -75,7 +75,7 @@ struct NodalForce {
 struct PlacedForces {
   std::vector<std::vector<NodalForce>> subdomains;  ///< one list per subdomain
   std::vector<contact::InclusionForce> inclusions;  ///< as LoadOnTraces::inclusion_forces
-  bool on_points = false;                           ///< one acts in a point of the membrane itself
+  bool on_points = false;                           ///< one acts at a point of the membrane itself
 };
 
 /// Distance, as a fraction of the diagonal of the membrane's bounding box, within which a point
@@ -84,12 +84,12 @@ constexpr double point_tolerance = 1e-9;
 
 /// A point force on an edge of an inclusion, bonded or delaminated, acts on the inclusion;
 /// elsewhere on the corners of the triangle that contains it, by barycentric coordinates (int delta
-/// phi_i). A force on an inclusion acts in its middle: on one trace node where all share its
-/// displacement; of one that tilts, with its moments, on all of them, by the least forces that do
-/// the same work on the motions that are free. Throws errors::Error (invalid_argument):
-/// "point_forces[I].at" for a point outside the membrane or on a crack without inclusion,
-/// "inclusion_forces[NAME]" and "inclusion_moments[NAME]" for an unknown inclusion, or a moment on
-/// one that does not tilt. O(m log k + hits) for k points.
+/// phi_i). A force on an inclusion acts at its middle. If the inclusion does not tilt, the force is
+/// put on one trace node, since all share the displacement; if it tilts, the force and the moments
+/// are put on all of them, as the least forces that do the same work on the free motions. Throws
+/// errors::Error (invalid_argument): "point_forces[I].at" for a point outside the membrane or on a
+/// crack without inclusion, "inclusion_forces[NAME]" and "inclusion_moments[NAME]" for an unknown
+/// inclusion, or a moment on one that does not tilt. O(m log k + hits) for k points.
 PlacedForces place_forces(const fem::Load& load, const mesh::Mesh& mesh,
                           const ddm::Decomposition& decomposition);
 

@@ -21,10 +21,10 @@ namespace {
 
 constexpr const char* bounding_a = "computing bounds of A";
 
-/// Bounds of the cone that are tried; most answers need two.
+/// Most bounds of the cone to try; most answers need two.
 constexpr int most_tries = 4;
 
-/// The best of a few bounds of the cone, each wider than the one before.
+/// Searches for the best interval by trying a few bounds c of the cone, each wider than the last.
 class Search {
  public:
   /// `unloaded`: norm of the flux of a unit force with every contact open.
@@ -67,7 +67,8 @@ class Search {
   }
   void give_up() { _tries = most_tries; }
 
-  /// False where none holds: forces that tie the sides of crossing cracks may leave any cone.
+  /// Writes the bounds. Returns false if there are none: forces that tie the sides of crossing
+  /// cracks may leave any cone.
   bool finish() const {
     const double value = _aim.value_in(_of.answer);
     if (!held() && !std::isfinite(_best.width())) return false;
@@ -88,7 +89,7 @@ class Search {
   int _tries = 0;
 };
 
-/// A step of each.
+/// Tries the present cone of each search.
 void advance(const MeshOperator::Parts& parts, const estimate::CutMesh& cut,
              std::span<Search* const> searches) {
   std::vector<Eigen::VectorXd> loads;
@@ -157,7 +158,7 @@ class Slopes {
     return contact::solve_active_set(*_parts.contact, *_parts.mesh, loads, {}, fields, observer);
   }
 
-  /// lo of the load and so many unit forces.
+  /// lo(F + forces), the lower bound of Pi for the load plus `forces` unit forces.
   std::optional<double> lower_with(const LoadOnTraces& unit, double forces) const {
     LoadOnTraces sum;
     sum.subdomains = _load.subdomains;

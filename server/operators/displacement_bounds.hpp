@@ -10,11 +10,12 @@
 
 namespace anticrack::operators {
 
-/// Whether u_h solves the discrete problem well enough for bounds: what is left widens them where
-/// estimate::Ways lead out of the membrane; elsewhere it has to be 1e-10 and is taken for rounding.
+/// Whether u_h solves the discrete problem well enough for bounds. Where estimate::Ways lead out of
+/// the membrane, its residual widens the bounds; elsewhere the relative residuals must be at most
+/// 1e-10 and are taken for rounding.
 bool bounded(const contact::Answer& answer, const estimate::CutMesh& cut);
 
-/// What is left; nothing is known of it, and 0 given, where Ways lead nowhere.
+/// What the flux lacks of equilibrium; 0 where Ways lead nowhere, as nothing is known of it there.
 estimate::Lack lack_of(const estimate::CutMesh& cut, const estimate::EquilibratedFlux& flux,
                        const estimate::LoadBalance& balance, const LoadOnTraces& load);
 
@@ -29,12 +30,13 @@ struct Bounded {
   const std::stop_token& stop;
 };
 
-/// Bounds of A, and of the slopes where it tilts, of each inclusion that moves. By
-/// estimate/interval.hpp, a few solves each, O(h^2) wide. Where contact::Adjoint is not possible,
-/// or not in the cone, from bounds of the energy, O(h): three load cases each. Of more than 16
-/// inclusions from the error bound and a norm that the mesh keeps, O(h) as well; of very many on
-/// very many triangles none, and a warning.
-/// Several answers at once: bits are those of each alone. One that is stopped keeps what it has.
+/// Bounds A, and the slopes if it tilts, of each inclusion that moves. estimate/interval.hpp gives
+/// bounds O(h^2) wide for a few solves each. If contact::Adjoint is not possible or leaves the
+/// cone, bounds of the energy give them, O(h) wide, for three load cases each. For more than 16
+/// inclusions the error bound and a norm that the mesh keeps give them, O(h) wide too; for very
+/// many inclusions on very many triangles there are none, but a warning. Takes several answers at
+/// once; the bits of each are as if it were alone. An answer that is stopped keeps its bounds so
+/// far.
 void bound_displacements(const MeshOperator::Parts& parts, std::span<const Bounded> answers);
 
 }  // namespace anticrack::operators

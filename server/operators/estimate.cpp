@@ -16,7 +16,7 @@ struct Size {
   double trace = 0;
 };
 
-/// Nodes of each subdomain, and those of them on interfaces, once for each side.
+/// The nodes of each subdomain, and how many of them lie on interfaces; each side counts once.
 std::vector<Size> subdomain_sizes(const mesh::Mesh& mesh, const ddm::Sides& sides) {
   std::vector<Size> sizes(mesh.subdomains.size());
   std::vector<char> seen(mesh.node_count(), 0);
@@ -35,7 +35,7 @@ std::vector<Size> subdomain_sizes(const mesh::Mesh& mesh, const ddm::Sides& side
   return sizes;
 }
 
-/// Upper bounds of the skeleton's unknowns and contacts.
+/// Upper bounds of the number of unknowns and contacts of the skeleton.
 struct SkeletonSize {
   double unknowns = 0;
   double contacts = 0;
@@ -63,8 +63,8 @@ SkeletonSize skeleton_size(const mesh::Mesh& mesh, const ddm::Sides& sides) {
   return size;
 }
 
-/// Of the blocks of contacts where the membrane is joined: upper bound, with as many contacts in
-/// each as on its interface or as a block may have.
+/// Upper bound of the memory of the contact blocks of a joined membrane, with as many contacts in
+/// each block as its interface has, or as a block may have.
 double block_bytes(const mesh::Mesh& mesh) {
   constexpr double most = 400, matrices = 2.5;
   double bytes = 0;
@@ -81,10 +81,10 @@ double block_bytes(const mesh::Mesh& mesh) {
 
 std::size_t estimate_bytes(const mesh::Mesh& mesh) {
   // The factor of a planar graph ordered by nested dissection has O(n log n) entries; measured with
-  // all other data per node: 30 to 42 bytes a node and log2(n), from 1 k to 2 M nodes. Dense: S and
-  // the flexibility on the trace; H and W on the skeleton; S^ with its coarser levels, two
-  // factors and a block of either on the contacts. Joined: the stiffness three times, and the
-  // blocks.
+  // all other data per node: 30 to 42 bytes times log2(n) a node, from 1 k to 2 M nodes. Dense
+  // matrices: S and the flexibility on the trace; H and W on the skeleton; S^ with its coarser
+  // levels, two factors and a block of each on the contacts. A joined membrane has the stiffness
+  // three times, and the blocks.
   constexpr double bytes_per_node_and_level = 60, bytes_per_node = 200, bytes_per_joined_node = 500;
   constexpr double trace_blocks = 3, skeleton_blocks = 2, contact_blocks = 4.5, fixed = 1 << 14,
                    bytes_per_law = sizeof(fem::Tension::of_triangle[0]) + sizeof(fem::Variation);

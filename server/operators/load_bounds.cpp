@@ -64,7 +64,7 @@ std::vector<BalancedLoad> balanced(std::span<const fem::Load* const> loads,
   std::vector<BalancedLoad> result;
   for (std::size_t j = 0; j < loads.size(); ++j) {
     LoadParts parts = std::exchange(condensed[j].parts, {});
-    // A sum with one that is not linear needs the values of those that are.
+    // In a sum with a g_D that is not linear along edges, the linear ones need samples as well.
     if (lifted) parts.boundary_value = loads[j]->boundary_value;
     try {
       result.push_back(balanced(parts, subdomains, cut));

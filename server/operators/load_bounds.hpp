@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What bounds need of a load, also of a combination of loads.
+// The data of a load, or of a combination of loads, from which bounds are made.
 #pragma once
 
 #include <span>
@@ -14,29 +14,29 @@
 
 namespace anticrack::operators {
 
-/// Linear in the load but for the oscillation, whose bounds add up.
+/// All members are linear in the load, except the oscillation, whose bounds add up.
 struct BalancedLoad {
   estimate::LoadBalance balance;
-  estimate::BoundarySamples boundary;  ///< of g_D; empty: linear along edges
-  std::string obstacle;                ///< why there are no bounds, and the cure
+  estimate::BoundarySamples boundary;  ///< of g_D; empty if it is linear along edges
+  std::string obstacle;                ///< why there are no bounds, with the cure
 
-  /// Memory of its arrays.
+  /// Memory of the arrays in bytes.
   std::size_t bytes() const noexcept;
 };
 
-/// Throws errors::Error (expression_invalid at "boundary_value", cancelled).
+/// The data of one load. Throws errors::Error (expression_invalid at "boundary_value", cancelled).
 BalancedLoad balanced(const LoadParts& parts, const std::vector<ddm::Subdomain>& subdomains,
                       const estimate::CutMesh& cut);
 
-/// Of loads that are combined, each as it was asked for in `loads`; frees their parts. A load whose
-/// own boundary values have no bounds is an obstacle to all its combinations: in a sum with others
-/// that might not be seen. Throws as `balanced` does, with the load's number.
+/// The data of loads to be combined; `loads` are the requests. Frees the parts of `condensed`. A
+/// load whose own boundary values have no bounds is an obstacle to all its combinations, since this
+/// might not be seen in a sum. Throws as `balanced` does, with the load's number.
 std::vector<BalancedLoad> balanced(std::span<const fem::Load* const> loads,
                                    std::vector<LoadOnTraces>& condensed,
                                    const std::vector<ddm::Subdomain>& subdomains,
                                    const estimate::CutMesh& cut);
 
-/// sum_j c_j f_j, with the obstacles of those that are in it.
+/// The data of sum_j c_j f_j, with the obstacles of the loads whose c_j is not 0.
 BalancedLoad combine(std::span<const BalancedLoad> loads, std::span<const double> coefficients);
 
 }  // namespace anticrack::operators

@@ -18,7 +18,7 @@ bool evictable(const Resident& one) { return !one.in_use && !one.kept; }
 
 bool used_earlier(const Resident* a, const Resident* b) { return a->last_use < b->last_use; }
 
-/// What owners have, and what of it can go, the least recently used first.
+/// The bytes of each owner, and the operators that can be evicted, the least recently used first.
 class Holdings {
  public:
   explicit Holdings(std::span<const Resident> residents) {
@@ -34,7 +34,8 @@ class Holdings {
   void sort() {
     for (auto& [owner, own] : _offered) std::sort(own.begin(), own.end(), used_earlier);
   }
-  /// The next of who has most, and at least `floor` if it is not `asking`; null: nothing is left.
+  /// Takes the next operator from the owner who has most. Owners other than `asking` must have more
+  /// than `floor`. Null if there is none.
   const Resident* take(const std::string& asking, std::uint64_t floor) {
     auto most = _offered.end();
     for (auto own = _offered.begin(); own != _offered.end(); ++own) {
@@ -61,8 +62,8 @@ class Holdings {
   std::map<std::string, std::deque<const Resident*>> _offered;
 };
 
-/// What stays though all of the owner's jobs and factorisations have ended and all their operators
-/// have gone.
+/// The bytes that stay even after all jobs and factorisations of the owner have ended and all the
+/// owner's operators have been evicted.
 std::uint64_t not_by_waiting(std::span<const Resident> residents, const std::string& owner) {
   std::uint64_t bytes = 0;
   for (const Resident& one : residents) {
@@ -72,7 +73,7 @@ std::uint64_t not_by_waiting(std::span<const Resident> residents, const std::str
   return bytes;
 }
 
-/// Gives back what is not needed, the most recently used first.
+/// Takes back evictions that are not needed, the most recently used operators first.
 void spare(Victims& victims, std::uint64_t too_much) {
   std::sort(victims.begin(), victims.end(),
             [](const Resident* a, const Resident* b) { return used_earlier(b, a); });

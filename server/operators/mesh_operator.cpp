@@ -17,7 +17,7 @@ namespace {
 std::vector<ddm::SubdomainOperator> factorise_subdomains(
     const std::vector<ddm::Subdomain>& subdomains, int threads) {
   std::vector<std::optional<ddm::SubdomainOperator>> done(subdomains.size());
-  // Where subdomains are fewer than threads, several share one.
+  // If there are fewer subdomains than threads, several threads share one.
   const int each = std::max(1, threads / std::max(1, static_cast<int>(subdomains.size())));
   base::at_once(subdomains.size(), threads,
                 [&] { return [&](std::size_t s) { done[s].emplace(subdomains[s], each); }; });

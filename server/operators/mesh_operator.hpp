@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// All that is kept of a mesh between load cases, in plain types: the layers above see neither Eigen
-// nor CHOLMOD.
+// Everything of a mesh that is kept between load cases, behind plain types: the layers above see
+// neither Eigen nor CHOLMOD.
 #pragma once
 
 #include <array>
@@ -27,18 +27,18 @@ class PreparedLoad;
 class LoadBasis;
 class UzawaBlock;
 
-/// Nodes of the interfaces up to which their matrices are dense.
+/// Most interface nodes for which the matrices are dense.
 constexpr std::size_t max_dense = 3000;
 
 /// Factorised subdomains, Schur complements, the skeleton condensed to the cracks and the interface
-/// mass of one mesh; on demand also the flexibilities and theta* of Algorithm 2 and bases of
-/// sweeps. Thread-safe; answers do not depend on other calls.
+/// mass of one mesh; on demand also the flexibilities and theta* of Algorithm 2, and bases of
+/// sweeps. Thread-safe; the answer to a call does not depend on other calls.
 class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
  public:
   /// Factorises every subdomain (paper: the matrices of Algorithm 2) on `threads` threads. Throws
-  /// errors::Error: numerical (a part that nothing or contact alone holds), cancelled. One sparse
-  /// Cholesky factorisation per subdomain plus O(n_G^3) for n_G interface nodes. Of more than
-  /// `most_dense` the membrane is joined instead: one sparse factor, O(N^1.5).
+  /// errors::Error: numerical (a part that nothing or contact alone holds), cancelled. Costs one
+  /// sparse Cholesky factorisation per subdomain plus O(n_G^3) for n_G interface nodes. With n_G
+  /// above `most_dense` the membrane is joined instead: one sparse factor, O(N^1.5).
   static std::shared_ptr<const MeshOperator> factorise(std::shared_ptr<const mesh::Mesh> mesh,
                                                        int threads, std::stop_token stop,
                                                        std::size_t most_dense = max_dense);
@@ -49,8 +49,8 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
   std::vector<std::variant<PreparedLoad, errors::Error>> prepare(
       std::span<const fem::Load* const> loads, const std::stop_token& stop = {}) const;
 
-  /// The exact contact problem; UzawaBlock is for Algorithm 2. O(c^3) a step of the active set with
-  /// c crack nodes, and O(N) for fields. Same mesh, load and options: same bits.
+  /// Solves the exact contact problem; UzawaBlock is for Algorithm 2. O(c^3) for each step of the
+  /// active set with c crack nodes, and O(N) for fields. Same mesh, load and options: same bits.
   contact::Answer solve(const PreparedLoad& load, const contact::ActiveSetOptions& options,
                         bool fields, contact::Observer& observer) const;
 
@@ -61,11 +61,11 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
                       std::span<contact::Answer* const> answers) const;
 
   /// Fills the bounds of an answer to this load (energy_lower, ..., those of its inclusions; or
-  /// no_bracket), and returns the indicator of the error of each triangle of the mesh, shape (m):
-  /// int |sigma - T grad u_h|^2 / T + 2 int p [u_h] over its minus faces, whose sum is at least
-  /// |u - u_h|^2 in the energy norm; empty where there is no bracket. Recovers the fields meanwhile
-  /// where the answer has none. O(N), and a few solves for each inclusion's bounds. Throws
-  /// errors::Error (cancelled).
+  /// no_bracket). Returns the error indicator of each triangle of the mesh, shape (m): int |sigma -
+  /// T grad u_h|^2 / T + 2 int p [u_h] over its minus faces; their sum is at least |u - u_h|^2 in
+  /// the energy norm. Returns an empty vector if there is no bracket. If the answer has no fields,
+  /// they are recovered and dropped again. O(N), and a few solves for the bounds of each inclusion.
+  /// Throws errors::Error (cancelled).
   std::vector<double> estimate(const PreparedLoad& load, contact::Answer& answer,
                                const std::stop_token& stop = {}) const;
   struct Estimate {
@@ -75,29 +75,29 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
     std::vector<double> indicator{};
     std::exception_ptr failure{};
   };
-  /// The same of several at once, faster, with the bits of each alone; what is thrown for one is
-  /// its failure.
+  /// The same for several answers at once, which is faster; the bits of each are as if it were
+  /// alone. An error of one is stored as its `failure`.
   void estimate(std::span<Estimate> all) const;
-  /// How many that are worth it, and fit in memory.
+  /// How many answers to estimate together: as many as gain speed and fit in memory.
   std::size_t estimated_together() const noexcept;
 
-  /// Condenses loads to be combined: O(N) each and O(n_G^2 + N m) for the energy of pairs; N m
-  /// numbers of memory meanwhile. Cached (BasisCache): loads that differ by name only, arrays
-  /// compared by the hash of their upload, are condensed once. Errors of
-  /// loads as in prepare(), thrown with "load_cases[j]." before the field; limit_exceeded beyond
-  /// max_basis_bytes. `bounds`: keeps what fields and bounds of combinations take, O(N) numbers a
-  /// load.
+  /// Condenses m loads to be combined: O(N) each and O(n_G^2 + N m) for the energy of pairs; takes
+  /// memory for N m numbers meanwhile. The basis is cached (BasisCache): loads that differ in their
+  /// names only are condensed once; arrays are compared by the hash of their upload. Throws errors
+  /// of loads as in prepare(), with "load_cases[j]." before the field, and limit_exceeded beyond
+  /// max_basis_bytes. `bounds`: also keeps what fields and bounds of combinations need, O(N)
+  /// numbers a load.
   std::shared_ptr<const LoadBasis> basis(std::span<const fem::Load* const> loads,
                                          const std::stop_token& stop = {},
                                          bool bounds = false) const;
 
-  /// Solves the rows of a sweep, row k for the load sum_j c_kj f_j, coefficients (rows, loads)
-  /// row-major. Each starts from the contact of the one before, the first from `start` (empty: all
-  /// closed), which is set to that of the last; results do not depend on it. O(m c) and a few steps
-  /// of at most O(c^3) a row, without allocation where the contact changes little; see
-  /// contact::SweepSolver for the numbers and not_converged. `rows` has its width from mesh() and
-  /// contact_nodes(). Throws errors::Error (internal) for another shape or a basis of another mesh.
-  /// False if `stop` was requested between rows.
+  /// Solves the rows of a sweep, row k for the load sum_j c_kj f_j; coefficients have shape (rows,
+  /// loads), row-major. Each row starts from the contact of the one before, the first from `start`
+  /// (empty: all closed), which is set to the contact of the last row; results do not depend on it.
+  /// A row costs O(m c) and a few steps of at most O(c^3), and allocates nothing if the contact
+  /// changes little; see contact::SweepSolver for the numbers and not_converged. The width of
+  /// `rows` must fit mesh() and contact_nodes(). Throws errors::Error (internal) for another shape
+  /// or a basis of another mesh. Returns false if `stop` was requested between rows.
   bool sweep(const LoadBasis& basis, std::span<const double> coefficients,
              const contact::ActiveSetOptions& options, contact::SweepColumns& rows,
              std::vector<char>& start, const std::stop_token& stop = {}) const;
@@ -105,29 +105,29 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
   bool sweep(std::span<const PreparedLoad> loads, const contact::ActiveSetOptions& options,
              contact::SweepColumns& rows, std::vector<char>& start,
              const std::stop_token& stop = {}) const;
-  /// A row as a load, to solve for traces; for fields and bounds only of a basis with `bounds`.
-  /// O((trace + Dirichlet nodes) m), with bounds O(N m).
+  /// The load of a row, to solve for traces; its answers have fields and bounds only if the basis
+  /// was made with `bounds`. O((trace + Dirichlet nodes) m), with bounds O(N m).
   PreparedLoad combine(const LoadBasis& basis, std::span<const double> coefficients) const;
 
   /// (interface, index in its trace_geometry()) of each node that may open, the columns of
   /// SweepColumns:: contact; a node where interfaces cross appears once for each.
   const std::vector<std::array<std::int32_t, 2>>& contact_nodes() const noexcept;
 
-  /// Why Algorithm 2 does not apply to this mesh; empty where it does.
+  /// The reason why Algorithm 2 does not apply to this mesh; empty if it applies.
   const std::string& uzawa_obstacle() const noexcept;
 
   const mesh::Mesh& mesh() const noexcept;
-  /// Per interface of the mesh.
+  /// The positions of the trace nodes, per interface of the mesh.
   const std::vector<contact::TraceGeometry>& trace_geometry() const noexcept;
-  /// Nodes of a subdomain, those of Field::nodes in every answer: a node with two sides (slit)
+  /// The nodes of a subdomain, which are Field::nodes in every answer; a node with two sides (slit)
   /// occurs twice.
   const std::vector<std::int32_t>& field_nodes(std::size_t subdomain) const;
   /// Triangles of a subdomain, (m_i,3) row-major, as indices into field_nodes.
   const std::vector<std::int32_t>& field_triangles(std::size_t subdomain) const;
-  /// Memory held now, measured, bytes (the mesh, and what bounds under way take, included).
+  /// The memory held now, measured, in bytes, including the mesh and the bounds being computed.
   std::size_t bytes() const noexcept;
-  /// theta* for lumped mass, 0 where Algorithm 2 does not apply. Computed at the first use:
-  /// O(n_G^3). Throws errors::Error (numerical) when it cannot be computed.
+  /// theta* for lumped mass; 0 if Algorithm 2 does not apply. Computed at the first use: O(n_G^3).
+  /// Throws errors::Error (numerical) when it cannot be computed.
   double theta_star() const;
   /// theta_star() if known, else 0. Does not wait.
   double known_theta_star() const noexcept;
@@ -137,7 +137,8 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
  private:
   friend class UzawaBlock;
   explicit MeshOperator(std::shared_ptr<const Parts> parts) : _parts(std::move(parts)) {}
-  /// Throws errors::Error (internal) unless the load is of this mesh, and has fields if asked for.
+  /// Throws errors::Error (internal) if the load is of another mesh, or if `fields` are asked for
+  /// and it cannot have them.
   void require_prepared(const PreparedLoad& load, bool fields) const;
   /// Calls solve_row(solver, row) for each row. Throws errors::Error (internal) for another shape.
   template <class SolveRow>
@@ -147,7 +148,7 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
   std::shared_ptr<const Parts> _parts;
 };
 
-/// A load condensed on one mesh. Keeps the mesh's operators alive.
+/// A load condensed on one mesh. Keeps the operators of the mesh alive.
 class PreparedLoad {
  public:
   struct Data;
@@ -166,8 +167,8 @@ class LoadBasis {
   explicit LoadBasis(std::shared_ptr<const Data> data) : _data(std::move(data)) {}
 
   std::size_t size() const noexcept;   ///< m
-  std::size_t bytes() const noexcept;  ///< memory held
-  /// Of all of them, as they stand in an answer.
+  std::size_t bytes() const noexcept;  ///< memory held, in bytes
+  /// The warnings of all loads, as they stand in an answer.
   const std::vector<std::string>& warnings() const noexcept;
 
  private:
@@ -177,8 +178,8 @@ class LoadBasis {
 
 /// Load cases of one mesh that iterate Algorithm 2 together, one column each: matrix products
 /// instead of matrix-vector products. Columns join and leave between iterations, each with its own
-/// theta, p, stopping rule and observer. A column's results depend on the others by rounding only
-/// (1e-12 of a converged answer). For one thread.
+/// theta, p, stopping rule and observer. The results of a column depend on the other columns by
+/// rounding only (1e-12 of a converged answer). For one thread.
 class UzawaBlock {
  public:
   /// Throws errors::Error (not_implemented) where Algorithm 2 does not apply to the mesh.
@@ -187,14 +188,14 @@ class UzawaBlock {
   UzawaBlock(const UzawaBlock&) = delete;
   UzawaBlock& operator=(const UzawaBlock&) = delete;
 
-  int columns() const noexcept;   ///< under way
-  int capacity() const noexcept;  ///< columns that may be under way at once
+  int columns() const noexcept;   ///< columns that iterate
+  int capacity() const noexcept;  ///< most columns that may iterate at once
 
-  /// Returns the column's place, below capacity(), until it has ended. `options.mass` must be the
-  /// block's; the observer must outlive the column.
+  /// Adds a column and returns its place, below capacity(), which it keeps until its answer is
+  /// taken. `options.mass` must be the block's; the observer must outlive the column.
   int add(PreparedLoad load, const contact::UzawaOptions& options, bool fields,
           contact::Observer& observer);
-  /// One iteration of every column, O(n_G^2 columns), no allocation. An observer that returns false
+  /// Iterates every column once. O(n_G^2 columns), no allocation. An observer that returns false
   /// cancels its column.
   void step();
 
@@ -202,7 +203,8 @@ class UzawaBlock {
     int place = 0;
     contact::Answer answer;
   };
-  /// The columns that have ended, by place, and frees the places. A backward solve each for fields.
+  /// Takes the columns that have ended, in the order of their places, and frees the places. Fields
+  /// take a backward solve each.
   std::vector<Ended> take_ended();
 
  private:
@@ -210,13 +212,13 @@ class UzawaBlock {
   std::unique_ptr<State> _state;
 };
 
-/// Of the condensed loads of a basis while it is made.
+/// Most memory of the condensed loads of a basis while it is made.
 constexpr std::size_t max_basis_bytes = std::size_t{4} << 30;
 
 /// Upper estimate of bytes() before factorising, cached bases apart. O(m).
 std::size_t estimate_bytes(const mesh::Mesh& mesh);
 
-/// ddm::require_threadsafe_blas().
+/// Calls ddm::require_threadsafe_blas(): throws errors::Error (internal) if BLAS is unsafe.
 void require_threadsafe_blas();
 
 }  // namespace anticrack::operators

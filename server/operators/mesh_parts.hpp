@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the types of mesh_operator.hpp hold; for this folder alone.
+// The data of the types of mesh_operator.hpp; only this folder includes it.
 #pragma once
 
 #include <atomic>
@@ -25,7 +25,7 @@
 
 namespace anticrack::operators {
 
-/// Counts memory that is taken for a while in MeshOperator::bytes(), before it is taken.
+/// Counts memory that is taken for a while in MeshOperator::bytes(); made before it is taken.
 class Working {
  public:
   Working(std::atomic<std::size_t>& sum, std::size_t bytes) : _sum(sum), _bytes(bytes) {
@@ -46,7 +46,7 @@ struct MeshOperator::Parts {
   std::shared_ptr<const mesh::Mesh> mesh;
   ddm::Decomposition decomposition;
   ddm::NeumannBoundary neumann;                   // refers to the mesh and the decomposition
-  std::vector<ddm::SubdomainOperator> operators;  // none where the membrane is joined
+  std::vector<ddm::SubdomainOperator> operators;  // empty if the membrane is joined
   std::string uzawa_obstacle;
   contact::TraceProblem problem;  // refers to the decomposition and the operators
   std::unique_ptr<const contact::ContactProblem> contact;  // refers to the problem
@@ -58,19 +58,19 @@ struct MeshOperator::Parts {
   mutable std::atomic<std::size_t> at_work{0};  // bytes of Working
 
   const estimate::CutMesh& cut_mesh() const;
-  /// Loads of a subdomain by nodes (rows) and g_D, a column each.
+  /// The function that condenses the loads of a subdomain.
   Condense condense() const;
 };
 
 struct PreparedLoad::Data {
   std::shared_ptr<const MeshOperator> mesh_operator;
   LoadOnTraces condensed;
-  bool has_interior = true;  ///< not so of a combination without bounds: it has no fields
+  bool has_interior = true;  ///< false: a combination without bounds, which has no fields
   std::optional<BalancedLoad> balanced{};  ///< of a combination with bounds, instead of parts
-  double parts_energy = 0;  ///< of a combination: sum |c_j c_k| |Pi_jk|, contacts closed
+  double parts_energy = 0;  ///< for a combination: sum |c_j c_k| |Pi_jk|, contacts closed
 
   contact::CaseLoads loads() const { return {condensed.subdomains, condensed.inclusion_forces}; }
-  /// Numbers of the load that every answer to it repeats.
+  /// Adds the warnings of the load, which every answer to it repeats.
   void add_warnings(contact::Answer& answer) const;
 };
 

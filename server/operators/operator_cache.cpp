@@ -27,31 +27,31 @@ using Operator = std::shared_ptr<const MeshOperator>;
 using Operators = std::vector<Operator>;
 using Clock = std::chrono::steady_clock;
 
-/// A factorisation under way and its waiters.
+/// A factorisation that is running, and its waiters.
 struct Flight {
   std::stop_source stop;
-  int waiters = 1;         ///< the caller whose thread factorises is one
-  bool abandoned = false;  ///< the last waiter left: it is being stopped; joining is too late
+  int waiters = 1;         ///< including the caller whose thread factorises
+  bool abandoned = false;  ///< the last waiter left, so it is being stopped: too late to join
   bool done = false;
   bool starved = false;  ///< the system had no memory for it
   Operator result;
   std::optional<Error> error;
 };
 
-/// Either an operator or a flight.
+/// Holds either an operator or a flight.
 struct Entry {
   Operator ready;
   std::shared_ptr<Flight> flight;
-  std::uint64_t estimate = 0;      ///< counts in flight; an operator is measured
-  std::set<std::string> owners{};  ///< who asked for it
+  std::uint64_t estimate = 0;      ///< counts during the flight; then the operator is measured
+  std::set<std::string> owners{};  ///< all who asked for it
   std::uint64_t last_use = 0;
   Clock::time_point used{};
-  bool kept = false;  ///< pinned without a holder
+  bool kept = false;  ///< pinned by pin()
 
-  /// With the mutex held, the operator can only be reached through copies that are counted.
+  /// Needs the mutex: then nobody can copy the operator, so use_count() is exact.
   bool in_use() const { return !ready || ready.use_count() > 1; }
   bool pinned() const { return kept || in_use(); }
-  /// An operator grows: by what Algorithm 2 alone needs, and by bases of sweeps.
+  /// Measured at each call, as an operator grows by data of Algorithm 2 and by bases of sweeps.
   std::uint64_t bytes() const { return ready ? ready->bytes() : estimate; }
 };
 
@@ -84,7 +84,7 @@ Error over_share(std::uint64_t estimate, const PinnedShare& share) {
   return error.retry_after(retry_delay);
 }
 
-/// Slow for many pages; call without a lock.
+/// Frees the operators and returns their pages, which may be slow; call it without a lock.
 void release(Operators operators) {
   if (!operators.empty()) {
     operators.clear();
@@ -94,7 +94,7 @@ void release(Operators operators) {
 
 }  // namespace
 
-/// The mutex guards everything but the constants; what is evicted is freed without it.
+/// The mutex guards everything but the constants. Evicted operators are freed without it.
 struct OperatorCache::State {
   using Lock = std::unique_lock<std::mutex>;
 
@@ -141,7 +141,7 @@ struct OperatorCache::State {
     return bytes;
   }
 
-  /// Takes out an operator that is not in use; null otherwise.
+  /// Takes out an operator; null if it is in use.
   Operator take(const std::string& key) {
     Entry* entry = find(key);
     if (entry == nullptr || entry->in_use()) return nullptr;
@@ -170,7 +170,7 @@ struct OperatorCache::State {
     return evicted;
   }
 
-  /// Room for what is to be factorised. Throws errors::Error (limit_exceeded, busy).
+  /// Evicts to make room for a factorisation. Throws errors::Error (limit_exceeded, busy).
   Operators make_room(const std::string& owner, std::uint64_t estimate) {
     if (estimate > budget) throw too_large(estimate, budget);
     const PinnedShare share = pinned_share(residents(), owner, estimate, budget);
@@ -181,7 +181,7 @@ struct OperatorCache::State {
     return std::move(*evicted);
   }
 
-  /// One waiter fewer; the last one stops the factorisation, without the lock.
+  /// Removes a waiter; the last one stops the factorisation, without holding the lock.
   void leave(Lock& lock, Flight& flight) {
     flight.abandoned = --flight.waiters == 0 && !flight.done;
     if (flight.abandoned) {
@@ -219,12 +219,12 @@ struct OperatorCache::State {
     } catch (const std::exception& thrown) {
       flight.error = Error(Reason::internal, "factorising failed: {}", thrown.what());
     }
-    return_freed_memory();  // of what was stopped or failed half-way
+    return_freed_memory();  // of a factorisation that stopped or failed
     return nullptr;
   }
 
-  /// The system has less memory than the budget: all that is not in use goes; where that is nothing
-  /// either, another try would do no better.
+  /// The system has less memory than the budget, so all operators that are not in use go. If there
+  /// are none and none is pinned, another try would fail too, and the flight gets an error.
   Operators after_starving(Flight& flight) {
     Operators evicted = evict({}, 0, pinned_bytes()).value_or(Operators());
     if (evicted.empty() && pinned_bytes() == 0) {
@@ -266,7 +266,7 @@ struct OperatorCache::State {
       entry.flight.reset();
       use(entry, owner);
       if (left) result.reset();
-      // As near to the budget as those in use allow.
+      // Evict until the budget is met, or as nearly as the operators in use allow.
       if (auto over = evict(owner, 0, std::max(budget, pinned_bytes()))) evicted = std::move(*over);
     } else {
       entries.erase(key);

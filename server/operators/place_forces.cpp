@@ -33,7 +33,7 @@ Error refused(std::size_t index, const fem::PointForce& force, const std::string
       .at(fmt::format("point_forces[{}].at", index));
 }
 
-/// What a point lies on of all that is not glue.
+/// The interface edge, other than glue, on which a point lies.
 struct OnInterface {
   std::int32_t inclusion = -1;
   const mesh::Interface* crack = nullptr;
@@ -61,7 +61,7 @@ std::vector<OnInterface> find_on_interfaces(const mesh::Mesh& mesh, const fem::P
   return found;
 }
 
-/// The place of each point in the subdomain where it lies deepest.
+/// The place of a point, in the subdomain where it lies deepest.
 struct Placed {
   std::size_t subdomain = 0;
   fem::Location location;
@@ -118,19 +118,19 @@ void place_points(const std::vector<fem::PointForce>& forces, const mesh::Mesh& 
   }
 }
 
-/// A trace node of a body, the inclusion it belongs to, and where it is.
+/// A trace node of a body, the inclusion that has it, and its position.
 struct RigidNode {
   std::size_t subdomain;
   std::int32_t node, inclusion;
   mesh::Point at;
 };
 
-/// Of the body that the inclusion is, or is a part of.
+/// The first inclusion of the body to which an inclusion belongs.
 std::int32_t first_of_body(const ddm::Skeleton& skeleton, std::size_t inclusion) {
   return skeleton.inclusion[at(skeleton.motions[inclusion].displacement.front().index)];
 }
 
-/// Of the inclusion alone where `one` is enough.
+/// The trace nodes of the inclusion's body; if `one`, just the first node of the inclusion itself.
 std::vector<RigidNode> nodes_of(std::size_t inclusion, const ddm::Decomposition& decomposition,
                                 bool one) {
   const std::int32_t body = first_of_body(decomposition.skeleton, inclusion);
@@ -153,7 +153,7 @@ std::vector<RigidNode> nodes_of(std::size_t inclusion, const ddm::Decomposition&
   return nodes;
 }
 
-/// The motions (A, Bx, By) that are free, in columns; of one that is held fewer than it has.
+/// The free motions (A, Bx, By) of an inclusion, in columns; held ones are not among them.
 Eigen::Matrix3Xd free_motions(const ddm::Skeleton& skeleton, std::size_t inclusion) {
   const ddm::RigidMotion& motion = skeleton.motions[inclusion];
   std::map<std::int32_t, Eigen::Vector3d> columns;
@@ -202,7 +202,7 @@ void place_on_inclusion(std::size_t inclusion, const contact::RigidForce& given,
     sum.moment_x += force * (node.at[0] - middle[0]);
     sum.moment_y += force * (node.at[1] - middle[1]);
   }
-  // What is left does no work on the free motions; of one that is not held, none at all.
+  // The rest of the force does no work on the free motions; it is 0 unless the body is held.
   const std::int32_t body = first_of_body(skeleton, inclusion);
   if (std::ranges::any_of(skeleton.held,
                           [&](const auto& each) { return each.inclusion == body; })) {

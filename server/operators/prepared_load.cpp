@@ -34,7 +34,7 @@ std::vector<std::variant<PreparedLoad, errors::Error>> MeshOperator::prepare(
   for (auto& one : condensed) {
     if (auto* load = std::get_if<LoadOnTraces>(&one)) {
       for (ddm::CondensedLoad& on_subdomain : load->subdomains)
-        on_subdomain.z_boundary.resize(0);  // as long as the interior, and for a basis alone
+        on_subdomain.z_boundary.resize(0);  // large, and only bases need it
       prepared.emplace_back(PreparedLoad(std::make_shared<const PreparedLoad::Data>(
           PreparedLoad::Data{shared_from_this(), std::move(*load)})));
     } else {

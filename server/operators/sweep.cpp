@@ -23,7 +23,7 @@ void require_memory(std::size_t loads, const ddm::Decomposition& decomposition, 
   std::size_t nodes = 0, numbers = 0;
   for (const ddm::Subdomain& subdomain : decomposition.subdomains) {
     nodes += subdomain.node.size();
-    // With bounds: the force on each corner, and the oscillation.
+    // Bounds also need the force on each corner, and the oscillation.
     numbers += subdomain.node.size() + (bounds ? 4 * subdomain.part.triangle_count() : 0);
   }
   if (numbers > 0 && loads > max_basis_bytes / sizeof(double) / numbers) {
@@ -34,7 +34,7 @@ void require_memory(std::size_t loads, const ddm::Decomposition& decomposition, 
   }
 }
 
-/// Throws the first error, with the number of its load.
+/// The loads, if none has an error; else throws the first error with the number of its load.
 std::vector<LoadOnTraces> sound(std::vector<CondensedOutcome> outcomes) {
   std::vector<LoadOnTraces> loads;
   loads.reserve(outcomes.size());
@@ -55,8 +55,8 @@ std::vector<const ddm::CondensedLoad*> on_subdomain(const std::vector<LoadOnTrac
   return result;
 }
 
-/// Computes the products of loads that the energy needs, then frees the interiors that nothing
-/// needs any more.
+/// Computes the products of loads that the energy needs, then frees the interiors if nothing needs
+/// them any more.
 CondensedBasis basis_of(std::vector<LoadOnTraces> loads, std::vector<BalancedLoad> balanced,
                         const MeshOperator::Parts& parts) {
   CondensedBasis result;

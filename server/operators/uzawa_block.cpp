@@ -39,7 +39,7 @@ int UzawaBlock::capacity() const noexcept { return _state->columns.capacity(); }
 int UzawaBlock::add(PreparedLoad load, const contact::UzawaOptions& options, bool fields,
                     contact::Observer& observer) {
   _state->mesh_operator->require_prepared(load, fields);
-  // What the column refers to does not move with the PreparedLoad.
+  // The column refers to the load's data, which stay in place when the PreparedLoad moves.
   const int place = _state->columns.add(load._data->loads(), options, fields, observer);
   _state->loads[at(place)] = std::move(load);
   return place;

@@ -14,7 +14,7 @@ static_assert(std::endian::native == std::endian::little, "arrays go into a bloc
 
 namespace {
 
-/// True when the shape holds exactly `count` values.
+/// Whether the shape has exactly `count` values.
 bool fits(const std::vector<std::uint64_t>& shape, std::uint64_t count) {
   if (std::ranges::count(shape, 0U) > 0) return count == 0;
   std::uint64_t product = 1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Named arrays in one run of bytes: what ReadMesh and ReadResult stream.
+// Named arrays in one run of bytes, which ReadMesh and ReadResult stream.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@ namespace anticrack::records {
 /// Its numbers are those of the API.
 enum class ArrayType { float64 = 1, int32, uint8 };
 
-/// Of an array of these values: double, std::int32_t and enums as large, std::uint8_t.
+/// The type of an array of these values: double, std::int32_t and enums of its size, std::uint8_t.
 template <class Value>
 inline constexpr ArrayType array_type = [] {
   static_assert(std::is_same_v<Value, double> || std::is_same_v<Value, std::int32_t> ||
@@ -40,13 +40,13 @@ struct ArrayLayout {
 };
 ANTICRACK_FIELDS(ArrayLayout, name, type, shape, offset)
 
-/// Where an array that follows `size` bytes begins.
+/// The offset of an array that follows `size` bytes.
 constexpr std::uint64_t aligned(std::uint64_t size) {
   constexpr std::uint64_t alignment = 8;
   return (size + alignment - 1) / alignment * alignment;
 }
 
-/// Of the array's entries, without what aligns the next array.
+/// The bytes of the array's entries, without those that align the next array.
 std::uint64_t bytes_of(const ArrayLayout& array);
 
 /// Immutable once built and shared.
@@ -56,35 +56,35 @@ struct Block {
   std::string sha256;
 };
 
-/// A block wherever it lies, read piece by piece: a large result is never in memory as a whole.
-/// Thread-safe. Stays readable while it is held, also when the store has erased it since.
+/// A block that is read piece by piece, wherever it lies, so that a large result is never in memory
+/// as a whole. Thread-safe. It stays readable while it is held, even if the store has erased it.
 class BlockSource {
  public:
   virtual ~BlockSource() = default;
-  /// In order of their offsets.
+  /// The arrays in the order of their offsets.
   virtual const std::vector<ArrayLayout>& arrays() const noexcept = 0;
-  virtual std::uint64_t size() const noexcept = 0;  ///< bytes
+  virtual std::uint64_t size() const noexcept = 0;  ///< in bytes
   virtual const std::string& sha256() const noexcept = 0;
-  /// Fills `bytes` from `offset` on; all of them lie in the block. Throws errors::Error (storage).
+  /// Fills `bytes` from `offset` on; all must lie in the block. Throws errors::Error (storage).
   virtual void read(std::uint64_t offset, std::span<std::byte> bytes) const = 0;
 };
 
-/// Reads from the block, which it shares.
+/// A source that reads from a block in memory, which it shares.
 std::shared_ptr<const BlockSource> in_memory(std::shared_ptr<const Block> block);
 
 class BlockBuilder {
  public:
-  /// A contiguous range of values that have an array_type. `shape` empty: (values.size()). Throws
-  /// std::invalid_argument where the shape does not fit.
+  /// Adds an array: a contiguous range of values that have an array_type. An empty `shape` means
+  /// (values.size()). Throws std::invalid_argument if the shape does not fit.
   template <class Values>
   void add(std::string name, const Values& values, std::vector<std::uint64_t> shape = {}) {
     using Value = std::ranges::range_value_t<Values>;
     append(std::move(name), array_type<Value>, std::as_bytes(std::span(values)), values.size(),
            std::move(shape));
   }
-  /// Computes the hash. The builder is empty after.
+  /// The block with its hash. The builder is empty afterwards.
   Block finish();
-  /// The block without its hash: a part of another. The builder is empty after.
+  /// The block without a hash, to be a part of another. The builder is empty afterwards.
   Block take() { return std::exchange(_block, {}); }
 
  private:

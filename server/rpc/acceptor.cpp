@@ -25,21 +25,21 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// The log says once in that time how many connections were refused.
+/// The log says at most once in this time how many connections were refused.
 constexpr auto between_words = 60s;
-/// How long to wait where the system has nothing left, or something is wrong that may pass.
+/// How long to wait if the system has no descriptors left, or has another fault that may pass.
 constexpr auto breath = 100ms;
-/// A peer that does not acknowledge what was sent is gone after this.
+/// A peer that does not acknowledge sent data for this time counts as gone.
 constexpr unsigned unacknowledged_ms = 10'000;
 
-/// What gRPC complains of goes to the log, but for connections that are reset before it looks at
-/// them: strangers could fill the log with those.
+/// Logs gRPC's complaints, except those about connections that are reset before it looks at them:
+/// strangers could fill the log with these.
 void complain(gpr_log_func_args* said) {
   if (std::strstr(said->message, "getpeername") == nullptr)
     log::error("grpc", {{"message", said->message}});
 }
 
-/// 0 where it is no socket.
+/// The system's number of a socket; 0 if the descriptor is no socket.
 std::uint64_t socket_number(int descriptor) {
   struct stat found {};
   return ::fstat(descriptor, &found) == 0 && S_ISSOCK(found.st_mode) ? found.st_ino : 0;
@@ -58,8 +58,8 @@ std::string text_of(int family, const void* address) {
   return ::inet_ntop(family, address, text.data(), text.size()) == nullptr ? "" : text.data();
 }
 
-/// Whom a connection counts for: the machine, by IPv6 the network of 64 bits that it may pick its
-/// addresses from, or the user of this machine.
+/// The owner of a connection: the machine (for IPv6 the 64-bit network from which it may pick
+/// addresses), or the user of this machine.
 std::string owner_of(int connection, const sockaddr_storage& peer) {
   if (peer.ss_family == AF_INET)
     return text_of(AF_INET, &reinterpret_cast<const sockaddr_in&>(peer).sin_addr);
@@ -79,7 +79,7 @@ void set_options(int connection, int family) {
                sizeof(unacknowledged_ms));
 }
 
-/// What accept() says of a connection that is gone already, or of nothing that waits.
+/// Whether an error of accept() says that a connection is gone already, or that none waits.
 bool concerns_one_connection(int number) {
   return number == EINTR || number == ECONNABORTED || number == EPROTO || number == EPERM ||
          number == ENETDOWN || number == ENOPROTOOPT || number == EHOSTDOWN || number == ENONET ||
@@ -139,7 +139,7 @@ void Acceptor::run() {
   }
 }
 
-/// False where it is better to wait for a moment.
+/// Accepts a connection; returns false if it is better to wait for a moment.
 bool Acceptor::accept_one(int listener) {
   sockaddr_storage peer{};
   socklen_t size = sizeof(peer);
@@ -149,7 +149,7 @@ bool Acceptor::accept_one(int listener) {
     return (errno == EMFILE || errno == ENFILE) && refuse_one(listener);
   }
   base::Descriptor owned(connection);
-  // Gone already, which gRPC would tell the log, once for each.
+  // The connection is gone already, which gRPC would log each time.
   if (::getpeername(connection, reinterpret_cast<sockaddr*>(&peer), &size) != 0) return true;
   try {
     const std::string owner = owner_of(connection, peer);
@@ -167,12 +167,12 @@ bool Acceptor::accept_one(int listener) {
     set_options(connection, peer.ss_family);
     _take(listener, owned.release());
     return true;
-  } catch (const std::exception&) {  // out of memory
+  } catch (const std::exception&) {  // no memory
     return false;
   }
 }
 
-/// Closes a connection that the process has no descriptor for, so that its peer need not wait.
+/// Closes a connection for which the process has no descriptor, so that its peer need not wait.
 bool Acceptor::refuse_one(int listener) {
   _spare.reset();
   const bool refused =

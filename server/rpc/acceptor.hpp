@@ -13,24 +13,24 @@
 
 namespace anticrack::rpc {
 
-/// Takes connections on a thread of its own, as many as the limits allow, and passes them on. One
-/// beyond them is closed at once. Where the system has no descriptor left, connections are closed,
+/// Accepts connections on a thread of its own, as many as the limits allow, and passes them on.
+/// Further ones are closed at once. If the system has no descriptor left, connections are closed,
 /// or wait, until it has.
 class Acceptor {
  public:
-  /// Gets a connection, which it owns from then on, and the socket that listened.
+  /// Takes a connection, which it owns from then on, and the socket that listened.
   using Take = std::function<void(int listener, int connection)>;
 
-  /// Listens when it returns; throws as Listener does. Takes nothing before start().
+  /// Begins to listen; throws as Listener does. Accepts nothing before start().
   Acceptor(const std::string& listen, ConnectionLimits limits);
-  /// stop().
+  /// Calls stop().
   ~Acceptor();
   Acceptor(const Acceptor&) = delete;
   Acceptor& operator=(const Acceptor&) = delete;
 
-  /// To be called once.
+  /// Begins to accept. To be called once.
   void start(Take take);
-  /// Listens no more, when it returns; connections stay open. Idempotent.
+  /// Stops listening; connections stay open. Idempotent.
   void stop();
   /// HOST:PORT with the real port, or unix:PATH.
   const std::string& address() const noexcept { return _address; }
@@ -40,7 +40,7 @@ class Acceptor {
     std::uint64_t accepted = 0;
     std::uint64_t refused = 0;
   };
-  /// Thread-safe. O(connections).
+  /// The numbers of connections. Thread-safe. O(connections).
   Counts counts();
 
  private:
@@ -52,14 +52,14 @@ class Acceptor {
   std::optional<Listener> _listener;
   const std::string _address;
   const base::Descriptor _wake;
-  std::optional<base::Descriptor> _spare;  ///< given up to refuse where there is no other
+  std::optional<base::Descriptor> _spare;  ///< closed to refuse if there is no other one
   Take _take;
 
-  std::mutex _mutex;  ///< of the two
+  std::mutex _mutex;  ///< guards the next two
   ConnectionTable _table;
   Counts _counts;
 
-  std::uint64_t _unsaid = 0;  ///< refusals that the log does not have yet
+  std::uint64_t _unsaid = 0;  ///< refusals not logged yet
   ConnectionTable::Clock::time_point _next_word{};
   std::thread _thread;  ///< declared last: it uses the others
 };

@@ -16,11 +16,11 @@ namespace {
 using errors::Error;
 using errors::Reason;
 
-constexpr std::size_t max_name_bytes = 64;  // of a common name, by X.509
+constexpr std::size_t max_name_bytes = 64;  // limit of a common name in X.509
 
 std::string_view view(const grpc::string_ref& text) { return {text.data(), text.size()}; }
 
-/// The rest after "Bearer ", a word of any case.
+/// The text after "Bearer ", which may be in any case.
 std::optional<std::string_view> bearer_token(std::string_view value) {
   constexpr std::string_view scheme = "bearer ";
   if (value.size() <= scheme.size()) return std::nullopt;
@@ -31,7 +31,7 @@ std::optional<std::string_view> bearer_token(std::string_view value) {
   return value.substr(scheme.size());
 }
 
-/// The common name of the certificate the peer proved to own; empty where there is none.
+/// The common name of the certificate that the peer proved to own; empty if there is none.
 std::string certificate_name(const grpc::CallbackServerContext& call) {
   const std::shared_ptr<const grpc::AuthContext> peer = call.auth_context();
   if (!peer || !peer->IsPeerAuthenticated()) return {};

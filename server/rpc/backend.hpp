@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the edge stands on.
+// The layers below the services.
 #pragma once
 
 #include <chrono>
@@ -22,7 +22,7 @@ class Store;
 
 namespace anticrack::rpc {
 
-/// Not owned; all of it outlives the server.
+/// References to the layers below, which outlive the server.
 struct Backend {
   jobs::JobEngine& engine;
   meshes::MeshCatalogue& catalogue;
@@ -30,26 +30,26 @@ struct Backend {
   store::Store& store;
 };
 
-/// What the edge refuses, and what GetServerInfo says of the layers below.
+/// Limits that the services enforce, and those of the layers below that GetServerInfo reports.
 struct Limits {
   std::uint64_t upload_bytes = 256u << 20;
   std::uint64_t mesh_triangles = 4'000'000;
   std::uint64_t memory_budget_bytes = 0;
   std::chrono::seconds meshing_time{600};
-  /// Connections, whatever runs on them, and how many of them one address may have.
+  /// Most connections, whatever runs on them, and most that one address may have.
   int connections = 4'096;
   int connections_an_address = 1'024;
-  /// A reader that does not read holds about 4 MiB of the transport's buffers.
+  /// Most watchers; one that does not read holds about 4 MiB of the transport's buffers.
   int watchers = 2'000;
-  /// Uploads and block reads under way.
+  /// Most uploads and block reads at a time.
   int transfers = 64;
-  /// Of the two, how many one identity (or, without one, one peer address) may hold.
+  /// Most watches and transfers of one identity (or, without one, of one peer address).
   int streams_a_client = 1'024;
-  /// Creations that wait to be checked; each holds its request of at most 4 MiB.
+  /// Most creations that wait to be checked; each holds its request of at most 4 MiB.
   std::size_t waiting_creations = 128;
-  /// Any other calls that wait for the disk.
+  /// Most other calls that wait for the disk.
   std::size_t waiting_calls = 4'096;
-  // Of the layers below:
+  // Limits of the layers below:
   std::size_t meshes = 10'000;
   std::size_t pending_meshes = 64;
   std::uint64_t disk_budget_bytes = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A block, its layout first and then in chunks: ReadMesh and ReadResult.
+// Sends a block, first its layout and then its bytes in chunks, for ReadMesh and ReadResult.
 #pragma once
 
 #include <algorithm>
@@ -18,15 +18,15 @@ namespace anticrack::rpc {
 
 constexpr std::size_t max_chunk_bytes = 1u << 20;
 
-/// Throws errors::Error (offset_out_of_range) where `offset` lies past the end.
+/// Throws errors::Error (offset_out_of_range) if `offset` is beyond the end.
 void require_offset(const records::BlockSource& block, std::uint64_t offset);
 
 /// The bytes from `offset` on, at most max_chunk_bytes, with their checksum. Throws errors::Error
 /// (storage).
 v1::BlockChunk chunk_of(const records::BlockSource& block, std::uint64_t offset);
 
-/// Reads a chunk when it is to be sent: a large block is never in memory as a whole. `next` waits
-/// for the disk. `Response` has `layout` and `chunk`.
+/// Reads each chunk only when it is to be sent, so a large block is never in memory as a whole.
+/// `next` waits for the disk. `Response` has `layout` and `chunk`.
 template <class Response>
 class BlockFeed final : public Feed<Response> {
  public:

@@ -31,7 +31,7 @@ class MeterFactory final : public interceptors::ServerInterceptorFactoryInterfac
   explicit MeterFactory(CallListener listener) : _listener(std::move(listener)) {}
 
   interceptors::Interceptor* CreateServerInterceptor(interceptors::ServerRpcInfo* info) override {
-    return new Meter(_listener, info->method());  // gRPC's to delete
+    return new Meter(_listener, info->method());  // gRPC deletes it
   }
 
  private:

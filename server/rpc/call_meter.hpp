@@ -10,8 +10,8 @@
 
 namespace anticrack::rpc {
 
-/// Has gRPC tell `listener` of every call it hands its end to, health, reflection and what is
-/// refused before a method runs included, just before the status is sent. None where there is no
+/// Makes gRPC tell `listener` of the end of every call, just before the status is sent, including
+/// health, reflection and calls that are refused before a method runs. Empty if there is no
 /// listener.
 std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> call_meters(
     const CallListener& listener);

@@ -19,7 +19,7 @@ Admitted ConnectionTable::judge(const std::string& address) const {
 
 Admitted ConnectionTable::add(const std::string& address, int descriptor, std::uint64_t socket,
                               Clock::time_point now) {
-  forget(descriptor);  // whose number it was is closed
+  forget(descriptor);  // the connection that had this number before is closed
   Admitted admitted = judge(address);
   if (admitted != Admitted::yes && now - _asked >= patience) {
     forget_closed();

@@ -16,9 +16,8 @@ struct ConnectionLimits {
 
 enum class Admitted { yes, full, address_full };
 
-/// Which connections are open, of whom. gRPC does not tell when it closes one, so those that are
-/// closed are found by asking the system: where no room is left, at most every `patience`. Not
-/// thread-safe.
+/// The open connections and their addresses. gRPC does not tell when it closes one, so closed ones
+/// are found by asking the system when no room is left, at most every `patience`. Not thread-safe.
 class ConnectionTable {
  public:
   using Clock = std::chrono::steady_clock;
@@ -32,10 +31,10 @@ class ConnectionTable {
 
   /// Notes a connection of `address`, if there is room. One address has at most
   /// ConnectionLimits::an_address and as many as stay free (access/share.hpp), so that a newcomer
-  /// finds room. O(1), where no room is left O(connections).
+  /// finds room. O(1), or O(connections) if no room is left.
   Admitted add(const std::string& address, int descriptor, std::uint64_t socket,
                Clock::time_point now);
-  /// O(connections).
+  /// The number of open connections. O(connections).
   int open();
 
  private:

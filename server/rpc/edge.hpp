@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What every method stands on.
+// The parts that every method uses.
 #pragma once
 
 #include <grpcpp/grpcpp.h>
@@ -21,13 +21,13 @@ using Unary = grpc::ServerUnaryReactor;
 template <class Response>
 using Answers = grpc::ServerWriteReactor<Response>;
 
-/// Of one request: gRPC's own default; what is larger travels in chunks.
+/// Most bytes of one request, gRPC's own default; larger data travel in chunks.
 constexpr int max_message_bytes = 4 << 20;
 
 /// Whether the server still takes new meshes and jobs.
 class Admission {
  public:
-  /// No more from now on.
+  /// Refuses new ones from now on.
   void close() noexcept { _closed = true; }
   /// Throws errors::Error (draining).
   void require_open() const;
@@ -36,8 +36,8 @@ class Admission {
   std::atomic<bool> _closed{false};
 };
 
-/// Outlives every call. gRPC's threads run GetServerInfo and pass everything else on, because what
-/// asks the store may wait for a writer:
+/// Outlives every call. gRPC's threads run GetServerInfo and pass everything else on, because a
+/// call that asks the store may wait for a writer:
 ///   lookups  what reads records, blocks and the beginning of a watch
 ///   changes  what waits for the disk: creations, uploads, deletions, cancels
 ///   cases    what reads texts, one at a time: a case of 4 MB takes some 400 MB of memory as tables

@@ -14,7 +14,7 @@ namespace {
 
 using errors::Reason;
 
-/// How much of an error is kept; tried in order until it fits.
+/// How much of an error to keep; tried in order until it fits.
 constexpr std::array<api::Budget, 4> budgets{{
     {800, 300, 200, max_violations, 16, 200},
     {400, 120, 160, 12, 8, 100},

@@ -6,14 +6,14 @@
 
 namespace anticrack::rpc {
 
-/// What a server stream sends, message by message; knows no transport. Called by one thread at a
-/// time. Every method may throw errors::Error: the stream ends with it.
+/// The source of a server stream's messages; it knows no transport. One thread at a time calls it.
+/// Every method may throw errors::Error, with which the stream then ends.
 template <class Response>
 class Feed {
  public:
   enum class Next {
     message,  ///< `response` is filled
-    wait,     ///< nothing now; ask again after a wake
+    wait,     ///< nothing to send now; ask again after a wake
     end,      ///< all was sent
   };
 
@@ -22,15 +22,15 @@ class Feed {
   Feed& operator=(const Feed&) = delete;
   virtual ~Feed() = default;
 
-  /// `wake` may be called from any thread until the feed is destroyed.
+  /// Begins. The feed may call `wake` from any thread until it is destroyed.
   virtual void start(std::function<void()> /*wake*/) {}
-  /// `response` is clear.
+  /// Fills `response`, which is empty, with the next message.
   virtual Next next(Response& response) = 0;
-  /// True when all that will ever be sent is there already: a server that stops lets it be read.
+  /// Whether all that will ever be sent is there already; a server that stops then lets it be read.
   virtual bool ending() const noexcept { return false; }
-  /// Events there are and were not sent yet. From any thread.
+  /// The number of events that were not sent yet. May be called from any thread.
   virtual std::uint64_t lag() const noexcept { return 0; }
-  /// Nothing was sent for a while: true when `response` was filled with a sign of life.
+  /// Called when nothing was sent for a while; true if `response` was filled with a sign of life.
   virtual bool heartbeat(Response& /*response*/) { return false; }
 };
 

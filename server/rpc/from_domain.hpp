@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Records and events as messages for clients: the messages that records are kept as
+// Records and events as messages for clients: the messages in which records are stored
 // (api/translations.hpp), cut to what fits in an answer. Pure functions.
 #pragma once
 
@@ -17,29 +17,29 @@
 
 namespace anticrack::rpc {
 
-/// A job's message is kept below this, so that it fits in gRPC's 4 MiB with what is around it.
+/// A job's message is kept below this, so that an answer with it fits in gRPC's 4 MiB.
 constexpr std::size_t max_job_message_bytes = 3u << 20;
 
-/// `pinned`: its operators stay in memory.
+/// A mesh. `pinned`: whether its operators stay in memory.
 v1::Mesh from_domain(const records::MeshRecord& record, bool pinned);
 
-/// `ttl`: how long uploads are kept; 0: for ever.
+/// An upload. `ttl`: how long uploads are kept; 0: for ever.
 v1::Upload from_domain(const store::UploadRecord& record, std::chrono::milliseconds ttl);
 
-/// The whole job. Where it would be larger than max_job_message_bytes its contact intervals are
-/// left out: ReadResult has them as traces.
+/// The whole job. If it would be larger than max_job_message_bytes, its contact intervals are left
+/// out; ReadResult has them as traces.
 v1::Job from_domain(const records::JobRecord& record);
-/// JOB_VIEW_BASIC of it.
+/// The job in JOB_VIEW_BASIC.
 v1::Job basic(records::JobRecord record);
 
-/// `name` of the load case.
+/// An answer. `name`: that of the load case.
 v1::LoadCaseAnswer from_domain(const records::CaseRecord& record, const std::string& name);
 
-/// Appends every sample to every array: one allocation an array, one copy an array and run.
+/// Appends the samples to the arrays, with one allocation per array and one copy per array and run.
 void append(v1::Samples& samples, const std::vector<jobs::SampleRun>& runs);
 
-/// Appends rows of the event, from its row `first` on: `count` of them, or as many as there are.
-/// `rows` is empty, or ends with the row before. O(count inclusions), one reservation an array.
+/// Appends at most `count` rows of the event, from its row `first` on. `rows` must be empty, or end
+/// with the row before. O(count inclusions), with one reservation per array.
 void append(v1::SweepRows& rows, const jobs::RowsEvent& event, std::size_t first,
             std::size_t count);
 

@@ -25,7 +25,7 @@ struct Address {
   socklen_t size = 0;
 };
 
-/// `number` is an errno.
+/// Throws the error for an address that cannot be used. `number`: an errno.
 [[noreturn]] void refuse(const std::string& listen, int number) {
   const bool elsewhere = number == EADDRINUSE || number == EADDRNOTAVAIL || number == 0;
   throw errors::Error(errors::Reason::invalid_argument,
@@ -74,14 +74,14 @@ bool is_any(Address& address) {
   return as<sockaddr_in>(address).sin_addr.s_addr == INADDR_ANY;
 }
 
-/// -1 and errno where it cannot be.
+/// A listening socket; on failure -1, with errno set.
 base::Descriptor listening(Address& address) {
   const int family = address.bytes.ss_family;
   base::Descriptor socket(::socket(family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   if (!socket) return socket;
   const int on = 1;
   const int off = 0;
-  // Not SO_REUSEPORT: a second server on the port would start and take half of the calls.
+  // SO_REUSEPORT is not set, as a second server on the port would start and take half of the calls.
   if (family != AF_UNIX) ::setsockopt(socket.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof(on));
   if (family == AF_INET6) ::setsockopt(socket.get(), IPPROTO_IPV6, IPV6_V6ONLY, &off, sizeof(off));
   if (::bind(socket.get(), as_socket_address(address), address.size) == 0 &&
@@ -97,7 +97,7 @@ std::vector<Address> resolve(const std::string& listen) {
   const std::size_t colon = listen.rfind(':');
   std::string host = listen.substr(0, colon);
   if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
-  // By its number: a machine need not have /etc/hosts, and no name is looked up.
+  // Uses the number, as a machine need not have /etc/hosts and no name is looked up.
   if (host == "localhost") host = "127.0.0.1";
   addrinfo hints{};
   hints.ai_socktype = SOCK_STREAM;
@@ -116,7 +116,7 @@ std::vector<Address> resolve(const std::string& listen) {
   return found;
 }
 
-/// Both families, as one socket where the machine has IPv6.
+/// Listens on both families, with one socket if the machine has IPv6.
 std::vector<base::Descriptor> listen_to_all(Address given) {
   sockaddr_in6 six{};
   six.sin6_family = AF_INET6;
@@ -188,7 +188,7 @@ Listener::Listener(const std::string& listen) {
 
 Listener::~Listener() {
   struct stat found {};
-  // Another server may have put its own there meanwhile.
+  // Another server may have put its own socket there meanwhile.
   if (!_path.empty() && ::lstat(_path.c_str(), &found) == 0 && found.st_ino == _inode)
     ::unlink(_path.c_str());
 }

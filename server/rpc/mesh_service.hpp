@@ -29,7 +29,7 @@ class MeshService final : public v1::MeshService::CallbackService {
                    v1::Mesh* response) override;
 
  private:
-  /// Without its definition.
+  /// The mesh without its definition.
   v1::Mesh summary(const records::MeshRecord& record) const;
   v1::Mesh to_answer(const records::MeshRecord& record) const;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Lists in pages.
+// Divides lists into pages.
 #pragma once
 
 #include <algorithm>
@@ -13,25 +13,26 @@
 
 namespace anticrack::rpc {
 
-/// One page of a list (AIP-158). The token is the id of the last resource of the page before.
+/// A request for a page of a list (AIP-158). The token is the id of the last resource before it.
 struct Page {
   std::size_t size = 0;
   std::string after;
 };
 constexpr std::size_t default_page_size = 50;
 constexpr std::size_t max_page_size = 1000;
-/// A page is closed early when it grows past this: the client's limit is gRPC's 4 MiB.
+/// A page ends early if it grows beyond this, since the client's limit is gRPC's 4 MiB.
 constexpr std::size_t max_page_bytes = 2u << 20;
-/// A page is closed early when so many records were read for it.
+/// A page ends early if this many records were read for it.
 constexpr std::size_t max_page_records = 1000;
 
-/// Of a request; size 0 is the default. Throws with "page_size" or "page_token" at fault.
+/// The page of a request; size 0 is the default. Throws with "page_size" or "page_token" at fault.
 Page to_page(std::int32_t page_size, const std::string& page_token);
 
-/// Fills one page. `list(after, count)` gives records in their order, `add(record)` appends one to
-/// the answer and returns its bytes, or 0 where the list leaves it out; a page then ends after
-/// max_page_records, however few it has. Returns the token of the next page, empty after the last.
-/// Records are fetched a few at a time: one may be large, and a page ends at max_page_bytes.
+/// Fills one page. `list(after, count)` gives records in their order; `add(record)` appends one to
+/// the answer and returns its bytes, or 0 if it leaves the record out. A page ends after
+/// max_page_records at the latest, however few of them it has. Returns the token of the next page,
+/// empty after the last. Records are fetched a few at a time: one may be large, and a page ends at
+/// max_page_bytes.
 template <class List, class Add>
 std::string fill_page(const Page& page, List list, Add add) {
   constexpr std::size_t batch = 16;
@@ -46,7 +47,7 @@ std::string fill_page(const Page& page, List list, Add add) {
       records = list(after, wanted);
     } catch (const errors::Error& error) {
       if (error.reason() != errors::Reason::not_found) throw;
-      if (after != page.after) return after;  // erased meanwhile: the next page says so
+      if (after != page.after) return after;  // erased meanwhile; the next page says so
       throw errors::Error(errors::Reason::invalid_argument,
                           "the resource this page_token stands for is gone; start the list again")
           .at("page_token");
@@ -55,7 +56,7 @@ std::string fill_page(const Page& page, List list, Add add) {
       if (count == page.size || bytes >= max_page_bytes || read == max_page_records) return after;
       ++read;
       after = record.id;
-      const std::size_t added = add(record);  // may move from it
+      const std::size_t added = add(record);  // it may move from the record
       bytes += added;
       count += added > 0 ? 1 : 0;
     }

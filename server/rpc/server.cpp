@@ -32,11 +32,11 @@ constexpr std::array service_names{"anticrack.v1.CaseService", "anticrack.v1.Upl
                                    "anticrack.v1.MeshService", "anticrack.v1.SolveService",
                                    "anticrack.v1.ServerService"};
 
-/// What a client may have under way on one stream: a chunk. 20 MB/s at 50 ms.
+/// Bytes that may be in flight from a client on one stream: a chunk, which gives 20 MB/s at 50 ms.
 constexpr int receive_window_bytes = 1 << 20;
-/// Streams of ours that have not taken their end by then are broken off.
+/// Our streams that have not taken their end by then are broken off.
 constexpr auto stream_patience = 2s;
-/// Health and reflection streams are not ours and hold Shutdown to its deadline.
+/// Health and reflection streams are not ours and make Shutdown wait until its deadline.
 constexpr auto shutdown_patience = 300ms;
 
 /// gRPC shuts down with its last server and then joins the thread that gRPC 1.51 starts when a peer
@@ -45,8 +45,8 @@ constexpr auto shutdown_patience = 300ms;
 void keep_grpc_up() { grpc_init(); }
 
 void set_arguments(grpc::ServerBuilder& builder) {
-  // A connection that does not say what HTTP/2 and TLS begin with is closed sooner than after
-  // gRPC's two minutes.
+  // A connection that does not begin like HTTP/2 or TLS is closed sooner than after gRPC's two
+  // minutes.
   builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, 20'000);
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, 30'000);
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 10'000);
@@ -90,7 +90,7 @@ struct Server::State {
     for (const char* name : service_names) health->SetServingStatus(name, serving);
   }
 
-  /// Ours: gRPC 1.51 listens no more after a moment without descriptors.
+  /// We listen ourselves, as gRPC 1.51 stops listening after a moment without descriptors.
   Acceptor acceptor;
   Edge edge;
   CaseService cases;

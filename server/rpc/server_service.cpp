@@ -114,7 +114,7 @@ v1::ServerMetrics to_message(const jobs::EngineMetrics& engine,
 
 ServerService::ServerService(const Edge& edge, const Security& security)
     : _edge(edge), _features(features.begin(), features.end()) {
-  // What this server was told to do, beside what all of this version can.
+  // Features that are configured, besides those that all servers of this version have.
   if (security.tls) _features.emplace_back("tls");
   if (security.tls && !security.tls->client_roots.empty()) _features.emplace_back("tls.mutual");
   if (!security.tokens.empty()) _features.emplace_back("tokens");

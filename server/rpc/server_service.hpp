@@ -14,7 +14,7 @@ namespace anticrack::rpc {
 
 class ServerService final : public v1::ServerService::CallbackService {
  public:
-  /// `security` decides what the features say of it.
+  /// `security` decides which security features are listed.
   ServerService(const Edge& edge, const Security& security);
 
   Unary* GetServerInfo(Context* context, const v1::GetServerInfoRequest* request,

@@ -29,7 +29,7 @@ Unary* SolveService::CreateJob(Context* context, const v1::CreateJobRequest* req
     const std::string& id = request->request_id();
     api::require_request_id(id);
     const std::string print = id.empty() ? "" : api::fingerprint(request->job());
-    // First: a retry is answered whatever the limits are now.
+    // Checked first, as a retry is answered whatever the limits are now.
     if (const auto made = _edge.backend.engine.submitted(who.name, id, print)) {
       *response = from_domain(*made);
       return;
@@ -40,7 +40,7 @@ Unary* SolveService::CreateJob(Context* context, const v1::CreateJobRequest* req
     try {
       visible_mesh(_edge.backend, who, spec.mesh);
       if (has_packed_matrix(request->job())) {
-        jobs::check(spec, options);  // what is refused leaves nothing on the disk
+        jobs::check(spec, options);  // a refused job must leave nothing on the disk
         keep_packed_matrix(request->job(), _edge.backend.store, who.name);
       }
       *response = from_domain(_edge.backend.engine.submit({std::move(spec), who.name, id, print}));

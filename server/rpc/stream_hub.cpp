@@ -14,8 +14,8 @@ namespace {
 using errors::Error;
 using errors::Reason;
 
-/// A round that wakes more than these is followed by a rest as long: what a crowd of watches does
-/// takes half a processor, however fast their job is, and the rest is the solvers'.
+/// A round that wakes more than this many is followed by an equally long rest. So a crowd of
+/// watches takes at most half a processor, however fast the job is, and solvers have the rest.
 constexpr std::size_t crowd = 64;
 
 std::chrono::milliseconds tick_interval(const StreamLimits& limits) {
@@ -145,7 +145,7 @@ void StreamHub::run() {
   const auto interval = tick_interval(_limits);
   auto next_tick = SteadyClock::now() + interval;
   auto next_late = SteadyClock::time_point::max();
-  std::vector<std::weak_ptr<Wakeable>> late;  // whose time has not come
+  std::vector<std::weak_ptr<Wakeable>> late;  // targets whose time has not come
   for (;;) {
     std::vector<std::weak_ptr<Wakeable>> woken;
     bool hurry = false;
@@ -171,7 +171,7 @@ void StreamHub::run() {
         late.push_back(std::move(entry));
         continue;
       }
-      target->_queued = false;  // before the wake: what comes meanwhile is not lost
+      target->_queued = false;  // before the wake, so that a request during it is not lost
       target->wake();
     }
     const auto began = std::exchange(now, SteadyClock::now());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Every streaming call that is open: counted, woken, ticked and, when the server stops, ended.
+// Counts, wakes and ticks all open streaming calls, and ends them when the server stops.
 #pragma once
 
 #include <atomic>
@@ -20,7 +20,7 @@ namespace anticrack::rpc {
 
 using SteadyClock = std::chrono::steady_clock;
 
-/// What the hub's thread wakes.
+/// A target that the hub's thread wakes.
 class Wakeable {
  public:
   Wakeable() = default;
@@ -28,9 +28,9 @@ class Wakeable {
   Wakeable& operator=(const Wakeable&) = delete;
   virtual ~Wakeable() = default;
 
-  /// There may be something to send. On the hub's thread; does not block.
+  /// Called when there may be something to send, on the hub's thread; must not block.
   virtual void wake() noexcept = 0;
-  /// Wakes before this time wait for it, and are one.
+  /// Wakes before this time wait for it, and become one.
   virtual SteadyClock::time_point not_before() const noexcept { return {}; }
 
  private:
@@ -38,18 +38,18 @@ class Wakeable {
   std::atomic<bool> _queued{false};
 };
 
-/// A streaming call as the hub sees it. Every method may be called from the hub's thread at any
-/// time after the stream was added, also after the call ended, and does not block.
+/// A streaming call as the hub sees it. The hub's thread may call every method at any time after
+/// the stream was added, also after the call has ended. No method may block.
 class Stream : public Wakeable {
  public:
-  /// Time passed: send a heartbeat, give up on a peer that stalls.
+  /// Called from time to time: sends a heartbeat, or gives up on a peer that stalls.
   virtual void tick(SteadyClock::time_point now) noexcept = 0;
-  /// Finish the call with this error as soon as the transport allows it; what is about to end by
-  /// itself (Feed::ending) may do so.
+  /// Finishes the call with this error as soon as the transport allows it; a call that is about to
+  /// end by itself (Feed::ending) may do so.
   virtual void end(const errors::Error& error) noexcept = 0;
-  /// Break the call off without waiting for the peer.
+  /// Breaks the call off without waiting for the peer.
   virtual void abort() noexcept = 0;
-  /// How many events its peer is behind.
+  /// By how many events its peer is behind.
   virtual std::uint64_t lag() const noexcept { return 0; }
 };
 
@@ -58,7 +58,7 @@ enum class StreamKind { watch, transfer };
 struct StreamLimits {
   int watchers = 0;
   int transfers = 0;
-  int a_client = 0;                             ///< of both together, for one client
+  int a_client = 0;                             ///< watches and transfers together, for one client
   std::chrono::milliseconds heartbeat{10'000};  ///< silence after which a watch is sent one
   std::chrono::milliseconds stall{60'000};      ///< a write or read pending this long ends the call
 };
@@ -68,37 +68,36 @@ struct StreamCounts {
   int transfers = 0;
 };
 
-/// One thread for all streams: it carries wakes away from the threads that solve, so that these
-/// never do a transport's work, and ticks.
-/// Lock order: hub before stream; a stream calls the hub with no lock held.
-/// Thread-safe. Outlives its streams' calls.
+/// Has one thread for all streams, which ticks them and takes over wakes from the threads that
+/// solve, so that these never do a transport's work. Lock order: hub before stream; a stream calls
+/// the hub with no lock held. Thread-safe. Outlives its streams' calls.
 class StreamHub {
  public:
   /// Starts the thread.
   explicit StreamHub(StreamLimits limits);
   ~StreamHub();
 
-  /// `client` as client_of() names it. Throws errors::Error: busy (too many of this kind, or of
-  /// this client, whose transfers leave room for others': access/share.hpp), draining. gRPC's own
-  /// limit on streams would make calls wait instead.
+  /// Adds a stream. `client`: as client_of() names it. Throws errors::Error: busy (too many of this
+  /// kind or of this client; transfers of a client must leave room for others, see
+  /// access/share.hpp), draining. gRPC's own limit on streams would make calls wait instead.
   void add(StreamKind kind, const std::string& client, const std::shared_ptr<Stream>& stream);
   void remove(const Stream& stream) noexcept;
 
-  /// Has the target woken on the hub's thread; many calls before that are one. Quick.
+  /// Has the hub's thread wake the target; several calls before that count as one. Quick.
   void wake(const std::weak_ptr<Wakeable>& target);
-  /// The same for a target that may not want to wait any longer for its time. Quick.
+  /// The same for a target whose not_before() may have moved to an earlier time. Quick.
   void hurry(const std::weak_ptr<Wakeable>& target);
 
   /// Refuses new streams from now on.
   void close();
-  /// Ends every stream with `error`, breaks off what is still there after `patience`, and returns
-  /// when none is left or at `deadline`.
+  /// Ends every stream with `error`, breaks off those that are left after `patience`, and returns
+  /// when none is left, or at `deadline`.
   void drain(const errors::Error& error, std::chrono::milliseconds patience,
              SteadyClock::time_point deadline);
 
-  /// What is open now.
+  /// The numbers of streams that are open now.
   StreamCounts counts() const;
-  /// Of the watcher that is furthest behind. O(watchers).
+  /// The lag of the watcher that is furthest behind. O(watchers).
   std::uint64_t largest_lag() const;
   const StreamLimits& limits() const noexcept { return _limits; }
 
@@ -124,7 +123,7 @@ class StreamHub {
   StreamCounts _counts;
   struct Open {
     int streams = 0;
-    int transfers = 0;  ///< of these
+    int transfers = 0;  ///< open transfers
   };
   std::unordered_map<std::string, Open> _clients;
   bool _closed = false;
@@ -133,7 +132,7 @@ class StreamHub {
   std::thread _thread;
 };
 
-/// Told to a client that reaches a server on its way out.
+/// The error for a client that calls a server that is stopping.
 errors::Error draining_error();
 
 }  // namespace anticrack::rpc

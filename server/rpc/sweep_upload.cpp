@@ -31,7 +31,7 @@ void keep_packed_matrix(const v1::Job& job, store::Store& store, const std::stri
     receiver.accept(values);
     receiver.complete();
   } catch (const errors::Error& error) {
-    if (error.fields().empty()) throw;  // the disk's, not the matrix's
+    if (error.fields().empty()) throw;  // an error of the disk, not of the matrix
     throw errors::Error(error.reason(), error.what()).at(field + ".packed");
   }
 }

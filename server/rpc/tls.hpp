@@ -11,27 +11,27 @@
 
 namespace anticrack::rpc {
 
-/// Days until the first certificate expires. These throw errors::Error (invalid_argument; field
-/// "tls-certificate", "tls-key" or "tls-client-roots") where a text is no such PEM, the key belongs
-/// to another certificate, or the certificate is not valid today: gRPC would refuse each connection
-/// without a word.
+/// Checks certificate and key; returns the days until the first certificate expires. Like
+/// require_usable() it throws errors::Error (invalid_argument; field "tls-certificate", "tls-key"
+/// or "tls-client-roots") if a text is not such a PEM, the key belongs to another certificate, or
+/// the certificate is not valid today: gRPC would refuse each connection without a word.
 int check_certificate(const std::string& certificate, const std::string& key);
 void check_roots(const std::string& roots);
-void require_usable(const Tls& tls);  ///< both
+void require_usable(const Tls& tls);  ///< checks certificate and key, and client roots
 
 /// The certificates of a server, which may be replaced while it serves. Thread-safe; outlives the
 /// server.
 class Certificates {
  public:
-  /// With Tls::client_roots clients need certificates that chain to them. Throws as
+  /// If Tls::client_roots is set, clients need certificates that chain to them. Throws as
   /// require_usable() does.
   explicit Certificates(Tls tls);
 
   /// Handshakes that begin from now on use these; connections stay as they are. Throws as
-  /// require_usable() does, and then nothing has changed.
+  /// require_usable() does, and then changes nothing.
   void replace(Tls tls);
 
-  /// What one port listens with, each time asking for the certificates in use. To be called once.
+  /// Credentials for a port, which ask for the present certificates each time. To be called once.
   std::shared_ptr<grpc::ServerCredentials> credentials();
 
  private:
@@ -40,7 +40,7 @@ class Certificates {
 
   std::mutex _mutex;
   Tls _tls;
-  bool _fetched = false;  ///< gRPC has these already
+  bool _fetched = false;  ///< whether gRPC has these already
 };
 
 }  // namespace anticrack::rpc

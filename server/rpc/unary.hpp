@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Unary methods: find out who calls, refuse a request with unknown fields, run something that may
-// throw errors::Error, answer with its status. `work` is given the caller:
-// void(const access::Identity&).
+// Runs unary methods: finds out who calls, refuses a request with unknown fields, runs `work`,
+// which may throw errors::Error, and answers with its status. `work` gets the caller: void(const
+// access::Identity&).
 #pragma once
 
 #include <grpcpp/grpcpp.h>
@@ -17,8 +17,8 @@
 
 namespace anticrack::rpc {
 
-/// Of what `work` throws; OK where it returns. The request's type goes to the log with an
-/// unexpected exception.
+/// The status of what `work` throws; OK if it returns. With an unexpected exception, the request's
+/// type is logged.
 template <class Work>
 grpc::Status status_of(const google::protobuf::Message& request, Work&& work) noexcept {
   try {
@@ -29,7 +29,7 @@ grpc::Status status_of(const google::protobuf::Message& request, Work&& work) no
   }
 }
 
-/// On gRPC's thread: for what is in memory.
+/// Runs `work` on gRPC's thread, for data in memory.
 template <class Work>
 Unary* answer(const Edge& edge, Context* context, const google::protobuf::Message& request,
               Work&& work) noexcept {
@@ -42,13 +42,13 @@ Unary* answer(const Edge& edge, Context* context, const google::protobuf::Messag
   return reactor;
 }
 
-/// On one of the edge's pools. Refuses when `limit` calls wait there.
+/// Runs `work` on one of the edge's pools; refuses if `limit` calls wait there.
 template <class Work>
 Unary* answer_on(const Edge& edge, WorkPool& pool, std::size_t limit, Context* context,
                  const google::protobuf::Message& request, Work work) noexcept {
   Unary* reactor = context->DefaultReactor();
   const grpc::Status posted = status_of(request, [&] {
-    // Here and not on the pool: a stranger takes no place in its queue.
+    // Done here and not on the pool, so that a stranger takes no place in its queue.
     const access::Identity who = edge.authentication.identify(*context);
     const std::string client = client_of(who, *context);
     if (!pool.has_room(client, limit))
@@ -66,7 +66,7 @@ Unary* answer_on(const Edge& edge, WorkPool& pool, std::size_t limit, Context* c
   return reactor;
 }
 
-/// For what reads the store.
+/// Runs `work` that reads the store.
 template <class Work>
 Unary* look_up(Edge& edge, Context* context, const google::protobuf::Message& request,
                Work work) noexcept {
@@ -74,7 +74,7 @@ Unary* look_up(Edge& edge, Context* context, const google::protobuf::Message& re
                    std::move(work));
 }
 
-/// For what writes to the store.
+/// Runs `work` that writes to the store.
 template <class Work>
 Unary* change(Edge& edge, Context* context, const google::protobuf::Message& request,
               Work work) noexcept {
@@ -82,8 +82,8 @@ Unary* change(Edge& edge, Context* context, const google::protobuf::Message& req
                    std::move(work));
 }
 
-/// As change(), with a bound of their own, because their requests are large: a cancel still gets
-/// through when these are refused.
+/// As change(), with a separate limit, because the requests are large: a cancel still gets through
+/// when these are refused.
 template <class Work>
 Unary* create(Edge& edge, Context* context, const google::protobuf::Message& request,
               Work work) noexcept {

@@ -41,7 +41,7 @@ bool is_array(v1::Upload::Kind kind) {
   }
 }
 
-/// Runs a check of what the file holds.
+/// Runs a check of the file's content.
 template <class Check>
 void at_chunk(const Check& check) {
   try {
@@ -200,7 +200,7 @@ void UploadReceiver::end_file() {
         .at("header.sha256");
   }
   _file->close();
-  // Nothing else may reach gmsh, which runs what it takes for a script.
+  // Nothing but a mesh may reach gmsh, which would run a file that it takes for a script.
   if (!_array) at_chunk([&] { mesher::require_msh(_file->path()); });
   _complete.push_back(std::move(_file));
   _records.push_back({std::move(sha256), _owner, {}, _received_bytes, _array.has_value()});

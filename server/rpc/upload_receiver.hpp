@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The files of an upload stream, from the first message to the store; knows no transport.
+// Receives the files of an upload stream, from the first message to the store, without transport.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +16,9 @@
 
 namespace anticrack::rpc {
 
-/// Order: for each file accept(header), accept(chunk) ...; then complete(). Blocks on the disk.
-/// After a throw, or when destroyed before complete(), all temporary files are gone. Errors name
-/// the file's index in metadata "file". Not thread-safe.
+/// Call accept(header), accept(chunk) ... for each file, then complete(). Blocks on the disk. After
+/// a throw, or if destroyed before complete(), all temporary files are removed. Errors have the
+/// file's index in metadata "file". Not thread-safe.
 class UploadReceiver {
  public:
   static constexpr std::size_t max_files = 1000;
@@ -29,12 +29,12 @@ class UploadReceiver {
   UploadReceiver& operator=(const UploadReceiver&) = delete;
   ~UploadReceiver();
 
-  /// Nothing is stored before a header within the limits, nor a byte more than it announced.
-  /// Throws errors::Error: invalid_argument, limit_exceeded, disk_full, storage.
+  /// Takes a message. Stores nothing before a header within the limits, and no byte more than the
+  /// header announced. Throws errors::Error: invalid_argument, limit_exceeded, disk_full, storage.
   void accept(const v1::CreateUploadsRequest& request);
 
-  /// Keeps all files and returns them, in order, when each is all there and is what was announced:
-  /// a mesh begins as one that is read does, an array is finite values of 8 bytes.
+  /// Keeps all files and returns them in order, if each is complete and what was announced: a mesh
+  /// must begin like a format that can be read, and an array must have finite values of 8 bytes.
   /// Throws errors::Error: invalid_argument, mesh_invalid, disk_full, storage.
   std::vector<store::UploadRecord> complete();
 
@@ -50,8 +50,8 @@ class UploadReceiver {
   const std::string _owner;
   const std::uint64_t _max_bytes;
   std::vector<std::unique_ptr<File>> _complete;
-  std::vector<store::UploadRecord> _records;  ///< of these
-  std::unique_ptr<File> _file;                ///< that is being received
+  std::vector<store::UploadRecord> _records;  ///< records of these files
+  std::unique_ptr<File> _file;                ///< the file that is being received
   digest::Sha256 _hash;
   std::string _announced_sha256;
   std::uint64_t _announced_bytes = 0;

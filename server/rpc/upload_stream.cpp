@@ -11,8 +11,8 @@
 namespace anticrack::rpc {
 namespace {
 
-/// Bytes per second that an upload must reach on average, once it has kept the server waiting for
-/// StreamLimits::stall: slower ones would hold their places for hours.
+/// Bytes per second that an upload must reach on average once it has kept the server waiting for
+/// StreamLimits::stall; slower ones would hold their places for hours.
 constexpr double least_rate = 4096;
 
 class RefusedUpload final : public grpc::ServerReadReactor<v1::CreateUploadsRequest> {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// CreateUploads: a client stream into an UploadReceiver.
+// CreateUploads: passes a client stream on to an UploadReceiver.
 #pragma once
 
 #include <grpcpp/grpcpp.h>
@@ -16,10 +16,10 @@
 
 namespace anticrack::rpc {
 
-/// Each message is hashed and written on the pool for changes: a disk that makes writers wait must
-/// not hold one of gRPC's two threads. The next one is read when that is done, so a fast client is
-/// held back by the transport. `Finish` exactly once, never while an operation is being started
-/// (`_operations`); a read that is pending then completes with ok = false.
+/// The pool for changes hashes and writes each message, since a disk that makes writers wait must
+/// not block one of gRPC's two threads. The next message is read when that is done, so the
+/// transport holds a fast client back. `Finish` exactly once, never while an operation is being
+/// started (`_operations`); a read that is pending then completes with ok = false.
 class UploadStream final : public grpc::ServerReadReactor<v1::CreateUploadsRequest>,
                            public Stream,
                            public std::enable_shared_from_this<UploadStream> {
@@ -53,10 +53,10 @@ class UploadStream final : public grpc::ServerReadReactor<v1::CreateUploadsReque
   std::shared_ptr<UploadStream> _self;
 
   std::mutex _mutex;
-  int _operations = 0;  ///< messages being taken; `Finish` waits for them
+  int _operations = 0;  ///< messages being handled; `Finish` waits for them
   bool _finished = false;
   SteadyClock::time_point _last_read = SteadyClock::now();
-  SteadyClock::duration _waited{};  ///< for the client, in all reads that are done
+  SteadyClock::duration _waited{};  ///< time waited for the client, in all finished reads
   std::size_t _bytes = 0;           ///< received
   std::optional<grpc::Status> _end;
 };

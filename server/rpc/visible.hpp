@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Records through the eyes of who asks: another's is not_found, in the very words in which one that
-// does not exist is.
+// Records as the caller may see them: a record of somebody else is not_found, in exactly the words
+// of one that does not exist.
 #pragma once
 
 #include <optional>
@@ -13,14 +13,14 @@
 
 namespace anticrack::rpc {
 
-/// The record of an id. Throw errors::Error (not_found).
+/// The record of an id, if visible. They throw errors::Error (not_found).
 records::MeshRecord visible_mesh(const Backend& backend, const access::Identity& who,
                                  const std::string& id);
 records::JobRecord visible_job(const Backend& backend, const access::Identity& who,
                                const std::string& id);
 
-/// What Page::owner is to be: an administrator sees all, or what is of `owner` (empty: no filter).
-/// Throws errors::Error (permission_denied) where a user asks for what is another's.
+/// The value for Page::owner: an administrator sees all, or only what belongs to `owner` (empty: no
+/// filter). Throws errors::Error (permission_denied) if a user asks for another's records.
 std::optional<std::string> owner_filter(const access::Identity& who, const std::string& owner);
 
 }  // namespace anticrack::rpc

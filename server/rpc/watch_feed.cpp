@@ -88,7 +88,7 @@ jobs::NumberedBatch WatchFeed::read() {
     try {
       return log.batch(cursor, std::min<std::uint64_t>(ahead, max_batch));
     } catch (const errors::Error&) {
-      // The log was trimmed between the lines above; who asked for no place misses nothing.
+      // The log was trimmed between the lines above; a watcher without a sequence misses nothing.
       if (!_from_earliest || log.earliest() - 1 == cursor) throw;
     }
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// One watcher's way through a job's event log.
+// Reads a job's event log for one watcher.
 #pragma once
 
 #include <atomic>
@@ -20,19 +20,21 @@
 
 namespace anticrack::rpc {
 
-/// A cursor, no queue: what the watcher has not taken stays in the job's log, is sent in rounds
-/// with the other watches of the job, and a watcher that falls behind its trimming ends with
-/// OUT_OF_RANGE instead of a silent gap. Messages: the snapshot; then events in order, samples and
-/// ends of load cases that follow each other in one, the samples packed as columns; last the end.
+/// Has a cursor but no queue: events that the watcher has not taken stay in the job's log and are
+/// sent in rounds with the other watches of the job. A watcher that falls behind the trimmed part
+/// of the log ends with OUT_OF_RANGE instead of a silent gap. Messages: the snapshot; then events
+/// in order, with consecutive samples and ends of load cases in one message, the samples packed as
+/// columns; last the end.
 class WatchFeed final : public Feed<v1::WatchJobResponse> {
  public:
-  /// Events a message: some 55 kB of samples. Larger ones were not faster (memory of that size goes
-  /// back to the system and comes again with each), and every peer that does not read holds one.
+  /// Most events in a message: some 55 kB of samples. Larger messages were not faster (memory of
+  /// that size is returned to the system and taken again for each), and every peer that does not
+  /// read holds one.
   static constexpr std::size_t max_batch = 1024;
 
-  /// `id` of the job; `after` as WatchJobRequest.after_sequence.
-  /// Throws errors::Error: not_found, sequence_trimmed (trimmed already, or in the future).
-  /// To be made and used where the store may be waited for.
+  /// `id`: of the job; `after`: as WatchJobRequest.after_sequence. Throws errors::Error: not_found,
+  /// sequence_trimmed (trimmed already, or in the future). To be made and used on a thread that may
+  /// wait for the store.
   WatchFeed(const Backend& backend, WatchGroups& groups, std::string id, std::uint64_t after);
   ~WatchFeed() override;
 

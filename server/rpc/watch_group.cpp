@@ -16,7 +16,7 @@ void WatchGroup::start(const std::shared_ptr<WatchGroup>& group) {
     else
       hub.wake(weak);
   });
-  group->_hub.wake(weak);  // for what came before the listener
+  group->_hub.wake(weak);  // for events that came before the listener
 }
 
 WatchGroup::Wakes::iterator WatchGroup::join(std::function<void()> wake) {

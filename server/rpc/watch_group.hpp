@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// All watches of one job, behind one listener: a job's thread pays for an event one flag, however
+// All watches of one job, behind one listener: an event costs the job's thread one flag, however
 // many watch.
 #pragma once
 
@@ -17,22 +17,22 @@
 
 namespace anticrack::rpc {
 
-/// Works in rounds on the hub's thread, `pace` apart: a round looks how far the log is and wakes
-/// the members, who send no more than that. So a fast job's samples travel many a message. The last
-/// round, after the job's end, does not wait.
-/// Thread-safe.
+/// Works in rounds on the hub's thread, `pace` apart: a round notes how far the log is and wakes
+/// the members, who send events up to there. So many samples of a fast job go into one message. The
+/// last round, after the job's end, does not wait. Thread-safe.
 class WatchGroup final : public Wakeable {
  public:
   static constexpr std::chrono::milliseconds pace{10};
   using Wakes = std::list<std::function<void()>>;
 
-  /// Of the job whose log this is.
+  /// The group of the job with this log.
   WatchGroup(StreamHub& hub, std::shared_ptr<jobs::EventLog> log);
 
-  /// Listens; to be called once, before anybody joins.
+  /// Begins to listen; to be called once, before anybody joins.
   static void start(const std::shared_ptr<WatchGroup>& group);
 
-  /// `wake` is called at each round until leave(); it must be quick, and not join or leave.
+  /// Adds a member. `wake` is called in each round until leave(); it must be quick, and not call
+  /// these.
   Wakes::iterator join(std::function<void()> wake);
   void leave(Wakes::iterator member);
 
@@ -49,13 +49,13 @@ class WatchGroup final : public Wakeable {
   StreamHub& _hub;
   const std::shared_ptr<jobs::EventLog> _log;
   std::atomic<std::uint64_t> _target;
-  SteadyClock::time_point _last_round{};  ///< the hub's thread only
+  SteadyClock::time_point _last_round{};  ///< used by the hub's thread only
   std::mutex _mutex;                      ///< lock order: group before hub
   Wakes _wakes;
   std::shared_ptr<jobs::EventLog::Listener> _listener;
 };
 
-/// The groups, each as long as it has a watcher. Thread-safe.
+/// The groups; each exists as long as it has a watcher. Thread-safe.
 class WatchGroups {
  public:
   explicit WatchGroups(StreamHub& hub) : _hub(hub) {}

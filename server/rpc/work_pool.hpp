@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Where calls do what takes longer than gRPC's few threads may be held: the disk, and checks of
+// Threads for work that would block gRPC's few threads too long: waits for the disk, and checks of
 // large requests.
 #pragma once
 
@@ -16,21 +16,22 @@
 
 namespace anticrack::rpc {
 
-/// A few threads that take clients' tasks in turns, those of one client in order: one that waits
-/// for the disk holds up no other, and the store writes what several wait for in one go.
-/// Thread-safe.
+/// A few threads that take tasks of clients in turns, those of one client in order. So a client
+/// that waits for the disk does not delay others, and the store writes the changes of several in
+/// one go. Thread-safe.
 class WorkPool {
  public:
-  /// Starts them; `threads`: at least 1.
+  /// Starts the threads. `threads`: at least 1.
   explicit WorkPool(int threads);
-  /// Finishes what was posted.
+  /// Finishes all posted tasks.
   ~WorkPool();
 
-  /// `task` must not throw.
+  /// Queues a task, which must not throw.
   void post(const std::string& client, std::function<void()> task);
-  /// Whether one more task of the client may wait where `limit` may in all (access/share.hpp).
+  /// Whether one more task of the client may wait, if `limit` tasks may wait in all
+  /// (access/share.hpp).
   bool has_room(const std::string& client, std::size_t limit) const;
-  /// Number of tasks that have not begun.
+  /// The number of tasks that have not begun.
   std::size_t waiting() const;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A feed on a gRPC server stream.
+// Sends a feed on a gRPC server stream.
 #pragma once
 
 #include <grpcpp/grpcpp.h>
@@ -19,13 +19,12 @@
 
 namespace anticrack::rpc {
 
-/// One write in flight, `Finish` exactly once and never while a write is pending.
-/// Whoever holds `_driving` is the only one to use the feed and to start an operation: the thread
-/// in run(), or the write in flight, which hands it to OnWriteDone. Operations are started with no
+/// There is at most one write in flight; `Finish` is called exactly once and never while a write is
+/// pending. Only the holder of `_driving` uses the feed and starts an operation: the thread in
+/// run(), or the write in flight, which hands it to OnWriteDone. Operations are started with no
 /// lock held. The call itself keeps the object alive until OnDone; the hub's thread and the pool
-/// may hold it a little longer.
-/// gRPC's threads never run the feed: a watch is driven by the hub's thread, a transfer, which
-/// reads the disk, by the pool for lookups; there both begin.
+/// may hold it a little longer. gRPC's threads never run the feed: the hub's thread drives a watch,
+/// and the pool for lookups a transfer, which reads the disk. Both begin on that pool.
 template <class Response>
 class WriteStream final : public grpc::ServerWriteReactor<Response>,
                           public Stream,
@@ -117,7 +116,7 @@ class WriteStream final : public grpc::ServerWriteReactor<Response>,
   }
 
  private:
-  /// On the pool, with `_driving` held.
+  /// Makes and starts the feed, on the pool and with `_driving` held.
   void open() noexcept {
     try {
       std::unique_ptr<Feed<Response>> feed = _make_feed();
@@ -145,7 +144,7 @@ class WriteStream final : public grpc::ServerWriteReactor<Response>,
         _edge.hub.wake(self);
       else
         _edge.lookups.post(_client, [self] { self->drive(); });
-    } catch (...) {  // no memory for a queue's entry
+    } catch (...) {  // no memory for an entry of the queue
       drive();
     }
   }
@@ -162,7 +161,7 @@ class WriteStream final : public grpc::ServerWriteReactor<Response>,
     run();
   }
 
-  /// With `_driving` held; gives it up, or leaves it with a write.
+  /// Sends what there is. Needs `_driving`; gives it up, or hands it to a write.
   void run() noexcept {
     for (;;) {
       bool heartbeat = false;
@@ -199,7 +198,7 @@ class WriteStream final : public grpc::ServerWriteReactor<Response>,
     }
   }
 
-  /// True when `_response` is to be sent; sets `_end` when the feed is at its end.
+  /// Returns whether `_response` is to be sent; sets `_end` if the feed has ended.
   bool produce(bool heartbeat) noexcept {
     using Next = typename Feed<Response>::Next;
     grpc::Status status;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Whether the work of a thread is still wanted. Whoever begins work gives it a Scope; every loop
-// that can run above 10 ms looks, however deep it lies, without a token in each signature.
+// Tells a thread whether its work is still wanted. The code that begins work makes a Scope; every
+// loop that can run above 10 ms looks, however deep it lies, without a token in each signature.
 #pragma once
 
 #include <cstddef>
@@ -10,21 +10,21 @@
 
 namespace anticrack::stop {
 
-/// Where the work is.
+/// The progress of the work at a look.
 struct Look {
   const char* doing;     ///< "factorising a mesh"
-  std::size_t done = 0;  ///< of what there will be, such as triangles; 0: not counted
+  std::size_t done = 0;  ///< number of things done, such as triangles; 0: not counted
 };
 
-/// Asked at each look of the thread; true: the work is to end. Must not throw.
+/// Called at each look of the thread; returns true if the work is to end. Must not throw.
 using Asked = std::function<bool(const Look&)>;
 
-/// What the looks of this thread ask while it lives, besides what they asked before.
+/// While it lives, the looks of this thread also ask this, besides what they asked before.
 class Scope {
  public:
-  /// Until a stop is requested there.
+  /// Looks end the work when `token` has a stop request.
   explicit Scope(std::stop_token token);
-  /// Until `asked` says so; empty: nothing more is asked.
+  /// Looks end the work when `asked` returns true; empty: nothing more is asked.
   explicit Scope(Asked asked);
   ~Scope();
   Scope(const Scope&) = delete;
@@ -35,17 +35,18 @@ class Scope {
   const Asked* const _before;
 };
 
-/// What the looks of this thread ask, for a Scope of a thread that helps it.
+/// The question that looks of this thread ask, for the Scope of a thread that helps it.
 Asked asked();
 
-/// Throws errors::Error (cancelled), "stopped while `doing`", if the work is to end. Some
+/// Throws errors::Error (cancelled), "stopped while `doing`", if the work is to end. Takes some
 /// nanoseconds.
 void look(const char* doing, std::size_t done = 0);
 
-/// Turns of a loop over triangles, nodes or numbers that take about a millisecond.
+/// How many turns of a quick loop over triangles, nodes or numbers take about a millisecond.
 constexpr std::size_t quick = std::size_t{1} << 16;
 
-/// Looks each `every`-th turn of a loop, a power of two that takes about a millisecond.
+/// Looks at every `every`-th turn of a loop; `every` is a power of two, and so many turns should
+/// take about a millisecond.
 template <std::size_t every = 4096>
 void look_at_turn(std::size_t turn, const char* doing, std::size_t done = 0) {
   static_assert((every & (every - 1)) == 0);

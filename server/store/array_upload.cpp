@@ -28,7 +28,7 @@ Error is_msh() {
           "the upload is a .msh, not an array of values; upload the values as KIND_ARRAY"};
 }
 
-/// Without a branch for each value, so that the compiler does several at once.
+/// Has no branch for each value, so that the compiler handles several at once.
 bool all_finite(std::span<const double> values) {
   constexpr std::uint64_t exponent = 0x7ff0'0000'0000'0000;
   bool finite = true;
@@ -37,7 +37,7 @@ bool all_finite(std::span<const double> values) {
   return finite;
 }
 
-/// `first`: index of the first value.
+/// Throws for the first value that is not finite. `first`: index of the first value.
 void require_finite(std::span<const double> values, std::uint64_t first) {
   if (all_finite(values)) return;
   const auto bad = std::ranges::find_if_not(values, [](double v) { return std::isfinite(v); });
@@ -72,7 +72,7 @@ void ArrayCheck::add(std::span<const std::byte> bytes) {
   if (_values == 0 && _part.empty() && begins_like_msh(bytes)) throw is_msh();
   std::array<double, 4096> values;
   while (!bytes.empty()) {
-    // Whole values, the first of them begun in the bytes before.
+    // The number of whole values; the first one began in the bytes before.
     const std::size_t count = std::min(_part.size() + bytes.size(), sizeof values) / sizeof(double);
     const std::size_t taken = count == 0 ? bytes.size() : count * sizeof(double) - _part.size();
     if (count == 0) {

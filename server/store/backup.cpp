@@ -24,14 +24,14 @@ namespace fs = std::filesystem;
 using errors::Error;
 using errors::Reason;
 
-/// Snapshots of the database to try before a missing file counts as lost.
+/// How many snapshots of the database to try before a missing file counts as lost.
 constexpr int most_attempts = 10;
 
-/// False where there is no such file. Nothing to do where there is a link or a copy already.
+/// Links or copies a file, unless `to` exists already. Returns false if there is no such file.
 bool link_or_copy(const std::string& from, const std::string& to) {
   if (::link(from.c_str(), to.c_str()) == 0 || errno == EEXIST) return true;
   if (errno == ENOENT) return false;
-  // Another file system, or one without links, or links of other users' files are forbidden.
+  // This file system may be another one or have no links, or links to others' files are forbidden.
   std::error_code code;
   fs::copy_file(from, to, code);
   if (code == std::errc::no_such_file_or_directory) return false;
@@ -51,7 +51,7 @@ class Backup {
       throw disk_error("make the folder " + _to, errno);
     }
   }
-  /// What is not complete is of no use.
+  /// Removes an incomplete copy, which is of no use.
   ~Backup() {
     if (!_complete) {
       std::error_code ignored;
@@ -65,8 +65,9 @@ class Backup {
     for (const FileKind kind : file_kinds) make_folder(folder_of(_to, kind));
     std::string missing;
     for (int attempt = 0; attempt < most_attempts; ++attempt) {
-      // The server may remove a file after the snapshot that refers to it. All files there are now
-      // are kept before it, so that only one that comes and goes meanwhile makes another attempt.
+      // The server may remove a file to which the snapshot refers. All present files are linked
+      // before the snapshot, so that only a file that comes and goes meanwhile needs another
+      // attempt.
       link_all_files();
       copy_records();
       missing = link_named_files();
@@ -108,10 +109,10 @@ class Backup {
     }
   }
 
-  /// The path of one that is missing; empty: none is.
+  /// Links the files that the records name; returns the path of a missing one, or an empty text.
   std::string link_named_files() const {
     for (const auto& [kind, name] : _named) {
-      if (!is_sha256(name)) continue;  // a damaged row, for --check-store
+      if (!is_sha256(name)) continue;  // a damaged row, which --check-store will find
       if (!link(kind, name)) return folder_of(_data, kind) + "/" + name;
     }
     return {};

@@ -16,11 +16,11 @@ namespace anticrack::store {
 
 static_assert(std::endian::native == std::endian::little, "hashes and blocks are little-endian");
 
-/// Texts and lists go with their length before them, so that no two different sequences of calls
-/// hash the same bytes.
+/// Texts and lists are hashed after their length, so that no two different sequences of calls hash
+/// the same bytes.
 class CanonicalHash {
  public:
-  /// Each goes in after those before.
+  /// Adds a value after those before.
   CanonicalHash& add(std::uint64_t value) {
     _hash.add(std::as_bytes(std::span(&value, 1)));
     return *this;
@@ -29,19 +29,19 @@ class CanonicalHash {
   CanonicalHash& add(double value) {
     return add(std::bit_cast<std::uint64_t>(value == 0 ? 0.0 : value));
   }
-  /// With its length before it.
+  /// Adds the length of the text, then the text.
   CanonicalHash& add(const std::string& text) {
     add(std::uint64_t{text.size()});
     _hash.add(text);
     return *this;
   }
-  /// Every field of it, and of what it holds.
+  /// Adds every field of the value and, recursively, of what it holds.
   template <class T>
   CanonicalHash& add_all(const T& value) {
     fields::walk(value, [this](const auto& leaf) { this->add(leaf); });
     return *this;
   }
-  /// 64 lower-case hexadecimal digits. The object may not be used after.
+  /// 64 lower-case hexadecimal digits. The object must not be used afterwards.
   std::string finish() { return _hash.finish(); }
 
  private:

@@ -44,7 +44,7 @@ class Check {
  private:
   void flaw(const std::string& text) { found.flaws.push_back(text); }
 
-  /// What is thrown is a flaw. Whether nothing was.
+  /// Calls `look` and notes what it throws as a flaw. Returns whether it threw nothing.
   template <class Look>
   bool attempt(const Look& look) {
     try {

@@ -15,19 +15,19 @@ constexpr std::array file_kinds{FileKind::mesh, FileKind::result, FileKind::uplo
 /// Thread-safe; the lock is held for additions only.
 class DiskUsage {
  public:
-  /// `budget` 0: none.
+  /// `budget`: bytes; 0: no limit.
   explicit DiskUsage(std::uint64_t budget) : _budget(budget) {}
   DiskUsage(const DiskUsage&) = delete;
   DiskUsage& operator=(const DiskUsage&) = delete;
 
-  /// Files came or went.
+  /// Adds the bytes of files that came, or subtracts those of files that went.
   void add(FileKind kind, std::uint64_t bytes);
   void remove(FileKind kind, std::uint64_t bytes);
-  /// Of the files of a kind, without what is reserved.
+  /// The bytes of the files of a kind, without reservations.
   std::uint64_t bytes(FileKind kind) const;
 
-  /// Bytes that are about to be written, counted until it goes out of scope. Keep it until what was
-  /// written has been added.
+  /// Bytes that are about to be written, counted until this goes out of scope. Keep it until the
+  /// written bytes have been added.
   class Reservation {
    public:
     Reservation(DiskUsage& usage, std::uint64_t bytes) : _usage(&usage), _bytes(bytes) {}
@@ -41,8 +41,8 @@ class DiskUsage {
     DiskUsage* _usage;
     std::uint64_t _bytes;
   };
-  /// Throws errors::Error (disk_full) where `bytes` more do not fit, `others` being what is not
-  /// counted here (the database).
+  /// Reserves bytes. Throws errors::Error (disk_full) if `bytes` more do not fit; `others` are
+  /// bytes that are not counted here (the database).
   Reservation reserve(std::uint64_t bytes, std::uint64_t others);
 
  private:

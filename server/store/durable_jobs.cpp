@@ -16,8 +16,9 @@ using errors::Reason;
 
 namespace {
 
-/// Of header and bytes together. What fits needs no flush of a file and of its folder, each as long
-/// as the flush of the database that follows; a few pages more cost that one nothing.
+/// Header and bytes together. A result that fits needs no flush of a file and of its folder, each
+/// of which takes as long as the flush of the database that follows; a few more pages cost the
+/// latter nothing.
 constexpr std::size_t most_small_result = std::size_t{32} << 10U;
 
 std::set<std::string> uploads_of(const records::JobSpec& spec) {
@@ -57,7 +58,7 @@ void insert(Connection& connection, const records::JobRecord& record,
   }
 }
 
-/// The job the owner made with this request id before.
+/// The job that the owner made with this request id before.
 std::optional<Row> find_request(Connection& connection, const records::JobRecord& record,
                                 const std::string& fingerprint) {
   if (record.request_id.empty()) return std::nullopt;
@@ -75,18 +76,18 @@ std::optional<Row> find_request(Connection& connection, const records::JobRecord
   return row;
 }
 
-/// Name of the result's file; empty: none.
+/// The name of the result's file; empty if there is none.
 std::string result_name(Connection& connection, const std::string& job) {
   Statement select = connection.prepare("SELECT result FROM jobs WHERE id = ?");
   if (!select.bind(std::string_view(job)).step()) throw unknown("jobs", job);
   return select.text(0);
 }
 
-/// A result as its job's row has it: the name of its file, or what would be in one.
+/// A result as the row of its job has it: the name of its file, or the content itself.
 struct ResultColumns {
   std::string name{};
   std::string small{};
-  std::uint64_t bytes = 0;  ///< of the block
+  std::uint64_t bytes = 0;  ///< bytes of the block
 };
 
 void end(Connection& connection, const records::JobRecord& record, const ResultColumns& result,
@@ -242,7 +243,7 @@ std::shared_ptr<const records::BlockSource> DurableStore::result(const std::stri
   const auto look = [&]() -> ResultColumns {
     return reading([&](Connection& connection) {
       if (const std::optional<Row> row = find_row(connection, FileKind::result, job))
-        read_job(*row);  // throws where it is damaged, and so what it says of its result
+        read_job(*row);  // throws if the record is damaged, as its columns of the result then are
       Statement select =
           connection.prepare("SELECT result, small_result, result_bytes FROM jobs WHERE id = ?");
       return select.bind(std::string_view(job)).step()
@@ -256,7 +257,7 @@ std::shared_ptr<const records::BlockSource> DurableStore::result(const std::stri
     const std::string path = _results.path(found.name);
     if (base::Descriptor file = open_to_read(path))
       return open_result(std::move(file), path, found.name);
-    ResultColumns now = look();  // it may have expired just now
+    ResultColumns now = look();  // the result may have expired just now
     if (now.name == found.name) {
       throw Error(Reason::storage, "the result of jobs/" + job + " is not in " + path +
                                        ": delete the job and run it again");

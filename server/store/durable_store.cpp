@@ -39,7 +39,8 @@ Connection open_writer(const std::string& folder) {
   require_own(connection, folder);
   make_tables(connection);
   {
-    // What can only be read shows now: SQLite would take it for as long as the connection lives.
+    // This finds a database that can only be read, which SQLite would take while the connection
+    // lives.
     const Transaction probe(connection);
   }
   flush(folder);
@@ -73,7 +74,7 @@ DurableStore::DurableStore(const StoreOptions& options)
     for (std::string& name : files(kind).sweep(
              [&](const std::string& sha256) { return is_referenced(_reader, kind, sha256); }))
       spare.push_back({kind, std::move(name)});
-  // A damaged index does not name what its rows do, and a damaged row may have named anything.
+  // A damaged index may lack names that its rows have, and a damaged row may have named anything.
   if (!spare.empty() && all_intact(_reader)) {
     for (const auto& [kind, sha256] : spare)
       if (!is_referenced(_reader, kind, sha256, true)) files(kind).remove(sha256);

@@ -26,8 +26,8 @@ namespace anticrack::store {
 
 class DurableStore final : public Store {
  public:
-  /// Makes or opens the folder, and removes from it what no record names. Throws errors::Error
-  /// (storage, disk_full).
+  /// Makes or opens the folder, and removes the files in it that no record names. Throws
+  /// errors::Error (storage, disk_full).
   explicit DurableStore(const StoreOptions& options);
 
   void put(const records::MeshRecord& record) override;
@@ -99,14 +99,14 @@ class DurableStore final : public Store {
   Files _uploads;
   UploadParts _parts;
   mutable Triangulations _triangulations;
-  /// Files that a record ceased to refer to, or did not come to. Of the thread that commits.
+  /// Files to which no record refers any more, or never did. Used by the thread that commits.
   std::vector<FileName> _unreferenced;
   GroupCommit _writer;
   mutable std::mutex _reader_mutex;
   mutable Connection _reader;
 };
 
-/// errors::Error (not_found).
+/// The error (not_found) for an unknown id.
 errors::Error unknown(const std::string& collection, const std::string& id);
 
 }  // namespace anticrack::store

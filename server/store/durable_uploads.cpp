@@ -15,7 +15,7 @@ using errors::Reason;
 
 namespace {
 
-/// Fills in what the file says.
+/// Fills in the size and the kind of the upload from its file.
 void look_at(const std::string& path, UploadRecord& upload) {
   const base::Descriptor file = open_to_read(path);
   if (!file) return;
@@ -45,7 +45,7 @@ std::string DurableStore::new_upload_path(std::uint64_t bytes) {
   const auto reserved = [&] {
     try {
       return reserve(bytes);
-    } catch (const Error&) {  // parts that were lost hold room
+    } catch (const Error&) {  // lost parts may still hold room
       _parts.forget_lost();
       return reserve(bytes);
     }
@@ -60,8 +60,8 @@ records::Clock::time_point DurableStore::keep_uploads(const std::vector<Upload>&
                                                       const std::string& owner) {
   std::vector<std::string> flushed;  // where the bytes are on the disk
   std::vector<std::string> to_flush;
-  std::vector<bool> damaged;  // what has the name already
-  std::vector<Part> copies;   // of the bytes, removed in the end where they still have this name
+  std::vector<bool> damaged;  // whether the file that has the name already is damaged
+  std::vector<Part> copies;   // of the bytes; removed at the end if they still have this name
   for (const Upload& upload : uploads) {
     if (!is_sha256(upload.sha256)) {
       throw Error(
@@ -84,7 +84,7 @@ records::Clock::time_point DurableStore::keep_uploads(const std::vector<Upload>&
   flush_all(to_flush);
   for (const std::string& path : to_flush) _parts.mark_flushed(path);
   const records::Clock::time_point now = records::Clock::now();
-  // Links, so that the uploads are still there when this fails and is tried again.
+  // Link the files, so that the uploads are still there if this fails and is tried again.
   _writer.run([&](Connection& connection) {
     for (std::size_t i = 0; i < uploads.size(); ++i) {
       _unreferenced.push_back({FileKind::upload, uploads[i].sha256});
@@ -149,7 +149,7 @@ void DurableStore::erase_upload(const std::string& sha256, const std::string& ow
           .bind(std::string_view(owner))
           .step();
     };
-    // Those of other owners have uploads of their own.
+    // Jobs of other owners have uploads of their own.
     if (any("SELECT 1 FROM job_uploads r JOIN jobs j ON j.number = r.job "
             "WHERE r.upload = ? AND j.owner = ? AND j.ended IS NULL") ||
         any("SELECT 1 FROM meshes WHERE upload = ? AND owner = ? AND sha256 = ''")) {

@@ -104,7 +104,7 @@ void flush_all(const std::vector<std::string>& paths) {
       for (std::size_t i = 1; i < std::min(paths.size(), most_at_once); ++i)
         others.emplace_back(work);
     } catch (const std::system_error&) {
-      // No more threads: those there are do the rest.
+      // If there are no more threads, the present ones do the rest.
     }
     work();
   }
@@ -207,7 +207,7 @@ void replace_file(const std::string& path, std::span<const std::byte> bytes) {
 }
 
 Part::~Part() {
-  if (!_path.empty()) ::unlink(_path.c_str());  // else the next start does it
+  if (!_path.empty()) ::unlink(_path.c_str());  // if this fails, the next start does it
 }
 
 Files::Files(const std::string& data, FileKind kind, DiskUsage& usage)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Files in one folder, each under a sha256. "part-XXXXXX" is on its way.
+// Files in one folder, each named by its sha256. "part-XXXXXX" is a file that is being written.
 #pragma once
 
 #include <cstddef>
@@ -17,47 +17,48 @@
 
 namespace anticrack::store {
 
-/// A hash becomes part of a path: nothing but its own 64 lower-case digits may pass.
+/// Whether a text is a sha256, 64 lower-case digits, and nothing else, as it becomes part of a
+/// path.
 bool is_sha256(const std::string& text) noexcept;
 
-/// Of a data folder: its database, and the folder of its files of a kind.
+/// The paths, in a data folder, of its database and of the folder for files of a kind.
 std::string database_path(const std::string& data);
 std::string folder_of(const std::string& data, FileKind kind);
-/// The files in a folder that have a sha256 for a name; none where there is no folder. Throws as
-/// disk_error does.
+/// The files in a folder whose names are a sha256; none if there is no folder. Throws as disk_error
+/// does.
 std::vector<std::string> file_names(const std::string& folder);
 
-/// Makes the folder, for its owner alone, where it is missing. Throws errors::Error (storage).
+/// Makes the folder if it is missing, accessible to its owner only. Throws errors::Error (storage).
 void make_folder(const std::string& path);
 /// Flushes a file, or the names in a folder, to the disk. Throws as disk_error does.
 void flush(const std::string& path);
-/// Flushes files at once: a disk flushes several files together in little more time than one.
-/// Throws as flush does, when all have been tried.
+/// Flushes files in parallel: a disk flushes several files in little more time than one. Throws as
+/// flush does, when all have been tried.
 void flush_all(const std::vector<std::string>& paths);
 std::optional<std::uint64_t> file_size(const std::string& path) noexcept;
 
-/// Opens a file to be read; none where there is no such file. Throws as disk_error does.
+/// Opens a file for reading; empty if there is no such file. Throws as disk_error does.
 base::Descriptor open_to_read(const std::string& path);
-/// Throws as disk_error does.
+/// The size of a file in bytes. Throws as disk_error does.
 std::uint64_t file_size(const base::Descriptor& file, const std::string& path);
-/// Fills `bytes` from `offset` on. Throws errors::Error (storage), also where the file is shorter.
+/// Fills `bytes` from `offset` on. Throws errors::Error (storage), also if the file is shorter.
 void read_at(const base::Descriptor& file, const std::string& path, std::uint64_t offset,
              std::span<std::byte> bytes);
 /// Writes from `offset` on. Throws as disk_error does.
 void write_at(const base::Descriptor& file, const std::string& path, std::uint64_t offset,
               std::span<const std::byte> bytes);
-/// The whole file; none where there is no such file.
+/// The whole file; none if there is no such file.
 std::optional<std::vector<std::byte>> read_file(const std::string& path);
-/// The hash of a file's content; empty where there is no such file. Throws as read_at does.
+/// The hash of a file's content; empty if there is no such file. Throws as read_at does.
 std::string sha256_of(const std::string& path);
-/// Of a mesh in memory. Both look (stop/stop.hpp).
+/// The hash of bytes in memory. Both functions look at the stop token (stop/stop.hpp).
 std::string sha256_of(std::span<const std::byte> bytes);
-/// Reads the file. Throws errors::Error (storage) where it is not uploads/SHA256 any more.
+/// Reads the file. Throws errors::Error (storage) if its content no longer has the hash `sha256`.
 void require_intact_upload(const std::string& path, const std::string& sha256);
-/// Makes the file or gives it other bytes, on the disk: all or nothing. Throws as disk_error does.
+/// Makes the file or replaces its content, on the disk, all or nothing. Throws as disk_error does.
 void replace_file(const std::string& path, std::span<const std::byte> bytes);
 
-/// A file under a temporary name, removed at the end of the scope unless it has got its own.
+/// A file with a temporary name, removed at the end of the scope unless it has got its final name.
 class Part {
  public:
   explicit Part(std::string path) : _path(std::move(path)) {}
@@ -65,7 +66,7 @@ class Part {
   Part(Part&& other) noexcept : _path(std::move(other._path)) { other._path.clear(); }
   Part& operator=(Part&&) = delete;
   const std::string& path() const noexcept { return _path; }
-  /// It stays where it is.
+  /// Keeps the file where it is.
   void release() noexcept { _path.clear(); }
 
  private:
@@ -77,32 +78,32 @@ class Files {
  public:
   using Read = std::function<void(std::uint64_t offset, std::span<std::byte> bytes)>;
 
-  /// What is added and removed is counted in `usage`, as of `kind`.
+  /// Counts files that are added and removed in `usage`, under `kind`.
   Files(const std::string& data, FileKind kind, DiskUsage& usage);
 
-  /// Where the file of a name lies, whether it is there or not.
+  /// The path of the file with this name, whether it exists or not.
   std::string path(const std::string& sha256) const { return _folder + "/" + sha256; }
   /// Whether a path is one that new_part() gives.
   bool is_part(const std::string& path) const;
   /// A new empty file.
   std::string new_part() const;
-  /// An empty file without a name, to write and read; it is gone when it is closed.
+  /// An empty file without a name, to write and read; it disappears when it is closed.
   base::Descriptor nameless() const;
-  /// A new file with these bytes, on the disk. Throws as disk_error does.
+  /// Writes a new file with these bytes to the disk. Throws as disk_error does.
   Part write(std::span<const std::byte> bytes) const { return write(bytes, 0, {}); }
-  /// The same, followed by the `size` bytes that read(offset, bytes) gives.
+  /// The same, with the `size` bytes that read(offset, bytes) gives after `start`.
   Part write(std::span<const std::byte> start, std::uint64_t size, const Read& read) const;
-  /// A copy of a part, on the disk.
+  /// Copies a part, on the disk.
   Part copy(const std::string& part) const;
-  /// Gives a part its name; what had the name before has the same content. Not yet on the disk.
+  /// Gives a part its name; a file that had the name before has the same content. Not flushed.
   void rename(const std::string& part, const std::string& sha256);
-  /// The same, and the part stays.
+  /// The same, but the part stays.
   void link(const std::string& part, const std::string& sha256);
   /// Flushes names that were given.
   void flush_names() const { flush(_folder); }
-  /// Nothing to do where there is no such file. Throws as disk_error does.
+  /// Removes a file, if it exists. Throws as disk_error does.
   void remove(const std::string& sha256);
-  /// Removes parts, counts the bytes of the rest and returns what of it is not `wanted`.
+  /// Removes parts, counts the bytes of the other files and returns those that are not `wanted`.
   std::vector<std::string> sweep(const std::function<bool(const std::string& sha256)>& wanted);
 
  private:

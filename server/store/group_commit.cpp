@@ -11,10 +11,10 @@ namespace {
 using errors::Error;
 using errors::Reason;
 
-/// So that the first of a long queue does not wait for the last.
+/// Most changes in one transaction, so that the first of a long queue does not wait for the last.
 constexpr std::size_t max_together = 64;
 
-/// What the call threw. As a value: an exception that several threads hold is shared among them.
+/// The error that a call threw, as a value: threads would share an exception that several hold.
 template <class Call>
 std::optional<Error> error_of(Call&& call) {
   try {
@@ -71,7 +71,7 @@ void GroupCommit::commit(const Entries& entries) {
     if (failure && !entry->error) entry->error = failure;
   _in_doubt = _in_doubt || (failure && committing);
   if (!_in_doubt) {
-    // What was asked for is done or refused already; cleaning up is tried again after the next.
+    // The changes are done or refused already; cleaning up is tried again after the next.
     error_of([&] { _settled(_connection); });
   }
 }
@@ -93,7 +93,7 @@ bool GroupCommit::apply(const Entries& entries) {
     _connection.execute("SAVEPOINT change");
     entry->error = error_of([&] { (*entry->change)(_connection); });
     if (!_connection.in_transaction()) {
-      // A failing disk has made SQLite roll back everything: what went before is gone as well.
+      // A failing disk has made SQLite roll back everything: the changes before are gone as well.
       throw Error(entry->error.value_or(Error(Reason::internal, "a change ended its transaction")));
     }
     _connection.execute(entry->error ? "ROLLBACK TO change; RELEASE change" : "RELEASE change");

@@ -20,7 +20,7 @@ using errors::Reason;
 
 std::string identity_path(const std::string& folder) { return folder + "/identity"; }
 
-/// Empty: the folder has none.
+/// The identity in a folder; empty if it has none.
 std::string identity_in(const std::string& folder) {
   const auto bytes = read_file(identity_path(folder));
   return bytes ? std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()) : "";
@@ -31,7 +31,7 @@ std::string identity_in(Connection& connection) {
   return select.step() ? select.text(0) : std::string();
 }
 
-/// What a store has left in a folder.
+/// What a store has left in a folder: files, and an identity.
 struct Left {
   explicit Left(const std::string& in) : folder(in), identity(identity_in(in)) {
     for (const FileKind kind : file_kinds)
@@ -45,7 +45,7 @@ struct Left {
     return std::to_string(std::ranges::count(files, kind, &File::first));
   }
 
-  /// The error of a database that cannot be used for it; `is` says why.
+  /// The error of a database that does not go with the folder; `is` says why.
   Error refused(const std::string& is) const {
     return {Reason::storage,
             "the data folder " + folder +
@@ -57,9 +57,9 @@ struct Left {
                 "together"};
   }
 
-  using File = std::pair<FileKind, std::string>;  ///< with its name
+  using File = std::pair<FileKind, std::string>;  ///< kind and name
   std::string folder;
-  std::string identity;  ///< empty: none
+  std::string identity;  ///< empty if there is none
   std::vector<File> files;
 };
 

@@ -20,7 +20,7 @@ Error damaged_record(const std::string& what) {
 
 namespace {
 
-/// read(message), whose errors say what is wrong with the record.
+/// Calls read(message); its errors become those of a damaged record.
 template <class Record, class Read>
 auto decoded(std::string_view bytes, const Read& read) {
   Record record;

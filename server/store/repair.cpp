@@ -22,7 +22,7 @@ std::string make_new_folder(const std::string& folder) {
   }
 }
 
-/// Nothing to do where there is no such file.
+/// Moves a file, if it exists.
 void move(const std::string& name, const std::string& from, const std::string& to) {
   make_folder(to);
   if (std::rename((from + "/" + name).c_str(), (to + "/" + name).c_str()) != 0 && errno != ENOENT)
@@ -33,7 +33,7 @@ void move(const std::string& name, const std::string& from, const std::string& t
 
 void remove_records(Connection& connection, const CheckedStore& checked) {
   Transaction transaction(connection);
-  connection.execute("REINDEX");  // a row that does not agree with its index cannot be removed
+  connection.execute("REINDEX");  // a row that differs from its index cannot be removed
   const auto remove = [&](const CheckedStore::Name& name, const std::string& column) {
     connection.prepare("DELETE FROM " + table_of(name.first).name + " WHERE " + column + " = ?")
         .bind(std::string_view(name.second))
@@ -54,7 +54,7 @@ std::string repair(const std::string& folder, const CheckedStore& checked) {
   const std::string aside = make_new_folder(folder);
   for (const auto& [kind, name] : checked.spare)
     move(name, folder_of(folder, kind), folder_of(aside, kind));
-  move("identity", folder, aside);  // the next start takes the database's, or makes another
+  move("identity", folder, aside);  // the next start takes that of the database, or makes another
   if (database) {
     const std::string copy = database_path(aside);
     database->prepare("VACUUM INTO ?").bind(std::string_view(copy)).run();

@@ -19,11 +19,11 @@ using errors::Reason;
 
 static_assert(std::endian::native == std::endian::little, "lengths are little-endian");
 
-constexpr std::string_view magic("ACRES\0\0\2", 8);  // the last: the version
+constexpr std::string_view magic("ACRES\0\0\2", 8);  // the last byte is the version
 constexpr std::size_t lengths = 2 * sizeof(std::uint32_t);
 constexpr std::size_t max_header = std::size_t{64} << 20U;
 
-/// Reads what is at an offset; throws where there is less.
+/// Reads bytes at an offset; throws if there are fewer.
 using Read = std::function<void(std::uint64_t offset, std::span<std::byte> bytes)>;
 
 class StoredBlock final : public records::BlockSource {
@@ -66,7 +66,7 @@ Error damaged(const std::string& place) {
           "the result in " + place + " is damaged: delete its job and run it again"};
 }
 
-/// `name`: the hash of all before the bytes; empty: not known.
+/// Opens a result. `name`: the hash of all that comes before the bytes; empty: not known.
 std::shared_ptr<const records::BlockSource> open_at(Read read, std::uint64_t size,
                                                     const std::string& place,
                                                     const std::string& name) {

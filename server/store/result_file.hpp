@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // A result on the disk: magic and version (8 bytes), length of the header and its CRC-32C (4 bytes
-// each), the header (BlockLayout of the API: layout, length and hash of the bytes), the bytes. Its
-// name is the hash of all before the bytes, which says what the bytes are.
+// each), the header (BlockLayout of the API: layout, length and hash of the bytes), the bytes. The
+// file's name is the hash of all that comes before the bytes, which includes the hash of the bytes.
 #pragma once
 
 #include <memory>
@@ -13,18 +13,18 @@
 
 namespace anticrack::store {
 
-/// All before the bytes of a block. Throws std::length_error for a layout beyond 16 MB.
+/// All that comes before the bytes of a block. Throws std::length_error for a layout beyond 16 MB.
 std::string result_header(const records::BlockSource& block);
 
-/// The result in a file, which it keeps open. Throws errors::Error (storage) where it is none, or
+/// The result in a file, which it keeps open. Throws errors::Error (storage) if it is no result, or
 /// not the one of this name; the bytes are not read.
 std::shared_ptr<const records::BlockSource> open_result(base::Descriptor file,
                                                         const std::string& path,
                                                         const std::string& name);
-/// The same of what would be in the file, with its bytes; `place` is for messages.
+/// The same for the content of such a file in memory. `place`: for messages.
 std::shared_ptr<const records::BlockSource> open_result(std::string stored,
                                                         const std::string& place);
-/// Reads all bytes. Throws errors::Error (storage) where they do not have their hash.
+/// Reads all bytes. Throws errors::Error (storage) if they do not have their hash.
 void require_whole(const records::BlockSource& block, const std::string& place);
 
 }  // namespace anticrack::store

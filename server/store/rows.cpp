@@ -67,7 +67,7 @@ std::optional<Row> find_row(Connection& connection, FileKind kind, const std::st
   Statement select = connection.prepare(select_rows(kind) + " WHERE id = ?");
   if (!select.bind(std::string_view(id)).step()) return std::nullopt;
   Row row = row_at(select);
-  row.id = id;  // a damaged index leads to another's row
+  row.id = id;  // a damaged index may lead to another row
   return row;
 }
 

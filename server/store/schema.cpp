@@ -15,12 +15,12 @@ using errors::Reason;
 /// of another version is refused.
 constexpr std::int64_t schema_version = 8;
 
-/// Columns beside a record are those that are searched for. `number` is the order of creation;
-/// AUTOINCREMENT gives none twice, so that a page stays where it is when records are erased.
-/// `store` identifies the store that this database and the files beside it belong to
+/// Besides the record, tables have the columns by which rows are searched. `number` is the order of
+/// creation; AUTOINCREMENT gives no number twice, so that pages stay where they are when records
+/// are erased. `store` identifies the store that this database and the files beside it belong to
 /// (identity.hpp); `stopped` is 0 while a server runs its jobs, and after a crash. `checksum` says
-/// whether the row is as it was written (rows.hpp). A small result is one that is not worth a file
-/// of its own, as it would be in one.
+/// whether the row is as it was written (rows.hpp). A small result is not worth a file of its own;
+/// the column has what would be in the file.
 constexpr const char* tables = R"(
 CREATE TABLE meshes (
   number INTEGER PRIMARY KEY AUTOINCREMENT,

@@ -38,7 +38,7 @@ void Spool::write_out() {
     _written += _memory.size();
     _memory.clear();
   } catch (const errors::Error&) {
-    // The next piece tries again. What a failed write left in the file is written over then.
+    // The next piece tries again, and overwrites what the failed write left in the file.
   }
 }
 
@@ -63,7 +63,7 @@ class SpooledBlock::Source final : public records::BlockSource {
     if (run.bytes > 0) _runs.push_back({_size, run});
     _size += run.bytes;
   }
-  /// Bytes of zeros up to the next array's place, which it returns.
+  /// Aligns the size for the next array and returns its offset.
   std::uint64_t align() { return _size = records::aligned(_size); }
   void hash() {
     _sha256 = digest::sha256_of(_size, [this](std::uint64_t offset, std::span<std::byte> bytes) {

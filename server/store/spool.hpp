@@ -19,12 +19,12 @@
 
 namespace anticrack::store {
 
-/// Grows by pieces: the last megabyte in memory, the rest in a file without a name, which is gone
-/// with this object or with the process. What the disk refuses stays in memory until it takes it.
-/// Thread-safe.
+/// Grows by pieces: the last megabyte is in memory, the rest in a file without a name, which
+/// disappears with this object or with the process. Bytes that the disk refuses stay in memory
+/// until the disk takes them. Thread-safe.
 class Spool {
  public:
-  /// Where a piece lies.
+  /// The place of a piece.
   struct Run {
     std::uint64_t place = 0;
     std::uint64_t bytes = 0;
@@ -35,9 +35,9 @@ class Spool {
         std::function<DiskUsage::Reservation(std::uint64_t bytes)> reserve);
 
   Run append(std::span<const std::byte> bytes);
-  /// Fills `bytes` from a place on. Throws errors::Error (storage).
+  /// Fills `bytes` with those from a place on. Throws errors::Error (storage).
   void read(std::uint64_t place, std::span<std::byte> bytes) const;
-  /// Held in memory now.
+  /// The bytes that are in memory now.
   std::size_t memory() const noexcept { return _held; }
 
  private:
@@ -47,9 +47,9 @@ class Spool {
   const std::function<DiskUsage::Reservation(std::uint64_t)> _reserve;
   mutable std::mutex _mutex;
   std::optional<base::Descriptor> _file;
-  std::uint64_t _written = 0;         ///< in the file; what follows is in memory
+  std::uint64_t _written = 0;         ///< bytes in the file; those after it are in memory
   std::vector<std::byte> _memory;     ///< from place _written on
-  std::atomic<std::size_t> _held{0};  ///< bytes of _memory, to be known without waiting
+  std::atomic<std::size_t> _held{0};  ///< size of _memory, readable without the lock
   std::vector<DiskUsage::Reservation> _reserved;
 };
 
@@ -58,12 +58,12 @@ class SpooledBlock {
  public:
   explicit SpooledBlock(std::shared_ptr<const Spool> spool);
 
-  /// An array that consists of runs, one after the other.
+  /// Adds an array that consists of runs, one after the other.
   void add(std::string name, records::ArrayType type, std::vector<std::uint64_t> shape,
            std::span<const Spool::Run> runs);
-  /// The arrays of a block whose bytes are the run.
+  /// Adds the arrays of a block whose bytes are the run.
   void add(std::span<const records::ArrayLayout> arrays, const Spool::Run& run);
-  /// Reads all bytes for the hash. Throws errors::Error (storage). The object is empty after.
+  /// Reads all bytes for the hash. Throws errors::Error (storage). The object is empty afterwards.
   std::shared_ptr<const records::BlockSource> finish();
 
  private:

@@ -17,7 +17,7 @@ using errors::Reason;
 
 namespace {
 
-/// SQL's crc32c(...): CRC-32C of all arguments, each with its type and its length.
+/// The SQL function crc32c(...): CRC-32C of all arguments, each with its type and its length.
 void crc32c_of(sqlite3_context* context, int count, sqlite3_value** values) {
   std::uint32_t sum = 0;
   for (sqlite3_value* value : std::span(values, static_cast<std::size_t>(count))) {
@@ -83,7 +83,7 @@ std::string Statement::text(int column) {
 
 Connection::Connection(std::string path) : _path(std::move(path)) {
   sqlite3* database = nullptr;
-  // No mutex of SQLite's own: a connection belongs to one thread at a time.
+  // SQLite's own mutex is off, as a connection belongs to one thread at a time.
   const int code =
       sqlite3_open_v2(_path.c_str(), &database,
                       SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX, nullptr);
@@ -92,10 +92,10 @@ Connection::Connection(std::string path) : _path(std::move(path)) {
   sqlite3_extended_result_codes(database, 1);
   if (code != SQLITE_OK) throw error(code);
   if (sqlite3_db_readonly(database, "main") != 0) {
-    // SQLite's way out when it may not, or just now cannot, open the file for writing.
+    // SQLite opens a file read-only if it may not, or just now cannot, open it for writing.
     throw error(SQLITE_READONLY);
   }
-  sqlite3_busy_timeout(database, 5000);  // of a backup tool, or the other connection's checkpoint
+  sqlite3_busy_timeout(database, 5000);  // for a backup tool, or the other connection's checkpoint
   sqlite3_create_function_v2(database, "crc32c", -1, SQLITE_UTF8 | SQLITE_DETERMINISTIC, nullptr,
                              crc32c_of, nullptr, nullptr, nullptr);
 }
@@ -134,9 +134,9 @@ std::int64_t Connection::total_changes() const noexcept {
 }
 
 Error Connection::error(int code) const {
-  // Of the system call that failed. SQLite keeps it for some of its errors only.
+  // The errno of the system call that failed; SQLite keeps it for some of its errors only.
   const int of_system = errno;
-  // Of the last call as well, but more exact than what it returned.
+  // The error of the last call, more exact than what it returned.
   const std::string what = "the database " + _path + ": " + sqlite3_errmsg(_database.get()) + " (" +
                            sqlite3_errstr(code) + ")";
   switch (code & 0xff) {

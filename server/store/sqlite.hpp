@@ -17,7 +17,7 @@ namespace anticrack::store {
 
 class Connection;
 
-/// A statement of a connection, which keeps it compiled. Reset at the end of the scope: one that is
+/// A statement of a connection, which keeps it compiled. Reset at the end of the scope: a statement
 /// left in the middle would keep its transaction, and an error of the disk, alive.
 class Statement {
  public:
@@ -27,18 +27,18 @@ class Statement {
   Statement(const Statement&) = delete;
   Statement& operator=(const Statement&) = delete;
 
-  /// The next parameter, from the first on. Texts must outlive the statement.
+  /// Binds the next parameter, beginning with the first. Texts must outlive the statement.
   Statement& bind(std::int64_t value);
   Statement& bind(std::string_view text);
   Statement& bind_blob(std::string_view bytes);
   Statement& bind_null();
 
-  /// True where there is a row (another one).
+  /// Goes to the next row; false if there is none.
   bool step();
-  /// To the end.
+  /// Runs the statement to its end.
   void run();
 
-  /// Of the row that step() is at; columns count from 0.
+  /// A column of the present row; columns count from 0.
   std::int64_t integer(int column);
   std::string text(int column);  ///< of a text or of a blob
 
@@ -50,21 +50,21 @@ class Statement {
   int _bound = 0;
 };
 
-/// Throws errors::Error from every call: disk_full where there is no space, storage for any other
-/// failure of the disk and for a damaged file, internal for a bug; std::bad_alloc.
+/// Every call may throw errors::Error: disk_full if there is no space, storage for any other
+/// failure of the disk and for a damaged file, internal for a bug; or std::bad_alloc.
 class Connection {
  public:
-  /// Opens or makes the file. SQL has a function crc32c(...) besides its own.
+  /// Opens or makes the file. SQL gets an additional function crc32c(...).
   explicit Connection(std::string path);
 
-  /// Compiled once for each text.
+  /// A statement; each text is compiled once.
   Statement prepare(const std::string& sql);
-  /// Statements without parameters and without rows.
+  /// Runs statements without parameters and without rows.
   void execute(const std::string& sql);
   /// The first column of the first row of a query.
   std::int64_t integer(const std::string& sql);
 
-  /// Between BEGIN and its end.
+  /// Whether a transaction has begun and has not ended.
   bool in_transaction() const noexcept;
   int changes() const noexcept;  ///< rows the last statement changed
   std::int64_t total_changes() const noexcept;
@@ -84,15 +84,15 @@ class Connection {
   std::unordered_map<std::string, std::unique_ptr<sqlite3_stmt, Finalize>> _statements;
 };
 
-/// Rolled back at the end of the scope unless it was committed.
+/// A transaction; the end of the scope rolls it back unless it was committed.
 class Transaction {
  public:
-  /// Begins it, for writing.
+  /// Begins a transaction for writing.
   explicit Transaction(Connection& connection);
   ~Transaction();
   Transaction(const Transaction&) = delete;
   Transaction& operator=(const Transaction&) = delete;
-  /// On the disk when it returns.
+  /// Commits; the changes are on the disk when it returns.
   void commit();
 
  private:

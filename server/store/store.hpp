@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What outlives a request, a restart and a crash: records in SQLite, meshes, results and uploads as
-// files beside it.
+// The data that outlive a request, a restart and a crash: records in SQLite, and meshes, results
+// and uploads as files beside it.
 //
 //   DATA/anticrack.db (+ -wal, -shm)   records, small results; user_version is the schema's version
 //   DATA/identity                      that of the database (identity.hpp)
@@ -11,12 +11,12 @@
 //   DATA/*/part-XXXXXX                 being written; removed at the next start
 //   DATA/results, files without names  results of jobs that run (spool.hpp)
 //
-// A file is written under a temporary name, flushed, renamed, its folder flushed; only then a
-// record refers to it. A record is changed in a transaction (WAL, synchronous=FULL). So at any
-// moment, also after `kill -9` or a full disk, every record is whole and every file a record
-// refers to is there. Files no record refers to are removed at the next start, where the database
-// and the folder have the same identity; a folder whose database is missing, empty or another's is
-// refused.
+// A file is written under a temporary name, flushed and renamed, and its folder is flushed; only
+// then a record refers to it. A record is changed in a transaction (WAL, synchronous=FULL). So at
+// any moment, also after `kill -9` or a full disk, every record is whole and every file to which a
+// record refers is there. Files to which no record refers are removed at the next start, if the
+// database and the folder have the same identity; a folder whose database is missing, empty or of
+// another store is refused.
 #pragma once
 
 #include <cstdint>
@@ -32,8 +32,8 @@
 
 namespace anticrack::store {
 
-/// Newest first, `count` records after the one with id `after` (empty: from the start); of `owner`
-/// alone where one is given.
+/// A page of a list, newest first: `count` records after the one with id `after` (empty: from the
+/// start); only those of `owner`, if one is given.
 struct Page {
   std::string after;
   std::size_t count = 0;
@@ -41,13 +41,13 @@ struct Page {
   bool oldest_first = false;
 };
 
-/// Bytes on the disk.
+/// Bytes on the disk, by kind.
 struct Usage {
   std::uint64_t meshes = 0;
   std::uint64_t results = 0;
   std::uint64_t uploads = 0;
   std::uint64_t database = 0;
-  /// Everything.
+  /// The sum of all kinds.
   std::uint64_t total() const { return meshes + results + uploads + database; }
 };
 
@@ -59,7 +59,7 @@ struct OwnerUsage {
   std::uint64_t result_bytes = 0;  ///< results that have not expired
 };
 
-/// What retention (jobs/retention.hpp) decides on.
+/// An ended job, for the decisions of retention (jobs/retention.hpp).
 struct EndedJob {
   std::string id;
   records::Clock::time_point ended;
@@ -68,36 +68,34 @@ struct EndedJob {
 };
 
 struct StoreOptions {
-  std::string folder;             ///< made, for its owner alone, where it is missing
+  std::string folder;             ///< if missing, it is made, accessible to its owner only
   std::uint64_t disk_budget = 0;  ///< bytes for all of it; 0: the disk's size is the limit
 };
 
-/// An upload that is all there, in a file of new_upload_path().
+/// An upload that is complete, in a file of new_upload_path().
 struct Upload {
   std::string path;
   std::string sha256;
 };
 
-/// An upload that is kept.
+/// An upload that the store keeps.
 struct UploadRecord {
   std::string id;  ///< sha256
   std::string owner;
   records::Clock::time_point created;  ///< when it was last sent
   std::uint64_t bytes = 0;             ///< 0: the file is gone from the disk
-  bool array = false;                  ///< else a .msh
+  bool array = false;                  ///< whether it is an array, not a .msh
 };
 
 /// Contract:
 /// 1. Every method may be called from any thread and is atomic. Writers may wait for the disk.
-/// 2. A method that writes returns when what it wrote is on the disk (but for put(JobRecord)); when
-/// it throws errors::Error
-///    (disk_full with a retry delay: no space, or budget; storage: any other failure of the disk)
-///    it has written nothing, and the same call may succeed later. Nothing but a bad disk makes the
-///    store unusable.
+/// 2. A method that writes returns when its data are on the disk (except put(JobRecord)). If it
+///    throws errors::Error (disk_full with a retry delay: no space, or budget used up; storage: any
+///    other failure of the disk), it has written nothing, and the same call may succeed later. Only
+///    a bad disk makes the store unusable.
 /// 3. Lists are stable under insertion; an unknown `after` throws not_found.
-/// 4. A record that has changed on the disk comes as FAILED with an error (storage) that names it
-/// and
-///    gives the cure; no more is known of it than id and owner.
+/// 4. A record that has changed on the disk comes as FAILED with an error (storage) that has its
+///    name and the cure; only its id and owner are known.
 /// 5. Ids are unique for ever; an erased id does not come back by itself.
 class Store {
  public:
@@ -106,80 +104,80 @@ class Store {
   virtual void put(const records::MeshRecord& record) = 0;  ///< inserts or replaces
   /// The same with the triangulation, whose encoding has the hash record.sha256.
   virtual void put(const records::MeshRecord& record, const mesh::Mesh& triangulation) = 0;
-  /// Empty where there is none.
+  /// The record of a mesh; empty if there is none.
   virtual std::optional<records::MeshRecord> mesh(const std::string& id) const = 0;
   virtual std::vector<records::MeshRecord> meshes(const Page& page) const = 0;
   virtual std::size_t mesh_count() const = 0;
-  /// And its triangulation, where no other record has the same. Throws not_found.
+  /// Erases a mesh, and its triangulation if no other record has the same. Throws not_found.
   virtual void erase_mesh(const std::string& id) = 0;
-  /// Shared among all who hold it at the same time, else read from the disk and checked: null where
-  /// there is none; storage where the file does not have its hash.
+  /// A triangulation: shared among all who hold it at the same time, otherwise read from the disk
+  /// and checked. Null if there is none; throws storage if the file does not have its hash.
   virtual std::shared_ptr<const mesh::Mesh> triangulation(const std::string& sha256) const = 0;
 
-  /// Inserts the job, or returns the one its owner made with the same (non-empty) request id
-  /// before; throws request_id_reused when that one had another fingerprint.
+  /// Inserts the job, or returns the job that its owner made with the same (non-empty) request id
+  /// before; throws request_id_reused if that job had another fingerprint.
   virtual records::JobRecord create(const records::JobRecord& record,
                                     const std::string& fingerprint) = 0;
-  /// What `create` would return in place of this record, without inserting anything; empty: none.
+  /// The earlier job that `create` would return; empty if there is none. Inserts nothing.
   virtual std::optional<records::JobRecord> created_before(
       const records::JobRecord& record, const std::string& fingerprint) const = 0;
-  /// Replaces; throws not_found. Survives kill -9, and a power failure once anything was written
-  /// after it: what a start and a recovery say is found out again.
+  /// Replaces the record; throws not_found. It survives kill -9, and a power failure once anything
+  /// was written after it; what a start and a recovery write can be found out again.
   virtual void put(const records::JobRecord& record) = 0;
-  /// For the result of a job that runs.
+  /// A spool for the result of a job that runs.
   virtual std::shared_ptr<Spool> new_spool() = 0;
-  /// The end of a job: its last record and its result (null: none), both or neither. The result is
-  /// copied in pieces: until it returns, a spooled result takes its bytes twice.
+  /// Writes the end of a job: its last record and its result (null: none), both or neither. The
+  /// result is copied in pieces, so a spooled result takes its bytes twice until this returns.
   virtual void finish(const records::JobRecord& record,
                       std::shared_ptr<const records::BlockSource> result) = 0;
-  /// Empty where there is none.
+  /// The record of a job; empty if there is none.
   virtual std::optional<records::JobRecord> job(const std::string& id) const = 0;
   virtual std::vector<records::JobRecord> jobs(const Page& page) const = 0;
-  /// Oldest first: to be queued at a start; without those that are damaged.
+  /// The jobs that have not ended, oldest first, to be queued at a start; without damaged records.
   virtual std::vector<records::JobRecord> unfinished() const = 0;
   /// Notes whether a server is running jobs. Returns what was noted before: true at a start means
   /// that the last server did not stop but crashed.
   virtual bool set_running(bool running) = 0;
   virtual std::vector<EndedJob> ended() const = 0;  ///< oldest end first
-  /// Null where the job has none; throws storage where its record, a small result or the layout of
-  /// a large one is damaged. The file is not read as a whole.
+  /// The result of a job; null if it has none. Throws storage if its record, a small result or the
+  /// layout of a large one is damaged. Does not read the whole file.
   virtual std::shared_ptr<const records::BlockSource> result(const std::string& job) const = 0;
-  /// Removes the result of an ended job and notes when that was; throws not_found.
+  /// Removes the result of an ended job and notes the time `now`; throws not_found.
   virtual void expire(const std::string& job, records::Clock::time_point now) = 0;
   virtual void erase_job(const std::string& id) = 0;  ///< and its result; throws not_found
 
-  /// Where the upload with this hash lies that `owner` made; empty where there is none. Whether the
-  /// content still has the hash: require_intact_upload() (files.hpp).
+  /// The path of the upload with this hash that `owner` made; empty if there is none.
+  /// require_intact_upload() (files.hpp) checks whether the content still has the hash.
   virtual std::optional<std::string> upload_path(const std::string& sha256,
                                                  const std::string& owner) const = 0;
   /// A fresh file to receive an upload of `bytes`; `keep_uploads` moves it to its place.
   virtual std::string new_upload_path(std::uint64_t bytes) = 0;
-  /// Keeps all of them, or none, each in place of the same file where that has changed on the disk.
-  /// They share the waits for the disk. Returns when they were made.
+  /// Keeps all uploads, or none; an upload replaces the same file if that has changed on the disk.
+  /// They share the waits for the disk. Returns the time of their creation.
   virtual records::Clock::time_point keep_uploads(const std::vector<Upload>& uploads,
                                                   const std::string& owner) = 0;
-  /// An upload of `owner`; empty where there is none.
+  /// An upload of `owner`; empty if there is none.
   virtual std::optional<UploadRecord> upload(const std::string& sha256,
                                              const std::string& owner) const = 0;
-  /// At most `count` uploads of `owner` by sha256, those after `after`; without damaged records.
+  /// At most `count` uploads of `owner`, sorted by sha256, after `after`; without damaged records.
   virtual std::vector<UploadRecord> uploads(const std::string& owner, const std::string& after,
                                             std::size_t count) const = 0;
-  /// Throws not_found; in_use where an unfinished job or a mesh without a triangulation of `owner`
-  /// refers to it.
+  /// Erases an upload. Throws not_found; in_use if an unfinished job or a mesh without a
+  /// triangulation of `owner` refers to it.
   virtual void erase_upload(const std::string& sha256, const std::string& owner) = 0;
-  /// Removes uploads made before `before` that no unfinished job and no mesh without a
-  /// triangulation refers to; returns how many.
+  /// Removes uploads made before `before` to which no unfinished job and no mesh without a
+  /// triangulation refers; returns how many.
   virtual std::size_t expire_uploads(records::Clock::time_point before) = 0;
 
-  /// As counted, without a look at the disk but for the database.
+  /// The bytes as counted; only for the database it asks the disk.
   virtual Usage usage() const = 0;
-  /// Of every owner of a job. O(jobs).
+  /// The usage of every owner of a job. O(jobs).
   virtual std::vector<OwnerUsage> owners() const = 0;
 };
 
-/// Opens or makes the folder. Throws errors::Error (storage): the folder cannot be written, the
-/// database is damaged, missing though there are files, not that of the files, or of an anticrack
-/// with another version of it.
+/// Opens or makes the folder. Throws errors::Error (storage): the folder cannot be written, or the
+/// database is damaged, missing though there are files, not that of the files, or of another
+/// version.
 std::unique_ptr<Store> open(const StoreOptions& options);
 
 }  // namespace anticrack::store

@@ -22,7 +22,8 @@ class Triangulations {
     return found == _held.end() ? nullptr : found->second.lock();
   }
 
-  /// The one that is held already where another thread was first. O(number held), seldom called.
+  /// Adds a mesh; returns the one held already if another thread was first. O(number held), seldom
+  /// called.
   Pointer share(const std::string& sha256, Pointer mesh) {
     const std::lock_guard lock(_mutex);
     std::erase_if(_held, [](const auto& item) { return item.second.expired(); });
@@ -32,7 +33,7 @@ class Triangulations {
     return mesh;
   }
 
-  /// Removes it from the table; its users keep it.
+  /// Removes a mesh from the table; its users keep it.
   void forget(const std::string& sha256) {
     const std::lock_guard lock(_mutex);
     _held.erase(sha256);

@@ -12,43 +12,44 @@
 
 namespace anticrack::store {
 
-/// Uploads on their way: how many bytes each may take, and which could not be flushed. Who receives
-/// an upload removes its file when it is given up, so what has no file is forgotten. Thread-safe.
+/// Uploads that are being received: how many bytes each may take, and which could not be flushed.
+/// The receiver of an upload removes its file when it gives it up, so uploads without a file are
+/// forgotten. Thread-safe.
 class UploadParts {
  public:
-  /// An upload begins.
+  /// To be called when an upload begins.
   void add(const std::string& path, DiskUsage::Reservation reservation) {
     const std::lock_guard lock(_mutex);
-    // Looking at all of them for each new one would take the square of their number.
+    // Looking at all uploads for each new one would take time in the square of their number.
     if (_reserved.size() >= _look_at) {
       drop_lost();
       _look_at = 2 * _reserved.size() + 16;
     }
     _reserved.emplace(path, std::move(reservation));
   }
-  /// Forgets those whose files were removed.
+  /// Forgets uploads whose files were removed.
   void forget_lost() {
     const std::lock_guard lock(_mutex);
     drop_lost();
   }
-  /// An upload has ended.
+  /// To be called when an upload has ended.
   void forget(const std::string& path) {
     const std::lock_guard lock(_mutex);
     _reserved.erase(path);
     _unflushed.erase(path);
   }
-  /// The system may have dropped what it could not write, and would call the next flush a success:
-  /// the bytes have to be written again.
+  /// Marks a file whose flush failed: the system may have dropped the bytes and would call the next
+  /// flush a success, so they must be written again.
   void mark_unflushed(const std::string& path) {
     const std::lock_guard lock(_mutex);
     _unflushed.insert(path);
   }
-  /// It was written again.
+  /// To be called when the file was written again.
   void mark_flushed(const std::string& path) {
     const std::lock_guard lock(_mutex);
     _unflushed.erase(path);
   }
-  /// Whether it has to be written again.
+  /// Whether the file has to be written again.
   bool unflushed(const std::string& path) const {
     const std::lock_guard lock(_mutex);
     return _unflushed.contains(path);
@@ -63,7 +64,7 @@ class UploadParts {
   mutable std::mutex _mutex;
   std::map<std::string, DiskUsage::Reservation> _reserved;
   std::set<std::string> _unflushed;
-  std::size_t _look_at = 16;  // as many reservations as make the next look for lost ones
+  std::size_t _look_at = 16;  // number of reservations at which to look for lost uploads next
 };
 
 }  // namespace anticrack::store
