@@ -31,7 +31,7 @@ struct CaseProgress {
 
 struct JobProgress {
   std::string job;
-  v1::Job::State state = v1::Job::STATE_UNSPECIFIED;
+  v1::JobStatus::State state = v1::JobStatus::STATE_UNSPECIFIED;
   std::string detail;        ///< phase, e.g. "meshing"
   std::string notice;        ///< e.g. that the connection is lost; empty: none
   std::string prompt;        ///< the effect of Ctrl-C; empty before
@@ -53,7 +53,7 @@ struct JobProgress {
   void apply(const v1::Job& job_now);
   void apply(const v1::Stage& stage);
   void begin_stage();
-  void enter(v1::Job::State next, const std::string& what);
+  void enter(v1::JobStatus::State next, const std::string& what);
   void apply(const v1::Samples& samples);
   void apply(std::size_t index, const v1::LoadCaseAnswer& answer);
 
@@ -63,7 +63,7 @@ struct JobProgress {
 /// "converged", "not converged", "running", ... for people.
 std::string_view word(results::Status status) noexcept;
 /// "queued", "waiting for the mesh", ... for people.
-std::string_view word(v1::Job::State state) noexcept;
+std::string_view word(v1::JobStatus::State state) noexcept;
 std::string_view word(v1::Mesh::State state) noexcept;
 /// The same, and how far the mesher is: "meshing: bisecting a mesh, 120000 triangles".
 std::string state_text(const v1::Mesh& mesh);

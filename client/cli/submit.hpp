@@ -51,7 +51,7 @@ v1::Mesh create_mesh(Session& session, const Case& the_case);
 
 /// Completes a job before it is submitted: what it needs besides the case has to be uploaded first,
 /// and again for a server that has lost it.
-using Prepare = std::function<void(v1::Job&)>;
+using Prepare = std::function<void(v1::JobSpec&)>;
 
 /// create_mesh, then the job. Repeating it with the same id is harmless.
 v1::Job submit(Session& session, const Case& the_case, const std::string& request_id,

@@ -136,10 +136,6 @@ std::optional<Error> too_many_crashes(const JobRecord& record, const EngineOptio
 TakenIn take_in(EngineCore& core, const Submission& submission) {
   check(submission.spec, core.options);
   JobRecord record = new_record(submission);
-  const std::string print =
-      submission.fingerprint.empty() ? fingerprint(record.spec) : submission.fingerprint;
-  // First: the same request again is answered however full the queue, and though its mesh is gone.
-  if (auto made = core.store.created_before(record, print)) return {std::move(*made), false};
   std::shared_ptr<void> mesh_use = use(core, record.spec.mesh);
   const records::MeshRecord mesh = core.catalogue.get(record.spec.mesh);
   check_on_mesh(record.spec, mesh.definition);
@@ -150,7 +146,7 @@ TakenIn take_in(EngineCore& core, const Submission& submission) {
   if (record.spec.sweep) measure(*record.spec.sweep, record, core);
   const std::uint64_t cases = queued_cases(record.spec, core.store, record.owner);
   Place place(core, record, cases);
-  JobRecord stored = core.store.create(record, print);
+  JobRecord stored = core.store.create(record, submission.fingerprint);
   if (stored.id != record.id)
     return {std::move(stored), false};  // made by the same request in this moment
   const EngineCore::Lock lock(core.mutex);

@@ -78,9 +78,8 @@ struct EngineMetrics {
 struct Submission {
   records::JobSpec spec;
   std::string owner;
-  std::string request_id;  ///< empty: not idempotent
-  /// Same for a retry, of at most 64 bytes; empty: made from the spec.
-  std::string fingerprint = {};
+  std::string request_id;        ///< empty: not idempotent
+  std::string fingerprint = {};  ///< of the request: the same for a retry, at most 64 bytes
 };
 
 /// Owns the worker threads. A job waits for its mesh on no thread: it hears from the catalogue, so
@@ -113,7 +112,7 @@ class JobEngine {
   records::JobRecord submit(const Submission& submission);
 
   /// The job that the owner made by this request before, as it is now; empty where there is none.
-  /// Throws request_id_reused. Needs no other condition of submit(): limits may have changed since.
+  /// Throws request_id_reused. Ask this before submit(), whose conditions may have changed since.
   std::optional<records::JobRecord> submitted(const std::string& owner,
                                               const std::string& request_id,
                                               const std::string& fingerprint) const;

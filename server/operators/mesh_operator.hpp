@@ -27,8 +27,8 @@ class PreparedLoad;
 class LoadBasis;
 class UzawaBlock;
 
-/// Nodes of the interfaces up to which their matrices are dense.
-constexpr std::size_t max_dense = 3000;
+/// Nodes of the interfaces up to which a membrane is condensed to them, with dense matrices.
+constexpr std::size_t default_condensed_up_to = 3000;
 
 /// Factorised subdomains, Schur complements, the skeleton condensed to the cracks and the interface
 /// mass of one mesh; on demand also the flexibilities and theta* of Algorithm 2 and bases of
@@ -38,10 +38,10 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
   /// Factorises every subdomain (paper: the matrices of Algorithm 2) on `threads` threads. Throws
   /// errors::Error: numerical (a part that nothing or contact alone holds), cancelled. One sparse
   /// Cholesky factorisation per subdomain plus O(n_G^3) for n_G interface nodes. Of more than
-  /// `most_dense` the membrane is joined instead: one sparse factor, O(N^1.5).
-  static std::shared_ptr<const MeshOperator> factorise(std::shared_ptr<const mesh::Mesh> mesh,
-                                                       int threads, std::stop_token stop,
-                                                       std::size_t most_dense = max_dense);
+  /// `condensed_up_to` the membrane is joined instead: one sparse factor, O(N^1.5).
+  static std::shared_ptr<const MeshOperator> factorise(
+      std::shared_ptr<const mesh::Mesh> mesh, int threads, std::stop_token stop,
+      std::size_t condensed_up_to = default_condensed_up_to);
   /// Condenses loads by forward solves in blocks of columns, O(N) each. Entry i belongs to loads[i]
   /// and holds its error: expression_invalid (a value that is not finite, with the place),
   /// invalid_argument (an unknown subdomain or inclusion, an array of another length, a point

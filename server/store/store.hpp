@@ -120,9 +120,10 @@ class Store {
   /// before; throws request_id_reused when that one had another fingerprint.
   virtual records::JobRecord create(const records::JobRecord& record,
                                     const std::string& fingerprint) = 0;
-  /// What `create` would return in place of this record, without inserting anything; empty: none.
+  /// The job that `create` would return in place of one with these; empty: none.
   virtual std::optional<records::JobRecord> created_before(
-      const records::JobRecord& record, const std::string& fingerprint) const = 0;
+      const std::string& owner, const std::string& request_id,
+      const std::string& fingerprint) const = 0;
   /// Replaces; throws not_found. Survives kill -9, and a power failure once anything was written
   /// after it: what a start and a recovery say is found out again.
   virtual void put(const records::JobRecord& record) = 0;
