@@ -59,11 +59,11 @@ TEST_F(UnwantedMesh, StopsWithTheLastOfItsJobs) {
   const v1::Job second = submit(connection, one, client::make_uuid());
   ASSERT_TRUE(meshes(1));
   EXPECT_TRUE(eventually([&] {
-    const v1::Mesh mesh = client::get_mesh(connection, first.mesh());
+    const v1::Mesh mesh = client::get_mesh(connection, first.spec().mesh());
     return mesh.state() == v1::Mesh::STATE_MESHING && !mesh.progress().doing().empty();
   }));
   EXPECT_THAT(daemon.client({"mesh", "list"}).output, HasSubstr("triangles"));
-  EXPECT_THAT(daemon.client({"mesh", "show", first.mesh()}).output, HasSubstr("meshing: "));
+  EXPECT_THAT(daemon.client({"mesh", "show", first.spec().mesh()}).output, HasSubstr("meshing: "));
   client::cancel_job(connection, first.name());
   EXPECT_EQ(wait_for_end(connection, first.name()).status().state(),
             v1::JobStatus::STATE_CANCELLED);
@@ -72,8 +72,8 @@ TEST_F(UnwantedMesh, StopsWithTheLastOfItsJobs) {
   EXPECT_EQ(wait_for_end(connection, second.name()).status().state(),
             v1::JobStatus::STATE_CANCELLED);
   EXPECT_TRUE(meshes(0));
-  EXPECT_EQ(state_of(first.mesh()), v1::Mesh::STATE_PENDING);
-  client::delete_mesh(connection, first.mesh());
+  EXPECT_EQ(state_of(first.spec().mesh()), v1::Mesh::STATE_PENDING);
+  client::delete_mesh(connection, first.spec().mesh());
   EXPECT_EQ(daemon.stop(), 0);
 }
 

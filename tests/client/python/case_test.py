@@ -149,9 +149,9 @@ boundary_value = "x"
 """
         ours, theirs = read(case), read(Case.parse(text))
         self.assertEqual(ours.mesh, theirs.mesh)
-        self.assertEqual(ours.job, theirs.job)
+        self.assertEqual(ours.spec, theirs.spec)
         again = read(Case.parse(ours.text))
-        self.assertEqual((again.mesh, again.job), (ours.mesh, ours.job))
+        self.assertEqual((again.mesh, again.spec), (ours.mesh, ours.spec))
 
     def test_what_is_wrong_is_named(self):
         def bump(x, y):
