@@ -60,8 +60,8 @@ std::string scale_of(const v1::Job& job) {
   const auto several = [](const v1::LoadCaseAnswer& answer) {
     return answer.inclusions_size() > 1;
   };
-  if (std::ranges::none_of(job.answers(), several)) return "";
-  return job.accuracy().each_inclusion() ? " of each A" : " of the largest A";
+  if (std::ranges::none_of(job.status().answers(), several)) return "";
+  return job.spec().accuracy().each_inclusion() ? " of each A" : " of the largest A";
 }
 
 }  // namespace
@@ -79,7 +79,7 @@ StageErrors errors_of(const v1::Stage& stage) {
 
 std::vector<StageErrors> stages_of(const v1::Job& job) {
   std::vector<StageErrors> stages;
-  for (const v1::Stage& stage : job.stages())
+  for (const v1::Stage& stage : job.status().stages())
     if (stage.answers_size() > 0) stages.push_back(errors_of(stage));
   return stages;
 }
@@ -116,11 +116,12 @@ std::string accuracy_text(const v1::Job& job) {
   std::string text;
   if (const auto stages = stages_of(job); !stages.empty()) {
     const StageErrors& last = stages.back();
-    text = "accuracy: " + errors_text(last, job.accuracy(), scale_of(job)) + "; " +
+    text = "accuracy: " + errors_text(last, job.spec().accuracy(), scale_of(job)) + "; " +
            counted(stages.size(), "stage") + ", " + std::to_string(last.triangles) +
            " triangles, " + seconds(last.seconds) + " s\n";
   }
-  if (!job.not_reached().empty()) text += "not reached: " + sanitise(job.not_reached()) + "\n";
+  if (!job.status().not_reached().empty())
+    text += "not reached: " + sanitise(job.status().not_reached()) + "\n";
   return text;
 }
 

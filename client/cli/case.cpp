@@ -57,7 +57,7 @@ Case case_of(Session& session, const v1::ReadCaseRequest& request, const fs::pat
   made.text = read.toml().empty() ? request.toml() : read.toml();
   if (!read.mesh_file().empty()) made.mesh_file = folder / read.mesh_file();
   made.mesh = std::move(*read.mutable_mesh());
-  made.job = std::move(*read.mutable_job());
+  made.spec = std::move(*read.mutable_spec());
   for (const v1::CaseArray& array : read.arrays())
     made.force_files.push_back({array.load_case(), folder / array.file(), array.dataset()});
   made.notes.assign(read.notes().begin(), read.notes().end());

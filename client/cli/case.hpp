@@ -28,7 +28,7 @@ struct Case {
   std::string text;                                ///< the TOML as run, with the overrides
   std::optional<std::filesystem::path> mesh_file;  ///< .msh to upload
   v1::CreateMeshRequest mesh;  ///< its source is set, unless there is a mesh_file
-  v1::Job job;                 ///< all but `mesh` and the uploads of `force_files`
+  v1::JobSpec spec;            ///< of the job: all but `mesh` and the uploads of `force_files`
   std::vector<ForceFile> force_files;
   std::vector<std::string> notes;               ///< warnings of what is allowed, but may be a slip
   std::map<std::string, v1::CasePlace> places;  ///< field of a request -> where it was written

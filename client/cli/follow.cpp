@@ -31,7 +31,7 @@ double steady_seconds() {
 
 // The age of a job by two clocks that may differ; never negative.
 double age_of(const v1::Job& job) {
-  return std::max(0., seconds_between(job.create_time(), TimeUtil::GetCurrentTime()));
+  return std::max(0., seconds_between(job.status().create_time(), TimeUtil::GetCurrentTime()));
 }
 
 /// The progress of a job on a terminal or in a log.
@@ -167,7 +167,7 @@ Followed follow(Session& session, const v1::Job& job, std::uint64_t rows) {
     say_always(session.globals(), "To save its results in the end: anticrack job fetch " + target);
     return {Followed::How::detached, job, {}};
   }
-  const bool in_time = cancelling && last->state() == v1::Job::STATE_CANCELLED;
+  const bool in_time = cancelling && last->status().state() == v1::JobStatus::STATE_CANCELLED;
   return {in_time ? Followed::How::cancelled : Followed::How::ended, *std::move(last), {}};
 }
 

@@ -59,24 +59,25 @@ int submit_case(const JobOptions& options, const Globals& globals) {
   return exit_ok;
 }
 
-const std::map<std::string, v1::Job::State> states{
-    {"queued", v1::Job::STATE_QUEUED},
-    {"waiting", v1::Job::STATE_WAITING_FOR_MESH},
-    {"running", v1::Job::STATE_RUNNING},
-    {"done", v1::Job::STATE_SUCCEEDED},
-    {"not-converged", v1::Job::STATE_NOT_CONVERGED},
-    {"failed", v1::Job::STATE_FAILED},
-    {"cancelled", v1::Job::STATE_CANCELLED},
+const std::map<std::string, v1::JobStatus::State> states{
+    {"queued", v1::JobStatus::STATE_QUEUED},
+    {"waiting", v1::JobStatus::STATE_WAITING_FOR_MESH},
+    {"running", v1::JobStatus::STATE_RUNNING},
+    {"done", v1::JobStatus::STATE_SUCCEEDED},
+    {"not-converged", v1::JobStatus::STATE_NOT_CONVERGED},
+    {"failed", v1::JobStatus::STATE_FAILED},
+    {"cancelled", v1::JobStatus::STATE_CANCELLED},
 };
 
 // The number of load cases, or rows of a sweep, that have ended, like "3/4".
 std::string ended_text(const v1::Job& job) {
-  if (job.has_sweep()) {
-    const v1::SweepAnswer& sweep = job.sweep_answer();
+  if (job.spec().has_sweep()) {
+    const v1::SweepAnswer& sweep = job.status().sweep_answer();
     return std::to_string(sweep.converged() + sweep.not_converged() + sweep.failed()) + "/" +
            std::to_string(sweep.rows()) + " rows";
   }
-  return std::to_string(job.load_cases_ended()) + "/" + std::to_string(job.load_case_count());
+  return std::to_string(job.status().load_cases_ended()) + "/" +
+         std::to_string(job.status().load_case_count());
 }
 
 int list_jobs(const JobOptions& options, const Globals& globals) {
@@ -102,9 +103,10 @@ int list_jobs(const JobOptions& options, const Globals& globals) {
   std::vector<std::vector<std::string>> rows{
       {"job", "created", "state", "cases ended", "mesh", "owner", "title"}};
   for (const v1::Job& job : response.jobs()) {
-    rows.push_back({sanitise(job.name()), clock_text(job.create_time().seconds()),
-                    std::string(word(job.state())), ended_text(job), sanitise(job.mesh()),
-                    sanitise(job.owner()), sanitise(job.title())});
+    rows.push_back({sanitise(job.name()), clock_text(job.status().create_time().seconds()),
+                    std::string(word(job.status().state())), ended_text(job),
+                    sanitise(job.spec().mesh()), sanitise(job.owner()),
+                    sanitise(job.spec().title())});
   }
   drop_if_empty(rows, 5);  // without users there are no owners
   print_document(table(rows, {1, 2, 4, 5, 6}));
@@ -157,27 +159,22 @@ int watch_job(const JobOptions& options, const Globals& globals) {
 }
 
 // A job that solves the load cases of another one again, with fields, on the same mesh.
-v1::Job with_fields(const v1::Job& job) {
-  v1::Job again;
-  again.set_title(job.title());
+v1::JobSpec with_fields(const v1::Job& job) {
+  v1::JobSpec again = job.spec();
   again.set_mesh(mesh_of(job));
-  *again.mutable_load_cases() = job.load_cases();
-  *again.mutable_solver() = job.solver();
-  *again.mutable_outputs() = job.outputs();
+  again.clear_task();  // that is the mesh of the last stage
   again.add_outputs(v1::OUTPUT_FIELDS);
-  again.set_without_bounds(job.without_bounds());
-  if (job.has_units()) *again.mutable_units() = job.units();
-  again.set_priority(v1::Job::PRIORITY_INTERACTIVE);
+  again.set_priority(v1::JobSpec::PRIORITY_INTERACTIVE);
   return again;
 }
 
 bool has_fields(const v1::Job& job) {
-  return std::ranges::find(job.outputs(), v1::OUTPUT_FIELDS) != job.outputs().end();
+  return std::ranges::find(job.spec().outputs(), v1::OUTPUT_FIELDS) != job.spec().outputs().end();
 }
 
 // Solves a job that has ended without fields anew, with fields.
 Followed solve_with_fields(Session& session, const v1::Job& job) {
-  if (job.has_sweep()) {
+  if (job.spec().has_sweep()) {
     throw UsageError(job.name() +
                      " is a sweep, which has no fields; run a case of the load you want to see");
   }
@@ -195,12 +192,12 @@ int fetch_result(const JobOptions& options, const Globals& given) {
   output::check_writable(output);
   Session session(globals);
   v1::Job job = get_job(session, name);
-  if (options.fields && client::ended(job.state()) && !has_fields(job)) {
+  if (options.fields && client::ended(job.status().state()) && !has_fields(job)) {
     Followed followed = solve_with_fields(session, job);
     if (followed.how == Followed::How::detached) return exit_interrupted;
     job = std::move(followed.job);
   }
-  if (job.result_state() == v1::Job::RESULT_STATE_EXPIRED)
+  if (job.status().result_state() == v1::JobStatus::RESULT_STATE_EXPIRED)
     throw client::Error(client::Code::failed_precondition, expired_text(job));
   const results::Result result = fetch(session, job, session.stop());
   const std::string kept = results::write(output, result);

@@ -21,10 +21,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string counted_cases(const v1::Job& job, std::uint64_t rows) {
-  if (job.has_sweep()) return "a sweep of " + std::to_string(rows) + (rows == 1 ? " row" : " rows");
-  return std::to_string(job.load_cases_size()) +
-         (job.load_cases_size() == 1 ? " load case" : " load cases");
+std::string counted_cases(const v1::JobSpec& spec, std::uint64_t rows) {
+  if (spec.has_sweep())
+    return "a sweep of " + std::to_string(rows) + (rows == 1 ? " row" : " rows");
+  return std::to_string(spec.load_cases_size()) +
+         (spec.load_cases_size() == 1 ? " load case" : " load cases");
 }
 
 std::string summary(const results::Result& result, const fs::path& file) {
@@ -38,29 +39,31 @@ std::string summary(const results::Result& result, const fs::path& file) {
 
 // The reasons why a job has no answers, line by line, in terms of its case.
 std::vector<std::string> causes(const Case& the_case, const v1::Job& job) {
+  const v1::JobStatus& status = job.status();
   const auto text_of = [&the_case](const v1::Status& error) {
     return std::string(in_terms_of(the_case, client::decode_error(error)).what());
   };
-  if (job.state() == v1::Job::STATE_CANCELLED) return {job.name() + " was cancelled"};
-  if (job.result_state() == v1::Job::RESULT_STATE_EXPIRED) return {expired_text(job)};
+  if (status.state() == v1::JobStatus::STATE_CANCELLED) return {job.name() + " was cancelled"};
+  if (status.result_state() == v1::JobStatus::RESULT_STATE_EXPIRED) return {expired_text(job)};
   std::vector<std::string> lines;
-  if (job.has_error()) lines.push_back(job.name() + " failed: " + text_of(job.error()));
-  for (const v1::LoadCaseAnswer& answer : job.answers()) {
+  if (status.has_error()) lines.push_back(job.name() + " failed: " + text_of(status.error()));
+  for (const v1::LoadCaseAnswer& answer : status.answers()) {
     const std::string& cause = answer.error().message();
-    const bool told = job.error().message().find(cause) != std::string::npos;
+    const bool told = status.error().message().find(cause) != std::string::npos;
     if (answer.has_error() && !told)
       lines.push_back(answer.name() + " failed: " + text_of(answer.error()));
   }
   if (lines.empty())
-    lines.push_back(job.name() + " ended without results: " + std::string(word(job.state())));
+    lines.push_back(job.name() + " ended without results: " + std::string(word(status.state())));
   return lines;
 }
 
 // Prints the warnings of an import: what it assumed, or repaired.
 void tell_warnings(Session& session, const v1::Job& job, const std::stop_token& stop,
                    const Ahead* ahead) {
-  const v1::Mesh mesh =
-      ahead != nullptr ? ahead->mesh : client::get_mesh(session.connection(), job.mesh(), stop);
+  const v1::Mesh mesh = ahead != nullptr
+                            ? ahead->mesh
+                            : client::get_mesh(session.connection(), job.spec().mesh(), stop);
   for (const std::string& warning : mesh.warnings()) say(session.globals(), "mesh: " + warning);
 }
 
@@ -79,7 +82,7 @@ auto or_later(const Session& session, const v1::Job& job, const Action& action) 
   try {
     return action();
   } catch (const client::Interrupted&) {
-    if (job.result_bytes() > 0) tell_fetch(session, job.name());
+    if (job.status().result_bytes() > 0) tell_fetch(session, job.name());
     throw;
   }
 }
@@ -102,7 +105,8 @@ Followed submit_and_follow(Session& session, const Case& the_case, const Prepare
   const std::string request_id = client::make_uuid();
   for (int attempt = 1;; ++attempt) {
     const v1::Job job = submit(session, the_case, request_id, prepare);
-    say(session.globals(), job.name() + " on " + job.mesh() + ": " + counted_cases(job, rows));
+    say(session.globals(),
+        job.name() + " on " + job.spec().mesh() + ": " + counted_cases(job.spec(), rows));
     const AheadFuture ahead = fetch_ahead(session, job);
     try {
       Followed followed = follow(session, job, rows);
@@ -137,7 +141,7 @@ std::optional<results::Result> results_of(Session& session, const Case& the_case
       followed.how == Followed::How::cancelled ? std::stop_token() : session.stop();
   Ahead* const ahead = followed.ahead.get().get();
   or_later(session, job, [&] { tell_warnings(session, job, stop, ahead); });
-  if (job.result_bytes() == 0) {
+  if (job.status().result_bytes() == 0) {
     for (const std::string& line : causes(the_case, job)) complain(line);
     if (session.globals().json) print_document(to_json(job));
     return std::nullopt;

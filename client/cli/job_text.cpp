@@ -20,22 +20,22 @@ using google::protobuf::util::TimeUtil;
 // Unusual circumstances of a job, in one line.
 std::string circumstances(const v1::Job& job) {
   constexpr std::array<std::string_view, 4> priorities{"normal", "interactive", "normal", "bulk"};
-  std::string text = "priority " + std::string(word_of(priorities, job.priority()));
+  std::string text = "priority " + std::string(word_of(priorities, job.spec().priority()));
   if (!job.owner().empty()) text += ", of " + sanitise(job.owner());
-  if (job.attempt() > 1)
-    text += ", attempt " + std::to_string(job.attempt()) + ": the server stopped while it ran";
+  if (job.status().attempt() > 1)
+    text +=
+        ", attempt " + std::to_string(job.status().attempt()) + ": the server stopped while it ran";
   const auto add_limit = [&text](const char* name, const google::protobuf::Duration& time) {
     if (TimeUtil::DurationToMilliseconds(time) > 0)
       text += std::string(", ") + name + " at most " +
               number(static_cast<double>(TimeUtil::DurationToMilliseconds(time)) / 1000) + " s";
   };
-  add_limit("waits", job.queue_timeout());
-  add_limit("runs", job.run_timeout());
+  add_limit("waits", job.spec().queue_timeout());
+  add_limit("runs", job.spec().run_timeout());
   return text + "\n";
 }
 
-std::string sweep_answer(const v1::Job& job) {
-  const v1::SweepAnswer& answer = job.sweep_answer();
+std::string sweep_answer(const v1::SweepAnswer& answer) {
   std::string text = "sweep of " + std::to_string(answer.rows()) +
                      " rows: " + std::to_string(answer.converged()) + " converged, " +
                      std::to_string(answer.not_converged()) + " did not converge, " +
@@ -50,12 +50,12 @@ std::string sweep_answer(const v1::Job& job) {
 }
 
 // The steps with the seconds since the job was created, which show how long each state took.
-std::string timeline(const v1::Job& job) {
-  if (job.timeline().empty()) return "";
-  const auto& begin = job.has_create_time() ? job.create_time() : job.timeline(0).time();
-  const bool again = job.timeline(job.timeline_size() - 1).attempt() > 1;
+std::string timeline(const v1::JobStatus& status) {
+  if (status.timeline().empty()) return "";
+  const auto& begin = status.has_create_time() ? status.create_time() : status.timeline(0).time();
+  const bool again = status.timeline(status.timeline_size() - 1).attempt() > 1;
   std::vector<std::vector<std::string>> rows{{"seconds", "state"}};
-  for (const v1::Job::Step& step : job.timeline()) {
+  for (const v1::JobStatus::Step& step : status.timeline()) {
     const auto since = TimeUtil::DurationToMilliseconds(step.time() - begin);
     std::string what(word(step.state()));
     what += step.detail().empty() ? "" : " (" + sanitise(step.detail()) + ")";
@@ -74,29 +74,33 @@ std::string expired_text(const v1::Job& job) {
 }
 
 std::string job_text(const v1::Job& job) {
-  std::string text = sanitise(job.name()) + " on " + sanitise(job.mesh()) + ": " +
-                     std::string(word(job.state())) + "\n";
-  if (!job.title().empty()) text += sanitise(job.title()) + "\n";
-  if (job.has_error()) text += sanitise(job.error().message()) + "\n";
-  if (job.result_state() == v1::Job::RESULT_STATE_EXPIRED) text += expired_text(job) + "\n";
+  const v1::JobSpec& spec = job.spec();
+  const v1::JobStatus& status = job.status();
+  std::string text = sanitise(job.name()) + " on " + sanitise(spec.mesh()) + ": " +
+                     std::string(word(status.state())) + "\n";
+  if (!spec.title().empty()) text += sanitise(spec.title()) + "\n";
+  if (status.has_error()) text += sanitise(status.error().message()) + "\n";
+  if (status.result_state() == v1::JobStatus::RESULT_STATE_EXPIRED)
+    text += expired_text(job) + "\n";
   return text + circumstances(job) + "\n" +
-         (job.has_sweep()
-              ? sweep_answer(job)
-              : answers_table(to_loads(job), to_units(job.units())) + accuracy_text(job)) +
-         timeline(job);
+         (spec.has_sweep()
+              ? sweep_answer(status.sweep_answer())
+              : answers_table(to_loads(job), to_units(spec.units())) + accuracy_text(job)) +
+         timeline(status);
 }
 
 std::vector<std::string> shortfalls(const v1::Job& job) {
-  if (job.state() == v1::Job::STATE_CANCELLED) return {job.name() + " was cancelled"};
+  const v1::JobStatus& status = job.status();
+  if (status.state() == v1::JobStatus::STATE_CANCELLED) return {job.name() + " was cancelled"};
   std::vector<std::string> lines;
-  if (job.has_error()) lines.push_back(job.name() + " failed: " + job.error().message());
-  for (const v1::LoadCaseAnswer& answer : job.answers()) {
+  if (status.has_error()) lines.push_back(job.name() + " failed: " + status.error().message());
+  for (const v1::LoadCaseAnswer& answer : status.answers()) {
     if (answer.status() == v1::LoadCaseAnswer::STATUS_NOT_CONVERGED)
       lines.push_back(answer.name() + " did not converge: " + answer.reason());
     if (answer.has_error()) lines.push_back(answer.name() + " failed: " + answer.error().message());
   }
-  if (!job.not_reached().empty()) lines.push_back("not reached: " + job.not_reached());
-  const v1::SweepAnswer& sweep = job.sweep_answer();
+  if (!status.not_reached().empty()) lines.push_back("not reached: " + status.not_reached());
+  const v1::SweepAnswer& sweep = status.sweep_answer();
   if (sweep.not_converged() + sweep.failed() > 0) {
     lines.push_back("of " + std::to_string(sweep.rows()) + " rows " +
                     std::to_string(sweep.not_converged()) + " did not converge, " +

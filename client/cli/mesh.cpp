@@ -37,11 +37,11 @@ struct MeshOptions {
 };
 
 CaseFacts facts_of(const Case& the_case) {
-  const auto& loads = the_case.job.load_cases();
+  const auto& loads = the_case.spec.load_cases();
   const bool free = !loads.empty() && std::ranges::all_of(loads, [](const v1::LoadCase& load) {
     return load.traction().empty();
   });
-  return {to_units(the_case.job.units()), free};
+  return {to_units(the_case.spec.units()), free};
 }
 
 int show_mesh(const Globals& globals, const v1::Mesh& mesh, const CaseFacts& facts = {}) {

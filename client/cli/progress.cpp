@@ -27,7 +27,7 @@ void JobProgress::apply(const v1::WatchJobResponse& event, double seconds) {
       break;
     case v1::WatchJobResponse::kPhase:
       enter(event.phase().state(), event.phase().detail());
-      if (sweep && state == v1::Job::STATE_RUNNING)
+      if (sweep && state == v1::JobStatus::STATE_RUNNING)
         sweep->apply(v1::SweepRows(), seconds);  // without rows: the rate is measured from here on
       break;
     case v1::WatchJobResponse::kHeartbeat:
@@ -66,45 +66,46 @@ void JobProgress::apply(const v1::Stage& stage) {
   if (known == stages.end()) stages.push_back(errors_of(stage));
 }
 
-void JobProgress::enter(v1::Job::State next, const std::string& what) {
+void JobProgress::enter(v1::JobStatus::State next, const std::string& what) {
   if (client::ended(state)) return;  // a late watch repeats old phases
   state = next;
   detail = sanitise(what);
 }
 
 void JobProgress::apply(const v1::Job& job_now) {
+  const v1::JobSpec& spec = job_now.spec();
+  const v1::JobStatus& now = job_now.status();
   job = sanitise(job_now.name());
-  if (job_now.attempt() > attempt && attempt > 0) {
+  if (now.attempt() > attempt && attempt > 0) {
     cases.clear();  // the server was restarted and runs the job again
     ended_count = 0;
     if (sweep) sweep->restart();
   }
-  attempt = std::max(attempt, job_now.attempt());
-  if (state != job_now.state()) detail.clear();
-  state = job_now.state();
-  if (job_now.has_end_time()) elapsed = seconds_between(job_now.create_time(), job_now.end_time());
-  const v1::Uzawa& uzawa = job_now.solver().uzawa();
-  active_set = !job_now.solver().has_uzawa();
+  attempt = std::max(attempt, now.attempt());
+  if (state != now.state()) detail.clear();
+  state = now.state();
+  if (now.has_end_time()) elapsed = seconds_between(now.create_time(), now.end_time());
+  const v1::Uzawa& uzawa = spec.solver().uzawa();
+  active_set = !spec.solver().has_uzawa();
   target = active_set || uzawa.has_kkt_tolerance() ? 0
            : uzawa.has_epsilon()                   ? uzawa.epsilon()
                                                    : 1e-12;
-  if (job_now.has_sweep()) {
+  if (spec.has_sweep()) {
     if (!sweep) sweep.emplace();
-    sweep->apply(job_now.sweep_answer());
+    sweep->apply(now.sweep_answer());
     return;
   }
-  if (job_now.has_accuracy()) {
-    accuracy = job_now.accuracy();
+  if (spec.has_accuracy()) {
+    accuracy = spec.accuracy();
     begin_stage();  // the answers are those of the newest stage
     stages = stages_of(job_now);
     _between_stages =
-        !stages.empty() && stages.size() == static_cast<std::size_t>(job_now.stages_size());
+        !stages.empty() && stages.size() == static_cast<std::size_t>(now.stages_size());
   }
-  cases.resize(static_cast<std::size_t>(job_now.load_cases_size()));
+  cases.resize(static_cast<std::size_t>(spec.load_cases_size()));
   for (std::size_t i = 0; i < cases.size(); ++i)
-    cases[i].name = sanitise(job_now.load_cases(static_cast<int>(i)).name());
-  for (int i = 0; i < job_now.answers_size(); ++i)
-    apply(static_cast<std::size_t>(i), job_now.answers(i));
+    cases[i].name = sanitise(spec.load_cases(static_cast<int>(i)).name());
+  for (int i = 0; i < now.answers_size(); ++i) apply(static_cast<std::size_t>(i), now.answers(i));
 }
 
 void JobProgress::apply(const v1::Samples& samples) {
@@ -144,7 +145,7 @@ std::string_view word(Status status) noexcept {
   return word_of(words, static_cast<int>(status));
 }
 
-std::string_view word(v1::Job::State state) noexcept {
+std::string_view word(v1::JobStatus::State state) noexcept {
   constexpr std::array<std::string_view, 8> words{
       "submitted", "queued",    "waiting for the mesh", "running", "done",
       "failed",    "cancelled", "not converged"};

@@ -31,7 +31,7 @@ struct CaseProgress {
 
 struct JobProgress {
   std::string job;
-  v1::Job::State state = v1::Job::STATE_UNSPECIFIED;
+  v1::JobStatus::State state = v1::JobStatus::STATE_UNSPECIFIED;
   std::string detail;        ///< phase, e.g. "meshing"
   std::string notice;        ///< a message, e.g. that the connection is lost; may be empty
   std::string prompt;        ///< the effect of Ctrl-C; empty before Ctrl-C
@@ -53,7 +53,7 @@ struct JobProgress {
   void apply(const v1::Job& job_now);
   void apply(const v1::Stage& stage);
   void begin_stage();
-  void enter(v1::Job::State next, const std::string& what);
+  void enter(v1::JobStatus::State next, const std::string& what);
   void apply(const v1::Samples& samples);
   void apply(std::size_t index, const v1::LoadCaseAnswer& answer);
 
@@ -63,7 +63,7 @@ struct JobProgress {
 /// The word for a status: "converged", "not converged", "running", ...
 std::string_view word(results::Status status) noexcept;
 /// The word for a state: "queued", "waiting for the mesh", ...
-std::string_view word(v1::Job::State state) noexcept;
+std::string_view word(v1::JobStatus::State state) noexcept;
 std::string_view word(v1::Mesh::State state) noexcept;
 /// The same with the progress of the mesher: "meshing: bisecting a mesh, 120000 triangles".
 std::string state_text(const v1::Mesh& mesh);

@@ -27,10 +27,10 @@ int run(const RunOptions& options, const Globals& given) {
   Session session(globals);
   Case the_case =
       read_case(session, options.case_file, options.overrides, Loads::needed, options.loads);
-  if (the_case.job.priority() == v1::Job::PRIORITY_UNSPECIFIED)
-    the_case.job.set_priority(v1::Job::PRIORITY_INTERACTIVE);  // a user waits for it
+  if (the_case.spec.priority() == v1::JobSpec::PRIORITY_UNSPECIFIED)
+    the_case.spec.set_priority(v1::JobSpec::PRIORITY_INTERACTIVE);  // a user waits for it
   const std::filesystem::path output = result_file(options.case_file, options.output);
-  if (!the_case.job.title().empty()) say(globals, the_case.job.title());
+  if (!the_case.spec.title().empty()) say(globals, the_case.spec.title());
   const Followed followed = submit_and_follow(session, the_case);
   const int job_code = exit_code_of(globals, followed);
   if (followed.how == Followed::How::detached) return job_code;

@@ -23,7 +23,7 @@ namespace anticrack::cli {
 namespace {
 
 // Uploads forces. The server names the upload that it refuses, but the user knows the load.
-void upload_forces(Session& session, const Case& the_case, v1::Job& job) {
+void upload_forces(Session& session, const Case& the_case, v1::JobSpec& spec) {
   // One upload for each content, as loads often share a file.
   std::map<std::pair<std::filesystem::path, std::string>, std::size_t> indices;
   std::vector<const ForceFile*> files;
@@ -52,7 +52,7 @@ void upload_forces(Session& session, const Case& the_case, v1::Job& job) {
     throw;
   }
   for (const ForceFile& file : the_case.force_files) {
-    job.mutable_load_cases(file.load_case)
+    spec.mutable_load_cases(file.load_case)
         ->mutable_force()
         ->mutable_array()
         ->set_upload(uploads[indices.at({file.path, file.dataset})]);
@@ -159,12 +159,12 @@ v1::Mesh create_mesh(Session& session, const Case& the_case) {
 
 v1::Job submit(Session& session, const Case& the_case, const std::string& request_id,
                const Prepare& prepare) {
-  v1::Job job = the_case.job;
-  upload_forces(session, the_case, job);  // first: a file that cannot be read starts nothing
-  if (prepare) translated(the_case, [&] { prepare(job); });
-  job.set_mesh(send_mesh(session, the_case, true).name());
+  v1::JobSpec spec = the_case.spec;
+  upload_forces(session, the_case, spec);  // first: a file that cannot be read starts nothing
+  if (prepare) translated(the_case, [&] { prepare(spec); });
+  spec.set_mesh(send_mesh(session, the_case, true).name());
   const v1::Job submitted = translated(the_case, [&] {
-    return client::create_job(session.connection(), job, request_id, session.stop());
+    return client::create_job(session.connection(), spec, request_id, session.stop());
   });
   tell_notes(session, the_case);
   return submitted;
@@ -202,8 +202,9 @@ results::Result fetch(Session& session, const v1::Job& job, const std::stop_toke
 }
 
 int exit_code_of(const v1::Job& job) {
-  if (job.state() == v1::Job::STATE_SUCCEEDED) return exit_ok;
-  const bool none_failed = job.state() == v1::Job::STATE_NOT_CONVERGED && !job.has_error();
+  if (job.status().state() == v1::JobStatus::STATE_SUCCEEDED) return exit_ok;
+  const bool none_failed =
+      job.status().state() == v1::JobStatus::STATE_NOT_CONVERGED && !job.status().has_error();
   return none_failed ? exit_not_converged : exit_job_failed;
 }
 
@@ -212,13 +213,13 @@ void complain_of(const v1::Job& job) {
 }
 
 void complain_of_failure(const v1::Job& job) {
-  if (job.state() == v1::Job::STATE_FAILED) complain(shortfalls(job).front());
+  if (job.status().state() == v1::JobStatus::STATE_FAILED) complain(shortfalls(job).front());
 }
 
 AheadFuture fetch_ahead(Session& session, const v1::Job& job) {
   return std::async(std::launch::async,
-                    [&session, mesh = job.mesh(),
-                     in_stages = job.has_accuracy()]() -> std::shared_ptr<Ahead> {
+                    [&session, mesh = job.spec().mesh(),
+                     in_stages = job.spec().has_accuracy()]() -> std::shared_ptr<Ahead> {
                       try {
                         return in_stages ? nullptr : fetch_now(session, mesh);
                       } catch (const std::exception&) {

@@ -51,7 +51,7 @@ v1::Mesh create_mesh(Session& session, const Case& the_case);
 
 /// Completes a job before it is submitted: data that it needs besides the case must be uploaded
 /// first, and again for a server that has lost them.
-using Prepare = std::function<void(v1::Job&)>;
+using Prepare = std::function<void(v1::JobSpec&)>;
 
 /// Creates the mesh, then the job. Repeating it with the same id is harmless.
 v1::Job submit(Session& session, const Case& the_case, const std::string& request_id,

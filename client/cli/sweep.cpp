@@ -38,7 +38,7 @@ Case read_case(Session& session, const SweepOptions& options) {
   const bool nodal = !options.files.nodal.empty();
   Case the_case = read_case(session, options.case_file, options.overrides,
                             nodal ? Loads::optional : Loads::needed);
-  if (nodal && the_case.job.load_cases_size() > 0) {
+  if (nodal && the_case.spec.load_cases_size() > 0) {
     say(session.globals(),
         "The loads of the case are not used: each row of " + options.files.nodal + " is a load");
   }
@@ -59,8 +59,8 @@ void check_mesh(Session& session, const Case& the_case, const SweepInput& input)
     check_nodes(input, mesh.node_count());
 }
 
-void add_matrix(Session& session, const SweepInput& input, v1::Job& job) {
-  v1::Sweep::Matrix& matrix = matrix_of(input, job);
+void add_matrix(Session& session, const SweepInput& input, v1::JobSpec& spec) {
+  v1::Sweep::Matrix& matrix = matrix_of(input, spec);
   if (input.bytes() > inline_matrix_bytes) {
     matrix.set_upload(client::upload_array(session.connection(), input.values, session.stop()));
     return;
@@ -92,7 +92,7 @@ int follow_sweep(Session& session, const Targets& targets, const Case& the_case,
                  std::chrono::steady_clock::time_point begin) {
   const Globals& globals = session.globals();
   const Followed followed = submit_and_follow(
-      session, the_case, [&](v1::Job& job) { add_matrix(session, input, job); }, input.rows);
+      session, the_case, [&](v1::JobSpec& spec) { add_matrix(session, input, spec); }, input.rows);
   const int job_code = exit_code_of(globals, followed);
   if (followed.how == Followed::How::detached) return job_code;
   auto result = results_of(session, the_case, followed, begin);
@@ -101,7 +101,7 @@ int follow_sweep(Session& session, const Targets& targets, const Case& the_case,
   if (!input.nodal) result->sweep->coefficients = std::move(input.values);
   save(targets.result, *result, session);
   save_csv(targets.csv, *result->sweep, globals);
-  for (const std::string& warning : followed.job.sweep_answer().warnings())
+  for (const std::string& warning : followed.job.status().sweep_answer().warnings())
     say(globals, "warning: " + sanitise(warning));
   print_answers(globals, followed.job, *result, targets.result);
   return job_code;
@@ -118,10 +118,10 @@ int sweep(const SweepOptions& options, const Globals& given) {
   check_mesh(session, the_case, input);
   if (options.detach) {
     tell_submitted(session, submit(session, the_case, client::make_uuid(),
-                                   [&](v1::Job& job) { add_matrix(session, input, job); }));
+                                   [&](v1::JobSpec& spec) { add_matrix(session, input, spec); }));
     return exit_ok;
   }
-  if (!the_case.job.title().empty()) say(globals, the_case.job.title());
+  if (!the_case.spec.title().empty()) say(globals, the_case.spec.title());
   return follow_sweep(session, targets, the_case, std::move(input), begin);
 }
 

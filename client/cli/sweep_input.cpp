@@ -82,7 +82,7 @@ void sort_columns(const std::vector<std::size_t>& loads_of, SweepInput& input) {
 
 void read_combinations(const SweepFiles& files, const Case& the_case, SweepInput& input) {
   std::vector<std::string> loads;
-  for (const v1::LoadCase& load : the_case.job.load_cases()) loads.push_back(load.name());
+  for (const v1::LoadCase& load : the_case.spec.load_cases()) loads.push_back(load.name());
   if (!dataset_of(files.coefficients) && !is_hdf5_name(files.coefficients)) {
     input.values = read_coefficients(files.coefficients, loads);
     input.columns = loads.size();
@@ -111,7 +111,7 @@ void read_combinations(const SweepFiles& files, const Case& the_case, SweepInput
 }
 
 void check_task(const Case& the_case) {
-  if (the_case.job.solver().has_uzawa()) {
+  if (the_case.spec.solver().has_uzawa()) {
     const v1::CasePlace* place = the_case.locate("solver.method");
     throw CaseError(
         place ? told(*place) : "solver",
@@ -144,8 +144,8 @@ void check_limits(const SweepInput& input, const v1::ServerLimits& limits) {
 }  // namespace
 
 bool leave_out_accuracy(Case& the_case) {
-  if (!the_case.job.has_accuracy()) return false;
-  the_case.job.clear_accuracy();
+  if (!the_case.spec.has_accuracy()) return false;
+  the_case.spec.clear_accuracy();
   if (!the_case.places.contains("options.preset"))
     the_case.mesh.mutable_options()->set_preset(v1::MESH_PRESET_GRADED);
   return true;
@@ -169,14 +169,14 @@ void make_sweep(const SweepInput& input, const v1::ServerLimits& limits, Case& t
   check_limits(input, limits);
   const auto most = static_cast<std::uint64_t>(limits.load_cases());
   const std::vector<std::uint32_t> traces = select_rows(input.traces, input.rows, most);
-  v1::Job& job = the_case.job;
-  job.mutable_sweep()->mutable_traces()->Add(traces.begin(), traces.end());
-  job.mutable_sweep()->set_bounds(input.bounds);
-  matrix_of(input, job);
+  v1::JobSpec& spec = the_case.spec;
+  spec.mutable_sweep()->mutable_traces()->Add(traces.begin(), traces.end());
+  spec.mutable_sweep()->set_bounds(input.bounds);
+  matrix_of(input, spec);
   // Rows have no fields, but a case for `run` often asks for them.
-  job.clear_outputs();
+  spec.clear_outputs();
   if (input.nodal) {
-    job.clear_load_cases();
+    spec.clear_load_cases();
     the_case.force_files.clear();
   }
   the_case.places["sweep"].set_where(input.source);
@@ -192,8 +192,8 @@ void check_nodes(const SweepInput& input, std::uint64_t node_count) {
   }
 }
 
-v1::Sweep::Matrix& matrix_of(const SweepInput& input, v1::Job& job) {
-  v1::Sweep& sweep = *job.mutable_sweep();
+v1::Sweep::Matrix& matrix_of(const SweepInput& input, v1::JobSpec& spec) {
+  v1::Sweep& sweep = *spec.mutable_sweep();
   return input.nodal ? *sweep.mutable_nodal_forces() : *sweep.mutable_coefficients();
 }
 

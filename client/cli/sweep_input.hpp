@@ -54,7 +54,7 @@ void make_sweep(const SweepInput& input, const v1::ServerLimits& limits, Case& t
 void check_nodes(const SweepInput& input, std::uint64_t node_count);
 
 /// The matrix of the job.
-v1::Sweep::Matrix& matrix_of(const SweepInput& input, v1::Job& job);
+v1::Sweep::Matrix& matrix_of(const SweepInput& input, v1::JobSpec& spec);
 
 /// "all", "none", or numbers from 0 and inclusive ranges, "0,10,20-30", in any order, possibly
 /// overlapping. Returns each row once, ascending. Throws CaseError for anything else, for a

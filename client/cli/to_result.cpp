@@ -59,20 +59,22 @@ void add_names(const v1::Mesh& from, results::Mesh& to) {
 // The sweep without its columns.
 results::Sweep to_sweep(const Fetched& fetched) {
   results::Sweep sweep;
-  for (const v1::LoadCase& load : fetched.job.load_cases()) sweep.loads.push_back(load.name());
+  for (const v1::LoadCase& load : fetched.job.spec().load_cases())
+    sweep.loads.push_back(load.name());
   sweep.inclusions.assign(fetched.mesh.inclusions().begin(), fetched.mesh.inclusions().end());
   // A row beyond int32 becomes negative here, which is refused later.
-  sweep.kept.assign(fetched.job.sweep().traces().begin(), fetched.job.sweep().traces().end());
-  sweep.error = fetched.job.error().message();
-  sweep.solve_seconds = results::number_in(fetched.job.sweep_answer(), "solve_seconds");
+  sweep.kept.assign(fetched.job.spec().sweep().traces().begin(),
+                    fetched.job.spec().sweep().traces().end());
+  sweep.error = fetched.job.status().error().message();
+  sweep.solve_seconds = results::number_in(fetched.job.status().sweep_answer(), "solve_seconds");
   return sweep;
 }
 
 }  // namespace
 
 std::string mesh_of(const v1::Job& job) {
-  std::string mesh = job.mesh();
-  for (const v1::Stage& stage : job.stages())
+  std::string mesh = job.spec().mesh();
+  for (const v1::Stage& stage : job.status().stages())
     if (stage.answers_size() > 0) mesh = stage.mesh();
   return mesh;
 }
@@ -81,13 +83,13 @@ results::Units to_units(const v1::Units& units) { return {units.length(), units.
 
 std::vector<results::Load> to_loads(const v1::Job& job) {
   std::vector<results::Load> loads;
-  for (int i = 0; i < job.load_cases_size(); ++i) {
+  for (int i = 0; i < job.spec().load_cases_size(); ++i) {
     results::Load& load = loads.emplace_back();
-    load.asked = asked_of(job.solver());
-    if (i < job.answers_size()) load.answer = job.answers(i);
-    load.answer.set_name(job.load_cases(i).name());
+    load.asked = asked_of(job.spec().solver());
+    if (i < job.status().answers_size()) load.answer = job.status().answers(i);
+    load.answer.set_name(job.spec().load_cases(i).name());
     if (!load.has_answer()) results::forget_numbers(load.answer);
-    for (const v1::Stage& stage : job.stages()) {
+    for (const v1::Stage& stage : job.status().stages()) {
       if (i >= stage.answers_size()) continue;
       load.stages.push_back(stage);
       load.stages.back().clear_answers();
@@ -99,20 +101,20 @@ std::vector<results::Load> to_loads(const v1::Job& job) {
 
 results::Result to_result(const Fetched& fetched) {
   results::Result result;
-  result.title = fetched.job.title();
+  result.title = fetched.job.spec().title();
   result.client_version = ANTICRACK_VERSION;
   result.server_version = fetched.server.version();
   result.mesh_name = fetched.mesh.name();
   result.job_name = fetched.job.name();
   result.mesh_sha256 = fetched.mesh.sha256();
-  result.not_reached = fetched.job.not_reached();
-  result.units = to_units(fetched.job.units());
+  result.not_reached = fetched.job.status().not_reached();
+  result.units = to_units(fetched.job.spec().units());
   result.timings.mesh_seconds = fetched.mesh.mesh_seconds();
   result.timings.factorize_seconds = fetched.mesh.factorize_seconds();
   add_names(fetched.mesh, result.mesh);
   for (const v1::InterfaceInfo& interface : fetched.mesh.interfaces())
     result.interfaces.emplace_back().name = interface.name();
-  if (fetched.job.has_sweep()) {
+  if (fetched.job.spec().has_sweep()) {
     result.sweep = to_sweep(fetched);
     result.timings.solve_seconds = result.sweep->solve_seconds;
   } else {

@@ -21,7 +21,7 @@ case = Case(geometry, [Load("opening", "y > 0 ? 1 : -1"), Load("skew", "x * y > 
 def main(address: str | None = None) -> int:
     with anticrack.connect(address) as client:
         job = client.submit(case)
-        print(f"{job.name} on {job.message.mesh}")
+        print(f"{job.name} on {job.message.spec.mesh}")
         result = job.wait().result()  # an interrupt leaves the job running: client.job(name) finds it again
     for load in result.loads.values():
         moved = ", ".join(f"A of {name} = {a:.6g}" for name, a in load.displacements().items())

@@ -42,7 +42,7 @@ enum class Code {
 std::string_view name(Code code) noexcept;
 
 struct FieldViolation {
-  std::string field;  ///< path in the request, e.g. "job.load_cases[1].force.expression"
+  std::string field;  ///< path in the request, e.g. "spec.load_cases[1].force.expression"
   std::string description;
 };
 

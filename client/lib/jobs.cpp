@@ -6,11 +6,11 @@
 
 namespace anticrack::client {
 
-v1::Job create_job(Connection& connection, const v1::Job& job, const std::string& request_id,
+v1::Job create_job(Connection& connection, const v1::JobSpec& spec, const std::string& request_id,
                    const std::stop_token& stop) {
   Connection::State& state = connection.state();
   v1::CreateJobRequest request;
-  *request.mutable_job() = job;
+  *request.mutable_spec() = spec;
   request.set_request_id(request_id);
   return call(state, *state.jobs, &v1::SolveService::Stub::CreateJob, request, stop);
 }
@@ -39,9 +39,9 @@ void delete_job(Connection& connection, const std::string& name, const std::stop
        stop, true);
 }
 
-bool ended(v1::Job::State state) {
-  return state == v1::Job::STATE_SUCCEEDED || state == v1::Job::STATE_FAILED ||
-         state == v1::Job::STATE_CANCELLED || state == v1::Job::STATE_NOT_CONVERGED;
+bool ended(v1::JobStatus::State state) {
+  return state == v1::JobStatus::STATE_SUCCEEDED || state == v1::JobStatus::STATE_FAILED ||
+         state == v1::JobStatus::STATE_CANCELLED || state == v1::JobStatus::STATE_NOT_CONVERGED;
 }
 
 Block read_result(Connection& connection, const std::string& name, const std::stop_token& stop) {

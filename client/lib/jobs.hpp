@@ -29,7 +29,7 @@ namespace anticrack::client {
 /// id, one job. If it is empty, a lost response may leave two.
 /// Error: invalid_argument (Details::fields names the fields), not_found (the mesh),
 /// resource_exhausted (the queue or the disk is full), unimplemented (an older server).
-v1::Job create_job(Connection& connection, const v1::Job& job, const std::string& request_id,
+v1::Job create_job(Connection& connection, const v1::JobSpec& spec, const std::string& request_id,
                    const std::stop_token& stop = {});
 
 /// The present state of the job with this name ("jobs/ID"). Error: not_found.
@@ -51,14 +51,14 @@ v1::Job cancel_job(Connection& connection, const std::string& name,
 void delete_job(Connection& connection, const std::string& name, const std::stop_token& stop = {});
 
 /// Whether a job has ended and no longer changes: SUCCEEDED, NOT_CONVERGED, FAILED or CANCELLED.
-bool ended(v1::Job::State state);
+bool ended(v1::JobStatus::State state);
 
 /// Passes on every event of a job after number `after_sequence` (0: from the earliest kept), in
 /// order and once each, until it has ended; returns the job as it ended, also one that FAILED: see
-/// Job.state. After a lost connection it goes on after the last event; if the server no longer
-/// keeps the next one, it starts again with a snapshot and the earliest event kept (whose numbers
-/// may have been seen before). `event` is called on this thread, for snapshots and heartbeats too;
-/// to end the watch early it should request `stop` and not throw. Error: not_found.
+/// JobStatus.state. After a lost connection goes on behind the last event; where the server keeps
+/// that one no longer, starts over with a snapshot and the earliest event kept (their numbers may
+/// then have been seen before). `event` is called on this thread, for snapshots and heartbeats too;
+/// to leave early it requests `stop` rather than throw. Error: not_found.
 v1::Job watch_job(Connection& connection, const std::string& name, std::uint64_t after_sequence,
                   const std::function<void(const v1::WatchJobResponse&)>& event,
                   const std::stop_token& stop = {});

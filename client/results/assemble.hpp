@@ -32,12 +32,12 @@ ArrayView view(std::string name, ArrayView::Type type, std::vector<std::uint64_t
 /// Adds the arrays to what the messages Job, Mesh and ServerInfo contain.
 ///
 /// `answers` has everything but arrays: texts, timings, mesh.subdomains, tension and inclusions,
-/// interfaces[].name in the order of Mesh.interfaces, and loads in the order of Job.load_cases with
-/// attributes, inclusions and contact_intervals. Filled in: mesh arrays and interfaces[].edges from
-/// `mesh_block`, interfaces[].s,x,y,kind and loads[].traces, history, fields from `result_block`. A
-/// load may lack arrays unless it is `converged` or `not_converged`.
-/// For a sweep `answers` has no loads but sweep.loads, inclusions, kept and, if known,
-/// coefficients; filled in: the columns, and a load for every kept row (see Sweep::kept).
+/// interfaces[].name in the order of Mesh.interfaces, and loads in the order of JobSpec.load_cases
+/// with attributes, inclusions and contact_intervals. Filled in: mesh arrays and interfaces[].edges
+/// from `mesh_block`, interfaces[].s,x,y,kind and loads[].traces, history, fields from
+/// `result_block`. A load may lack arrays unless it is `converged` or `not_converged`. For a sweep
+/// `answers` has no loads but sweep.loads, inclusions, kept and, if known, coefficients; filled in:
+/// the columns, and a load for every kept row (see Sweep::kept).
 ///
 /// Throws Error for a missing array, wrong types and shapes, indices out of range and sizes that
 /// disagree. Unknown arrays are ignored.

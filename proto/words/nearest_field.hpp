@@ -10,10 +10,10 @@ namespace anticrack::words {
 
 /// The entry of a map with the path of a field, "load_cases[0].force.expression", or else with that
 /// of the nearest field around it; null where there is none. A path may begin with the request's
-/// "job." or "mesh.".
+/// "spec." or "mesh.".
 template <class Map>
 const typename Map::mapped_type* nearest_field(const Map& known, std::string_view path) {
-  for (const std::string_view request : {"job.", "mesh."})
+  for (const std::string_view request : {"spec.", "mesh."})
     if (path.starts_with(request)) path.remove_prefix(request.size());
   while (!path.empty()) {
     if (const auto found = known.find(std::string(path)); found != known.end())

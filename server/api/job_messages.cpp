@@ -18,8 +18,8 @@ using std::chrono::milliseconds;
 // Enums travel as their numbers.
 static_assert(int(contact::Status::cancelled) == v1::LoadCaseAnswer::STATUS_CANCELLED);
 static_assert(int(contact::Mass::consistent) == v1::MASS_CONSISTENT);
-static_assert(int(records::JobState::not_converged) == v1::Job::STATE_NOT_CONVERGED);
-static_assert(int(records::Priority::bulk) == v1::Job::PRIORITY_BULK);
+static_assert(int(records::JobState::not_converged) == v1::JobStatus::STATE_NOT_CONVERGED);
+static_assert(int(records::Priority::bulk) == v1::JobSpec::PRIORITY_BULK);
 
 namespace {
 
@@ -36,10 +36,11 @@ milliseconds limit_of(const Message& from, const char* name) {
   return std::chrono::ceil<milliseconds>(read_one<std::chrono::nanoseconds>(from, name));
 }
 
-v1::Job::ResultState result_state(const records::JobRecord& record) {
-  if (!records::ended(record.state)) return v1::Job::RESULT_STATE_PENDING;
-  if (record.expired) return v1::Job::RESULT_STATE_EXPIRED;
-  return record.result_bytes > 0 ? v1::Job::RESULT_STATE_AVAILABLE : v1::Job::RESULT_STATE_NONE;
+v1::JobStatus::ResultState result_state(const records::JobRecord& record) {
+  if (!records::ended(record.state)) return v1::JobStatus::RESULT_STATE_PENDING;
+  if (record.expired) return v1::JobStatus::RESULT_STATE_EXPIRED;
+  return record.result_bytes > 0 ? v1::JobStatus::RESULT_STATE_AVAILABLE
+                                 : v1::JobStatus::RESULT_STATE_NONE;
 }
 
 }  // namespace
@@ -210,11 +211,11 @@ records::StageRecord Translation<records::StageRecord>::read(const v1::Stage& fr
 
 const Except of_spec{"mesh", "loads", "fields", "indicators", "queue_time_limit", "run_time_limit"};
 
-bool asks_for(const v1::Job& job, v1::Output output) {
-  return std::ranges::find(job.outputs(), output) != job.outputs().end();
+bool asks_for(const v1::JobSpec& spec, v1::Output output) {
+  return std::ranges::find(spec.outputs(), output) != spec.outputs().end();
 }
 
-void Translation<records::JobSpec>::write(const records::JobSpec& value, v1::Job& to) {
+void Translation<records::JobSpec>::write(const records::JobSpec& value, v1::JobSpec& to) {
   write_fields(value, to, of_spec);
   write_field(mesh_name(value.mesh), to, "mesh");
   write_field(value.loads, to, "load_cases");
@@ -224,7 +225,7 @@ void Translation<records::JobSpec>::write(const records::JobSpec& value, v1::Job
   write_limit(value.run_time_limit, to, "run_timeout");
 }
 
-records::JobSpec Translation<records::JobSpec>::read(const v1::Job& from) {
+records::JobSpec Translation<records::JobSpec>::read(const v1::JobSpec& from) {
   records::JobSpec value;
   read_fields(from, value, of_spec);
   value.mesh = after_slash(from.mesh(), "mesh");
@@ -236,49 +237,54 @@ records::JobSpec Translation<records::JobSpec>::read(const v1::Job& from) {
   return value;
 }
 
-const Except of_record{"id",    "request_id", "spec",  "created", "started",
-                       "ended", "expired",    "cases", "sweep",   "crashes"};
+/// What its message has elsewhere, under another name or not at all.
+const Except of_status{"id",    "owner",   "request_id", "spec",  "created", "started",
+                       "ended", "expired", "cases",      "sweep", "crashes"};
 
 void Translation<records::JobRecord>::write(const records::JobRecord& value, v1::Job& to) {
-  Translation<records::JobSpec>::write(value.spec, to);
-  write_fields(value, to, of_record);
   write_field(job_name(value.id), to, "name");
-  write_field(value.created, to, "create_time");
-  write_field(value.started, to, "start_time");
-  write_field(value.ended, to, "end_time");
-  write_field(value.expired, to, "expire_time");
-  to.set_result_state(result_state(value));
-  write_field(value.cases, to, "answers");
+  write_field(value.owner, to, "owner");
+  write_field(value.spec, to, "spec");
+  v1::JobStatus& status = *to.mutable_status();
+  write_fields(value, status, of_status);
+  write_field(value.created, status, "create_time");
+  write_field(value.started, status, "start_time");
+  write_field(value.ended, status, "end_time");
+  write_field(value.expired, status, "expire_time");
+  status.set_result_state(result_state(value));
+  write_field(value.cases, status, "answers");
   for (std::size_t i = 0; i < std::min(value.cases.size(), value.spec.loads.size()); ++i)
-    to.mutable_answers(static_cast<int>(i))->set_name(value.spec.loads[i].name);
+    status.mutable_answers(static_cast<int>(i))->set_name(value.spec.loads[i].name);
   if (value.spec.sweep) {
-    write_field(value.sweep, to, "sweep_answer");
-    to.mutable_sweep_answer()->set_rows(value.spec.sweep->rows);
+    write_field(value.sweep, status, "sweep_answer");
+    status.mutable_sweep_answer()->set_rows(value.spec.sweep->rows);
   }
   // A job that is queued again begins a new attempt.
   int attempt = 1;
-  for (int i = 0; i < to.timeline_size(); ++i) {
-    v1::Job::Step& step = *to.mutable_timeline(i);
-    if (i > 0 && step.state() == v1::Job::STATE_QUEUED &&
-        to.timeline(i - 1).state() != v1::Job::STATE_QUEUED)
+  for (int i = 0; i < status.timeline_size(); ++i) {
+    v1::JobStatus::Step& step = *status.mutable_timeline(i);
+    if (i > 0 && step.state() == v1::JobStatus::STATE_QUEUED &&
+        status.timeline(i - 1).state() != v1::JobStatus::STATE_QUEUED)
       attempt = std::min(attempt + 1, value.attempt);
     step.set_attempt(attempt);
   }
 }
 
 records::JobRecord Translation<records::JobRecord>::read(const v1::Job& from) {
+  const v1::JobStatus& status = from.status();
   records::JobRecord value;
-  read_fields(from, value, of_record);
   value.id = after_slash(from.name(), "name");
-  value.spec = Translation<records::JobSpec>::read(from);
-  read_field(from, "create_time", value.created);
-  read_field(from, "start_time", value.started);
-  read_field(from, "end_time", value.ended);
-  read_field(from, "expire_time", value.expired);
-  read_field(from, "answers", value.cases);
+  value.owner = from.owner();
+  value.spec = Translation<records::JobSpec>::read(from.spec());
+  read_fields(status, value, of_status);
+  read_field(status, "create_time", value.created);
+  read_field(status, "start_time", value.started);
+  read_field(status, "end_time", value.ended);
+  read_field(status, "expire_time", value.expired);
+  read_field(status, "answers", value.cases);
   if (value.spec.sweep) {
-    read_field(from, "sweep_answer", value.sweep);
-    value.spec.sweep->rows = from.sweep_answer().rows();
+    read_field(status, "sweep_answer", value.sweep);
+    value.spec.sweep->rows = status.sweep_answer().rows();
   }
   return value;
 }

@@ -19,20 +19,11 @@ namespace {
 using errors::Error;
 using errors::Reason;
 
-void require_loads(const v1::Job& job) {
-  for (int i = 0; i < job.load_cases_size(); ++i) {
-    const v1::LoadCase& load = job.load_cases(i);
-    const std::string field = fmt::format("job.load_cases[{}]", i);
-    require_count(load.force().per_region().values().size(), fem::max_named_forces,
-                  field + ".force.per_region", "regions");
-    require_count(load.point_forces().size(), fem::max_point_forces, field + ".point_forces",
-                  "point forces");
-    require_count(load.inclusion_forces().size(), fem::max_named_forces,
-                  field + ".inclusion_forces", "forces on inclusions");
-    require_count(load.inclusion_moments().size(), fem::max_named_forces,
-                  field + ".inclusion_moments", "moments on inclusions");
-    if (load.force().has_array())
-      upload_sha256(load.force().array().upload(), field + ".force.array.upload");
+void require_arrays(const v1::JobSpec& asked) {
+  for (int i = 0; i < asked.load_cases_size(); ++i) {
+    const v1::Force& force = asked.load_cases(i).force();
+    if (force.has_array())
+      upload_sha256(force.array().upload(), fmt::format("load_cases[{}].force.array.upload", i));
   }
 }
 
@@ -60,8 +51,8 @@ void require_time(const google::protobuf::Duration& duration, std::chrono::milli
   }
 }
 
-std::size_t packed_bytes(const v1::Job& job) {
-  const v1::Sweep::Matrix* matrix = matrix_of(job.sweep()).matrix;
+std::size_t packed_bytes(const v1::JobSpec& asked) {
+  const v1::Sweep::Matrix* matrix = matrix_of(asked.sweep()).matrix;
   return matrix == nullptr ? 0 : matrix->packed().size();
 }
 
@@ -95,19 +86,12 @@ void require_matrix(const v1::Sweep::Matrix& matrix, const std::string& field) {
   throw Error(Reason::invalid_argument, "the matrix has no values; set packed or upload").at(field);
 }
 
-void require_sweep(const v1::Sweep& sweep, const JobLimits& limits) {
-  const auto [matrix, path] = matrix_of(sweep);
-  const std::string field = std::string("job.") + path;
+void require_sweep(const v1::Sweep& sweep) {
+  const auto [matrix, field] = matrix_of(sweep);
   if (matrix == nullptr) {
     throw Error(Reason::invalid_argument,
                 "the sweep has no cases; set coefficients or nodal_forces")
         .at(field);
-  }
-  if (sweep.traces_size() > limits.load_cases) {
-    throw Error(Reason::limit_exceeded,
-                fmt::format("traces of {} rows: at most {} are kept (see GetServerInfo)",
-                            sweep.traces_size(), limits.load_cases))
-        .at("job.sweep.traces");
   }
   require_matrix(*matrix, field);
 }
@@ -125,19 +109,9 @@ void bound_iterations(const v1::Solver& asked, int limit, contact::SolverOptions
 
 }  // namespace
 
-std::string fingerprint(const v1::Job& job) {
-  v1::Job sent = job;
-  for (int number :
-       {v1::Job::kNameFieldNumber, v1::Job::kStateFieldNumber, v1::Job::kErrorFieldNumber,
-        v1::Job::kCreateTimeFieldNumber, v1::Job::kStartTimeFieldNumber,
-        v1::Job::kEndTimeFieldNumber, v1::Job::kAnswersFieldNumber,
-        v1::Job::kResultBytesFieldNumber, v1::Job::kAttemptFieldNumber, v1::Job::kOwnerFieldNumber,
-        v1::Job::kTimelineFieldNumber, v1::Job::kSweepAnswerFieldNumber,
-        v1::Job::kStagesFieldNumber, v1::Job::kNotReachedFieldNumber,
-        v1::Job::kResultStateFieldNumber, v1::Job::kExpireTimeFieldNumber,
-        v1::Job::kLoadCaseCountFieldNumber, v1::Job::kLoadCasesEndedFieldNumber})
-    sent.GetReflection()->ClearField(&sent, sent.GetDescriptor()->FindFieldByNumber(number));
-  if (packed_bytes(job) > 0) {  // names the same matrix by its upload
+std::string fingerprint(const v1::JobSpec& spec) {
+  v1::JobSpec sent = spec;
+  if (packed_bytes(spec) > 0) {  // names the same matrix by its upload
     auto& sweep = *sent.mutable_sweep();
     auto& matrix =
         sweep.has_coefficients() ? *sweep.mutable_coefficients() : *sweep.mutable_nodal_forces();
@@ -146,38 +120,27 @@ std::string fingerprint(const v1::Job& job) {
   return digest::Sha256().add(serialized(sent)).finish();
 }
 
-records::JobSpec to_spec(const v1::Job& job, const JobLimits& limits) {
-  require_title(job.title(), "job.title");
-  if (job.load_cases_size() > limits.load_cases) {
-    throw Error(Reason::limit_exceeded,
-                fmt::format("{} load cases: a job has at most {}; make several jobs",
-                            job.load_cases_size(), limits.load_cases))
-        .at("job.load_cases");
-  }
-  const std::size_t bytes = job.ByteSizeLong() - packed_bytes(job);
+records::JobSpec to_spec(const v1::JobSpec& asked, const JobLimits& limits) {
+  require_title(asked.title(), "title");
+  const std::size_t bytes = asked.ByteSizeLong() - packed_bytes(asked);
   if (bytes > max_job_bytes) {
     throw Error(Reason::limit_exceeded,
                 fmt::format("the job has {} bytes: at most {} are accepted; make several jobs",
                             bytes, max_job_bytes))
-        .at("job");
+        .at("");
   }
-  mesh_id(job.mesh(), "job.mesh");
-  if (job.has_queue_timeout())
-    require_time(job.queue_timeout(), limits.queue_time, "job.queue_timeout");
-  if (job.has_run_timeout()) require_time(job.run_timeout(), limits.run_time, "job.run_timeout");
-  if (job.accuracy().has_time())
-    require_time(job.accuracy().time(), limits.run_time, "job.accuracy.time");
-  require_loads(job);
-  if (job.has_sweep()) require_sweep(job.sweep(), limits);
-  records::JobSpec spec;
-  try {
-    spec = Translation<records::JobSpec>::read(job);
-  } catch (Error& error) {
-    throw error.below("job");
-  }
-  bound_iterations(job.solver(), limits.iterations, spec.solver);
-  if (packed_bytes(job) > 0)
-    spec.sweep->upload = digest::Sha256().add(matrix_of(job.sweep()).matrix->packed()).finish();
+  mesh_id(asked.mesh(), "mesh");
+  if (asked.has_queue_timeout())
+    require_time(asked.queue_timeout(), limits.queue_time, "queue_timeout");
+  if (asked.has_run_timeout()) require_time(asked.run_timeout(), limits.run_time, "run_timeout");
+  if (asked.accuracy().has_time())
+    require_time(asked.accuracy().time(), limits.run_time, "accuracy.time");
+  require_arrays(asked);
+  if (asked.has_sweep()) require_sweep(asked.sweep());
+  auto spec = Translation<records::JobSpec>::read(asked);
+  bound_iterations(asked.solver(), limits.iterations, spec.solver);
+  if (packed_bytes(asked) > 0)
+    spec.sweep->upload = digest::Sha256().add(matrix_of(asked.sweep()).matrix->packed()).finish();
   return spec;
 }
 

@@ -14,6 +14,13 @@ namespace {
 using errors::Error;
 using errors::Reason;
 
+void require_count(std::size_t count, std::size_t limit, const char* field, const char* what) {
+  if (count <= limit) return;
+  throw Error(Reason::limit_exceeded,
+              fmt::format("{} {}: at most {} are accepted", count, what, limit))
+      .at(field);
+}
+
 std::size_t part_count(const v1::Geometry& geometry) {
   auto count = static_cast<std::size_t>(geometry.inclusions_size() + geometry.cracks_size());
   for (const v1::Inclusion& inclusion : geometry.inclusions()) {
@@ -108,14 +115,6 @@ records::MeshDefinition to_definition(const v1::CreateMeshRequest& request) {
   return definition;
 }
 
-void require_count(std::size_t count, std::size_t limit, const std::string& field,
-                   const char* what) {
-  if (count <= limit) return;
-  throw Error(Reason::limit_exceeded,
-              fmt::format("{} {}: at most {} are accepted", count, what, limit))
-      .at(field);
-}
-
 void require_title(const std::string& title, const char* field) {
   if (title.size() <= max_title_bytes) return;
   throw Error(Reason::limit_exceeded, fmt::format("the title has {} bytes: at most {} are accepted",
@@ -143,7 +142,7 @@ Error below_mesh_request(const Error& error) {
 Error below_job_request(const Error& error) {
   Error result = error;
   if (result.fields().empty() && result.reason() == Reason::not_found) result.at("mesh");
-  if (result.reason() != Reason::request_id_reused) return result.below("job");
+  if (result.reason() != Reason::request_id_reused) return result.below("spec");
   return result.fields().empty() ? result.at("request_id") : result;
 }
 

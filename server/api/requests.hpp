@@ -35,24 +35,23 @@ constexpr std::size_t max_packed_bytes = 1u << 20;
 /// The definition of a mesh, with options filled in.
 records::MeshDefinition to_definition(const v1::CreateMeshRequest& request);
 
-/// SHA-256 of what the client sets in a job, as it was sent: defaults and limits of the server do
-/// not change it. A job with a packed matrix and one with its upload have the same fingerprint. 64
-/// hexadecimal digits.
-std::string fingerprint(const v1::Job& job);
+/// SHA-256 of a spec as it was sent: neither defaults nor limits of the server change it. A packed
+/// matrix and its upload have the same. 64 hexadecimal digits.
+std::string fingerprint(const v1::JobSpec& spec);
 
 /// The limits of a job.
 struct JobLimits {
-  int load_cases = 0;
   int iterations = 0;
   std::chrono::milliseconds queue_time{0};
   std::chrono::milliseconds run_time{0};
 };
 
-/// The job, with defaults filled in except time limits. The rows of a sweep are not set; a matrix
-/// inside the job is named by its hash, under which keep_packed_matrix() stores it.
-records::JobSpec to_spec(const v1::Job& job, const JobLimits& limits);
+/// The spec, defaults filled in except time limits. The rows of a sweep are not set; a matrix
+/// inside it is named by its hash, under which keep_packed_matrix() stores it. The paths of errors
+/// are relative to the spec; that of one of the whole is empty.
+records::JobSpec to_spec(const v1::JobSpec& asked, const JobLimits& limits);
 
-/// A sweep's matrix and its path in the job.
+/// A sweep's matrix and its path in the spec.
 struct MatrixOf {
   const v1::Sweep::Matrix* matrix = nullptr;  ///< null: none is set
   std::string field;                          ///< "sweep.coefficients"; "sweep" where none is set
@@ -60,9 +59,6 @@ struct MatrixOf {
 /// The matrix of the kind of cases that is set.
 MatrixOf matrix_of(const v1::Sweep& sweep);
 
-/// Throws unless there are at most `limit` of `what` ("vertices").
-void require_count(std::size_t count, std::size_t limit, const std::string& field,
-                   const char* what);
 /// Throws unless `title` is at most max_title_bytes.
 void require_title(const std::string& title, const char* field);
 /// Throws unless `id` is empty or 1 to 64 letters, digits, '-' and '_'.
@@ -71,7 +67,7 @@ void require_request_id(const std::string& id);
 /// The error with paths in the mesh request: fields are relative to the geometry, except options
 /// and uploads.
 errors::Error below_mesh_request(const errors::Error& error);
-/// The error with paths in the job request: fields are relative to the job; `not_found` without a
+/// The error with paths in the job request: fields are relative to the spec; `not_found` without a
 /// field concerns its mesh.
 errors::Error below_job_request(const errors::Error& error);
 

@@ -63,14 +63,13 @@ ANTICRACK_TRANSLATION(contact::SolverOptions, v1::Solver);
 /// The record without the definition.
 ANTICRACK_TRANSLATION(records::MeshRecord, v1::Mesh);
 ANTICRACK_TRANSLATION(records::Refinement, v1::Refinement);
-/// The number of rows is in Job.sweep_answer.
+/// Its rows are in JobStatus.sweep_answer.
 ANTICRACK_TRANSLATION(records::SweepSpec, v1::Sweep);
 /// The record without the name, which is that of the load.
 ANTICRACK_TRANSLATION(records::CaseRecord, v1::LoadCaseAnswer);
 ANTICRACK_TRANSLATION(records::AccuracySpec, v1::Accuracy);
 ANTICRACK_TRANSLATION(records::StageRecord, v1::Stage);
-/// The part of Job that the client sets.
-ANTICRACK_TRANSLATION(records::JobSpec, v1::Job);
+ANTICRACK_TRANSLATION(records::JobSpec, v1::JobSpec);
 /// The record without the request id.
 ANTICRACK_TRANSLATION(records::JobRecord, v1::Job);
 #undef ANTICRACK_TRANSLATION

@@ -71,17 +71,17 @@ toml::table parse(const std::string& text, const std::string& name) {
 }
 
 void read_output(const Section& root, Case& result) {
-  v1::Job& job = result.job;
+  v1::JobSpec& spec = result.spec;
   if (const auto output = root.section("output")) {
-    if (output->boolean("fields").value_or(false)) job.add_outputs(v1::OUTPUT_FIELDS);
-    job.set_without_bounds(!output->boolean("bounds").value_or(true));
+    if (output->boolean("fields").value_or(false)) spec.add_outputs(v1::OUTPUT_FIELDS);
+    spec.set_without_bounds(!output->boolean("bounds").value_or(true));
     result.spots["outputs"] = output->spot_of("fields");
     result.spots["without_bounds"] = output->spot_of("bounds");
   }
   // If there are bounds, fields are drawn with the indicators of their errors.
-  if (job.has_accuracy() ||
-      (job.outputs_size() > 0 && job.solver().has_active_set() && !job.without_bounds()))
-    job.add_outputs(v1::OUTPUT_INDICATORS);
+  if (spec.has_accuracy() ||
+      (spec.outputs_size() > 0 && spec.solver().has_active_set() && !spec.without_bounds()))
+    spec.add_outputs(v1::OUTPUT_INDICATORS);
 }
 
 }  // namespace
@@ -101,10 +101,10 @@ Case parse_case(const std::string& text, const std::string& source,
     result.text = out.str();
   }
   const Section root(table, "", case_keys);
-  fill(root, result.job, "", result.spots);
-  result.mesh.set_title(result.job.title());
+  fill(root, result.spec, "", result.spots);
+  result.mesh.set_title(result.spec.title());
   read_mesh(root, result);
-  *result.job.mutable_solver() = read_solver(root, result.spots);
+  *result.spec.mutable_solver() = read_solver(root, result.spots);
   if (loads == Loads::needed || root.find("load")) read_loads(root, result);
   read_output(root, result);
   note_missing_tension(result);

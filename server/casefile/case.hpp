@@ -19,7 +19,7 @@ namespace anticrack::casefile {
 
 /// The f of a load in a file: a one-dimensional dataset of float64.
 struct ForceFile {
-  int load_case = 0;  ///< index into Case::job.load_cases
+  int load_case = 0;  ///< index into Case::spec.load_cases
   std::string path;
   std::string dataset;
 };
@@ -28,7 +28,7 @@ struct Case {
   std::string text;                      ///< the case as TOML, with the overrides
   std::optional<std::string> mesh_file;  ///< .msh to upload, as the case names it
   v1::CreateMeshRequest mesh;            ///< its source is set, unless there is a mesh_file
-  v1::Job job;                           ///< all but `mesh` and the uploads of `force_files`
+  v1::JobSpec spec;  ///< of the job: all but `mesh` and the uploads of `force_files`
   std::vector<ForceFile> force_files;
   std::vector<std::string> notes;     ///< warnings of what is allowed, but may be a slip
   std::map<std::string, Spot> spots;  ///< field of a request -> where its value was written

@@ -95,7 +95,7 @@ void note_missing_tension(Case& result) {
     return region.has_tension() || region.has_tension_law();
   };
   const auto with = std::ranges::count_if(regions, given);
-  const v1::Units& names = result.job.units();
+  const v1::Units& names = result.spec.units();
   const v1::MeshOptions& options = result.mesh.options();
   if (with == 0 && options.tension().empty() && options.tension_laws().empty() &&
       !names.length().empty() && !names.force().empty()) {

@@ -562,7 +562,7 @@ constexpr Key job_rows[] = {
      .if_absent = "the server's limit",
      .meaning = "longest time from its start to its end"},
 };
-constexpr Keys job_keys{v1::Job::descriptor, {job_rows}};
+constexpr Keys job_keys{v1::JobSpec::descriptor, {job_rows}};
 
 constexpr Key output_rows[] = {
     {.name = "fields",
@@ -577,7 +577,7 @@ constexpr Key output_rows[] = {
      .meaning = "false: answers have no bounds of their errors; many small loads take a third less "
                 "time"},
 };
-constexpr Keys output_keys{v1::Job::descriptor, {output_rows}};
+constexpr Keys output_keys{v1::JobSpec::descriptor, {output_rows}};
 
 constexpr Key case_rows[] = {
     {.name = "title", .meaning = "for people, at most 200 bytes"},
@@ -629,8 +629,8 @@ constexpr Key case_rows[] = {
 
 }  // namespace
 
-constexpr Keys case_keys{v1::Job::descriptor, {case_rows}};
-constexpr Keys msh_keys{v1::Job::descriptor, {std::span(case_rows).subspan(2, 1)}};
+constexpr Keys case_keys{v1::JobSpec::descriptor, {case_rows}};
+constexpr Keys msh_keys{v1::JobSpec::descriptor, {std::span(case_rows).subspan(2, 1)}};
 static_assert(case_rows[2].name == "mesh");
 
 const Key* Keys::find(std::string_view name) const {

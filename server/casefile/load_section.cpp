@@ -63,7 +63,7 @@ void read_load(const Section& section, const std::string& field, v1::LoadCase& l
   if (section.find("f") || !loaded) {
     auto file = read_force(section, field + ".force", *load.mutable_force(), result.spots);
     if (file) {
-      file->load_case = result.job.load_cases_size() - 1;
+      file->load_case = result.spec.load_cases_size() - 1;
       result.force_files.push_back(*std::move(file));
     }
   }
@@ -73,7 +73,7 @@ void read_load(const Section& section, const std::string& field, v1::LoadCase& l
 
 void read_loads(const Section& root, Case& result) {
   root.need("load", "write [[load]] with name and f for each load case");
-  read_list(root, "load", "load_cases", *result.job.mutable_load_cases(), result.spots,
+  read_list(root, "load", "load_cases", *result.spec.mutable_load_cases(), result.spots,
             [&](const Section& section, const std::string& field, v1::LoadCase& load) {
               read_load(section, field, load, result);
             });

@@ -79,7 +79,7 @@ void write_places(const std::map<std::string, Spot>& spots, const std::string& s
 
 void check_size(const v1::ReadCaseResponse& response, const Limits& limits) {
   for (const auto& [bytes, what] : {std::pair{response.mesh().ByteSizeLong(), "geometry"},
-                                    std::pair{response.job().ByteSizeLong(), "loads"}}) {
+                                    std::pair{response.spec().ByteSizeLong(), "loads"}}) {
     if (bytes <= limits.request_bytes) continue;
     throw errors::Error(errors::Reason::limit_exceeded,
                         std::string("its ") + what + " are " + std::to_string(bytes) +
@@ -96,9 +96,9 @@ v1::ReadCaseResponse read_case(const v1::ReadCaseRequest& request, const Limits&
   Case read;
   try {
     read = case_of(request);
-    if (read.job.load_cases_size() > limits.load_cases) {
+    if (read.spec.load_cases_size() > limits.load_cases) {
       throw Error({"load", request.source(), 0},
-                  std::to_string(read.job.load_cases_size()) + " loads are above the limit of " +
+                  std::to_string(read.spec.load_cases_size()) + " loads are above the limit of " +
                       std::to_string(limits.load_cases) + "; make several cases of them");
     }
   } catch (const Error& error) {
@@ -124,7 +124,7 @@ v1::ReadCaseResponse read_case(const v1::ReadCaseRequest& request, const Limits&
   }
   response.set_mesh_file(read.mesh_file.value_or(""));
   *response.mutable_mesh() = std::move(read.mesh);
-  *response.mutable_job() = std::move(read.job);
+  *response.mutable_spec() = std::move(read.spec);
   check_size(response, limits);
   return response;
 }

@@ -13,11 +13,12 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-bool is_joined(const ddm::Decomposition& decomposition, std::size_t most) {
-  return decomposition.skeleton.unknowns > most ||
-         std::ranges::any_of(decomposition.subdomains, [most](const ddm::Subdomain& subdomain) {
-           return subdomain.trace > most;
-         });
+bool is_joined(const ddm::Decomposition& decomposition, std::size_t condensed_up_to) {
+  return decomposition.skeleton.unknowns > condensed_up_to ||
+         std::ranges::any_of(decomposition.subdomains,
+                             [condensed_up_to](const ddm::Subdomain& subdomain) {
+                               return subdomain.trace > condensed_up_to;
+                             });
 }
 
 JoinedProblem::JoinedProblem(const TraceProblem& traces, int threads)

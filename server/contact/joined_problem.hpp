@@ -12,9 +12,9 @@
 
 namespace anticrack::contact {
 
-/// Whether a membrane gets a JoinedProblem: its interfaces have more than `most` values, too many
-/// for the dense matrices of CondensedProblem.
-bool is_joined(const ddm::Decomposition& decomposition, std::size_t most);
+/// Whether a membrane is joined: interfaces of more than `condensed_up_to` values are too long for
+/// the dense matrices of CondensedProblem.
+bool is_joined(const ddm::Decomposition& decomposition, std::size_t condensed_up_to);
 
 /// The contact problem of a JoinedMembrane; its answers agree with those of a CondensedProblem to
 /// 1e-10. Its steps report criterion, energy, gap and complementarity from jumps and multipliers

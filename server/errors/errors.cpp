@@ -59,7 +59,9 @@ Error& Error::retry_after(std::chrono::milliseconds delay) {
 }
 
 Error& Error::below(std::string_view prefix) {
-  return rename([prefix](const std::string& field) { return std::string(prefix) + "." + field; });
+  return rename([prefix](const std::string& field) {
+    return std::string(prefix) + (field.empty() ? "" : ".") + field;
+  });
 }
 
 }  // namespace anticrack::errors

@@ -82,7 +82,8 @@ class Error : public std::exception {
     for (FieldViolation& violation : _fields) violation.field = rename(violation.field);
     return *this;
   }
-  /// Prepends "prefix." to the path of every field, for the layer above.
+  /// Prepends "prefix." to the path of every field, for the layer above; an empty path becomes
+  /// "prefix".
   Error& below(std::string_view prefix);
 
   Reason reason() const noexcept { return _reason; }

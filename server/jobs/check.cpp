@@ -2,15 +2,12 @@
 #include "jobs/check.hpp"
 
 #include <algorithm>
-#include <optional>
-#include <type_traits>
 #include <unordered_set>
 
 #include "errors/errors.hpp"
 #include "jobs/accuracy.hpp"
 #include "jobs/sweep_check.hpp"
 #include "operators/check_loads.hpp"
-#include "store/canonical.hpp"
 
 namespace anticrack::jobs {
 
@@ -19,7 +16,6 @@ namespace {
 using errors::Error;
 using errors::Reason;
 
-constexpr std::size_t max_title_bytes = 200;
 constexpr std::size_t max_name_bytes = 64;
 
 bool alphanumeric(char c) {
@@ -68,22 +64,6 @@ void check_count(std::size_t loads, const EngineOptions& options) {
   }
 }
 
-void check_time(std::chrono::milliseconds wanted, std::chrono::milliseconds longest,
-                const char* field) {
-  if (wanted.count() < 0) {
-    throw Error(
-        Reason::invalid_argument,
-        std::to_string(wanted.count()) + " ms is not a time limit: give a positive one, or none")
-        .at(field);
-  }
-  if (wanted > longest) {
-    throw Error(Reason::limit_exceeded, std::to_string(wanted.count()) +
-                                            " ms is longer than this server allows, " +
-                                            std::to_string(longest.count()) + " ms")
-        .at(field);
-  }
-}
-
 void check_unit(const std::string& unit, const char* field) {
   constexpr std::size_t most_bytes = 16;
   const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
@@ -98,12 +78,6 @@ void check_unit(const std::string& unit, const char* field) {
 }  // namespace
 
 void check(const records::JobSpec& spec, const EngineOptions& options) {
-  if (spec.title.size() > max_title_bytes) {
-    throw Error(Reason::invalid_argument, "a title of " + std::to_string(spec.title.size()) +
-                                              " bytes: use at most " +
-                                              std::to_string(max_title_bytes))
-        .at("title");
-  }
   if (spec.sweep)
     check_sweep(spec, options);
   else
@@ -128,8 +102,6 @@ void check(const records::JobSpec& spec, const EngineOptions& options) {
     error.below("solver");
     throw;
   }
-  check_time(spec.queue_time_limit, options.queue_time, "queue_timeout");
-  check_time(spec.run_time_limit, options.run_time, "run_timeout");
 }
 
 void check_on_mesh(const records::JobSpec& spec, const records::MeshDefinition& definition) {
@@ -137,23 +109,6 @@ void check_on_mesh(const records::JobSpec& spec, const records::MeshDefinition& 
     operators::check_loads(spec.loads, made->geometry);
   if (const auto* file = std::get_if<records::UploadRef>(&definition))
     operators::check_loads(spec.loads, file->options.inclusion_motions);
-}
-
-std::string fingerprint(const records::JobSpec& spec) {
-  store::CanonicalHash hash;
-  fields::for_each(spec, [&hash]<class T>(const fields::Field<T>& field) {
-    if constexpr (std::is_same_v<T, const std::optional<records::SweepSpec>>) {
-      std::optional<records::SweepSpec> sweep = field.value;
-      if (sweep) {
-        sweep->rows = 0;  // not part of the request: they follow from the upload and the mesh
-        sweep->packed = false;
-      }
-      hash.add_all(sweep);
-    } else {
-      hash.add_all(field.value);
-    }
-  });
-  return hash.finish();
 }
 
 }  // namespace anticrack::jobs

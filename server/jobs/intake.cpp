@@ -135,10 +135,6 @@ std::optional<Error> too_many_crashes(const JobRecord& record, const EngineOptio
 TakenIn take_in(EngineCore& core, const Submission& submission) {
   check(submission.spec, core.options);
   JobRecord record = new_record(submission);
-  const std::string print =
-      submission.fingerprint.empty() ? fingerprint(record.spec) : submission.fingerprint;
-  // Checked first: a repeated request is answered even if the queue is full or its mesh is gone.
-  if (auto made = core.store.created_before(record, print)) return {std::move(*made), false};
   std::shared_ptr<void> mesh_use = use(core, record.spec.mesh);
   const records::MeshRecord mesh = core.catalogue.get(record.spec.mesh);
   check_on_mesh(record.spec, mesh.definition);
@@ -149,7 +145,7 @@ TakenIn take_in(EngineCore& core, const Submission& submission) {
   if (record.spec.sweep) measure(*record.spec.sweep, record, core);
   const std::uint64_t cases = queued_cases(record.spec, core.store, record.owner);
   Place place(core, record, cases);
-  JobRecord stored = core.store.create(record, print);
+  JobRecord stored = core.store.create(record, submission.fingerprint);
   if (stored.id != record.id)
     return {std::move(stored), false};  // the same request has just made it
   const EngineCore::Lock lock(core.mutex);

@@ -99,10 +99,8 @@ JobRecord JobEngine::submit(const Submission& submission) {
 std::optional<JobRecord> JobEngine::submitted(const std::string& owner,
                                               const std::string& request_id,
                                               const std::string& fingerprint) const {
-  JobRecord asked;
-  asked.owner = owner;
-  asked.request_id = request_id;
-  const std::optional<JobRecord> made = _state->core.store.created_before(asked, fingerprint);
+  const std::optional<JobRecord> made =
+      _state->core.store.created_before(owner, request_id, fingerprint);
   return made ? std::optional(get(made->id)) : std::nullopt;
 }
 

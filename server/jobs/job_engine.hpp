@@ -78,9 +78,8 @@ struct EngineMetrics {
 struct Submission {
   records::JobSpec spec;
   std::string owner;
-  std::string request_id;  ///< empty: not idempotent
-  /// The same for a retry of the request, at most 64 bytes; empty: made from the spec.
-  std::string fingerprint = {};
+  std::string request_id;        ///< empty: not idempotent
+  std::string fingerprint = {};  ///< of the request: the same for a retry, at most 64 bytes
 };
 
 /// Owns the worker threads. A job that waits for its mesh uses no thread, since the catalogue tells
@@ -112,9 +111,8 @@ class JobEngine {
   /// give the same job.
   records::JobRecord submit(const Submission& submission);
 
-  /// The present state of the job that the owner made by this request before; empty if there is
-  /// none. Throws request_id_reused. Makes no other check of submit(), as limits may have changed
-  /// since.
+  /// The job that the owner made by this request before, as it is now; empty where there is none.
+  /// Throws request_id_reused. Ask this before submit(), whose conditions may have changed since.
   std::optional<records::JobRecord> submitted(const std::string& owner,
                                               const std::string& request_id,
                                               const std::string& fingerprint) const;

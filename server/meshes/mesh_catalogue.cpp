@@ -28,17 +28,9 @@ using records::MeshRecord;
 using records::MeshState;
 
 constexpr std::size_t id_digits = 16;
-constexpr std::size_t max_title_bytes = 200;
 
 Error in_use(const std::string& id, const char* why) {
   return {Reason::in_use, fmt::format("meshes/{} is in use: {}", id, why)};
-}
-
-void check_title(const std::string& title) {
-  if (title.size() <= max_title_bytes) return;
-  throw Error(Reason::invalid_argument, "a title of {} bytes: use at most {}", title.size(),
-              max_title_bytes)
-      .at("title");
 }
 
 /// Is told when the last job on a mesh has ended, which may be after the catalogue was destroyed.
@@ -163,7 +155,6 @@ MeshCatalogue::~MeshCatalogue() { _state->ends->forget(); }
 
 MeshRecord MeshCatalogue::create(const records::MeshDefinition& definition,
                                  const std::string& title, const std::string& owner, bool for_job) {
-  check_title(title);
   const std::size_t triangles = check_definition(definition, owner, _state->options, _state->store);
   const std::string id = identity(definition, owner).substr(0, id_digits);
   Preparation& preparation = _state->preparation;

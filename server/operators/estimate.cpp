@@ -91,7 +91,7 @@ std::size_t estimate_bytes(const mesh::Mesh& mesh) {
   const ddm::Sides sides = ddm::find_sides(mesh);
   const std::vector<Size> sizes = subdomain_sizes(mesh, sides);
   const SkeletonSize skeleton = skeleton_size(mesh, sides);
-  constexpr auto most = static_cast<double>(max_dense);
+  constexpr auto most = static_cast<double>(default_condensed_up_to);
   const bool joined = skeleton.unknowns > most || std::ranges::any_of(sizes, [](const Size& size) {
                         return size.trace > most;
                       });

@@ -60,20 +60,20 @@ std::size_t bytes_of(const ddm::Decomposition& decomposition) {
 }  // namespace
 
 MeshOperator::Parts::Parts(std::shared_ptr<const mesh::Mesh> cut_mesh, int threads,
-                           std::size_t most_dense)
+                           std::size_t condensed_up_to)
     : mesh(std::move(cut_mesh)),
       decomposition(ddm::cut(*mesh)),
       neumann(*mesh, decomposition),
-      operators(contact::is_joined(decomposition, most_dense)
+      operators(contact::is_joined(decomposition, condensed_up_to)
                     ? std::vector<ddm::SubdomainOperator>()
                     : factorise_subdomains(decomposition.subdomains, threads)),
-      uzawa_obstacle(contact::is_joined(decomposition, most_dense)
+      uzawa_obstacle(contact::is_joined(decomposition, condensed_up_to)
                          ? joined_obstacle
                          : ddm::uzawa_obstacle(decomposition, *mesh)),
       problem(decomposition, operators, uzawa_obstacle.empty()),
       sweep_geometry(problem),
       geometry(contact::trace_geometry(decomposition, *mesh)) {
-  if (contact::is_joined(decomposition, most_dense))
+  if (contact::is_joined(decomposition, condensed_up_to))
     contact = std::make_unique<contact::JoinedProblem>(problem, threads);
   else
     contact = std::make_unique<contact::CondensedProblem>(problem);
@@ -87,11 +87,11 @@ Condense MeshOperator::Parts::condense() const {
 
 std::shared_ptr<const MeshOperator> MeshOperator::factorise(std::shared_ptr<const mesh::Mesh> mesh,
                                                             int threads, std::stop_token stop,
-                                                            std::size_t most_dense) {
+                                                            std::size_t condensed_up_to) {
   require_threadsafe_blas();
   const stop::Scope scope(stop);
   stop::look("factorising a mesh");
-  auto parts = std::make_shared<const Parts>(std::move(mesh), threads, most_dense);
+  auto parts = std::make_shared<const Parts>(std::move(mesh), threads, condensed_up_to);
   return std::shared_ptr<const MeshOperator>(new MeshOperator(std::move(parts)));
 }
 

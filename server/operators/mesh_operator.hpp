@@ -27,8 +27,8 @@ class PreparedLoad;
 class LoadBasis;
 class UzawaBlock;
 
-/// Most interface nodes for which the matrices are dense.
-constexpr std::size_t max_dense = 3000;
+/// Nodes of the interfaces up to which a membrane is condensed to them, with dense matrices.
+constexpr std::size_t default_condensed_up_to = 3000;
 
 /// Factorised subdomains, Schur complements, the skeleton condensed to the cracks and the interface
 /// mass of one mesh; on demand also the flexibilities and theta* of Algorithm 2, and bases of
@@ -36,12 +36,12 @@ constexpr std::size_t max_dense = 3000;
 class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
  public:
   /// Factorises every subdomain (paper: the matrices of Algorithm 2) on `threads` threads. Throws
-  /// errors::Error: numerical (a part that nothing or contact alone holds), cancelled. Costs one
-  /// sparse Cholesky factorisation per subdomain plus O(n_G^3) for n_G interface nodes. With n_G
-  /// above `most_dense` the membrane is joined instead: one sparse factor, O(N^1.5).
-  static std::shared_ptr<const MeshOperator> factorise(std::shared_ptr<const mesh::Mesh> mesh,
-                                                       int threads, std::stop_token stop,
-                                                       std::size_t most_dense = max_dense);
+  /// errors::Error: numerical (a part that nothing or contact alone holds), cancelled. One sparse
+  /// Cholesky factorisation per subdomain plus O(n_G^3) for n_G interface nodes. Of more than
+  /// `condensed_up_to` the membrane is joined instead: one sparse factor, O(N^1.5).
+  static std::shared_ptr<const MeshOperator> factorise(
+      std::shared_ptr<const mesh::Mesh> mesh, int threads, std::stop_token stop,
+      std::size_t condensed_up_to = default_condensed_up_to);
   /// Condenses loads by forward solves in blocks of columns, O(N) each. Entry i belongs to loads[i]
   /// and holds its error: expression_invalid (a value that is not finite, with the place),
   /// invalid_argument (an unknown subdomain or inclusion, an array of another length, a point

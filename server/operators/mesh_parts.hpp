@@ -41,7 +41,7 @@ class Working {
 };
 
 struct MeshOperator::Parts {
-  Parts(std::shared_ptr<const mesh::Mesh> cut_mesh, int threads, std::size_t most_dense);
+  Parts(std::shared_ptr<const mesh::Mesh> cut_mesh, int threads, std::size_t condensed_up_to);
 
   std::shared_ptr<const mesh::Mesh> mesh;
   ddm::Decomposition decomposition;

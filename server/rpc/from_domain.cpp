@@ -61,17 +61,18 @@ v1::LoadCaseAnswer from_domain(const records::CaseRecord& record, const std::str
 
 v1::Job from_domain(const records::JobRecord& record) {
   v1::Job job = api::message(record);
-  if (record.error) *job.mutable_error() = to_message(*record.error);
-  for (int i = 0; i < job.answers_size(); ++i)
-    present(record.cases[static_cast<std::size_t>(i)], *job.mutable_answers(i));
-  for (v1::Job::Step& step : *job.mutable_timeline())
+  v1::JobStatus& status = *job.mutable_status();
+  if (record.error) *status.mutable_error() = to_message(*record.error);
+  for (int i = 0; i < status.answers_size(); ++i)
+    present(record.cases[static_cast<std::size_t>(i)], *status.mutable_answers(i));
+  for (v1::JobStatus::Step& step : *status.mutable_timeline())
     step.set_detail(words::printable(step.detail(), max_detail_text));
-  job.set_load_case_count(job.load_cases_size());
-  job.set_load_cases_ended(load_cases_ended(record));
+  status.set_load_case_count(job.spec().load_cases_size());
+  status.set_load_cases_ended(load_cases_ended(record));
   if (job.ByteSizeLong() > max_job_message_bytes)
-    for (v1::LoadCaseAnswer& answer : *job.mutable_answers()) answer.clear_contact_intervals();
+    for (v1::LoadCaseAnswer& answer : *status.mutable_answers()) answer.clear_contact_intervals();
   if (job.ByteSizeLong() > max_job_message_bytes)
-    for (v1::LoadCaseAnswer& answer : *job.mutable_answers()) answer.clear_warnings();
+    for (v1::LoadCaseAnswer& answer : *status.mutable_answers()) answer.clear_warnings();
   return job;
 }
 
@@ -85,8 +86,8 @@ v1::Job basic(records::JobRecord record) {
   record.sweep.warnings.clear();
   if (record.spec.sweep) record.spec.sweep->traces.clear();
   v1::Job job = from_domain(record);
-  job.set_load_case_count(static_cast<std::int32_t>(load_cases));
-  job.set_load_cases_ended(ended);
+  job.mutable_status()->set_load_case_count(static_cast<std::int32_t>(load_cases));
+  job.mutable_status()->set_load_cases_ended(ended);
   return job;
 }
 

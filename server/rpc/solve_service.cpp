@@ -28,20 +28,21 @@ Unary* SolveService::CreateJob(Context* context, const v1::CreateJobRequest* req
     const jobs::EngineOptions& options = _edge.backend.engine.options();
     const std::string& id = request->request_id();
     api::require_request_id(id);
-    const std::string print = id.empty() ? "" : api::fingerprint(request->job());
-    // Checked first, as a retry is answered whatever the limits are now.
+    const v1::JobSpec& asked = request->spec();
+    const std::string print = id.empty() ? "" : api::fingerprint(asked);
+    // First: a retry is answered whatever the limits are now, however full the queue, and though
+    // its mesh is gone.
     if (const auto made = _edge.backend.engine.submitted(who.name, id, print)) {
       *response = from_domain(*made);
       return;
     }
-    records::JobSpec spec = api::to_spec(
-        request->job(),
-        {options.max_load_cases, options.max_iterations, options.queue_time, options.run_time});
     try {
+      records::JobSpec spec =
+          api::to_spec(asked, {options.max_iterations, options.queue_time, options.run_time});
       visible_mesh(_edge.backend, who, spec.mesh);
-      if (has_packed_matrix(request->job())) {
+      if (has_packed_matrix(asked)) {
         jobs::check(spec, options);  // a refused job must leave nothing on the disk
-        keep_packed_matrix(request->job(), _edge.backend.store, who.name);
+        keep_packed_matrix(asked, _edge.backend.store, who.name);
       }
       *response = from_domain(_edge.backend.engine.submit({std::move(spec), who.name, id, print}));
     } catch (const errors::Error& error) {

@@ -11,13 +11,13 @@ namespace anticrack::rpc {
 
 static_assert(api::max_packed_bytes <= max_chunk_bytes, "it is one chunk");
 
-bool has_packed_matrix(const v1::Job& job) {
-  const v1::Sweep::Matrix* matrix = api::matrix_of(job.sweep()).matrix;
+bool has_packed_matrix(const v1::JobSpec& spec) {
+  const v1::Sweep::Matrix* matrix = api::matrix_of(spec.sweep()).matrix;
   return matrix != nullptr && matrix->has_packed();
 }
 
-void keep_packed_matrix(const v1::Job& job, store::Store& store, const std::string& owner) {
-  const auto [matrix, field] = api::matrix_of(job.sweep());
+void keep_packed_matrix(const v1::JobSpec& spec, store::Store& store, const std::string& owner) {
+  const auto [matrix, field] = api::matrix_of(spec.sweep());
   const std::string& packed = matrix->packed();
   v1::CreateUploadsRequest header;
   header.mutable_header()->set_size(packed.size());

@@ -70,7 +70,7 @@ bool WatchFeed::heartbeat(v1::WatchJobResponse& response) {
 void WatchFeed::fill_snapshot(v1::WatchJobResponse& response) {
   const records::JobRecord record = _backend.engine.get(_id);
   for (const fem::Load& load : record.spec.loads) _load_names.push_back(load.name);
-  _state = static_cast<v1::Job::State>(record.state);
+  _state = static_cast<v1::JobStatus::State>(record.state);
   v1::WatchJobResponse::Snapshot& snapshot = *response.mutable_snapshot();
   *snapshot.mutable_job() = from_domain(record);
   snapshot.set_earliest_sequence(_group->log().earliest());
@@ -106,7 +106,7 @@ void WatchFeed::fill(const jobs::ProgressEvents& progress, v1::WatchJobResponse&
 }
 
 void WatchFeed::fill(const jobs::PhaseEvent& phase, v1::WatchJobResponse& response) {
-  _state = static_cast<v1::Job::State>(phase.state);
+  _state = static_cast<v1::JobStatus::State>(phase.state);
   _detail = phase.detail;
   response.mutable_phase()->set_state(_state);
   response.mutable_phase()->set_detail(_detail);

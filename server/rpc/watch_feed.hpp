@@ -62,7 +62,7 @@ class WatchFeed final : public Feed<v1::WatchJobResponse> {
   bool _from_earliest = false;         ///< nothing delivered yet, and no place asked for
   bool _snapshot_sent = false;
   bool _ended = false;
-  v1::Job::State _state = v1::Job::STATE_UNSPECIFIED;
+  v1::JobStatus::State _state = v1::JobStatus::STATE_UNSPECIFIED;
   std::string _detail;
 };
 

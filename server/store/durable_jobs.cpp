@@ -59,17 +59,17 @@ void insert(Connection& connection, const records::JobRecord& record,
 }
 
 /// The job that the owner made with this request id before.
-std::optional<Row> find_request(Connection& connection, const records::JobRecord& record,
-                                const std::string& fingerprint) {
-  if (record.request_id.empty()) return std::nullopt;
+std::optional<Row> find_request(Connection& connection, const std::string& owner,
+                                const std::string& request_id, const std::string& fingerprint) {
+  if (request_id.empty()) return std::nullopt;
   Statement select = connection.prepare(
       "SELECT id, fingerprint FROM jobs WHERE owner = ? AND request = ? AND request <> ''");
-  if (!select.bind(std::string_view(record.owner)).bind(std::string_view(record.request_id)).step())
+  if (!select.bind(std::string_view(owner)).bind(std::string_view(request_id)).step())
     return std::nullopt;
   std::optional<Row> row = find_row(connection, FileKind::result, select.text(0));
   if (row && row->intact && select.text(1) != fingerprint) {
     throw Error(Reason::request_id_reused,
-                "request id \"" + record.request_id + "\" was used for jobs/" + row->id +
+                "request id \"" + request_id + "\" was used for jobs/" + row->id +
                     ", which is another job: make a new request id for each job")
         .at("request_id");
   }
@@ -123,16 +123,17 @@ records::JobRecord DurableStore::create(const records::JobRecord& record,
   const std::string bytes = encode(record);
   std::optional<Row> existing;
   _writer.run([&](Connection& connection) {
-    existing = find_request(connection, record, fingerprint);
+    existing = find_request(connection, record.owner, record.request_id, fingerprint);
     if (!existing) insert(connection, record, fingerprint, bytes);
   });
   return existing ? job_of(*existing) : record;
 }
 
 std::optional<records::JobRecord> DurableStore::created_before(
-    const records::JobRecord& record, const std::string& fingerprint) const {
-  const auto existing = reading(
-      [&](Connection& connection) { return find_request(connection, record, fingerprint); });
+    const std::string& owner, const std::string& request_id, const std::string& fingerprint) const {
+  const auto existing = reading([&](Connection& connection) {
+    return find_request(connection, owner, request_id, fingerprint);
+  });
   return existing ? std::optional(job_of(*existing)) : std::nullopt;
 }
 

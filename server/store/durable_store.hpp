@@ -40,7 +40,8 @@ class DurableStore final : public Store {
 
   records::JobRecord create(const records::JobRecord& record,
                             const std::string& fingerprint) override;
-  std::optional<records::JobRecord> created_before(const records::JobRecord& record,
+  std::optional<records::JobRecord> created_before(const std::string& owner,
+                                                   const std::string& request_id,
                                                    const std::string& fingerprint) const override;
   void put(const records::JobRecord& record) override;
   std::shared_ptr<Spool> new_spool() override;

@@ -89,13 +89,15 @@ struct UploadRecord {
 
 /// Contract:
 /// 1. Every method may be called from any thread and is atomic. Writers may wait for the disk.
-/// 2. A method that writes returns when its data are on the disk (except put(JobRecord)). If it
-///    throws errors::Error (disk_full with a retry delay: no space, or budget used up; storage: any
-///    other failure of the disk), it has written nothing, and the same call may succeed later. Only
-///    a bad disk makes the store unusable.
+/// 2. A method that writes returns when what it wrote is on the disk (but for put(JobRecord)); when
+/// it throws errors::Error
+///    (disk_full with a retry delay: no space, or budget; storage: any other failure of the disk)
+///    it has written nothing, and the same call may succeed later. Nothing but a bad disk makes the
+///    store unusable.
 /// 3. Lists are stable under insertion; an unknown `after` throws not_found.
-/// 4. A record that has changed on the disk comes as FAILED with an error (storage) that has its
-///    name and the cure; only its id and owner are known.
+/// 4. A record that has changed on the disk comes as FAILED with an error (storage) that names it
+/// and
+///    gives the cure; no more is known of it than id and owner.
 /// 5. Ids are unique for ever; an erased id does not come back by itself.
 class Store {
  public:
@@ -104,7 +106,7 @@ class Store {
   virtual void put(const records::MeshRecord& record) = 0;  ///< inserts or replaces
   /// The same with the triangulation, whose encoding has the hash record.sha256.
   virtual void put(const records::MeshRecord& record, const mesh::Mesh& triangulation) = 0;
-  /// The record of a mesh; empty if there is none.
+  /// Empty where there is none.
   virtual std::optional<records::MeshRecord> mesh(const std::string& id) const = 0;
   virtual std::vector<records::MeshRecord> meshes(const Page& page) const = 0;
   virtual std::size_t mesh_count() const = 0;
@@ -118,9 +120,10 @@ class Store {
   /// before; throws request_id_reused if that job had another fingerprint.
   virtual records::JobRecord create(const records::JobRecord& record,
                                     const std::string& fingerprint) = 0;
-  /// The earlier job that `create` would return; empty if there is none. Inserts nothing.
+  /// The job that `create` would return in place of one with these; empty: none.
   virtual std::optional<records::JobRecord> created_before(
-      const records::JobRecord& record, const std::string& fingerprint) const = 0;
+      const std::string& owner, const std::string& request_id,
+      const std::string& fingerprint) const = 0;
   /// Replaces the record; throws not_found. It survives kill -9, and a power failure once anything
   /// was written after it; what a start and a recovery write can be found out again.
   virtual void put(const records::JobRecord& record) = 0;
@@ -130,7 +133,7 @@ class Store {
   /// result is copied in pieces, so a spooled result takes its bytes twice until this returns.
   virtual void finish(const records::JobRecord& record,
                       std::shared_ptr<const records::BlockSource> result) = 0;
-  /// The record of a job; empty if there is none.
+  /// Empty where there is none.
   virtual std::optional<records::JobRecord> job(const std::string& id) const = 0;
   virtual std::vector<records::JobRecord> jobs(const Page& page) const = 0;
   /// The jobs that have not ended, oldest first, to be queued at a start; without damaged records.

@@ -84,9 +84,9 @@ mesh::Mesh driven_mesh(const Driven& driven) {
   return mesh;
 }
 
-void check_driven(const Driven& driven, std::size_t most_dense) {
-  SCOPED_TRACE(driven.what + (most_dense == 0 ? ", joined" : ""));
-  const auto op = factorise(driven_mesh(driven), most_dense);
+void check_driven(const Driven& driven, std::size_t condensed_up_to) {
+  SCOPED_TRACE(driven.what + (condensed_up_to == 0 ? ", joined" : ""));
+  const auto op = factorise(driven_mesh(driven), condensed_up_to);
   const contact::Answer answer = solve_bounded(*op, driven.load);
   ASSERT_EQ(answer.status, contact::Status::converged) << answer.reason;
   const contact::KktResiduals& kkt = answer.kkt_relative;
@@ -104,13 +104,13 @@ void check_driven(const Driven& driven, std::size_t most_dense) {
 
 TEST(Driven, ByAnythingAloneItConvergesWithBounds) {
   for (const Driven& driven : driven_cases())
-    for (const std::size_t most_dense : {operators::max_dense, std::size_t{0}})
-      check_driven(driven, most_dense);
+    for (const std::size_t condensed_up_to : {operators::default_condensed_up_to, std::size_t{0}})
+      check_driven(driven, condensed_up_to);
 }
 
 TEST(Driven, ByNothingItStaysAtZero) {
-  for (const std::size_t most_dense : {operators::max_dense, std::size_t{0}}) {
-    const auto op = factorise(driven_mesh({"nothing", no_load()}), most_dense);
+  for (const std::size_t condensed_up_to : {operators::default_condensed_up_to, std::size_t{0}}) {
+    const auto op = factorise(driven_mesh({"nothing", no_load()}), condensed_up_to);
     const contact::Answer answer = solve_bounded(*op, no_load());
     EXPECT_EQ(answer.energy, 0);
     EXPECT_EQ(*answer.energy_lower, 0);
@@ -121,8 +121,8 @@ TEST(Driven, ByNothingItStaysAtZero) {
 }
 
 TEST(Driven, ByWhatHasNoSquareItHasNoBounds) {
-  for (const std::size_t most_dense : {operators::max_dense, std::size_t{0}}) {
-    const auto op = factorise(driven_mesh({"little", no_load()}), most_dense);
+  for (const std::size_t condensed_up_to : {operators::default_condensed_up_to, std::size_t{0}}) {
+    const auto op = factorise(driven_mesh({"little", no_load()}), condensed_up_to);
     const contact::Answer answer = solve_bounded(*op, by_force("1e-300*(1 + y)"));
     EXPECT_EQ(answer.status, contact::Status::converged) << answer.reason;
     EXPECT_NE(answer.no_bracket.find("scale the load up"), std::string::npos) << answer.no_bracket;
@@ -132,8 +132,8 @@ TEST(Driven, ByWhatHasNoSquareItHasNoBounds) {
 }
 
 TEST(Driven, ByLoadsThatCancelRowsOfSweepsConverge) {
-  for (const std::size_t most_dense : {operators::max_dense, std::size_t{0}}) {
-    const auto op = factorise(driven_mesh({"sums", no_load(), {false, 0.1}}), most_dense);
+  for (const std::size_t condensed_up_to : {operators::default_condensed_up_to, std::size_t{0}}) {
+    const auto op = factorise(driven_mesh({"sums", no_load(), {false, 0.1}}), condensed_up_to);
     const fem::Load first = by_force("1 + x - y"), second = by_force("3*(1 + x - y)");
     const fem::Load* const loads[] = {&first, &second};
     const auto basis = op->basis(loads, {}, true);

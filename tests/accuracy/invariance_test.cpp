@@ -216,9 +216,9 @@ mesh::Point middle(const mesh::Mesh& mesh, std::int32_t inclusion) {
   return {(low[0] + high[0]) / 2, (low[1] + high[1]) / 2};
 }
 
-contact::Answer solve_all_sorts(const Units& units, std::size_t most_dense) {
+contact::Answer solve_all_sorts(const Units& units, std::size_t condensed_up_to) {
   const Placement place(units.angle, units.size);
-  const auto op = factorise(place(all_sorts()), most_dense);
+  const auto op = factorise(place(all_sorts()), condensed_up_to);
   const auto text = [](double value) {
     char digits[40];
     std::snprintf(digits, sizeof digits, "(%.17g)", value);
@@ -334,7 +334,7 @@ TEST_P(ChangedUnits, ChangeNothingElse) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Paths, ChangedUnits,
-                         ::testing::Values(operators::max_dense, std::size_t{0}),
+                         ::testing::Values(operators::default_condensed_up_to, std::size_t{0}),
                          [](const auto& instance) {
                            return instance.param > 0 ? "Dense" : "Joined";
                          });

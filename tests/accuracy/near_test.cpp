@@ -62,8 +62,9 @@ TEST(NearlyTouching, HaveBoundsThatHold) {
       load.name = "case";
       load.force = fem::Expression{near.force};
       const contact::Answer better = solve(*fine, load, false);
-      for (const std::size_t most_dense : {operators::max_dense, std::size_t{0}}) {
-        const contact::Answer answer = solve_bounded(*factorise(mesh, most_dense), load);
+      for (const std::size_t condensed_up_to :
+           {operators::default_condensed_up_to, std::size_t{0}}) {
+        const contact::Answer answer = solve_bounded(*factorise(mesh, condensed_up_to), load);
         EXPECT_LE(answer.kkt_relative.equilibrium, 1e-8);
         ASSERT_EQ(answer.no_bracket, "");
         EXPECT_LT(*answer.energy_lower, better.energy);
@@ -76,7 +77,7 @@ TEST(NearlyTouching, HaveBoundsThatHold) {
           EXPECT_GT(*one.displacement_upper, better.inclusions[j].displacement);
         }
         std::printf("[ figures  ] %s at %g, %zu triangles%s: KKT %.1e\n", near.what.c_str(), d,
-                    mesh.triangle_count(), most_dense == 0 ? ", joined" : "",
+                    mesh.triangle_count(), condensed_up_to == 0 ? ", joined" : "",
                     answer.kkt_relative.equilibrium);
       }
     }

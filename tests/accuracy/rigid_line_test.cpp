@@ -64,8 +64,8 @@ std::vector<Patch> patches() {
 }
 
 /// Along the line, as far as it determines the slope.
-void expect_patch(const Patch& patch, std::size_t most_dense) {
-  const auto op = factorise(patch.mesh, most_dense);
+void expect_patch(const Patch& patch, std::size_t condensed_up_to) {
+  const auto op = factorise(patch.mesh, condensed_up_to);
   const contact::Answer answer = solve(*op, 0.0, linear_text, true);
   double field = 0, area = 0;
   for (const contact::Field& part : answer.fields) {
@@ -98,7 +98,7 @@ void expect_patch(const Patch& patch, std::size_t most_dense) {
   const double exact = (0.5 * 0.5 + 0.7 * 0.7) * area / 2;
   const double energy = std::abs(answer.energy - exact) / exact;
   std::printf("[ figures  ] %s, %s: error of u %.1e, A %.1e, B %.1e, energy %.1e, moment %.1e\n",
-              patch.name, most_dense > 0 ? "dense" : "joined", field, middle, slopes, energy,
+              patch.name, condensed_up_to > 0 ? "dense" : "joined", field, middle, slopes, energy,
               std::hypot(rigid.moment_x, rigid.moment_y));
   EXPECT_LT(field, 1e-12 * std::max(1.0, std::sqrt(area)));
   EXPECT_LT(middle, 1e-12);
@@ -110,9 +110,9 @@ void expect_patch(const Patch& patch, std::size_t most_dense) {
 
 TEST(TiltingInclusion, LeavesALinearFieldAsItIs) {
   for (const Patch& patch : patches()) {
-    for (const std::size_t most_dense : {operators::max_dense, std::size_t{0}}) {
-      SCOPED_TRACE(patch.name + std::string(most_dense > 0 ? ", dense" : ", joined"));
-      expect_patch(patch, most_dense);
+    for (const std::size_t condensed_up_to : {operators::default_condensed_up_to, std::size_t{0}}) {
+      SCOPED_TRACE(patch.name + std::string(condensed_up_to > 0 ? ", dense" : ", joined"));
+      expect_patch(patch, condensed_up_to);
     }
   }
 }
@@ -178,9 +178,9 @@ struct LineErrors {
   double a = 0, b = 0, moment = 0, pi = 0, norm = 0;
 };
 
-LineErrors measure(const RigidLine& line, bool tilts, double h0, std::size_t most_dense) {
+LineErrors measure(const RigidLine& line, bool tilts, double h0, std::size_t condensed_up_to) {
   mesh::Mesh base = mesh::grade(diagonals(Kind::inclusion), {h0, 0.2, 0}, most_triangles);
-  const auto op = factorise(tilts ? tilting(std::move(base)) : std::move(base), most_dense);
+  const auto op = factorise(tilts ? tilting(std::move(base)) : std::move(base), condensed_up_to);
   fem::Load load;
   load.name = "case";
   load.boundary_value = line.boundary();
@@ -198,10 +198,11 @@ LineErrors measure(const RigidLine& line, bool tilts, double h0, std::size_t mos
 }
 
 /// u ~ r^{1/2} at the tips, so the default grading gives the rates of smooth solutions.
-void expect_rates(const char* name, const RigidLine& line, bool tilts, std::size_t most_dense) {
+void expect_rates(const char* name, const RigidLine& line, bool tilts,
+                  std::size_t condensed_up_to) {
   LineErrors coarse;
   for (const double h0 : {0.4, 0.2, 0.1, 0.05}) {
-    const LineErrors fine = measure(line, tilts, h0, most_dense);
+    const LineErrors fine = measure(line, tilts, h0, condensed_up_to);
     std::printf(
         "[ figures  ] %s, h0 = %.2f: error of A %.2e (%.2f), B %.2e (%.2f), moment %.2e (%.2f), "
         "energy %.2e (%.2f), energy norm %.2e (%.2f)\n",
@@ -223,7 +224,7 @@ void expect_rates(const char* name, const RigidLine& line, bool tilts, std::size
 const RigidLine pulled{0.25, 0.5, -0.75, 0.125, 0.375, 0.625};
 
 TEST(TiltingInclusion, UnderAMomentHasTheRatesOfSmoothSolutions) {
-  expect_rates("tilts", pulled, true, operators::max_dense);
+  expect_rates("tilts", pulled, true, operators::default_condensed_up_to);
 }
 
 TEST(TiltingInclusion, UnderAMomentHasTheRatesOfSmoothSolutionsJoined) {
@@ -234,7 +235,7 @@ TEST(TiltingInclusion, UnderAMomentHasTheRatesOfSmoothSolutionsJoined) {
 TEST(RigidInclusion, ThatKeepsItsDirectionHasTheRatesOfSmoothSolutions) {
   RigidLine line = pulled;
   line.b = 0;
-  expect_rates("keeps its direction", line, false, operators::max_dense);
+  expect_rates("keeps its direction", line, false, operators::default_condensed_up_to);
 }
 
 /// B = s + M / (pi c^2): doubling M doubles what it adds, to rounding.
@@ -300,7 +301,8 @@ TEST_P(FreeCrack, HasTheRatesOfSmoothSolutionsAndItsMirrorImage) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Paths, FreeCrack, ::testing::Values(operators::max_dense, std::size_t{0}),
+INSTANTIATE_TEST_SUITE_P(Paths, FreeCrack,
+                         ::testing::Values(operators::default_condensed_up_to, std::size_t{0}),
                          [](const auto& instance) {
                            return instance.param > 0 ? "Dense" : "Joined";
                          });

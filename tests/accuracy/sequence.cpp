@@ -39,9 +39,10 @@ contact::Answer solve_bounded(const operators::MeshOperator& op, const fem::Load
   return answer;
 }
 
-std::shared_ptr<const operators::MeshOperator> factorise(mesh::Mesh mesh, std::size_t most_dense) {
+std::shared_ptr<const operators::MeshOperator> factorise(mesh::Mesh mesh,
+                                                         std::size_t condensed_up_to) {
   return operators::MeshOperator::factorise(std::make_shared<const mesh::Mesh>(std::move(mesh)), 2,
-                                            {}, most_dense);
+                                            {}, condensed_up_to);
 }
 
 }  // namespace anticrack::accuracy

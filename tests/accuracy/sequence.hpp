@@ -23,9 +23,9 @@ contact::Answer solve(const operators::MeshOperator& op, const fem::Force& force
 /// With fields and bounds.
 contact::Answer solve_bounded(const operators::MeshOperator& op, const fem::Load& load);
 
-/// `most_dense`: 0 for one sparse factor (operators::MeshOperator::factorise).
+/// `condensed_up_to`: 0 for one sparse factor (operators::MeshOperator::factorise).
 std::shared_ptr<const operators::MeshOperator> factorise(
-    mesh::Mesh mesh, std::size_t most_dense = operators::max_dense);
+    mesh::Mesh mesh, std::size_t condensed_up_to = operators::default_condensed_up_to);
 
 /// Order of convergence between two errors when h halves.
 inline double rate(double coarse, double fine) { return std::log2(coarse / fine); }

@@ -65,7 +65,7 @@ class Bench {
       std::memcpy(nodes.data(), block.bytes.data() + array.offset(), nodes.size() * sizeof(double));
     }
     // The first job waits for the factors; none that is timed does.
-    v1::Job first = job();
+    v1::JobSpec first = spec();
     *first.add_load_cases() = constant(0);
     run(first);
     let_blas_fall_asleep();
@@ -73,8 +73,8 @@ class Bench {
 
   int server() noexcept { return _server.process().id(); }
 
-  v1::Job job() const {
-    v1::Job result;
+  v1::JobSpec spec() const {
+    v1::JobSpec result;
     result.set_mesh(mesh);
     return result;
   }
@@ -111,7 +111,7 @@ class Bench {
   }
 
   /// From asking for it to hearing that it has ended well.
-  v1::Job run(const v1::Job& wanted) {
+  v1::Job run(const v1::JobSpec& wanted) {
     const v1::Job created = client::create_job(connection, wanted, client::make_uuid());
     const v1::Job ended = service_test::wait_for_end(connection, created.name());
     if (!service_test::ran_to_its_end(ended)) {
@@ -148,12 +148,13 @@ void load_cases(Bench& bench, const std::string& name, const std::function<v1::L
   Times whole, running;
   int number = 0;
   for (int i = 0; i < bench.options.repetitions; ++i) {
-    v1::Job job = bench.job();
-    for (int k = 0; k < bench.options.cases; ++k) *job.add_load_cases() = load(number++);
+    v1::JobSpec spec = bench.spec();
+    for (int k = 0; k < bench.options.cases; ++k) *spec.add_load_cases() = load(number++);
     const Stopwatch watch(bench.server());
-    const v1::Job ended = bench.run(job);
+    const v1::Job ended = bench.run(spec);
     watch.stop(whole, bench.options.cases);
-    const double each = seconds(ended.start_time(), ended.end_time()) / bench.options.cases;
+    const double each =
+        seconds(ended.status().start_time(), ended.status().end_time()) / bench.options.cases;
     running.wall.push_back(each);
     running.cpu.push_back(each);  // a clock of the wall's time
   }
@@ -169,16 +170,16 @@ void single_case(Bench& bench, Figures& figures) {
     times.cpu.push_back(value);  // of another process: it cannot be told apart
   };
   for (int i = 0; i < 10 * bench.options.repetitions; ++i) {
-    v1::Job job = bench.job();
-    *job.add_load_cases() = bench.array(1'000 + i);
+    v1::JobSpec spec = bench.spec();
+    *spec.add_load_cases() = bench.array(1'000 + i);
     const Stopwatch watch(bench.server());
-    const v1::Job created = client::create_job(bench.connection, job, client::make_uuid());
+    const v1::Job created = client::create_job(bench.connection, spec, client::make_uuid());
     watch.stop(accepting);
     const v1::Job ended = service_test::wait_for_end(bench.connection, created.name());
     watch.stop(whole);
     if (!service_test::ran_to_its_end(ended)) throw std::runtime_error("a job failed");
-    add(waiting, seconds(ended.create_time(), ended.start_time()));
-    add(running, seconds(ended.start_time(), ended.end_time()));
+    add(waiting, seconds(ended.status().create_time(), ended.status().start_time()));
+    add(running, seconds(ended.status().start_time(), ended.status().end_time()));
   }
   figures.set("single_case", whole);
   figures.set("single_case_until_accepted", accepting);
@@ -227,7 +228,7 @@ Times round_trips(Bench& bench) {
 }
 
 void require_rows(const v1::Job& ended, int rows) {
-  const v1::SweepAnswer& answer = ended.sweep_answer();
+  const v1::SweepAnswer& answer = ended.status().sweep_answer();
   if (answer.converged() != static_cast<std::uint64_t>(rows)) {
     throw std::runtime_error("not every row of a sweep converged: " + answer.ShortDebugString());
   }
@@ -237,8 +238,8 @@ void require_rows(const v1::Job& ended, int rows) {
 Times combinations(Bench& bench) {
   constexpr int basis = 8;
   const int rows = bench.options.combinations;
-  v1::Job job = bench.job();
-  for (int j = 0; j < basis; ++j) *job.add_load_cases() = bench.array(j);
+  v1::JobSpec spec = bench.spec();
+  for (int j = 0; j < basis; ++j) *spec.add_load_cases() = bench.array(j);
   Times times;
   for (int i = 0; i < bench.options.repetitions; ++i) {
     std::vector<double> matrix;
@@ -246,9 +247,9 @@ Times combinations(Bench& bench) {
       for (int j = 0; j < basis; ++j) matrix.push_back(combination(k + i * rows, j));
     }
     const Stopwatch watch(bench.server());
-    job.mutable_sweep()->mutable_coefficients()->set_upload(
+    spec.mutable_sweep()->mutable_coefficients()->set_upload(
         client::upload_array(bench.connection, matrix));
-    const v1::Job ended = bench.run(job);
+    const v1::Job ended = bench.run(spec);
     watch.stop(times, rows);
     require_rows(ended, rows);
   }
@@ -264,11 +265,11 @@ Times nodal_loads(Bench& bench) {
       const std::vector<double> row = bench.nodal(k + i * rows);
       matrix.insert(matrix.end(), row.begin(), row.end());
     }
-    v1::Job job = bench.job();
+    v1::JobSpec spec = bench.spec();
     const Stopwatch watch(bench.server());
-    job.mutable_sweep()->mutable_nodal_forces()->set_upload(
+    spec.mutable_sweep()->mutable_nodal_forces()->set_upload(
         client::upload_array(bench.connection, matrix));
-    const v1::Job ended = bench.run(job);
+    const v1::Job ended = bench.run(spec);
     watch.stop(times, rows);
     require_rows(ended, rows);
   }
@@ -278,15 +279,15 @@ Times nodal_loads(Bench& bench) {
 /// Seconds a sample that one watcher is sent: the log of a job that has ended, from the earliest
 /// event kept, so that it is the watch that is timed and not Algorithm 2.
 Times samples(Bench& bench) {
-  v1::Job job = bench.job();
+  v1::JobSpec spec = bench.spec();
   for (int k = 0; k < bench.options.sampled_cases; ++k) {
-    *job.add_load_cases() = Bench::constant(k);
+    *spec.add_load_cases() = Bench::constant(k);
   }
-  v1::Uzawa& uzawa = *job.mutable_solver()->mutable_uzawa();
+  v1::Uzawa& uzawa = *spec.mutable_solver()->mutable_uzawa();
   uzawa.set_theta(1e-4);  // still on its way after so many iterations
   uzawa.set_epsilon(1e-300);
   uzawa.set_max_iterations(bench.options.samples);
-  const v1::Job ended = bench.run(job);
+  const v1::Job ended = bench.run(spec);
   Times times;
   for (int i = 0; i < bench.options.repetitions; ++i) {
     double seen = 0;

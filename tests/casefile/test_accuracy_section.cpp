@@ -16,7 +16,7 @@ std::string sample_to(const std::string& lines) {
 }
 
 TEST(AccuracySection, BecomesTheTaskOfTheJob) {
-  EXPECT_FALSE(parse(sample_text).job.has_accuracy());
+  EXPECT_FALSE(parse(sample_text).spec.has_accuracy());
   const Case the_case = parse(sample_to(R"(energy = 1e-3
 A = 0.01
 max_triangles = 200000
@@ -24,33 +24,33 @@ time = "10min"
 keep_stages = true
 each_inclusion = true
 )"));
-  const v1::Accuracy& accuracy = the_case.job.accuracy();
+  const v1::Accuracy& accuracy = the_case.spec.accuracy();
   EXPECT_EQ(accuracy.energy(), 1e-3);
   EXPECT_EQ(accuracy.displacement(), 0.01);
   EXPECT_EQ(accuracy.max_triangles(), 200000U);
   EXPECT_EQ(accuracy.time().seconds(), 600);
   EXPECT_TRUE(accuracy.keep_stages());
   EXPECT_TRUE(accuracy.each_inclusion());
-  EXPECT_THAT(the_case.job.outputs(), ElementsAre(v1::OUTPUT_INDICATORS));
-  EXPECT_EQ(locate(the_case, "job.accuracy.energy")->line, 20U);
-  EXPECT_EQ(locate(the_case, "job.accuracy.displacement")->line, 21U);
+  EXPECT_THAT(the_case.spec.outputs(), ElementsAre(v1::OUTPUT_INDICATORS));
+  EXPECT_EQ(locate(the_case, "spec.accuracy.energy")->line, 20U);
+  EXPECT_EQ(locate(the_case, "spec.accuracy.displacement")->line, 21U);
 }
 
 TEST(OutputSection, HasIndicatorsBesideFieldsThatAreBounded) {
   const std::string output = "[output]\nfields = true\n";
-  EXPECT_THAT(parse(sample_text + output).job.outputs(), ElementsAre(v1::OUTPUT_FIELDS));
-  EXPECT_THAT(parse(sample_to("A = 1e-3\n" + output)).job.outputs(),
+  EXPECT_THAT(parse(sample_text + output).spec.outputs(), ElementsAre(v1::OUTPUT_FIELDS));
+  EXPECT_THAT(parse(sample_to("A = 1e-3\n" + output)).spec.outputs(),
               ElementsAre(v1::OUTPUT_FIELDS, v1::OUTPUT_INDICATORS));
-  EXPECT_THAT(parse(sample_with("theta = 1.5\nmethod = \"uzawa\"\n", "") + output).job.outputs(),
+  EXPECT_THAT(parse(sample_with("theta = 1.5\nmethod = \"uzawa\"\n", "") + output).spec.outputs(),
               ElementsAre(v1::OUTPUT_FIELDS, v1::OUTPUT_INDICATORS));
 }
 
 TEST(OutputSection, LeavesBoundsOut) {
   const std::string exact = sample_with("theta = 1.5\nmethod = \"uzawa\"\n", "");
-  const v1::Job job = parse(exact + "[output]\nfields = true\nbounds = false\n").job;
+  const v1::JobSpec job = parse(exact + "[output]\nfields = true\nbounds = false\n").spec;
   EXPECT_TRUE(job.without_bounds());
   EXPECT_THAT(job.outputs(), ElementsAre(v1::OUTPUT_FIELDS));
-  EXPECT_FALSE(parse(exact + "[output]\nbounds = true\n").job.without_bounds());
+  EXPECT_FALSE(parse(exact + "[output]\nbounds = true\n").spec.without_bounds());
 }
 
 TEST(AccuracySection, NamesWhatIsWrong) {

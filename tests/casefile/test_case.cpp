@@ -26,14 +26,14 @@ TEST(Case, BecomesRequests) {
   EXPECT_EQ(geometry.inclusions(0).part().to().x(), 0.5);
   EXPECT_EQ(geometry.inclusions(0).delamination_case(), v1::Inclusion::DELAMINATION_NOT_SET);
 
-  EXPECT_EQ(the_case.job.title(), "A plate");
-  EXPECT_EQ(the_case.job.solver().uzawa().theta(), 1.5);
-  EXPECT_FALSE(the_case.job.solver().uzawa().has_epsilon());
-  EXPECT_TRUE(the_case.job.outputs().empty());
-  ASSERT_EQ(the_case.job.load_cases_size(), 2);
-  EXPECT_EQ(the_case.job.load_cases(0).name(), "one");
-  EXPECT_EQ(the_case.job.load_cases(0).force().constant(), 1);
-  EXPECT_EQ(the_case.job.load_cases(1).force().expression(), "y > 0 ? 1 : -1");
+  EXPECT_EQ(the_case.spec.title(), "A plate");
+  EXPECT_EQ(the_case.spec.solver().uzawa().theta(), 1.5);
+  EXPECT_FALSE(the_case.spec.solver().uzawa().has_epsilon());
+  EXPECT_TRUE(the_case.spec.outputs().empty());
+  ASSERT_EQ(the_case.spec.load_cases_size(), 2);
+  EXPECT_EQ(the_case.spec.load_cases(0).name(), "one");
+  EXPECT_EQ(the_case.spec.load_cases(0).force().constant(), 1);
+  EXPECT_EQ(the_case.spec.load_cases(1).force().expression(), "y > 0 ? 1 : -1");
   EXPECT_EQ(the_case.text, sample_text);
 }
 
@@ -66,20 +66,20 @@ kkt_tolerance = 1e-9)") + "boundary_value = \"-y\"\n");
   EXPECT_EQ(geometry.cracks(0).part().to().x(), 0.7);
   EXPECT_EQ(the_case.mesh.options().preset(), v1::MESH_PRESET_UNIFORM);
   EXPECT_EQ(the_case.mesh.options().size(), 0.1);
-  EXPECT_EQ(the_case.job.outputs(0), v1::OUTPUT_FIELDS);
-  const v1::Uzawa& uzawa = the_case.job.solver().uzawa();
+  EXPECT_EQ(the_case.spec.outputs(0), v1::OUTPUT_FIELDS);
+  const v1::Uzawa& uzawa = the_case.spec.solver().uzawa();
   EXPECT_TRUE(uzawa.theta_auto());
   EXPECT_EQ(uzawa.epsilon(), 1e-10);
   EXPECT_EQ(uzawa.p(), 1000);
   EXPECT_EQ(uzawa.max_iterations(), 7);
   EXPECT_EQ(uzawa.mass(), v1::MASS_CONSISTENT);
   EXPECT_EQ(uzawa.kkt_tolerance(), 1e-9);
-  EXPECT_EQ(the_case.job.load_cases(1).boundary_value(), "-y");
+  EXPECT_EQ(the_case.spec.load_cases(1).boundary_value(), "-y");
 }
 
 TEST(Case, TakesForcesByRegion) {
   const Case the_case = parse(sample_with("f = 1\n", "f = {omega1 = -1, omega2 = 2.5}\n"));
-  const auto& values = the_case.job.load_cases(0).force().per_region().values();
+  const auto& values = the_case.spec.load_cases(0).force().per_region().values();
   EXPECT_EQ(values.size(), 2U);
   EXPECT_EQ(values.at("omega1"), -1);
   EXPECT_EQ(values.at("omega2"), 2.5);
@@ -87,8 +87,8 @@ TEST(Case, TakesForcesByRegion) {
 
 TEST(Case, NeedsNoForceWhereABoundaryValueIsGiven) {
   const Case the_case = parse(sample_with("f = 1\n", "boundary_value = \"-y\"\n"));
-  EXPECT_FALSE(the_case.job.load_cases(0).has_force());
-  EXPECT_EQ(the_case.job.load_cases(0).boundary_value(), "-y");
+  EXPECT_FALSE(the_case.spec.load_cases(0).has_force());
+  EXPECT_EQ(the_case.spec.load_cases(0).boundary_value(), "-y");
 }
 
 TEST(Case, TakesAMeshFileBesideTheCase) {
@@ -274,7 +274,7 @@ inclusion_forces = {fibre = 2}
 inclusion_moments = {fibre = [0.5, -0.25]}
 )"),
             {"geometry.neumann=[\"side-1\"]", "geometry.inclusion.fibre.tilt=true"});
-  const v1::LoadCase& load = the_case.job.load_cases(0);
+  const v1::LoadCase& load = the_case.spec.load_cases(0);
   EXPECT_FALSE(load.has_force());
   EXPECT_EQ(load.traction(), "0.5");
   EXPECT_EQ(load.boundary_value(), "-y");
@@ -284,11 +284,11 @@ inclusion_moments = {fibre = [0.5, -0.25]}
   EXPECT_EQ(load.inclusion_forces().at("fibre"), 2);
   EXPECT_EQ(load.inclusion_moments().at("fibre").x(), 0.5);
   EXPECT_EQ(load.inclusion_moments().at("fibre").y(), -0.25);
-  EXPECT_EQ(locate(the_case, "job.load_cases[0].point_forces[1].at")->line, 19U);
-  EXPECT_EQ(locate(the_case, "job.load_cases[0].inclusion_forces[fibre]")->key,
+  EXPECT_EQ(locate(the_case, "spec.load_cases[0].point_forces[1].at")->line, 19U);
+  EXPECT_EQ(locate(the_case, "spec.load_cases[0].inclusion_forces[fibre]")->key,
             "load.one.inclusion_forces.fibre");
-  EXPECT_EQ(locate(the_case, "job.load_cases[0].inclusion_moments[fibre]")->line, 21U);
-  EXPECT_EQ(locate(the_case, "job.load_cases[0].traction")->line, 17U);
+  EXPECT_EQ(locate(the_case, "spec.load_cases[0].inclusion_moments[fibre]")->line, 21U);
+  EXPECT_EQ(locate(the_case, "spec.load_cases[0].traction")->line, 17U);
 }
 
 TEST(Case, NamesTheFilesOfForces) {
@@ -301,19 +301,19 @@ TEST(Case, NamesTheFilesOfForces) {
   EXPECT_EQ(file.load_case, 1);
   EXPECT_EQ(file.path, "f.h5");
   EXPECT_EQ(file.dataset, "/a/f");
-  EXPECT_TRUE(the_case.job.load_cases(1).force().array().per_triangle());
-  EXPECT_EQ(locate(the_case, "job.load_cases[1].force.array.upload")->line, 20U);
+  EXPECT_TRUE(the_case.spec.load_cases(1).force().array().per_triangle());
+  EXPECT_EQ(locate(the_case, "spec.load_cases[1].force.array.upload")->line, 20U);
 }
 
 TEST(Case, SolvesByTheActiveSetUnlessSaidOtherwise) {
   const std::string solver = "[solver]\ntheta = 1.5\nmethod = \"uzawa\"\n";
-  EXPECT_TRUE(parse(sample_with(solver, "")).job.solver().has_active_set());
+  EXPECT_TRUE(parse(sample_with(solver, "")).spec.solver().has_active_set());
   const Case the_case = parse(sample_with(solver, "[solver]\ntolerance = 0\nmax_steps = 7\n"));
-  const v1::ActiveSet& active_set = the_case.job.solver().active_set();
+  const v1::ActiveSet& active_set = the_case.spec.solver().active_set();
   EXPECT_TRUE(active_set.has_tolerance());
   EXPECT_EQ(active_set.tolerance(), 0);
   EXPECT_EQ(active_set.max_steps(), 7);
-  EXPECT_EQ(locate(the_case, "job.solver.active_set.max_steps")->line, 14U);
+  EXPECT_EQ(locate(the_case, "spec.solver.active_set.max_steps")->line, 14U);
 }
 
 TEST(Case, TakesTheOptionsOfAMesh) {
@@ -340,12 +340,12 @@ TEST(Case, IsReadTheSameEveryTime) {
 
 TEST(Locate, FindsTheLineOfAField) {
   const Case the_case = parse(sample_text);
-  const auto spot = locate(the_case, "job.load_cases[1].force.expression");
+  const auto spot = locate(the_case, "spec.load_cases[1].force.expression");
   ASSERT_TRUE(spot != nullptr);
   EXPECT_EQ(spot->key, "load.two.f");
   EXPECT_EQ(spot->line, 20U);
   EXPECT_EQ(prefix(*spot), "plate.toml:20: load.two.f: ");
-  EXPECT_EQ(locate(the_case, "job.solver.uzawa.theta")->key, "solver.theta");
+  EXPECT_EQ(locate(the_case, "spec.solver.uzawa.theta")->key, "solver.theta");
   EXPECT_EQ(locate(the_case, "geometry.inclusions[0].part.from")->line, 9U);
   EXPECT_EQ(locate(the_case, "geometry.interfaces[0].polyline.points[1]")->key,
             "geometry.interface.1");
@@ -355,14 +355,14 @@ TEST(Locate, FindsTheLineOfAField) {
 
 TEST(Locate, FindsWhatIsAroundADefault) {
   const Case the_case = parse(sample_text);
-  EXPECT_EQ(locate(the_case, "job.solver.uzawa.p")->key, "solver.method");
+  EXPECT_EQ(locate(the_case, "spec.solver.uzawa.p")->key, "solver.method");
   EXPECT_EQ(locate(the_case, "request_id"), nullptr);
   EXPECT_EQ(locate(the_case, ""), nullptr);
 }
 
 TEST(Locate, NamesTheOverrideThatWroteIt) {
   const Case the_case = parse(sample_text, {"solver.theta=-1"});
-  EXPECT_EQ(prefix(*locate(the_case, "job.solver.uzawa.theta")),
+  EXPECT_EQ(prefix(*locate(the_case, "spec.solver.uzawa.theta")),
             "--set solver.theta=-1: solver.theta: ");
 }
 

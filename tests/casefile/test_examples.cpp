@@ -13,10 +13,10 @@ const std::string folder = ANTICRACK_EXAMPLES;
 
 TEST(Examples, PaperHasItsFourLoadsAndParameters) {
   const Case the_case = testing::read_case_file(folder + "/paper.toml");
-  ASSERT_EQ(the_case.job.load_cases_size(), 4);
+  ASSERT_EQ(the_case.spec.load_cases_size(), 4);
   EXPECT_EQ(the_case.mesh.options().preset(), v1::MESH_PRESET_PAPER);
-  ASSERT_TRUE(the_case.job.solver().has_uzawa());
-  const v1::Uzawa& uzawa = the_case.job.solver().uzawa();
+  ASSERT_TRUE(the_case.spec.solver().has_uzawa());
+  const v1::Uzawa& uzawa = the_case.spec.solver().uzawa();
   EXPECT_EQ(uzawa.theta(), 2);
   EXPECT_EQ(uzawa.epsilon(), 1e-12);
   EXPECT_EQ(uzawa.p(), 1e5);
@@ -26,11 +26,12 @@ TEST(Examples, EachOfTheFourIsOneLoadOfThePaperOnTheSameMesh) {
   const Case all = testing::read_case_file(folder + "/paper.toml");
   for (int i = 0; i < 4; ++i) {
     const Case one = testing::read_case_file(folder + "/paper-" + std::to_string(i + 1) + ".toml");
-    ASSERT_EQ(one.job.load_cases_size(), 1);
-    EXPECT_EQ(one.job.load_cases(0).SerializeAsString(), all.job.load_cases(i).SerializeAsString());
-    EXPECT_EQ(one.job.load_cases(0).name(), "example-" + std::to_string(i + 1));
+    ASSERT_EQ(one.spec.load_cases_size(), 1);
+    EXPECT_EQ(one.spec.load_cases(0).SerializeAsString(),
+              all.spec.load_cases(i).SerializeAsString());
+    EXPECT_EQ(one.spec.load_cases(0).name(), "example-" + std::to_string(i + 1));
     EXPECT_EQ(one.mesh.geometry().SerializeAsString(), all.mesh.geometry().SerializeAsString());
-    EXPECT_EQ(one.job.solver().SerializeAsString(), all.job.solver().SerializeAsString());
+    EXPECT_EQ(one.spec.solver().SerializeAsString(), all.spec.solver().SerializeAsString());
   }
 }
 
@@ -39,8 +40,8 @@ TEST(Examples, OfOtherGeometriesUseTheDefaults) {
        {"several-inclusions", "slit", "arc", "floating", "partly-delaminated", "shear", "tilt"}) {
     const Case the_case = testing::read_case_file(folder + "/" + name + ".toml");
     EXPECT_EQ(the_case.mesh.options().preset(), v1::MESH_PRESET_GRADED) << name;
-    EXPECT_TRUE(the_case.job.solver().has_active_set()) << name;
-    EXPECT_GE(the_case.job.load_cases_size(), 2) << name;
+    EXPECT_TRUE(the_case.spec.solver().has_active_set()) << name;
+    EXPECT_GE(the_case.spec.load_cases_size(), 2) << name;
     EXPECT_GE(the_case.mesh.geometry().interfaces_size(), 1) << name;
   }
 }

@@ -38,15 +38,15 @@ std::string with(const std::string& from, const std::string& to) {
 TEST(JsonCase, IsTheCaseOfTheSameTables) {
   const Case json = parse_json(sample_json), toml = parse(sample_text);
   EXPECT_EQ(json.mesh.SerializeAsString(), toml.mesh.SerializeAsString());
-  EXPECT_EQ(json.job.SerializeAsString(), toml.job.SerializeAsString());
-  EXPECT_EQ(locate(json, "job.load_cases[1].force")->key, "load.two.f");
+  EXPECT_EQ(json.spec.SerializeAsString(), toml.spec.SerializeAsString());
+  EXPECT_EQ(locate(json, "spec.load_cases[1].force")->key, "load.two.f");
 }
 
 TEST(JsonCase, IsKeptAsToml) {
   const Case json = parse_json(sample_json, {"load.one.f=2"});
   const Case kept = parse(json.text);
-  EXPECT_EQ(kept.job.SerializeAsString(), json.job.SerializeAsString());
-  EXPECT_EQ(kept.job.load_cases(0).force().constant(), 2);
+  EXPECT_EQ(kept.spec.SerializeAsString(), json.spec.SerializeAsString());
+  EXPECT_EQ(kept.spec.load_cases(0).force().constant(), 2);
 }
 
 TEST(JsonCase, HasTheMistakesOfToml) {
@@ -60,7 +60,7 @@ TEST(JsonCase, HasTheMistakesOfToml) {
 TEST(JsonCase, WholeNumbersAreCountsAndOthersAreNot) {
   const std::string steps = "\"method\": \"uzawa\", \"max_iterations\": ";
   EXPECT_EQ(
-      parse_json(with("\"method\": \"uzawa\"", steps + "7")).job.solver().uzawa().max_iterations(),
+      parse_json(with("\"method\": \"uzawa\"", steps + "7")).spec.solver().uzawa().max_iterations(),
       7);
   for (const char* other : {"7.0", "7e0", "-7", "18446744073709551615", "9223372036854775808",
                             "\"7\"", "true", "[7]", "{}"})

@@ -92,7 +92,7 @@ TEST(CaseKeys, AreFoundByTheirPathOrItsEnd) {
   request.set_name("priority");
   const v1::CaseKey priority = list_keys(request).keys(0);
   EXPECT_EQ(priority.form(), "\"interactive\", \"normal\" or \"bulk\"");
-  EXPECT_EQ(priority.field(), "Job.priority");
+  EXPECT_EQ(priority.field(), "JobSpec.priority");
 }
 
 TEST(CaseKeys, ThatAreNoneAreToldTheNearest) {

@@ -12,23 +12,23 @@ using ::testing::HasSubstr;
 TEST(Overrides, ReplaceAndAddKeys) {
   const Case the_case =
       parse(sample_text, {"solver.theta=1.7", "solver.mass=consistent", "output.fields=true"});
-  EXPECT_EQ(the_case.job.solver().uzawa().theta(), 1.7);
-  EXPECT_EQ(the_case.job.solver().uzawa().mass(), v1::MASS_CONSISTENT);
-  EXPECT_EQ(the_case.job.outputs_size(), 1);
+  EXPECT_EQ(the_case.spec.solver().uzawa().theta(), 1.7);
+  EXPECT_EQ(the_case.spec.solver().uzawa().mass(), v1::MASS_CONSISTENT);
+  EXPECT_EQ(the_case.spec.outputs_size(), 1);
 }
 
 TEST(Overrides, TakeBareWordsAsText) {
-  EXPECT_TRUE(parse(sample_text, {"solver.theta=auto"}).job.solver().uzawa().theta_auto());
+  EXPECT_TRUE(parse(sample_text, {"solver.theta=auto"}).spec.solver().uzawa().theta_auto());
   EXPECT_EQ(
-      parse(sample_text, {"load.0.f=x * y > 0 ? 1 : -1"}).job.load_cases(0).force().expression(),
+      parse(sample_text, {"load.0.f=x * y > 0 ? 1 : -1"}).spec.load_cases(0).force().expression(),
       "x * y > 0 ? 1 : -1");
-  EXPECT_EQ(parse(sample_text, {"title=a = b\nc = 1"}).job.title(), "a = b\nc = 1");
+  EXPECT_EQ(parse(sample_text, {"title=a = b\nc = 1"}).spec.title(), "a = b\nc = 1");
 }
 
 TEST(Overrides, TakeTomlValues) {
-  EXPECT_EQ(parse(sample_text, {"title=\"3\""}).job.title(), "3");
+  EXPECT_EQ(parse(sample_text, {"title=\"3\""}).spec.title(), "3");
   const Case the_case = parse(sample_text, {"load.1.f={omega2 = 2}"});
-  EXPECT_EQ(the_case.job.load_cases(1).force().per_region().values().at("omega2"), 2);
+  EXPECT_EQ(the_case.spec.load_cases(1).force().per_region().values().at("omega2"), 2);
   EXPECT_EQ(parse(sample_text, {"geometry.boundary=[[0, 0], [1, 0], [0, 1]]"})
                 .mesh.geometry()
                 .boundary_size(),
@@ -38,19 +38,19 @@ TEST(Overrides, TakeTomlValues) {
 TEST(Overrides, ReachIntoLists) {
   const Case the_case = parse(
       sample_text, {"load.0.f=5", "geometry.boundary.2.0=7", "geometry.inclusion.0.name=rod"});
-  EXPECT_EQ(the_case.job.load_cases(0).force().constant(), 5);
+  EXPECT_EQ(the_case.spec.load_cases(0).force().constant(), 5);
   EXPECT_EQ(the_case.mesh.geometry().boundary(2).x(), 7);
   EXPECT_EQ(the_case.mesh.geometry().inclusions(0).name(), "rod");
 }
 
 TEST(Overrides, AppendBehindTheLastOne) {
   const Case the_case = parse(sample_text, {"load.2.name=three", "load.2.f=3"});
-  ASSERT_EQ(the_case.job.load_cases_size(), 3);
-  EXPECT_EQ(the_case.job.load_cases(2).name(), "three");
+  ASSERT_EQ(the_case.spec.load_cases_size(), 3);
+  EXPECT_EQ(the_case.spec.load_cases(2).name(), "three");
 }
 
 TEST(Overrides, TheLastOfTwoWins) {
-  EXPECT_EQ(parse(sample_text, {"solver.theta=1", "solver.theta=3"}).job.solver().uzawa().theta(),
+  EXPECT_EQ(parse(sample_text, {"solver.theta=1", "solver.theta=3"}).spec.solver().uzawa().theta(),
             3);
 }
 
@@ -67,7 +67,7 @@ TEST(Overrides, OfTheMethodSayWhatToDoAboutKeysOfTheOther) {
                         "\"active-set\"; remove it, or put --set 'solver={method=\"active-set\"}' "
                         "before it"));
   EXPECT_TRUE(parse(sample_text, {"solver={method=\"active-set\"}", "solver.max_steps=3"})
-                  .job.solver()
+                  .spec.solver()
                   .has_active_set())
       << "the cure";
 }
@@ -76,14 +76,14 @@ TEST(Overrides, AreInTheTextThatIsKept) {
   const Case the_case = parse(sample_text, {"solver.theta=1.75"});
   EXPECT_THAT(the_case.text, HasSubstr("1.75"));
   const Case again = parse(the_case.text);
-  EXPECT_EQ(again.job.SerializeAsString(), the_case.job.SerializeAsString());
+  EXPECT_EQ(again.spec.SerializeAsString(), the_case.spec.SerializeAsString());
   EXPECT_EQ(again.mesh.SerializeAsString(), the_case.mesh.SerializeAsString());
 }
 
 TEST(Overrides, FindAnEntryOfAListByItsName) {
   const Case by_index = parse(sample_text, {"load.1.f=2"});
-  const Case by_name = parse(sample_text, {"load." + by_index.job.load_cases(1).name() + ".f=2"});
-  EXPECT_EQ(by_name.job.SerializeAsString(), by_index.job.SerializeAsString());
+  const Case by_name = parse(sample_text, {"load." + by_index.spec.load_cases(1).name() + ".f=2"});
+  EXPECT_EQ(by_name.spec.SerializeAsString(), by_index.spec.SerializeAsString());
 }
 
 TEST(Overrides, NameThemselvesInErrors) {
@@ -120,18 +120,18 @@ TEST(Overrides, RefuseWhatNoCaseFileCouldHold) {
     EXPECT_EQ(complaint(sample_text, {"load.0.inclusion_forces." + bytes + "=1"}), refusal);
   }
   const std::string text = "\"quoted\", back\\slash,\ttab, \xc3\xa9";
-  EXPECT_EQ(parse(sample_text, {"title=" + text}).job.title(), text);
+  EXPECT_EQ(parse(sample_text, {"title=" + text}).spec.title(), text);
 }
 
 TEST(Overrides, KeepSomeLoads) {
   const Case all = parse_case(sample_text, "case.toml");
-  ASSERT_EQ(all.job.load_cases_size(), 2);
-  const std::string second = all.job.load_cases(1).name();
+  ASSERT_EQ(all.spec.load_cases_size(), 2);
+  const std::string second = all.spec.load_cases(1).name();
   const Case one = parse_case(sample_text, "case.toml", {}, Loads::needed, {second});
-  ASSERT_EQ(one.job.load_cases_size(), 1);
-  EXPECT_EQ(one.job.load_cases(0).DebugString(), all.job.load_cases(1).DebugString());
+  ASSERT_EQ(one.spec.load_cases_size(), 1);
+  EXPECT_EQ(one.spec.load_cases(0).DebugString(), all.spec.load_cases(1).DebugString());
   const Case again = parse_case(one.text, "case.toml");
-  EXPECT_EQ(again.job.DebugString(), one.job.DebugString()) << "the text is that of what is run";
+  EXPECT_EQ(again.spec.DebugString(), one.spec.DebugString()) << "the text is that of what is run";
   try {
     parse_case(sample_text, "case.toml", {}, Loads::needed, {second + "s"});
     FAIL();

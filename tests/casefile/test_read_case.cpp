@@ -36,7 +36,7 @@ TEST(ReadCase, GivesTheRequestsAndThePlacesOfTheirFields) {
   const v1::ReadCaseResponse read = read_case(asked(sample_text), {});
   const Case parsed = parse(sample_text);
   EXPECT_EQ(read.mesh().SerializeAsString(), parsed.mesh.SerializeAsString());
-  EXPECT_EQ(read.job().SerializeAsString(), parsed.job.SerializeAsString());
+  EXPECT_EQ(read.spec().SerializeAsString(), parsed.spec.SerializeAsString());
   EXPECT_EQ(read.toml(), "") << "it is as it was sent";
   const v1::CasePlace& place = read.places().at("load_cases[1].force");
   EXPECT_EQ(place.where(), "plate.toml:20");

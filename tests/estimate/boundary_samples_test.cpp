@@ -71,7 +71,7 @@ double missed(const expression::Function& g, const Vector& p, const Vector& q,
 
 TEST(BoundarySamples, SayWhatTheyMissOfAnyFunction) {
   const auto mesh = std::make_shared<const mesh::Mesh>(square());
-  const operators::MeshOperator::Parts parts(mesh, 1, operators::max_dense);
+  const operators::MeshOperator::Parts parts(mesh, 1, operators::default_condensed_up_to);
   const CutMesh cut = cut_mesh(*mesh, parts.decomposition);
   std::mt19937 random(7);
   int lost = 0;
@@ -100,7 +100,7 @@ TEST(BoundarySamples, SayWhatTheyMissOfAnyFunction) {
 
 TEST(BoundarySamples, KnowAlmostAllOfWhatIsSmoothOrHasItsKinksInNodes) {
   const auto mesh = std::make_shared<const mesh::Mesh>(square());
-  const operators::MeshOperator::Parts parts(mesh, 1, operators::max_dense);
+  const operators::MeshOperator::Parts parts(mesh, 1, operators::default_condensed_up_to);
   const CutMesh cut = cut_mesh(*mesh, parts.decomposition);
   for (const char* text :
        {"sin(x)*exp(y/4)", "x^2 - x*y", "abs(x - 1)", "max(x, 3)*y", "min(y, 2.5)"})
@@ -121,7 +121,7 @@ TEST(BoundarySamples, KnowAlmostAllOfWhatIsSmoothOrHasItsKinksInNodes) {
 /// Lowest and highest energy, if there are bounds.
 std::optional<std::pair<double, double>> energies(const mesh::Mesh& mesh, const fem::Load& load) {
   const auto op = operators::MeshOperator::factorise(std::make_shared<const mesh::Mesh>(mesh), 1,
-                                                     {}, operators::max_dense);
+                                                     {}, operators::default_condensed_up_to);
   testing::Silent silent;
   const fem::Load* const one[] = {&load};
   const auto prepared = std::get<operators::PreparedLoad>(std::move(op->prepare(one).front()));

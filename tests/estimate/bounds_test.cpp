@@ -58,9 +58,9 @@ Random random_load(Membrane& membrane, const mesh::Mesh& mesh) {
 }
 
 contact::Answer solve(const mesh::Mesh& mesh, const Random& random, std::size_t copies, bool bounds,
-                      std::size_t most_dense = operators::max_dense) {
+                      std::size_t condensed_up_to = operators::default_condensed_up_to) {
   const auto op = operators::MeshOperator::factorise(std::make_shared<const mesh::Mesh>(mesh), 1,
-                                                     {}, most_dense);
+                                                     {}, condensed_up_to);
   std::vector<double> force;
   for (const double one : random.force) force.insert(force.end(), copies, one);
   fem::Load load = random.load;
@@ -93,7 +93,7 @@ bool check_interval(const std::optional<double>& lower, const std::optional<doub
 struct Variant {
   const char* name;
   bool rich = false;
-  std::size_t most_dense = operators::max_dense;
+  std::size_t condensed_up_to = operators::default_condensed_up_to;
   bool laws = false;  // of the tension
 };
 
@@ -106,7 +106,7 @@ void check_bounds(Membrane membrane, const Variant& variant, Contained& tally) {
   const Random random = random_load(membrane, mesh);
   contact::Answer coarse, fine;
   try {
-    coarse = solve(mesh, random, 1, true, variant.most_dense);
+    coarse = solve(mesh, random, 1, true, variant.condensed_up_to);
     fine = solve(finer, random, 16, false);
   } catch (const errors::Error&) {  // nothing holds a part, or no solution
     ++tally.unsolved;
@@ -168,7 +168,9 @@ TEST(ManyInclusions, HaveBoundsThatContainTheAnswersOfAMeshTwoLevelsFiner) {
     const reference::RandomFibres fibres(seed);
     if (fibres.mesh().inclusions.size() <= 16) continue;
     ++many;
-    check_bounds(fibres, Variant{"Fibres", true, seed % 2 == 0 ? 0 : operators::max_dense}, tally);
+    check_bounds(fibres,
+                 Variant{"Fibres", true, seed % 2 == 0 ? 0 : operators::default_condensed_up_to},
+                 tally);
   }
   std::printf("[ figures  ] %d membranes: %d A, %d slopes, %d without, nearest %.2f\n", many,
               tally.displacements, tally.slopes, tally.none, tally.nearest);
@@ -217,7 +219,7 @@ int compare_alone(unsigned seed, const Variant& variant) {
   mesh::Mesh mesh = membrane.mesh();
   if (variant.laws) reference::add_laws(membrane, true, mesh);
   const auto op = operators::MeshOperator::factorise(std::make_shared<const mesh::Mesh>(mesh), 1,
-                                                     {}, variant.most_dense);
+                                                     {}, variant.condensed_up_to);
   std::vector<operators::PreparedLoad> loads;
   std::vector<contact::Answer> alone;
   testing::Silent silent;
@@ -258,11 +260,11 @@ TEST_P(Bounds, HaveTheSameBitsAloneAndWithOthers) {
   EXPECT_GT(bounded, 60);
 }
 
-INSTANTIATE_TEST_SUITE_P(Random, Bounds,
-                         ::testing::Values(Variant{"Plain"}, Variant{"Rich", true},
-                                           Variant{"Joined", true, 0},
-                                           Variant{"Laws", true, operators::max_dense, true}),
-                         [](const auto& one) { return one.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Random, Bounds,
+    ::testing::Values(Variant{"Plain"}, Variant{"Rich", true}, Variant{"Joined", true, 0},
+                      Variant{"Laws", true, operators::default_condensed_up_to, true}),
+    [](const auto& one) { return one.param.name; });
 
 }  // namespace
 }  // namespace anticrack::estimate

@@ -59,6 +59,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   again.set_toml(read.toml());
   const v1::ReadCaseResponse kept = casefile::read_case(again, {});
   fuzz::require(same(read.mesh(), kept.mesh()), "the mesh request of the text kept is another");
-  fuzz::require(same(read.job(), kept.job()), "the job of the text kept is another");
+  fuzz::require(same(read.spec(), kept.spec()), "the job of the text kept is another");
   return 0;
 }

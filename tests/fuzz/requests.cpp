@@ -67,7 +67,7 @@ void take(const v1::CreateJobRequest& request) {
   api::require_request_id(request.request_id());
   records::JobRecord record;
   record.request_id = request.request_id();
-  record.spec = api::to_spec(request.job(), {100, 100'000, 1h, 1h});
+  record.spec = api::to_spec(request.spec(), {100'000, 1h, 1h});
   check_record(record, store::decode_job_record);
   try {
     for (const fem::Load& load : record.spec.loads) fem::check(load, max_expression_bytes);

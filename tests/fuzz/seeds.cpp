@@ -70,17 +70,17 @@ void save_mesh_request(const std::string& name, const v1::CreateMeshRequest& req
   }
 }
 
-void save_job_request(const std::string& name, const v1::Job& job) {
+void save_job_request(const std::string& name, const v1::JobSpec& spec) {
   using namespace std::chrono_literals;
   v1::CreateJobRequest request;
-  *request.mutable_job() = job;
-  request.mutable_job()->set_mesh("meshes/0123456789abcdef");
+  *request.mutable_spec() = spec;
+  request.mutable_spec()->set_mesh("meshes/0123456789abcdef");
   request.set_request_id("123e4567-e89b-42d3-a456-426614174000");
   save("requests", name + "-job", chosen(1, request.SerializeAsString()));
   records::JobRecord record;
   record.id = "fedcba9876543210";
   record.request_id = request.request_id();
-  record.spec = api::to_spec(request.job(), {1'000, 1'000'000, 24h, 24h});
+  record.spec = api::to_spec(request.spec(), {1'000'000, 24h, 24h});
   record.cases.resize(record.spec.loads.size());
   record.timeline = {{records::Clock::now(), records::JobState::running, "meshing"}};
   save("records", name + "-job", chosen(1, store::encode(record)));
@@ -101,19 +101,19 @@ void save_cases(const fs::path& examples) {
     v1::CreateMeshRequest mesh = example.mesh;
     if (example.mesh_file) mesh.set_upload("uploads/" + std::string(64, 'a'));
     save_mesh_request(name, mesh);
-    save_job_request(name, example.job);
+    save_job_request(name, example.spec);
   }
 }
 
-v1::Job sweep_job(v1::Sweep sweep, int load_cases) {
-  v1::Job job;
+v1::JobSpec sweep_job(v1::Sweep sweep, int load_cases) {
+  v1::JobSpec spec;
   for (int i = 0; i < load_cases; ++i) {
-    v1::LoadCase& load = *job.add_load_cases();
+    v1::LoadCase& load = *spec.add_load_cases();
     load.set_name("basis " + std::to_string(i));
     load.mutable_force()->set_constant(1.5);
   }
-  *job.mutable_sweep() = std::move(sweep);
-  return job;
+  *spec.mutable_sweep() = std::move(sweep);
+  return spec;
 }
 
 void save_sweeps() {

@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <functional>
-#include <set>
 
 #include "fields/walk.hpp"
 #include "support/errors.hpp"
@@ -53,21 +52,6 @@ class Check : public ::testing::Test {
   }
   EngineOptions options;
 };
-
-TEST_F(Check, BoundsTheTimeLimits) {
-  using std::chrono::milliseconds;
-  options.queue_time = milliseconds(1000);
-  options.run_time = milliseconds(2000);
-  JobSpec spec = good();
-  spec.queue_time_limit = milliseconds(1000);
-  spec.run_time_limit = milliseconds(2000);
-  EXPECT_NO_THROW(check(spec, options));
-  EXPECT_TRUE(refuses([](JobSpec& bad) { bad.queue_time_limit = milliseconds(1001); },
-                      "queue_timeout", Reason::limit_exceeded));
-  EXPECT_TRUE(refuses([](JobSpec& bad) { bad.run_time_limit = milliseconds(2001); }, "run_timeout",
-                      Reason::limit_exceeded));
-  EXPECT_TRUE(refuses([](JobSpec& bad) { bad.run_time_limit = milliseconds(-1); }, "run_timeout"));
-}
 
 TEST_F(Check, CountsTheBytesOfAJob) {
   JobSpec spec = good();
@@ -141,60 +125,6 @@ TEST_F(Check, HoldsTheLimits) {
   EXPECT_TRUE(refuses([](JobSpec&) {}, "load_cases", Reason::limit_exceeded));
   options.max_load_cases = 4;
   EXPECT_NO_THROW(check(good(), options));
-  EXPECT_TRUE(refuses([](JobSpec& spec) { spec.title = std::string(201, 'x'); }, "title"));
-}
-
-TEST(Fingerprint, IsThatOfTheWholeJob) {
-  std::set<std::string> seen = {fingerprint(good())};
-  EXPECT_EQ(seen.count(fingerprint(good())), 1U);
-  const std::vector<std::function<void(JobSpec&)>> changes = {
-      [](JobSpec& spec) { spec.title += "!"; },
-      [](JobSpec& spec) { spec.mesh = "other"; },
-      [](JobSpec& spec) { spec.fields = true; },
-      [](JobSpec& spec) { spec.priority = records::Priority::bulk; },
-      [](JobSpec& spec) { spec.queue_time_limit = std::chrono::milliseconds(1); },
-      [](JobSpec& spec) { spec.run_time_limit = std::chrono::milliseconds(1); },
-      [](JobSpec& spec) { active_set(spec).tolerance = 1e-9; },
-      [](JobSpec& spec) { active_set(spec).max_steps = 7; },
-      [](JobSpec& spec) { uzawa(spec); },
-      [](JobSpec& spec) { uzawa(spec).theta = 1.5; },
-      [](JobSpec& spec) { uzawa(spec).theta.reset(); },
-      [](JobSpec& spec) { uzawa(spec).theta = 0; },
-      [](JobSpec& spec) { uzawa(spec).epsilon = 1e-9; },
-      [](JobSpec& spec) { uzawa(spec).p = 2; },
-      [](JobSpec& spec) { uzawa(spec).max_iterations = 7; },
-      [](JobSpec& spec) { uzawa(spec).mass = contact::Mass::consistent; },
-      [](JobSpec& spec) { uzawa(spec).kkt_tolerance = 0; },
-      [](JobSpec& spec) { spec.loads[3].traction = "x"; },
-      [](JobSpec& spec) { std::swap(spec.loads[3].traction, spec.loads[3].boundary_value); },
-      [](JobSpec& spec) { spec.loads[3].point_forces[0].x = 1; },
-      [](JobSpec& spec) { spec.loads[3].point_forces[0].y = 1; },
-      [](JobSpec& spec) { spec.loads[3].point_forces[0].value = 2; },
-      [](JobSpec& spec) {
-        spec.loads[3].point_forces.push_back({0, 0, 0});
-      },
-      [](JobSpec& spec) { spec.loads[3].inclusion_forces["fibre"] = 2; },
-      [](JobSpec& spec) { spec.loads[3].inclusion_forces["other"] = 0; },
-      [](JobSpec& spec) {
-        spec.loads[3].inclusion_moments["fibre"] = {2, 0};
-      },
-      [](JobSpec& spec) {
-        spec.loads[3].inclusion_moments["fibre"] = {0, 2};
-      },
-      [](JobSpec& spec) { std::get<fem::Array>(spec.loads[3].force).per_triangle = false; },
-      [](JobSpec& spec) { std::get<fem::Array>(spec.loads[3].force).upload[0] = 'b'; },
-      [](JobSpec& spec) { spec.loads.pop_back(); },
-      [](JobSpec& spec) { std::swap(spec.loads[0], spec.loads[1]); },
-      [](JobSpec& spec) { spec.loads[0].name = "1st"; },
-      [](JobSpec& spec) { spec.loads[0].force = 2.0; },
-      [](JobSpec& spec) { spec.loads[0].force = fem::Expression{"1"}; },
-      [](JobSpec& spec) { spec.loads[1].boundary_value = "x"; },
-      [](JobSpec& spec) { std::get<fem::PerRegion>(spec.loads[2].force).values["lower"] = 0; }};
-  for (std::size_t i = 0; i < changes.size(); ++i) {
-    JobSpec spec = good();
-    changes[i](spec);
-    EXPECT_TRUE(seen.insert(fingerprint(spec)).second) << i;
-  }
 }
 
 }  // namespace

@@ -318,7 +318,7 @@ TEST(EngineSubmit, GivesTheSameJobForTheSameRequest) {
   const std::string id = test.submit(short_job(mesh), "request");
   EXPECT_EQ(test.submit(short_job(mesh), "request"), id);
   test.ended(id);
-  const JobRecord again = test.engine.submit({short_job(mesh), "", "request"});
+  const JobRecord again = test.engine.get(test.submit(short_job(mesh), "request"));
   EXPECT_EQ(again.id, id);
   EXPECT_EQ(again.state, JobState::succeeded);
   EXPECT_TRUE(throws([&] { test.submit(two_loads(mesh), "request"); }, Reason::request_id_reused,

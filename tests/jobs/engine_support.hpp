@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "jobs/job_engine.hpp"
+#include "store/canonical.hpp"
 #include "support/backend.hpp"
 #include "support/eventually.hpp"
 
@@ -91,9 +92,12 @@ class Engine {
       : backend(backend_options),
         engine(unlimited(std::move(options)), *backend.store, backend.catalogue) {}
 
+  /// As CreateJob does it: a request that is known is answered before anything else is asked.
   std::string submit(const records::JobSpec& spec, const std::string& request_id = {},
                      const std::string& owner = {}) {
-    return engine.submit({spec, owner, request_id}).id;
+    const std::string print = store::CanonicalHash().add_all(spec).finish();
+    if (const auto made = engine.submitted(owner, request_id, print)) return made->id;
+    return engine.submit({spec, owner, request_id, print}).id;
   }
   std::vector<records::JobRecord> list(std::size_t count = 100) const {
     return engine.list({"", count, {}});

@@ -44,9 +44,10 @@ class FailingStore final : public store::Store {
   records::JobRecord create(const records::JobRecord& record, const std::string& print) override {
     return _real.create(record, print);
   }
-  std::optional<records::JobRecord> created_before(const records::JobRecord& record,
+  std::optional<records::JobRecord> created_before(const std::string& owner,
+                                                   const std::string& request,
                                                    const std::string& print) const override {
-    return _real.created_before(record, print);
+    return _real.created_before(owner, request, print);
   }
   void put(const records::JobRecord& record) override {
     fail(put_fails);

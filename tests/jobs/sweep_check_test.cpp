@@ -115,30 +115,6 @@ TEST_F(SweepCheck, CountsInTheQueueByItsMatrix) {
   EXPECT_EQ(cost(plain), 3U);
 }
 
-TEST_F(SweepCheck, IsAnotherJobWithAnotherSweep) {
-  std::set<std::string> prints;
-  JobSpec spec = combinations("mesh", hash);
-  const auto add = [&] { return prints.insert(fingerprint(spec)).second; };
-  EXPECT_TRUE(add());
-  spec.sweep->traces = {1};
-  EXPECT_TRUE(add());
-  spec.sweep->traces = {2};
-  EXPECT_TRUE(add());
-  spec.sweep->bounds = true;
-  EXPECT_TRUE(add());
-  spec.sweep->cases = Cases::nodal_forces;
-  EXPECT_TRUE(add());
-  spec.sweep->upload = std::string(64, 'b');
-  EXPECT_TRUE(add());
-  spec.sweep->rows = 5;  // says nothing that the upload does not
-  EXPECT_FALSE(add());
-  const std::uint64_t bytes = fields::bytes_of(spec);
-  spec.sweep->traces.resize(100);
-  EXPECT_GE(fields::bytes_of(spec), bytes + 90 * sizeof(std::uint32_t));
-  spec.sweep.reset();
-  EXPECT_TRUE(add());
-}
-
 TEST(SweepPlan, HasLargeChunksOfCheapRows) {
   EXPECT_EQ(chunk_rows(Cases::combinations, 4000, 0, 1), 256U);
   EXPECT_EQ(chunk_rows(Cases::combinations, 4000, 80, 1), 256U);

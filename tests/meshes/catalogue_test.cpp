@@ -123,9 +123,6 @@ TEST_F(Catalogue, RefusesWhatCanBeNoMesh) {
                      "options.preset"));
   EXPECT_TRUE(throws([&] { backend.catalogue.create(backend.upload("Merge \"x.geo\";"), "", ""); },
                      Reason::mesh_invalid));
-  EXPECT_TRUE(
-      throws([&] { backend.catalogue.create(Backend::definition(), std::string(201, 'x'), ""); },
-             Reason::invalid_argument, "title"));
   EXPECT_TRUE(backend.catalogue.list({{}, 10, {}}).empty());
   EXPECT_TRUE(throws([&] { backend.catalogue.get("unknown"); }, Reason::not_found));
   EXPECT_FALSE(backend.catalogue.ready("unknown"));

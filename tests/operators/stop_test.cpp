@@ -27,7 +27,7 @@ namespace {
 
 using testing::Looks;
 
-constexpr std::size_t skeleton = 1 << 20, joined = 0;  // most_dense
+constexpr std::size_t skeleton = 1 << 20, joined = 0;  // condensed_up_to
 
 /// Inclusions in a row on one line, in the middle half of each share of it.
 mesh::Mesh with_inclusions(int count, int columns) {
@@ -90,19 +90,19 @@ void expect_stops(const Stage& stage) {
 }
 
 /// All that the server computes for a load on this mesh, stage after stage.
-void walk(mesh::Mesh made, std::size_t most_dense) {
+void walk(mesh::Mesh made, std::size_t condensed_up_to) {
   const auto mesh = std::make_shared<const mesh::Mesh>(std::move(made));
   const std::vector<std::uint8_t> twice(mesh->triangle_count(), 2);
   expect_stops({"checking", [&] { mesh::validate(*mesh); }});
   expect_stops({"bisecting", [&] { mesh::refine(*mesh, twice, 10'000'000); }});
-  expect_stops({"factorising", [&] { MeshOperator::factorise(mesh, 1, {}, most_dense); }});
-  const auto op = MeshOperator::factorise(mesh, 1, {}, most_dense);
+  expect_stops({"factorising", [&] { MeshOperator::factorise(mesh, 1, {}, condensed_up_to); }});
+  const auto op = MeshOperator::factorise(mesh, 1, {}, condensed_up_to);
   const fem::Load load = pressure();
   testing::Silent observer;
   PreparedLoad prepared = prepare(*op, load);
   expect_stops({"solving and bounding", [&] {
                   // A mesh's own part of the bounds is made once: a new one each time.
-                  const auto fresh = MeshOperator::factorise(mesh, 1, {}, most_dense);
+                  const auto fresh = MeshOperator::factorise(mesh, 1, {}, condensed_up_to);
                   const auto entry = prepare(*fresh, load);
                   contact::Answer answer = fresh->solve(entry, {}, false, observer);
                   fresh->estimate(entry, answer);

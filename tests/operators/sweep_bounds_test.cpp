@@ -80,8 +80,9 @@ std::vector<fem::Load> lifted_loads() {
 TEST(SweepBounds, AreThoseOfTheSameLoads) {
   const auto mesh = std::make_shared<const mesh::Mesh>(
       anticrack::testing::structured_mesh({32, 8, {}, {}, {"bar"}}));
-  for (const std::size_t most_dense : {max_dense, std::size_t{0}}) {  // condensed, and joined
-    const Operator op = MeshOperator::factorise(mesh, 1, {}, most_dense);
+  for (const std::size_t condensed_up_to :
+       {default_condensed_up_to, std::size_t{0}}) {  // condensed, and joined
+    const Operator op = MeshOperator::factorise(mesh, 1, {}, condensed_up_to);
     const auto basis = bounded_basis(*op, lifted_loads());
     for (const std::vector<double>& c : std::vector<std::vector<double>>{
              {1, 0, 0}, {0, 1, 0}, {-1, 0.5, 2}, {2, -0.25, 0}, {0.3, 0, -1}, {0, 1, -1}}) {

@@ -45,7 +45,7 @@ class Installed(FolderTest):
             answer = float(re.search(r"^upward: A = (\S+)$", said, re.M).group(1))
             client = (self.prefix / "bin/anticrack", "--json", "--server", f"127.0.0.1:{daemon.port}", "job")
             listed = json.loads(succeed(*client, "list"))
-            stored = json.loads(succeed(*client, "show", listed["jobs"][0]["name"]))["answers"][0]
+            stored = json.loads(succeed(*client, "show", listed["jobs"][0]["name"]))["status"]["answers"][0]
         self.assertIn("meshing\n", said)
         self.assertAlmostEqual(answer, stored["inclusions"][0]["displacement"], places=5)
         ended = run(build / "solve", f"unix:{self.folder}/nobody", env=CLEAN)

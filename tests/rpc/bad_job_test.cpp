@@ -20,105 +20,106 @@ using anticrack::testing::RunningServer;
 
 struct BadJob {
   const char* name;
-  std::function<void(v1::Job&)> spoil;
+  std::function<void(v1::JobSpec&)> spoil;
   const char* reason;
   const char* field;
   grpc::StatusCode code = grpc::StatusCode::INVALID_ARGUMENT;
 };
 
-v1::Uzawa& uzawa(v1::Job& job) { return *job.mutable_solver()->mutable_uzawa(); }
+v1::Uzawa& uzawa(v1::JobSpec& job) { return *job.mutable_solver()->mutable_uzawa(); }
 
-v1::ActiveSet& active_set(v1::Job& job) { return *job.mutable_solver()->mutable_active_set(); }
+v1::ActiveSet& active_set(v1::JobSpec& job) { return *job.mutable_solver()->mutable_active_set(); }
 
-v1::Force& force(v1::Job& job) { return *job.mutable_load_cases(0)->mutable_force(); }
+v1::Force& force(v1::JobSpec& job) { return *job.mutable_load_cases(0)->mutable_force(); }
 
 const std::vector<BadJob>& bad_jobs() {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   static const std::vector<BadJob> all{
       {"ExpressionWithASyntaxError", [](auto& job) { force(job).set_expression("x + * y"); },
-       "EXPRESSION_INVALID", "job.load_cases[0].force.expression"},
+       "EXPRESSION_INVALID", "spec.load_cases[0].force.expression"},
       {"ExpressionWithAnUnknownSymbol", [](auto& job) { force(job).set_expression("x + z"); },
-       "EXPRESSION_INVALID", "job.load_cases[0].force.expression"},
+       "EXPRESSION_INVALID", "spec.load_cases[0].force.expression"},
       {"EmptyExpression", [](auto& job) { force(job).set_expression(""); }, "EXPRESSION_INVALID",
-       "job.load_cases[0].force.expression"},
+       "spec.load_cases[0].force.expression"},
       {"BoundaryValueWithASyntaxError",
        [](auto& job) { job.mutable_load_cases(0)->set_boundary_value("sin("); },
-       "EXPRESSION_INVALID", "job.load_cases[0].boundary_value"},
+       "EXPRESSION_INVALID", "spec.load_cases[0].boundary_value"},
       {"ConstantNan", [](auto& job) { force(job).set_constant(nan); }, "INVALID_ARGUMENT",
-       "job.load_cases[0].force.constant"},
+       "spec.load_cases[0].force.constant"},
       {"DuplicateName", [](auto& job) { job.add_load_cases()->set_name(job.load_cases(0).name()); },
-       "INVALID_ARGUMENT", "job.load_cases[1].name"},
+       "INVALID_ARGUMENT", "spec.load_cases[1].name"},
       {"EmptyName", [](auto& job) { job.add_load_cases(); }, "INVALID_ARGUMENT",
-       "job.load_cases[1].name"},
+       "spec.load_cases[1].name"},
       {"NoLoadCase", [](auto& job) { job.clear_load_cases(); }, "INVALID_ARGUMENT",
-       "job.load_cases"},
+       "spec.load_cases"},
       {"ThetaZero", [](auto& job) { uzawa(job).set_theta(0); }, "INVALID_ARGUMENT",
-       "job.solver.uzawa.theta"},
+       "spec.solver.uzawa.theta"},
       {"ThetaNegative", [](auto& job) { uzawa(job).set_theta(-2); }, "INVALID_ARGUMENT",
-       "job.solver.uzawa.theta"},
+       "spec.solver.uzawa.theta"},
       {"ThetaNan", [](auto& job) { uzawa(job).set_theta(nan); }, "INVALID_ARGUMENT",
-       "job.solver.uzawa.theta"},
+       "spec.solver.uzawa.theta"},
       {"PNegative", [](auto& job) { uzawa(job).set_p(-1); }, "INVALID_ARGUMENT",
-       "job.solver.uzawa.p"},
+       "spec.solver.uzawa.p"},
       {"EpsilonZero", [](auto& job) { uzawa(job).set_epsilon(0); }, "INVALID_ARGUMENT",
-       "job.solver.uzawa.epsilon"},
+       "spec.solver.uzawa.epsilon"},
       {"EpsilonNegative", [](auto& job) { uzawa(job).set_epsilon(-1e-9); }, "INVALID_ARGUMENT",
-       "job.solver.uzawa.epsilon"},
+       "spec.solver.uzawa.epsilon"},
       {"IterationsNegative", [](auto& job) { uzawa(job).set_max_iterations(-1); },
-       "INVALID_ARGUMENT", "job.solver.uzawa.max_iterations"},
+       "INVALID_ARGUMENT", "spec.solver.uzawa.max_iterations"},
       {"TitleTooLong", [](auto& job) { job.set_title(std::string(201, 't')); }, "LIMIT_EXCEEDED",
-       "job.title"},
-      {"MeshUnnamed", [](auto& job) { job.clear_mesh(); }, "INVALID_ARGUMENT", "job.mesh"},
+       "spec.title"},
+      {"MeshUnnamed", [](auto& job) { job.clear_mesh(); }, "INVALID_ARGUMENT", "spec.mesh"},
       {"MeshUnknown", [](auto& job) { job.set_mesh("meshes/0000000000000000"); }, "NOT_FOUND",
-       "job.mesh", grpc::StatusCode::NOT_FOUND},
+       "spec.mesh", grpc::StatusCode::NOT_FOUND},
       {"KktToleranceZero", [](auto& job) { uzawa(job).set_kkt_tolerance(0); }, "INVALID_ARGUMENT",
-       "job.solver.uzawa.kkt_tolerance"},
+       "spec.solver.uzawa.kkt_tolerance"},
       {"ActiveSetToleranceNegative", [](auto& job) { active_set(job).set_tolerance(-1); },
-       "INVALID_ARGUMENT", "job.solver.active_set.tolerance"},
+       "INVALID_ARGUMENT", "spec.solver.active_set.tolerance"},
       {"ActiveSetStepsNegative", [](auto& job) { active_set(job).set_max_steps(-1); },
-       "INVALID_ARGUMENT", "job.solver.active_set.max_steps"},
+       "INVALID_ARGUMENT", "spec.solver.active_set.max_steps"},
       {"ArrayUnnamed", [](auto& job) { force(job).mutable_array(); }, "INVALID_ARGUMENT",
-       "job.load_cases[0].force.array.upload"},
+       "spec.load_cases[0].force.array.upload"},
       {"ArrayUnknown",
        [](auto& job) { force(job).mutable_array()->set_upload("uploads/" + std::string(64, '0')); },
-       "NOT_FOUND", "job.load_cases[0].force.array", grpc::StatusCode::NOT_FOUND},
+       "NOT_FOUND", "spec.load_cases[0].force.array", grpc::StatusCode::NOT_FOUND},
       {"TractionWithASyntaxError",
        [](auto& job) { job.mutable_load_cases(0)->set_traction("sin("); }, "EXPRESSION_INVALID",
-       "job.load_cases[0].traction"},
+       "spec.load_cases[0].traction"},
       {"PointForceNowhere", [](auto& job) { job.mutable_load_cases(0)->add_point_forces(); },
-       "INVALID_ARGUMENT", "job.load_cases[0].point_forces[0].at"},
+       "INVALID_ARGUMENT", "spec.load_cases[0].point_forces[0].at"},
       {"PointForceAtNan",
        [](auto& job) { job.mutable_load_cases(0)->add_point_forces()->mutable_at()->set_x(nan); },
-       "INVALID_ARGUMENT", "job.load_cases[0].point_forces[0].at"},
+       "INVALID_ARGUMENT", "spec.load_cases[0].point_forces[0].at"},
       {"PointForceNan",
        [](auto& job) {
          v1::PointForce& point = *job.mutable_load_cases(0)->add_point_forces();
          point.mutable_at();
          point.set_value(nan);
        },
-       "INVALID_ARGUMENT", "job.load_cases[0].point_forces[0].value"},
+       "INVALID_ARGUMENT", "spec.load_cases[0].point_forces[0].value"},
       {"PointForcesTooMany",
        [](auto& job) {
-         for (int i = 0; i < 10'001; ++i) job.mutable_load_cases(0)->add_point_forces();
+         for (int i = 0; i < 10'001; ++i)
+           job.mutable_load_cases(0)->add_point_forces()->mutable_at();
        },
-       "LIMIT_EXCEEDED", "job.load_cases[0].point_forces"},
+       "LIMIT_EXCEEDED", "spec.load_cases[0].point_forces"},
       {"RegionUnknown",
        [](auto& job) {
          auto& force = *job.mutable_load_cases(0)->mutable_force();
          (*force.mutable_per_region()->mutable_values())["left"] = 1;
        },
-       "INVALID_ARGUMENT", "job.load_cases[0].force.per_region[left]"},
+       "INVALID_ARGUMENT", "spec.load_cases[0].force.per_region[left]"},
       {"InclusionUnknown",
        [](auto& job) { (*job.mutable_load_cases(0)->mutable_inclusion_forces())["rod"] = 1; },
-       "INVALID_ARGUMENT", "job.load_cases[0].inclusion_forces[rod]"},
+       "INVALID_ARGUMENT", "spec.load_cases[0].inclusion_forces[rod]"},
       {"InclusionForceNan",
        [](auto& job) { (*job.mutable_load_cases(0)->mutable_inclusion_forces())["fibre"] = nan; },
-       "INVALID_ARGUMENT", "job.load_cases[0].inclusion_forces[fibre]"},
+       "INVALID_ARGUMENT", "spec.load_cases[0].inclusion_forces[fibre]"},
       {"InclusionMomentNan",
        [](auto& job) {
          (*job.mutable_load_cases(0)->mutable_inclusion_moments())["fibre"].set_y(nan);
        },
-       "INVALID_ARGUMENT", "job.load_cases[0].inclusion_moments[fibre]"},
+       "INVALID_ARGUMENT", "spec.load_cases[0].inclusion_moments[fibre]"},
   };
   return all;
 }
@@ -138,10 +139,10 @@ std::unique_ptr<RunningServer> BadJobTest::_server;
 TEST_P(BadJobTest, IsRefusedAndTheServerServesOn) {
   const std::string mesh = _server->create(paper_mesh()).name();
   v1::CreateJobRequest request = opening_job(mesh);
-  GetParam().spoil(*request.mutable_job());
+  GetParam().spoil(*request.mutable_spec());
   expect_error(_server->try_create(request), GetParam().code, GetParam().reason, GetParam().field);
   const v1::Job good = _server->finish(_server->create(opening_job(mesh)).name());
-  EXPECT_EQ(good.state(), v1::Job::STATE_SUCCEEDED);
+  EXPECT_EQ(good.status().state(), v1::JobStatus::STATE_SUCCEEDED);
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, BadJobTest, ::testing::ValuesIn(bad_jobs()),
@@ -172,14 +173,14 @@ TEST(BadJob, ThatOnlyTheMeshCanTellFailsItsLoadCaseAlone) {
   for (const BadLoad& bad : bad_loads()) {
     SCOPED_TRACE(bad.name);
     v1::CreateJobRequest request = opening_job(mesh);
-    v1::LoadCase& load = *request.mutable_job()->add_load_cases();
+    v1::LoadCase& load = *request.mutable_spec()->add_load_cases();
     load.set_name("bad");
     bad.spoil(load);
     const v1::Job job = server.finish(server.create(request).name());
-    ASSERT_EQ(job.answers_size(), 2);
-    EXPECT_EQ(job.answers(0).status(), v1::LoadCaseAnswer::STATUS_CONVERGED);
-    EXPECT_EQ(job.answers(1).status(), v1::LoadCaseAnswer::STATUS_FAILED);
-    const v1::Status& error = job.answers(1).error();
+    ASSERT_EQ(job.status().answers_size(), 2);
+    EXPECT_EQ(job.status().answers(0).status(), v1::LoadCaseAnswer::STATUS_CONVERGED);
+    EXPECT_EQ(job.status().answers(1).status(), v1::LoadCaseAnswer::STATUS_FAILED);
+    const v1::Status& error = job.status().answers(1).error();
     EXPECT_NE(error.message().find(bad.told), std::string::npos) << error.message();
     const grpc::Status status(static_cast<grpc::StatusCode>(error.code()), error.message(),
                               error.SerializeAsString());
@@ -195,31 +196,35 @@ TEST(BadJob, LargerThanALimitIsRefusedBeforeItIsRead) {
   });
   const std::string mesh = server.create(paper_mesh()).name();
   v1::CreateJobRequest many = opening_job(mesh);
-  many.mutable_job()->add_load_cases();
-  many.mutable_job()->add_load_cases();
+  many.mutable_spec()->add_load_cases();
+  many.mutable_spec()->add_load_cases();
   expect_error(server.try_create(many), grpc::StatusCode::INVALID_ARGUMENT, "LIMIT_EXCEEDED",
-               "job.load_cases");
+               "spec.load_cases");
   v1::CreateJobRequest request = opening_job(mesh);
-  force(*request.mutable_job()).set_expression("1 + 1 + 1 + 1");
+  force(*request.mutable_spec()).set_expression("1 + 1 + 1 + 1");
   EXPECT_EQ(anticrack::testing::details_of(server.try_create(request)).fields,
-            std::vector<std::string>{"job.load_cases[0].force.expression"});
-  force(*request.mutable_job()).set_constant(1);
-  uzawa(*request.mutable_job()).set_max_iterations(101);
+            std::vector<std::string>{"spec.load_cases[0].force.expression"});
+  force(*request.mutable_spec()).set_constant(1);
+  uzawa(*request.mutable_spec()).set_max_iterations(101);
   EXPECT_EQ(anticrack::testing::details_of(server.try_create(request)).fields,
-            std::vector<std::string>{"job.solver.uzawa.max_iterations"});
+            std::vector<std::string>{"spec.solver.uzawa.max_iterations"});
 }
 
-TEST(BadJob, FindsTheQueueFullAndIsToldWhenToComeAgain) {
+TEST(BadJob, FindsTheQueueFullAndIsToldWhenToComeAgainUnlessItIsKnown) {
   RunningServer server([](auto& settings) {
     settings.engine.threads = 1;
     settings.engine.max_queued_jobs = 1;
   });
   const std::string mesh = server.create(paper_mesh()).name();
+  v1::CreateJobRequest known = anticrack::testing::endless_job(mesh);
+  known.set_request_id("123e4567-e89b-12d3-a456-426614174000");
+  const std::string name = server.create(known).name();
   grpc::Status status;
   for (int i = 0; i < 50 && status.ok(); ++i)
     status = server.try_create(anticrack::testing::endless_job(mesh));
   expect_error(status, grpc::StatusCode::RESOURCE_EXHAUSTED, "BUSY", "");
   EXPECT_GT(anticrack::testing::details_of(status).retry_seconds, 0);
+  EXPECT_EQ(server.create(known).name(), name);
 }
 
 }  // namespace

@@ -230,8 +230,8 @@ TEST(BadFile, FailsTheJobThatWaitsForIt) {
   ASSERT_TRUE(server.upload(quads, request.mutable_upload()).ok());
   const std::string mesh = server.create(request).name();
   const v1::Job job = server.finish(server.create(anticrack::testing::opening_job(mesh)).name());
-  EXPECT_EQ(job.state(), v1::Job::STATE_FAILED);
-  EXPECT_EQ(job.error().code(), static_cast<int>(grpc::StatusCode::INVALID_ARGUMENT));
+  EXPECT_EQ(job.status().state(), v1::JobStatus::STATE_FAILED);
+  EXPECT_EQ(job.status().error().code(), static_cast<int>(grpc::StatusCode::INVALID_ARGUMENT));
 }
 
 }  // namespace

@@ -47,9 +47,10 @@ TEST_F(CaseService, GivesRequestsThatTheServerTakes) {
   ASSERT_TRUE(read(square).ok());
   v1::CreateJobRequest request;
   request.set_request_id("123e4567-e89b-42d3-a456-426614174000");
-  *request.mutable_job() = answer.job();
-  request.mutable_job()->set_mesh(server.create(answer.mesh()).name());
-  EXPECT_EQ(server.finish(server.create(request).name()).state(), v1::Job::STATE_SUCCEEDED);
+  *request.mutable_spec() = answer.spec();
+  request.mutable_spec()->set_mesh(server.create(answer.mesh()).name());
+  EXPECT_EQ(server.finish(server.create(request).name()).status().state(),
+            v1::JobStatus::STATE_SUCCEEDED);
 }
 
 TEST_F(CaseService, PlacesTellWhereARefusedFieldWasWritten) {

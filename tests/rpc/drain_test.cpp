@@ -73,7 +73,8 @@ TEST(Drain, RefusesNewWorkAndLetsOldWorkEnd) {
   }));
   expect_error(refused, grpc::StatusCode::UNAVAILABLE, "DRAINING", "");
   expect_error(server.try_create(paper_mesh(0.3)), grpc::StatusCode::UNAVAILABLE, "DRAINING", "");
-  EXPECT_EQ(server.job(job).state(), v1::Job::STATE_RUNNING);  // looking is still allowed
+  EXPECT_EQ(server.job(job).status().state(),
+            v1::JobStatus::STATE_RUNNING);  // looking is still allowed
   EXPECT_TRUE(server.cancel(job).ok());
   while (watch->Read(&event)) {
   }
@@ -96,10 +97,10 @@ TEST(Drain, PutsWhatDoesNotEndBackForTheNextStart) {
     EXPECT_FALSE(event.has_ended());
   }
   EXPECT_FALSE(watch->Finish().ok());
-  EXPECT_LT(server.job(running).state(), v1::Job::STATE_SUCCEEDED);
+  EXPECT_LT(server.job(running).status().state(), v1::JobStatus::STATE_SUCCEEDED);
   EXPECT_TRUE(server.cancel(running).ok());
-  EXPECT_EQ(server.finish(running).state(), v1::Job::STATE_CANCELLED);
-  EXPECT_EQ(server.job(running).attempt(), 2);
+  EXPECT_EQ(server.finish(running).status().state(), v1::JobStatus::STATE_CANCELLED);
+  EXPECT_EQ(server.job(running).status().attempt(), 2);
 }
 
 TEST(Drain, AWatchOfAnEndedJobSendsTheRestFirst) {
@@ -110,7 +111,8 @@ TEST(Drain, AWatchOfAnEndedJobSendsTheRestFirst) {
   const auto watch = server.jobs->WatchJob(&context, request_for(job));
   ASSERT_TRUE(eventually([&] { return server.info().metrics().iterations() > 20'000; }));
   EXPECT_TRUE(server.cancel(job).ok());
-  ASSERT_TRUE(eventually([&] { return server.job(job).state() == v1::Job::STATE_CANCELLED; }));
+  ASSERT_TRUE(eventually(
+      [&] { return server.job(job).status().state() == v1::JobStatus::STATE_CANCELLED; }));
   std::thread drain([&] { server.server().drain(10min); });
   ASSERT_TRUE(eventually([&] { return !server.try_create(opening_job(mesh)).ok(); }));
   v1::WatchJobResponse event;

@@ -30,15 +30,15 @@ TEST(FromDomain, CountsTheAttemptsOfATimeline) {
         {start + std::chrono::seconds(record.timeline.size()), state, detail});
   }
   const v1::Job job = from_domain(record);
-  ASSERT_EQ(job.timeline_size(), 5);
-  EXPECT_EQ(job.timeline(0).time().seconds(), 1);
-  EXPECT_EQ(job.timeline(0).time().nanos(), 500'000'000);
-  EXPECT_EQ(job.timeline(1).state(), v1::Job::STATE_WAITING_FOR_MESH);
-  EXPECT_EQ(job.timeline(1).detail(), "meshing");
-  EXPECT_EQ(job.timeline(2).attempt(), 1);
-  EXPECT_EQ(job.timeline(3).attempt(), 2);
-  EXPECT_EQ(job.timeline(4).attempt(), 2);
-  EXPECT_EQ(job.timeline(4).detail(), "writing?the result");
+  ASSERT_EQ(job.status().timeline_size(), 5);
+  EXPECT_EQ(job.status().timeline(0).time().seconds(), 1);
+  EXPECT_EQ(job.status().timeline(0).time().nanos(), 500'000'000);
+  EXPECT_EQ(job.status().timeline(1).state(), v1::JobStatus::STATE_WAITING_FOR_MESH);
+  EXPECT_EQ(job.status().timeline(1).detail(), "meshing");
+  EXPECT_EQ(job.status().timeline(2).attempt(), 1);
+  EXPECT_EQ(job.status().timeline(3).attempt(), 2);
+  EXPECT_EQ(job.status().timeline(4).attempt(), 2);
+  EXPECT_EQ(job.status().timeline(4).detail(), "writing?the result");
 }
 
 TEST(FromDomain, RepeatsWhatWasAskedFor) {
@@ -48,10 +48,10 @@ TEST(FromDomain, RepeatsWhatWasAskedFor) {
   record.spec.run_time_limit = std::chrono::milliseconds(2'500);
   const v1::Job job = from_domain(record);
   EXPECT_EQ(job.owner(), "ada");
-  EXPECT_EQ(job.priority(), v1::Job::PRIORITY_INTERACTIVE);
-  EXPECT_FALSE(job.has_queue_timeout());
-  EXPECT_EQ(job.run_timeout().seconds(), 2);
-  EXPECT_EQ(job.run_timeout().nanos(), 500'000'000);
+  EXPECT_EQ(job.spec().priority(), v1::JobSpec::PRIORITY_INTERACTIVE);
+  EXPECT_FALSE(job.spec().has_queue_timeout());
+  EXPECT_EQ(job.spec().run_timeout().seconds(), 2);
+  EXPECT_EQ(job.spec().run_timeout().nanos(), 500'000'000);
 }
 
 TEST(FromDomain, AJobThatIsTakenFitsInAMessage) {
@@ -92,8 +92,8 @@ TEST(FromDomain, AJobThatIsTakenFitsInAMessage) {
   EXPECT_GT(record.spec.loads.size(), 130U);
   const v1::Job job = from_domain(record);
   EXPECT_LT(job.ByteSizeLong(), std::size_t{4} << 20U);
-  EXPECT_EQ(job.answers(0).inclusions_size(), 90);
-  EXPECT_EQ(job.answers(0).contact_intervals_size(), 0);
+  EXPECT_EQ(job.status().answers(0).inclusions_size(), 90);
+  EXPECT_EQ(job.status().answers(0).contact_intervals_size(), 0);
 }
 
 TEST(FromDomain, PutsRunsOfSamplesBehindEachOther) {

@@ -93,8 +93,8 @@ TEST(FromSweep, TellsHowARowEnded) {
 
 TEST(FromSweep, TellsTheSweepOfAJobAndHowItEnded) {
   records::JobRecord record;
-  EXPECT_FALSE(from_domain(record).has_sweep());
-  EXPECT_FALSE(from_domain(record).has_sweep_answer());
+  EXPECT_FALSE(from_domain(record).spec().has_sweep());
+  EXPECT_FALSE(from_domain(record).status().has_sweep_answer());
   record.spec.sweep.emplace();
   record.spec.sweep->upload = std::string(64, 'a');
   record.spec.sweep->rows = 7;
@@ -107,20 +107,21 @@ TEST(FromSweep, TellsTheSweepOfAJobAndHowItEnded) {
   record.sweep.solve_time = std::chrono::milliseconds(1'500);
   record.sweep.warnings = {"rough"};
   const v1::Job job = from_domain(record);
-  EXPECT_EQ(job.sweep().coefficients().upload(), "uploads/" + std::string(64, 'a'));
-  EXPECT_THAT(job.sweep().traces(), ElementsAre(2u, 5u));
-  EXPECT_EQ(job.sweep_answer().rows(), 7u);
-  EXPECT_EQ(job.sweep_answer().converged(), 4u);
-  EXPECT_EQ(job.sweep_answer().not_converged(), 2u);
-  EXPECT_EQ(job.sweep_answer().failed(), 1u);
-  EXPECT_EQ(job.sweep_answer().most_steps(), 9);
-  EXPECT_EQ(job.sweep_answer().worst_kkt(), 1e-13);
-  EXPECT_THAT(job.sweep_answer().warnings(), ElementsAre("rough"));
-  EXPECT_EQ(job.sweep_answer().solve_time().seconds(), 1);
-  EXPECT_EQ(job.sweep_answer().solve_time().nanos(), 500'000'000);
+  EXPECT_EQ(job.spec().sweep().coefficients().upload(), "uploads/" + std::string(64, 'a'));
+  EXPECT_THAT(job.spec().sweep().traces(), ElementsAre(2u, 5u));
+  EXPECT_EQ(job.status().sweep_answer().rows(), 7u);
+  EXPECT_EQ(job.status().sweep_answer().converged(), 4u);
+  EXPECT_EQ(job.status().sweep_answer().not_converged(), 2u);
+  EXPECT_EQ(job.status().sweep_answer().failed(), 1u);
+  EXPECT_EQ(job.status().sweep_answer().most_steps(), 9);
+  EXPECT_EQ(job.status().sweep_answer().worst_kkt(), 1e-13);
+  EXPECT_THAT(job.status().sweep_answer().warnings(), ElementsAre("rough"));
+  EXPECT_EQ(job.status().sweep_answer().solve_time().seconds(), 1);
+  EXPECT_EQ(job.status().sweep_answer().solve_time().nanos(), 500'000'000);
 
   record.spec.sweep->cases = records::SweepSpec::Cases::nodal_forces;
-  EXPECT_EQ(from_domain(record).sweep().nodal_forces().upload(), "uploads/" + std::string(64, 'a'));
+  EXPECT_EQ(from_domain(record).spec().sweep().nodal_forces().upload(),
+            "uploads/" + std::string(64, 'a'));
 }
 
 TEST(FromSweep, TellsArraysOfBytes) {

@@ -33,22 +33,22 @@ TEST(Job, OpensTheCrackOfExampleThree) {
   const v1::Mesh created = server.create(mesh);
   EXPECT_EQ(created.title(), "section 8");
   v1::CreateJobRequest request = opening_job(created.name());
-  request.mutable_job()->set_title("Example 3");
-  request.mutable_job()->add_outputs(v1::OUTPUT_FIELDS);
-  request.mutable_job()->mutable_solver()->mutable_uzawa();
+  request.mutable_spec()->set_title("Example 3");
+  request.mutable_spec()->add_outputs(v1::OUTPUT_FIELDS);
+  request.mutable_spec()->mutable_solver()->mutable_uzawa();
   const v1::Job job = server.finish(server.create(request).name());
 
-  EXPECT_EQ(job.title(), "Example 3");
-  EXPECT_EQ(job.mesh(), created.name());
-  ASSERT_EQ(job.state(), v1::Job::STATE_SUCCEEDED);
-  EXPECT_EQ(job.attempt(), 1);
-  EXPECT_GE(job.end_time().seconds(), job.start_time().seconds());
-  EXPECT_EQ(job.solver().uzawa().theta(), 2.0);
-  EXPECT_EQ(job.load_cases(0).force().expression(), "y > 0 ? 1 : -1");
-  EXPECT_EQ(job.load_case_count(), 1);
-  EXPECT_EQ(job.load_cases_ended(), 1);
-  ASSERT_EQ(job.answers_size(), 1);
-  const v1::LoadCaseAnswer& answer = job.answers(0);
+  EXPECT_EQ(job.spec().title(), "Example 3");
+  EXPECT_EQ(job.spec().mesh(), created.name());
+  ASSERT_EQ(job.status().state(), v1::JobStatus::STATE_SUCCEEDED);
+  EXPECT_EQ(job.status().attempt(), 1);
+  EXPECT_GE(job.status().end_time().seconds(), job.status().start_time().seconds());
+  EXPECT_EQ(job.spec().solver().uzawa().theta(), 2.0);
+  EXPECT_EQ(job.spec().load_cases(0).force().expression(), "y > 0 ? 1 : -1");
+  EXPECT_EQ(job.status().load_case_count(), 1);
+  EXPECT_EQ(job.status().load_cases_ended(), 1);
+  ASSERT_EQ(job.status().answers_size(), 1);
+  const v1::LoadCaseAnswer& answer = job.status().answers(0);
   EXPECT_EQ(answer.name(), "opening");
   EXPECT_EQ(answer.status(), v1::LoadCaseAnswer::STATUS_CONVERGED);
   EXPECT_GT(answer.iterations(), 0);
@@ -61,8 +61,8 @@ TEST(Job, OpensTheCrackOfExampleThree) {
 
   Received block;
   ASSERT_TRUE(read_result(server, job.name(), 0, block).ok());
-  EXPECT_EQ(block.bytes.size(), job.result_bytes());
-  EXPECT_EQ(block.layout.size(), job.result_bytes());
+  EXPECT_EQ(block.bytes.size(), job.status().result_bytes());
+  EXPECT_EQ(block.layout.size(), job.status().result_bytes());
   EXPECT_EQ(block.layout.sha256(), digest::Sha256().add(block.bytes).finish());
   const auto x = doubles(block, "interfaces/0/x");
   const auto jump = doubles(block, "loads/0/traces/0/jump");
@@ -81,28 +81,28 @@ TEST(Job, OpensTheCrackOfExampleThree) {
 TEST(Job, IsSolvedExactlyUnlessAskedOtherwise) {
   RunningServer server;
   v1::CreateJobRequest request = opening_job(server.create(paper_mesh()).name());
-  v1::LoadCase& pushed = *request.mutable_job()->add_load_cases();
+  v1::LoadCase& pushed = *request.mutable_spec()->add_load_cases();
   pushed.set_name("pushed");
   (*pushed.mutable_inclusion_forces())["fibre"] = 0.5;
-  v1::LoadCase& poked = *request.mutable_job()->add_load_cases();
+  v1::LoadCase& poked = *request.mutable_spec()->add_load_cases();
   poked.set_name("poked");
   v1::PointForce& point = *poked.add_point_forces();
   point.mutable_at()->set_x(0.1);
   point.set_value(0.5);
   const v1::Job job = server.finish(server.create(request).name());
-  ASSERT_EQ(job.state(), v1::Job::STATE_SUCCEEDED);
-  EXPECT_EQ(job.solver().active_set().max_steps(), 1000);
-  ASSERT_EQ(job.answers_size(), 3);
-  for (const v1::LoadCaseAnswer& answer : job.answers()) {
+  ASSERT_EQ(job.status().state(), v1::JobStatus::STATE_SUCCEEDED);
+  EXPECT_EQ(job.spec().solver().active_set().max_steps(), 1000);
+  ASSERT_EQ(job.status().answers_size(), 3);
+  for (const v1::LoadCaseAnswer& answer : job.status().answers()) {
     EXPECT_EQ(answer.status(), v1::LoadCaseAnswer::STATUS_CONVERGED);
     EXPECT_EQ(answer.theta(), 0);
     EXPECT_LT(answer.iterations(), 20);
     EXPECT_LT(answer.kkt().complementarity_relative(), 1e-12);
     EXPECT_EQ(answer.warnings_size(), 0);
   }
-  EXPECT_NEAR(job.answers(1).inclusions(0).resultant(), 0.5, 1e-9);
-  EXPECT_EQ(job.answers(2).inclusions(0).displacement(),
-            job.answers(1).inclusions(0).displacement());
+  EXPECT_NEAR(job.status().answers(1).inclusions(0).resultant(), 0.5, 1e-9);
+  EXPECT_EQ(job.status().answers(2).inclusions(0).displacement(),
+            job.status().answers(1).inclusions(0).displacement());
 }
 
 /// Ninety slits in a plate.
@@ -138,14 +138,14 @@ TEST(Job, OfManyLoadsAndInterfacesIsReadWhole) {
   RunningServer server;
   const std::string mesh = server.create(mesh_of_slits()).name();
   v1::CreateJobRequest request;
-  request.mutable_job()->set_mesh(mesh);
+  request.mutable_spec()->set_mesh(mesh);
   for (int i = 0; i < 1000; ++i) {
-    v1::LoadCase& load = *request.mutable_job()->add_load_cases();
+    v1::LoadCase& load = *request.mutable_spec()->add_load_cases();
     load.set_name("load-" + std::to_string(i));
     load.mutable_force()->set_constant(i);
   }
   const v1::Job job = server.finish(server.create(request).name());
-  ASSERT_EQ(job.state(), v1::Job::STATE_SUCCEEDED) << job.error().message();
+  ASSERT_EQ(job.status().state(), v1::JobStatus::STATE_SUCCEEDED) << job.status().error().message();
   Received block;
   ASSERT_TRUE(read_result(server, job.name(), 0, block).ok());
   EXPECT_GT(block.layout.arrays_size(), 450'000);
@@ -190,7 +190,7 @@ TEST(Job, OfTheSameRequestIdIsTheSame) {
   request.set_request_id("123e4567-e89b-12d3-a456-426614174000");
   const std::string first = server.create(request).name();
   EXPECT_EQ(server.create(request).name(), first);
-  request.mutable_job()->mutable_load_cases(0)->set_name("other");
+  request.mutable_spec()->mutable_load_cases(0)->set_name("other");
   expect_error(server.try_create(request), grpc::StatusCode::INVALID_ARGUMENT, "REQUEST_ID_REUSED",
                "request_id");
   request.clear_request_id();
@@ -214,24 +214,24 @@ TEST(Job, IsCancelledWhileItRuns) {
   }
   EXPECT_TRUE(reader->Finish().ok());
   ASSERT_TRUE(event.has_ended());
-  EXPECT_EQ(event.ended().state(), v1::Job::STATE_CANCELLED);
+  EXPECT_EQ(event.ended().status().state(), v1::JobStatus::STATE_CANCELLED);
   EXPECT_TRUE(server.cancel(name).ok());  // idempotent
-  EXPECT_EQ(server.job(name).state(), v1::Job::STATE_CANCELLED);
+  EXPECT_EQ(server.job(name).status().state(), v1::JobStatus::STATE_CANCELLED);
 }
 
 TEST(Job, ThatDidNotConvergeSaysWhy) {
   RunningServer server;
   v1::CreateJobRequest request = opening_job(server.create(paper_mesh()).name());
-  request.mutable_job()->mutable_solver()->mutable_uzawa()->set_max_iterations(3);
+  request.mutable_spec()->mutable_solver()->mutable_uzawa()->set_max_iterations(3);
   const v1::Job job = server.finish(server.create(request).name());
-  EXPECT_EQ(job.state(), v1::Job::STATE_NOT_CONVERGED);
-  EXPECT_FALSE(job.has_error());
-  EXPECT_EQ(job.result_state(), v1::Job::RESULT_STATE_AVAILABLE);
-  ASSERT_EQ(job.answers_size(), 1);
-  EXPECT_EQ(job.answers(0).status(), v1::LoadCaseAnswer::STATUS_NOT_CONVERGED);
-  EXPECT_EQ(job.answers(0).iterations(), 3);
-  EXPECT_FALSE(job.answers(0).reason().empty());
-  EXPECT_FALSE(job.answers(0).has_error());
+  EXPECT_EQ(job.status().state(), v1::JobStatus::STATE_NOT_CONVERGED);
+  EXPECT_FALSE(job.status().has_error());
+  EXPECT_EQ(job.status().result_state(), v1::JobStatus::RESULT_STATE_AVAILABLE);
+  ASSERT_EQ(job.status().answers_size(), 1);
+  EXPECT_EQ(job.status().answers(0).status(), v1::LoadCaseAnswer::STATUS_NOT_CONVERGED);
+  EXPECT_EQ(job.status().answers(0).iterations(), 3);
+  EXPECT_FALSE(job.status().answers(0).reason().empty());
+  EXPECT_FALSE(job.status().answers(0).has_error());
 }
 
 TEST(Job, IsDeletedOnceItEnded) {

@@ -53,7 +53,7 @@ TEST(List, ClosesAPageBeforeItGrowsTooLargeForAMessage) {
   RunningServer server;
   v1::CreateJobRequest request = opening_job(server.create(paper_mesh()).name());
   for (int i = 0; i < 230; ++i) {
-    v1::LoadCase& load = *request.mutable_job()->add_load_cases();
+    v1::LoadCase& load = *request.mutable_spec()->add_load_cases();
     load.set_name(std::to_string(i));
     load.mutable_force()->set_expression("1" + std::string(4'000, ' '));
   }
@@ -65,8 +65,8 @@ TEST(List, ClosesAPageBeforeItGrowsTooLargeForAMessage) {
   }
   const v1::ListJobsResponse basic = list(server, 5, "");
   ASSERT_EQ(basic.jobs_size(), 5);
-  EXPECT_EQ(basic.jobs(0).load_case_count(), request.job().load_cases_size());
-  EXPECT_EQ(basic.jobs(0).load_cases_ended(), request.job().load_cases_size());
+  EXPECT_EQ(basic.jobs(0).status().load_case_count(), request.spec().load_cases_size());
+  EXPECT_EQ(basic.jobs(0).status().load_cases_ended(), request.spec().load_cases_size());
   EXPECT_LT(basic.ByteSizeLong(), 5u << 10);
   const v1::ListJobsResponse first = list(server, 5, "", v1::JOB_VIEW_FULL);
   EXPECT_LT(first.jobs_size(), 5);
@@ -103,11 +103,12 @@ TEST(List, IsFilteredByStateAndMeshInEitherOrder) {
   EXPECT_EQ(listed([&](auto& request) { request.set_oldest_first(true); }), names);
   EXPECT_EQ(listed([&](auto& request) {
               request.set_mesh(other);
-              request.add_states(v1::Job::STATE_FAILED);
-              request.add_states(v1::Job::STATE_SUCCEEDED);
+              request.add_states(v1::JobStatus::STATE_FAILED);
+              request.add_states(v1::JobStatus::STATE_SUCCEEDED);
             }),
             Names{names[1]});
-  EXPECT_EQ(listed([&](auto& request) { request.add_states(v1::Job::STATE_RUNNING); }), Names{});
+  EXPECT_EQ(listed([&](auto& request) { request.add_states(v1::JobStatus::STATE_RUNNING); }),
+            Names{});
 
   Context context;
   v1::ListJobsRequest request;

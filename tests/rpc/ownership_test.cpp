@@ -136,7 +136,7 @@ TEST_F(Ownership, RequestIdsAreOnesOwn) {
   ASSERT_TRUE(create_job(owner_token, request, ours).ok());
   ASSERT_TRUE(create_job(owner_token, request, again).ok());
   EXPECT_EQ(again.name(), ours.name());
-  request.mutable_job()->set_mesh(create_mesh(other_token).name());
+  request.mutable_spec()->set_mesh(create_mesh(other_token).name());
   ASSERT_TRUE(create_job(other_token, request, theirs).ok());
   EXPECT_NE(theirs.name(), ours.name());
 }

@@ -65,7 +65,7 @@ class Things {
     request.set_name(made.name());
     EXPECT_TRUE(eventually([&] {
       must([&](Context& context) { return server.jobs->GetJob(&context, request, &made); });
-      return made.state() == v1::Job::STATE_SUCCEEDED;
+      return made.status().state() == v1::JobStatus::STATE_SUCCEEDED;
     }));
     return made.name();
   }

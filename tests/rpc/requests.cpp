@@ -35,8 +35,8 @@ v1::CreateMeshRequest paper_mesh(double size) {
 
 v1::CreateJobRequest opening_job(const std::string& mesh) {
   v1::CreateJobRequest request;
-  request.mutable_job()->set_mesh(mesh);
-  v1::LoadCase& load = *request.mutable_job()->add_load_cases();
+  request.mutable_spec()->set_mesh(mesh);
+  v1::LoadCase& load = *request.mutable_spec()->add_load_cases();
   load.set_name("opening");
   load.mutable_force()->set_expression("y > 0 ? 1 : -1");
   return request;
@@ -48,7 +48,7 @@ std::string packed(const std::vector<double>& values) {
 
 v1::CreateJobRequest sweep_job(const std::string& mesh, const std::vector<double>& coefficients) {
   v1::CreateJobRequest request = opening_job(mesh);
-  v1::Job& job = *request.mutable_job();
+  v1::JobSpec& job = *request.mutable_spec();
   v1::LoadCase& slope = *job.add_load_cases();
   slope.set_name("slope");
   slope.mutable_force()->set_expression("x");
@@ -71,7 +71,7 @@ v1::LoadCase row_alone(const std::string& name, const double* row) {
 
 v1::CreateJobRequest endless_job(const std::string& mesh) {
   v1::CreateJobRequest request = opening_job(mesh);
-  v1::Uzawa& uzawa = *request.mutable_job()->mutable_solver()->mutable_uzawa();
+  v1::Uzawa& uzawa = *request.mutable_spec()->mutable_solver()->mutable_uzawa();
   uzawa.set_theta(1e-9);  // so small that the iteration goes nowhere for hours
   uzawa.set_epsilon(1e-300);
   uzawa.set_max_iterations(2'000'000'000);

@@ -209,7 +209,7 @@ TEST(Server, WarmsEvictsAndDeletesMeshes) {
 TEST(Server, SurvivesARequestLargerThanAMessageMayBe) {
   RunningServer server;
   v1::CreateJobRequest request = opening_job("meshes/a");
-  request.mutable_job()->mutable_load_cases(0)->mutable_force()->set_expression(
+  request.mutable_spec()->mutable_load_cases(0)->mutable_force()->set_expression(
       std::string(5u << 20, '1'));
   EXPECT_EQ(server.try_create(request).error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
   EXPECT_FALSE(server.info().version().empty());

@@ -74,13 +74,13 @@ Watched watch(RunningServer& server, const std::string& job) {
 /// The row_count one by one.
 v1::Job solve_alone(RunningServer& server, const std::string& mesh, Received& block) {
   v1::CreateJobRequest request = opening_job(mesh);
-  request.mutable_job()->clear_load_cases();
+  request.mutable_spec()->clear_load_cases();
   for (std::size_t row = 0; row < row_count; ++row) {
-    *request.mutable_job()->add_load_cases() =
+    *request.mutable_spec()->add_load_cases() =
         row_alone("row " + std::to_string(row), &matrix[basis * row]);
   }
   v1::Job job = server.finish(server.create(request).name());
-  EXPECT_EQ(job.answers_size(), static_cast<int>(row_count));
+  EXPECT_EQ(job.status().answers_size(), static_cast<int>(row_count));
   EXPECT_TRUE(read_result(server, job.name(), 0, block).ok());
   return job;
 }
@@ -104,7 +104,7 @@ void expect_columns(const Received& sweep, const v1::Job& alone, const Received&
   ASSERT_EQ(displacement.size(), row_count);
   for (std::size_t row = 0; row < row_count; ++row) {
     SCOPED_TRACE(row);
-    const v1::LoadCaseAnswer& answer = alone.answers(static_cast<int>(row));
+    const v1::LoadCaseAnswer& answer = alone.status().answers(static_cast<int>(row));
     EXPECT_NEAR(displacement[row], answer.inclusions(0).displacement(), tolerance);
     EXPECT_NEAR(energy[row], answer.energy(), tolerance);
     EXPECT_NEAR(contact_length[row], answer.contact_length(), tolerance);
@@ -127,19 +127,23 @@ TEST(Sweep, AnswersEveryRowAsAJobOfItsOwn) {
   RunningServer server;
   const std::string mesh = server.create(paper_mesh()).name();
   v1::CreateJobRequest request = sweep_job(mesh, matrix);
-  request.mutable_job()->mutable_sweep()->add_traces(1);
-  request.mutable_job()->mutable_sweep()->add_traces(6);
+  request.mutable_spec()->mutable_sweep()->add_traces(1);
+  request.mutable_spec()->mutable_sweep()->add_traces(6);
   const v1::Job created = server.create(request);
-  EXPECT_EQ(created.sweep_answer().rows(), row_count);
-  EXPECT_EQ(created.sweep().coefficients().sha256(), digest::Sha256().add(packed(matrix)).finish());
+  EXPECT_EQ(created.status().sweep_answer().rows(), row_count);
+  EXPECT_EQ(created.spec().sweep().coefficients().sha256(),
+            digest::Sha256().add(packed(matrix)).finish());
   const Watched told = watch(server, created.name());
 
-  ASSERT_EQ(told.ended.state(), v1::Job::STATE_SUCCEEDED) << told.ended.error().message();
-  EXPECT_EQ(told.ended.answers_size(), 0);
-  EXPECT_EQ(told.ended.sweep_answer().converged(), row_count);
-  EXPECT_EQ(told.ended.sweep_answer().not_converged() + told.ended.sweep_answer().failed(), 0u);
-  EXPECT_GT(told.ended.sweep_answer().most_steps(), 0);
-  EXPECT_LT(told.ended.sweep_answer().worst_kkt(), tolerance);
+  ASSERT_EQ(told.ended.status().state(), v1::JobStatus::STATE_SUCCEEDED)
+      << told.ended.status().error().message();
+  EXPECT_EQ(told.ended.status().answers_size(), 0);
+  EXPECT_EQ(told.ended.status().sweep_answer().converged(), row_count);
+  EXPECT_EQ(told.ended.status().sweep_answer().not_converged() +
+                told.ended.status().sweep_answer().failed(),
+            0u);
+  EXPECT_GT(told.ended.status().sweep_answer().most_steps(), 0);
+  EXPECT_LT(told.ended.status().sweep_answer().worst_kkt(), tolerance);
   EXPECT_THAT(told.times, Each(1));
   EXPECT_THAT(told.status, Each(v1::LoadCaseAnswer::STATUS_CONVERGED));
 
@@ -165,17 +169,18 @@ TEST(Sweep, HasBoundsOfEveryRowWhereItIsAskedForThem) {
   RunningServer server;
   const std::string mesh = server.create(paper_mesh()).name();
   v1::CreateJobRequest request = sweep_job(mesh, matrix);
-  request.mutable_job()->mutable_sweep()->set_bounds(true);
+  request.mutable_spec()->mutable_sweep()->set_bounds(true);
   const v1::Job swept = server.finish(server.create(request).name());
-  ASSERT_EQ(swept.state(), v1::Job::STATE_SUCCEEDED) << swept.error().message();
-  EXPECT_TRUE(swept.sweep().bounds());
-  EXPECT_EQ(swept.sweep_answer().warnings_size(), 0);
+  ASSERT_EQ(swept.status().state(), v1::JobStatus::STATE_SUCCEEDED)
+      << swept.status().error().message();
+  EXPECT_TRUE(swept.spec().sweep().bounds());
+  EXPECT_EQ(swept.status().sweep_answer().warnings_size(), 0);
   Received block, traces;
   ASSERT_TRUE(read_result(server, swept.name(), 0, block).ok());
   const v1::Job alone = solve_alone(server, mesh, traces);
   expect_columns(block, alone, traces);
   std::vector<double> lower, upper, a_lower, a_upper;
-  for (const v1::LoadCaseAnswer& answer : alone.answers()) {
+  for (const v1::LoadCaseAnswer& answer : alone.status().answers()) {
     lower.push_back(answer.energy_lower());
     upper.push_back(answer.energy_upper());
     a_lower.push_back(answer.inclusions(0).displacement_lower());
@@ -190,9 +195,9 @@ TEST(Sweep, HasBoundsOfEveryRowWhereItIsAskedForThem) {
   near("sweep/energy_upper", upper);
   near("sweep/displacement_lower", a_lower);
   near("sweep/displacement_upper", a_upper);
-  request.mutable_job()->set_without_bounds(true);
+  request.mutable_spec()->set_without_bounds(true);
   expect_error(server.try_create(request), grpc::StatusCode::INVALID_ARGUMENT, "INVALID_ARGUMENT",
-               "job.sweep.bounds");
+               "spec.sweep.bounds");
 }
 
 TEST(Sweep, OfAnUploadIsTheSame) {
@@ -201,11 +206,11 @@ TEST(Sweep, OfAnUploadIsTheSame) {
   v1::CreateJobRequest request = sweep_job(mesh, matrix);
   request.set_request_id("123e4567-e89b-12d3-a456-426614174000");
   const v1::Job first = server.create(request);
-  const std::string upload = "uploads/" + first.sweep().coefficients().sha256();
-  request.mutable_job()->mutable_sweep()->mutable_coefficients()->set_upload(upload);
+  const std::string upload = "uploads/" + first.spec().sweep().coefficients().sha256();
+  request.mutable_spec()->mutable_sweep()->mutable_coefficients()->set_upload(upload);
   EXPECT_EQ(server.create(request).name(), first.name());
   EXPECT_EQ(server.upload_files(), 1u);
-  request.mutable_job()->mutable_sweep()->mutable_coefficients()->set_packed(packed({1, 2, 3}));
+  request.mutable_spec()->mutable_sweep()->mutable_coefficients()->set_packed(packed({1, 2, 3}));
   expect_error(server.try_create(request), grpc::StatusCode::INVALID_ARGUMENT, "REQUEST_ID_REUSED",
                "request_id");
 }
@@ -220,27 +225,28 @@ TEST(Sweep, OverNodalForcesIsTheSweepOverTheFunctionsTheyAreOf) {
   const double cases[][3] = {{1, 0, 0}, {0, 1, 2}, {0.1, -2, 1}, {-1, 0.5, -3}};
   std::vector<double> forces;
   v1::CreateJobRequest alone = opening_job(mesh.name());
-  alone.mutable_job()->clear_load_cases();
+  alone.mutable_spec()->clear_load_cases();
   for (const auto& c : cases) {
     for (std::size_t node = 0; node < nodes.size() / 2; ++node) {
       forces.push_back(c[0] + c[1] * nodes[2 * node] + c[2] * nodes[2 * node + 1]);
     }
-    v1::LoadCase& load = *alone.mutable_job()->add_load_cases();
-    load.set_name("case " + std::to_string(alone.job().load_cases_size()));
+    v1::LoadCase& load = *alone.mutable_spec()->add_load_cases();
+    load.set_name("case " + std::to_string(alone.spec().load_cases_size()));
     load.mutable_force()->set_expression(std::to_string(c[0]) + " + x * (" + std::to_string(c[1]) +
                                          ") + y * (" + std::to_string(c[2]) + ")");
   }
   v1::CreateJobRequest request = sweep_job(mesh.name(), {});
-  request.mutable_job()->clear_load_cases();
-  request.mutable_job()->mutable_sweep()->mutable_nodal_forces()->set_packed(packed(forces));
+  request.mutable_spec()->clear_load_cases();
+  request.mutable_spec()->mutable_sweep()->mutable_nodal_forces()->set_packed(packed(forces));
   const v1::Job swept = server.finish(server.create(request).name());
-  ASSERT_EQ(swept.state(), v1::Job::STATE_SUCCEEDED) << swept.error().message();
-  EXPECT_EQ(swept.sweep_answer().converged(), std::size(cases));
+  ASSERT_EQ(swept.status().state(), v1::JobStatus::STATE_SUCCEEDED)
+      << swept.status().error().message();
+  EXPECT_EQ(swept.status().sweep_answer().converged(), std::size(cases));
   Received block;
   ASSERT_TRUE(read_result(server, swept.name(), 0, block).ok());
   const v1::Job plain = server.finish(server.create(alone).name());
   std::vector<double> displacement, energy;
-  for (const v1::LoadCaseAnswer& answer : plain.answers()) {
+  for (const v1::LoadCaseAnswer& answer : plain.status().answers()) {
     displacement.push_back(answer.inclusions(0).displacement());
     energy.push_back(answer.energy());
   }

@@ -22,13 +22,13 @@ using api::to_spec;
 using errors::Reason;
 using ::testing::ElementsAre;
 
-constexpr JobLimits sweep_limits{10, 1'000};
+constexpr JobLimits sweep_limits{1'000};
 const std::string sha256(64, 'c');
 
-v1::Job good_sweep() { return sweep_job("meshes/a", {1, 2, 3}).job(); }
+v1::JobSpec good_sweep() { return sweep_job("meshes/a", {1, 2, 3}).spec(); }
 
 TEST(SweepToDomain, NamesAPackedMatrixByItsHash) {
-  v1::Job job = good_sweep();
+  v1::JobSpec job = good_sweep();
   job.mutable_sweep()->add_traces(3);
   job.mutable_sweep()->add_traces(5);
   job.mutable_sweep()->set_bounds(true);
@@ -43,13 +43,13 @@ TEST(SweepToDomain, NamesAPackedMatrixByItsHash) {
 }
 
 TEST(SweepToDomain, TakesAnUpload) {
-  v1::Job job = good_sweep();
+  v1::JobSpec job = good_sweep();
   job.mutable_sweep()->mutable_coefficients()->set_upload("uploads/" + sha256);
   EXPECT_EQ(to_spec(job, sweep_limits).sweep->upload, sha256);
 }
 
 TEST(SweepToDomain, TakesNodalForces) {
-  v1::Job job = good_sweep();
+  v1::JobSpec job = good_sweep();
   job.clear_load_cases();
   job.mutable_sweep()->mutable_nodal_forces()->set_upload("uploads/" + sha256);
   const records::JobSpec spec = to_spec(job, sweep_limits);
@@ -59,13 +59,13 @@ TEST(SweepToDomain, TakesNodalForces) {
 }
 
 TEST(SweepToDomain, HasNoneWhereNoneWasAskedFor) {
-  v1::Job job = good_sweep();
+  v1::JobSpec job = good_sweep();
   job.clear_sweep();
   EXPECT_FALSE(to_spec(job, sweep_limits).sweep);
 }
 
 TEST(SweepToDomain, TakesAMatrixOfAMegabyteInAJobThatWouldBeTooLargeWithoutIt) {
-  v1::Job job = good_sweep();
+  v1::JobSpec job = good_sweep();
   std::string& matrix = *job.mutable_sweep()->mutable_coefficients()->mutable_packed();
   matrix.assign(max_packed_bytes, '\0');
   job.mutable_load_cases(0)->mutable_force()->set_expression(std::string(1'000, '1'));
@@ -76,27 +76,30 @@ TEST(SweepToDomain, ComesBackAsItWasSent) {
   records::JobRecord record;
   record.spec = to_spec(good_sweep(), sweep_limits);
   const v1::Job told = from_domain(record);
-  EXPECT_EQ(told.sweep().coefficients().source_case(), v1::Sweep::Matrix::SOURCE_NOT_SET);
-  EXPECT_EQ(told.sweep().coefficients().sha256(), digest::Sha256().add(packed({1, 2, 3})).finish());
-  EXPECT_EQ(told.load_cases_size(), 3);
+  EXPECT_EQ(told.spec().sweep().coefficients().source_case(), v1::Sweep::Matrix::SOURCE_NOT_SET);
+  EXPECT_EQ(told.spec().sweep().coefficients().sha256(),
+            digest::Sha256().add(packed({1, 2, 3})).finish());
+  EXPECT_EQ(told.spec().load_cases_size(), 3);
 
-  v1::Job job = good_sweep();
+  v1::JobSpec job = good_sweep();
   job.mutable_sweep()->mutable_coefficients()->set_upload("uploads/" + sha256);
   record.spec = to_spec(job, sweep_limits);
-  EXPECT_EQ(from_domain(record).sweep().coefficients().SerializeAsString(),
+  EXPECT_EQ(from_domain(record).spec().sweep().coefficients().SerializeAsString(),
             job.sweep().coefficients().SerializeAsString());
 }
 
 struct BadSweepMessage {
   const char* name;
-  std::function<void(v1::Job&)> spoil;
+  std::function<void(v1::JobSpec&)> spoil;
   Reason reason;
   const char* field;
 };
 
-v1::Sweep::Matrix& matrix_of(v1::Job& job) { return *job.mutable_sweep()->mutable_coefficients(); }
+v1::Sweep::Matrix& matrix_of(v1::JobSpec& job) {
+  return *job.mutable_sweep()->mutable_coefficients();
+}
 
-v1::Sweep::Matrix& nodal_forces(v1::Job& job) {
+v1::Sweep::Matrix& nodal_forces(v1::JobSpec& job) {
   job.clear_load_cases();
   return *job.mutable_sweep()->mutable_nodal_forces();
 }
@@ -104,41 +107,36 @@ v1::Sweep::Matrix& nodal_forces(v1::Job& job) {
 TEST(SweepToDomain, RefusesWhatItsTypesCannotExpress) {
   const std::vector<BadSweepMessage> all{
       {"NoCases", [](auto& job) { job.mutable_sweep()->Clear(); }, Reason::invalid_argument,
-       "job.sweep"},
+       "sweep"},
       {"NoSource", [](auto& job) { matrix_of(job).Clear(); }, Reason::invalid_argument,
-       "job.sweep.coefficients"},
+       "sweep.coefficients"},
       {"NodalNoSource", [](auto& job) { nodal_forces(job).Clear(); }, Reason::invalid_argument,
-       "job.sweep.nodal_forces"},
+       "sweep.nodal_forces"},
       {"Empty", [](auto& job) { matrix_of(job).set_packed(""); }, Reason::invalid_argument,
-       "job.sweep.coefficients.packed"},
+       "sweep.coefficients.packed"},
       {"HalfAValue", [](auto& job) { matrix_of(job).set_packed(std::string(12, '\0')); },
-       Reason::invalid_argument, "job.sweep.coefficients.packed"},
+       Reason::invalid_argument, "sweep.coefficients.packed"},
       {"TooLarge",
        [](auto& job) { matrix_of(job).set_packed(std::string(max_packed_bytes + 8, '\0')); },
-       Reason::limit_exceeded, "job.sweep.coefficients.packed"},
+       Reason::limit_exceeded, "sweep.coefficients.packed"},
       {"NodalHalfAValue", [](auto& job) { nodal_forces(job).set_packed("1234567"); },
-       Reason::invalid_argument, "job.sweep.nodal_forces.packed"},
+       Reason::invalid_argument, "sweep.nodal_forces.packed"},
       {"NoUpload", [](auto& job) { matrix_of(job).set_upload(""); }, Reason::invalid_argument,
-       "job.sweep.coefficients.upload"},
+       "sweep.coefficients.upload"},
       {"NoHash", [](auto& job) { matrix_of(job).set_upload("uploads/1"); },
-       Reason::invalid_argument, "job.sweep.coefficients.upload"},
+       Reason::invalid_argument, "sweep.coefficients.upload"},
       {"AnotherCollection", [](auto& job) { nodal_forces(job).set_upload("meshes/" + sha256); },
-       Reason::invalid_argument, "job.sweep.nodal_forces.upload"},
-      {"TooManyTraces",
-       [](auto& job) {
-         for (std::uint32_t row = 0; row < 11; ++row) job.mutable_sweep()->add_traces(row);
-       },
-       Reason::limit_exceeded, "job.sweep.traces"},
+       Reason::invalid_argument, "sweep.nodal_forces.upload"},
       {"TooLargeBesidesItsMatrix",
        [](auto& job) {
          job.mutable_load_cases(0)->mutable_force()->set_expression(
              std::string(max_job_bytes, '1'));
        },
-       Reason::limit_exceeded, "job"},
+       Reason::limit_exceeded, ""},
   };
   for (const BadSweepMessage& bad : all) {
     SCOPED_TRACE(bad.name);
-    v1::Job job = good_sweep();
+    v1::JobSpec job = good_sweep();
     bad.spoil(job);
     expect_refused([&] { to_spec(job, sweep_limits); }, bad.reason, bad.field);
   }

@@ -34,9 +34,9 @@ class SweepUpload : public ::testing::Test {
 };
 
 TEST_F(SweepUpload, KeepsTheMatrixUnderTheNameTheJobGivesIt) {
-  const v1::Job job = sweep_job("meshes/a", {1, 2.5, -3}).job();
+  const v1::JobSpec job = sweep_job("meshes/a", {1, 2.5, -3}).spec();
   keep_packed_matrix(job, *_store, "ada");
-  const std::string sha256 = to_spec(job, {10, 10}).sweep->upload;
+  const std::string sha256 = to_spec(job, {10}).sweep->upload;
   const auto path = _store->upload_path(sha256, "ada");
   ASSERT_TRUE(path);
   EXPECT_EQ(store::read_array(*path), (std::vector<double>{1, 2.5, -3}));
@@ -44,7 +44,7 @@ TEST_F(SweepUpload, KeepsTheMatrixUnderTheNameTheJobGivesIt) {
 }
 
 TEST_F(SweepUpload, OfTheSameMatrixIsOne) {
-  const v1::Job job = sweep_job("meshes/a", {1, 2.5, -3}).job();
+  const v1::JobSpec job = sweep_job("meshes/a", {1, 2.5, -3}).spec();
   keep_packed_matrix(job, *_store, "ada");
   keep_packed_matrix(job, *_store, "ada");
   keep_packed_matrix(job, *_store, "bob");
@@ -52,7 +52,7 @@ TEST_F(SweepUpload, OfTheSameMatrixIsOne) {
 }
 
 TEST_F(SweepUpload, KeepsAMatrixOfAMegabyte) {
-  v1::Job job = sweep_job("meshes/a", {}).job();
+  v1::JobSpec job = sweep_job("meshes/a", {}).spec();
   job.mutable_sweep()->mutable_nodal_forces()->set_packed(std::string(max_packed_bytes, '\0'));
   keep_packed_matrix(job, *_store, "ada");
   EXPECT_EQ(files(), 1u);
@@ -63,11 +63,11 @@ TEST_F(SweepUpload, OfWhatIsNoMatrixLeavesNothing) {
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     expect_refused(
         [&] {
-          keep_packed_matrix(sweep_job("meshes/a", {1, bad}).job(), *_store, "ada");
+          keep_packed_matrix(sweep_job("meshes/a", {1, bad}).spec(), *_store, "ada");
         },
         Reason::invalid_argument, "sweep.coefficients.packed");
   }
-  v1::Job job = sweep_job("meshes/a", {}).job();
+  v1::JobSpec job = sweep_job("meshes/a", {}).spec();
   job.mutable_sweep()->mutable_nodal_forces()->set_packed("$MeshFormat\n2.2 ");
   expect_refused([&] { keep_packed_matrix(job, *_store, "ada"); }, Reason::invalid_argument,
                  "sweep.nodal_forces.packed");
@@ -75,7 +75,7 @@ TEST_F(SweepUpload, OfWhatIsNoMatrixLeavesNothing) {
 }
 
 TEST(HasPackedMatrix, IsTrueOfWhatCameWithTheJobAlone) {
-  v1::Job job = opening_job("meshes/a").job();
+  v1::JobSpec job = opening_job("meshes/a").spec();
   EXPECT_FALSE(has_packed_matrix(job));
   job.mutable_sweep();
   EXPECT_FALSE(has_packed_matrix(job));

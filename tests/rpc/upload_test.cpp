@@ -95,7 +95,7 @@ TEST(Upload, IsDeletedUnlessSomethingNeedsIt) {
   const v1::Mesh mesh = server.settle(server.create(anticrack::testing::paper_mesh()).name());
   const std::string name = upload_array(server, std::vector<double>(mesh.node_count(), 1.0));
   v1::CreateJobRequest request = anticrack::testing::endless_job(mesh.name());
-  v1::Force& force = *request.mutable_job()->mutable_load_cases(0)->mutable_force();
+  v1::Force& force = *request.mutable_spec()->mutable_load_cases(0)->mutable_force();
   force.mutable_array()->set_upload(name);
   const std::string job = server.create(request).name();
   expect_error(erase(server, name), grpc::StatusCode::FAILED_PRECONDITION, "IN_USE", "");
@@ -194,10 +194,10 @@ TEST(Upload, IsUsedAsWhatItIs) {
   ASSERT_TRUE(server.upload(small_msh(), &msh).ok());
   v1::CreateJobRequest job =
       anticrack::testing::opening_job(server.create(anticrack::testing::paper_mesh()).name());
-  v1::Force& force = *job.mutable_job()->mutable_load_cases(0)->mutable_force();
+  v1::Force& force = *job.mutable_spec()->mutable_load_cases(0)->mutable_force();
   force.mutable_array()->set_upload(msh);
   expect_error(server.try_create(job), grpc::StatusCode::INVALID_ARGUMENT, "INVALID_ARGUMENT",
-               "job.load_cases[0].force.array");
+               "spec.load_cases[0].force.array");
 }
 
 }  // namespace

@@ -46,8 +46,8 @@ TEST(WatchScale, IdleWatchersHoldNobodyUp) {
   }
   // Nobody reads on; the job and others go on all the same.
   const auto before = server.info().metrics().iterations();
-  EXPECT_EQ(server.finish(server.create(opening_job(mesh)).name()).state(),
-            v1::Job::STATE_SUCCEEDED);
+  EXPECT_EQ(server.finish(server.create(opening_job(mesh)).name()).status().state(),
+            v1::JobStatus::STATE_SUCCEEDED);
   EXPECT_TRUE(eventually([&] { return server.info().metrics().iterations() > before + 1'000; }));
   EXPECT_TRUE(server.cancel(busy).ok());
   for (const auto& watcher : idle) {
@@ -89,7 +89,8 @@ TEST(WatchScale, GoesOnOverARestartWithLargerNumbers) {
     first.reader->Finish();
   }
   server.restart();
-  ASSERT_TRUE(eventually([&] { return server.job(job).state() == v1::Job::STATE_RUNNING; }));
+  ASSERT_TRUE(
+      eventually([&] { return server.job(job).status().state() == v1::JobStatus::STATE_RUNNING; }));
   std::vector<v1::WatchJobResponse> events;
   grpc::Status status = server.watch(job, sequence, events);
   ASSERT_EQ(status.error_code(), grpc::StatusCode::OUT_OF_RANGE) << status.error_message();
@@ -102,7 +103,7 @@ TEST(WatchScale, GoesOnOverARestartWithLargerNumbers) {
   }
   ASSERT_TRUE(status.ok()) << status.error_message();
   ASSERT_GE(events.size(), 2u);
-  EXPECT_EQ(events.front().snapshot().job().attempt(), 2);
+  EXPECT_EQ(events.front().snapshot().job().status().attempt(), 2);
   EXPECT_TRUE(events.back().has_ended());
   for (std::size_t i = 1; i < events.size(); ++i) {
     EXPECT_GT(events[i].sequence(), events[i - 1].sequence());

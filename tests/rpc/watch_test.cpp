@@ -54,13 +54,13 @@ TEST(Watch, GoesFromASnapshotOverEveryEventToTheEnd) {
   ASSERT_TRUE(events.front().has_snapshot());
   EXPECT_EQ(events.front().snapshot().job().name(), job);
   ASSERT_TRUE(events.back().has_ended());
-  EXPECT_EQ(events.back().ended().state(), v1::Job::STATE_SUCCEEDED);
+  EXPECT_EQ(events.back().ended().status().state(), v1::JobStatus::STATE_SUCCEEDED);
   for (std::size_t i = 1; i < events.size(); ++i) {
     EXPECT_GT(events[i].sequence(), events[i - 1].sequence());
     EXPECT_FALSE(events[i].has_snapshot());
   }
   const std::vector<int> seen = iterations(events);
-  ASSERT_EQ(static_cast<int>(seen.size()), events.back().ended().answers(0).iterations());
+  ASSERT_EQ(static_cast<int>(seen.size()), events.back().ended().status().answers(0).iterations());
   for (std::size_t i = 0; i < seen.size(); ++i) EXPECT_EQ(seen[i], static_cast<int>(i) + 1);
   const auto& case_ended = events[events.size() - 2];
   ASSERT_EQ(case_ended.load_cases_ended_size(), 1);
@@ -150,7 +150,8 @@ TEST(Watch, TakesUpAgainInMidIteration) {
   v1::WatchJobResponse event;
   ASSERT_TRUE(reader->Read(&event));
   ASSERT_TRUE(event.has_snapshot());
-  EXPECT_EQ(event.snapshot().job().state(), v1::Job::STATE_RUNNING);  // a watch owns no job
+  EXPECT_EQ(event.snapshot().job().status().state(),
+            v1::JobStatus::STATE_RUNNING);  // a watch owns no job
   ASSERT_TRUE(reader->Read(&event));
   ASSERT_TRUE(event.has_samples());
   EXPECT_EQ(event.samples().iteration(0), last + 1);
@@ -179,11 +180,12 @@ TEST(Watch, RefusesTheFutureAndTheUnknown) {
 TEST(Watch, SaysWhenItsPlaceWasTrimmed) {
   RunningServer server([](auto& settings) { settings.engine.event_log_bytes = 4'096; });
   v1::CreateJobRequest request = opening_job(server.create(paper_mesh()).name());
-  v1::Uzawa& uzawa = *request.mutable_job()->mutable_solver()->mutable_uzawa();
+  v1::Uzawa& uzawa = *request.mutable_spec()->mutable_solver()->mutable_uzawa();
   uzawa.set_theta(0.01);
   uzawa.set_max_iterations(2'000);
   const std::string job = server.create(request).name();
-  ASSERT_TRUE(eventually([&] { return server.job(job).state() >= v1::Job::STATE_SUCCEEDED; }));
+  ASSERT_TRUE(eventually(
+      [&] { return server.job(job).status().state() >= v1::JobStatus::STATE_SUCCEEDED; }));
   Events events;
   const grpc::Status status = server.watch(job, 1, events);
   expect_error(status, grpc::StatusCode::OUT_OF_RANGE, "SEQUENCE_TRIMMED", "after_sequence");
@@ -217,7 +219,7 @@ TEST(Watch, ThatStallsIsBrokenOff) {
   while (reader->Read(&event)) {
   }
   EXPECT_FALSE(reader->Finish().ok());
-  EXPECT_EQ(server.job(job).state(), v1::Job::STATE_RUNNING);
+  EXPECT_EQ(server.job(job).status().state(), v1::JobStatus::STATE_RUNNING);
   server.cancel(job);
 }
 
@@ -230,7 +232,8 @@ TEST(Watch, BeatsWhereNothingHappens) {
   });
   const std::string mesh = server.create(paper_mesh(0.5)).name();
   const std::string running = server.create(endless_job(server.create(paper_mesh()).name())).name();
-  ASSERT_TRUE(eventually([&] { return server.job(running).state() == v1::Job::STATE_RUNNING; }));
+  ASSERT_TRUE(eventually(
+      [&] { return server.job(running).status().state() == v1::JobStatus::STATE_RUNNING; }));
   const std::string waiting = server.create(opening_job(mesh)).name();
   Context context;
   const auto reader = server.jobs->WatchJob(&context, watch_request(waiting));
@@ -241,7 +244,7 @@ TEST(Watch, BeatsWhereNothingHappens) {
     if (event.has_heartbeat()) {
       ++beats;
       EXPECT_EQ(event.sequence(), last);
-      EXPECT_NE(event.heartbeat().state(), v1::Job::STATE_UNSPECIFIED);
+      EXPECT_NE(event.heartbeat().state(), v1::JobStatus::STATE_UNSPECIFIED);
     }
     last = event.sequence();
   }

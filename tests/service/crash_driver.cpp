@@ -99,10 +99,10 @@ void be_a_client(Run& run, client::ConnectionOptions options, unsigned seed) {
 /// A result of 2 MB, of which a job holds one in memory.
 Work large_result() {
   Work large = work("slit.toml");
-  large.job.add_outputs(v1::OUTPUT_FIELDS);
+  large.spec.add_outputs(v1::OUTPUT_FIELDS);
   for (int i = 1; i < 40; ++i) {
-    v1::LoadCase& load = *large.job.add_load_cases();
-    load = large.job.load_cases(0);
+    v1::LoadCase& load = *large.spec.add_load_cases();
+    load = large.spec.load_cases(0);
     load.set_name(load.name() + "-" + std::to_string(i));
   }
   return large;
@@ -124,7 +124,7 @@ Work uploaded_array(const Daemon& daemon) {
 void queue_backlog(Run& run, const Daemon& daemon, int jobs) {
   constexpr std::size_t small = 4;  // a coarse mesh, behind the two works above
   Work work = run.works[small];
-  work.job.set_priority(v1::Job::PRIORITY_BULK);
+  work.spec.set_priority(v1::JobSpec::PRIORITY_BULK);
   run.works.insert(run.works.begin(), work);
   client::Connection connection(daemon.connection());
   for (int i = 0; i < jobs; ++i) {
@@ -211,7 +211,7 @@ void check_jobs(Run& run, client::Connection& connection) {
 int most_attempts(const Run& run, client::Connection& connection) {
   int most = 0;
   for (const Acknowledged& each : run.jobs) {
-    most = std::max(most, client::get_job(connection, each.name).attempt());
+    most = std::max(most, client::get_job(connection, each.name).status().attempt());
   }
   return most;
 }

@@ -57,15 +57,17 @@ TEST_P(FailingDisk, KeepsAResultUntilItCanBeWritten) {
   EXPECT_TRUE(ran_to_its_end(wait_for_end(connection, before)));
 
   const std::string meanwhile = submit(connection, work_of_this, client::make_uuid()).name();
-  ASSERT_TRUE(anticrack::testing::eventually(
-      [&] { return client::get_job(connection, meanwhile).state() == v1::Job::STATE_RUNNING; }));
+  ASSERT_TRUE(anticrack::testing::eventually([&] {
+    return client::get_job(connection, meanwhile).status().state() == v1::JobStatus::STATE_RUNNING;
+  }));
   fail();
   EXPECT_TRUE(refuses(work_of_this));
   ASSERT_TRUE(anticrack::testing::eventually([&] {
     const v1::Job job = client::get_job(connection, meanwhile);
-    return !job.timeline().empty() && job.timeline().rbegin()->detail() == "writing the result";
+    return !job.status().timeline().empty() &&
+           job.status().timeline().rbegin()->detail() == "writing the result";
   }));
-  EXPECT_EQ(client::get_job(connection, meanwhile).state(), v1::Job::STATE_RUNNING);
+  EXPECT_EQ(client::get_job(connection, meanwhile).status().state(), v1::JobStatus::STATE_RUNNING);
   EXPECT_TRUE(refuses(work_of_this));
   EXPECT_NO_THROW(client::read_result(connection, before)) << "reading writes nothing";
 

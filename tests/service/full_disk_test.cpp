@@ -80,8 +80,9 @@ TEST(FullDisk, RefusesCleanlyAndLosesNothing) {
   EXPECT_TRUE(ran_to_its_end(wait_for_end(connection, before)));
 
   const std::string meanwhile = submit(connection, work_of_this, client::make_uuid()).name();
-  ASSERT_TRUE(anticrack::testing::eventually(
-      [&] { return client::get_job(connection, meanwhile).state() >= v1::Job::STATE_RUNNING; }));
+  ASSERT_TRUE(anticrack::testing::eventually([&] {
+    return client::get_job(connection, meanwhile).status().state() >= v1::JobStatus::STATE_RUNNING;
+  }));
   disk.fill();
   ASSERT_TRUE(anticrack::testing::eventually([&] {
     disk.fill();  // what the server gave back

@@ -28,14 +28,15 @@ TEST(Interruption, DetachAndAttachAgainInMidIteration) {
   ASSERT_TRUE(run->wait().has_value());
   EXPECT_THAT(run->output() + run->error(), HasSubstr("anticrack job watch " + name))
       << "detaching names the command that attaches again";
-  EXPECT_EQ(server.job(name).state(), v1::Job::STATE_RUNNING) << "detaching cancels nothing";
+  EXPECT_EQ(server.job(name).status().state(), v1::JobStatus::STATE_RUNNING)
+      << "detaching cancels nothing";
 
   const auto watch = server.start_client({"job", "watch", name});
   ASSERT_TRUE(watch->wait_for_output("iteration") || watch->wait_for_error("iteration"))
       << watch->output() << watch->error();
   EXPECT_EQ(server.client({"job", "cancel", name}).code, 0);
   EXPECT_TRUE(watch->wait().has_value()) << "the watch ends with the job";
-  EXPECT_EQ(server.ended_job(name).state(), v1::Job::STATE_CANCELLED);
+  EXPECT_EQ(server.ended_job(name).status().state(), v1::JobStatus::STATE_CANCELLED);
 }
 
 TEST(Interruption, CancelKeepsWhatHadEnded) {
@@ -47,8 +48,8 @@ TEST(Interruption, CancelKeepsWhatHadEnded) {
   const std::string name = server.running_job();
   EXPECT_EQ(server.client({"job", "cancel", name}).code, 0);
   const v1::Job job = server.ended_job(name);
-  EXPECT_EQ(job.state(), v1::Job::STATE_CANCELLED);
-  EXPECT_EQ(job.answers(0).status(), v1::LoadCaseAnswer::STATUS_CANCELLED);
+  EXPECT_EQ(job.status().state(), v1::JobStatus::STATE_CANCELLED);
+  EXPECT_EQ(job.status().answers(0).status(), v1::LoadCaseAnswer::STATUS_CANCELLED);
   EXPECT_EQ(server.client({"job", "cancel", name}).code, 0) << "cancel is idempotent";
 }
 
@@ -62,9 +63,9 @@ TEST(Interruption, AClientKilledWhileStreamingHurtsNobody) {
 
   const Ended other = server.client({"run", example("paper-1.toml"), "-o", folder / "other.h5"});
   EXPECT_EQ(other.code, 0) << other.error;
-  EXPECT_EQ(server.job(name).state(), v1::Job::STATE_RUNNING);
+  EXPECT_EQ(server.job(name).status().state(), v1::JobStatus::STATE_RUNNING);
   EXPECT_EQ(server.client({"job", "cancel", name}).code, 0);
-  EXPECT_EQ(server.ended_job(name).state(), v1::Job::STATE_CANCELLED);
+  EXPECT_EQ(server.ended_job(name).status().state(), v1::JobStatus::STATE_CANCELLED);
 }
 
 TEST(Interruption, SigtermWithStreamsOpenStopsInTime) {

@@ -153,9 +153,10 @@ void probe(Run& run, const Daemon& daemon, int seconds) {
 
 /// Whether they were not in memory.
 bool waited_for_factors(const v1::Job& job) {
-  return std::any_of(job.timeline().begin(), job.timeline().end(), [](const v1::Job::Step& step) {
-    return step.detail().find("factorising") != std::string::npos;
-  });
+  return std::any_of(job.status().timeline().begin(), job.status().timeline().end(),
+                     [](const v1::JobStatus::Step& step) {
+                       return step.detail().find("factorising") != std::string::npos;
+                     });
 }
 
 /// Jobs of one client, one after the other, timed from the request to the end.
@@ -181,19 +182,19 @@ Work small_work() { return work("paper-3.toml", {"mesh.preset=uniform", "mesh.si
 Work fresh_work(unsigned number) {
   Work one = work("slit.toml", {"mesh.preset=uniform", "mesh.size=0.05"});
   one.mesh.mutable_options()->set_size(0.05 + 1e-6 * number);
-  one.job.mutable_accuracy()->set_energy(4e-3);
+  one.spec.mutable_accuracy()->set_energy(4e-3);
   return one;
 }
 
 Work slow_work() {
   Work one = work("slit.toml", {"mesh.preset=uniform", "mesh.size=0.03"});
-  v1::LoadCase load = one.job.load_cases(0);
-  one.job.clear_load_cases();
+  v1::LoadCase load = one.spec.load_cases(0);
+  one.spec.clear_load_cases();
   for (int i = 0; i < 8; ++i) {
     load.set_name("slow " + std::to_string(i));
     load.mutable_force()->set_expression("sin(" + std::to_string(200 + i) +
                                          "*x*y) + cos(300*x) + (x*x + y*y < 0.1 ? exp(x) : 1)");
-    *one.job.add_load_cases() = load;
+    *one.spec.add_load_cases() = load;
   }
   return one;
 }

@@ -23,7 +23,7 @@ Message from_json(const Ended& ended) {
   return message;
 }
 
-bool is_ended(v1::Job::State state) { return state >= v1::Job::STATE_SUCCEEDED; }
+bool is_ended(v1::JobStatus::State state) { return state >= v1::JobStatus::STATE_SUCCEEDED; }
 
 }  // namespace
 
@@ -81,7 +81,7 @@ std::vector<std::string> Server::jobs() const {
 v1::Job Server::ended_job(const std::string& name) const {
   for (int attempt = 0; attempt < 600; ++attempt) {
     v1::Job current = job(name);
-    if (is_ended(current.state())) return current;
+    if (is_ended(current.status().state())) return current;
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
   throw std::runtime_error(name + " has not ended within a minute");
@@ -90,7 +90,7 @@ v1::Job Server::ended_job(const std::string& name) const {
 std::string Server::running_job() const {
   for (int attempt = 0; attempt < 600; ++attempt) {
     for (const std::string& name : jobs()) {
-      if (job(name).state() == v1::Job::STATE_RUNNING) return name;
+      if (job(name).status().state() == v1::JobStatus::STATE_RUNNING) return name;
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }

@@ -91,8 +91,8 @@ TEST_P(ProxyTest, AKilledServerBehindItIsRetriedAndTheWatchResumed) {
   const v1::ListJobsResponse jobs = client::list_jobs(connection, {});
   ASSERT_EQ(jobs.jobs_size(), 1) << "nothing was submitted twice";
   const v1::Job job = client::get_job(connection, jobs.jobs(0).name());
-  EXPECT_GE(job.attempt(), 2);
-  EXPECT_EQ(job.answers(0).iterations(), long_run);
+  EXPECT_GE(job.status().attempt(), 2);
+  EXPECT_EQ(job.status().answers(0).iterations(), long_run);
   const Work same = work("paper-3.toml", iterations(long_run));
   const std::string alone = submit(connection, same, client::make_uuid()).name();
   wait_for_end(connection, alone);

@@ -36,7 +36,8 @@ std::string iterating_job(client::Connection& connection) {
   std::string name;
   EXPECT_TRUE(anticrack::testing::eventually([&] {
     const v1::ListJobsResponse response = client::list_jobs(connection, {});
-    if (response.jobs_size() != 1 || response.jobs(0).state() != v1::Job::STATE_RUNNING) {
+    if (response.jobs_size() != 1 ||
+        response.jobs(0).status().state() != v1::JobStatus::STATE_RUNNING) {
       return false;
     }
     name = response.jobs(0).name();
@@ -55,7 +56,7 @@ TEST(Restart, AClientsRunOutlivesAStopAndAKill) {
   EXPECT_EQ(daemon.stop(), 0);
   daemon.start();
   ASSERT_TRUE(anticrack::testing::eventually([&] {
-    return client::get_job(connection, name).attempt() >= 2;
+    return client::get_job(connection, name).status().attempt() >= 2;
   })) << "what had not ended begins anew";
   daemon.kill();
   daemon.start();
@@ -63,7 +64,7 @@ TEST(Restart, AClientsRunOutlivesAStopAndAKill) {
   EXPECT_EQ(run->wait(std::chrono::seconds(300)), 3) << run->output() << run->error();
   EXPECT_THAT(run->output(), HasSubstr("trying again"));
   const v1::Job job = client::get_job(connection, name);
-  EXPECT_EQ(job.answers(0).iterations(), long_run);
+  EXPECT_EQ(job.status().answers(0).iterations(), long_run);
   EXPECT_EQ(run_client(daemon.address(), {"show", output}).code, 0);
   EXPECT_EQ(client::list_jobs(connection, {}).jobs_size(), 1) << "nothing was submitted twice";
   EXPECT_EQ(daemon.stop(), 0);
@@ -101,10 +102,10 @@ TEST(Restart, ASecondSigtermDoesNotWaitForJobs) {
   daemon.stop();  // throws where it goes on
   daemon.start();
   EXPECT_TRUE(anticrack::testing::eventually([&] {
-    return client::get_job(connection, name).state() == v1::Job::STATE_RUNNING;
+    return client::get_job(connection, name).status().state() == v1::JobStatus::STATE_RUNNING;
   })) << "the next start takes it up";
   client::cancel_job(connection, name);
-  EXPECT_EQ(wait_for_end(connection, name).state(), v1::Job::STATE_CANCELLED);
+  EXPECT_EQ(wait_for_end(connection, name).status().state(), v1::JobStatus::STATE_CANCELLED);
 }
 
 TEST(Restart, AStopRightAfterALargeAnswerIsNotHeldUp) {
@@ -129,10 +130,10 @@ TEST(Restart, ExpiredResultsSaySoAndGiveTheCure) {
   const std::string name = submit(connection, quick, client::make_uuid()).name();
   wait_for_end(connection, name);
   ASSERT_TRUE(anticrack::testing::eventually(
-      [&] { return client::get_job(connection, name).has_expire_time(); }));
+      [&] { return client::get_job(connection, name).status().has_expire_time(); }));
   const v1::Job job = client::get_job(connection, name);
-  EXPECT_EQ(job.state(), v1::Job::STATE_SUCCEEDED);
-  EXPECT_EQ(job.result_state(), v1::Job::RESULT_STATE_EXPIRED);
+  EXPECT_EQ(job.status().state(), v1::JobStatus::STATE_SUCCEEDED);
+  EXPECT_EQ(job.status().result_state(), v1::JobStatus::RESULT_STATE_EXPIRED);
   const Ended fetch = daemon.client({"job", "fetch", name, "-o", daemon.folder() / "late.h5"});
   EXPECT_EQ(fetch.code, 2);
   EXPECT_THAT(fetch.error, HasSubstr("run the case again"));
@@ -151,7 +152,7 @@ TEST(Restart, RefusesAFolderThatLostItsDatabaseAndRemovesNothing) {
   client::Connection connection(daemon.connection());
   const Work quick = work("slit.toml", {"mesh.preset=uniform", "mesh.size=0.2"});
   const std::string name = submit(connection, quick, client::make_uuid()).name();
-  EXPECT_EQ(wait_for_end(connection, name).state(), v1::Job::STATE_SUCCEEDED);
+  EXPECT_EQ(wait_for_end(connection, name).status().state(), v1::JobStatus::STATE_SUCCEEDED);
   const client::Block result = client::read_result(connection, name);
   EXPECT_EQ(daemon.stop(), 0);
 
@@ -176,7 +177,7 @@ TEST(Restart, ServesAroundADamagedRecordAndSetsItAside) {
   client::Connection connection(daemon.connection());
   Work quick = work("slit.toml", {"mesh.preset=uniform", "mesh.size=0.2"});
   const std::string sound = submit(connection, quick, client::make_uuid()).name();
-  quick.job.set_title("a title to be found");
+  quick.spec.set_title("a title to be found");
   const std::string damaged = submit(connection, quick, client::make_uuid()).name();
   wait_for_end(connection, sound);
   wait_for_end(connection, damaged);
@@ -185,14 +186,14 @@ TEST(Restart, ServesAroundADamagedRecordAndSetsItAside) {
   EXPECT_EQ(daemon.run_on_data({"--check-store"}).code, 0);
 
   const std::string database = daemon.data() + "/anticrack.db";
-  const auto places = anticrack::testing::places_of(quick.job.title(), database);
+  const auto places = anticrack::testing::places_of(quick.spec.title(), database);
   ASSERT_FALSE(places.empty());
   for (const std::size_t place : places) anticrack::testing::flip(database, place, 20);
   daemon.start();
   const v1::Job job = client::get_job(connection, damaged);
-  EXPECT_EQ(job.state(), v1::Job::STATE_FAILED);
-  EXPECT_THAT(job.error().message(), AllOf(HasSubstr(damaged), HasSubstr("damaged")));
-  EXPECT_EQ(job.answers_size(), 0);
+  EXPECT_EQ(job.status().state(), v1::JobStatus::STATE_FAILED);
+  EXPECT_THAT(job.status().error().message(), AllOf(HasSubstr(damaged), HasSubstr("damaged")));
+  EXPECT_EQ(job.status().answers_size(), 0);
   EXPECT_THROW(client::read_result(connection, damaged), client::Error);
   EXPECT_EQ(client::list_jobs(connection, {}).jobs_size(), 2);
   EXPECT_EQ(difference(client::read_result(connection, sound), result), "");

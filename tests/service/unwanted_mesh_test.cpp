@@ -59,19 +59,21 @@ TEST_F(UnwantedMesh, StopsWithTheLastOfItsJobs) {
   const v1::Job second = submit(connection, one, client::make_uuid());
   ASSERT_TRUE(meshes(1));
   EXPECT_TRUE(eventually([&] {
-    const v1::Mesh mesh = client::get_mesh(connection, first.mesh());
+    const v1::Mesh mesh = client::get_mesh(connection, first.spec().mesh());
     return mesh.state() == v1::Mesh::STATE_MESHING && !mesh.progress().doing().empty();
   }));
   EXPECT_THAT(daemon.client({"mesh", "list"}).output, HasSubstr("triangles"));
-  EXPECT_THAT(daemon.client({"mesh", "show", first.mesh()}).output, HasSubstr("meshing: "));
+  EXPECT_THAT(daemon.client({"mesh", "show", first.spec().mesh()}).output, HasSubstr("meshing: "));
   client::cancel_job(connection, first.name());
-  EXPECT_EQ(wait_for_end(connection, first.name()).state(), v1::Job::STATE_CANCELLED);
+  EXPECT_EQ(wait_for_end(connection, first.name()).status().state(),
+            v1::JobStatus::STATE_CANCELLED);
   EXPECT_EQ(meshers_of(daemon.process().id()), 1) << "the other job wants it";
   client::cancel_job(connection, second.name());
-  EXPECT_EQ(wait_for_end(connection, second.name()).state(), v1::Job::STATE_CANCELLED);
+  EXPECT_EQ(wait_for_end(connection, second.name()).status().state(),
+            v1::JobStatus::STATE_CANCELLED);
   EXPECT_TRUE(meshes(0));
-  EXPECT_EQ(state_of(first.mesh()), v1::Mesh::STATE_PENDING);
-  client::delete_mesh(connection, first.mesh());
+  EXPECT_EQ(state_of(first.spec().mesh()), v1::Mesh::STATE_PENDING);
+  client::delete_mesh(connection, first.spec().mesh());
   EXPECT_EQ(daemon.stop(), 0);
 }
 
@@ -79,10 +81,10 @@ TEST_F(UnwantedMesh, GoesOnForItsOwnerUntilItIsDeleted) {
   const Work one = long_work();
   const v1::Mesh mesh = client::create_mesh(connection, one.mesh);
   const v1::Job job = submit(connection, one, client::make_uuid());
-  EXPECT_EQ(job.mesh(), mesh.name());
+  EXPECT_EQ(job.spec().mesh(), mesh.name());
   ASSERT_TRUE(meshes(1));
   client::cancel_job(connection, job.name());
-  EXPECT_EQ(wait_for_end(connection, job.name()).state(), v1::Job::STATE_CANCELLED);
+  EXPECT_EQ(wait_for_end(connection, job.name()).status().state(), v1::JobStatus::STATE_CANCELLED);
   EXPECT_EQ(state_of(mesh.name()), v1::Mesh::STATE_MESHING);
   EXPECT_EQ(daemon.client({"mesh", "delete", mesh.name()}).code, 0);
   EXPECT_TRUE(meshes(0));
@@ -93,9 +95,9 @@ TEST_F(UnwantedMesh, StopsWhenItsJobRunsOutOfTime) {
   Work one = long_work();
   one.mesh.set_for_job(true);
 
-  one.job.mutable_queue_timeout()->set_seconds(1);
+  one.spec.mutable_queue_timeout()->set_seconds(1);
   const v1::Job job = submit(connection, one, client::make_uuid());
-  EXPECT_EQ(wait_for_end(connection, job.name()).state(), v1::Job::STATE_FAILED);
+  EXPECT_EQ(wait_for_end(connection, job.name()).status().state(), v1::JobStatus::STATE_FAILED);
   EXPECT_TRUE(meshes(0));
 }
 

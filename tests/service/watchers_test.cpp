@@ -80,10 +80,10 @@ TEST(Watchers, AThousandLazyOnesCostNobodyElseAnything) {
   EXPECT_GE(client::server_info(connection).metrics().watchers(), many);
 
   const std::string other = submit(connection, work("paper-1.toml"), client::make_uuid()).name();
-  EXPECT_EQ(wait_for_end(connection, other).state(), v1::Job::STATE_SUCCEEDED);
+  EXPECT_EQ(wait_for_end(connection, other).status().state(), v1::JobStatus::STATE_SUCCEEDED);
   EXPECT_NO_THROW(client::read_result(connection, other));
   client::cancel_job(connection, watched);
-  EXPECT_EQ(wait_for_end(connection, watched).state(), v1::Job::STATE_CANCELLED);
+  EXPECT_EQ(wait_for_end(connection, watched).status().state(), v1::JobStatus::STATE_CANCELLED);
 
   for (const auto& context : contexts) context->TryCancel();
   std::unique_lock lock(crowd.mutex);

@@ -45,7 +45,7 @@ bool compared(const std::string& name) {
 
 Work work(const std::string& name, const std::vector<std::string>& overrides) {
   const casefile::Case the_case = testing::read_case_file(example(name), overrides);
-  return {name, the_case.mesh, the_case.job};
+  return {name, the_case.mesh, the_case.spec};
 }
 
 std::vector<std::string> iterations(int count) {
@@ -58,7 +58,7 @@ Work in_stages() {
   Work accurate = work("several-inclusions.toml");
   accurate.name += " (accuracy)";
   accurate.mesh.mutable_options()->set_preset(v1::MESH_PRESET_COARSE);
-  accurate.job.mutable_accuracy()->set_energy(2e-3);
+  accurate.spec.mutable_accuracy()->set_energy(2e-3);
   return accurate;
 }
 
@@ -74,13 +74,13 @@ std::vector<Work> mixed_work() {
 }
 
 v1::Job submit(client::Connection& connection, const Work& work, const std::string& request_id) {
-  v1::Job job = work.job;
-  job.set_mesh(client::create_mesh(connection, work.mesh).name());
+  v1::JobSpec spec = work.spec;
+  spec.set_mesh(client::create_mesh(connection, work.mesh).name());
   if (!work.array.empty()) {
-    job.mutable_load_cases(0)->mutable_force()->mutable_array()->set_upload(
+    spec.mutable_load_cases(0)->mutable_force()->mutable_array()->set_upload(
         client::upload_array(connection, work.array));
   }
-  return client::create_job(connection, job, request_id);
+  return client::create_job(connection, spec, request_id);
 }
 
 v1::Job wait_for_end(client::Connection& connection, const std::string& name) {
@@ -88,8 +88,8 @@ v1::Job wait_for_end(client::Connection& connection, const std::string& name) {
 }
 
 bool ran_to_its_end(const v1::Job& job) {
-  return job.state() == v1::Job::STATE_SUCCEEDED ||
-         (job.state() == v1::Job::STATE_NOT_CONVERGED && !job.has_error());
+  return job.status().state() == v1::JobStatus::STATE_SUCCEEDED ||
+         (job.status().state() == v1::JobStatus::STATE_NOT_CONVERGED && !job.status().has_error());
 }
 
 std::string difference(const client::Block& result, const client::Block& reference) {

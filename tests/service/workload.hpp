@@ -18,7 +18,7 @@ namespace anticrack::service_test {
 struct Work {
   std::string name;
   v1::CreateMeshRequest mesh;
-  v1::Job job;                  ///< all but the mesh
+  v1::JobSpec spec;             ///< all but the mesh
   std::vector<double> array{};  ///< f of the first load case on the nodes, if any
 };
 

@@ -86,17 +86,11 @@ TEST_F(StoredJobs, AnswerARepeatedRequestWithWhatBecameOfIt) {
 
 TEST_F(StoredJobs, TellOfARepeatedRequestWithoutMakingAny) {
   create("a", "ann", "request", "print");
-  records::JobRecord again = job_record("b");
-  again.owner = "ann";
-  again.request_id = "request";
-  EXPECT_EQ(store->created_before(again, "print").value().id, "a");
-  EXPECT_TRUE(throws([&] { store->created_before(again, "other"); }, Reason::request_id_reused,
-                     "request_id"));
-  again.owner = "bob";
-  EXPECT_FALSE(store->created_before(again, "print"));
-  again.request_id = "";
-  EXPECT_FALSE(store->created_before(again, "print"));
-  EXPECT_FALSE(store->job("b"));
+  EXPECT_EQ(store->created_before("ann", "request", "print").value().id, "a");
+  EXPECT_TRUE(throws([&] { store->created_before("ann", "request", "other"); },
+                     Reason::request_id_reused, "request_id"));
+  EXPECT_FALSE(store->created_before("bob", "request", "print"));
+  EXPECT_FALSE(store->created_before("bob", "", "print"));
 }
 
 TEST_F(StoredJobs, DoNotComeBackWhenErased) {

@@ -79,8 +79,8 @@ TEST(RecordCodec, SaysSomethingInEveryFieldOfTheMessages) {
   EXPECT_THAT(silent, ::testing::UnorderedElementsAre(
                           "anticrack.v1.CreateMeshRequest.title",    // Mesh has it
                           "anticrack.v1.CreateMeshRequest.for_job",  // MeshRecord has it
-                          "anticrack.v1.Job.load_case_count",        // follow from the others
-                          "anticrack.v1.Job.load_cases_ended",
+                          "anticrack.v1.JobStatus.load_case_count",  // follow from the others
+                          "anticrack.v1.JobStatus.load_cases_ended",
                           "anticrack.v1.Mesh.geometry",  // CreateMeshRequest has the definition
                           "anticrack.v1.Mesh.upload", "anticrack.v1.Mesh.options",
                           "anticrack.v1.Mesh.refinement",        // MeshRecord has it

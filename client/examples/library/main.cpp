@@ -24,25 +24,25 @@ int main(int argc, char** argv) try {
   client::Connection connection(options);
   v1::CreateMeshRequest request;
   google::protobuf::TextFormat::ParseFromString(membrane, &request);
-  v1::Job job;
-  job.set_mesh(client::create_mesh(connection, request).name());
-  v1::LoadCase& load = *job.add_load_cases();
+  v1::JobSpec spec;
+  spec.set_mesh(client::create_mesh(connection, request).name());
+  v1::LoadCase& load = *spec.add_load_cases();
   load.set_name("upward");
   load.mutable_force()->set_expression("1");
-  job = client::create_job(connection, job, client::make_uuid());
+  v1::Job job = client::create_job(connection, spec, client::make_uuid());
   job = client::watch_job(connection, job.name(), 0, [](const v1::WatchJobResponse& event) {
     const std::string& phase = event.phase().detail();
     if (!phase.empty()) std::cout << phase << std::endl;
   });
-  for (const v1::LoadCaseAnswer& answer : job.answers()) {
+  for (const v1::LoadCaseAnswer& answer : job.status().answers()) {
     for (const v1::InclusionAnswer& inclusion : answer.inclusions())
       std::cout << answer.name() << ": A = " << inclusion.displacement() << '\n';
     // Such an answer is the last iterate and not a solution; the reason names the cure.
     if (answer.status() == v1::LoadCaseAnswer::STATUS_NOT_CONVERGED)
       std::cerr << answer.name() << " did not converge: " << answer.reason() << '\n';
   }
-  if (job.has_error()) throw std::runtime_error(job.error().message());
-  return job.state() == v1::Job::STATE_SUCCEEDED ? 0 : 3;
+  if (job.status().has_error()) throw std::runtime_error(job.status().error().message());
+  return job.status().state() == v1::JobStatus::STATE_SUCCEEDED ? 0 : 3;
 } catch (const std::exception& error) {
   std::cerr << error.what() << '\n';
   return 1;

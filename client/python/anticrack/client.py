@@ -32,7 +32,7 @@ class JobState:
         self._session, self._case = session, case
         # As they are now: the array may be used for something else before the answers are there.
         self._coefficients = None if coefficients is None else coefficients_of(
-            coefficients, [load.name for load in message.load_cases])
+            coefficients, [load.name for load in message.spec.load_cases])
 
     @property
     def name(self) -> str:
@@ -42,22 +42,22 @@ class JobState:
     @property
     def state(self) -> str:
         """"queued", "waiting_for_mesh", "running", "succeeded", "not_converged", "failed" or "cancelled"."""
-        return str(solve_pb2.Job.State.Name(self.message.state)).removeprefix("STATE_").lower()
+        return str(solve_pb2.JobStatus.State.Name(self.message.status.state)).removeprefix("STATE_").lower()
 
     @property
     def ended(self) -> bool:
-        return self.message.state in ENDED
+        return self.message.status.state in ENDED
 
     @property
     def error(self) -> ServerError | None:
         """Of one that failed."""
-        if not self.message.HasField("error"):
+        if not self.message.status.HasField("error"):
             return None
-        return in_terms_of(self._case.places if self._case else places_of(self.message),
-                           of_status(self.message.error))
+        return in_terms_of(self._case.places if self._case else places_of(self.message.spec),
+                           of_status(self.message.status.error))
 
     async def _result(self) -> Result:
-        if self.message.result_state != solve_pb2.Job.RESULT_STATE_AVAILABLE:
+        if self.message.status.result_state != solve_pb2.JobStatus.RESULT_STATE_AVAILABLE:
             raise self.error or ServerError("FAILED_PRECONDITION", f"{self.name} is {self.state} and has no answers")
         result = await self._session.result(self.name, self._case.text if self._case else "")
         if result.sweep is not None and self._coefficients is not None:

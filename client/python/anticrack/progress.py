@@ -21,11 +21,12 @@ class State:
     """Follows the events of a job; what is worth a line. stages: of an accuracy, a line each."""
 
     def __init__(self, job: solve_pb2.Job) -> None:
-        self.total = job.sweep_answer.rows if job.HasField("sweep") else job.load_case_count or len(job.load_cases)
-        self.loads = [load.name for load in job.load_cases]
-        self.unit = "rows" if job.HasField("sweep") else "load cases"
-        self.step = "iteration" if job.solver.HasField("uzawa") else "step"
-        self.accuracy = job.accuracy if job.HasField("accuracy") else None
+        spec, sweeps = job.spec, job.spec.HasField("sweep")
+        self.total = job.status.sweep_answer.rows if sweeps else job.status.load_case_count or len(spec.load_cases)
+        self.loads = [load.name for load in spec.load_cases]
+        self.unit = "rows" if sweeps else "load cases"
+        self.step = "iteration" if spec.solver.HasField("uzawa") else "step"
+        self.accuracy = spec.accuracy if spec.HasField("accuracy") else None
         self.stages: dict[str, str] = {}
         self.ended, self.now = 0, "submitted"
 
@@ -36,10 +37,11 @@ class State:
             self.ended += 1
             lines += self._load_ended(load.answer)
         if event == "snapshot":
-            self.total = message.snapshot.job.sweep_answer.rows or self.total
-            lines += [line for stage in message.snapshot.job.stages for line in self._stage_ended(stage)]
+            status = message.snapshot.job.status
+            self.total = status.sweep_answer.rows or self.total
+            lines += [line for stage in status.stages for line in self._stage_ended(stage)]
         elif event == "phase":
-            state = _word(solve_pb2.Job.State.Name(message.phase.state))
+            state = _word(solve_pb2.JobStatus.State.Name(message.phase.state))
             self.now = f"{state} ({message.phase.detail})" if message.phase.detail else state
             lines.append(self.now)
         elif event == "samples" and message.samples.iteration:
@@ -54,8 +56,8 @@ class State:
             self.ended = 0  # the next one solves them again
             lines += self._stage_ended(message.stage_ended)
         elif event == "ended":
-            self.now = _word(solve_pb2.Job.State.Name(message.ended.state))
-            self.ended = message.ended.load_cases_ended or self.ended
+            self.now = _word(solve_pb2.JobStatus.State.Name(message.ended.status.state))
+            self.ended = message.ended.status.load_cases_ended or self.ended
             lines.append(self.now)
         return lines
 

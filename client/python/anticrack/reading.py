@@ -92,11 +92,11 @@ class Question:
 
 
 class ReadCase:
-    """The answer: `mesh` and `job` are the requests, `text` is the case in TOML."""
+    """The answer: `mesh` and `spec` are what is asked for, `text` is the case in TOML."""
 
     def __init__(self, question: Question, answer: case_pb2.ReadCaseResponse) -> None:
         self._case, self._memory, self._answer = question.case, question.memory, answer
-        self.mesh, self.job, self.places = answer.mesh, answer.job, answer.places
+        self.mesh, self.spec, self.places = answer.mesh, answer.spec, answer.places
         self.text = answer.toml or question.case.text
 
     def msh(self) -> bytes | None:
@@ -134,16 +134,16 @@ class ReadCase:
                 values = found[()]
         except (OSError, KeyError) as problem:
             raise error("file", f"{path}: {problem}") from None
-        of = "triangles" if self.job.load_cases[array.load_case].force.array.per_triangle else "nodes"
+        of = "triangles" if self.spec.load_cases[array.load_case].force.array.per_triangle else "nodes"
         return array_of(values, (of,), lambda problem: error("dataset", problem))
 
     def leave_out_accuracy(self) -> None:
         """Of a sweep, and the coarse mesh that only it would begin on."""
-        if self.job.HasField("accuracy"):
+        if self.spec.HasField("accuracy"):
             warnings.warn("[accuracy] is not used: a sweep has one mesh, of mesh.size; bounds=True tells how far each "
                           "row is from the membrane. For closer bounds take a smaller mesh.size, or make few rows "
                           "loads of a case")
-            self.job.ClearField("accuracy")
+            self.spec.ClearField("accuracy")
             if "options.preset" not in self.places:
                 self.mesh.options.preset = mesh_pb2.MESH_PRESET_GRADED
 
@@ -165,16 +165,16 @@ def _written(place: case_pb2.CasePlace | None) -> str:
 
 def _nearest(places: Places, field: str) -> case_pb2.CasePlace | None:
     """Where the value of a field, or what is nearest around it, was written."""
-    field = field.removeprefix("job.").removeprefix("mesh.")
+    field = field.removeprefix("spec.").removeprefix("mesh.")
     while field and field not in places:
         field = field[:max(field.rfind("."), field.rfind("["), 0)]
     return places[field] if field else None
 
 
-def places_of(job: solve_pb2.Job) -> Places:
+def places_of(spec: solve_pb2.JobSpec) -> Places:
     """As far as a job tells them without its case."""
     return {f"load_cases[{i}]{field}": case_pb2.CasePlace(key=f"load.{load.name}{key}")
-            for i, load in enumerate(job.load_cases) for field, key in (("", ""), (".force", ".f"))}
+            for i, load in enumerate(spec.load_cases) for field, key in (("", ""), (".force", ".f"))}
 
 
 def in_terms_of(places: Places, error: ServerError) -> ServerError:

@@ -384,19 +384,21 @@ class Result:
                      subdomain_names=[subdomain.name for subdomain in mesh.subdomains],
                      tension=np.array([subdomain.tension or 1.0 for subdomain in mesh.subdomains]),
                      inclusions=list(mesh.inclusions), tension_law=_laws(mesh))
-        result = cls(job.title, job.name, mesh.name, shape, interfaces, Named("load"), None, job.not_reached, case,
+        spec, status = job.spec, job.status
+        result = cls(spec.title, job.name, mesh.name, shape, interfaces, Named("load"), None, status.not_reached, case,
                      server_version, mesh.sha256, mesh.mesh_seconds, mesh.factorize_seconds,
-                     units=Units(job.units.length, job.units.force),
-                     traction=any(load.traction for load in job.load_cases))
-        if job.HasField("sweep"):
-            result.solve_seconds = entries.values_of(job.sweep_answer)["solve_seconds"]
-            traces = {int(row): _traces(arrays, f"traces/{row}", len(interfaces)) for row in job.sweep.traces}
+                     units=Units(spec.units.length, spec.units.force),
+                     traction=any(load.traction for load in spec.load_cases))
+        if spec.HasField("sweep"):
+            result.solve_seconds = entries.values_of(status.sweep_answer)["solve_seconds"]
+            traces = {int(row): _traces(arrays, f"traces/{row}", len(interfaces)) for row in spec.sweep.traces}
             kept = [row for row, found in traces.items() if found]  # the others did not end
-            result.sweep = _sweep([load.name for load in job.load_cases], shape.inclusions, _below(arrays, "sweep/"),
-                                  kept, job.error.message, result.solve_seconds)
+            result.sweep = _sweep([load.name for load in spec.load_cases], shape.inclusions, _below(arrays, "sweep/"),
+                                  kept, status.error.message, result.solve_seconds)
             result.loads.update((f"row-{row}", _row(result.sweep, row, traces[row], interfaces)) for row in kept)
         else:
-            result.loads.update((answer.name, _load_of(job, i, arrays, result)) for i, answer in enumerate(job.answers))
+            result.loads.update((answer.name, _load_of(job, i, arrays, result))
+                                for i, answer in enumerate(status.answers))
             result.solve_seconds = sum(load.solve_seconds for load in result.loads.values())
         return _told(result)
 
@@ -470,7 +472,7 @@ def runs(values: Array) -> list[tuple[int, int]]:
 
 def _load_of(job: solve_pb2.Job, index: int, arrays: Mapping[str, Array], result: Result) -> Load:
     """With what was asked of the method, with the defaults of the API."""
-    answer, solver = job.answers[index], job.solver
+    answer, solver = job.status.answers[index], job.spec.solver
 
     def given(message: Any, name: str, default: float) -> float:
         return float(getattr(message, name)) if message.HasField(name) else default
@@ -499,7 +501,7 @@ def _load_of(job: solve_pb2.Job, index: int, arrays: Mapping[str, Array], result
     load.fields += [Field(name, arrays[f"fields/{k}/nodes"], arrays[f"fields/{k}/triangles"],
                           arrays[f"{prefix}fields/{k}"])
                     for k, name in enumerate(result.mesh.subdomain_names) if f"{prefix}fields/{k}" in arrays]
-    stages = [stage for stage in job.stages if index < len(stage.answers)]
+    stages = [stage for stage in job.status.stages if index < len(stage.answers)]
     if stages:
         rows = [entries.values_of(stage) | entries.values_of(stage.answers[index]) for stage in stages]
         load.stages = {name: np.array([row[name] for row in rows]) for name in rows[0]}

@@ -29,8 +29,8 @@ LOG = logging.getLogger("anticrack")
 CHUNK = 1 << 20
 FILES_A_STREAM = 500  # the server takes 1000
 TRIES_OF_DAMAGED_DATA = 3
-ENDED = (solve_pb2.Job.STATE_SUCCEEDED, solve_pb2.Job.STATE_NOT_CONVERGED, solve_pb2.Job.STATE_FAILED,
-         solve_pb2.Job.STATE_CANCELLED)
+ENDED = (solve_pb2.JobStatus.STATE_SUCCEEDED, solve_pb2.JobStatus.STATE_NOT_CONVERGED,
+         solve_pb2.JobStatus.STATE_FAILED, solve_pb2.JobStatus.STATE_CANCELLED)
 
 
 class Session:
@@ -166,20 +166,20 @@ class Session:
     async def submit(self, case: Case | str | os.PathLike[str], coefficients: Any = None, nodal_forces: Any = None,
                      traces: Sequence[int] = (), bounds: bool = False) -> tuple[solve_pb2.Job, ReadCase]:
         read = await self.read(case, nodal_forces is not None)
-        job, arrays = read.job, read.arrays()
+        spec, arrays = read.spec, read.arrays()
         if coefficients is not None or nodal_forces is not None:
             read.leave_out_accuracy()
         with _in_terms_of(read):
             names = await self.upload([values.tobytes() for _, values in arrays], upload_pb2.Upload.KIND_ARRAY)
             for (index, _), name in zip(arrays, names):
-                job.load_cases[index].force.array.upload = name
-            matrix = sweep_of(job, coefficients, nodal_forces, traces, bounds)
+                spec.load_cases[index].force.array.upload = name
+            matrix = sweep_of(spec, coefficients, nodal_forces, traces, bounds)
             if matrix is not None:
-                target = job.sweep.coefficients if coefficients is not None else job.sweep.nodal_forces
+                target = spec.sweep.coefficients if coefficients is not None else spec.sweep.nodal_forces
                 target.upload = (await self.upload([matrix], upload_pb2.Upload.KIND_ARRAY))[0]
             read.mesh.for_job = True
-            job.mesh = (await self._create_mesh(read)).name
-            request = solve_pb2.CreateJobRequest(job=job, request_id=str(uuid.uuid4()))
+            spec.mesh = (await self._create_mesh(read)).name
+            request = solve_pb2.CreateJobRequest(spec=spec, request_id=str(uuid.uuid4()))
             created = await self.call(self.transport.jobs.CreateJob, request)
         read.warn()
         return created, read
@@ -226,8 +226,8 @@ class Session:
     async def result(self, name: str, case_text: str = "") -> Result:
         """Of an ended job."""
         job = await self.job(name)
-        stages = [stage.mesh for stage in job.stages if stage.answers]
-        mesh = await self.mesh(stages[-1] if stages else job.mesh)
+        stages = [stage.mesh for stage in job.status.stages if stage.answers]
+        mesh = await self.mesh(stages[-1] if stages else job.spec.mesh)
         arrays = await self.block(self.transport.jobs.ReadResult, solve_pb2.ReadResultRequest, name)
         mesh_arrays, info = await self.mesh_arrays(mesh.name), await self.info()
         return Result.of_job(job, mesh, mesh_arrays, arrays, case_text, info.version)

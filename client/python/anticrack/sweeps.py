@@ -12,7 +12,7 @@ from .text import shown
 from .v1 import solve_pb2
 
 
-def sweep_of(job: solve_pb2.Job, coefficients: Any, nodal_forces: Any, traces: Sequence[int],
+def sweep_of(spec: solve_pb2.JobSpec, coefficients: Any, nodal_forces: Any, traces: Sequence[int],
              bounds: bool) -> bytes | None:
     """Makes a job a sweep; the matrix to upload, none where neither is given.
 
@@ -31,14 +31,14 @@ def sweep_of(job: solve_pb2.Job, coefficients: Any, nodal_forces: Any, traces: S
                             + ("nodes)" if key == "nodal_forces" else
                                "loads) or a DataFrame, of a CSV file pandas.read_csv(...)"))
     if coefficients is not None:
-        matrix = coefficients_of(coefficients, [load.name for load in job.load_cases])
+        matrix = coefficients_of(coefficients, [load.name for load in spec.load_cases])
     else:
         matrix = array_of(nodal_forces, ("rows", "nodes"), lambda problem: CaseError(f"nodal_forces: {problem}"),
                           in_order=True)
-        del job.load_cases[:]
-    del job.outputs[:]
-    job.sweep.bounds = bounds
-    job.sweep.traces.extend(_kept(traces, len(matrix)))
+        del spec.load_cases[:]
+    del spec.outputs[:]
+    spec.sweep.bounds = bounds
+    spec.sweep.traces.extend(_kept(traces, len(matrix)))
     return matrix.tobytes()
 
 

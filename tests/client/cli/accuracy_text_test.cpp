@@ -82,25 +82,25 @@ TEST(StageLines, AreFullWhereAllThatIsAskedForIsReached) {
 TEST(AccuracyText, TellsWhatWasReachedAndWhatNot) {
   v1::Job job;
   EXPECT_EQ(accuracy_text(job), "");
-  *job.mutable_accuracy() = asked(1e-3);
+  *job.mutable_spec()->mutable_accuracy() = asked(1e-3);
   EXPECT_EQ(accuracy_text(job), "");
-  *job.add_stages() = stage(1, 900, 0.02);
-  *job.add_stages() = stage(2, 12345, 0.0009);
-  job.add_stages()->set_mesh("meshes/3");  // was stopped
+  *job.mutable_status()->add_stages() = stage(1, 900, 0.02);
+  *job.mutable_status()->add_stages() = stage(2, 12345, 0.0009);
+  job.mutable_status()->add_stages()->set_mesh("meshes/3");  // was stopped
   EXPECT_EQ(accuracy_text(job),
             "accuracy: energy 0.09 % (asked 0.1 %), A 0.9 %; 2 stages, 12345 triangles, 0.5 s\n");
-  for (int i = 0; i < 2; ++i) job.mutable_answers()->Add()->add_inclusions();
+  for (int i = 0; i < 2; ++i) job.mutable_status()->mutable_answers()->Add()->add_inclusions();
   EXPECT_THAT(accuracy_text(job), HasSubstr(", A 0.9 %; ")) << "one inclusion, two load cases";
-  job.mutable_answers(1)->add_inclusions();
+  job.mutable_status()->mutable_answers(1)->add_inclusions();
   EXPECT_THAT(accuracy_text(job), HasSubstr(", A 0.9 % of the largest A; "));
-  job.mutable_accuracy()->set_displacement(0.01);
-  job.mutable_accuracy()->set_each_inclusion(true);
+  job.mutable_spec()->mutable_accuracy()->set_displacement(0.01);
+  job.mutable_spec()->mutable_accuracy()->set_each_inclusion(true);
   EXPECT_THAT(accuracy_text(job), HasSubstr(", A 0.9 % of each A (asked 1 %); "));
-  job.clear_answers();
-  *job.mutable_accuracy() = asked(1e-3);
-  job.mutable_stages()->DeleteSubrange(1, 2);
-  job.mutable_stages(0)->mutable_answers(0)->clear_displacement_error();
-  job.set_not_reached("no\x1bmore");
+  job.mutable_status()->clear_answers();
+  *job.mutable_spec()->mutable_accuracy() = asked(1e-3);
+  job.mutable_status()->mutable_stages()->DeleteSubrange(1, 2);
+  job.mutable_status()->mutable_stages(0)->mutable_answers(0)->clear_displacement_error();
+  job.mutable_status()->set_not_reached("no\x1bmore");
   EXPECT_EQ(accuracy_text(job),
             "accuracy: energy 2 % (asked 0.1 %); 1 stage, 900 triangles, 0.25 s\n"
             "not reached: no?more\n");

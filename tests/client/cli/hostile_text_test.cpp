@@ -60,14 +60,15 @@ void expect_harmless(const std::string& text) {
 
 TEST(HostileText, OfAJobIsHarmless) {
   v1::Job job = filled<v1::Job>();
-  job.clear_sweep();
-  for (const v1::Job::State state : {v1::Job::STATE_SUCCEEDED, v1::Job::STATE_FAILED}) {
-    job.set_state(state);
-    for (v1::LoadCaseAnswer& answer : *job.mutable_answers())
+  job.mutable_spec()->clear_sweep();
+  for (const v1::JobStatus::State state :
+       {v1::JobStatus::STATE_SUCCEEDED, v1::JobStatus::STATE_FAILED}) {
+    job.mutable_status()->set_state(state);
+    for (v1::LoadCaseAnswer& answer : *job.mutable_status()->mutable_answers())
       answer.set_status(v1::LoadCaseAnswer::STATUS_CONVERGED);
     expect_harmless(job_text(job));
   }
-  job.mutable_sweep();
+  job.mutable_spec()->mutable_sweep();
   expect_harmless(job_text(job));
   expect_harmless(expired_text(job));
 }

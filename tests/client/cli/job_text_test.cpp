@@ -18,15 +18,15 @@ using ::testing::Not;
 v1::Job sample_job() {
   v1::Job job;
   job.set_name("jobs/1");
-  job.set_mesh("meshes/2");
-  job.set_state(v1::Job::STATE_SUCCEEDED);
-  job.mutable_create_time()->set_seconds(1'000);
+  job.mutable_spec()->set_mesh("meshes/2");
+  job.mutable_status()->set_state(v1::JobStatus::STATE_SUCCEEDED);
+  job.mutable_status()->mutable_create_time()->set_seconds(1'000);
   return job;
 }
 
-void add_step(v1::Job& job, std::int64_t seconds, v1::Job::State state, const std::string& detail,
-              int attempt = 1) {
-  v1::Job::Step& step = *job.add_timeline();
+void add_step(v1::Job& job, std::int64_t seconds, v1::JobStatus::State state,
+              const std::string& detail, int attempt = 1) {
+  v1::JobStatus::Step& step = *job.mutable_status()->add_timeline();
   step.mutable_time()->set_seconds(seconds);
   step.set_state(state);
   step.set_detail(detail);
@@ -37,8 +37,8 @@ TEST(JobText, TellsWhoseJobItIsAndHowUrgent) {
   v1::Job job = sample_job();
   EXPECT_THAT(job_text(job), HasSubstr("priority normal\n"));
   job.set_owner("ada\x1b[2J");
-  job.set_priority(v1::Job::PRIORITY_BULK);
-  job.mutable_run_timeout()->set_seconds(90);
+  job.mutable_spec()->set_priority(v1::JobSpec::PRIORITY_BULK);
+  job.mutable_spec()->mutable_run_timeout()->set_seconds(90);
   EXPECT_THAT(job_text(job), HasSubstr("priority bulk, of ada?[2J, runs at most 90 s"));
 }
 
@@ -46,34 +46,34 @@ TEST(Shortfalls, AreNoneOfAJobThatSucceeded) { EXPECT_TRUE(shortfalls(sample_job
 
 TEST(Shortfalls, NameWhatFailedOrDidNotConverge) {
   v1::Job job = sample_job();
-  job.set_state(v1::Job::STATE_NOT_CONVERGED);
-  job.set_not_reached("energy");
-  v1::LoadCaseAnswer& slow = *job.add_answers();
+  job.mutable_status()->set_state(v1::JobStatus::STATE_NOT_CONVERGED);
+  job.mutable_status()->set_not_reached("energy");
+  v1::LoadCaseAnswer& slow = *job.mutable_status()->add_answers();
   slow.set_name("slow");
   slow.set_status(v1::LoadCaseAnswer::STATUS_NOT_CONVERGED);
   slow.set_reason("3 iterations");
-  v1::LoadCaseAnswer& bad = *job.add_answers();
+  v1::LoadCaseAnswer& bad = *job.mutable_status()->add_answers();
   bad.set_name("bad");
   bad.set_status(v1::LoadCaseAnswer::STATUS_FAILED);
   bad.mutable_error()->set_message("f is infinite");
   EXPECT_THAT(shortfalls(job), ElementsAre("slow did not converge: 3 iterations",
                                            "bad failed: f is infinite", "not reached: energy"));
-  job.set_state(v1::Job::STATE_CANCELLED);
+  job.mutable_status()->set_state(v1::JobStatus::STATE_CANCELLED);
   EXPECT_THAT(shortfalls(job), ElementsAre("jobs/1 was cancelled"));
 }
 
 TEST(Shortfalls, CountTheRowsOfASweep) {
   v1::Job job = sample_job();
-  job.mutable_sweep_answer()->set_rows(9);
+  job.mutable_status()->mutable_sweep_answer()->set_rows(9);
   EXPECT_TRUE(shortfalls(job).empty());
-  job.mutable_sweep_answer()->set_not_converged(2);
+  job.mutable_status()->mutable_sweep_answer()->set_not_converged(2);
   EXPECT_THAT(shortfalls(job), ElementsAre("of 9 rows 2 did not converge, 0 failed"));
 }
 
 TEST(JobText, GivesAOfEveryInclusion) {
   v1::Job job = sample_job();
-  job.add_load_cases()->set_name("opening");
-  v1::LoadCaseAnswer& answer = *job.add_answers();
+  job.mutable_spec()->add_load_cases()->set_name("opening");
+  v1::LoadCaseAnswer& answer = *job.mutable_status()->add_answers();
   answer.set_name("opening");
   answer.set_status(v1::LoadCaseAnswer::STATUS_CONVERGED);
   v1::InclusionAnswer& fibre = *answer.add_inclusions();
@@ -87,9 +87,9 @@ TEST(JobText, GivesAOfEveryInclusion) {
 
 TEST(JobText, CountsTheRowsOfASweepInPlaceOfAnswers) {
   v1::Job job = sample_job();
-  job.add_load_cases()->set_name("skew");
-  job.mutable_sweep()->mutable_coefficients()->set_upload("uploads/1");
-  v1::SweepAnswer& answer = *job.mutable_sweep_answer();
+  job.mutable_spec()->add_load_cases()->set_name("skew");
+  job.mutable_spec()->mutable_sweep()->mutable_coefficients()->set_upload("uploads/1");
+  v1::SweepAnswer& answer = *job.mutable_status()->mutable_sweep_answer();
   answer.set_rows(100);
   EXPECT_THAT(job_text(job),
               HasSubstr("sweep of 100 rows: 0 converged, 0 did not converge, 0 failed\n"));
@@ -108,43 +108,43 @@ TEST(JobText, CountsTheRowsOfASweepInPlaceOfAnswers) {
 
 TEST(JobText, TellsWhatHappenedWhen) {
   v1::Job job = sample_job();
-  add_step(job, 1'000, v1::Job::STATE_QUEUED, "");
-  add_step(job, 1'003, v1::Job::STATE_WAITING_FOR_MESH, "meshing");
+  add_step(job, 1'000, v1::JobStatus::STATE_QUEUED, "");
+  add_step(job, 1'003, v1::JobStatus::STATE_WAITING_FOR_MESH, "meshing");
   EXPECT_THAT(job_text(job), HasSubstr("created " + clock_text(1'000) + "\n"));
   EXPECT_THAT(job_text(job), HasSubstr("\n3        waiting for the mesh (meshing)\n"));
   EXPECT_THAT(job_text(job), Not(HasSubstr("attempt")));
-  job.set_attempt(2);
-  add_step(job, 1'010, v1::Job::STATE_RUNNING, "", 2);
+  job.mutable_status()->set_attempt(2);
+  add_step(job, 1'010, v1::JobStatus::STATE_RUNNING, "", 2);
   EXPECT_THAT(job_text(job), HasSubstr("attempt 2: the server stopped while it ran"));
   EXPECT_THAT(job_text(job), HasSubstr("\n10       running, attempt 2\n"));
 }
 
 TEST(JobText, OfExpiredResultsGivesTheCure) {
   v1::Job job = sample_job();
-  job.set_result_state(v1::Job::RESULT_STATE_EXPIRED);
+  job.mutable_status()->set_result_state(v1::JobStatus::RESULT_STATE_EXPIRED);
   EXPECT_THAT(job_text(job), HasSubstr(": done\n")) << "what happened is not forgotten";
   EXPECT_THAT(job_text(job), HasSubstr("run the case again"));
 }
 
 TEST(JobText, SaysThatNotEveryLoadCaseConverged) {
   v1::Job job = sample_job();
-  job.set_state(v1::Job::STATE_NOT_CONVERGED);
+  job.mutable_status()->set_state(v1::JobStatus::STATE_NOT_CONVERGED);
   EXPECT_THAT(job_text(job), HasSubstr(": not converged\n"));
 }
 
 TEST(ExitCode, IsThatOfTheEnd) {
   v1::Job job;
-  job.set_state(v1::Job::STATE_SUCCEEDED);
+  job.mutable_status()->set_state(v1::JobStatus::STATE_SUCCEEDED);
   EXPECT_EQ(exit_code_of(job), exit_ok);
-  job.set_result_state(v1::Job::RESULT_STATE_EXPIRED);
+  job.mutable_status()->set_result_state(v1::JobStatus::RESULT_STATE_EXPIRED);
   EXPECT_EQ(exit_code_of(job), exit_ok)
       << "the answers are right whether or not the arrays are left";
-  job.set_state(v1::Job::STATE_NOT_CONVERGED);
+  job.mutable_status()->set_state(v1::JobStatus::STATE_NOT_CONVERGED);
   EXPECT_EQ(exit_code_of(job), exit_not_converged);
-  job.mutable_error()->set_message("a load case failed");
+  job.mutable_status()->mutable_error()->set_message("a load case failed");
   EXPECT_EQ(exit_code_of(job), exit_job_failed);
-  for (const auto state : {v1::Job::STATE_FAILED, v1::Job::STATE_CANCELLED}) {
-    job.set_state(state);
+  for (const auto state : {v1::JobStatus::STATE_FAILED, v1::JobStatus::STATE_CANCELLED}) {
+    job.mutable_status()->set_state(state);
     EXPECT_EQ(exit_code_of(job), exit_job_failed);
   }
 }

@@ -35,10 +35,10 @@ TEST(ToJson, ShowsTheDetailsOfErrors) {
   v1::Job job;
   v1::ErrorInfo info;
   info.set_reason("EXPRESSION_INVALID");
-  google::protobuf::Any& known = *job.mutable_error()->add_details();
+  google::protobuf::Any& known = *job.mutable_status()->mutable_error()->add_details();
   known.set_type_url("type.googleapis.com/google.rpc.ErrorInfo");
   known.set_value(info.SerializeAsString());
-  google::protobuf::Any& unknown = *job.mutable_error()->add_details();
+  google::protobuf::Any& unknown = *job.mutable_status()->mutable_error()->add_details();
   unknown.set_type_url("type.googleapis.com/google.rpc.FromTheFuture");
   unknown.set_value(info.SerializeAsString());
   const std::string text = to_json(job);
@@ -49,8 +49,8 @@ TEST(ToJson, ShowsTheDetailsOfErrors) {
 TEST(ToJson, KeepsTheProtosFieldNamesAndZeros) {
   v1::Job job;
   job.set_name("jobs/1");
-  job.set_state(v1::Job::STATE_RUNNING);
-  job.add_load_cases()->set_name("one");
+  job.mutable_status()->set_state(v1::JobStatus::STATE_RUNNING);
+  job.mutable_spec()->add_load_cases()->set_name("one");
   const std::string text = to_json(job);
   EXPECT_THAT(text, ::testing::HasSubstr("\"load_cases\""));
   EXPECT_THAT(text, ::testing::HasSubstr("\"result_bytes\": \"0\""));

@@ -100,10 +100,10 @@ TEST(Frame, TellsTheExactTimeOnceItIsOver) {
   JobProgress progress;
   v1::WatchJobResponse event = snapshot(1);
   v1::Job& job = *event.mutable_snapshot()->mutable_job();
-  job.set_state(v1::Job::STATE_SUCCEEDED);
-  job.mutable_create_time()->set_seconds(100);
-  job.mutable_end_time()->set_seconds(102);
-  job.mutable_end_time()->set_nanos(250'000'000);
+  job.mutable_status()->set_state(v1::JobStatus::STATE_SUCCEEDED);
+  job.mutable_status()->mutable_create_time()->set_seconds(100);
+  job.mutable_status()->mutable_end_time()->set_seconds(102);
+  job.mutable_status()->mutable_end_time()->set_nanos(250'000'000);
   progress.apply(event);
   EXPECT_EQ(frame(progress, 80, 24)[0], "jobs/1: done, 2.2 s");
 }
@@ -143,7 +143,7 @@ TEST(Frame, BeforeTheFirstEventIsOneLine) {
 
 JobProgress active_set() {
   v1::WatchJobResponse event = snapshot(2);
-  event.mutable_snapshot()->mutable_job()->mutable_solver()->mutable_active_set();
+  event.mutable_snapshot()->mutable_job()->mutable_spec()->mutable_solver()->mutable_active_set();
   JobProgress progress;
   progress.apply(event);
   return progress;

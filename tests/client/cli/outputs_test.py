@@ -198,7 +198,7 @@ class Outputs(unittest.TestCase):
             job = self.run_in_folder(f"{server} --quiet job submit long.toml").stdout.strip()
             ended = self.shell(f"$A {server} job watch {job} | head -1; echo ${{PIPESTATUS[0]}}")
             self.assertRegex(ended.stdout, f"^{job}: .*\n141\n$")
-            state = json.loads(self.run_in_folder(f"{server} --json job cancel {job}").stdout)["state"]
+            state = json.loads(self.run_in_folder(f"{server} --json job cancel {job}").stdout)["status"]["state"]
             self.assertNotIn(state, ("STATE_SUCCEEDED", "STATE_NOT_CONVERGED", "STATE_FAILED"), "it had ended before")
 
     def test_a_full_disk_is_one_line_and_leaves_nothing_cut_off(self):

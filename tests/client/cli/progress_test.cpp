@@ -47,20 +47,21 @@ TEST(JobProgress, IsNotSetBackByOldEvents) {
 TEST(JobProgress, OfAJobThatHasEndedIsNotRunningAgain) {
   JobProgress progress;
   v1::WatchJobResponse late = snapshot(1);
-  late.mutable_snapshot()->mutable_job()->set_state(v1::Job::STATE_SUCCEEDED);
+  late.mutable_snapshot()->mutable_job()->mutable_status()->set_state(
+      v1::JobStatus::STATE_SUCCEEDED);
   progress.apply(late);
   v1::WatchJobResponse phase;
-  phase.mutable_phase()->set_state(v1::Job::STATE_RUNNING);
+  phase.mutable_phase()->set_state(v1::JobStatus::STATE_RUNNING);
   phase.mutable_phase()->set_detail("writing the result");
   progress.apply(phase);
-  EXPECT_EQ(progress.state, v1::Job::STATE_SUCCEEDED);
+  EXPECT_EQ(progress.state, v1::JobStatus::STATE_SUCCEEDED);
   EXPECT_EQ(progress.detail, "");
 }
 
 TEST(JobProgress, BeginsAnewWithAnotherAttempt) {
   JobProgress progress;
   v1::WatchJobResponse first = snapshot(2);
-  first.mutable_snapshot()->mutable_job()->set_attempt(1);
+  first.mutable_snapshot()->mutable_job()->mutable_status()->set_attempt(1);
   progress.apply(first);
   progress.apply(sample(0, 7, 1e-3, 12));
   progress.apply(load_ended(1, 9, 1e-13));
@@ -68,7 +69,7 @@ TEST(JobProgress, BeginsAnewWithAnotherAttempt) {
   EXPECT_EQ(progress.cases[0].iteration, 7) << "the same attempt, watched again";
 
   v1::WatchJobResponse second = snapshot(2);
-  second.mutable_snapshot()->mutable_job()->set_attempt(2);
+  second.mutable_snapshot()->mutable_job()->mutable_status()->set_attempt(2);
   progress.apply(second);
   EXPECT_EQ(progress.ended_count, 0U);
   progress.apply(sample(0, 1, 0.5, 1));
@@ -78,10 +79,10 @@ TEST(JobProgress, BeginsAnewWithAnotherAttempt) {
 TEST(JobProgress, TellsThePhaseUntilTheStateChanges) {
   JobProgress progress;
   v1::WatchJobResponse phase;
-  phase.mutable_phase()->set_state(v1::Job::STATE_WAITING_FOR_MESH);
+  phase.mutable_phase()->set_state(v1::JobStatus::STATE_WAITING_FOR_MESH);
   phase.mutable_phase()->set_detail("meshing\x1b[2J");
   progress.apply(phase);
-  EXPECT_EQ(progress.state, v1::Job::STATE_WAITING_FOR_MESH);
+  EXPECT_EQ(progress.state, v1::JobStatus::STATE_WAITING_FOR_MESH);
   EXPECT_EQ(progress.detail, "meshing?[2J");
   progress.apply(snapshot(1));
   EXPECT_EQ(progress.detail, "");
@@ -140,9 +141,9 @@ std::vector<v1::WatchJobResponse> three_stages() {
 TEST(JobProgress, OfStagesIsTheSameForWhoComesLate) {
   v1::WatchJobResponse late = staged_snapshot(1);
   v1::Job& job = *late.mutable_snapshot()->mutable_job();
-  *job.add_stages() = stage(1, 900, 0.1);
-  *job.add_stages() = stage(2, 5000, 0.01);
-  job.add_stages()->set_mesh("meshes/3");
+  *job.mutable_status()->add_stages() = stage(1, 900, 0.1);
+  *job.mutable_status()->add_stages() = stage(2, 5000, 0.01);
+  job.mutable_status()->add_stages()->set_mesh("meshes/3");
   const auto events = three_stages();
   // From the earliest event, from one in the middle of a log that was trimmed, and from the last.
   for (std::size_t first = 0; first <= events.size(); ++first) {
@@ -169,8 +170,8 @@ TEST(JobProgress, OfStagesIsTheSameForWhoComesLate) {
 TEST(JobProgress, BetweenStagesKeepsTheAnswersUntilTheNextBegins) {
   v1::WatchJobResponse between = staged_snapshot(1);
   v1::Job& job = *between.mutable_snapshot()->mutable_job();
-  *job.add_stages() = stage(1, 900, 0.1);
-  *job.mutable_answers(0) = load_ended(0, 4, 0).load_cases_ended(0).answer();
+  *job.mutable_status()->add_stages() = stage(1, 900, 0.1);
+  *job.mutable_status()->mutable_answers(0) = load_ended(0, 4, 0).load_cases_ended(0).answer();
   JobProgress progress;
   progress.apply(between);
   EXPECT_EQ(progress.cases[0].status, results::Status::converged);
@@ -185,10 +186,10 @@ TEST(JobProgress, AfterARestartOfTheServerGoesOnInTheStageItHadReached) {
   progress.apply(load_ended(0, 3, 0));
   v1::WatchJobResponse again = staged_snapshot(1);
   v1::Job& job = *again.mutable_snapshot()->mutable_job();
-  job.set_attempt(2);
-  *job.add_stages() = stage(1, 900, 0.1);
-  *job.add_stages() = stage(2, 5000, 0.01);
-  job.add_stages()->set_mesh("meshes/3");
+  job.mutable_status()->set_attempt(2);
+  *job.mutable_status()->add_stages() = stage(1, 900, 0.1);
+  *job.mutable_status()->add_stages() = stage(2, 5000, 0.01);
+  job.mutable_status()->add_stages()->set_mesh("meshes/3");
   progress.apply(again);
   EXPECT_EQ(progress.stages.size(), 2U);
   EXPECT_EQ(progress.cases[0].status, results::Status::pending) << "it is solved again";
@@ -199,9 +200,9 @@ TEST(JobProgress, AfterARestartOfTheServerGoesOnInTheStageItHadReached) {
 
   v1::WatchJobResponse end;
   v1::Job& ended = *end.mutable_ended() = job;
-  *ended.mutable_stages(2) = stage(3, 20000, 0.001);
-  ended.set_state(v1::Job::STATE_SUCCEEDED);
-  *ended.mutable_answers(0) = load_ended(0, 3, 0).load_cases_ended(0).answer();
+  *ended.mutable_status()->mutable_stages(2) = stage(3, 20000, 0.001);
+  ended.mutable_status()->set_state(v1::JobStatus::STATE_SUCCEEDED);
+  *ended.mutable_status()->mutable_answers(0) = load_ended(0, 3, 0).load_cases_ended(0).answer();
   progress.apply(end);
   EXPECT_EQ(progress.stages.size(), 3U);
   EXPECT_EQ(progress.cases[0].status, results::Status::converged);

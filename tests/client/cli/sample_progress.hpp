@@ -11,10 +11,10 @@ inline v1::WatchJobResponse snapshot(int load_cases) {
   v1::WatchJobResponse event;
   v1::Job& job = *event.mutable_snapshot()->mutable_job();
   job.set_name("jobs/1");
-  job.set_state(v1::Job::STATE_RUNNING);
-  job.mutable_solver()->mutable_uzawa()->set_epsilon(1e-12);
+  job.mutable_status()->set_state(v1::JobStatus::STATE_RUNNING);
+  job.mutable_spec()->mutable_solver()->mutable_uzawa()->set_epsilon(1e-12);
   for (int i = 0; i < load_cases; ++i) {
-    job.add_load_cases()->set_name("load-" + std::to_string(i));
+    job.mutable_spec()->add_load_cases()->set_name("load-" + std::to_string(i));
   }
   return event;
 }

@@ -35,11 +35,11 @@ inline v1::WatchJobResponse stage_ended(const v1::Stage& stage) {
 inline v1::WatchJobResponse staged_snapshot(int load_cases) {
   v1::WatchJobResponse event = snapshot(load_cases);
   v1::Job& job = *event.mutable_snapshot()->mutable_job();
-  job.set_attempt(1);
-  job.mutable_solver()->mutable_active_set();
-  job.mutable_accuracy()->set_energy(1e-3);
+  job.mutable_status()->set_attempt(1);
+  job.mutable_spec()->mutable_solver()->mutable_active_set();
+  job.mutable_spec()->mutable_accuracy()->set_energy(1e-3);
   for (int i = 0; i < load_cases; ++i)
-    job.add_answers()->set_status(v1::LoadCaseAnswer::STATUS_PENDING);
+    job.mutable_status()->add_answers()->set_status(v1::LoadCaseAnswer::STATUS_PENDING);
   return event;
 }
 

@@ -20,10 +20,10 @@ using ::testing::HasSubstr;
 
 Case two_load_case() {
   Case the_case;
-  the_case.job.add_load_cases()->set_name("skew");
-  the_case.job.add_load_cases()->set_name("opening");
-  the_case.job.add_outputs(v1::OUTPUT_FIELDS);
-  the_case.job.mutable_solver()->mutable_active_set();
+  the_case.spec.add_load_cases()->set_name("skew");
+  the_case.spec.add_load_cases()->set_name("opening");
+  the_case.spec.add_outputs(v1::OUTPUT_FIELDS);
+  the_case.spec.mutable_solver()->mutable_active_set();
   return the_case;
 }
 
@@ -96,7 +96,7 @@ TEST(SweepInput, RefusesWhatCannotBeReadWithFileAndCure) {
 
 TEST(SweepInput, IsOfTheActiveSetOnly) {
   Case the_case = two_load_case();
-  the_case.job.mutable_solver()->mutable_uzawa();
+  the_case.spec.mutable_solver()->mutable_uzawa();
   the_case.places["solver.method"].set_where("plate.toml:7");
   the_case.places["solver.method"].set_key("solver.method");
   EXPECT_THAT(complaint_of([&] {
@@ -109,11 +109,11 @@ TEST(SweepInput, LeavesOutTheAccuracyAndItsCoarseMesh) {
   Case the_case = two_load_case();
   EXPECT_FALSE(leave_out_accuracy(the_case));
   for (const bool given : {false, true}) {
-    the_case.job.mutable_accuracy()->set_energy(1e-3);
+    the_case.spec.mutable_accuracy()->set_energy(1e-3);
     the_case.mesh.mutable_options()->set_preset(v1::MESH_PRESET_COARSE);
     if (given) the_case.places["options.preset"].set_where("plate.toml:7");
     EXPECT_TRUE(leave_out_accuracy(the_case));
-    EXPECT_FALSE(the_case.job.has_accuracy());
+    EXPECT_FALSE(the_case.spec.has_accuracy());
     EXPECT_EQ(the_case.mesh.options().preset(),
               given ? v1::MESH_PRESET_COARSE : v1::MESH_PRESET_GRADED);
   }
@@ -135,13 +135,13 @@ TEST(MakeSweep, LeavesAJobWithoutFieldsAndWithTheRowsToKeep) {
   input.traces = "7,1-2";
   input.bounds = true;
   make_sweep(input, limits(), the_case);
-  EXPECT_TRUE(the_case.job.sweep().bounds());
-  EXPECT_THAT(the_case.job.sweep().traces(), ElementsAre(1, 2, 7));
-  EXPECT_TRUE(the_case.job.sweep().has_coefficients());
-  EXPECT_TRUE(the_case.job.outputs().empty());
-  EXPECT_EQ(the_case.job.load_cases_size(), 2);
-  EXPECT_EQ(the_case.locate("job.sweep.coefficients.upload")->where(), "c.csv");
-  EXPECT_EQ(the_case.locate("job.sweep.traces[3]")->where(), "--traces 7,1-2");
+  EXPECT_TRUE(the_case.spec.sweep().bounds());
+  EXPECT_THAT(the_case.spec.sweep().traces(), ElementsAre(1, 2, 7));
+  EXPECT_TRUE(the_case.spec.sweep().has_coefficients());
+  EXPECT_TRUE(the_case.spec.outputs().empty());
+  EXPECT_EQ(the_case.spec.load_cases_size(), 2);
+  EXPECT_EQ(the_case.locate("spec.sweep.coefficients.upload")->where(), "c.csv");
+  EXPECT_EQ(the_case.locate("spec.sweep.traces[3]")->where(), "--traces 7,1-2");
 }
 
 TEST(MakeSweep, OfNodalForcesHasNoLoads) {
@@ -150,8 +150,8 @@ TEST(MakeSweep, OfNodalForcesHasNoLoads) {
   SweepInput input = rows_of_two(10);
   input.nodal = true;
   make_sweep(input, limits(), the_case);
-  EXPECT_TRUE(the_case.job.sweep().has_nodal_forces());
-  EXPECT_EQ(the_case.job.load_cases_size(), 0);
+  EXPECT_TRUE(the_case.spec.sweep().has_nodal_forces());
+  EXPECT_EQ(the_case.spec.load_cases_size(), 0);
   EXPECT_TRUE(the_case.force_files.empty());
 }
 

@@ -142,12 +142,12 @@ v1::WatchJobResponse sweep_snapshot(std::uint64_t total, std::int32_t attempt = 
   v1::WatchJobResponse event;
   v1::Job& job = *event.mutable_snapshot()->mutable_job();
   job.set_name("jobs/1");
-  job.set_state(v1::Job::STATE_RUNNING);
-  job.set_attempt(attempt);
-  job.add_load_cases()->set_name("skew");
-  job.add_load_cases()->set_name("opening");
-  job.mutable_sweep()->mutable_coefficients()->set_upload("uploads/1");
-  job.mutable_sweep_answer()->set_rows(total);
+  job.mutable_status()->set_state(v1::JobStatus::STATE_RUNNING);
+  job.mutable_status()->set_attempt(attempt);
+  job.mutable_spec()->add_load_cases()->set_name("skew");
+  job.mutable_spec()->add_load_cases()->set_name("opening");
+  job.mutable_spec()->mutable_sweep()->mutable_coefficients()->set_upload("uploads/1");
+  job.mutable_status()->mutable_sweep_answer()->set_rows(total);
   return event;
 }
 
@@ -195,7 +195,7 @@ TEST(SweepFrame, MeasuresTheRateFromWhenTheJobBegan) {
   JobProgress progress;
   progress.apply(sweep_snapshot(100), 0);
   v1::WatchJobResponse phase;
-  phase.mutable_phase()->set_state(v1::Job::STATE_RUNNING);
+  phase.mutable_phase()->set_state(v1::JobStatus::STATE_RUNNING);
   progress.apply(phase, 5);
   progress.apply(event_of(rows(0, 50)), 7);  // all of them at once
   EXPECT_THAT(frame(progress, 80, 24)[1], HasSubstr("25 rows/s  2 s left"));

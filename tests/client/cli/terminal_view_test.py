@@ -84,7 +84,7 @@ class TerminalView(FolderTest):
             self.assertTrue(terminal.echoes(), "the terminal is as it was")
 
     def cancel(self, terminal):
-        job, = (job["name"] for job in self.jobs() if job["state"] == "STATE_RUNNING")
+        job, = (job["name"] for job in self.jobs() if job["status"]["state"] == "STATE_RUNNING")
         self.client("job", "cancel", job)
         code = terminal.end()
         self.assertIn(b"cancelled", terminal.output)
@@ -118,7 +118,7 @@ class TerminalView(FolderTest):
             self.assertNotIn("Detaching", terminal.text())
             self.assertNotIn(b"^C", terminal.output)
         job, = self.jobs()
-        self.assertEqual(job["state"], "STATE_RUNNING")
+        self.assertEqual(job["status"]["state"], "STATE_RUNNING")
         self.assertIn(job["name"], command)
 
         path = os.path.dirname(ANTICRACK) + ":" + os.environ["PATH"]
@@ -137,7 +137,7 @@ class TerminalView(FolderTest):
                 terminal.wait(iteration)
                 code = self.interrupt_twice(terminal)
         self.assertEqual(code, 130)
-        self.assertEqual(self.client("job", "show", job["name"])["state"], "STATE_CANCELLED")
+        self.assertEqual(self.client("job", "show", job["name"])["status"]["state"], "STATE_CANCELLED")
 
     def interrupt_twice(self, terminal):
         terminal.type(CTRL_C)
@@ -167,7 +167,7 @@ class TerminalView(FolderTest):
             self.assertRegex(terminal.text(), r"jobs/\w+: not converged, attempt 2, ")
             self.assertNotIn("gone", terminal.text())
             self.assertTrue((self.folder / "out.h5").is_file())
-        self.assertEqual([job["attempt"] for job in self.jobs()], [2], "one job, run twice")
+        self.assertEqual([job["status"]["attempt"] for job in self.jobs()], [2], "one job, run twice")
 
     def test_a_line_per_stage_also_after_a_crash(self):
         with self.run_case((EXAMPLES / "accuracy.toml", "--set", "accuracy.energy=1e-4")) as terminal:

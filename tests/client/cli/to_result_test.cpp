@@ -72,10 +72,10 @@ Fetched fetched() {
   result.mesh.add_interfaces()->set_name("sigma");
   result.mesh.add_inclusions("fibre");
   result.job.set_name("jobs/1");
-  result.job.set_title("A plate");
-  result.job.add_load_cases()->set_name("one");
-  result.job.mutable_solver()->mutable_uzawa();
-  v1::LoadCaseAnswer& answer = *result.job.add_answers();
+  result.job.mutable_spec()->set_title("A plate");
+  result.job.mutable_spec()->add_load_cases()->set_name("one");
+  result.job.mutable_spec()->mutable_solver()->mutable_uzawa();
+  v1::LoadCaseAnswer& answer = *result.job.mutable_status()->add_answers();
   answer.set_status(v1::LoadCaseAnswer::STATUS_CONVERGED);
   answer.set_iterations(1);
   answer.set_criterion(0.5);
@@ -142,7 +142,7 @@ TEST(ToResult, KeepsWhatTheServerSaid) {
   EXPECT_EQ(load.asked.mass, "lumped");
   EXPECT_EQ(load.asked.epsilon, 1e-12);
   EXPECT_EQ(load.asked.p, 1e5);
-  v1::LoadCaseAnswer sent = fetched().job.answers(0);
+  v1::LoadCaseAnswer sent = fetched().job.status().answers(0);
   sent.set_name("one");
   EXPECT_EQ(load.answer.SerializeAsString(), sent.SerializeAsString());
   EXPECT_EQ(load.traces[0].u_plus, (Reals{0.5, 0.5}));
@@ -152,13 +152,13 @@ TEST(ToResult, KeepsWhatTheServerSaid) {
 
 TEST(ToResult, KeepsTheStagesThatEnded) {
   Fetched staged = fetched();
-  EXPECT_EQ(mesh_of(staged.job), staged.job.mesh());
-  *staged.job.add_stages() = stage(1, 900, 0.02, 2);
-  *staged.job.add_stages() = stage(2, 5000, 0.01);
-  staged.job.mutable_stages(1)->mutable_answers(0)->clear_energy_lower();
-  staged.job.mutable_stages(1)->mutable_answers(0)->clear_displacement_error();
-  staged.job.add_stages()->set_mesh("meshes/3");  // was stopped
-  staged.job.set_not_reached("too few triangles");
+  EXPECT_EQ(mesh_of(staged.job), staged.job.spec().mesh());
+  *staged.job.mutable_status()->add_stages() = stage(1, 900, 0.02, 2);
+  *staged.job.mutable_status()->add_stages() = stage(2, 5000, 0.01);
+  staged.job.mutable_status()->mutable_stages(1)->mutable_answers(0)->clear_energy_lower();
+  staged.job.mutable_status()->mutable_stages(1)->mutable_answers(0)->clear_displacement_error();
+  staged.job.mutable_status()->add_stages()->set_mesh("meshes/3");  // was stopped
+  staged.job.mutable_status()->set_not_reached("too few triangles");
   EXPECT_EQ(mesh_of(staged.job), "meshes/2");
   const results::Result result = to_result(staged);
   EXPECT_EQ(result.not_reached, "too few triangles");
@@ -172,7 +172,7 @@ TEST(ToResult, KeepsTheStagesThatEnded) {
 
 TEST(ToResult, KeepsTheParametersAskedFor) {
   Fetched asked = fetched();
-  v1::Uzawa& uzawa = *asked.job.mutable_solver()->mutable_uzawa();
+  v1::Uzawa& uzawa = *asked.job.mutable_spec()->mutable_solver()->mutable_uzawa();
   uzawa.set_epsilon(1e-8);
   uzawa.set_p(7);
   uzawa.set_mass(v1::MASS_CONSISTENT);
@@ -184,7 +184,7 @@ TEST(ToResult, KeepsTheParametersAskedFor) {
 
 TEST(ToResult, KeepsWhatTheActiveSetSays) {
   Fetched exact = fetched();
-  exact.job.clear_solver();
+  exact.job.mutable_spec()->clear_solver();
   const results::Load load = to_result(exact).loads[0];
   EXPECT_EQ(load.asked.method, "active-set");
   EXPECT_EQ(load.asked.tolerance, 1e-12);
@@ -193,7 +193,7 @@ TEST(ToResult, KeepsWhatTheActiveSetSays) {
 
 TEST(ToResult, HasNoEpsilonWhereKktResidualsStop) {
   Fetched asked = fetched();
-  asked.job.mutable_solver()->mutable_uzawa()->set_kkt_tolerance(1e-7);
+  asked.job.mutable_spec()->mutable_solver()->mutable_uzawa()->set_kkt_tolerance(1e-7);
   const results::Load load = to_result(asked).loads[0];
   EXPECT_TRUE(std::isnan(load.asked.epsilon));
   EXPECT_EQ(load.asked.kkt_tolerance, 1e-7);
@@ -201,8 +201,8 @@ TEST(ToResult, HasNoEpsilonWhereKktResidualsStop) {
 
 TEST(ToResult, KeepsALoadThatFailedWithoutArrays) {
   Fetched failed = fetched();
-  failed.job.add_load_cases()->set_name("two");
-  v1::LoadCaseAnswer& answer = *failed.job.add_answers();
+  failed.job.mutable_spec()->add_load_cases()->set_name("two");
+  v1::LoadCaseAnswer& answer = *failed.job.mutable_status()->add_answers();
   answer.set_status(v1::LoadCaseAnswer::STATUS_FAILED);
   answer.mutable_error()->set_message("not finite");
   const results::Result result = to_result(failed);
@@ -213,7 +213,7 @@ TEST(ToResult, KeepsALoadThatFailedWithoutArrays) {
 
 TEST(ToResult, RefusesContactOnAnUnknownInterface) {
   Fetched odd = fetched();
-  odd.job.mutable_answers(0)->mutable_contact_intervals(0)->set_interface("tau");
+  odd.job.mutable_status()->mutable_answers(0)->mutable_contact_intervals(0)->set_interface("tau");
   try {
     to_result(odd);
     FAIL();
@@ -232,15 +232,15 @@ TEST(ToResult, RefusesArraysOutsideTheirBlock) {
 Fetched fetched_sweep() {
   Fetched result = fetched();
   v1::Job& job = result.job;
-  job.clear_answers();
-  job.clear_solver();
-  job.add_load_cases()->set_name("two");
-  job.mutable_sweep()->mutable_coefficients()->set_upload("uploads/1");
-  job.mutable_sweep()->add_traces(1);
-  job.mutable_sweep()->add_traces(2);
-  job.mutable_sweep_answer()->set_rows(3);
-  job.mutable_sweep_answer()->mutable_solve_time()->set_seconds(2);
-  job.mutable_error()->set_message("row 1 is odd");
+  job.mutable_status()->clear_answers();
+  job.mutable_spec()->clear_solver();
+  job.mutable_spec()->add_load_cases()->set_name("two");
+  job.mutable_spec()->mutable_sweep()->mutable_coefficients()->set_upload("uploads/1");
+  job.mutable_spec()->mutable_sweep()->add_traces(1);
+  job.mutable_spec()->mutable_sweep()->add_traces(2);
+  job.mutable_status()->mutable_sweep_answer()->set_rows(3);
+  job.mutable_status()->mutable_sweep_answer()->mutable_solve_time()->set_seconds(2);
+  job.mutable_status()->mutable_error()->set_message("row 1 is odd");
   BlockMaker maker;
   maker.add("interfaces/0/s", Reals{0, 1}).add("interfaces/0/x", Reals{0, 1});
   maker.add("interfaces/0/y", Reals{0, 0}).add("interfaces/0/kind", Integers{2, 2});

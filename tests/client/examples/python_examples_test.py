@@ -63,8 +63,8 @@ class SubmitJob(FolderTest):
             job = re.match(r"(jobs/\S+) on meshes/", ended.stdout).group(1)
             self.assertRegex(ended.stderr, rf"(?m)^{job}: opening: converged after \d+ steps?$")
             stored = json.loads(run(ANTICRACK, "--json", "--server", f"127.0.0.1:{daemon.port}", "job", "show", job).stdout)
-        for answer in stored["answers"]:
+        for answer in stored["status"]["answers"]:
             moved = answer["inclusions"][0]["displacement"]
             self.assertIn(f"{answer['name']}: converged, energy {answer['energy']:.6g}, A of fibre = {moved:.6g}\n",
                           ended.stdout)
-        self.assertEqual(len(stored["answers"]), 2)
+        self.assertEqual(len(stored["status"]["answers"]), 2)

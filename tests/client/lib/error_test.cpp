@@ -24,7 +24,7 @@ v1::Status full_status() {
   add(status, "ErrorInfo", info);
   v1::BadRequest request;
   auto& violation = *request.add_field_violations();
-  violation.set_field("job.mesh");
+  violation.set_field("spec.mesh");
   violation.set_description("missing");
   add(status, "BadRequest", request);
   v1::RetryInfo retry;
@@ -39,7 +39,7 @@ void expect_full_details(const Error& error) {
   EXPECT_EQ(error.details().reason, "BUSY");
   EXPECT_EQ(error.details().metadata.at("queued"), "1000");
   ASSERT_EQ(error.details().fields.size(), 1U);
-  EXPECT_EQ(error.details().fields[0].field, "job.mesh");
+  EXPECT_EQ(error.details().fields[0].field, "spec.mesh");
   EXPECT_EQ(error.details().fields[0].description, "missing");
   EXPECT_EQ(error.details().retry_delay, std::chrono::milliseconds(2500));
 }

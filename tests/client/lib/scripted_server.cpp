@@ -68,7 +68,7 @@ class Jobs : public v1::SolveService::Service {
                          v1::Job* job) override {
     note(*context);
     const std::size_t call = created.add(*request);
-    *job = request->job();
+    *job->mutable_spec() = request->spec();
     job->set_name("jobs/1");
     return status_of(script_of_call(_script.creations, call));
   }
@@ -265,7 +265,7 @@ v1::WatchJobResponse ended_event(std::uint64_t sequence) {
   v1::WatchJobResponse event;
   event.set_sequence(sequence);
   event.mutable_ended()->set_name("jobs/1");
-  event.mutable_ended()->set_state(v1::Job::STATE_SUCCEEDED);
+  event.mutable_ended()->mutable_status()->set_state(v1::JobStatus::STATE_SUCCEEDED);
   return event;
 }
 

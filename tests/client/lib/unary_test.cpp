@@ -17,14 +17,14 @@ TEST(CreateJob, RetriesUnderTheSameId) {
   server.creations = {{Code::unavailable, "gone"}, {Code::unknown, "Stream removed"}, {}};
   Connection connection(server.options());
   const std::string id = make_uuid();
-  v1::Job job;
+  v1::JobSpec job;
   job.set_title("A plate");
   EXPECT_EQ(create_job(connection, job, id).name(), "jobs/1");
   const auto requests = server.created();
   ASSERT_EQ(requests.size(), 3U);
   for (const v1::CreateJobRequest& request : requests) {
     EXPECT_EQ(request.request_id(), id);
-    EXPECT_EQ(request.job().title(), "A plate");
+    EXPECT_EQ(request.spec().title(), "A plate");
   }
 }
 

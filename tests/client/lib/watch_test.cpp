@@ -40,7 +40,7 @@ TEST(Watch, PassesOnEveryEventAndReturnsTheEndedJob) {
   Connection connection(server.options());
   Seen seen;
   const v1::Job job = watch_job(connection, "jobs/1", 0, std::ref(seen));
-  EXPECT_EQ(job.state(), v1::Job::STATE_SUCCEEDED);
+  EXPECT_EQ(job.status().state(), v1::JobStatus::STATE_SUCCEEDED);
   EXPECT_THAT(seen.numbers, ElementsAre(1, 2, 3));
   EXPECT_EQ(seen.snapshots, 1);
 }

@@ -53,6 +53,6 @@ class Crash(FolderTest, unittest.IsolatedAsyncioTestCase):
                 first.kill()
                 with Daemon(self.folder, port=first.port):
                     async for message in events:
-                        if message.HasField("samples") and (await job.refresh()).message.attempt == 2:
+                        if message.HasField("samples") and (await job.refresh()).message.status.attempt == 2:
                             await job.cancel()
-                    self.assertEqual((job.state, job.message.attempt), ("cancelled", 2))
+                    self.assertEqual((job.state, job.message.status.attempt), ("cancelled", 2))

@@ -173,12 +173,12 @@ def load_of(per):
     return taken
 
 
-def job_of(*names):
-    return solve_pb2.Job(load_cases=[solve_pb2.LoadCase(name=name) for name in names])
+def spec_of(*names):
+    return solve_pb2.JobSpec(load_cases=[solve_pb2.LoadCase(name=name) for name in names])
 
 
 def sweep(**arrays):
-    matrix = sweep_of(job_of("0", "1"), arrays.get("coefficients"), arrays.get("nodal_forces"), (), False)
+    matrix = sweep_of(spec_of("0", "1"), arrays.get("coefficients"), arrays.get("nodal_forces"), (), False)
     return numpy.frombuffer(matrix).reshape(-1, 2)
 
 
@@ -246,7 +246,7 @@ class Values(FolderTest):
             self.assertEqual(read(case).arrays()[0][1].tolist(), [0, 1, 2])
         case = Case(Geometry(SQUARE), [Load("a", numpy.array(3.5)), Load("b", numpy.float16(0.5)),
                                        Load("c", numpy.array(7, ">i2"))])
-        self.assertEqual([load.force.constant for load in read(case).job.load_cases], [3.5, 0.5, 7])
+        self.assertEqual([load.force.constant for load in read(case).spec.load_cases], [3.5, 0.5, 7])
 
     def test_labels_that_say_another_order(self):
         shuffled = pandas.Series([1.0, 2, 3], index=[2, 0, 1])
@@ -349,7 +349,7 @@ class SmallOnes(unittest.TestCase):
         made = read(Case(geometry, [Load("a", point_forces=[(numpy.array([0.5, 0.5]), numpy.float32(2))],
                                     inclusion_moments={"b": numpy.array([1, 2])}, traction=numpy.array(1.5))],
                     Mesh(align=numpy.array([[(0, 0), (0, 1)]]), size=numpy.array([[0.5]])[0, 0])))
-        shape, (load,) = made.mesh.geometry, made.job.load_cases
+        shape, (load,) = made.mesh.geometry, made.spec.load_cases
         self.assertEqual([point.y for point in shape.boundary], [-1, -1, 1, 1])
         self.assertEqual([point.x for point in shape.interfaces[0].polyline.points], [-1, 1])
         self.assertEqual(shape.inclusions[0].part.to.x, 0.5)
@@ -376,9 +376,9 @@ class SmallOnes(unittest.TestCase):
 
     def test_rows_whose_traces_are_kept(self):
         def kept(traces):
-            job = job_of("0", "1")
-            sweep_of(job, ROWS, None, traces, False)
-            return list(job.sweep.traces)
+            spec = spec_of("0", "1")
+            sweep_of(spec, ROWS, None, traces, False)
+            return list(spec.sweep.traces)
         for rows in ([2, 0], (2, 0, 2), {2, 0}, range(0, 3, 2), numpy.array([2, 0], ">i2"), iter([0, 2]),
                      pandas.Series([2, 0]), [numpy.uint8(2), 0], numpy.arange(3)[::-2], Lazy([0, 2])):
             self.assertEqual(kept(rows), [0, 2])

@@ -32,8 +32,7 @@ class FromToml(FolderTest):
                 ours.refresh()
                 for job in (ours, theirs):
                     job.cancel()
-                for name in ("title", "mesh", "load_cases", "solver", "outputs", "priority", "accuracy", "units"):
-                    self.assertEqual(getattr(ours.message, name), getattr(theirs.message, name), f"{case}: {name}")
+                self.assertEqual(ours.message.spec, theirs.message.spec, case)
 
     def test_mistakes_have_lines_while_the_tables_are_those_of_the_text(self):
         mesh = "[geometry]\nboundary = [[0, 0], [1, 0], [0, 1]]\n"
@@ -150,9 +149,9 @@ boundary_value = "x"
 """
         ours, theirs = read(case), read(Case.parse(text))
         self.assertEqual(ours.mesh, theirs.mesh)
-        self.assertEqual(ours.job, theirs.job)
+        self.assertEqual(ours.spec, theirs.spec)
         again = read(Case.parse(ours.text))
-        self.assertEqual((again.mesh, again.job), (ours.mesh, ours.job))
+        self.assertEqual((again.mesh, again.spec), (ours.mesh, ours.spec))
 
     def test_what_is_wrong_is_named(self):
         def bump(x, y):
@@ -200,8 +199,8 @@ boundary_value = "x"
             with self.assertRaisesRegex(AttributeError, f"case.{name} .* case.tables, which has geometry, acc"):
                 setattr(case, name, None)
         case.tables = {**case.tables, "title": "other", "load": [Load("b", 1)]}
-        job = read(case).job
-        self.assertEqual((job.title, job.load_cases[0].name), ("other", "b"))
+        spec = read(case).spec
+        self.assertEqual((spec.title, spec.load_cases[0].name), ("other", "b"))
 
     def test_are_told_by_what_is_given(self):
         self.assertEqual(repr(Inclusion("fibre", (0, 0), (1, 0), fixed=0.5)),
@@ -219,7 +218,7 @@ class Answers(unittest.TestCase):
         loads = [Load("one", 1), Load("two", numpy.array([2.0, 3]), per="triangle"), Load("three", [4, 5], per="node")]
         case = read(Case(Geometry(SQUARE), loads))
         self.assertEqual([(index, values.tolist()) for index, values in case.arrays()], [(1, [2, 3]), (2, [4, 5])])
-        self.assertEqual([load.force.array.per_triangle for load in case.job.load_cases], [False, True, False])
+        self.assertEqual([load.force.array.per_triangle for load in case.spec.load_cases], [False, True, False])
         loads[1].f[0] = 1
         self.assertNotEqual(read(Case(Geometry(SQUARE), loads)).text, case.text)  # else one result replaces the other
         msh = anticrack.Msh([[0, 0], [1, 0], [0, 1]], {"triangle": [[0, 1, 2]]})
@@ -232,7 +231,7 @@ class Answers(unittest.TestCase):
             ("options.tension[top]", "--set mesh.tension.top=1", "mesh.tension.top"), ("options.tension.top", "", ""),
             ("solver", "", "solver"), ("solver.theta", "", "solver.theta"))}
         for fields, said in (
-                ((("job.load_cases[0].force.expression", "no"),), "a.toml:5: load.up.f: no"),
+                ((("spec.load_cases[0].force.expression", "no"),), "a.toml:5: load.up.f: no"),
                 ((("load_cases[0].point_forces[2].at", "no"),), "a.toml:3: load.up: no"),
                 ((("mesh.options.tension[top]", "no"),), "--set mesh.tension.top=1: mesh.tension.top: no"),
                 ((("sweep.traces[0]", "no"),), "sweep.traces[0]: no"),
@@ -240,9 +239,9 @@ class Answers(unittest.TestCase):
                 ((("solver", "no"), ("solver.theta", "no")), "solver: no\nsolver.theta: no"),
                 ((("solver.theta", "no"), ("solver", "nor this")), "solver.theta: no\nsolver: nor this")):
             self.assertEqual(str(in_terms_of(places, ServerError("INVALID_ARGUMENT", "all", fields=fields))), said)
-        job = solve_pb2.Job(load_cases=[{"name": "up"}])
-        error = ServerError("INVALID_ARGUMENT", "all", fields=(("job.load_cases[0].force.constant", "no"),))
-        self.assertEqual(str(in_terms_of(places_of(job), error)), "load.up.f: no")
+        spec = solve_pb2.JobSpec(load_cases=[{"name": "up"}])
+        error = ServerError("INVALID_ARGUMENT", "all", fields=(("spec.load_cases[0].force.constant", "no"),))
+        self.assertEqual(str(in_terms_of(places_of(spec), error)), "load.up.f: no")
 
 
 class Msh(FolderTest):

@@ -244,7 +244,7 @@ class Jobs(unittest.TestCase):
         self.assertEqual(load.stages["triangles"][-1], len(result.mesh.triangles))
         self.assertEqual(load.stages["energy"][-1], load.energy)
         width = (load.energy_upper - load.energy_lower) / abs(load.energy)
-        said = (f"stage {len(job.message.stages)}: {len(result.mesh.triangles)} triangles, "
+        said = (f"stage {len(job.message.status.stages)}: {len(result.mesh.triangles)} triangles, "
                 f"energy {100 * width:.3g} % (asked 2 %), "
                 f"A {100 * load.stages['displacement_error'][-1]:.3g} % (asked 5 %)")
         self.assertIn(f"{job.name}: {said}\n", out.getvalue())
@@ -270,7 +270,7 @@ class Jobs(unittest.TestCase):
             shown.take(message)
         self.assertIn(f"\r{job.name} [####################] 1/1 load cases, done", bar.getvalue())
         self.assertEqual(bar.getvalue().count("\n"), 1)
-        waits = solve_pb2.WatchJobResponse(phase={"state": solve_pb2.Job.STATE_WAITING_FOR_MESH})
+        waits = solve_pb2.WatchJobResponse(phase={"state": solve_pb2.JobStatus.STATE_WAITING_FOR_MESH})
         self.assertEqual(State(job.message).take(waits), ["waiting for the mesh"])
 
     def test_progress_in_a_notebook_is_one_text_that_changes(self):
@@ -352,9 +352,9 @@ class Connections(FolderTest):
                 for message in events:
                     if message.WhichOneof("event") not in ("snapshot", "heartbeat"):
                         numbers.append(message.sequence)
-                    if message.HasField("samples") and job.refresh().message.attempt == 2 and not job.ended:
+                    if message.HasField("samples") and job.refresh().message.status.attempt == 2 and not job.ended:
                         job.cancel()
-                self.assertEqual((job.state, job.message.attempt), ("cancelled", 2))
+                self.assertEqual((job.state, job.message.status.attempt), ("cancelled", 2))
         self.assertRegex(logged.output[0], rf"server 127.0.0.1:{first.port}: .*trying again for up to 300 s")
         self.assertEqual(numbers, sorted(numbers))
         self.assertEqual(len(numbers[1:]), len(set(numbers[1:])))

@@ -106,18 +106,18 @@ class Calls(unittest.TestCase):
         finished(ours.submit(Case(Geometry([(0, 0), (1, 0), (0, 1)]), [Load("a", 1)])))
         self.assertEqual(played.requests[2], played.requests[3])
         self.assertTrue(played.requests[2].request_id)
-        self.assertEqual(played.requests[2].job.mesh, "meshes/1")
+        self.assertEqual(played.requests[2].spec.mesh, "meshes/1")
 
     def test_keys_of_a_newer_server_pass_through(self):
         from anticrack import Case
         newer = b"\xb8\xa6\x02\x01"  # field 4711 is 1
         read = case_pb2.ReadCaseResponse(mesh=mesh_pb2.CreateMeshRequest.FromString(newer),
-                                         job=solve_pb2.Job.FromString(newer))
+                                         spec=solve_pb2.JobSpec.FromString(newer))
         ours, played = session(read, mesh_pb2.Mesh(name="meshes/1"), solve_pb2.Job())
         finished(ours.submit(Case.parse("key-of-tomorrow = 1")))
         self.assertEqual(played.requests[0].toml, b"key-of-tomorrow = 1")
         self.assertIn(newer, played.requests[1].SerializeToString())
-        self.assertIn(newer, played.requests[2].job.SerializeToString())
+        self.assertIn(newer, played.requests[2].spec.SerializeToString())
 
     def test_what_is_gone_is_deleted(self):
         gone = ServerError("NOT_FOUND", "no such job")
