@@ -21,7 +21,7 @@ inline constexpr std::size_t few_inclusions = 6;
 /// many they are, the least and the greatest A and, if any tilts, the greatest |B|, and whose these
 /// are. Of Uzawa's method the criterion that stops it, with theta; of the active set, which is
 /// exact, the largest relative KKT residual.
-std::string answers_table(const std::vector<results::Load>& loads, const results::Units& units);
+std::string answers_table(const std::vector<results::Load>& loads, const v1::Units& units);
 /// The same of a result; of a sweep how its rows ended, and what they span. Ends with the notes on
 /// it.
 std::string answers_table(const results::Result& result);
@@ -34,7 +34,7 @@ std::string inclusions_table(const results::Result& result);
 /// sweep sweep_csv.
 std::string answers_csv(const results::Result& result);
 
-/// For each load case a row for every number of its answer: value, unit, what it is.
+/// Of the mesh, a sweep and each load case a row for every number: value, unit, what it is.
 std::string numbers_table(const results::Result& result);
 
 /// {title, file, job, mesh, sizes, timings, notes, answers: [one per load case]}; of a sweep also

@@ -87,8 +87,8 @@ int show_file(const FileOptions& options, const Globals& given) {
   std::string head;
   if (!result.title.empty()) head += sanitise(result.title) + "\n";
   head += std::to_string(result.mesh.triangle_count()) + " triangles, " +
-          std::to_string(result.mesh.node_count()) + " nodes (" + sanitise(result.mesh_name) +
-          "), solved by " + sanitise(result.job_name) + "\n\n";
+          std::to_string(result.mesh.node_count()) + " nodes (" +
+          sanitise(result.mesh.info.name()) + "), solved by " + sanitise(result.job_name) + "\n\n";
   std::string foot;
   if (!result.not_reached.empty()) foot = "not reached: " + sanitise(result.not_reached) + "\n";
   if (result.loads.size() == 1 || !options.loads.empty())

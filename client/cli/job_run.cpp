@@ -28,12 +28,12 @@ std::string counted_cases(const v1::Job& job, std::uint64_t rows) {
 }
 
 std::string summary(const results::Result& result, const fs::path& file) {
-  const results::Timings& timings = result.timings;
+  const v1::Mesh& mesh = result.mesh.info;
   return "Results: " + file.string() + " (" + std::to_string(result.mesh.triangle_count()) +
          " triangles, " + std::to_string(result.mesh.node_count()) + " nodes; meshing " +
-         seconds(timings.mesh_seconds) + " s, factorising " + seconds(timings.factorize_seconds) +
-         " s, solving " + seconds(timings.solve_seconds) + " s, " + seconds(timings.total_seconds) +
-         " s in all)";
+         seconds(mesh.mesh_seconds()) + " s, factorising " + seconds(mesh.factorize_seconds()) +
+         " s, solving " + seconds(results::solve_seconds(result)) + " s, " +
+         seconds(result.total_seconds) + " s in all)";
 }
 
 // Why a job came to nothing, line by line, in terms of its case.
@@ -144,7 +144,7 @@ std::optional<results::Result> results_of(Session& session, const Case& the_case
   }
   results::Result result = or_later(session, job, [&] { return fetch(session, job, stop, ahead); });
   result.case_text = the_case.text;
-  result.timings.total_seconds =
+  result.total_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
 }

@@ -80,9 +80,8 @@ std::string job_text(const v1::Job& job) {
   if (job.has_error()) text += sanitise(job.error().message()) + "\n";
   if (job.result_state() == v1::Job::RESULT_STATE_EXPIRED) text += expired_text(job) + "\n";
   return text + circumstances(job) + "\n" +
-         (job.has_sweep()
-              ? sweep_answer(job)
-              : answers_table(to_loads(job), to_units(job.units())) + accuracy_text(job)) +
+         (job.has_sweep() ? sweep_answer(job)
+                          : answers_table(to_loads(job), job.units()) + accuracy_text(job)) +
          timeline(job);
 }
 

@@ -17,6 +17,9 @@ namespace anticrack::cli {
 /// Members keep their order, unlike those of a protobuf Struct.
 using Json = nlohmann::ordered_json;
 
+/// The single values of a message by the names of results::Entry, added to `json`.
+Json json_of(const google::protobuf::Message& message, Json json = Json::object());
+
 /// Indented by two spaces, in ASCII, so that no text reaches a terminal as control characters.
 /// Numbers that are not finite are null, bytes that are not UTF-8 are replaced.
 std::string to_text(const Json& document);

@@ -12,14 +12,11 @@ namespace anticrack::cli {
 
 /// What the case of a mesh says of it; nothing is known of a mesh by its name.
 struct CaseFacts {
-  results::Units units{};
+  v1::Units units{};
   bool free = false;  ///< no load gives a traction
 };
 
 /// State and sizes; subdomains; interfaces by segments; tips; what holds on the boundary; warnings.
 std::string mesh_text(const v1::Mesh& mesh, const CaseFacts& facts = {});
-
-/// An expression, or "along 2, across 1, angle 30". May have control characters.
-std::string law_text(const v1::Tension& law);
 
 }  // namespace anticrack::cli

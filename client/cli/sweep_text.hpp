@@ -13,10 +13,10 @@ namespace anticrack::cli {
 /// How many rows ended how, the span of A, contact length and energy, and what went wrong; how wide
 /// the bounds are. With bounds the spans of A and the energy hold those of the membrane itself. Of
 /// many inclusions one span, and whose its ends are.
-std::string sweep_table(const results::Sweep& sweep, const results::Units& units);
+std::string sweep_table(const results::Sweep& sweep, const v1::Units& units);
 
 /// The span of A of every inclusion, and of B of those that tilt.
-std::string sweep_inclusions(const results::Sweep& sweep, const results::Units& units);
+std::string sweep_inclusions(const results::Sweep& sweep, const v1::Units& units);
 
 Json sweep_json(const results::Sweep& sweep);  ///< the same
 

@@ -25,8 +25,6 @@ struct Fetched {
 /// The mesh that the answers of a job are on: of its last stage that has any.
 std::string mesh_of(const v1::Job& job);
 
-results::Units to_units(const v1::Units& units);
-
 /// Throws results::Error for parts that do not fit together.
 results::Result to_result(const Fetched& fetched);
 

@@ -58,7 +58,7 @@ void save_mesh_request(const std::string& name, const v1::CreateMeshRequest& req
   record.definition = api::to_definition(request);
   record.error = errors::Error(errors::Reason::mesh_invalid, "wrong").at("upload").with("a", "b");
   record.subdomains = {{"minus", 10, 20, 2, 1, true, 45, 0.1, 0.2}};
-  record.interfaces = {{"sigma", 2, 11, {{mesh::Kind::delaminated, 0, 0.5, 1.5, 5}}}};
+  record.interfaces = {{"sigma", 2, 11, {{mesh::v1::INTERFACE_KIND_DELAMINATED, 0, 0.5, 1.5, 5}}}};
   record.inclusions = {"fibre"};
   record.warnings = {"one"};
   record.tips = {{{0.5, 0}, "sigma", 1e-9}};
@@ -281,8 +281,8 @@ void save_result() {
     answer.add(at + "y", interface.y);
     answer.add(at + "kind",
                std::vector<std::int32_t>(interface.node_count(), 3));  // delaminated everywhere
-    mesh.add(at + "edge_kind", std::vector<std::int32_t>(interface.edges.kind.size(), 3));
-    mesh.add(at + "edge_inclusion", std::vector<std::int32_t>(interface.edges.kind.size(), 0));
+    mesh.add(at + "edge_kind", std::vector<std::int32_t>(interface.edge_kind.size(), 3));
+    mesh.add(at + "edge_inclusion", std::vector<std::int32_t>(interface.edge_kind.size(), 0));
   }
   for (std::size_t i = 0; i < result.loads.size(); ++i) {
     add_load(answer, "loads/" + std::to_string(i) + "/", result.loads[i]);
