@@ -22,9 +22,8 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string counted_cases(const v1::Job& job, std::uint64_t rows) {
-  if (job.has_sweep()) return "a sweep of " + std::to_string(rows) + (rows == 1 ? " row" : " rows");
-  return std::to_string(job.load_cases_size()) +
-         (job.load_cases_size() == 1 ? " load case" : " load cases");
+  if (job.has_sweep()) return "a sweep of " + counted(rows, "row");
+  return counted(static_cast<std::size_t>(job.load_cases_size()), "load case");
 }
 
 std::string summary(const results::Result& result, const fs::path& file) {

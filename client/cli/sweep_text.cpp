@@ -15,10 +15,6 @@ namespace {
 
 using results::SweepSummary;
 
-std::string counted(std::size_t count, const char* what) {
-  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
-}
-
 constexpr std::array<const char*, 2> slope_parts{"Bx", "By"};
 
 // "A", or "A fibre" where there are several.

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "client/block_maker.hpp"
 #include "client/cli/sample_stages.hpp"
 #include "results/error.hpp"
+#include "support/block_maker.hpp"
 
 namespace anticrack::cli {
 namespace {

@@ -9,36 +9,20 @@
 #include <functional>
 #include <limits>
 
-#include "client/block_maker.hpp"
-#include "results/tables.hpp"
+#include "support/block_maker.hpp"
 #include "support/sample_result.hpp"
 
 namespace anticrack::results {
 namespace {
 
-using anticrack::testing::BlockMaker;
 using anticrack::testing::sample_pair;
 using anticrack::testing::sample_result;
 using anticrack::testing::with_stages;
 using ::testing::HasSubstr;
 
-/// The two blocks a server would send for a result.
-struct Blocks {
-  explicit Blocks(const Result& result) {
-    mesh.add("nodes", result.mesh.xy, 2).add("triangles", result.mesh.triangles, 3);
-    mesh.add("subdomain", result.mesh.subdomain).add("boundary", result.mesh.boundary, 2);
-    for (std::size_t i = 0; i < result.interfaces.size(); ++i) {
-      const Interface& interface = result.interfaces[i];
-      const std::string at = "interfaces/" + std::to_string(i) + "/";
-      add(answer, at, interface, arrays::interface_nodes<Interface>);
-      add(mesh, at, interface, tables::edges);
-    }
-    for (std::size_t i = 0; i < result.loads.size(); ++i) add_load(i, result.loads[i]);
-    for (std::size_t i = 0; i < result.loads[0].fields.size(); ++i) {
-      const Field& field = result.loads[0].fields[i];
-      add(answer, arrays::field_folder(i), field, arrays::subdomain<Field>);
-    }
-  }
+/// The two blocks a server would send for a result, to be spoilt.
+struct Blocks : anticrack::testing::ResultBlocks {
+  using ResultBlocks::ResultBlocks;
 
   v1::ArrayLayout& array(const std::string& name) {
     for (auto* block : {&mesh, &answer})
@@ -68,31 +52,6 @@ struct Blocks {
       for (const v1::ArrayLayout& each : block->layout.arrays())
         if (&each == &found)
           std::memcpy(block->bytes.data() + each.offset() + index * sizeof(T), &value, sizeof(T));
-  }
-
-  BlockMaker mesh, answer;
-
- private:
-  template <class Record, class Table>
-  static void add(BlockMaker& block, const std::string& at, const Record& record,
-                  const Table& table) {
-    arrays::for_each(
-        [&](const auto& row) {
-          const auto& values = std::invoke(row.member, record);
-          if (!values.empty() || !row.optional)
-            block.add(at + std::string(row.name), values, arrays::columns_of(row.shape));
-        },
-        table);
-  }
-
-  void add_load(std::size_t index, const Load& load) {
-    for (std::size_t i = 0; i < load.traces.size(); ++i)
-      add(answer, arrays::load_traces(index) + std::to_string(i) + "/", load.traces[i],
-          arrays::trace<Trace>);
-    add(answer, arrays::load_folder(index), load, tables::indicator);
-    add(answer, arrays::load_history(index), load.history, arrays::history<History>);
-    for (std::size_t i = 0; i < load.fields.size(); ++i)
-      answer.add(arrays::load_fields(index) + std::to_string(i), load.fields[i].u);
   }
 };
 
