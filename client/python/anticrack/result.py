@@ -513,8 +513,8 @@ def runs(values: Array) -> list[tuple[int, int]]:
     return list(zip([0, *cuts], [*cuts, len(values)])) if len(values) else []
 
 
-def _load_of(job: solve_pb2.Job, index: int, arrays: Mapping[str, Array], result: Result) -> Load:
-    answer = job.answers[index]
+def _load_of_answer(answer: solve_pb2.LoadCaseAnswer, lines_in: list[str]) -> Load:
+    """Without its arrays; lines_in: names of the interfaces."""
     values = entries.values_of(answer)
     solved = values["status"] in ("converged", "not_converged")
     load = Load(**{name: value for name, value in values.items()
@@ -522,11 +522,16 @@ def _load_of(job: solve_pb2.Job, index: int, arrays: Mapping[str, Array], result
     if solved:
         load.warnings = list(answer.warnings)
         load.inclusions.update((part.name, Inclusion(**entries.values_of(part))) for part in answer.inclusions)
+        load.contact_intervals = [(lines_in.index(part.interface), part.begin, part.end)
+                                  for part in answer.contact_intervals]
+    return load
+
+
+def _load_of(job: solve_pb2.Job, index: int, arrays: Mapping[str, Array], result: Result) -> Load:
+    load = _load_of_answer(job.answers[index], [line.name for line in result.interfaces])
     prefix = f"loads/{index}/"
     load.traces = _traces(arrays, prefix + "traces", len(result.interfaces))
     load.history, load.indicator = _below(arrays, prefix + "history/"), arrays.get(prefix + "indicator")
-    load.contact_intervals = [(result.interfaces.place(part.interface), part.begin, part.end)
-                              for part in answer.contact_intervals]
     load.fields += [Field(name, arrays[f"fields/{k}/nodes"], arrays[f"fields/{k}/triangles"],
                           arrays[f"{prefix}fields/{k}"])
                     for k, name in enumerate(result.mesh.subdomain_names) if f"{prefix}fields/{k}" in arrays]
@@ -570,7 +575,7 @@ def _of_file(file: Any) -> Result:
     groups = sorted(file["loads"].items(), key=lambda item: int(item[1].attrs.get("index", 0)))
     result = Result(told["title"], told["job"], mesh,
                     Parts("interface", [Interface(name, **_arrays(line)) for name, line in zip(names, lines_in)]),
-                    Named("load", ((name, _load_in(name, item, names, mesh)) for name, item in groups)), None,
+                    Named("load", ((name, _load_in(item, names, mesh)) for name, item in groups)), None,
                     told["not_reached"], told["case"], told["server_version"], float(told["total_seconds"]),
                     Units(**file["units"].attrs), _message_in(file["solver"], solve_pb2.Solver()))
     if result.case:
@@ -585,31 +590,17 @@ def _of_file(file: Any) -> Result:
     return result
 
 
-def _load_in(name: str, group: Any, lines_in: list[str], mesh: Mesh) -> Load:
-    load = Load(name, group.attrs["status"])
-    for key in SCALARS:
-        if key in group.attrs:
-            value = group.attrs[key]
-            setattr(load, key, value if isinstance(value, str) else value.item())
-
-    def arrays(part: str) -> Arrays:
-        return _arrays(group[part]) if part in group else {}
+def _load_in(group: Any, lines_in: list[str], mesh: Mesh) -> Load:
+    load = _load_of_answer(_message_in(group, solve_pb2.LoadCaseAnswer()), lines_in)
 
     def numbered(part: str) -> list[Any]:
         return [group[part][str(i)] for i in range(len(group[part]))] if part in group else []
-    load.warnings = _texts(group["warnings"]) if "warnings" in group else []
-    known = entries.defaults_of(solve_pb2.InclusionAnswer).keys() - {"name"}
-    columns = {key: column for key, column in arrays("inclusions").items() if key in known}
-    load.inclusions.update((part, Inclusion(name=part, **{key: column[i].item() for key, column in columns.items()}))
-                           for i, part in enumerate(_texts(group["inclusions/name"])))
     load.traces += [Trace(**_arrays(part)) for part in numbered("traces")]
-    if any(values.size for values in arrays("history").values()):
-        load.history = arrays("history")
-    load.stages, contact = arrays("stages"), arrays("contact_intervals")
-    if load.stages:
-        load.stages["mesh"] = np.array(_texts(group["stages/mesh"]))
-    load.contact_intervals = [(lines_in.index(line), float(begin), float(end)) for line, begin, end in
-                              zip(_texts(group["contact_intervals/interface"]), contact["begin"], contact["end"])]
+    history = _arrays(group["history"])
+    if any(values.size for values in history.values()):
+        load.history = history
+    if "stages" in group:
+        load.stages = {**_arrays(group["stages"]), "mesh": np.array(_texts(group["stages/mesh"]))}
     load.fields += [Field(name, **_arrays(part)) for name, part in zip(mesh.subdomain_names, numbered("fields"))]
     load.indicator = group["indicator"][()] if "indicator" in group else None
     return load
