@@ -51,10 +51,6 @@ std::string errors_text(const StageErrors& stage, const v1::Accuracy& asked,
   return text + ", A " + moved;
 }
 
-std::string counted(std::size_t count, const std::string& one) {
-  return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
-}
-
 // The value to which the error of A is relative, if there are several inclusions.
 std::string scale_of(const v1::Job& job) {
   const auto several = [](const v1::LoadCaseAnswer& answer) {

@@ -156,8 +156,9 @@ std::vector<std::string> row_of(const results::Load& load, const Told& inclusion
     return answered ? number(value, digits, exponent) : "-";
   };
   std::vector<std::string> row{
-      sanitise(load.name()), std::string(word(load.status())), std::to_string(answer.iterations()),
-      when_answered(by_uzawa ? answer.criterion() : results::largest(answer.kkt()), 2, true)};
+      sanitise(load.name()), std::string(word(answer.status())),
+      std::to_string(answer.iterations()),
+      when_answered(by_uzawa ? answer.criterion() : results::largest_kkt(answer), 2, true)};
   inclusions.add(load, row);
   row.push_back(answered && answer.has_energy_lower()
                     ? results::interval(answer.energy_lower(), answer.energy_upper())
@@ -203,12 +204,6 @@ std::vector<std::string> remarks_on(const results::Load& load) {
   return remarks;
 }
 
-Json json_of(const google::protobuf::Message& message, Json json = Json::object()) {
-  for (const results::Entry& entry : results::entries_of(*message.GetDescriptor()))
-    std::visit([&](const auto& value) { json[entry.name] = value; }, results::get(message, entry));
-  return json;
-}
-
 template <class Messages>
 Json json_list(const Messages& messages) {
   Json json = Json::array();
@@ -216,10 +211,10 @@ Json json_list(const Messages& messages) {
   return json;
 }
 
-Json load_json(const results::Load& load) {
+Json load_json(const results::Load& load, const std::string& method) {
   Json json = json_of(load.answer);
-  json["method"] = load.asked.method;
-  json["worst_kkt"] = load.has_answer() ? results::largest(load.answer.kkt()) : results::unknown;
+  json["method"] = method;
+  json["worst_kkt"] = load.has_answer() ? results::largest_kkt(load.answer) : results::unknown;
   json["inclusions"] = json_list(load.answer.inclusions());
   json["contact_intervals"] = json_list(load.answer.contact_intervals());
   json["stages"] = Json::array();
@@ -238,7 +233,7 @@ std::string text_of(const results::Value& value) {
 
 }  // namespace
 
-std::string answers_table(const std::vector<results::Load>& loads, const results::Units& units) {
+std::string answers_table(const std::vector<results::Load>& loads, const v1::Units& units) {
   const Told inclusions(inclusions_of(loads));
   const bool by_uzawa = std::any_of(loads.begin(), loads.end(), [](const results::Load& load) {
     return load.answer.has_theta();
@@ -257,7 +252,7 @@ std::string answers_table(const std::vector<results::Load>& loads, const results
   for (const Head& column : head) {
     if (column.name == Told::of) left.push_back(rows[0].size());
     rows[0].push_back(column.name);
-    rows[1].push_back(column.dimension ? sanitise(units.of(*column.dimension)) : "");
+    rows[1].push_back(column.dimension ? sanitise(results::unit_of(units, *column.dimension)) : "");
   }
   std::string remarks;
   for (const results::Load& load : loads) {
@@ -282,10 +277,11 @@ std::string inclusions_table(const results::Result& result) {
   std::vector<std::vector<std::string>> rows{{"load", "inclusion"}, {"", ""}};
   for (const std::string& name : columns) {
     rows[0].push_back(name);
-    rows[1].push_back(sanitise(result.units.of(dimension_of(name))));
+    rows[1].push_back(sanitise(results::unit_of(result.units, dimension_of(name))));
   }
   rows[0].insert(rows[0].end(), {"resultant", "contact length"});
-  rows[1].insert(rows[1].end(), {sanitise(result.units.of("F")), sanitise(result.units.of("L"))});
+  rows[1].insert(rows[1].end(), {sanitise(results::unit_of(result.units, "F")),
+                                 sanitise(results::unit_of(result.units, "L"))});
   for (const results::Load& load : result.loads) {
     if (!load.has_answer()) continue;
     for (const v1::InclusionAnswer& inclusion : load.answer.inclusions()) {
@@ -320,15 +316,18 @@ std::string answers_csv(const results::Result& result) {
 
 std::string numbers_table(const results::Result& result) {
   std::string text;
-  for (const results::Load& load : result.loads) {
+  const auto add = [&](const std::string& of, const google::protobuf::Message& message) {
     std::vector<std::vector<std::string>> rows;
-    for (const results::Entry& entry : results::entries_of(*v1::LoadCaseAnswer::descriptor())) {
+    for (const results::Entry& entry : results::entries_of(*message.GetDescriptor())) {
       if (entry.type == results::ValueType::text) continue;
-      rows.push_back({entry.name, text_of(results::get(load.answer, entry)),
-                      sanitise(result.units.of(entry.unit)), entry.meaning});
+      rows.push_back({entry.name, text_of(results::get(message, entry)),
+                      sanitise(results::unit_of(result.units, entry.unit)), entry.meaning});
     }
-    text += "\n" + sanitise(load.name()) + ", every number:\n" + table(rows, {2, 3});
-  }
+    text += "\n" + sanitise(of) + ", every number:\n" + table(rows, {2, 3});
+  };
+  add(result.mesh.info.name(), result.mesh.info);
+  if (result.sweep) add("sweep", result.sweep->answer);
+  for (const results::Load& load : result.loads) add(load.name(), load.answer);
   return text;
 }
 
@@ -336,19 +335,16 @@ std::string answers_json(const results::Result& result, const std::filesystem::p
   Json json{{"title", result.title},
             {"file", file.string()},
             {"job", result.job_name},
-            {"mesh", result.mesh_name},
-            {"units", {{"length", result.units.length}, {"force", result.units.force}}},
-            {"triangle_count", result.mesh.triangle_count()},
-            {"node_count", result.mesh.node_count()},
-            {"mesh_seconds", result.timings.mesh_seconds},
-            {"factorize_seconds", result.timings.factorize_seconds},
-            {"solve_seconds", result.timings.solve_seconds},
-            {"total_seconds", result.timings.total_seconds},
+            {"mesh", json_of(result.mesh.info)},
+            {"units", json_of(result.units)},
+            {"solve_seconds", results::solve_seconds(result)},
+            {"total_seconds", result.total_seconds},
             {"not_reached", result.not_reached},
             {"notes", results::notes_on(result)}};
   if (result.sweep) json["sweep"] = sweep_json(*result.sweep);
   Json& answers = json["answers"] = Json::array();
-  for (const results::Load& load : result.loads) answers.push_back(load_json(load));
+  for (const results::Load& load : result.loads)
+    answers.push_back(load_json(load, results::method_of(result.solver)));
   return to_text(json);
 }
 

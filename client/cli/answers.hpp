@@ -21,7 +21,7 @@ inline constexpr std::size_t few_inclusions = 6;
 /// than few_inclusions there are their number, the least and the greatest A and, if any tilts, the
 /// greatest |B|, with the names of these inclusions. For Uzawa's method there are the criterion
 /// that stops it, and theta; for the active set, which is exact, the largest relative KKT residual.
-std::string answers_table(const std::vector<results::Load>& loads, const results::Units& units);
+std::string answers_table(const std::vector<results::Load>& loads, const v1::Units& units);
 /// The same for a result; for a sweep how its rows ended, and their ranges. Ends with the notes on
 /// the result.
 std::string answers_table(const results::Result& result);
@@ -34,7 +34,7 @@ std::string inclusions_table(const results::Result& result);
 /// for a sweep sweep_csv.
 std::string answers_csv(const results::Result& result);
 
-/// For each load case a row for every number of its answer: value, unit, meaning.
+/// Of the mesh, a sweep and each load case a row for every number: value, unit, what it is.
 std::string numbers_table(const results::Result& result);
 
 /// {title, file, job, mesh, sizes, timings, notes, answers: [one per load case]}; for a sweep also

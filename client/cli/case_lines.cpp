@@ -73,7 +73,7 @@ Layout widest_layout(const JobProgress& job, const std::vector<std::size_t>& sho
   }
   layout.name_width = std::min(layout.name_width, widest_name);
   // Reserve room, so that columns do not move when load cases end.
-  layout.status_width = word(results::Status::not_converged).size();
+  layout.status_width = word(v1::LoadCaseAnswer::STATUS_NOT_CONVERGED).size();
   return layout;
 }
 
@@ -115,7 +115,7 @@ Layout layout_of(const JobProgress& job, const std::vector<std::size_t>& shown, 
 
 // Smaller ranks are shown first.
 std::size_t rank(const CaseProgress& progress, std::size_t ended_count) {
-  if (progress.status == results::Status::running) return 0;
+  if (progress.status == v1::LoadCaseAnswer::STATUS_RUNNING) return 0;
   constexpr std::size_t ended_shown = 3;
   if (progress.end_rank > 0) {
     const std::size_t age = ended_count - progress.end_rank;
@@ -138,7 +138,7 @@ std::vector<std::size_t> shown_cases(const JobProgress& progress, std::size_t co
 
 // "  and 38 more: 20 waiting, 18 converged".
 std::string others(const JobProgress& progress, const std::vector<std::size_t>& shown) {
-  std::map<results::Status, std::size_t> counts;
+  std::map<v1::LoadCaseAnswer::Status, std::size_t> counts;
   for (const CaseProgress& load_case : progress.cases) ++counts[load_case.status];
   for (const std::size_t i : shown) --counts[progress.cases[i].status];
   std::string text = "  and " + std::to_string(progress.cases.size() - shown.size()) + " more";

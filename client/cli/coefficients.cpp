@@ -11,6 +11,7 @@
 #include <system_error>
 #include <utility>
 
+#include "cli/text.hpp"
 #include "words/nearest.hpp"
 
 namespace anticrack::cli {
@@ -57,10 +58,6 @@ std::string shown_field(std::string_view value) {
   std::replace_if(
       text.begin(), text.end(), [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; }, '?');
   return "\"" + text + (value.size() > longest ? "..." : "") + "\"";
-}
-
-std::string counted(std::size_t count, const char* what) {
-  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
 std::string listed(const std::vector<std::string>& names) {

@@ -87,8 +87,8 @@ int show_file(const FileOptions& options, const Globals& given) {
   std::string head;
   if (!result.title.empty()) head += sanitise(result.title) + "\n";
   head += std::to_string(result.mesh.triangle_count()) + " triangles, " +
-          std::to_string(result.mesh.node_count()) + " nodes (" + sanitise(result.mesh_name) +
-          "), solved by " + sanitise(result.job_name) + "\n\n";
+          std::to_string(result.mesh.node_count()) + " nodes (" +
+          sanitise(result.mesh.info.name()) + "), solved by " + sanitise(result.job_name) + "\n\n";
   std::string foot;
   if (!result.not_reached.empty()) foot = "not reached: " + sanitise(result.not_reached) + "\n";
   if (result.loads.size() == 1 || !options.loads.empty())
@@ -189,8 +189,9 @@ void add_files(CLI::App& app, const Globals& globals, Command& chosen) {
   add_file(*show_command, options->file, options->loads, "Result file, HDF5");
   show_command->add_flag("--inclusions", options->inclusions,
                          "A row for each inclusion of each load case, also of many");
-  show_command->add_flag("--all", options->all,
-                         "Also every number of each load case, with its unit and what it is");
+  show_command->add_flag(
+      "--all", options->all,
+      "Also every number of the mesh, a sweep and each load case, with its unit and what it is");
   show_command
       ->add_option("--csv", options->csv,
                    "Also write comma-separated text, one line per load case and inclusion; of a "

@@ -22,19 +22,17 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string counted_cases(const v1::JobSpec& spec, std::uint64_t rows) {
-  if (spec.has_sweep())
-    return "a sweep of " + std::to_string(rows) + (rows == 1 ? " row" : " rows");
-  return std::to_string(spec.load_cases_size()) +
-         (spec.load_cases_size() == 1 ? " load case" : " load cases");
+  if (spec.has_sweep()) return "a sweep of " + counted(rows, "row");
+  return counted(static_cast<std::size_t>(spec.load_cases_size()), "load case");
 }
 
 std::string summary(const results::Result& result, const fs::path& file) {
-  const results::Timings& timings = result.timings;
+  const v1::Mesh& mesh = result.mesh.info;
   return "Results: " + file.string() + " (" + std::to_string(result.mesh.triangle_count()) +
          " triangles, " + std::to_string(result.mesh.node_count()) + " nodes; meshing " +
-         seconds(timings.mesh_seconds) + " s, factorising " + seconds(timings.factorize_seconds) +
-         " s, solving " + seconds(timings.solve_seconds) + " s, " + seconds(timings.total_seconds) +
-         " s in all)";
+         seconds(mesh.mesh_seconds()) + " s, factorising " + seconds(mesh.factorize_seconds()) +
+         " s, solving " + seconds(results::solve_seconds(result)) + " s, " +
+         seconds(result.total_seconds) + " s in all)";
 }
 
 // The reasons why a job has no answers, line by line, in terms of its case.
@@ -148,7 +146,7 @@ std::optional<results::Result> results_of(Session& session, const Case& the_case
   }
   results::Result result = or_later(session, job, [&] { return fetch(session, job, stop, ahead); });
   result.case_text = the_case.text;
-  result.timings.total_seconds =
+  result.total_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
 }

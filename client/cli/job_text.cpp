@@ -83,9 +83,9 @@ std::string job_text(const v1::Job& job) {
   if (status.result_state() == v1::JobStatus::RESULT_STATE_EXPIRED)
     text += expired_text(job) + "\n";
   return text + circumstances(job) + "\n" +
-         (spec.has_sweep()
+         (job.spec().has_sweep()
               ? sweep_answer(status.sweep_answer())
-              : answers_table(to_loads(job), to_units(spec.units())) + accuracy_text(job)) +
+              : answers_table(to_loads(job), spec.units()) + accuracy_text(job)) +
          timeline(status);
 }
 

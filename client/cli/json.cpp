@@ -9,6 +9,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "results/entries.hpp"
 #include "words/shown.hpp"
 
 namespace anticrack::cli {
@@ -47,6 +48,12 @@ class Types : public google::protobuf::util::TypeResolver {
 };
 
 }  // namespace
+
+Json json_of(const google::protobuf::Message& message, Json json) {
+  for (const results::Entry& entry : results::entries_of(*message.GetDescriptor()))
+    std::visit([&](const auto& value) { json[entry.name] = value; }, results::get(message, entry));
+  return json;
+}
 
 std::string to_text(const Json& document) {
   return document.dump(2, ' ', true, Json::error_handler_t::replace);

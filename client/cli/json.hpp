@@ -16,6 +16,9 @@ namespace anticrack::cli {
 /// Members keep their order, unlike those of a protobuf Struct.
 using Json = nlohmann::ordered_json;
 
+/// The single values of a message by the names of results::Entry, added to `json`.
+Json json_of(const google::protobuf::Message& message, Json json = Json::object());
+
 /// The document as text, indented by two spaces and in ASCII, so that no control characters reach a
 /// terminal. Numbers that are not finite are null; bytes that are not UTF-8 are replaced.
 std::string to_text(const Json& document);

@@ -155,7 +155,7 @@ std::vector<std::string> PlainLog::lines(const JobProgress& progress) {
     const CaseProgress& now = progress.cases[i];
     Seen& seen = _cases[i];
     // Told again in each stage, except for cases that converged: the stage has a line for those.
-    const bool told = progress.accuracy && now.status == results::Status::converged;
+    const bool told = progress.accuracy && now.status == v1::LoadCaseAnswer::STATUS_CONVERGED;
     const bool newly_ended = ended(now.status) && now.status != seen.status && !told;
     if (newly_ended) {
       lines.push_back(now.name + ": " + std::string(word(now.status)) +

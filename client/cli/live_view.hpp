@@ -30,7 +30,7 @@ class PlainLog {
 
  private:
   struct Seen {
-    results::Status status = results::Status::pending;
+    v1::LoadCaseAnswer::Status status = v1::LoadCaseAnswer::STATUS_PENDING;
     std::int64_t due = first_told;  ///< next iteration to print
   };
   void add_sweep_line(const SweepProgress& sweep, std::vector<std::string>& lines);

@@ -41,7 +41,7 @@ CaseFacts facts_of(const Case& the_case) {
   const bool free = !loads.empty() && std::ranges::all_of(loads, [](const v1::LoadCase& load) {
     return load.traction().empty();
   });
-  return {to_units(the_case.spec.units()), free};
+  return {the_case.spec.units(), free};
 }
 
 int show_mesh(const Globals& globals, const v1::Mesh& mesh, const CaseFacts& facts = {}) {
@@ -137,7 +137,7 @@ int show_mesh(const MeshOptions& options, const Globals& globals) {
   const client::Block block = client::read_mesh(session.connection(), name, session.stop());
   std::vector<std::string> words = words_of(options.figures);
   words.insert(words.begin(), "mesh");
-  words.push_back("--unit=" + facts.units.length);
+  words.push_back("--unit=" + facts.units.length());
   if (facts.free) words.emplace_back("--free");
   return run_in_python(std::move(words), drawn_mesh(mesh, block), globals, false);
 }

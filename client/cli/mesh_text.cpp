@@ -73,13 +73,12 @@ std::string sizes(const v1::Mesh& mesh) {
   return text;
 }
 
-/// Adds a second head row if the case names units. `dimensions`: as for Units::of, or empty.
-void add_units(const results::Units& units, const std::vector<std::string>& dimensions,
-               Rows& rows) {
-  if (units == results::Units{}) return;
+/// A second head, where the case names any: the dimensions as unit_of takes them, empty for none.
+void add_units(const v1::Units& units, const std::vector<std::string>& dimensions, Rows& rows) {
+  if (units.length().empty() && units.force().empty()) return;
   std::vector<std::string> row;
   for (const std::string& dimension : dimensions)
-    row.push_back(dimension.empty() ? "" : sanitise(units.of(dimension)));
+    row.push_back(dimension.empty() ? "" : sanitise(results::unit_of(units, dimension)));
   rows.push_back(std::move(row));
 }
 
@@ -87,7 +86,13 @@ std::string spot(const v1::Point& point) {
   return "(" + number(point.x()) + ", " + number(point.y()) + ")";
 }
 
-std::string subdomains(const v1::Mesh& mesh, const results::Units& units) {
+// An expression, or "along 2, across 1, angle 30".
+std::string law_text(const v1::Tension& law) {
+  if (law.across().empty()) return law.along();
+  return "along " + law.along() + ", across " + law.across() + ", angle " + number(law.angle());
+}
+
+std::string subdomains(const v1::Mesh& mesh, const v1::Units& units) {
   Rows rows{{"subdomain", "triangles", "nodes", "area", "tension", "smallest angle",
              "shortest edge", "longest edge", "held by"}};
   add_units(units, {"", "", "", "L^2", "F/L", "degrees", "L", "L", ""}, rows);
@@ -102,7 +107,7 @@ std::string subdomains(const v1::Mesh& mesh, const results::Units& units) {
   return short_table(std::move(rows), {8});
 }
 
-std::string interfaces(const v1::Mesh& mesh, const results::Units& units) {
+std::string interfaces(const v1::Mesh& mesh, const v1::Units& units) {
   const auto motions = motions_of(mesh);
   const auto inclusion_of = [&](int inclusion) -> std::string {
     if (inclusion < 0 || inclusion >= mesh.inclusions_size()) return "-";
@@ -124,7 +129,7 @@ std::string interfaces(const v1::Mesh& mesh, const results::Units& units) {
   return rows.size() == head ? "no interfaces\n" : short_table(std::move(rows), {1, 4, 5});
 }
 
-std::string tips(const v1::Mesh& mesh, const results::Units& units) {
+std::string tips(const v1::Mesh& mesh, const v1::Units& units) {
   Rows rows{{"tip on", "x", "y", "smallest edge"}};
   add_units(units, {"", "L", "L", "L"}, rows);
   for (const v1::TipInfo& tip : mesh.tips()) {
@@ -139,7 +144,8 @@ std::string boundary(const v1::Mesh& mesh, const CaseFacts& facts) {
   std::string sides;
   for (const std::string& name : mesh.geometry().neumann_sides())
     sides += (sides.empty() ? ": " : ", ") + sanitise(name);
-  const std::string unit = sanitise(facts.units.label("L")), shown = unit.empty() ? "" : " " + unit;
+  const std::string unit = sanitise(results::label_of(facts.units, "L")),
+                    shown = unit.empty() ? "" : " " + unit;
   std::string text =
       "\nboundary: u given on a length of " + number(mesh.dirichlet_length()) + shown;
   if (mesh.neumann_length() > 0)
@@ -149,11 +155,6 @@ std::string boundary(const v1::Mesh& mesh, const CaseFacts& facts) {
 }
 
 }  // namespace
-
-std::string law_text(const v1::Tension& law) {
-  if (law.across().empty()) return law.along();
-  return "along " + law.along() + ", across " + law.across() + ", angle " + number(law.angle());
-}
 
 std::string mesh_text(const v1::Mesh& mesh, const CaseFacts& facts) {
   std::string text = head(mesh);

@@ -13,7 +13,7 @@
 namespace anticrack::cli {
 
 using google::protobuf::util::TimeUtil;
-using results::Status;
+using Status = v1::LoadCaseAnswer::Status;
 
 void JobProgress::apply(const v1::WatchJobResponse& event, double seconds) {
   notice.clear();
@@ -117,7 +117,7 @@ void JobProgress::apply(const v1::Samples& samples) {
     CaseProgress& progress = cases[index];
     // Skip old or late samples, since a case that has ended does not run again.
     if (ended(progress.status) || samples.iteration(i) <= progress.iteration) continue;
-    progress.status = Status::running;
+    progress.status = v1::LoadCaseAnswer::STATUS_RUNNING;
     progress.iteration = samples.iteration(i);
     progress.criterion = samples.criterion(i);
     progress.contact_count = samples.contact_count(i);
@@ -127,7 +127,7 @@ void JobProgress::apply(const v1::Samples& samples) {
 void JobProgress::apply(std::size_t index, const v1::LoadCaseAnswer& answer) {
   if (index >= cases.size()) return;
   CaseProgress& progress = cases[index];
-  const auto status = status_of(answer);
+  const auto status = answer.status();
   if (ended(status) && !ended(progress.status)) progress.end_rank = ++ended_count;
   progress.status = status;
   if (answer.iterations() > 0) {
@@ -176,7 +176,8 @@ double seconds_between(const google::protobuf::Timestamp& from,
 }
 
 bool ended(Status status) noexcept {
-  return status >= Status::converged && status <= Status::cancelled;
+  return status >= v1::LoadCaseAnswer::STATUS_CONVERGED &&
+         status <= v1::LoadCaseAnswer::STATUS_CANCELLED;
 }
 
 double bar_fraction(double criterion, double target) noexcept {

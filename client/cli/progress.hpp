@@ -14,13 +14,12 @@
 #include "anticrack/v1/solve.pb.h"
 #include "cli/accuracy_text.hpp"
 #include "cli/sweep_progress.hpp"
-#include "results/status.hpp"
 
 namespace anticrack::cli {
 
 struct CaseProgress {
   std::string name;
-  results::Status status = results::Status::pending;
+  v1::LoadCaseAnswer::Status status = v1::LoadCaseAnswer::STATUS_PENDING;
   std::int32_t iteration = 0;
   double criterion = std::numeric_limits<double>::quiet_NaN();  ///< NaN before the first iteration
   std::int32_t contact_count = 0;
@@ -61,20 +60,14 @@ struct JobProgress {
 };
 
 /// The word for a status: "converged", "not converged", "running", ...
-std::string_view word(results::Status status) noexcept;
+std::string_view word(v1::LoadCaseAnswer::Status status) noexcept;
 /// The word for a state: "queued", "waiting for the mesh", ...
 std::string_view word(v1::JobStatus::State state) noexcept;
 std::string_view word(v1::Mesh::State state) noexcept;
 /// The same with the progress of the mesher: "meshing: bisecting a mesh, 120000 triangles".
 std::string state_text(const v1::Mesh& mesh);
-
-/// The status of the API; a later server may send unknown values.
-inline results::Status status_of(const v1::LoadCaseAnswer& answer) {
-  return static_cast<results::Status>(answer.status());
-}
-
 /// Whether a load case with this status no longer changes.
-bool ended(results::Status status) noexcept;
+bool ended(v1::LoadCaseAnswer::Status status) noexcept;
 
 /// Seconds between two times, for example from creation to end of a job.
 double seconds_between(const google::protobuf::Timestamp& from,

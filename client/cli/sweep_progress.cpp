@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "results/status.hpp"
-
 namespace anticrack::cli {
 namespace {
 
@@ -47,10 +45,9 @@ double SweepProgress::seconds_left() const noexcept {
 
 void SweepProgress::count(const v1::SweepRows& rows, const RowSet::Interval& interval) {
   for (std::uint64_t row = interval.first; row < interval.second; ++row) {
-    const auto status =
-        static_cast<results::Status>(rows.status(static_cast<int>(row - rows.first_row())));
-    _seen.not_converged += status == results::Status::not_converged ? 1U : 0U;
-    _seen.failed += status == results::Status::failed ? 1U : 0U;
+    const int status = rows.status(static_cast<int>(row - rows.first_row()));
+    _seen.not_converged += status == v1::LoadCaseAnswer::STATUS_NOT_CONVERGED ? 1U : 0U;
+    _seen.failed += status == v1::LoadCaseAnswer::STATUS_FAILED ? 1U : 0U;
   }
   _seen.done += interval.second - interval.first;
 }

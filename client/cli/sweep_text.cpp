@@ -15,10 +15,6 @@ namespace {
 
 using results::SweepSummary;
 
-std::string counted(std::size_t count, const char* what) {
-  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
-}
-
 constexpr std::array<const char*, 2> slope_parts{"Bx", "By"};
 
 // The name of a number: "A", or "A fibre" if there are several inclusions.
@@ -26,14 +22,19 @@ std::string name_of(const char* number, const results::Sweep& sweep, std::size_t
   return sweep.inclusions.size() == 1 ? number : number + (" " + sweep.inclusions[inclusion]);
 }
 
-std::string endings(const SweepSummary& counts) {
-  std::string text = std::to_string(counts.converged) + " converged";
-  const auto add = [&text](std::size_t count, const char* what) {
+// Rows that were cancelled, or not begun.
+std::uint64_t not_solved(const v1::SweepAnswer& answer) {
+  return answer.rows() - answer.converged() - answer.not_converged() - answer.failed();
+}
+
+std::string endings(const v1::SweepAnswer& answer) {
+  std::string text = std::to_string(answer.converged()) + " converged";
+  const auto add = [&text](std::uint64_t count, const char* what) {
     text += count > 0 ? ", " + std::to_string(count) + " " + what : std::string();
   };
-  add(counts.not_converged, "did not converge");
-  add(counts.failed, "failed");
-  add(counts.other, "were not solved");
+  add(answer.not_converged(), "did not converge");
+  add(answer.failed(), "failed");
+  add(not_solved(answer), "were not solved");
   return text;
 }
 
@@ -55,11 +56,11 @@ void add_span(const std::string& name, const std::string& unit, const SweepSumma
                   end_of(range.high, 1), ""});
 }
 
-void add_inclusions(const results::Sweep& sweep, const SweepSummary& counts,
-                    const results::Units& units, Rows& rows) {
+void add_inclusions(const results::Sweep& sweep, const SweepSummary& counts, const v1::Units& units,
+                    Rows& rows) {
   for (std::size_t i = 0; i < sweep.inclusions.size(); ++i) {
-    add_span(name_of("A", sweep, i), sanitise(units.label("L")), counts.displacement_bounds[i],
-             rows);
+    add_span(name_of("A", sweep, i), sanitise(results::label_of(units, "L")),
+             counts.displacement_bounds[i], rows);
     for (std::size_t part = 0; part < slope_parts.size() && counts.tilted(i); ++part)
       add_span(name_of(slope_parts[part], sweep, i), "", counts.slope[i][part], rows);
   }
@@ -73,8 +74,8 @@ std::string table_of_spans(Rows rows) {
 }
 
 /// Adds the least and the greatest value of all inclusions, with the inclusions' names.
-void add_extremes(const results::Sweep& sweep, const SweepSummary& counts,
-                  const results::Units& units, Rows& rows) {
+void add_extremes(const results::Sweep& sweep, const SweepSummary& counts, const v1::Units& units,
+                  Rows& rows) {
   const std::size_t inclusions = sweep.inclusions.size();
   const auto add_one = [&](const char* name, const std::string& unit, const auto& range_of) {
     std::size_t least = 0, most = 0;
@@ -87,7 +88,7 @@ void add_extremes(const results::Sweep& sweep, const SweepSummary& counts,
                     end_of(range_of(least).low, -1), sanitise(sweep.inclusions[least]),
                     end_of(range_of(most).high, 1), sanitise(sweep.inclusions[most])});
   };
-  add_one("A", sanitise(units.label("L")),
+  add_one("A", sanitise(results::label_of(units, "L")),
           [&](std::size_t i) { return counts.displacement_bounds[i]; });
   for (std::size_t part = 0; part < slope_parts.size() && counts.tilted(); ++part)
     add_one(slope_parts[part], "", [&](std::size_t i) { return counts.slope[i][part]; });
@@ -113,18 +114,18 @@ std::string first_rows(const results::Sweep& sweep, const Holds& holds) {
 
 /// A text like "bounds of 9 rows: of the energy at most 0.89 % wide, of A at most +- 0.0056".
 std::string bounds_text(const results::Sweep& sweep, const SweepSummary& counts,
-                        const results::Units& units) {
+                        const v1::Units& units) {
   if (sweep.energy_lower.empty()) return "";
   if (counts.bounded == 0) return "no row has bounds\n";
   std::string text = "bounds of " + counted(counts.bounded, "row") + ": of the energy at most " +
                      per_cent(counts.energy_width) + " wide";
   if (std::isfinite(counts.displacement_error))
     text += ", of A at most +- " + number(counts.displacement_error, 2) +
-            (units.label("L").empty() ? "" : " " + sanitise(units.label("L")));
-  if (counts.bounded < counts.converged) {
+            (results::label_of(units, "L").empty() ? ""
+                                                   : " " + sanitise(results::label_of(units, "L")));
+  if (counts.bounded < sweep.answer.converged()) {
     text += "; none of " + first_rows(sweep, [&](std::size_t row) {
-              return sweep.status[row] == results::Status::converged &&
-                     std::isnan(sweep.energy_lower[row]);
+              return sweep.converged(row) && std::isnan(sweep.energy_lower[row]);
             });
   }
   return text + "\n";
@@ -147,31 +148,27 @@ std::string csv_head(const results::Sweep& sweep, std::size_t loads) {
 
 }  // namespace
 
-std::string sweep_table(const results::Sweep& sweep, const results::Units& units) {
+std::string sweep_table(const results::Sweep& sweep, const v1::Units& units) {
   const SweepSummary counts = summary(sweep);
   std::string text = counted(sweep.rows(), "row");
   if (!sweep.source.empty()) text += " of " + sanitise(sweep.source);
-  text += ": " + endings(counts);
-  if (counts.converged > 0 && counts.converged < sweep.rows()) {
-    text += " (" +
-            first_rows(
-                sweep,
-                [&](std::size_t row) { return sweep.status[row] != results::Status::converged; }) +
-            ")";
-  }
+  text += ": " + endings(sweep.answer);
+  const std::uint64_t converged = sweep.answer.converged();
+  if (converged > 0 && converged < sweep.rows())
+    text += " (" + first_rows(sweep, [&](std::size_t row) { return !sweep.converged(row); }) + ")";
   text += "\n";
-  if (counts.converged > 0) {
-    text += "at most " + counted(static_cast<std::size_t>(counts.most_steps), "step") +
-            ", KKT residuals at most " + number(counts.worst_kkt, 2) + "\n\n";
+  if (converged > 0) {
+    text += "at most " + counted(static_cast<std::size_t>(sweep.answer.most_steps()), "step") +
+            ", KKT residuals at most " + number(sweep.answer.worst_kkt(), 2) + "\n\n";
     Rows rows{head_of_spans};
     if (sweep.inclusions.size() > few_inclusions)
       add_extremes(sweep, counts, units, rows);
     else
       add_inclusions(sweep, counts, units, rows);
     const auto& [shortest, longest] = counts.contact_length;
-    rows.push_back({sanitise(results::labelled("contact length", units.label("L"))),
+    rows.push_back({sanitise(results::labelled("contact length", results::label_of(units, "L"))),
                     contact_text(shortest), "", contact_text(longest), ""});
-    add_span("energy", sanitise(units.label("F L")), counts.energy_bounds, rows);
+    add_span("energy", sanitise(results::label_of(units, "F L")), counts.energy_bounds, rows);
     text += table_of_spans(std::move(rows));
     if (sweep.inclusions.size() > few_inclusions)
       text += "all inclusions: anticrack show RESULT --inclusions, or --csv FILE\n";
@@ -182,10 +179,10 @@ std::string sweep_table(const results::Sweep& sweep, const results::Units& units
   return text;
 }
 
-std::string sweep_inclusions(const results::Sweep& sweep, const results::Units& units) {
+std::string sweep_inclusions(const results::Sweep& sweep, const v1::Units& units) {
   Rows rows{head_of_spans};
   const SweepSummary counts = summary(sweep);
-  if (counts.converged > 0) add_inclusions(sweep, counts, units, rows);
+  if (sweep.answer.converged() > 0) add_inclusions(sweep, counts, units, rows);
   return rows.size() == 1 ? "no inclusions\n" : table_of_spans(std::move(rows));
 }
 
@@ -198,22 +195,18 @@ Json sweep_json(const results::Sweep& sweep) {
       inclusion[slope_parts[part]] = range_json(counts.slope[i][part]);
     inclusions.push_back(std::move(inclusion));
   }
-  return {{"source", sweep.source},
-          {"rows", sweep.rows()},
-          {"converged", counts.converged},
-          {"not_converged", counts.not_converged},
-          {"failed", counts.failed},
-          {"not_solved", counts.other},
-          {"most_steps", counts.most_steps},
-          {"worst_kkt", counts.worst_kkt},
-          {"error", sweep.error},
-          {"loads", sweep.loads},
-          {"inclusions", std::move(inclusions)},
-          {"contact_length", range_json(counts.contact_length)},
-          {"energy", range_json(counts.energy)},
-          {"bounded", counts.bounded},
-          {"energy_width", counts.energy_width},
-          {"displacement_error", counts.displacement_error}};
+  Json json = json_of(sweep.answer);
+  json.update({{"source", sweep.source},
+               {"not_solved", not_solved(sweep.answer)},
+               {"error", sweep.error},
+               {"loads", sweep.loads},
+               {"inclusions", std::move(inclusions)},
+               {"contact_length", range_json(counts.contact_length)},
+               {"energy", range_json(counts.energy)},
+               {"bounded", counts.bounded},
+               {"energy_width", counts.energy_width},
+               {"displacement_error", counts.displacement_error}});
+  return json;
 }
 
 std::string sweep_csv(const results::Sweep& sweep) {
@@ -221,8 +214,7 @@ std::string sweep_csv(const results::Sweep& sweep) {
   const std::size_t inclusions = sweep.inclusions.size();
   std::string text = csv_head(sweep, loads);
   for (std::size_t row = 0; row < sweep.rows(); ++row) {
-    const auto status = sweep.status[row];
-    const bool right = status == results::Status::converged;
+    const bool right = sweep.converged(row);
     const auto add = [&text, right](double value) {
       text += ',';
       if (right && std::isfinite(value)) text += exact(value);
@@ -248,7 +240,7 @@ std::string sweep_csv(const results::Sweep& sweep) {
     add_bounds(sweep.energy_lower, sweep.energy_upper, row);
     add(sweep.contact_length[row]);
     text += "," + std::to_string(sweep.steps[row]) + ",";
-    text += results::name(status);
+    text += results::status_name(sweep.status[row]);
     text += '\n';
   }
   return text;

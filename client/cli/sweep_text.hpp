@@ -13,10 +13,10 @@ namespace anticrack::cli {
 /// How many rows ended in which way, the ranges of A, contact length and energy, what went wrong,
 /// and how wide the bounds are. With bounds, the ranges of A and of the energy contain the exact
 /// values of the membrane. For many inclusions there is one range, with the inclusions at its ends.
-std::string sweep_table(const results::Sweep& sweep, const results::Units& units);
+std::string sweep_table(const results::Sweep& sweep, const v1::Units& units);
 
 /// The range of A of every inclusion, and of B of those that tilt.
-std::string sweep_inclusions(const results::Sweep& sweep, const results::Units& units);
+std::string sweep_inclusions(const results::Sweep& sweep, const v1::Units& units);
 
 Json sweep_json(const results::Sweep& sweep);  ///< the same as JSON
 

@@ -164,6 +164,10 @@ std::string short_table(std::vector<std::vector<std::string>> rows,
   return table(rows, left) + "and " + std::to_string(others) + " more, see --json\n";
 }
 
+std::string counted(std::size_t count, const std::string& one) {
+  return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
+}
+
 void drop_if_empty(std::vector<std::vector<std::string>>& rows, std::size_t column) {
   const auto empty = [&](const auto& row) { return row.at(column).empty(); };
   if (!std::all_of(rows.begin() + 1, rows.end(), empty)) return;

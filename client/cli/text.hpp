@@ -61,6 +61,9 @@ std::string table(const std::vector<std::vector<std::string>>& rows,
 std::string short_table(std::vector<std::vector<std::string>> rows,
                         const std::vector<std::size_t>& left = {});
 
+/// "1 row", "2 rows".
+std::string counted(std::size_t count, const std::string& one);
+
 /// Removes a column of a table if it has nothing but a title in the first row.
 void drop_if_empty(std::vector<std::vector<std::string>>& rows, std::size_t column);
 

@@ -25,8 +25,6 @@ struct Fetched {
 /// The name of the mesh to which the answers of a job belong: that of its last stage with answers.
 std::string mesh_of(const v1::Job& job);
 
-results::Units to_units(const v1::Units& units);
-
 /// The result. Throws results::Error for parts that do not fit together.
 results::Result to_result(const Fetched& fetched);
 

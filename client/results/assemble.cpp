@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results/assemble.hpp"
 
+#include <google/protobuf/descriptor.h>
+#include <google/protobuf/message.h>
+
 #include <cmath>
+#include <type_traits>
 #include <utility>
 
 #include "results/block.hpp"
@@ -19,7 +23,7 @@ std::vector<Trace> traces_of(const Block& block, const std::string& at, std::siz
   return traces;
 }
 
-void add_load(const Block& block, std::size_t index, std::size_t interfaces, const Mesh& mesh,
+void add_load(const Block& block, std::size_t index, std::size_t interfaces, int subdomains,
               Load& load) {
   const bool solved = load.has_answer();
   load.traces.clear();
@@ -32,7 +36,7 @@ void add_load(const Block& block, std::size_t index, std::size_t interfaces, con
     get_arrays(block, at, load.history, arrays::history<History>);
   get_arrays(block, arrays::load_folder(index), load, tables::indicator);
   if (!block.has_below(arrays::load_fields(index))) return;
-  for (std::size_t i = 0; i < mesh.subdomains.size(); ++i) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(subdomains); ++i) {
     Field& field = load.fields.emplace_back();
     get_arrays(block, arrays::field_folder(i), field, arrays::subdomain<Field>);
     field.u = block.get<double>(arrays::load_fields(index) + std::to_string(i));
@@ -40,52 +44,57 @@ void add_load(const Block& block, std::size_t index, std::size_t interfaces, con
 }
 
 /// Runs of consecutive nodes in contact.
-void add_contact_intervals(const Interface& interface, const Trace& trace,
+void add_contact_intervals(const std::string& name, const Interface& interface, const Trace& trace,
                            v1::LoadCaseAnswer& answer) {
   for (std::size_t i = 0; i < interface.node_count() && i < trace.contact.size(); ++i) {
     if (trace.contact[i] == 0) continue;
     if (i == 0 || trace.contact[i - 1] == 0) {
       v1::ContactInterval& interval = *answer.add_contact_intervals();
-      interval.set_interface(interface.name);
+      interval.set_interface(name);
       interval.set_begin(interface.s[i]);
     }
     answer.mutable_contact_intervals()->rbegin()->set_end(interface.s[i]);
   }
 }
 
-Load load_of(const Sweep& sweep, std::size_t row, std::vector<Trace> traces,
-             const std::vector<Interface>& interfaces) {
-  Load load;
-  load.asked.method = "active-set";
-  v1::LoadCaseAnswer& answer = load.answer;
+/// Gives a message's numbers what the columns of their names say at a place. A bound that is NaN is
+/// none.
+template <class Table>
+void set_numbers(const Sweep& sweep, std::size_t place, const Table& table,
+                 google::protobuf::Message& message) {
+  const auto set_number = [&message, place](std::string_view name,
+                                            const std::vector<double>& column) {
+    const auto* const field = message.GetDescriptor()->FindFieldByName(std::string(name));
+    if (column.empty() || field == nullptr || field->cpp_type() != field->CPPTYPE_DOUBLE) return;
+    if (!field->has_presence() || std::isfinite(column[place]))
+      message.GetReflection()->SetDouble(&message, field, column[place]);
+  };
+  arrays::for_each(
+      [&](const auto& row) {
+        const auto& column = std::invoke(row.member, sweep);
+        if constexpr (std::is_same_v<decltype(column), const std::vector<double>&>)
+          set_number(row.name, column);
+      },
+      table);
+}
+
+/// The answer to a row.
+v1::LoadCaseAnswer answer_of(const Sweep& sweep, std::size_t row) {
+  v1::LoadCaseAnswer answer;
   forget_numbers(answer);
   answer.set_name(row_name(static_cast<std::int64_t>(row)));
   answer.set_status(static_cast<v1::LoadCaseAnswer::Status>(sweep.status[row]));
   answer.set_iterations(sweep.steps[row]);
-  answer.set_energy(sweep.energy[row]);
-  answer.set_contact_length(sweep.contact_length[row]);
-  const bool bounded = !sweep.energy_lower.empty() && std::isfinite(sweep.energy_lower[row]);
-  if (bounded) {
-    answer.set_energy_lower(sweep.energy_lower[row]);
-    answer.set_energy_upper(sweep.energy_upper[row]);
-  }
-  const std::size_t inclusions = sweep.inclusions.size();
-  for (std::size_t i = 0; i < inclusions; ++i) {
-    const std::size_t place = row * inclusions + i;
+  set_numbers(sweep, row, arrays::sweep_rows<Sweep>, answer);
+  for (std::size_t i = 0; i < sweep.inclusions.size(); ++i) {
     v1::InclusionAnswer& inclusion = *answer.add_inclusions();
     forget_numbers(inclusion);
     inclusion.set_name(sweep.inclusions[i]);
-    inclusion.set_displacement(sweep.displacement[place]);
+    set_numbers(sweep, row * sweep.inclusions.size() + i, arrays::sweep_matrices<Sweep>, inclusion);
     inclusion.set_slope_x(sweep.slope_at(row, i, 0));
     inclusion.set_slope_y(sweep.slope_at(row, i, 1));
-    if (!bounded) continue;
-    inclusion.set_displacement_lower(sweep.displacement_lower[place]);
-    inclusion.set_displacement_upper(sweep.displacement_upper[place]);
   }
-  for (std::size_t i = 0; i < traces.size(); ++i)
-    add_contact_intervals(interfaces[i], traces[i], answer);
-  load.traces = std::move(traces);
-  return load;
+  return answer;
 }
 
 /// Fills in the columns of result.sweep and makes the loads of its kept rows. result.interfaces are
@@ -105,28 +114,32 @@ void add_sweep(const Block& block, Result& result) {
     const std::string at = arrays::row_traces(static_cast<std::size_t>(row));
     if (!block.has_below(at)) continue;  // the row did not end
     kept.push_back(row);
-    result.loads.push_back(load_of(sweep, static_cast<std::size_t>(row),
-                                   traces_of(block, at, result.interfaces.size()),
-                                   result.interfaces));
+    Load& load = result.loads.emplace_back();
+    load.answer = answer_of(sweep, static_cast<std::size_t>(row));
+    load.traces = traces_of(block, at, result.interfaces.size());
+    for (std::size_t i = 0; i < load.traces.size(); ++i)
+      add_contact_intervals(result.mesh.info.interfaces(static_cast<int>(i)).name(),
+                            result.interfaces[i], load.traces[i], load.answer);
   }
   sweep.kept = std::move(kept);
 }
 
 }  // namespace
 
-Result assemble(Result answers, std::span<const ArrayView> mesh_block,
-                std::span<const ArrayView> result_block) {
+Result assemble(Result answers, const BlockView& mesh_block, const BlockView& result_block) {
   const Block mesh("the mesh read from the server", mesh_block);
   const Block result("the result read from the server", result_block);
   get_arrays(mesh, "", answers.mesh, tables::mesh);
+  answers.interfaces.resize(static_cast<std::size_t>(answers.mesh.info.interfaces_size()));
   for (std::size_t i = 0; i < answers.interfaces.size(); ++i) {
     get_arrays(result, arrays::interface_folder(i), answers.interfaces[i],
                arrays::interface_nodes<Interface>);
-    get_arrays(mesh, arrays::interface_folder(i), answers.interfaces[i].edges, tables::edges);
+    get_arrays(mesh, arrays::interface_folder(i), answers.interfaces[i], tables::edges);
   }
   if (answers.sweep) add_sweep(result, answers);
   for (std::size_t i = 0; i < answers.loads.size() && !answers.sweep; ++i)
-    add_load(result, i, answers.interfaces.size(), answers.mesh, answers.loads[i]);
+    add_load(result, i, answers.interfaces.size(), answers.mesh.info.subdomains_size(),
+             answers.loads[i]);
   result.require(first_fault(answers));
   return answers;
 }

@@ -4,44 +4,30 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <span>
-#include <string>
-#include <vector>
 
+#include "anticrack/v1/mesh.pb.h"
 #include "results/error.hpp"
 #include "results/result.hpp"
-#include "results/value_type.hpp"
 
 namespace anticrack::results {
 
-/// One array of a block: ArrayLayout of the API plus the bytes it points at (little-endian,
-/// row-major, any alignment).
-struct ArrayView {
-  using Type = ValueType;
-  std::string name;
-  Type type = Type::float64;
-  std::vector<std::uint64_t> shape;
-  std::span<const std::byte> bytes;  ///< exactly shape's product times 8, 4 or 1
+/// A whole block, and what it says of the arrays in it.
+struct BlockView {
+  const v1::BlockLayout& layout;
+  std::span<const std::byte> bytes;
 };
 
-/// The bytes of an array inside a complete block. Throws Error if they lie outside.
-ArrayView view(std::string name, ArrayView::Type type, std::vector<std::uint64_t> shape,
-               std::uint64_t offset, std::span<const std::byte> block);
-
-/// Adds the arrays to what the messages Job, Mesh and ServerInfo contain.
+/// Adds the arrays to what the messages of the server say.
 ///
-/// `answers` has everything but arrays: texts, timings, mesh.subdomains, tension and inclusions,
-/// interfaces[].name in the order of Mesh.interfaces, and loads in the order of JobSpec.load_cases
-/// with attributes, inclusions and contact_intervals. Filled in: mesh arrays and interfaces[].edges
-/// from `mesh_block`, interfaces[].s,x,y,kind and loads[].traces, history, fields from
-/// `result_block`. A load may lack arrays unless it is `converged` or `not_converged`. For a sweep
-/// `answers` has no loads but sweep.loads, inclusions, kept and, if known, coefficients; filled in:
-/// the columns, and a load for every kept row (see Sweep::kept).
+/// `answers` has everything but arrays. Filled in: those of the mesh from `mesh_block`, interfaces
+/// from both, loads[].traces, history, fields and indicator from `result_block`. A load may lack
+/// arrays unless it is `converged` or `not_converged`.
+/// For a sweep `answers` has no loads but sweep.loads, inclusions, kept and answer; filled in: the
+/// columns, and a load for every kept row (see Sweep::kept).
 ///
-/// Throws Error for a missing array, wrong types and shapes, indices out of range and sizes that
-/// disagree. Unknown arrays are ignored.
-Result assemble(Result answers, std::span<const ArrayView> mesh_block,
-                std::span<const ArrayView> result_block);
+/// Throws Error for a missing array, wrong types and shapes, arrays outside their block, indices
+/// out of range and sizes that disagree. Unknown arrays are ignored.
+Result assemble(Result answers, const BlockView& mesh_block, const BlockView& result_block);
 
 }  // namespace anticrack::results

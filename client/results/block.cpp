@@ -1,50 +1,70 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results/block.hpp"
 
+#include "results/entries.hpp"
+#include "results/error.hpp"
+
 namespace anticrack::results {
 namespace {
 
-constexpr const char* compare_versions =
-    "the server and this client do not understand each other: compare their versions with "
-    "`anticrack server`";
-
-}  // namespace
-
-std::string text_of(const std::vector<std::uint64_t>& shape) {
+/// For messages: "(3,2)".
+std::string text_of(const v1::ArrayLayout& array) {
   std::string text = "(";
-  for (std::size_t i = 0; i < shape.size(); ++i)
-    text += (i == 0 ? "" : ",") + std::to_string(shape[i]);
+  for (int i = 0; i < array.shape_size(); ++i)
+    text += (i == 0 ? "" : ",") + std::to_string(array.shape(i));
   return text + ")";
 }
 
-std::uint64_t byte_count(const std::string& subject, const ArrayView& array) {
-  std::uint64_t bytes = bytes_of(array.type);
-  for (const std::uint64_t extent : array.shape) {
-    if (__builtin_mul_overflow(bytes, extent, &bytes)) {
-      throw Error(subject,
-                  "array " + array.name + " has the impossible shape " + text_of(array.shape),
-                  compare_versions);
-    }
-  }
-  return bytes;
+}  // namespace
+
+Block::Block(std::string subject, const BlockView& view)
+    : _subject(std::move(subject)), _bytes(view.bytes) {
+  for (const v1::ArrayLayout& array : view.layout.arrays())
+    if (!_arrays.emplace(array.name(), &array).second) fail("array " + array.name() + " twice");
 }
 
-void Block::fail(const std::string& cause) const { throw Error(_subject, cause, compare_versions); }
+bool Block::has_below(const std::string& prefix) const {
+  const auto found = _arrays.lower_bound(prefix);
+  return found != _arrays.end() && found->first.starts_with(prefix);
+}
 
-ArrayView view(std::string name, ArrayView::Type type, std::vector<std::uint64_t> shape,
-               std::uint64_t offset, std::span<const std::byte> block) {
-  const std::string subject = "a block of the server";
-  ArrayView array{std::move(name), type, std::move(shape), {}};
-  const std::uint64_t bytes = byte_count(subject, array);
-  if (offset > block.size() || bytes > block.size() - offset) {
-    throw Error(subject,
-                "array " + array.name + " of shape " + text_of(array.shape) + " at byte " +
-                    std::to_string(offset) + " lies outside the " + std::to_string(block.size()) +
-                    " bytes",
-                compare_versions);
+void Block::fail(const std::string& cause) const {
+  throw Error(_subject, cause,
+              "the server and this client do not understand each other: compare their versions "
+              "with `anticrack server`");
+}
+
+std::span<const std::byte> Block::bytes_of(const std::string& name, ValueType type,
+                                           std::uint64_t columns, std::uint64_t rows,
+                                           std::uint64_t depth) const {
+  const auto found = _arrays.find(name);
+  if (found == _arrays.end()) fail("array " + name + " is missing");
+  const v1::ArrayLayout& array = *found->second;
+  if (static_cast<int>(array.type()) != static_cast<int>(type)) {
+    fail("array " + name + " is " + name_in(*v1::ArrayLayout::Type_descriptor(), array.type()) +
+         ", not " + name_of(type));
   }
-  array.bytes = block.subspan(offset, bytes);
-  return array;
+  const auto& shape = array.shape();
+  const bool by_rows = columns == arrays::named;
+  const bool fits = shape.size() == (columns == 0 ? 1 : 2) + (depth > 1 ? 1 : 0) &&
+                    (columns == 0 || (by_rows ? shape[0] == rows : shape[1] == columns)) &&
+                    (depth == 1 || shape[shape.size() - 1] == depth);
+  if (!fits) {
+    fail("array " + name + " has shape " + text_of(array) + ", not (" +
+         (by_rows ? std::to_string(rows) + "," : "") + "n" +
+         (by_rows || columns == 0 ? "" : "," + std::to_string(columns)) +
+         (depth == 1 ? "" : "," + std::to_string(depth)) + ")");
+  }
+  std::uint64_t size = results::bytes_of(type);
+  bool inside = array.offset() <= _bytes.size();
+  for (const std::uint64_t extent : shape)
+    inside = inside && !__builtin_mul_overflow(size, extent, &size);
+  if (!inside || size > _bytes.size() - array.offset()) {
+    fail("array " + name + " of shape " + text_of(array) + " at byte " +
+         std::to_string(array.offset()) + " lies outside the " + std::to_string(_bytes.size()) +
+         " bytes");
+  }
+  return _bytes.subspan(array.offset(), size);
 }
 
 }  // namespace anticrack::results

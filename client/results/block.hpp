@@ -11,37 +11,27 @@
 #include <map>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "arrays/table.hpp"
 #include "results/assemble.hpp"
+#include "results/value_type.hpp"
 
 namespace anticrack::results {
 
 static_assert(std::endian::native == std::endian::little, "blocks are little-endian");
 
-/// For messages: "(3,2)".
-std::string text_of(const std::vector<std::uint64_t>& shape);
-/// Bytes of an array of its type and shape; throws Error where they exceed 64 bits.
-std::uint64_t byte_count(const std::string& subject, const ArrayView& array);
-
 /// One block, arrays by name.
 class Block {
  public:
-  /// `subject` begins the messages. Throws Error for a name that occurs twice. The arrays must
-  /// outlive the block.
-  Block(std::string subject, std::span<const ArrayView> arrays) : _subject(std::move(subject)) {
-    for (const ArrayView& array : arrays)
-      if (!_arrays.emplace(array.name, &array).second) fail("array " + array.name + " twice");
-  }
+  /// `subject` begins the messages. Throws Error for a name that occurs twice. What the view is of
+  /// must outlive the block.
+  Block(std::string subject, const BlockView& view);
 
   /// Any array below a folder, e.g. "loads/0/traces/".
-  bool has_below(const std::string& prefix) const {
-    const auto found = _arrays.lower_bound(prefix);
-    return found != _arrays.end() && found->first.compare(0, prefix.size(), prefix) == 0;
-  }
-
+  bool has_below(const std::string& prefix) const;
   bool has(const std::string& name) const { return _arrays.contains(name); }
 
   /// Array of shape (n) for columns 0, (rows, n) for columns arrays::named, else (n, columns); with
@@ -49,24 +39,9 @@ class Block {
   template <typename T>
   std::vector<T> get(const std::string& name, std::uint64_t columns = 0, std::uint64_t rows = 0,
                      std::uint64_t depth = 1) const {
-    const ArrayView& array = find<T>(name);
-    const std::vector<std::uint64_t>& shape = array.shape;
-    const bool by_rows = columns == arrays::named;
-    const bool fits = shape.size() == (columns == 0 ? 1U : 2U) + (depth > 1 ? 1U : 0U) &&
-                      (columns == 0 || (by_rows ? shape[0] == rows : shape[1] == columns)) &&
-                      (depth == 1 || shape.back() == depth);
-    if (!fits) {
-      fail("array " + name + " has shape " + text_of(shape) + ", not (" +
-           (by_rows ? std::to_string(rows) + "," : "") + "n" +
-           (by_rows || columns == 0 ? "" : "," + std::to_string(columns)) +
-           (depth == 1 ? "" : "," + std::to_string(depth)) + ")");
-    }
-    if (byte_count(_subject, array) != array.bytes.size()) {
-      fail("array " + name + " of shape " + text_of(shape) + " comes with " +
-           std::to_string(array.bytes.size()) + " bytes");
-    }
-    std::vector<T> values(array.bytes.size() / sizeof(T));
-    if (!values.empty()) std::memcpy(values.data(), array.bytes.data(), array.bytes.size());
+    const auto bytes = bytes_of(name, value_type<T>, columns, rows, depth);
+    std::vector<T> values(bytes.size() / sizeof(T));
+    if (!values.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
     return values;
   }
 
@@ -78,18 +53,13 @@ class Block {
   }
 
  private:
-  template <typename T>
-  const ArrayView& find(const std::string& name) const {
-    const auto found = _arrays.find(name);
-    if (found == _arrays.end()) fail("array " + name + " is missing");
-    constexpr ValueType wanted = value_type<T>;
-    if (found->second->type != wanted)
-      fail("array " + name + " is " + name_of(found->second->type) + ", not " + name_of(wanted));
-    return *found->second;
-  }
+  std::span<const std::byte> bytes_of(const std::string& name, ValueType type,
+                                      std::uint64_t columns, std::uint64_t rows,
+                                      std::uint64_t depth) const;
 
   std::string _subject;
-  std::map<std::string, const ArrayView*> _arrays;
+  std::span<const std::byte> _bytes;
+  std::map<std::string_view, const v1::ArrayLayout*> _arrays;
 };
 
 /// The arrays of a table; what is optional and missing stays as it is. `folder` ends with a slash;

@@ -36,26 +36,28 @@ void set_or_refuse(Message& message, const Entry& entry, const Value& value) {
 
 /// visit(field) for each list of a type of message.
 template <class Visit>
-void for_each_list(const Message& message, const Visit& visit) {
-  const Descriptor& type = *message.GetDescriptor();
+void for_each_list(const Descriptor& type, const Visit& visit) {
   for (int i = 0; i < type.field_count(); ++i)
     if (type.field(i)->is_repeated()) visit(type.field(i));
 }
 
-void add_meanings(const std::string& where, const Descriptor& type, const Units& units,
+/// Of a message and its lists.
+void add_meanings(const std::string& where, const Descriptor& type, const v1::Units& units,
                   std::vector<std::string>& rows) {
-  for (const Entry& entry : entries_of(type))
-    rows.insert(rows.end(), {where, entry.name, units.of(entry.unit), entry.meaning});
-  for (int i = 0; i < type.field_count(); ++i) {
-    const FieldDescriptor& field = *type.field(i);
-    if (field.is_repeated() && field.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE)
-      add_meanings(field.name(), *field.message_type(), units, rows);
-  }
+  const auto add = [&](const std::string& at, const Descriptor& of) {
+    for (const Entry& entry : entries_of(of))
+      rows.insert(rows.end(), {at, entry.name, unit_of(units, entry.unit), entry.meaning});
+  };
+  add(where, type);
+  for_each_list(type, [&](const FieldDescriptor* field) {
+    if (field->cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE && !field->is_map())
+      add(field->name(), *field->message_type());
+  });
 }
 
 }  // namespace
 
-void put_columns(const Handle& group, const Units& units, const Descriptor& type,
+void put_columns(const Handle& group, const v1::Units& units, const Descriptor& type,
                  const std::vector<const Message*>& messages) {
   for (const Entry& entry : entries_of(type)) {
     texts_and_numbers(entry.type, [&](auto empty) {
@@ -64,7 +66,7 @@ void put_columns(const Handle& group, const Units& units, const Descriptor& type
       column.reserve(messages.size());
       for (const Message* message : messages) column.push_back(std::get<T>(get(*message, entry)));
       put_array(group, entry.name, entry.type, column.data(), column.size(), {},
-                units.of(entry.unit));
+                unit_of(units, entry.unit));
     });
   }
 }
@@ -85,12 +87,12 @@ void get_columns(const Handle& group, std::uint64_t budget, const std::string& w
   }
 }
 
-void put_message(const Handle& group, const Units& units, const Message& message) {
+void put_message(const Handle& group, const v1::Units& units, const Message& message) {
   for (const Entry& entry : entries_of(*message.GetDescriptor())) {
     std::visit([&](const auto& value) { put(group, entry.name, value); }, get(message, entry));
   }
   const Reflection& fields = *message.GetReflection();
-  for_each_list(message, [&](const FieldDescriptor* field) {
+  for_each_list(*message.GetDescriptor(), [&](const FieldDescriptor* field) {
     const int count = fields.FieldSize(message, field);
     if (field->cpp_type() == FieldDescriptor::CPPTYPE_STRING) {
       const auto texts = fields.GetRepeatedFieldRef<std::string>(message, field);
@@ -113,7 +115,7 @@ void get_message(const Handle& group, std::uint64_t budget, Message& message) {
     });
   }
   const Reflection& fields = *message.GetReflection();
-  for_each_list(message, [&](const FieldDescriptor* field) {
+  for_each_list(*message.GetDescriptor(), [&](const FieldDescriptor* field) {
     if (field->cpp_type() == FieldDescriptor::CPPTYPE_STRING) {
       std::vector<std::string> texts;
       get_array(group, field->name(), budget, {}, texts);
@@ -130,10 +132,13 @@ void get_message(const Handle& group, std::uint64_t budget, Message& message) {
   });
 }
 
-void put_meanings(const Handle& root, const Units& units) {
+void put_meanings(const Handle& root, const v1::Units& units) {
   std::vector<std::string> rows;
+  add_meanings("solver", *v1::Solver::descriptor(), units, rows);
+  add_meanings("mesh", *v1::Mesh::descriptor(), units, rows);
   add_meanings("loads", *v1::LoadCaseAnswer::descriptor(), units, rows);
   add_meanings("stages", *v1::Stage::descriptor(), units, rows);
+  add_meanings("sweep", *v1::SweepAnswer::descriptor(), units, rows);
   constexpr std::size_t columns = 4;
   put_array(root, "meanings", ValueType::text, rows.data(), rows.size(), {columns});
 }

@@ -18,11 +18,13 @@ namespace anticrack::results::hdf5 {
 
 /// Values as attributes of the group, lists of texts as datasets, lists of messages as groups of
 /// columns.
-void put_message(const Handle& group, const Units& units, const google::protobuf::Message& message);
+void put_message(const Handle& group, const v1::Units& units,
+                 const google::protobuf::Message& message);
 void get_message(const Handle& group, std::uint64_t budget, google::protobuf::Message& message);
 
 /// Messages of a type as datasets of a group, one for each entry.
-void put_columns(const Handle& group, const Units& units, const google::protobuf::Descriptor& type,
+void put_columns(const Handle& group, const v1::Units& units,
+                 const google::protobuf::Descriptor& type,
                  const std::vector<const google::protobuf::Message*>& messages);
 /// Into the messages at(0), at(1), ... Throws Fault unless all columns are as long as each other
 /// and as `length`, which is then known; `what` names the list.
@@ -30,8 +32,8 @@ void get_columns(const Handle& group, std::uint64_t budget, const std::string& w
                  const google::protobuf::Descriptor& type, std::optional<std::size_t>& length,
                  const std::function<google::protobuf::Message&(std::size_t)>& at);
 
-/// What the numbers of the loads are: the dataset `meanings`, a row for each of where, name, unit
-/// and meaning.
-void put_meanings(const Handle& root, const Units& units);
+/// What the numbers of the messages are: the dataset `meanings`, a row for each of where, name,
+/// unit and meaning.
+void put_meanings(const Handle& root, const v1::Units& units);
 
 }  // namespace anticrack::results::hdf5

@@ -26,11 +26,11 @@ std::size_t columns_of(const Row& row, const Record& record) {
 
 /// A dataset, with its meaning if the table says that the file holds it.
 template <class Row, class T>
-void put_row(const Handle& group, const Units& units, const Row& row, const std::vector<T>& values,
-             std::size_t columns) {
+void put_row(const Handle& group, const v1::Units& units, const Row& row,
+             const std::vector<T>& values, std::size_t columns) {
   const Handle dataset =
       put_array(group, std::string(row.name), value_type<T>, values.data(), values.size(),
-                {columns, arrays::depth_of(row.shape)}, units.of(row.unit));
+                {columns, arrays::depth_of(row.shape)}, unit_of(units, row.unit));
   if (row.explained) put(dataset, "meaning", std::string(row.what));
 }
 
@@ -56,7 +56,7 @@ bool may_be_missing(const Row& row) {
 /// Datasets of a group. What is optional is left out where it is empty, and what has columns by
 /// name: HDF5 has no chunks without extent.
 template <class Record, class... Tables>
-void put_arrays(const Handle& group, const Units& units, const Record& record,
+void put_arrays(const Handle& group, const v1::Units& units, const Record& record,
                 const Tables&... tables) {
   arrays::for_each(
       [&](const auto& row) {

@@ -58,7 +58,7 @@ double smaller_side(const Mesh& mesh) {
 
 std::vector<std::string> notes_on(const Result& result) {
   std::vector<std::string> notes;
-  const auto& [length, force] = result.units;
+  const std::string &length = result.units.length(), &force = result.units.force();
   if (length.empty() != force.empty()) {
     const std::string missing = length.empty() ? "length" : "force";
     notes.push_back("[units] gives no " + missing +

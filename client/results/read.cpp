@@ -56,7 +56,6 @@ std::vector<v1::Stage> get_stages(const Handle& group, std::uint64_t budget) {
 Load get_load(const Handle& group, std::uint64_t budget) {
   Load load;
   hdf5::get_message(group, budget, load.answer);
-  get_values(group, load.asked, tables::asked);
   get_arrays(group, budget, load, tables::indicator);
   load.traces = list_of(group, "traces", [budget](const Handle& at) {
     Trace trace;
@@ -95,21 +94,24 @@ std::vector<Load> get_loads(const Handle& root, std::uint64_t budget) {
 
 Result get_result(const Handle& root, std::uint64_t budget) {
   Result result;
+  const auto get_message = [&root, budget](const char* name, google::protobuf::Message& message) {
+    Handle group = open_group(root, name);
+    hdf5::get_message(group, budget, message);
+    return group;
+  };
   get_values(root, result, tables::result);
-  get_values(root, result.timings, tables::timings);
-  get_values(root, result.units, tables::units);
-  get_arrays(open_group(root, "mesh"), budget, result.mesh, tables::mesh, tables::mesh_names);
+  get_message("units", result.units);
+  get_message("solver", result.solver);
+  get_arrays(get_message("mesh", result.mesh.info), budget, result.mesh, tables::mesh);
   result.interfaces = list_of(root, "interfaces", [budget](const Handle& group) {
     Interface interface;
-    get_values(group, interface, tables::interface);
-    get_arrays(group, budget, interface, arrays::interface_nodes<Interface>);
-    get_arrays(group, budget, interface.edges, tables::edges);
+    get_arrays(group, budget, interface, arrays::interface_nodes<Interface>, tables::edges);
     return interface;
   });
   result.loads = get_loads(root, budget);
   if (hdf5::has(root, "sweep")) {
-    const Handle group = open_group(root, "sweep");
     Sweep& sweep = result.sweep.emplace();
+    const Handle group = get_message("sweep", sweep.answer);
     get_values(group, sweep, tables::sweep);
     get_arrays(group, budget, sweep, tables::sweep_arrays);
   }

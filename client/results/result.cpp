@@ -6,6 +6,7 @@
 #include <functional>
 #include <set>
 
+#include "results/entries.hpp"
 #include "results/tables.hpp"
 
 namespace anticrack::results {
@@ -70,6 +71,11 @@ std::string item(const std::string& list, std::size_t index) {
   return list + "[" + std::to_string(index) + "]";
 }
 
+template <class Repeated>
+std::size_t size_of(const Repeated& messages) {
+  return static_cast<std::size_t>(messages.size());
+}
+
 void check_mesh(const Mesh& mesh, Faults& faults) {
   arrays::for_each(
       [&](const auto& row) {
@@ -83,31 +89,24 @@ void check_mesh(const Mesh& mesh, Faults& faults) {
   faults.finite("mesh.nodes", mesh.xy);
   faults.in_range("mesh.triangles", mesh.triangles, mesh.node_count());
   faults.in_range("mesh.boundary", mesh.boundary, mesh.node_count());
-  faults.in_range("mesh.subdomain", mesh.subdomain, mesh.subdomains.size());
-  faults.length("mesh.tension", mesh.tension.size(), mesh.subdomains.size(), "subdomains");
-  faults.finite("mesh.tension", mesh.tension);
-  if (!mesh.tension_law.empty())
-    faults.length("mesh.tension_law", mesh.tension_law.size(), mesh.subdomains.size(),
-                  "subdomains");
+  faults.in_range("mesh.subdomain", mesh.subdomain, size_of(mesh.info.subdomains()));
 }
 
-void check_kinds(const std::string& at, const std::vector<Kind>& kinds, Faults& faults) {
-  for (std::size_t i = 0; i < kinds.size() && !faults.any(); ++i) {
-    const auto number = static_cast<std::int32_t>(kinds[i]);
-    faults.require(number >= 1 && number <= 5,
-                   item(at, i) + " is " + std::to_string(number) + ", not 1 to 5");
-  }
+void check_kinds(const std::string& at, const std::vector<std::int32_t>& kinds, Faults& faults) {
+  for (std::size_t i = 0; i < kinds.size() && !faults.any(); ++i)
+    faults.require(kinds[i] >= v1::INTERFACE_KIND_GLUE && kinds[i] <= v1::INTERFACE_KIND_FREE,
+                   item(at, i) + " is " + std::to_string(kinds[i]) + ", not 1 to 5");
 }
 
-void check_edges(const std::string& at, const Edges& edges, std::size_t nodes, const Mesh& mesh,
+void check_edges(const std::string& at, const Interface& interface, int inclusions,
                  Faults& faults) {
-  const std::size_t count = nodes == 0 ? 0 : nodes - 1;
-  faults.lengths(at, edges, count, "edges", tables::edges);
-  check_kinds(at + ".edge_kind", edges.kind, faults);
-  const auto inclusions = static_cast<std::int64_t>(mesh.inclusions.size());
+  const std::size_t count = std::max<std::size_t>(interface.node_count(), 1) - 1;
+  faults.lengths(at, interface, count, "edges", tables::edges);
+  check_kinds(at + ".edge_kind", interface.edge_kind, faults);
   for (std::size_t e = 0; e < count && !faults.any(); ++e) {
-    const std::int32_t inclusion = edges.inclusion[e];
-    const bool rigid = edges.kind[e] == Kind::inclusion || edges.kind[e] == Kind::delaminated;
+    const std::int32_t kind = interface.edge_kind[e], inclusion = interface.edge_inclusion[e];
+    const bool rigid =
+        kind == v1::INTERFACE_KIND_INCLUSION || kind == v1::INTERFACE_KIND_DELAMINATED;
     faults.require(rigid ? inclusion >= 0 && inclusion < inclusions : inclusion == -1,
                    item(at + ".edge_inclusion", e) + " is " + std::to_string(inclusion) +
                        (rigid ? ", there are " + std::to_string(inclusions) + " inclusions"
@@ -115,16 +114,16 @@ void check_edges(const std::string& at, const Edges& edges, std::size_t nodes, c
   }
 }
 
-void check_interface(const std::string& at, const Interface& interface, const Mesh& mesh,
+void check_interface(const std::string& at, const Interface& interface, int inclusions,
                      Faults& faults) {
-  const std::size_t k = interface.node_count();
-  faults.lengths(at, interface, k, "nodes", arrays::interface_nodes<Interface>);
+  faults.lengths(at, interface, interface.node_count(), "nodes",
+                 arrays::interface_nodes<Interface>);
   faults.finite(at + ".s", interface.s);
   faults.finite(at + ".x", interface.x);
   faults.finite(at + ".y", interface.y);
   faults.increasing(at + ".s", interface.s);
   check_kinds(at + ".kind", interface.kind, faults);
-  check_edges(at, interface.edges, k, mesh, faults);
+  check_edges(at, interface, inclusions, faults);
 }
 
 void check_trace(const std::string& at, const Trace& trace, std::size_t k, Faults& faults) {
@@ -147,7 +146,7 @@ void check_field(const std::string& at, const Field& field, const Mesh& mesh,
 }
 
 std::vector<std::size_t> triangles_by_subdomain(const Mesh& mesh) {
-  std::vector<std::size_t> count(mesh.subdomains.size(), 0);
+  std::vector<std::size_t> count(size_of(mesh.info.subdomains()), 0);
   for (const std::int32_t subdomain : mesh.subdomain) ++count[static_cast<std::size_t>(subdomain)];
   return count;
 }
@@ -156,7 +155,8 @@ void check_load(const std::string& at, const Load& load, const Result& result,
                 const std::set<std::string_view>& interfaces, Faults& faults) {
   faults.require(is_load_name(load.name()),
                  at + ".name is not of the form [A-Za-z0-9][A-Za-z0-9_. -]{0,63}");
-  faults.require(!name(load.status()).empty(), at + ".status is unknown");
+  faults.require(v1::LoadCaseAnswer::Status_IsValid(load.answer.status()),
+                 at + ".status is unknown");
   if (!load.traces.empty())
     faults.length(at + ".traces", load.traces.size(), result.interfaces.size(), "interfaces");
   for (std::size_t i = 0; i < load.traces.size() && !faults.any(); ++i)
@@ -171,7 +171,8 @@ void check_load(const std::string& at, const Load& load, const Result& result,
   if (!load.indicator.empty())
     faults.lengths(at, load, result.mesh.triangle_count(), "triangles", tables::indicator);
   if (!load.fields.empty())
-    faults.length(at + ".fields", load.fields.size(), result.mesh.subdomains.size(), "subdomains");
+    faults.length(at + ".fields", load.fields.size(), size_of(result.mesh.info.subdomains()),
+                  "subdomains");
   if (!load.fields.empty() && !faults.any()) {
     const std::vector<std::size_t> counts = triangles_by_subdomain(result.mesh);
     for (std::size_t i = 0; i < load.fields.size() && !faults.any(); ++i)
@@ -196,7 +197,13 @@ void check_sweep(const Result& result, Faults& faults) {
 
 }  // namespace
 
-double largest(const v1::KktResiduals& kkt) noexcept {
+std::string status_name(int status) {
+  return name_in(*v1::LoadCaseAnswer::Status_descriptor(), status);
+}
+
+double largest_kkt(const v1::LoadCaseAnswer& answer) noexcept {
+  if (!answer.has_kkt()) return unknown;
+  const v1::KktResiduals& kkt = answer.kkt();
   double result = 0;
   for (const double residual : {kkt.equilibrium_relative(), kkt.gap_relative(), kkt.sign_relative(),
                                 kkt.complementarity_relative()}) {
@@ -204,6 +211,17 @@ double largest(const v1::KktResiduals& kkt) noexcept {
     result = std::max(result, residual);
   }
   return result;
+}
+
+double solve_seconds(const Result& result) {
+  if (result.sweep) return number_in(result.sweep->answer, "solve_seconds");
+  double seconds = 0;
+  for (const Load& load : result.loads) seconds += number_in(load.answer, "solve_seconds");
+  return seconds;
+}
+
+std::string method_of(const v1::Solver& solver) {
+  return solver.has_uzawa() ? "uzawa" : "active-set";
 }
 
 std::string fields_cure(const Result& result) {
@@ -224,11 +242,11 @@ bool is_load_name(std::string_view name) noexcept {
   return true;
 }
 
-std::string Units::of(std::string_view dimension) const {
+std::string unit_of(const v1::Units& units, std::string_view dimension) {
   std::string unit;
   for (const char c : dimension) {
     const bool is_unit = c == 'F' || c == 'L';
-    const std::string& name = c == 'F' ? force : length;
+    const std::string& name = c == 'F' ? units.force() : units.length();
     if (is_unit && name.empty()) return "-";
     if (is_unit)
       unit += name;
@@ -238,8 +256,8 @@ std::string Units::of(std::string_view dimension) const {
   return unit.empty() ? "-" : unit;
 }
 
-std::string Units::label(std::string_view dimension) const {
-  const std::string unit = of(dimension);
+std::string label_of(const v1::Units& units, std::string_view dimension) {
+  const std::string unit = unit_of(units, dimension);
   return unit == "-" ? "" : unit;
 }
 
@@ -248,12 +266,15 @@ std::string labelled(const std::string& name, const std::string& unit) {
 }
 
 std::string first_fault(const Result& result) {
+  const v1::Mesh& info = result.mesh.info;
   Faults faults;
   check_mesh(result.mesh, faults);
+  faults.length("interfaces", result.interfaces.size(), size_of(info.interfaces()),
+                "interfaces of the mesh");
   for (std::size_t i = 0; i < result.interfaces.size() && !faults.any(); ++i)
-    check_interface(item("interfaces", i), result.interfaces[i], result.mesh, faults);
+    check_interface(item("interfaces", i), result.interfaces[i], info.inclusions_size(), faults);
   std::set<std::string_view> names, interfaces;
-  for (const Interface& interface : result.interfaces) interfaces.insert(interface.name);
+  for (const v1::InterfaceInfo& interface : info.interfaces()) interfaces.insert(interface.name());
   for (std::size_t i = 0; i < result.loads.size() && !faults.any(); ++i) {
     const Load& load = result.loads[i];
     check_load(item("loads", i), load, result, interfaces, faults);

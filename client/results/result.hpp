@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The whole answer to a run as plain data, for the result file, figures and tables.
+// The whole answer to a run, for the result file and tables: the API's messages, and beside them
+// the arrays of its blocks.
 //
 // The membrane problem, its notation and equation numbers: Rudoy & Shcherbakov (2016). Index base
 // 0. Lengths, displacements and forces are in the units of the case (dimensionless in the paper);
@@ -14,50 +15,31 @@
 #include <string_view>
 #include <vector>
 
+#include "anticrack/v1/mesh.pb.h"
 #include "anticrack/v1/solve.pb.h"
 #include "results/sweep.hpp"
 
 namespace anticrack::results {
 
-/// Condition at a node or on an edge of an interface, numbered as the API's InterfaceKind.
-enum class Kind : std::int32_t {
-  glue = 1,         ///< u+ = u-                      gamma_g
-  crack = 2,        ///< [u] >= 0, no inclusion
-  inclusion = 3,    ///< u+ = u- = A, bonded; the tips of a delaminated part too
-  delaminated = 4,  ///< u+ = A, [u] >= 0             gamma_c, (3)-(6)
-  free = 5,         ///< T du/dn = 0 on both faces, a crack without contact
-};
-
 struct Mesh {
-  std::vector<double> xy;                ///< (n,2) row-major
-  std::vector<std::int32_t> triangles;   ///< (m,3) row-major, counterclockwise
-  std::vector<std::int32_t> subdomain;   ///< (m) index into subdomains
-  std::vector<std::int32_t> boundary;    ///< (b,2) row-major, edges where u is prescribed
-  std::vector<std::string> subdomains;   ///< names
-  std::vector<double> tension;           ///< T of -div(T grad u) = f, one a subdomain
-  std::vector<std::string> tension_law;  ///< of a subdomain, empty: a number; or none at all
-  std::vector<std::string> inclusions;   ///< names
+  v1::Mesh info;           ///< without its definition and the segments of its interfaces
+  std::vector<double> xy;  ///< (n,2) row-major
+  std::vector<std::int32_t> triangles;  ///< (m,3) row-major, counterclockwise
+  std::vector<std::int32_t> subdomain;  ///< (m) index into info.subdomains
+  std::vector<std::int32_t> boundary;   ///< (b,2) row-major, edges where u is prescribed
 
   /// n and m of the shapes above.
   std::size_t node_count() const noexcept { return xy.size() / 2; }
   std::size_t triangle_count() const noexcept { return triangles.size() / 3; }
-  bool operator==(const Mesh&) const = default;
-};
-
-/// The edges along a chain of k nodes.
-struct Edges {
-  std::vector<Kind> kind;               ///< (k-1)
-  std::vector<std::int32_t> inclusion;  ///< (k-1) index into Mesh::inclusions, -1 for none
-  bool operator==(const Edges&) const = default;
 };
 
 /// A chain of k nodes; a closed one repeats its first node at the end.
 struct Interface {
-  std::string name;
-  std::vector<double> s;     ///< (k) arc length from its start, strictly increasing
-  std::vector<double> x, y;  ///< (k)
-  std::vector<Kind> kind;    ///< (k) a tip has that of its tied neighbour
-  Edges edges;
+  std::vector<double> s;                ///< (k) arc length from its start, increasing
+  std::vector<double> x, y;             ///< (k)
+  std::vector<std::int32_t> kind;       ///< (k) InterfaceKind; a tip's is that of its neighbour
+  std::vector<std::int32_t> edge_kind;  ///< (k-1)
+  std::vector<std::int32_t> edge_inclusion;  ///< (k-1) index into Mesh.inclusions, -1 for none
 
   /// k of the shapes above.
   std::size_t node_count() const noexcept { return s.size(); }
@@ -101,24 +83,13 @@ struct Field {
   bool operator==(const Field&) const = default;
 };
 
-/// What was asked of the method, with the defaults of the API.
-struct Asked {
-  std::string method;              ///< "active-set" or "uzawa"
-  std::string mass;                ///< "lumped" or "consistent"; empty where unknown
-  double epsilon = unknown;        ///< stopping criterion
-  double p = unknown;              ///< bound on the multipliers
-  double kkt_tolerance = unknown;  ///< of uzawa, where it stops by KKT residuals and not by epsilon
-  double tolerance = unknown;      ///< of active-set
-};
-
 struct Load {
   /// Its name is [A-Za-z0-9][A-Za-z0-9_. -]{0,63}, unique. What the method does not compute is NaN
   /// or not set.
   v1::LoadCaseAnswer answer;
-  Asked asked;
   std::vector<Trace> traces;  ///< one per Result::interfaces, or none
   History history;
-  std::vector<Field> fields;  ///< one per Mesh::subdomains, or none (not asked for)
+  std::vector<Field> fields;  ///< one per subdomain, or none (not asked for)
   /// (m) the part of each triangle in error_bound^2; empty: not asked for, or no bounds.
   std::vector<double> indicator;
   /// Of a job with an accuracy, each on a finer mesh than the one before and with the answer of
@@ -126,37 +97,25 @@ struct Load {
   std::vector<v1::Stage> stages;
 
   const std::string& name() const noexcept { return answer.name(); }
-  Status status() const noexcept { return static_cast<Status>(answer.status()); }
   /// Whether the numbers of the answer mean anything.
   bool has_answer() const noexcept {
-    return status() == Status::converged || status() == Status::not_converged;
+    return answer.status() == v1::LoadCaseAnswer::STATUS_CONVERGED ||
+           answer.status() == v1::LoadCaseAnswer::STATUS_NOT_CONVERGED;
   }
 };
 
-/// The largest relative residual; NaN where one of them is.
-double largest(const v1::KktResiduals& kkt) noexcept;
+/// A LoadCaseAnswer.Status as a file has it: "not_converged".
+std::string status_name(int status);
 
-struct Timings {
-  double mesh_seconds = 0;
-  double factorize_seconds = 0;
-  double solve_seconds = 0;  ///< all load cases
-  double total_seconds = 0;  ///< as the user waited
-  bool operator==(const Timings&) const = default;
-};
+/// The largest relative residual; NaN where one of them is, or none is known.
+double largest_kkt(const v1::LoadCaseAnswer& answer) noexcept;
 
-/// Names of units, for people; empty: none.
-struct Units {
-  std::string length;
-  std::string force;
-
-  /// The unit of what has this dimension, in F (force) and L (length): "F/L^2" is "N/mm^2". Any
-  /// other text, as "s", is a unit already. "-" where there is none, or where the unit of the
-  /// length or the force has no name.
-  std::string of(std::string_view dimension) const;
-  /// The same for a label: empty in place of "-".
-  std::string label(std::string_view dimension) const;
-  bool operator==(const Units&) const = default;
-};
+/// The unit of what has this dimension, in F (force) and L (length): "F/L^2" is "N/mm^2". Any
+/// other text, as "s", is a unit already. "-" where there is none, or where the unit of the
+/// length or the force has no name.
+std::string unit_of(const v1::Units& units, std::string_view dimension);
+/// The same for a label: empty in place of "-".
+std::string label_of(const v1::Units& units, std::string_view dimension);
 
 /// "x [mm]"; the name alone where the unit is empty.
 std::string labelled(const std::string& name, const std::string& unit);
@@ -166,17 +125,22 @@ struct Result {
   std::string case_text;  ///< the TOML as run, overrides applied
   std::string client_version;
   std::string server_version;
-  std::string mesh_name;    ///< "meshes/ID"
-  std::string job_name;     ///< "jobs/ID"
-  std::string mesh_sha256;  ///< 64 lower-case hexadecimal digits
-  std::string not_reached;  ///< which accuracy of the job, what stopped it, and the cure
-  Units units;
-  Timings timings;
+  std::string job_name;      ///< "jobs/ID"
+  std::string not_reached;   ///< which accuracy of the job, what stopped it, and the cure
+  double total_seconds = 0;  ///< as the user waited
+  v1::Units units;
+  v1::Solver solver;  ///< of all loads, with the defaults of the API where nothing was asked for
   Mesh mesh;
-  std::vector<Interface> interfaces;
-  std::vector<Load> loads;     ///< of a sweep: its kept rows, without history
-  std::optional<Sweep> sweep;  ///< of a sweep
+  std::vector<Interface> interfaces;  ///< those of mesh.info
+  std::vector<Load> loads;            ///< of a sweep: its kept rows, without history
+  std::optional<Sweep> sweep;         ///< of a sweep
 };
+
+/// Of all load cases.
+double solve_seconds(const Result& result);
+
+/// "active-set" or "uzawa".
+std::string method_of(const v1::Solver& solver);
 
 /// The first invariant that does not hold (shapes, index ranges, names, enums, finite coordinates),
 /// as "loads[1].traces[0].jump has 160 entries for 161 nodes"; empty: all hold. O(size).

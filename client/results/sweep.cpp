@@ -68,6 +68,17 @@ bool is_node(std::int32_t interface, std::int32_t node,
          static_cast<std::size_t>(node) < interface_nodes[static_cast<std::size_t>(interface)];
 }
 
+std::string counts_fault(const Sweep& sweep) {
+  const v1::SweepAnswer& answer = sweep.answer;
+  std::uint64_t left = sweep.rows();
+  bool fits = answer.rows() == left;
+  for (const std::uint64_t count : {answer.converged(), answer.not_converged(), answer.failed()}) {
+    fits = fits && count <= left;
+    left -= count;
+  }
+  return fits ? "" : "sweep counts other rows than its " + std::to_string(sweep.rows());
+}
+
 /// All bounds or none.
 std::string bounds_fault(const Sweep& sweep) {
   const std::size_t rows = sweep.energy_lower.size(), inclusions = sweep.inclusions.size();
@@ -78,12 +89,9 @@ std::string bounds_fault(const Sweep& sweep) {
 }
 
 std::string range_fault(const Sweep& sweep, const std::vector<std::size_t>& interface_nodes) {
-  for (std::size_t i = 0; i < sweep.rows(); ++i) {
-    if (name(sweep.status[i]).empty()) {
-      return entry("status", i) + " is " +
-             std::to_string(static_cast<std::int32_t>(sweep.status[i])) + ", no status";
-    }
-  }
+  for (std::size_t i = 0; i < sweep.rows(); ++i)
+    if (!v1::LoadCaseAnswer::Status_IsValid(sweep.status[i]))
+      return entry("status", i) + " is " + std::to_string(sweep.status[i]) + ", no status";
   for (std::size_t i = 0; i < sweep.contacts(); ++i)
     if (!is_node(sweep.contact_nodes[2 * i], sweep.contact_nodes[2 * i + 1], interface_nodes))
       return entry("contact_nodes", i) + " is not a node of an interface";
@@ -123,13 +131,7 @@ SweepSummary summary(const Sweep& sweep) {
   result.displacement_bounds.resize(inclusions);
   result.slope.resize(inclusions);
   for (std::size_t row = 0; row < sweep.rows(); ++row) {
-    const Status status = sweep.status[row];
-    result.not_converged += status == Status::not_converged ? 1U : 0U;
-    result.failed += status == Status::failed ? 1U : 0U;
-    if (status != Status::converged) continue;
-    ++result.converged;
-    result.most_steps = std::max(result.most_steps, sweep.steps[row]);
-    result.worst_kkt = std::fmax(result.worst_kkt, sweep.kkt[row]);
+    if (!sweep.converged(row)) continue;
     widen(result.energy, sweep.energy[row]);
     widen(result.energy_bounds, sweep.energy, sweep.energy_lower, sweep.energy_upper, row);
     add_bounds(sweep, row, result);
@@ -143,7 +145,6 @@ SweepSummary summary(const Sweep& sweep) {
         widen(result.slope[i][part], sweep.slope_at(row, i, part));
     }
   }
-  result.other = sweep.rows() - result.converged - result.not_converged - result.failed;
   return result;
 }
 
@@ -151,6 +152,7 @@ std::string row_name(std::int64_t row) { return "row-" + std::to_string(row); }
 
 std::string first_fault(const Sweep& sweep, const std::vector<std::size_t>& interface_nodes) {
   std::string fault = length_fault(sweep);
+  if (fault.empty()) fault = counts_fault(sweep);
   if (fault.empty()) fault = bounds_fault(sweep);
   return fault.empty() ? range_fault(sweep, interface_nodes) : fault;
 }

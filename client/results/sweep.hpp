@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "results/status.hpp"
+#include "anticrack/v1/solve.pb.h"
 
 namespace anticrack::results {
 
@@ -20,11 +20,14 @@ struct Sweep {
   std::vector<std::string> loads;       ///< names of the basis; empty for nodal forces
   std::vector<std::string> inclusions;  ///< names
   std::string source;                   ///< file of the coefficients or nodal forces
+  std::string error;                    ///< of the first row that failed
+  v1::SweepAnswer answer;               ///< counts of rows by ending, and the worst of them
   /// (rows, loads) row-major: row k is the load sum_j c_kj loads[j]. Empty for nodal forces, and if
   /// unknown: the server does not return them.
   std::vector<double> coefficients;
 
-  std::vector<Status> status;       ///< (rows) numbers of a row hold only if converged
+  /// (rows) LoadCaseAnswer.Status; the numbers of a row hold only if converged.
+  std::vector<std::int32_t> status;
   std::vector<std::int32_t> steps;  ///< (rows) of the active set
   std::vector<double> energy;       ///< (rows) Pi(u)
   /// (rows) of the membrane's own Pi, NaN where a row has none; empty: not asked for.
@@ -40,9 +43,10 @@ struct Sweep {
   /// Rows whose traces were kept, ascending: Result::loads has one load for each, "row-17".
   std::vector<std::int32_t> kept;
 
-  std::string error;         ///< of the first row that failed
-  double solve_seconds = 0;  ///< on the server's solver threads, added up
-
+  /// Whether the numbers of a row hold.
+  bool converged(std::size_t row) const noexcept {
+    return status[row] == v1::LoadCaseAnswer::STATUS_CONVERGED;
+  }
   /// Length of the columns; number of crack nodes.
   std::size_t rows() const noexcept { return status.size(); }
   std::size_t contacts() const noexcept { return contact_nodes.size() / 2; }
@@ -52,20 +56,15 @@ struct Sweep {
   double slope_at(std::size_t row, std::size_t inclusion, std::size_t part) const noexcept {
     return slope.empty() ? 0 : slope[(row * inclusions.size() + inclusion) * 2 + part];
   }
-  bool operator==(const Sweep&) const = default;
 };
 
-/// Counts of rows by ending, and ranges over the converged rows.
+/// Ranges over the converged rows.
 struct SweepSummary {
   struct Range {
     double low = std::numeric_limits<double>::quiet_NaN();  ///< NaN where no row converged
     double high = std::numeric_limits<double>::quiet_NaN();
     bool nonzero() const noexcept { return low < 0 || high > 0; }
   };
-  std::size_t converged = 0, not_converged = 0, failed = 0;
-  std::size_t other = 0;  ///< cancelled, or not begun
-  std::int32_t most_steps = 0;
-  double worst_kkt = 0;                     ///< over the converged rows
   std::vector<Range> displacement;          ///< one an inclusion
   std::vector<std::array<Range, 2>> slope;  ///< of Bx and By, one an inclusion
   Range contact_length, energy;

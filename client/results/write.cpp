@@ -21,20 +21,10 @@ using hdf5::put;
 using hdf5::put_arrays;
 using hdf5::put_values;
 
-void put_interface(const Handle& parent, std::size_t index, const Interface& interface,
-                   const Units& units) {
-  const Handle group = create_group(parent, std::to_string(index));
-  put_values(group, interface, tables::interface);
-  put_arrays(group, units, interface, arrays::interface_nodes<Interface>);
-  put_arrays(group, units, interface.edges, tables::edges);
-}
-
-void put_load(const Handle& parent, std::size_t index, const Load& load, const Mesh& mesh,
-              const Units& units) {
+void put_load(const Handle& parent, std::size_t index, const Load& load, const v1::Units& units) {
   const Handle group = create_group(parent, load.name());
   put(group, "index", static_cast<std::int32_t>(index));
   hdf5::put_message(group, units, load.answer);
-  put_values(group, load.asked, tables::asked);
   put_arrays(group, units, load, tables::indicator);
   const Handle traces = create_group(group, "traces");
   for (std::size_t i = 0; i < load.traces.size(); ++i)
@@ -53,43 +43,36 @@ void put_load(const Handle& parent, std::size_t index, const Load& load, const M
   }
   if (load.fields.empty()) return;
   const Handle fields = create_group(group, "fields");
-  for (std::size_t i = 0; i < load.fields.size(); ++i) {
-    const Handle field = create_group(fields, std::to_string(i));
-    put(field, "name", mesh.subdomains[i]);
-    put_arrays(field, units, load.fields[i], arrays::subdomain<Field>, arrays::field<Field>);
-  }
+  for (std::size_t i = 0; i < load.fields.size(); ++i)
+    put_arrays(create_group(fields, std::to_string(i)), units, load.fields[i],
+               arrays::subdomain<Field>, arrays::field<Field>);
 }
 
-void put_sweep(const Handle& root, const Sweep& sweep, const Units& units) {
+void put_sweep(const Handle& root, const Sweep& sweep, const v1::Units& units) {
   const Handle group = create_group(root, "sweep");
-  const SweepSummary counts = summary(sweep);
   put(group, "description", std::string("row k of every dataset belongs to load case k"));
+  hdf5::put_message(group, units, sweep.answer);
   put_values(group, sweep, tables::sweep);
-  put(group, "converged", static_cast<std::int32_t>(counts.converged));
-  put(group, "not_converged", static_cast<std::int32_t>(counts.not_converged));
-  put(group, "failed", static_cast<std::int32_t>(counts.failed));
   put_arrays(group, units, sweep, tables::sweep_arrays);
 }
 
-void put_mesh(const Handle& root, const Mesh& mesh, const Units& units) {
-  const Handle group = create_group(root, "mesh");
-  put_arrays(group, units, mesh, tables::mesh, tables::mesh_names);
-}
-
 void put_all(const Handle& root, const Result& result) {
+  const v1::Units& units = result.units;
   put(root, "format", std::string(format));
   put_values(root, result, tables::result);
-  put_values(root, result.units, tables::units);
-  put_values(root, result.timings, tables::timings);
-  hdf5::put_meanings(root, result.units);
-  put_mesh(root, result.mesh, result.units);
+  hdf5::put_meanings(root, units);
+  hdf5::put_message(create_group(root, "units"), units, units);
+  hdf5::put_message(create_group(root, "solver"), units, result.solver);
+  const Handle mesh = create_group(root, "mesh");
+  hdf5::put_message(mesh, units, result.mesh.info);
+  put_arrays(mesh, units, result.mesh, tables::mesh);
   const Handle interfaces = create_group(root, "interfaces");
   for (std::size_t i = 0; i < result.interfaces.size(); ++i)
-    put_interface(interfaces, i, result.interfaces[i], result.units);
+    put_arrays(create_group(interfaces, std::to_string(i)), units, result.interfaces[i],
+               arrays::interface_nodes<Interface>, tables::edges);
   const Handle loads = create_group(root, "loads");
-  for (std::size_t i = 0; i < result.loads.size(); ++i)
-    put_load(loads, i, result.loads[i], result.mesh, result.units);
-  if (result.sweep) put_sweep(root, *result.sweep, result.units);
+  for (std::size_t i = 0; i < result.loads.size(); ++i) put_load(loads, i, result.loads[i], units);
+  if (result.sweep) put_sweep(root, *result.sweep, units);
 }
 
 /// Whether a file holds what the result makes again: then it is no loss. A sweep's coefficients are

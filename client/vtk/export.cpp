@@ -29,7 +29,7 @@ bool exportable(const Result& result, const std::string& source, const Load& loa
                 Exported& exported) {
   if (load.traces.empty() && load.fields.empty()) {
     exported.notes.push_back("load \"" + load.name() + "\" has no answer (" +
-                             std::string(results::name(load.status())) + "): nothing to export");
+                             results::status_name(load.answer.status()) + "): nothing to export");
     return false;
   }
   if (load.fields.empty() && !result.sweep) {
@@ -89,7 +89,8 @@ UnstructuredGrid membrane(const Result& result, const Load& load) {
     for (const std::int32_t corner : field.triangles) grid.corners.push_back(first + corner);
     const std::size_t cells = field.triangles.size() / 3;
     subdomain.insert(subdomain.end(), cells, static_cast<std::int32_t>(d));
-    tension.insert(tension.end(), cells, result.mesh.tension[d]);
+    tension.insert(tension.end(), cells,
+                   result.mesh.info.subdomains(static_cast<int>(d)).tension());
   }
   grid.xy.reserve(2 * node.size());
   for (const std::int32_t index : node) {
@@ -97,7 +98,9 @@ UnstructuredGrid membrane(const Result& result, const Load& load) {
     grid.xy.push_back(result.mesh.xy[at]);
     grid.xy.push_back(result.mesh.xy[at + 1]);
   }
-  const auto unit = [&](const char* dimension) { return result.units.label(dimension); };
+  const auto unit = [&](const char* dimension) {
+    return results::label_of(result.units, dimension);
+  };
   grid.points = {{"u", std::move(u), unit("L")}, {"node", std::move(node)}};
   grid.cells = {{"tension", std::move(tension), unit("F/L")}, {"subdomain", std::move(subdomain)}};
   if (!load.indicator.empty())
@@ -117,7 +120,7 @@ UnstructuredGrid interfaces(const Result& result, const Load& load) {
     const auto count = static_cast<std::int32_t>(line.node_count());
     for (std::size_t k = 0; k < line.node_count(); ++k) {
       grid.xy.insert(grid.xy.end(), {line.x[k], line.y[k]});
-      kind.push_back(static_cast<std::int32_t>(line.kind[k]));
+      kind.push_back(line.kind[k]);
     }
     for (std::int32_t k = 0; k + 1 < count; ++k) {
       grid.corners.insert(grid.corners.end(), {first + k, first + k + 1});
@@ -129,13 +132,13 @@ UnstructuredGrid interfaces(const Result& result, const Load& load) {
     append(pressure, trace.pressure);
     append(s, line.s);
     append(contact, trace.contact);
-    append(inclusion, line.edges.inclusion);
+    append(inclusion, line.edge_inclusion);
   }
-  const std::string length = result.units.label("L");
+  const std::string length = results::label_of(result.units, "L");
   grid.points = {{"u_minus", u_minus, length},
                  {"u_plus", u_plus, length},
                  {"jump", jump, length},
-                 {"pressure", pressure, result.units.label("F/L")},
+                 {"pressure", pressure, results::label_of(result.units, "F/L")},
                  {"s", s, length},
                  {"kind", kind},
                  {"contact", contact}};

@@ -19,7 +19,7 @@ namespace anticrack::vtk {
 UnstructuredGrid membrane(const results::Result& result, const results::Load& load);
 
 /// The interfaces as lines. Point data u_minus, u_plus, jump, pressure, s (arc length), kind
-/// (results::Kind), contact; cell data interface, inclusion (index into Mesh::inclusions, -1 none).
+/// (InterfaceKind), contact; cell data interface, inclusion (index into Mesh::inclusions, -1 none).
 /// Needs load.traces.
 UnstructuredGrid interfaces(const results::Result& result, const results::Load& load);
 

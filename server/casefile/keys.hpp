@@ -33,7 +33,18 @@ enum class Type {
   refused,     ///< a key that is known elsewhere; `meaning` says why it is not allowed here
 };
 
+struct Key;
 struct Keys;
+
+/// A text of a row that is neither its name nor its meaning.
+struct Part {
+  std::string_view Key::*member;
+  std::string_view text;
+};
+/// Keys of each entry of a value, by name or index.
+struct EachOf {
+  const Keys* keys;
+};
 
 struct Key {
   std::string_view name;
@@ -51,7 +62,23 @@ struct Key {
   const Keys* below = nullptr;
   bool many = false;  ///< it has entries, by name or index, with the keys `below`
 
+  /// The parts in any order: a type, the meaning as a plain text, Parts, the keys below.
+  template <class... Parts>
+  constexpr Key(std::string_view its_name, const Parts&... parts) : name(its_name) {
+    (set(parts), ...);
+  }
+
   std::string_view path() const { return field.empty() ? name : field; }
+
+ private:
+  constexpr void set(Type given) { type = given; }
+  constexpr void set(std::string_view text) { meaning = text; }
+  constexpr void set(Part part) { this->*part.member = part.text; }
+  constexpr void set(const Keys* keys) { below = keys; }
+  constexpr void set(EachOf each) {
+    below = each.keys;
+    many = true;
+  }
 };
 
 /// The keys of a table of a case.

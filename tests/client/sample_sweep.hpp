@@ -4,12 +4,37 @@
 // left as the coefficient falls.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 
+#include "results/tables.hpp"
 #include "support/sample_result.hpp"
 
 namespace anticrack::testing {
+
+/// NaN is no NaN.
+inline bool same(const results::Sweep& a, const results::Sweep& b) {
+  bool equal = a.answer.SerializeAsString() == b.answer.SerializeAsString();
+  arrays::for_each(
+      [&](const auto& row) { equal &= std::invoke(row.member, a) == std::invoke(row.member, b); },
+      results::tables::sweep, results::tables::sweep_arrays);
+  return equal;
+}
+
+/// What the server says of the rows as a whole.
+inline void count_rows(results::Sweep& sweep) {
+  const auto count = [&sweep](v1::LoadCaseAnswer::Status status) {
+    return static_cast<std::uint64_t>(std::ranges::count(sweep.status, status));
+  };
+  sweep.answer.set_rows(sweep.rows());
+  sweep.answer.set_converged(count(v1::LoadCaseAnswer::STATUS_CONVERGED));
+  sweep.answer.set_not_converged(count(v1::LoadCaseAnswer::STATUS_NOT_CONVERGED));
+  sweep.answer.set_failed(count(v1::LoadCaseAnswer::STATUS_FAILED));
+  sweep.answer.set_most_steps(*std::ranges::max_element(sweep.steps));
+  sweep.answer.set_worst_kkt(*std::ranges::max_element(sweep.kkt));
+}
 
 /// Loads skew and opening, skew with coefficient 1 and opening with one from -1 to 1; `rows` at
 /// least 3, the last but one not converged, traces of the first and the last kept; 2n + 1 nodes.
@@ -20,17 +45,16 @@ inline results::Result sample_sweep(std::size_t rows = 21, int n = 10) {
   sweep.loads = {"skew", "opening"};
   sweep.inclusions = {"fibre"};
   sweep.source = "ratio.csv";
-  sweep.solve_seconds = 0.25;
   for (std::size_t i = 0; i < line.node_count(); ++i) {
-    if (line.kind[i] == results::Kind::delaminated) {
+    if (line.kind[i] == v1::INTERFACE_KIND_DELAMINATED) {
       sweep.contact_nodes.insert(sweep.contact_nodes.end(), {0, static_cast<std::int32_t>(i)});
     }
   }
   for (std::size_t row = 0; row < rows; ++row) {
     const double c = -1 + 2 * static_cast<double>(row) / static_cast<double>(rows - 1);
     sweep.coefficients.insert(sweep.coefficients.end(), {1, c});
-    sweep.status.push_back(row + 2 == rows ? results::Status::not_converged
-                                           : results::Status::converged);
+    sweep.status.push_back(row + 2 == rows ? v1::LoadCaseAnswer::STATUS_NOT_CONVERGED
+                                           : v1::LoadCaseAnswer::STATUS_CONVERGED);
     sweep.steps.push_back(static_cast<std::int32_t>(2 + row % 4));
     sweep.energy.push_back(-1 - c * c);
     sweep.kkt.push_back(1e-13);
@@ -50,9 +74,11 @@ inline results::Result sample_sweep(std::size_t rows = 21, int n = 10) {
     load.answer.set_name(results::row_name(sweep.kept[i]));
     load.history = {};
     load.fields.clear();
-    load.asked.method = "active-set";
   }
+  result.solver.mutable_active_set();
   result.sweep = sweep;
+  count_rows(*result.sweep);
+  result.sweep->answer.mutable_solve_time()->set_nanos(250'000'000);
   return result;
 }
 

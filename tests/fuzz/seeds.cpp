@@ -24,8 +24,8 @@
 #include "mesher/grading.hpp"
 #include "mesher/import.hpp"
 #include "mesher/msh_writer.hpp"
-#include "results/result.hpp"
 #include "store/record_codec.hpp"
+#include "support/block_maker.hpp"
 #include "support/case_file.hpp"
 
 namespace {
@@ -211,90 +211,23 @@ void save_uploads() {
   }
 }
 
-/// A block as the server streams it, of columns of numbers.
-class Block {
- public:
-  template <class T>
-  void add(const std::string& name, const std::vector<T>& values, std::uint64_t columns = 0) {
-    while (_bytes.size() % 8 != 0) _bytes.push_back('\0');
-    auto& array = *_layout.add_arrays();
-    array.set_name(name);
-    array.set_type(sizeof(T) == 8 ? v1::ArrayLayout::TYPE_FLOAT64 : v1::ArrayLayout::TYPE_INT32);
-    array.set_offset(_bytes.size());
-    array.add_shape(columns == 0 ? values.size() : values.size() / columns);
-    if (columns != 0) array.add_shape(columns);
-    _bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
-  }
-
-  /// As result_stream takes it: with the chunk as a message, or its data alone.
-  std::string stream(bool data_alone) {
-    _layout.set_size(_bytes.size());
-    _layout.set_sha256(digest::Sha256().add(_bytes).finish());
-    v1::BlockChunk chunk;
-    chunk.set_data(_bytes);
-    chunk.set_crc32c(digest::crc32c(std::as_bytes(std::span(_bytes))));
-    return as_piece(_layout.SerializeAsString()) +
-           as_piece(data_alone ? _bytes : chunk.SerializeAsString());
-  }
-
- private:
-  v1::BlockLayout _layout;
-  std::string _bytes;
-};
-
-void add_load(Block& block, const std::string& at, const results::Load& load) {
-  for (std::size_t i = 0; i < load.traces.size(); ++i) {
-    const std::string trace = at + "traces/" + std::to_string(i) + "/";
-    block.add(trace + "u_minus", load.traces[i].u_minus);
-    block.add(trace + "u_plus", load.traces[i].u_plus);
-    block.add(trace + "jump", load.traces[i].jump);
-    block.add(trace + "pressure", load.traces[i].pressure);
-    block.add(trace + "contact", load.traces[i].contact);
-  }
-  const results::History& history = load.history;
-  block.add(at + "history/iteration", history.iteration);
-  block.add(at + "history/criterion", history.criterion);
-  block.add(at + "history/energy", history.energy);
-  block.add(at + "history/contact_count", history.contact_count);
-  block.add(at + "history/kkt_equilibrium", history.kkt.equilibrium);
-  block.add(at + "history/kkt_gap", history.kkt.gap);
-  block.add(at + "history/kkt_sign", history.kkt.sign);
-  block.add(at + "history/kkt_complementarity", history.kkt.complementarity);
-  for (std::size_t i = 0; i < load.fields.size(); ++i) {
-    block.add(at + "fields/" + std::to_string(i), load.fields[i].u);
-  }
+/// A block as result_stream takes it: with the chunk as a message, or its data alone.
+std::string stream(testing::BlockMaker block, bool data_alone) {
+  block.layout.set_size(block.bytes.size());
+  block.layout.set_sha256(digest::Sha256().add(block.bytes).finish());
+  v1::BlockChunk chunk;
+  chunk.set_data(block.bytes.data(), block.bytes.size());
+  chunk.set_crc32c(digest::crc32c(block.bytes));
+  return as_piece(block.layout.SerializeAsString()) +
+         as_piece(data_alone ? chunk.data() : chunk.SerializeAsString());
 }
 
 void save_result() {
-  const results::Result result = fuzz::small_result();
-  Block mesh;
-  mesh.add("nodes", result.mesh.xy, 2);
-  mesh.add("triangles", result.mesh.triangles, 3);
-  mesh.add("subdomain", result.mesh.subdomain);
-  mesh.add("boundary", result.mesh.boundary, 2);
-  Block answer;
-  for (std::size_t i = 0; i < result.interfaces.size(); ++i) {
-    const results::Interface& interface = result.interfaces[i];
-    const std::string at = "interfaces/" + std::to_string(i) + "/";
-    answer.add(at + "s", interface.s);
-    answer.add(at + "x", interface.x);
-    answer.add(at + "y", interface.y);
-    answer.add(at + "kind",
-               std::vector<std::int32_t>(interface.node_count(), 3));  // delaminated everywhere
-    mesh.add(at + "edge_kind", std::vector<std::int32_t>(interface.edges.kind.size(), 3));
-    mesh.add(at + "edge_inclusion", std::vector<std::int32_t>(interface.edges.kind.size(), 0));
-  }
-  for (std::size_t i = 0; i < result.loads.size(); ++i) {
-    add_load(answer, "loads/" + std::to_string(i) + "/", result.loads[i]);
-  }
-  for (std::size_t i = 0; i < result.loads[0].fields.size(); ++i) {
-    const std::string at = "fields/" + std::to_string(i);
-    answer.add(at + "/nodes", result.loads[0].fields[i].nodes);
-    answer.add(at + "/triangles", result.loads[0].fields[i].triangles, 3);
-  }
+  const testing::ResultBlocks blocks(fuzz::small_result());
   for (const bool corrected : {false, true}) {
     save("result_stream", corrected ? "corrected" : "plain",
-         chosen(corrected ? 1 : 0, mesh.stream(corrected) + answer.stream(corrected)));
+         chosen(corrected ? 1 : 0,
+                stream(blocks.mesh, corrected) + stream(blocks.answer, corrected)));
   }
 }
 

@@ -31,10 +31,23 @@ inline double sample_u(double x, double y, bool plus, bool contact) {
 /// Grid of 2n x 2n squares, two triangles each, on (-1,1)^2; the interface is y = 0.
 inline results::Mesh sample_mesh(int n) {
   results::Mesh mesh;
-  mesh.subdomains = {"lower", "upper"};
-  mesh.tension = {1, 2};
-  mesh.tension_law = {"", "along 2, across 1, angle 30"};
-  mesh.inclusions = {"fibre"};
+  mesh.info.set_name("meshes/0123");
+  mesh.info.set_sha256(std::string(64, 'a'));
+  mesh.info.set_state(v1::Mesh::STATE_READY);
+  mesh.info.mutable_create_time()->set_seconds(1'700'000'000);
+  mesh.info.set_mesh_seconds(0.2);
+  mesh.info.set_factorize_seconds(0.1);
+  for (const char* name : {"lower", "upper"}) mesh.info.add_subdomains()->set_name(name);
+  mesh.info.mutable_subdomains(0)->set_tension(1);
+  mesh.info.mutable_subdomains(1)->set_tension(2);
+  v1::Tension& law = *mesh.info.mutable_subdomains(1)->mutable_tension_law();
+  law.set_along("2");
+  law.set_across("1");
+  law.set_angle(30);
+  v1::InterfaceInfo& line = *mesh.info.add_interfaces();
+  line.set_name("sigma");
+  line.mutable_start()->set_x(-1);
+  mesh.info.add_inclusions("fibre");
   const int side = 2 * n + 1;
   for (int j = 0; j < side; ++j) {
     for (int i = 0; i < side; ++i) {
@@ -63,20 +76,20 @@ inline results::Mesh sample_mesh(int n) {
 
 inline results::Interface sample_interface(int n) {
   results::Interface interface;
-  interface.name = "sigma";
   for (int i = 0; i <= 2 * n; ++i) {
     const double x = -1 + static_cast<double>(i) / n;
     interface.s.push_back(x + 1);
     interface.x.push_back(x);
     interface.y.push_back(0);
     const double beyond = std::abs(x) - 0.5;
-    interface.kind.push_back(beyond < -1e-9  ? results::Kind::delaminated
-                             : beyond < 1e-9 ? results::Kind::inclusion
-                                             : results::Kind::glue);
+    interface.kind.push_back(beyond < -1e-9  ? v1::INTERFACE_KIND_DELAMINATED
+                             : beyond < 1e-9 ? v1::INTERFACE_KIND_INCLUSION
+                                             : v1::INTERFACE_KIND_GLUE);
     if (i == 2 * n) break;
     const bool delaminated = std::abs(x + 0.5 / n) < 0.5;
-    interface.edges.kind.push_back(delaminated ? results::Kind::delaminated : results::Kind::glue);
-    interface.edges.inclusion.push_back(delaminated ? 0 : -1);
+    interface.edge_kind.push_back(delaminated ? v1::INTERFACE_KIND_DELAMINATED
+                                              : v1::INTERFACE_KIND_GLUE);
+    interface.edge_inclusion.push_back(delaminated ? 0 : -1);
   }
   return interface;
 }
@@ -84,7 +97,6 @@ inline results::Interface sample_interface(int n) {
 inline results::Load sample_load(const std::string& name, const results::Mesh& mesh,
                                  const results::Interface& interface, bool contact) {
   results::Load load;
-  load.asked = {"uzawa", "lumped", 1e-12, 1e5};
   v1::LoadCaseAnswer& answer = load.answer;
   answer.set_name(name);
   answer.set_status(v1::LoadCaseAnswer::STATUS_CONVERGED);
@@ -114,7 +126,7 @@ inline results::Load sample_load(const std::string& name, const results::Mesh& m
   results::Trace trace;
   for (std::size_t i = 0; i < interface.node_count(); ++i) {
     const double x = interface.x[i];
-    const bool crack = interface.kind[i] == results::Kind::delaminated;
+    const bool crack = interface.kind[i] == v1::INTERFACE_KIND_DELAMINATED;
     const bool closed = contact && crack && x <= -0.2 + 1e-9;
     trace.u_minus.push_back(sample_u(x, 0, false, contact));
     trace.u_plus.push_back(sample_u(x, 0, true, contact));
@@ -126,7 +138,7 @@ inline results::Load sample_load(const std::string& name, const results::Mesh& m
   if (contact) {
     answer.set_contact_length(0.3);
     v1::ContactInterval& interval = *answer.add_contact_intervals();
-    interval.set_interface(interface.name);
+    interval.set_interface(mesh.info.interfaces(0).name());
     interval.set_begin(0.5);
     interval.set_end(0.8);
   }
@@ -163,6 +175,13 @@ inline results::Load sample_load(const std::string& name, const results::Mesh& m
   return load;
 }
 
+inline v1::Units units_of(const std::string& length, const std::string& force) {
+  v1::Units units;
+  units.set_length(length);
+  units.set_force(force);
+  return units;
+}
+
 /// Two loads, "opening" and "partly closed"; 8 n^2 triangles.
 inline results::Result sample_result(int n = 20) {
   results::Result result;
@@ -170,10 +189,10 @@ inline results::Result sample_result(int n = 20) {
   result.case_text = "title = \"A made-up membrane\"\n# \xC3\xA9\n";
   result.client_version = "0.1.0";
   result.server_version = "0.1.0";
-  result.mesh_name = "meshes/0123";
   result.job_name = "jobs/4567";
-  result.mesh_sha256 = std::string(64, 'a');
-  result.timings = {0.2, 0.1, 0.05, 0.6};
+  result.total_seconds = 0.6;
+  result.solver.mutable_uzawa()->set_epsilon(1e-12);
+  result.solver.mutable_uzawa()->set_mass(v1::MASS_LUMPED);
   result.mesh = sample_mesh(n);
   result.interfaces = {sample_interface(n)};
   result.loads = {sample_load("opening", result.mesh, result.interfaces[0], false),
@@ -215,10 +234,10 @@ inline results::Result with_stages(results::Result result) {
 
 /// Edges first <= e < end of an interface.
 inline void set_edges(results::Interface& interface, std::size_t first, std::size_t end,
-                      results::Kind kind, std::int32_t inclusion) {
+                      v1::InterfaceKind kind, std::int32_t inclusion) {
   for (std::size_t e = first; e < end; ++e) {
-    interface.edges.kind[e] = kind;
-    interface.edges.inclusion[e] = inclusion;
+    interface.edge_kind[e] = kind;
+    interface.edge_inclusion[e] = inclusion;
   }
 }
 
@@ -226,11 +245,12 @@ inline void set_edges(results::Interface& interface, std::size_t first, std::siz
 /// lie symmetrically under a symmetric load. They touch at x = 0, which no server allows.
 inline results::Result sample_pair(int n = 20) {
   results::Result result = sample_result(n);
-  result.mesh.inclusions = {"right", "left"};
+  result.mesh.info.set_inclusions(0, "right");
+  result.mesh.info.add_inclusions("left");
   const auto first = static_cast<std::size_t>(n) / 2;
   const auto middle = static_cast<std::size_t>(n);
-  set_edges(result.interfaces[0], first, middle, results::Kind::delaminated, 1);
-  set_edges(result.interfaces[0], middle, middle + first, results::Kind::delaminated, 0);
+  set_edges(result.interfaces[0], first, middle, v1::INTERFACE_KIND_DELAMINATED, 1);
+  set_edges(result.interfaces[0], middle, middle + first, v1::INTERFACE_KIND_DELAMINATED, 0);
   for (results::Load& load : result.loads) {
     load.answer.clear_inclusions();
     for (const char* name : {"right", "left"}) {

@@ -30,41 +30,92 @@ def name_of(field: Any) -> str:
 
 def status_name(code: int, enum: Any) -> str:
     """STATUS_NOT_CONVERGED is "not_converged"."""
-    return str(enum.values_by_number[int(code)].name).removeprefix("STATUS_").lower()
+    first = enum.values_by_number[0].name  # STATUS_UNSPECIFIED
+    return str(enum.values_by_number[int(code)].name)[first.rfind("_") + 1:].lower()
 
 
 def _is_nested(field: Any) -> bool:
-    return field.message_type is not None and field.message_type.name not in ("Duration", "Status")
+    return field.message_type is not None and field.message_type.name not in ("Duration", "Status", "Timestamp")
 
 
-def fields_of(message: Any) -> dict[str, Any]:
-    """By the names of files; lists and nested messages left out."""
-    return {name_of(field): field for field in message.DESCRIPTOR.fields
-            if field.label != field.LABEL_REPEATED and not _is_nested(field)}
+def _is_list(field: Any) -> bool:
+    return bool(field.label == field.LABEL_REPEATED)
 
 
-def value_of(message: Any, field: Any) -> Any:
-    """Of an enum its name, of an error its message; NaN of a number that is not set."""
-    if field.has_presence and field.message_type is None and not message.HasField(field.name):
-        return NAN
+@functools.cache
+def entries_of(descriptor: Any) -> dict[str, tuple[Any, Any]]:
+    """By the names of files: the nested message that has the value, or None, and its field. Lists, and nested messages
+    with lists, are left out."""
+    found: dict[str, tuple[Any, Any]] = {}
+    for field in descriptor.fields:
+        if _is_nested(field) and not _is_list(field):
+            if not any(map(_is_list, field.message_type.fields)):
+                found.update((f"{field.name}_{name_of(inner)}", (field, inner)) for inner in field.message_type.fields
+                             if not _is_nested(inner))
+        elif not _is_list(field):
+            found[name_of(field)] = (None, field)
+    return found
+
+
+def lists_of(descriptor: Any) -> list[Any]:
+    """Those of texts and messages."""
+    return [field for field in descriptor.fields if _is_list(field)
+            and not (field.message_type is not None and field.message_type.GetOptions().map_entry)]
+
+
+def none_of(field: Any) -> Any:
+    """What stands for a value that is not set."""
+    if field.message_type is not None:
+        return 0.0 if field.message_type.name == "Duration" else ""
+    known = {FieldDescriptor.CPPTYPE_DOUBLE: NAN, FieldDescriptor.CPPTYPE_INT32: 0, FieldDescriptor.CPPTYPE_UINT64: 0,
+             FieldDescriptor.CPPTYPE_BOOL: 0}
+    return known.get(field.cpp_type, "")
+
+
+def value_of(message: Any, outer: Any, field: Any) -> Any:
+    """Of an enum its name, of an error its message, of a time its text; NaN of a number that is not set."""
+    if outer is not None:
+        if not message.HasField(outer.name):
+            return none_of(field)
+        message = getattr(message, outer.name)
+    if field.has_presence and not message.HasField(field.name):
+        return none_of(field)
     value = getattr(message, field.name)
     if field.enum_type is not None:
         return status_name(value, field.enum_type)
     if field.message_type is None:
-        return value
-    return value.message if field.message_type.name == "Status" else value.ToNanoseconds() / 1e9
+        return int(value) if isinstance(value, bool) else value
+    kind = field.message_type.name
+    return value.ToNanoseconds() / 1e9 if kind == "Duration" else (
+        value.ToJsonString() if kind == "Timestamp" else value.message)
+
+
+def set_value(message: Any, outer: Any, field: Any, value: Any) -> None:
+    """The opposite of value_of."""
+    if (outer is not None or field.has_presence) and (value == none_of(field) or value != value):
+        return
+    if outer is not None:
+        message = getattr(message, outer.name)
+    if field.enum_type is not None:
+        value = next(known.number for known in field.enum_type.values
+                     if status_name(known.number, field.enum_type) == value)
+    if field.message_type is None:
+        setattr(message, field.name, bool(value) if field.cpp_type == FieldDescriptor.CPPTYPE_BOOL else value)
+    elif field.message_type.name == "Status":
+        getattr(message, field.name).message = value
+    elif field.message_type.name == "Duration":
+        getattr(message, field.name).FromNanoseconds(round(1e9 * value))
+    else:
+        getattr(message, field.name).FromJsonString(value)
 
 
 def values_of(message: Any) -> dict[str, Any]:
-    return {name: value_of(message, field) for name, field in fields_of(message).items()}
+    return {name: value_of(message, *place) for name, place in entries_of(message.DESCRIPTOR).items()}
 
 
 def defaults_of(message: Any) -> dict[str, Any]:
     """What is not known."""
-    known: dict[int, Any] = {FieldDescriptor.CPPTYPE_DOUBLE: NAN, FieldDescriptor.CPPTYPE_INT32: 0,
-                             FieldDescriptor.CPPTYPE_UINT64: 0}
-    return {name: 0.0 if field.message_type is not None and field.message_type.name == "Duration"
-            else known.get(field.cpp_type, "") for name, field in fields_of(message).items()}
+    return {name: none_of(field) for name, (_, field) in entries_of(message.DESCRIPTOR).items()}
 
 
 @functools.cache
@@ -88,16 +139,12 @@ def meaning_of(field: Any) -> tuple[str, str]:
     return (found[1], found[2]) if found else (comment, "")
 
 
-def meanings(descriptor: Any, where: str, prefix: str = "") -> list[tuple[str, str, str, str]]:
+def meanings(descriptor: Any, where: str) -> list[tuple[str, str, str, str]]:
     """Of all values in a message and in its lists: where they are in a file, name, dimension and meaning."""
-    rows: list[tuple[str, str, str, str]] = []
-    lists = []
-    for field in descriptor.fields:
-        if field.label == field.LABEL_REPEATED:
-            lists += [field] if field.message_type is not None else []
-        elif _is_nested(field):
-            rows += meanings(field.message_type, where, f"{field.name}_")
-        else:
+    rows = []
+    for at, of in [(where, descriptor), *((field.name, field.message_type) for field in lists_of(descriptor)
+                                          if field.message_type is not None)]:
+        for name, (_, field) in entries_of(of).items():
             meaning, unit = meaning_of(field)
-            rows.append((where, prefix + name_of(field), unit, meaning))
-    return rows + [row for field in lists for row in meanings(field.message_type, field.name)]
+            rows.append((at, name, unit, meaning))
+    return rows

@@ -53,16 +53,34 @@ class Units:
 @dataclass(repr=False)
 class Mesh:
     """nodes (n, 2); triangles (m, 3) and boundary (b, 2), where u is prescribed: indices of nodes; subdomain (m): of a
-    triangle, index of subdomain_names (d), tension (d), of a law its mean, and tension_law (d): text, empty where the
-    tension is a number, none where all are; inclusions: names."""
+    triangle, index of subdomain_names (d); info: what the server says of it, Mesh in mesh.proto, without its
+    definition."""
     nodes: Array
     triangles: Array
     subdomain: Array
     boundary: Array
-    subdomain_names: list[str]
-    tension: Array
-    inclusions: list[str]
-    tension_law: list[str] = field(default_factory=list)
+    info: mesh_pb2.Mesh
+
+    @property
+    def subdomain_names(self) -> list[str]:
+        return [part.name for part in self.info.subdomains]
+
+    @property
+    def tension(self) -> Array:
+        """(d), of a law its mean"""
+        return np.array([part.tension for part in self.info.subdomains])
+
+    @property
+    def tension_law(self) -> list[str]:
+        """(d) texts, empty where the tension is a number; none where all are"""
+        laws = [part.tension_law for part in self.info.subdomains]
+        texts = [f"along {law.along}, across {law.across}, angle {law.angle:g}" if law.across else law.along
+                 for law in laws]
+        return texts if any(texts) else []
+
+    @property
+    def inclusions(self) -> list[str]:
+        return list(self.info.inclusions)
 
     def __repr__(self) -> str:
         return (f"mesh of {counted(len(self.nodes), 'node')} and {counted(len(self.triangles), 'triangle')}; "
@@ -149,8 +167,8 @@ class Inclusion(_walked(solve_pb2.InclusionAnswer, ("name",), Bx=0.0, By=0.0)): 
 @dataclass(repr=False)
 class Load(_walked(solve_pb2.LoadCaseAnswer, ("name", "status"))):  # type: ignore[misc]
     """The answer to a load case: the values of LoadCaseAnswer in solve.proto, energy, contact_length, iterations and so
-    on, and solve_seconds. status: "converged", "not_converged" (see reason), "failed" (see error) or "cancelled". mass
-    to tolerance: as asked of the method. The membrane's own energy lies between energy_lower and energy_upper.
+    on, and solve_seconds. status: "converged", "not_converged" (see reason), "failed" (see error) or "cancelled". The
+    membrane's own energy lies between energy_lower and energy_upper. solver: what was asked of the method.
 
     kkt: relative residuals of the optimality conditions. traces: one for each interface, by its name or index. history:
     arrays (n), one entry an iteration. stages: arrays, one entry a stage; empty without an accuracy.
@@ -158,15 +176,7 @@ class Load(_walked(solve_pb2.LoadCaseAnswer, ("name", "status"))):  # type: igno
     or index, where they were asked for. indicator (m): part of each triangle in the square of error_bound, or None."""
     name: str
     status: str
-    method: str = ""
-    mass: str = ""
-    epsilon: float = NAN
-    p: float = NAN
-    kkt_tolerance: float = NAN
-    tolerance: float = NAN
     warnings: list[str] = field(default_factory=list)
-    kkt: dict[str, float] = field(default_factory=lambda: dict.fromkeys(KKT, NAN))
-    kkt_absolute: dict[str, float] = field(default_factory=lambda: dict.fromkeys(KKT, NAN))
     inclusions: Named[Inclusion] = field(default_factory=lambda: Named("inclusion"))
     traces: Parts[Trace] = field(default_factory=lambda: Parts("interface"))
     history: Arrays = field(default_factory=dict)
@@ -174,11 +184,23 @@ class Load(_walked(solve_pb2.LoadCaseAnswer, ("name", "status"))):  # type: igno
     contact_intervals: list[tuple[int, float, float]] = field(default_factory=list)
     fields: Parts[Field] = field(default_factory=lambda: Parts("subdomain"))
     indicator: Array | None = None
-    units = Units()
+    units, solver = Units(), solve_pb2.Solver()  # of the result
 
     @property
     def converged(self) -> bool:
         return self.status == "converged"
+
+    @property
+    def method(self) -> str:
+        return "uzawa" if self.solver.HasField("uzawa") else "active-set"
+
+    @property
+    def kkt(self) -> dict[str, float]:
+        return {name: getattr(self, f"kkt_{name}_relative") for name in KKT}
+
+    @property
+    def kkt_absolute(self) -> dict[str, float]:
+        return {name: getattr(self, f"kkt_{name}") for name in KKT}
 
     def displacements(self) -> dict[str, float]:
         """A of every inclusion."""
@@ -209,8 +231,7 @@ class Load(_walked(solve_pb2.LoadCaseAnswer, ("name", "status"))):  # type: igno
                                                           "contact length" + length], rows)
 
 
-ASKED = ("method", "mass", "epsilon", "p", "kkt_tolerance", "tolerance")
-SCALARS = [*entries.defaults_of(solve_pb2.LoadCaseAnswer), *ASKED]  # of a load, its name first
+SCALARS = list(entries.defaults_of(solve_pb2.LoadCaseAnswer))  # of a load, its name first
 
 
 @dataclass(repr=False)
@@ -220,7 +241,7 @@ class Sweep:
     None, contact (rows, contacts) of the crack nodes contact_nodes (contacts, 2): interface, node. coefficients
     (rows, loads), or None where they are not known. energy_lower, energy_upper, displacement_lower, displacement_upper:
     bounds of the membrane's own, NaN where a row has none, or None where they were not asked for. kept: rows whose
-    traces are in Result.loads["row-K"]."""
+    traces are in Result.loads["row-K"]. answer: SweepAnswer in solve.proto."""
     loads: list[str]
     inclusions: list[str]
     status: Array
@@ -239,7 +260,11 @@ class Sweep:
     coefficients: Array | None = None
     kept: list[int] = field(default_factory=list)
     error: str = ""
-    solve_seconds: float = NAN
+    answer: solve_pb2.SweepAnswer = field(default_factory=solve_pb2.SweepAnswer)
+
+    @property
+    def solve_seconds(self) -> float:
+        return float(entries.values_of(self.answer)["solve_seconds"])
 
     @property
     def converged(self) -> Array:
@@ -274,7 +299,6 @@ class Result:
     not reached and why."""
     title: str
     job: str
-    mesh_name: str
     mesh: Mesh
     interfaces: Parts[Interface]
     loads: Named[Load]
@@ -282,12 +306,9 @@ class Result:
     not_reached: str = ""
     case: str = ""
     server_version: str = ""
-    mesh_sha256: str = ""
-    mesh_seconds: float = NAN
-    factorize_seconds: float = NAN
-    solve_seconds: float = NAN
     total_seconds: float = NAN
     units: Units = field(default_factory=Units)
+    solver: solve_pb2.Solver = field(default_factory=solve_pb2.Solver)  # with the defaults of the API
     traction: bool | None = None  # whether a load has one; None: not known
 
     @property
@@ -296,6 +317,15 @@ class Result:
         if self.sweep is not None:
             return bool(self.sweep.converged.all())
         return not self.not_reached and all(load.converged for load in self.loads.values())
+
+    @property
+    def mesh_name(self) -> str:
+        return str(self.mesh.info.name)
+
+    @property
+    def solve_seconds(self) -> float:
+        return self.sweep.solve_seconds if self.sweep is not None else float(sum(
+            load.solve_seconds for load in self.loads.values()))
 
     def __getitem__(self, load: str) -> Load:
         return self.loads[load]
@@ -306,7 +336,7 @@ class Result:
         pandas = package("pandas")
         rows = []
         for load in self.loads.values():
-            line = {name: getattr(load, name) for name in SCALARS}
+            line = {name: getattr(load, name) for name in [*SCALARS, "method"]}
             for name, inclusion in load.inclusions.items():
                 line.update({f"{column} of {name}": getattr(inclusion, column)
                              for column in ("A", "A_lower", "A_upper", "resultant")})
@@ -381,26 +411,46 @@ class Result:
             name: mesh_arrays[f"interfaces/{i}/{name}"] for name in ("edge_kind", "edge_inclusion")})
             for i, info in enumerate(mesh.interfaces)])
         shape = Mesh(**{name: mesh_arrays[name] for name in ("nodes", "triangles", "subdomain", "boundary")},
-                     subdomain_names=[subdomain.name for subdomain in mesh.subdomains],
-                     tension=np.array([subdomain.tension or 1.0 for subdomain in mesh.subdomains]),
-                     inclusions=list(mesh.inclusions), tension_law=_laws(mesh))
+                     info=_without_definition(mesh))
         spec, status = job.spec, job.status
-        result = cls(spec.title, job.name, mesh.name, shape, interfaces, Named("load"), None, status.not_reached, case,
-                     server_version, mesh.sha256, mesh.mesh_seconds, mesh.factorize_seconds,
-                     units=Units(spec.units.length, spec.units.force),
+        result = cls(spec.title, job.name, shape, interfaces, Named("load"), None, status.not_reached, case,
+                     server_version, units=Units(spec.units.length, spec.units.force), solver=_with_defaults(spec.solver),
                      traction=any(load.traction for load in spec.load_cases))
         if spec.HasField("sweep"):
-            result.solve_seconds = entries.values_of(status.sweep_answer)["solve_seconds"]
             traces = {int(row): _traces(arrays, f"traces/{row}", len(interfaces)) for row in spec.sweep.traces}
             kept = [row for row, found in traces.items() if found]  # the others did not end
             result.sweep = _sweep([load.name for load in spec.load_cases], shape.inclusions, _below(arrays, "sweep/"),
-                                  kept, status.error.message, result.solve_seconds)
+                                  kept, status.error.message, status.sweep_answer)
             result.loads.update((f"row-{row}", _row(result.sweep, row, traces[row], interfaces)) for row in kept)
         else:
             result.loads.update((answer.name, _load_of(job, i, arrays, result))
                                 for i, answer in enumerate(status.answers))
-            result.solve_seconds = sum(load.solve_seconds for load in result.loads.values())
         return _told(result)
+
+
+def _without_definition(mesh: mesh_pb2.Mesh) -> mesh_pb2.Mesh:
+    """As a file has it."""
+    info = mesh_pb2.Mesh()
+    info.CopyFrom(mesh)
+    if info.HasField("geometry"):
+        info.ClearField("geometry")
+    info.ClearField("options")
+    for line in info.interfaces:
+        line.ClearField("segments")
+    return info
+
+
+def _with_defaults(solver: solve_pb2.Solver) -> solve_pb2.Solver:
+    """With the defaults that the API documents."""
+    asked = solve_pb2.Solver(active_set=solve_pb2.ActiveSet(tolerance=1e-12, max_steps=1000))
+    if solver.HasField("uzawa"):
+        asked = solve_pb2.Solver(uzawa=solve_pb2.Uzawa(epsilon=1e-12, p=1e5, max_iterations=20000))
+    asked.MergeFrom(solver)
+    if asked.HasField("uzawa"):
+        asked.uzawa.mass = asked.uzawa.mass or solve_pb2.MASS_LUMPED
+        if asked.uzawa.HasField("kkt_tolerance"):
+            asked.uzawa.ClearField("epsilon")
+    return asked
 
 
 def _told(result: Result) -> Result:
@@ -412,6 +462,8 @@ def _told(result: Result) -> Result:
             trace.name = line.name
     for part in parts:
         part.units = result.units
+    for load in result.loads.values():
+        load.solver = result.solver
     return result
 
 
@@ -426,28 +478,21 @@ def _traces(arrays: Mapping[str, Array], prefix: str, count: int) -> Parts[Trace
     return Parts("interface", [Trace(**trace) for trace in found if trace])
 
 
-def _laws(mesh: mesh_pb2.Mesh) -> list[str]:
-    def text(law: mesh_pb2.Tension) -> str:
-        return f"along {law.along}, across {law.across}, angle {law.angle:g}" if law.across else law.along
-    laws = [text(subdomain.tension_law) for subdomain in mesh.subdomains]
-    return laws if any(laws) else []
-
-
 def _status(code: int) -> str:
     return entries.status_name(code, solve_pb2.LoadCaseAnswer.Status.DESCRIPTOR)
 
 
 def _sweep(loads: list[str], inclusions: list[str], columns: Arrays, kept: list[int], error: str,
-           seconds: float) -> Sweep:
+           answer: solve_pb2.SweepAnswer) -> Sweep:
     rows = len(columns["status"])
     every: Arrays = {"displacement": np.empty((rows, 0)), "contact": np.empty((rows, 0), np.uint8),
                      "contact_nodes": np.empty((0, 2), np.int32), **columns}
-    return Sweep(loads, inclusions, **every, kept=kept, error=error, solve_seconds=seconds)
+    return Sweep(loads, inclusions, **every, kept=kept, error=error, answer=answer)
 
 
 def _row(sweep: Sweep, row: int, traces: Parts[Trace], interfaces: list[Interface]) -> Load:
     """The answer to a row whose traces were kept."""
-    load = Load(f"row-{row}", _status(sweep.status[row]), method="active-set", iterations=int(sweep.steps[row]),
+    load = Load(f"row-{row}", _status(sweep.status[row]), iterations=int(sweep.steps[row]),
                 traces=traces)
     for key in ("energy", "energy_lower", "energy_upper", "contact_length"):
         if getattr(sweep, key) is not None:
@@ -470,34 +515,25 @@ def runs(values: Array) -> list[tuple[int, int]]:
     return list(zip([0, *cuts], [*cuts, len(values)])) if len(values) else []
 
 
-def _load_of(job: solve_pb2.Job, index: int, arrays: Mapping[str, Array], result: Result) -> Load:
-    """With what was asked of the method, with the defaults of the API."""
-    answer, solver = job.status.answers[index], job.spec.solver
-
-    def given(message: Any, name: str, default: float) -> float:
-        return float(getattr(message, name)) if message.HasField(name) else default
+def _load_of_answer(answer: solve_pb2.LoadCaseAnswer, lines_in: list[str]) -> Load:
+    """Without its arrays; lines_in: names of the interfaces."""
     values = entries.values_of(answer)
     solved = values["status"] in ("converged", "not_converged")
-    load = Load(method="active-set", **{name: value for name, value in values.items()
-                                        if solved or not isinstance(value, float) or name == "solve_seconds"})
-    if not solver.HasField("uzawa"):
-        load.tolerance = given(solver.active_set, "tolerance", 1e-12)
-    else:
-        load.method, load.p = "uzawa", given(solver.uzawa, "p", 1e5)
-        load.mass = "consistent" if solver.uzawa.mass == solve_pb2.MASS_CONSISTENT else "lumped"
-        load.kkt_tolerance = given(solver.uzawa, "kkt_tolerance", NAN)
-        if not solver.uzawa.HasField("kkt_tolerance"):
-            load.epsilon = given(solver.uzawa, "epsilon", 1e-12)
+    load = Load(**{name: value for name, value in values.items()
+                   if solved or not isinstance(value, float) or name == "solve_seconds"})
     if solved:
         load.warnings = list(answer.warnings)
-        load.kkt = {name: getattr(answer.kkt, name + "_relative") for name in KKT}
-        load.kkt_absolute = {name: getattr(answer.kkt, name) for name in KKT}
         load.inclusions.update((part.name, Inclusion(**entries.values_of(part))) for part in answer.inclusions)
+        load.contact_intervals = [(lines_in.index(part.interface), part.begin, part.end)
+                                  for part in answer.contact_intervals]
+    return load
+
+
+def _load_of(job: solve_pb2.Job, index: int, arrays: Mapping[str, Array], result: Result) -> Load:
+    load = _load_of_answer(job.status.answers[index], [line.name for line in result.interfaces])
     prefix = f"loads/{index}/"
     load.traces = _traces(arrays, prefix + "traces", len(result.interfaces))
     load.history, load.indicator = _below(arrays, prefix + "history/"), arrays.get(prefix + "indicator")
-    load.contact_intervals = [(result.interfaces.place(part.interface), part.begin, part.end)
-                              for part in answer.contact_intervals]
     load.fields += [Field(name, arrays[f"fields/{k}/nodes"], arrays[f"fields/{k}/triangles"],
                           arrays[f"{prefix}fields/{k}"])
                     for k, name in enumerate(result.mesh.subdomain_names) if f"{prefix}fields/{k}" in arrays]
@@ -508,67 +544,65 @@ def _load_of(job: solve_pb2.Job, index: int, arrays: Mapping[str, Array], result
     return load
 
 
-def _arrays(group: Any) -> Arrays:
-    return {name: item[()] for name, item in group.items() if hasattr(item, "shape")}
+def _arrays(group: Any, *but: str) -> Arrays:
+    return {name: item[()] for name, item in group.items() if hasattr(item, "shape") and name not in but}
 
 
 def _texts(dataset: Any) -> list[str]:
     return [str(text) for text in dataset.asstr()[()]]
 
 
+def _message_in(group: Any, message: Any) -> Any:
+    """Filled in with what the group has of it: the opposite of save's."""
+    for name, place in entries.entries_of(message.DESCRIPTOR).items():
+        value = group.attrs[name]
+        entries.set_value(message, *place, value if isinstance(value, str) else value.item())
+    for part in entries.lists_of(message.DESCRIPTOR):
+        items = getattr(message, part.name)
+        if part.message_type is None:
+            items.extend(_texts(group[part.name]))
+            continue
+        for name, place in entries.entries_of(part.message_type).items():
+            column = group[part.name][name]
+            for i, value in enumerate(_texts(column) if column.dtype.kind == "O" else column[()].tolist()):
+                entries.set_value(items[i] if i < len(items) else items.add(), *place, value)
+    return message
+
+
 def _of_file(file: Any) -> Result:
-    group, told = file["mesh"], file.attrs
-    mesh: dict[str, Any] = {**_arrays(group), **{
-        name: _texts(group[name]) for name in ("subdomain_names", "inclusions", "tension_law") if name in group}}
+    told = file.attrs
+    mesh = Mesh(**_arrays(file["mesh"], "inclusions", "warnings"), info=_message_in(file["mesh"], mesh_pb2.Mesh()))
     lines_in = [file[f"interfaces/{i}"] for i in range(len(file["interfaces"]))]
-    places = {line.attrs["name"]: i for i, line in enumerate(lines_in)}
+    names = [line.name for line in mesh.info.interfaces]
     groups = sorted(file["loads"].items(), key=lambda item: int(item[1].attrs.get("index", 0)))
-    result = Result(told["title"], told["job"], told["mesh"], Mesh(**mesh),
-                    Parts("interface", [Interface(line.attrs["name"], **_arrays(line)) for line in lines_in]),
-                    Named("load", ((name, _load_in(name, item, places)) for name, item in groups)), None,
-                    told["not_reached"], told["case"], told["server_version"], told["mesh_sha256"],
-                    units=Units(told["unit_length"], told["unit_force"]))
-    for name in ("mesh_seconds", "factorize_seconds", "solve_seconds", "total_seconds"):
-        setattr(result, name, float(told[name]))
+    result = Result(told["title"], told["job"], mesh,
+                    Parts("interface", [Interface(name, **_arrays(line)) for name, line in zip(names, lines_in)]),
+                    Named("load", ((name, _load_in(item, names, mesh)) for name, item in groups)), None,
+                    told["not_reached"], told["case"], told["server_version"], float(told["total_seconds"]),
+                    Units(**file["units"].attrs), _message_in(file["solver"], solve_pb2.Solver()))
     if result.case:
         result.traction = re.search("""traction[ \\t"']*=""", result.case) is not None
     if "sweep" in file:
         sweep = file["sweep"]
-        arrays = _arrays(sweep)
+        arrays = _arrays(sweep, "warnings")
         kept = [int(row) for row in arrays.pop("kept", [])]
         loads, inclusions = ([str(name) for name in sweep.attrs[key]] for key in ("loads", "inclusions"))
         result.sweep = _sweep(loads, inclusions, arrays, kept, sweep.attrs["error"],
-                              float(sweep.attrs["solve_seconds"]))
+                              _message_in(sweep, solve_pb2.SweepAnswer()))
     return result
 
 
-def _load_in(name: str, group: Any, places: dict[str, int]) -> Load:
-    load = Load(name, group.attrs["status"])
-    for key in SCALARS:
-        if key in group.attrs:
-            value = group.attrs[key]
-            setattr(load, key, value if isinstance(value, str) else value.item())
-
-    def arrays(part: str) -> Arrays:
-        return _arrays(group[part]) if part in group else {}
+def _load_in(group: Any, lines_in: list[str], mesh: Mesh) -> Load:
+    load = _load_of_answer(_message_in(group, solve_pb2.LoadCaseAnswer()), lines_in)
 
     def numbered(part: str) -> list[Any]:
         return [group[part][str(i)] for i in range(len(group[part]))] if part in group else []
-    load.warnings = _texts(group["warnings"]) if "warnings" in group else []
-    known = entries.fields_of(solve_pb2.InclusionAnswer).keys() - {"name"}
-    columns = {key: column for key, column in arrays("inclusions").items() if key in known}
-    load.inclusions.update((part, Inclusion(name=part, **{key: column[i].item() for key, column in columns.items()}))
-                           for i, part in enumerate(_texts(group["inclusions/name"])))
     load.traces += [Trace(**_arrays(part)) for part in numbered("traces")]
-    if any(values.size for values in arrays("history").values()):
-        load.history = arrays("history")
-        load.kkt = {key: float(group.attrs[f"kkt_{key}_relative"]) for key in KKT}
-        load.kkt_absolute = {key: float(group.attrs["kkt_" + key]) for key in KKT}
-    load.stages, contact = arrays("stages"), arrays("contact_intervals")
-    if load.stages:
-        load.stages["mesh"] = np.array(_texts(group["stages/mesh"]))
-    load.contact_intervals = [(places[line], float(begin), float(end)) for line, begin, end in
-                              zip(_texts(group["contact_intervals/interface"]), contact["begin"], contact["end"])]
-    load.fields += [Field(part.attrs["name"], **_arrays(part)) for part in numbered("fields")]
+    history = _arrays(group["history"])
+    if any(values.size for values in history.values()):
+        load.history = history
+    if "stages" in group:
+        load.stages = {**_arrays(group["stages"]), "mesh": np.array(_texts(group["stages/mesh"]))}
+    load.fields += [Field(name, **_arrays(part)) for name, part in zip(mesh.subdomain_names, numbered("fields"))]
     load.indicator = group["indicator"][()] if "indicator" in group else None
     return load

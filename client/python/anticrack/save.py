@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import os
-from dataclasses import fields
+from dataclasses import asdict, fields
 from typing import Any
 
 import h5py
@@ -13,21 +13,23 @@ import numpy as np
 from . import entries, output
 from .names import Parts
 from .result import FORMAT, KKT, Interface, Load, Result, Sweep, Units
-from .v1 import solve_pb2
+from .v1 import mesh_pb2, solve_pb2
 
 _TEXT = h5py.string_dtype()
 _HISTORY = {"iteration": "i4", "contact_count": "i4", "criterion": "f8", "energy": "f8",
             **{f"kkt_{name}": "f8" for name in KKT}}
 
-_MEANINGS = [*entries.meanings(solve_pb2.LoadCaseAnswer.DESCRIPTOR, "loads"),
-             *entries.meanings(solve_pb2.Stage.DESCRIPTOR, "stages")]
+_MEANINGS = [*entries.meanings(solve_pb2.Solver.DESCRIPTOR, "solver"),
+             *entries.meanings(mesh_pb2.Mesh.DESCRIPTOR, "mesh"),
+             *entries.meanings(solve_pb2.LoadCaseAnswer.DESCRIPTOR, "loads"),
+             *entries.meanings(solve_pb2.Stage.DESCRIPTOR, "stages"),
+             *entries.meanings(solve_pb2.SweepAnswer.DESCRIPTOR, "sweep")]
 
 # Of datasets, as Units.of has them; each name means the same wherever it is.
 _DIMENSIONS = {
     **dict.fromkeys(["nodes", "s", "x", "y", "u_minus", "u_plus", "jump", "u", "displacement", "displacement_lower",
                      "displacement_upper"], "L"),
-    **{name: unit for where, name, unit, _ in _MEANINGS if where != "loads"},
-    **dict.fromkeys(["tension", "pressure"], "F/L"), "indicator": "F L"}
+    **{name: unit for where, name, unit, _ in _MEANINGS if where != "loads"}, "pressure": "F/L", "indicator": "F L"}
 
 
 def save(result: Result, path: str | os.PathLike[str]) -> bool:
@@ -56,7 +58,7 @@ def _put(group: Any, name: str, values: Any) -> None:
     texts = isinstance(values, list) or values.dtype.kind == "U"
     array = np.array(values, dtype=_TEXT if texts else None)
     group.create_dataset(name, data=array, **({"compression": "gzip", "shuffle": True} if array.size > 1000 else {}))
-    units = Units(group.file.attrs["unit_length"], group.file.attrs["unit_force"])
+    units = Units(**group.file["units"].attrs)
     group[name].attrs["units"] = units.of(_DIMENSIONS.get(name.rpartition("/")[2], ""))
 
 
@@ -74,16 +76,40 @@ def _put_record(group: Any, record: Any, *but: str) -> None:
             _put(group, field.name, value)
 
 
+def _put_message(group: Any, message: Any) -> None:
+    """Values as attributes, lists of texts as datasets, lists of messages as groups of columns."""
+    for name, place in entries.entries_of(message.DESCRIPTOR).items():
+        group.attrs[name] = _typed(place[1], entries.value_of(message, *place))
+    for field in entries.lists_of(message.DESCRIPTOR):
+        items = getattr(message, field.name)
+        if field.message_type is None:
+            _put(group, field.name, list(items))
+            continue
+        columns = group.create_group(field.name)
+        for name, place in entries.entries_of(field.message_type).items():
+            values = [_typed(place[1], entries.value_of(item, *place)) for item in items]
+            kind = type(_typed(place[1], entries.none_of(place[1])))
+            _put(columns, name, values if kind is str else np.array(values, kind))
+
+
+def _typed(field: Any, value: Any) -> Any:
+    if isinstance(value, int):
+        return np.int64(value) if field.cpp_type == field.CPPTYPE_UINT64 else np.int32(value)
+    return value
+
+
 def _put_result(file: Any, result: Result) -> None:
     from . import __version__
-    file.attrs.update({"format": FORMAT, "client_version": __version__, "mesh": result.mesh_name,
-                       "unit_length": result.units.length, "unit_force": result.units.force})
-    _put_record(file, result, "mesh_name")
+    file.attrs.update({"format": FORMAT, "client_version": __version__})
+    file.create_group("units").attrs.update(asdict(result.units))
+    _put_record(file, result)
     _put(file, "meanings", [(*row[:2], result.units.of(row[2]), row[3]) for row in _MEANINGS])
-    _put_record(file.create_group("mesh"), result.mesh, *["tension_law"] * (not result.mesh.tension_law))
+    _put_message(file.create_group("solver"), result.solver)
+    _put_message(file.create_group("mesh"), result.mesh.info)
+    _put_record(file["mesh"], result.mesh)
     file.create_group("interfaces")
     for i, interface in enumerate(result.interfaces):
-        _put_record(file.create_group(f"interfaces/{i}"), interface)
+        _put_record(file.create_group(f"interfaces/{i}"), interface, "name")
     file.create_group("loads")
     for i, load in enumerate(result.loads.values()):
         group = file.create_group(f"loads/{load.name}")
@@ -95,8 +121,6 @@ def _put_result(file: Any, result: Result) -> None:
 
 def _put_load(group: Any, load: Load, interfaces: Parts[Interface]) -> None:
     _put_record(group, load)
-    for name in KKT:
-        group.attrs[f"kkt_{name}"], group.attrs[f"kkt_{name}_relative"] = load.kkt_absolute[name], load.kkt[name]
     inclusions = group.create_group("inclusions")
     for name, default in entries.defaults_of(solve_pb2.InclusionAnswer).items():
         column = [getattr(part, name) for part in load.inclusions.values()]
@@ -113,17 +137,13 @@ def _put_load(group: Any, load: Load, interfaces: Parts[Interface]) -> None:
                          **{f"stages/{name}": values for name, values in load.stages.items()}}.items():
         _put(group, name, values)
     for i, part in enumerate(load.fields):
-        field_group = group.create_group(f"fields/{i}")
-        field_group.attrs["name"] = part.subdomain
-        _put_record(field_group, part, "subdomain")
+        _put_record(group.create_group(f"fields/{i}"), part, "subdomain")
 
 
 def _put_sweep(group: Any, sweep: Sweep) -> None:
     _put_record(group, sweep, "loads", "inclusions")
     for name in ("loads", "inclusions"):
         group.attrs[name] = np.array(getattr(sweep, name), dtype=_TEXT)
-    counts = np.bincount(sweep.status, minlength=6)
-    group.attrs.update({"description": "row k of every dataset belongs to load case k", "source": "",
-                        "converged": np.int32(counts[3]), "not_converged": np.int32(counts[4]),
-                        "failed": np.int32(counts[5])})
+    group.attrs.update({"description": "row k of every dataset belongs to load case k", "source": ""})
+    _put_message(group, sweep.answer)
     _put(group, "kept", np.array(sweep.kept, dtype=np.int32))

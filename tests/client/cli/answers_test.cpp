@@ -10,6 +10,7 @@
 #include <string>
 
 #include "results/entries.hpp"
+#include "support/sample_result.hpp"
 
 namespace anticrack::cli {
 namespace {
@@ -63,7 +64,7 @@ TEST(AnswersTable, HasUnitsAndSaysWhatIsUnknown) {
 
 TEST(AnswersTable, NamesUnits) {
   results::Result result = two_loads();
-  result.units = {"mm", "N"};
+  result.units = anticrack::testing::units_of("mm", "N");
   EXPECT_THAT(answers_table(result),
               ::testing::HasSubstr("-          -        mm       N mm              mm"));
   EXPECT_THAT(inclusions_table(result),
@@ -205,8 +206,13 @@ TEST(AnswersCsv, HasALineForEachAndQuotesNames) {
 
 TEST(NumbersTable, HasEveryNumberWithItsUnitAndMeaning) {
   results::Result result = two_loads();
-  result.units = {"mm", "N"};
+  result.units = anticrack::testing::units_of("mm", "N");
+  result.loads[0].answer.mutable_kkt();
+  result.mesh.info.set_name("meshes/1");
+  result.mesh.info.set_minimum_angle(12.5);
   const std::string text = numbers_table(result);
+  EXPECT_THAT(text,
+              ::testing::ContainsRegex("meshes/1, every number:\n(.*\n)*minimum_angle +12.5"));
   EXPECT_THAT(text, ::testing::HasSubstr("\nopening, every number:\n"));
   EXPECT_THAT(text, ::testing::ContainsRegex("\nenergy +-0.163945  N mm +Pi\\(u\\)\n"));
   EXPECT_THAT(text, ::testing::ContainsRegex("\nkkt_gap +0  mm +largest violation of "));
@@ -219,8 +225,8 @@ TEST(AnswersJson, IsOneDocumentWithEveryLoad) {
   v1::LoadCaseAnswer& answer = result.loads[0].answer;
   answer.mutable_inclusions(0)->set_slope_y(-0.25);
   answer.mutable_inclusions(0)->set_moment_y(4);
-  result.mesh.xy = {0, 0, 1, 0, 0, 1};
-  result.mesh.triangles = {0, 1, 2};
+  result.mesh.info.set_name("meshes/1");
+  result.mesh.info.set_node_count(3);
   v1::ContactInterval& interval = *answer.add_contact_intervals();
   interval.set_interface("seam");
   interval.set_begin(0.25);
@@ -229,8 +235,9 @@ TEST(AnswersJson, IsOneDocumentWithEveryLoad) {
       google::protobuf::util::JsonStringToMessage(answers_json(result, "out.h5"), &parsed).ok());
   EXPECT_EQ(parsed.fields().at("title").string_value(), "A plate");
   EXPECT_EQ(parsed.fields().at("file").string_value(), "out.h5");
-  EXPECT_EQ(parsed.fields().at("triangle_count").number_value(), 1);
-  EXPECT_EQ(parsed.fields().at("node_count").number_value(), 3);
+  const auto& mesh = parsed.fields().at("mesh").struct_value().fields();
+  EXPECT_EQ(mesh.at("name").string_value(), "meshes/1");
+  EXPECT_EQ(mesh.at("node_count").number_value(), 3);
   const auto& answers = parsed.fields().at("answers").list_value();
   ASSERT_EQ(answers.values_size(), 2);
   const auto& opening = answers.values(0).struct_value().fields();

@@ -73,7 +73,7 @@ class BadUsage(unittest.TestCase):
         cls.guarded = cls.address(cls.folder / "guarded", "--tokens", cls.folder / "tokens")
         ended = cls.anticrack("run", "case.toml", "-o", "result.h5", "--json")
         document = json.loads(ended.stdout)
-        cls.job, cls.mesh = document["job"], document["mesh"]
+        cls.job, cls.mesh = document["job"], document["mesh"]["name"]
         make_results(cls.folder)
 
     @classmethod

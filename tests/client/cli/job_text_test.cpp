@@ -76,6 +76,7 @@ TEST(JobText, GivesAOfEveryInclusion) {
   v1::LoadCaseAnswer& answer = *job.mutable_status()->add_answers();
   answer.set_name("opening");
   answer.set_status(v1::LoadCaseAnswer::STATUS_CONVERGED);
+  answer.mutable_kkt();
   v1::InclusionAnswer& fibre = *answer.add_inclusions();
   fibre.set_name("fibre");
   fibre.set_displacement(0.25);

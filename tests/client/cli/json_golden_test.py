@@ -63,6 +63,8 @@ class JsonGolden(GoldenTest):
         ended = self.anticrack(*words, "--json")
         self.assertEqual(ended.returncode, code, ended.stderr)
         document = json.loads(ended.stdout)  # throws where there is anything else
+        if isinstance(document.get("mesh"), dict):
+            document["mesh"]["theta_star"] = None  # may be known a moment later
         self.compare(name + ".json", json.dumps(shape_of(document), indent=1, sort_keys=True) + "\n")
         return document
 
@@ -102,8 +104,8 @@ class JsonGolden(GoldenTest):
         answers = self.document("run-accuracy", "run", "accuracy.toml", "-o", "accuracy.h5")
         self.assertGreater(len(answers["answers"][0]["stages"]), 1)
         job = self.document("job-show-accuracy", "job", "show", answers["job"])
-        self.assertEqual(answers["mesh"], job["status"]["stages"][-1]["mesh"], "not that of the first stage")
-        self.assertNotEqual(answers["mesh"], job["spec"]["mesh"])
+        self.assertEqual(answers["mesh"]["name"], job["status"]["stages"][-1]["mesh"], "not that of the first stage")
+        self.assertNotEqual(answers["mesh"]["name"], job["spec"]["mesh"])
         self.document("job-show-accuracy", "job", "watch", answers["job"])
         self.document("run-accuracy", "job", "fetch", answers["job"], "-o", "fetched.h5")
         self.document("run-accuracy", "show", "accuracy.h5")
@@ -119,7 +121,8 @@ class JsonGolden(GoldenTest):
             file["coefficients"] = [[0.0, 1.0], [0.5, 0.5], [1.0, 0.0]]
             file["coefficients"].attrs["loads"] = ["skew", "opening"]
         same = self.document("sweep", "sweep", "plate.toml", "--combinations", "named.h5", "--traces", "0")["sweep"]
-        self.assertEqual(same | {"source": ""}, answers | {"source": ""})
+        told = {"source": "", "solve_seconds": 0}
+        self.assertEqual(same | told, answers | told)
         self.document("sweep", "show", "rows.h5")
         bounded = self.document("sweep-bounds", *rows, "--bounds", "--traces", "0", "-o", "bounded.h5")
         self.assertEqual(bounded["sweep"]["bounded"], 1, "a point force is in the others")

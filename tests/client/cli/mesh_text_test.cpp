@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/sample_result.hpp"
+
 namespace anticrack::cli {
 namespace {
 
@@ -105,7 +107,8 @@ TEST(MeshText, NamesTheSidesWithATraction) {
 }
 
 TEST(MeshText, HasTheUnitsOfTheCaseAndSaysWhatIsFree) {
-  const std::string text = mesh_text(sample_mesh(), {{"mm", "N"}, true});
+  const std::string text =
+      mesh_text(sample_mesh(), {anticrack::testing::units_of("mm", "N"), true});
   EXPECT_THAT(text, HasSubstr("held by\n"
                               "                             mm^2     N/mm         degrees         "
                               "    mm            mm\n"));

@@ -16,15 +16,15 @@ TEST(JobProgress, FollowsALoadCaseFromSnapshotToEnd) {
   progress.apply(snapshot(2));
   ASSERT_EQ(progress.cases.size(), 2U);
   EXPECT_EQ(progress.cases[1].name, "load-1");
-  EXPECT_EQ(progress.cases[1].status, results::Status::pending);
+  EXPECT_EQ(progress.cases[1].status, v1::LoadCaseAnswer::STATUS_PENDING);
 
   progress.apply(sample(1, 7, 1e-3, 12));
-  EXPECT_EQ(progress.cases[1].status, results::Status::running);
+  EXPECT_EQ(progress.cases[1].status, v1::LoadCaseAnswer::STATUS_RUNNING);
   EXPECT_EQ(progress.cases[1].iteration, 7);
   EXPECT_EQ(progress.cases[1].contact_count, 12);
 
   progress.apply(load_ended(1, 9, 1e-13));
-  EXPECT_EQ(progress.cases[1].status, results::Status::converged);
+  EXPECT_EQ(progress.cases[1].status, v1::LoadCaseAnswer::STATUS_CONVERGED);
   EXPECT_EQ(progress.cases[1].iteration, 9);
   EXPECT_DOUBLE_EQ(progress.cases[1].seconds, 0.0125);
   EXPECT_EQ(progress.cases[1].end_rank, 1U);
@@ -40,7 +40,7 @@ TEST(JobProgress, IsNotSetBackByOldEvents) {
   progress.apply(load_ended(0, 9, 1e-13));
   progress.apply(sample(0, 10, 1e-1, 1));
   progress.apply(load_ended(0, 9, 1e-13));
-  EXPECT_EQ(progress.cases[0].status, results::Status::converged);
+  EXPECT_EQ(progress.cases[0].status, v1::LoadCaseAnswer::STATUS_CONVERGED);
   EXPECT_EQ(progress.ended_count, 1U);
 }
 
@@ -124,7 +124,7 @@ TEST(JobProgress, BeginsItsLoadCasesAgainInEachStage) {
   EXPECT_EQ(progress.ended_count, 0U);
   EXPECT_EQ(progress.cases[0].name, "load-0");
   EXPECT_EQ(progress.cases[0].iteration, 1);
-  EXPECT_EQ(progress.cases[1].status, results::Status::pending);
+  EXPECT_EQ(progress.cases[1].status, v1::LoadCaseAnswer::STATUS_PENDING);
   progress.apply(load_ended(1, 6, 0, v1::LoadCaseAnswer::STATUS_NOT_CONVERGED));
   progress.apply(load_ended(0, 5, 0));
   EXPECT_EQ(progress.ended_count, 2U);
@@ -174,9 +174,9 @@ TEST(JobProgress, BetweenStagesKeepsTheAnswersUntilTheNextBegins) {
   *job.mutable_status()->mutable_answers(0) = load_ended(0, 4, 0).load_cases_ended(0).answer();
   JobProgress progress;
   progress.apply(between);
-  EXPECT_EQ(progress.cases[0].status, results::Status::converged);
+  EXPECT_EQ(progress.cases[0].status, v1::LoadCaseAnswer::STATUS_CONVERGED);
   progress.apply(sample(0, 1, 0, 5));
-  EXPECT_EQ(progress.cases[0].status, results::Status::running);
+  EXPECT_EQ(progress.cases[0].status, v1::LoadCaseAnswer::STATUS_RUNNING);
 }
 
 TEST(JobProgress, AfterARestartOfTheServerGoesOnInTheStageItHadReached) {
@@ -192,7 +192,7 @@ TEST(JobProgress, AfterARestartOfTheServerGoesOnInTheStageItHadReached) {
   job.mutable_status()->add_stages()->set_mesh("meshes/3");
   progress.apply(again);
   EXPECT_EQ(progress.stages.size(), 2U);
-  EXPECT_EQ(progress.cases[0].status, results::Status::pending) << "it is solved again";
+  EXPECT_EQ(progress.cases[0].status, v1::LoadCaseAnswer::STATUS_PENDING) << "it is solved again";
   progress.apply(load_ended(0, 3, 0));
   progress.apply(stage_ended(stage(3, 20000, 0.001)));
   EXPECT_EQ(progress.stages.size(), 3U);
@@ -205,7 +205,7 @@ TEST(JobProgress, AfterARestartOfTheServerGoesOnInTheStageItHadReached) {
   *ended.mutable_status()->mutable_answers(0) = load_ended(0, 3, 0).load_cases_ended(0).answer();
   progress.apply(end);
   EXPECT_EQ(progress.stages.size(), 3U);
-  EXPECT_EQ(progress.cases[0].status, results::Status::converged);
+  EXPECT_EQ(progress.cases[0].status, v1::LoadCaseAnswer::STATUS_CONVERGED);
 }
 
 TEST(BarFraction, IsLogarithmic) {

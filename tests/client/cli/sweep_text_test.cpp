@@ -16,18 +16,18 @@ namespace {
 
 using anticrack::testing::sample_sweep;
 using anticrack::testing::tilting_sweep;
-using results::Status;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-void set_status(results::Result& result, std::size_t row, Status status) {
+void set_status(results::Result& result, std::size_t row, v1::LoadCaseAnswer::Status status) {
   result.sweep->status.at(row) = status;
+  anticrack::testing::count_rows(*result.sweep);
 }
 
 TEST(SweepTable, SumsUp) {
   EXPECT_EQ(answers_table(sample_sweep(5)),
             "5 rows of ratio.csv: 4 converged, 1 did not converge (row 3)\n"
-            "at most 4 steps, KKT residuals at most 1e-13\n"
+            "at most 5 steps, KKT residuals at most 1e-13\n"
             "\n"
             "                least  most\n"
             "A                -0.1   0.1\n"
@@ -39,13 +39,13 @@ TEST(SweepTable, SumsUp) {
 TEST(SweepTable, NamesTheFirstRowsThatWentWrong) {
   results::Result result = sample_sweep(20);
   for (const std::size_t row : {0, 1, 2, 3, 4, 5, 6, 7, 13})
-    set_status(result, row, Status::failed);
+    set_status(result, row, v1::LoadCaseAnswer::STATUS_FAILED);
   EXPECT_THAT(answers_table(result), HasSubstr(" (rows 0, 1, 2, 3, 4 and 5 more)\n"));
 }
 
 TEST(SweepTable, NamesUnits) {
   results::Result result = sample_sweep(5);
-  result.units = {"mm", "N"};
+  result.units = anticrack::testing::units_of("mm", "N");
   EXPECT_THAT(answers_table(result), HasSubstr("                     least  most\n"
                                                "A [mm]                -0.1   0.1\n"
                                                "contact length [mm]      0   0.9\n"
@@ -111,7 +111,7 @@ TEST(SweepTable, NamesSeveralInclusionsAndWhatWentWrong) {
   sweep.inclusions = {"left", "ri\x1bght"};
   sweep.displacement = {1, 2, 3, 4, 5, 6};
   sweep.error = "row 1: \x1b[2J";
-  set_status(result, 1, Status::failed);
+  set_status(result, 1, v1::LoadCaseAnswer::STATUS_FAILED);
   const std::string text = answers_table(result);
   EXPECT_THAT(text, HasSubstr("2 converged, 1 failed"));
   EXPECT_THAT(text, HasSubstr("A left"));
@@ -122,7 +122,7 @@ TEST(SweepTable, NamesSeveralInclusionsAndWhatWentWrong) {
 TEST(SweepTable, HasNoNumbersWhereNothingConverged) {
   results::Result result = sample_sweep(3);
   for (std::size_t row = 0; row < 3; ++row) {
-    set_status(result, row, Status::cancelled);
+    set_status(result, row, v1::LoadCaseAnswer::STATUS_CANCELLED);
   }
   EXPECT_EQ(answers_table(result),
             "3 rows of ratio.csv: 0 converged, 3 were not solved\ntraces of 2 rows\n");
@@ -149,7 +149,7 @@ TEST(SweepJson, IsADocumentWithTheSameNumbers) {
 TEST(SweepJson, HasNullWhereNothingConverged) {
   results::Result result = sample_sweep(3);
   for (std::size_t row = 0; row < 3; ++row) {
-    set_status(result, row, Status::failed);
+    set_status(result, row, v1::LoadCaseAnswer::STATUS_FAILED);
   }
   EXPECT_THAT(answers_json(result, "a.h5"), HasSubstr("\"min\": null"));
 }

@@ -46,7 +46,7 @@ class Answers:
     def fields(self, load):
         """Of each subdomain: name, tension, points, values on them and triangles."""
         mesh = self.file["mesh"]
-        for index, (name, tension) in enumerate(zip(mesh["subdomain_names"].asstr(), mesh["tension"])):
+        for index, (name, tension) in enumerate(zip(mesh["subdomains/name"].asstr(), mesh["subdomains/tension"])):
             field = self.file[f"loads/{load}/fields/{index}"]
             yield name, tension, mesh["nodes"][:][field["nodes"][:]], field["u"][:], field["triangles"][:]
 

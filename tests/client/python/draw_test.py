@@ -102,7 +102,7 @@ class Figures(unittest.TestCase):
 
     def test_names_of_many_inclusions_are_left_out(self):
         many = copy.deepcopy(self.several)
-        many.mesh.inclusions += [f"i{i}" for i in range(30)]
+        many.mesh.info.inclusions.extend(f"i{i}" for i in range(30))
         self.assertEqual([*draw.interfaces(many).texts, *draw.membrane(many, "opening").texts], [])
 
     def test_displacement(self):
@@ -171,7 +171,7 @@ class Figures(unittest.TestCase):
         for tension, size in zip(result.mesh.tension, draw.flux(result, "pulled")):
             numpy.testing.assert_allclose(size, 5 * tension, rtol=1e-3)  # the smallest triangles have edges of 1e-13
         self.assertGreater(len(set(result.mesh.tension)), 1)
-        result.mesh.tension_law = ["", "1 + x^2"] + [""] * (len(result.mesh.tension) - 2)
+        result.mesh.info.subdomains[1].tension_law.along = "1 + x^2"
         for size in draw.flux(result, "pulled"):  # |grad u|: T is not known
             numpy.testing.assert_allclose(size, 5, rtol=1e-3)
         self.assertTrue(draw.plan(result, "pulled").figure.axes[1].get_ylabel().startswith("|\u2207u|"))
@@ -254,7 +254,7 @@ class Figures(unittest.TestCase):
     def test_convergence_of_either_method(self):
         ax = draw.convergence(self.skew)  # Algorithm 2
         self.assertEqual(len(ax.lines), 2)
-        self.assertEqual(ax.lines[1].get_ydata()[0], self.skew["example-2"].epsilon)
+        self.assertEqual(ax.lines[1].get_ydata()[0], self.skew["example-2"].solver.uzawa.epsilon)
         few = draw.convergence(self.several, "pulled")  # one step of the active set
         self.assertTrue(all(tick == int(tick) for tick in few.get_xticks()))
         self.assertEqual([label.partition(":")[0] for label in few.get_legend_handles_labels()[1]],

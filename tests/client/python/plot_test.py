@@ -192,9 +192,9 @@ class Plots(FolderTest):
         result = copy.deepcopy(self.several)
         bad = ["$\\frac{$", "../../<script>&\n!touch pwned\u202e", "`touch pwned`"]
         result.title = bad[1]
-        for kept, name in zip((result.interfaces[0], result.interfaces[1]), bad):
-            kept.name = name
-        result.mesh.inclusions = bad[:2]
+        for i, name in enumerate(bad[:2]):
+            result.interfaces[i].name = result.mesh.info.interfaces[i].name = name
+        result.mesh.info.inclusions[:] = bad[:2]
         load = result["opening"]
         load.inclusions = anticrack.names.Named("inclusion", zip(bad, load.inclusions.values()))
         result.loads = anticrack.names.Named("load", [(bad[0], load), (bad[1], copy.copy(load))])

@@ -75,6 +75,8 @@ class Results(FolderTest):
             file = anticrack.read(path)
             told = client.job(file.job).result()
         told.case, told.total_seconds = file.case, file.total_seconds  # which the server does not tell
+        for info in (file.mesh.info, told.mesh.info):  # they are told at different times
+            info.ClearField("state"), info.ClearField("operator_bytes"), info.ClearField("theta_star")
         return file, told
 
     def assert_saved(self, result):
@@ -89,6 +91,8 @@ class Results(FolderTest):
         ours, theirs = (json.loads(ended.stdout) for ended in shown)
         for told in (ours, theirs):
             told.pop("file")
+            for name in ("state", "operator_bytes", "theta_star"):
+                told["mesh"].pop(name)
             told.get("sweep", {}).pop("source", None)
         self.assertEqual(ours, theirs)
         for command in ("plot", "export") if all(load.fields for load in result.loads.values()) else ("plot",):
@@ -188,7 +192,8 @@ max_iterations = 3
         bad = "a\u202eb\u2066\u061c\u200b\u2028\x1b[2J\nFORGED\U000e0041"
         file, _ = self.both(EXAMPLES / "several-inclusions.toml", "run")
         result = copy.deepcopy(file)
-        result.title = result.not_reached = result.mesh.inclusions[0] = result.mesh.subdomain_names[0] = bad
+        result.title = result.not_reached = bad
+        result.mesh.info.inclusions[0] = result.mesh.info.subdomains[0].name = bad
         load = result["pulled"]
         load.name = load.reason = load.traces[0].name = result.interfaces[0].name = load.fields[0].subdomain = bad
         part = next(iter(load.inclusions.values()))

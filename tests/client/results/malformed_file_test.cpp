@@ -200,9 +200,9 @@ const std::array<Damage, 39> damages{{
      "this client reads \"anticrack-result/2\""},
     {"format_no_text", [](hid_t f) { replace_int(f, "/", "format", 1); },
      "attribute format is not one variable-length text"},
-    {"attribute_missing", [](hid_t f) { H5Adelete(f, "mesh_sha256"); },
-     "attribute mesh_sha256 is missing"},
-    {"attribute_of_another_type", [](hid_t f) { replace_int(f, "/", "mesh_seconds", 1); },
+    {"attribute_missing", [](hid_t f) { H5Adelete(f, "server_version"); },
+     "attribute server_version is missing"},
+    {"attribute_of_another_type", [](hid_t f) { replace_int(f, "/mesh", "mesh_seconds", 1); },
      "attribute mesh_seconds is not one float64"},
     {"status_unknown", [](hid_t f) { replace_text(f, "/loads/opening", "status", "fine"); },
      "unknown status \"fine\""},
@@ -300,7 +300,7 @@ const std::array<Damage, 39> damages{{
      [](hid_t f) {
        H5Gclose(H5Gcreate2(f, "/interfaces/1", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
      },
-     "attribute name is missing"},
+     "\"s\" is missing"},
     {"external_link",
      [](hid_t f) {
        H5Ldelete(f, "/mesh", H5P_DEFAULT);

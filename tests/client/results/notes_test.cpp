@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/sample_result.hpp"
+
 namespace anticrack::results {
 namespace {
 
@@ -15,7 +17,7 @@ using ::testing::IsEmpty;
 /// A sheet of 200 by 50 whose inclusion moves by A.
 Result moved(double a) {
   Result result;
-  result.units = {"mm", "N"};
+  result.units = anticrack::testing::units_of("mm", "N");
   result.mesh.xy = {0, 10, 200, 10, 200, 60, 0, 60};
   result.loads.resize(2);
   result.loads[0].answer.set_name("small");
@@ -43,7 +45,7 @@ TEST(Notes, look_at_all_of_u_that_is_known) {
   swept.loads.clear();
   swept.sweep.emplace();
   swept.sweep->inclusions = {"fibre"};
-  swept.sweep->status = {Status::converged, Status::failed};
+  swept.sweep->status = {v1::LoadCaseAnswer::STATUS_CONVERGED, v1::LoadCaseAnswer::STATUS_FAILED};
   swept.sweep->displacement = {-9, 1e3};  // that of a row that failed means nothing
   swept.sweep->energy = {-1, -1};
   swept.sweep->steps = {1, 1};
@@ -60,9 +62,9 @@ TEST(Notes, say_nothing_of_u_whose_unit_may_be_another) {
 
 TEST(Notes, tell_of_the_unit_that_is_missing) {
   Result one = moved(1);
-  one.units = {"mm", ""};
+  one.units = anticrack::testing::units_of("mm", "");
   EXPECT_THAT(notes_on(one), ElementsAre(HasSubstr("gives no force, so energies")));
-  one.units = {"", "N"};
+  one.units = anticrack::testing::units_of("", "N");
   EXPECT_THAT(notes_on(one), ElementsAre(HasSubstr("gives no length")));
 }
 

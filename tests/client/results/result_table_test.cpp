@@ -75,17 +75,23 @@ std::string line(const std::string& where, const std::string& what) {
 std::string result_table() {
   const std::string values = "attributes ";
   return "| where | what |\n|---|---|\n" +
-         line("/", values + "`format`; " + entries<Result>(tables::result) + "; " +
-                       entries<Units>(tables::units) + "; " + entries<Timings>(tables::timings)) +
+         line("/", values + "`format`; " + entries<Result>(tables::result)) +
          line("/",
-              "`meanings` (numbers,4) text: of each number of the loads, inclusions, "
-              "contact_intervals and stages: where it is, its name, unit and meaning") +
-         line("/mesh", entries<Mesh>(tables::mesh, tables::mesh_names)) +
-         line("/interfaces/I", "attribute " + entries<Interface>(tables::interface)) +
-         line("/interfaces/I", entries<Interface>(arrays::interface_nodes<Interface>) + "; " +
-                                   entries<Edges>(tables::edges)) +
-         line("/loads/LOAD", values + "`index`: from 0; " + entries<Asked>(tables::asked)) +
-         line("/loads/LOAD", values + entries(*v1::LoadCaseAnswer::descriptor())) +
+              "`meanings` (numbers,4) text: of each number of the solver, mesh, loads, "
+              "stages and sweep, and of their lists: where it is, its name, unit and meaning") +
+         line("/units", values + entries(*v1::Units::descriptor())) +
+         line("/solver", values + entries(*v1::Solver::descriptor())) +
+         line("/mesh", values + entries(*v1::Mesh::descriptor())) +
+         line("/mesh", entries<Mesh>(tables::mesh) +
+                           "; `inclusions` (i) text: names; `warnings` (w) text: what an import "
+                           "repaired or assumed") +
+         line("/mesh/subdomains", entries(*v1::SubdomainInfo::descriptor())) +
+         line("/mesh/interfaces", entries(*v1::InterfaceInfo::descriptor())) +
+         line("/mesh/tips", entries(*v1::TipInfo::descriptor())) +
+         line("/interfaces/I",
+              entries<Interface>(arrays::interface_nodes<Interface>, tables::edges)) +
+         line("/loads/LOAD",
+              values + "`index`: from 0; " + entries(*v1::LoadCaseAnswer::descriptor())) +
          line("/loads/LOAD",
               "`warnings` (w) text: e.g. of a load not integrated as exactly as "
               "asked; " +
@@ -97,12 +103,12 @@ std::string result_table() {
          line("/loads/LOAD/traces/I", entries<Trace>(arrays::trace<Trace>)) +
          line("/loads/LOAD/history", entries<History>(arrays::history<History>)) +
          line("/loads/LOAD/fields/D",
-              "when asked for: attribute `name`; " +
-                  entries<Field>(arrays::subdomain<Field>, arrays::field<Field>)) +
+              "when asked for: " + entries<Field>(arrays::subdomain<Field>, arrays::field<Field>)) +
          line("/sweep", "of a sweep: " + values + "`description`; " +
-                            entries<Sweep>(tables::sweep) +
-                            "; `converged`, `not_converged`, `failed`: numbers of rows") +
-         line("/sweep", entries<Sweep>(tables::sweep_arrays));
+                            entries<Sweep>(tables::sweep) + "; " +
+                            entries(*v1::SweepAnswer::descriptor())) +
+         line("/sweep",
+              "`warnings` (w) text: about the loads; " + entries<Sweep>(tables::sweep_arrays));
 }
 
 TEST(ResultTable, has_the_table_of_the_result_file) {
@@ -174,8 +180,8 @@ TEST(ResultTable, lists_what_a_file_holds_and_nothing_else) {
       const std::size_t close = text.find('`', i + 1);
       const std::string before = text.substr(0, i);
       if (before.ends_with("; ") || before.ends_with("`, ") || before.ends_with("| ") ||
-          before.ends_with("accuracy: ") || before.ends_with("attributes ") ||
-          before.ends_with("attribute ")) {
+          before.ends_with("accuracy: ") || before.ends_with("asked for: ") ||
+          before.ends_with("attributes ") || before.ends_with("attribute ")) {
         listed.emplace(at, text.substr(i + 1, close - i - 1));
       }
       i = text.find('`', close + 1);

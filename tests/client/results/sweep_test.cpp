@@ -18,6 +18,7 @@
 namespace anticrack::results {
 namespace {
 
+using anticrack::testing::same;
 using anticrack::testing::sample_sweep;
 using anticrack::testing::TemporaryFolder;
 using anticrack::testing::tilting_sweep;
@@ -34,7 +35,7 @@ TEST(SweepFile, ComesBackAsItWasWritten) {
   result.sweep->error = "row 7: the load is not finite";
   const Result back = written_and_read(result);
   ASSERT_TRUE(back.sweep);
-  EXPECT_TRUE(*back.sweep == *result.sweep);
+  EXPECT_TRUE(same(*back.sweep, *result.sweep));
   ASSERT_EQ(back.loads.size(), 2U);
   EXPECT_EQ(back.loads[1].name(), "row-2999");
   EXPECT_EQ(back.loads[1].traces[0].jump, result.loads[1].traces[0].jump);
@@ -49,7 +50,7 @@ TEST(SweepFile, HasSlopesInThreeDimensions) {
     sweep.slope.insert(sweep.slope.end(), 2 * rows, 0.75);
     const TemporaryFolder folder;
     write(folder / "a.h5", result);
-    EXPECT_TRUE(*read(folder / "a.h5").sweep == sweep);
+    EXPECT_TRUE(same(*read(folder / "a.h5").sweep, sweep));
     const hid_t file = H5Fopen((folder / "a.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
     const hid_t set = H5Dopen2(file, "/sweep/slope", H5P_DEFAULT);
     const hid_t space = H5Dget_space(set);
@@ -114,7 +115,7 @@ TEST(SweepFile, HoldsASweepWithoutCoefficientsInclusionsAndCracks) {
   result.loads.clear();
   const Result back = written_and_read(result);
   ASSERT_TRUE(back.sweep);
-  EXPECT_TRUE(*back.sweep == sweep);
+  EXPECT_TRUE(same(*back.sweep, sweep));
 }
 
 TEST(SweepFile, IsNoSweepWithoutOne) {
@@ -153,8 +154,10 @@ TEST(Sweep, IsNotWrittenFromWhatDoesNotFitTogether) {
       {"sweep.contact has", [](Result& r) { r.sweep->contact.pop_back(); }},
       {"sweep.contact_nodes has", [](Result& r) { r.sweep->contact_nodes.push_back(0); }},
       {"sweep.coefficients", [](Result& r) { r.sweep->coefficients.pop_back(); }},
-      {"sweep.status[3] is 9, no status",
-       [](Result& r) { r.sweep->status[3] = static_cast<Status>(9); }},
+      {"sweep.status[3] is 9, no status", [](Result& r) { r.sweep->status[3] = 9; }},
+      {"sweep counts other rows than its 21", [](Result& r) { r.sweep->answer.set_rows(20); }},
+      {"sweep counts other rows than its 21",
+       [](Result& r) { r.sweep->answer.set_failed(std::uint64_t{1} << 63); }},
       {"sweep.contact has a value", [](Result& r) { r.sweep->contact[3] = 2; }},
       {"sweep.contact_nodes[0] is not a node", [](Result& r) { r.sweep->contact_nodes[0] = 1; }},
       {"sweep.contact_nodes[0] is not a node", [](Result& r) { r.sweep->contact_nodes[1] = -1; }},
@@ -183,21 +186,15 @@ TEST(SweepFile, ThatWasTamperedWithIsRefused) {
   EXPECT_THROW(read(folder / "a.h5"), Error);
 }
 
-TEST(SweepSummary, CountsAndSpansTheConvergedRows) {
+TEST(SweepSummary, SpansTheConvergedRows) {
   Result result = sample_sweep(5);  // row 3 did not converge
-  result.sweep->status[2] = Status::failed;
-  result.sweep->status[1] = Status::cancelled;
+  result.sweep->status[2] = v1::LoadCaseAnswer::STATUS_FAILED;
+  result.sweep->status[1] = v1::LoadCaseAnswer::STATUS_CANCELLED;
   const SweepSummary counts = summary(*result.sweep);
-  EXPECT_EQ(counts.converged, 2U);
-  EXPECT_EQ(counts.not_converged, 1U);
-  EXPECT_EQ(counts.failed, 1U);
-  EXPECT_EQ(counts.other, 1U);
   EXPECT_DOUBLE_EQ(counts.displacement.at(0).low, -0.1);
   EXPECT_DOUBLE_EQ(counts.displacement.at(0).high, 0.1);
   EXPECT_FALSE(counts.tilted());
   EXPECT_DOUBLE_EQ(counts.energy.low, -2);
-  EXPECT_EQ(counts.most_steps, 2) << "of rows 0 and 4";
-  EXPECT_EQ(counts.worst_kkt, 1e-13);
 }
 
 TEST(SweepSummary, TellsTheWidestBounds) {
@@ -218,9 +215,8 @@ TEST(SweepSummary, SpansTheSlopes) {
 
 TEST(SweepSummary, KnowsNoRangeWhereNothingConverged) {
   Result result = sample_sweep(3);
-  result.sweep->status.assign(3, Status::failed);
+  result.sweep->status.assign(3, v1::LoadCaseAnswer::STATUS_FAILED);
   const SweepSummary counts = summary(*result.sweep);
-  EXPECT_EQ(counts.failed, 3U);
   EXPECT_TRUE(std::isnan(counts.energy.low));
   EXPECT_TRUE(std::isnan(counts.displacement.at(0).high));
 }

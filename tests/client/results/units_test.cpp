@@ -1,25 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
-#include "results/result.hpp"
+#include "support/sample_result.hpp"
 
 namespace anticrack::results {
 namespace {
 
+using anticrack::testing::units_of;
+
 TEST(Units, follow_from_those_of_length_and_force) {
-  const Units units{"mm", "N"};
-  EXPECT_EQ(units.of("L"), "mm");
-  EXPECT_EQ(units.of("F/L^2"), "N/mm^2");
-  EXPECT_EQ(units.of("F L"), "N mm");
-  EXPECT_EQ(units.of("s"), "s");
-  EXPECT_EQ(labelled("x", units.label("L")), "x [mm]");
+  const v1::Units units = units_of("mm", "N");
+  EXPECT_EQ(unit_of(units, "L"), "mm");
+  EXPECT_EQ(unit_of(units, "F/L^2"), "N/mm^2");
+  EXPECT_EQ(unit_of(units, "F L"), "N mm");
+  EXPECT_EQ(unit_of(units, "s"), "s");
+  EXPECT_EQ(labelled("x", label_of(units, "L")), "x [mm]");
 }
 
 TEST(Units, are_not_made_up) {
-  EXPECT_EQ((Units{"mm", ""}).of("F/L"), "-");
-  EXPECT_EQ((Units{"", "N"}).of("F L"), "-");
-  EXPECT_EQ(Units{}.of(""), "-");
-  EXPECT_EQ(labelled("x", Units{}.label("L")), "x");
+  EXPECT_EQ(unit_of(units_of("mm", ""), "F/L"), "-");
+  EXPECT_EQ(unit_of(units_of("", "N"), "F L"), "-");
+  EXPECT_EQ(unit_of({}, ""), "-");
+  EXPECT_EQ(labelled("x", label_of({}, "L")), "x");
 }
 
 }  // namespace

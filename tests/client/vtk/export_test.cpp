@@ -44,7 +44,7 @@ TEST(Export, writes_two_files_a_load_and_their_collection) {
 TEST(Export, names_units) {
   const TemporaryFolder folder;
   results::Result result = sample_result(4);
-  result.units = {"<mm>", "N"};
+  result.units = anticrack::testing::units_of("<mm>", "N");
   export_result(result, "paper.h5", folder.path());
   const std::string file = bytes_of(folder / "opening.vtu");
   const std::string label = "<InformationKey name=\"UNITS_LABEL\" location=\"vtkDataArray\">";
@@ -127,7 +127,7 @@ TEST(Export, carries_traces_and_pressure_along_the_interface) {
   EXPECT_EQ(seen.arrays.at("contact").as<std::int32_t>(), trace.contact);
   EXPECT_EQ(seen.arrays.at("s").as<double>(), result.interfaces[0].s);
   EXPECT_EQ(seen.arrays.at("kind").as<std::int32_t>()[4], 4);
-  EXPECT_EQ(seen.arrays.at("inclusion").as<std::int32_t>(), result.interfaces[0].edges.inclusion);
+  EXPECT_EQ(seen.arrays.at("inclusion").as<std::int32_t>(), result.interfaces[0].edge_inclusion);
   EXPECT_EQ(seen.arrays.at("types").as<std::uint8_t>(), std::vector<std::uint8_t>(8, 3));
 }
 

@@ -37,9 +37,10 @@ def convergence(result: Result, load: str | Load | None = None, ax: Any = None) 
         values = np.asarray(load.history[column], dtype=float)
         ax.plot(iterations, np.where(values >= 0, values, np.nan), color=color, linestyle=dash, label=name + label,
                 **few)
-    if load.epsilon > 0:
-        ax.axhline(load.epsilon, color=CURVES[1][0], linestyle=CURVES[1][1], linewidth=1,
-                   label=f"\u03b5 = {number_text(load.epsilon)}")
+    epsilon = load.solver.uzawa.epsilon
+    if epsilon > 0:
+        ax.axhline(epsilon, color=CURVES[1][0], linestyle=CURVES[1][1], linewidth=1,
+                   label=f"\u03b5 = {number_text(epsilon)}")
     ax.set(xlabel="step of the active set" if steps else "iteration",
            ylabel="KKT residual" if steps else "relative change per iteration")
     _log_with_zero(ax)
