@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/accuracy_text.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -104,17 +106,17 @@ std::vector<std::string> stage_lines(const std::vector<StageErrors>& stages,
 }
 
 std::string stage_text(std::size_t number, const StageErrors& stage, const v1::Accuracy& asked) {
-  return "stage " + std::to_string(number) + ": " + std::to_string(stage.triangles) +
-         " triangles, " + errors_text(stage, asked);
+  return fmt::format("stage {}: {} triangles, {}", number, stage.triangles,
+                     errors_text(stage, asked));
 }
 
 std::string accuracy_text(const v1::Job& job) {
   std::string text;
   if (const auto stages = stages_of(job); !stages.empty()) {
     const StageErrors& last = stages.back();
-    text = "accuracy: " + errors_text(last, job.spec().accuracy(), scale_of(job)) + "; " +
-           counted(stages.size(), "stage") + ", " + std::to_string(last.triangles) +
-           " triangles, " + seconds(last.seconds) + " s\n";
+    text = fmt::format("accuracy: {}; {}, {} triangles, {} s\n",
+                       errors_text(last, job.spec().accuracy(), scale_of(job)),
+                       counted(stages.size(), "stage"), last.triangles, seconds(last.seconds));
   }
   if (!job.status().not_reached().empty())
     text += "not reached: " + sanitise(job.status().not_reached()) + "\n";

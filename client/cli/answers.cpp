@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/answers.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -109,8 +111,8 @@ class Told {
   // The hint below the table.
   std::string hint() const {
     if (each()) return "";
-    return "all " + std::to_string(_inclusions.size()) +
-           " inclusions: anticrack show RESULT --inclusions, or --csv FILE\n";
+    return fmt::format("all {} inclusions: anticrack show RESULT --inclusions, or --csv FILE\n",
+                       _inclusions.size());
   }
 
   static constexpr const char* of = "of";  // heads a column of names
@@ -184,9 +186,9 @@ std::vector<std::string> remarks_on(const results::Load& load) {
   if (const std::string& cause = failure.empty() ? answer.reason() : failure; !cause.empty())
     remarks.push_back(cause);
   if (answer.weakly_active() > 0) {
-    remarks.push_back(std::to_string(answer.weakly_active()) +
-                      (answer.weakly_active() == 1 ? " node just touches" : " nodes just touch") +
-                      ": neither jump nor pressure");
+    remarks.push_back(
+        fmt::format("{}{}: neither jump nor pressure", answer.weakly_active(),
+                    answer.weakly_active() == 1 ? " node just touches" : " nodes just touch"));
   }
   for (const std::string& warning : answer.warnings()) remarks.push_back("warning: " + warning);
   if (!answer.no_bracket().empty())

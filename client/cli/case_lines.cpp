@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/live_view.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <map>
 #include <numeric>
@@ -141,12 +143,11 @@ std::string others(const JobProgress& progress, const std::vector<std::size_t>& 
   std::map<v1::LoadCaseAnswer::Status, std::size_t> counts;
   for (const CaseProgress& load_case : progress.cases) ++counts[load_case.status];
   for (const std::size_t i : shown) --counts[progress.cases[i].status];
-  std::string text = "  and " + std::to_string(progress.cases.size() - shown.size()) + " more";
+  std::string text = fmt::format("  and {} more", progress.cases.size() - shown.size());
   const char* separator = ": ";
   for (const auto& [status, count] : counts) {
     if (count == 0) continue;
-    text +=
-        std::exchange(separator, ", ") + std::to_string(count) + " " + std::string(word(status));
+    text += fmt::format("{}{} {}", std::exchange(separator, ", "), count, word(status));
   }
   return text;
 }

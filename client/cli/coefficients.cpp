@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/coefficients.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -99,11 +101,11 @@ class Reader {
   }
 
  private:
-  std::string at_line() const { return _source + ":" + std::to_string(_line); }
+  std::string at_line() const { return fmt::format("{}:{}", _source, _line); }
 
   [[noreturn]] void fail(const std::string& problem) const { throw CaseError(at_line(), problem); }
   [[noreturn]] void fail(std::size_t column, const std::string& problem) const {
-    throw CaseError(at_line() + ": column " + std::to_string(column + 1), problem);
+    throw CaseError(fmt::format("{}: column {}", at_line(), column + 1), problem);
   }
 
   /// Whether the first line is a header: all its fields are names of loads (which may look like
@@ -140,10 +142,10 @@ class Reader {
       _mark_line = _line;
     }
     if (field[at] == _decimal_mark) return;
-    fail(column, shown_field(field) +
-                     (field[at] == ',' ? " has a decimal comma" : " has a decimal point") +
-                     ", line " + std::to_string(_mark_line) + " has decimal " +
-                     (_decimal_mark == ',' ? "commas" : "points") + "; write all numbers one way");
+    fail(column,
+         fmt::format("{}{}, line {} has decimal {}; write all numbers one way", shown_field(field),
+                     field[at] == ',' ? " has a decimal comma" : " has a decimal point", _mark_line,
+                     _decimal_mark == ',' ? "commas" : "points"));
   }
 
   void take_header() {

@@ -2,6 +2,7 @@
 #include "cli/external.hpp"
 
 #include <fcntl.h>
+#include <fmt/core.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -155,7 +156,7 @@ int run_in_python(std::vector<std::string> words, std::string_view input, const 
   }
   const Json document = Json::parse(answer, nullptr, false);
   if (!document.is_object())
-    throw FiguresError("what draws ended with code " + std::to_string(code) + " and no answer");
+    throw FiguresError(fmt::format("what draws ended with code {} and no answer", code));
   if (with_document && globals.json) {
     print_document(to_text(document));
   } else {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 //   anticrack show | plot | export: the commands that need a result file and no server
+#include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -86,9 +87,9 @@ int show_file(const FileOptions& options, const Globals& given) {
   }
   std::string head;
   if (!result.title.empty()) head += sanitise(result.title) + "\n";
-  head += std::to_string(result.mesh.triangle_count()) + " triangles, " +
-          std::to_string(result.mesh.node_count()) + " nodes (" +
-          sanitise(result.mesh.info.name()) + "), solved by " + sanitise(result.job_name) + "\n\n";
+  head += fmt::format("{} triangles, {} nodes ({}), solved by {}\n\n", result.mesh.triangle_count(),
+                      result.mesh.node_count(), sanitise(result.mesh.info.name()),
+                      sanitise(result.job_name));
   std::string foot;
   if (!result.not_reached.empty()) foot = "not reached: " + sanitise(result.not_reached) + "\n";
   if (result.loads.size() == 1 || !options.loads.empty())

@@ -2,6 +2,7 @@
 //
 //   anticrack completion bash | zsh | fish
 //   anticrack manual DIR
+#include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
 #include <filesystem>
@@ -30,7 +31,7 @@ int write_manual(const CLI::App& app, const std::filesystem::path& folder, const
     for (const guide::Page& page : pages) files.push_back((folder / page.file).string());
     print_document(to_text({{"files", std::move(files)}}));
   } else {
-    say(globals, std::to_string(pages.size()) + " pages in " + folder.string());
+    say(globals, fmt::format("{} pages in {}", pages.size(), folder.string()));
   }
   return exit_ok;
 }

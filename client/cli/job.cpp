@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 //   anticrack job submit | list | show | watch | cancel | fetch | delete
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <map>
 #include <memory>
@@ -73,11 +75,10 @@ const std::map<std::string, v1::JobStatus::State> states{
 std::string ended_text(const v1::Job& job) {
   if (job.spec().has_sweep()) {
     const v1::SweepAnswer& sweep = job.status().sweep_answer();
-    return std::to_string(sweep.converged() + sweep.not_converged() + sweep.failed()) + "/" +
-           std::to_string(sweep.rows()) + " rows";
+    return fmt::format("{}/{} rows", sweep.converged() + sweep.not_converged() + sweep.failed(),
+                       sweep.rows());
   }
-  return std::to_string(job.status().load_cases_ended()) + "/" +
-         std::to_string(job.status().load_case_count());
+  return fmt::format("{}/{}", job.status().load_cases_ended(), job.status().load_case_count());
 }
 
 int list_jobs(const JobOptions& options, const Globals& globals) {

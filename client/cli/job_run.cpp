@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/job_run.hpp"
 
+#include <fmt/core.h>
+
 #include <vector>
 
 #include "cli/accuracy_text.hpp"
@@ -28,11 +30,12 @@ std::string counted_cases(const v1::JobSpec& spec, std::uint64_t rows) {
 
 std::string summary(const results::Result& result, const fs::path& file) {
   const v1::Mesh& mesh = result.mesh.info;
-  return "Results: " + file.string() + " (" + std::to_string(result.mesh.triangle_count()) +
-         " triangles, " + std::to_string(result.mesh.node_count()) + " nodes; meshing " +
-         seconds(mesh.mesh_seconds()) + " s, factorising " + seconds(mesh.factorize_seconds()) +
-         " s, solving " + seconds(results::solve_seconds(result)) + " s, " +
-         seconds(result.total_seconds) + " s in all)";
+  return fmt::format(
+      "Results: {} ({} triangles, {} nodes; meshing {} s, factorising {} s, solving {} s, {} s in "
+      "all)",
+      file.string(), result.mesh.triangle_count(), result.mesh.node_count(),
+      seconds(mesh.mesh_seconds()), seconds(mesh.factorize_seconds()),
+      seconds(results::solve_seconds(result)), seconds(result.total_seconds));
 }
 
 // The reasons why a job has no answers, line by line, in terms of its case.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/job_text.hpp"
 
+#include <fmt/core.h>
 #include <google/protobuf/util/time_util.h>
 
 #include <array>
@@ -23,8 +24,7 @@ std::string circumstances(const v1::Job& job) {
   std::string text = "priority " + std::string(word_of(priorities, job.spec().priority()));
   if (!job.owner().empty()) text += ", of " + sanitise(job.owner());
   if (job.status().attempt() > 1)
-    text +=
-        ", attempt " + std::to_string(job.status().attempt()) + ": the server stopped while it ran";
+    text += fmt::format(", attempt {}: the server stopped while it ran", job.status().attempt());
   const auto add_limit = [&text](const char* name, const google::protobuf::Duration& time) {
     if (TimeUtil::DurationToMilliseconds(time) > 0)
       text += std::string(", ") + name + " at most " +
@@ -36,13 +36,12 @@ std::string circumstances(const v1::Job& job) {
 }
 
 std::string sweep_answer(const v1::SweepAnswer& answer) {
-  std::string text = "sweep of " + std::to_string(answer.rows()) +
-                     " rows: " + std::to_string(answer.converged()) + " converged, " +
-                     std::to_string(answer.not_converged()) + " did not converge, " +
-                     std::to_string(answer.failed()) + " failed\n";
+  std::string text =
+      fmt::format("sweep of {} rows: {} converged, {} did not converge, {} failed\n", answer.rows(),
+                  answer.converged(), answer.not_converged(), answer.failed());
   if (answer.converged() > 0) {
-    text += "at most " + std::to_string(answer.most_steps()) + " steps, KKT residuals at most " +
-            number(answer.worst_kkt(), 2) + "\n";
+    text += fmt::format("at most {} steps, KKT residuals at most {}\n", answer.most_steps(),
+                        number(answer.worst_kkt(), 2));
   }
   for (const std::string& warning : answer.warnings())
     text += "warning: " + sanitise(warning) + "\n";
@@ -59,7 +58,7 @@ std::string timeline(const v1::JobStatus& status) {
     const auto since = TimeUtil::DurationToMilliseconds(step.time() - begin);
     std::string what(word(step.state()));
     what += step.detail().empty() ? "" : " (" + sanitise(step.detail()) + ")";
-    what += again ? ", attempt " + std::to_string(step.attempt()) : "";
+    what += again ? fmt::format(", attempt {}", step.attempt()) : "";
     rows.push_back({number(static_cast<double>(since) / 1000, 6), what});
   }
   return "\ncreated " + clock_text(begin.seconds()) + "\n" + table(rows, {1});
@@ -102,9 +101,8 @@ std::vector<std::string> shortfalls(const v1::Job& job) {
   if (!status.not_reached().empty()) lines.push_back("not reached: " + status.not_reached());
   const v1::SweepAnswer& sweep = status.sweep_answer();
   if (sweep.not_converged() + sweep.failed() > 0) {
-    lines.push_back("of " + std::to_string(sweep.rows()) + " rows " +
-                    std::to_string(sweep.not_converged()) + " did not converge, " +
-                    std::to_string(sweep.failed()) + " failed");
+    lines.push_back(fmt::format("of {} rows {} did not converge, {} failed", sweep.rows(),
+                                sweep.not_converged(), sweep.failed()));
   }
   return lines;
 }

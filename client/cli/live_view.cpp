@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/live_view.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -12,13 +14,13 @@ namespace anticrack::cli {
 namespace {
 
 std::string attempt_of(const JobProgress& progress) {
-  return progress.attempt > 1 ? ", attempt " + std::to_string(progress.attempt) : "";
+  return progress.attempt > 1 ? fmt::format(", attempt {}", progress.attempt) : "";
 }
 
 std::string rows_of(const SweepProgress& sweep) {
-  return std::to_string(sweep.done()) +
-         (sweep.total > 0 ? " of " + std::to_string(sweep.total) : std::string()) +
-         (sweep.total == 1 ? " row" : " rows");
+  return fmt::format("{}{}{}", sweep.done(),
+                     sweep.total > 0 ? fmt::format(" of {}", sweep.total) : std::string(),
+                     sweep.total == 1 ? " row" : " rows");
 }
 
 // "  10300 rows/s  5 s left  3 not converged", without the unknown parts.
@@ -33,9 +35,8 @@ std::string pace_of(const SweepProgress& sweep) {
   }
   if (std::isfinite(sweep.seconds_left()) && sweep.done() < sweep.total)
     text += "  " + time_text(sweep.seconds_left()) + " left";
-  if (sweep.not_converged() > 0)
-    text += "  " + std::to_string(sweep.not_converged()) + " not converged";
-  if (sweep.failed() > 0) text += "  " + std::to_string(sweep.failed()) + " failed";
+  if (sweep.not_converged() > 0) text += fmt::format("  {} not converged", sweep.not_converged());
+  if (sweep.failed() > 0) text += fmt::format("  {} failed", sweep.failed());
   return text;
 }
 
@@ -66,7 +67,7 @@ std::string head_of(const JobProgress& progress, std::size_t width) {
   if (progress.sweep) {
     done = short_done = ", " + rows_of(*progress.sweep);
   } else if (progress.cases.size() > 1) {
-    const std::string ended_cases = ", " + std::to_string(progress.ended_count);
+    const std::string ended_cases = fmt::format(", {}", progress.ended_count);
     const std::string count = std::to_string(progress.cases.size());
     done = ended_cases + " of " + count + " load cases ended";
     short_done = ended_cases + "/" + count + " ended";
@@ -85,8 +86,8 @@ std::string sweep_line(const SweepProgress& sweep, std::size_t width) {
 }
 
 std::string count_of(std::int32_t iterations, bool active_set) {
-  return std::to_string(iterations) + (active_set ? " step" : " iteration") +
-         (iterations == 1 ? "" : "s");
+  return fmt::format("{}{}{}", iterations, active_set ? " step" : " iteration",
+                     iterations == 1 ? "" : "s");
 }
 
 // The criterion; empty for the active set, which ends when nothing changes any more.
@@ -166,9 +167,9 @@ std::vector<std::string> PlainLog::lines(const JobProgress& progress) {
                       (now.remark.empty() ? "" : "; " + now.remark));
     } else if (!ended(now.status) && now.iteration >= seen.due) {
       while (seen.due <= now.iteration) seen.due *= 2;
-      lines.push_back(now.name + (progress.active_set ? ": step " : ": iteration ") +
-                      std::to_string(now.iteration) + criterion_of(now, progress.active_set) +
-                      ", " + std::to_string(now.contact_count) + " nodes in contact");
+      lines.push_back(fmt::format("{}{}{}{}, {} nodes in contact", now.name,
+                                  progress.active_set ? ": step " : ": iteration ", now.iteration,
+                                  criterion_of(now, progress.active_set), now.contact_count));
     }
     seen.status = now.status;
   }

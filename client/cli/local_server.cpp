@@ -2,6 +2,7 @@
 #include "cli/local_server.hpp"
 
 #include <fcntl.h>
+#include <fmt/core.h>
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
@@ -57,11 +58,10 @@ pid_t start_server(const fs::path& program, int in, int out, int err) {
 
 /// The text that says how the server ended. `when`: "", or " before ...".
 std::string how_it_ended(int status, const std::string& when = "") {
-  if (WIFEXITED(status))
-    return "ended with exit code " + std::to_string(WEXITSTATUS(status)) + when;
+  if (WIFEXITED(status)) return fmt::format("ended with exit code {}{}", WEXITSTATUS(status), when);
   const int number = WTERMSIG(status);
   const std::string signal =
-      "died of signal " + std::to_string(number) + " (" + strsignal(number) + ")" + when;
+      fmt::format("died of signal {} ({}){}", number, strsignal(number), when);
   switch (number) {
     case SIGKILL:
       return signal + ", perhaps because memory ran out: a coarser mesh takes less";
@@ -128,8 +128,8 @@ void LocalServer::wait_until_ready(const std::stop_token& stop) {
   while (said.find('\n') == std::string::npos) {
     if (stop.stop_requested()) throw client::Interrupted();
     if (steady_clock::now() > limit) {
-      throw LocalServerError("anticrackd did not get ready within " +
-                             std::to_string(start_limit.count() / 1000) + " s" + last_words());
+      throw LocalServerError(fmt::format("anticrackd did not get ready within {} s{}",
+                                         start_limit.count() / 1000, last_words()));
     }
     pollfd waiting{_output, POLLIN, 0};
     if (poll(&waiting, 1, poll_milliseconds) <= 0) continue;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/mesh_text.hpp"
 
+#include <fmt/core.h>
+
 #include <array>
 #include <map>
 #include <utility>
@@ -58,10 +60,9 @@ std::string head(const v1::Mesh& mesh) {
 }
 
 std::string sizes(const v1::Mesh& mesh) {
-  std::string text = std::to_string(mesh.triangle_count()) + " triangles, " +
-                     std::to_string(mesh.node_count()) + " nodes, meshed in " +
-                     seconds(mesh.mesh_seconds()) + " s; smallest angle " +
-                     number(mesh.minimum_angle(), 3) + " degrees";
+  std::string text = fmt::format(
+      "{} triangles, {} nodes, meshed in {} s; smallest angle {} degrees", mesh.triangle_count(),
+      mesh.node_count(), seconds(mesh.mesh_seconds()), number(mesh.minimum_angle(), 3));
   if (mesh.has_bisection_bound())
     text += " (no grading can go below " + number(mesh.bisection_bound(), 3) + ")";
   text += "\n";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/progress.hpp"
 
+#include <fmt/core.h>
 #include <google/protobuf/util/time_util.h>
 
 #include <algorithm>
@@ -163,9 +164,9 @@ std::string state_text(const v1::Mesh& mesh) {
   if (!mesh.has_progress()) return text;
   const v1::MeshProgress& progress = mesh.progress();
   if (!progress.doing().empty()) text += ": " + sanitise(progress.doing());
-  if (progress.triangles() > 0) text += ", " + std::to_string(progress.triangles()) + " triangles";
+  if (progress.triangles() > 0) text += fmt::format(", {} triangles", progress.triangles());
   if (progress.expected_triangles() > 0)
-    text += " of about " + std::to_string(progress.expected_triangles());
+    text += fmt::format(" of about {}", progress.expected_triangles());
   return text;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/sweep_input.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <charconv>
 #include <limits>
@@ -53,7 +55,7 @@ class Selection {
            "\" is not a row; write all, none, or rows, for example 0,10,20-30");
     }
     if (error == std::errc::result_out_of_range || row >= _rows)
-      fail("there is no row " + std::string(part) + "; rows are 0 to " + std::to_string(_rows - 1));
+      fail(fmt::format("there is no row {}; rows are 0 to {}", part, _rows - 1));
     return row;
   }
 
@@ -62,8 +64,7 @@ class Selection {
     const std::uint64_t first = row_of(item.substr(0, dash), item);
     const std::uint64_t last = dash < item.size() ? row_of(item.substr(dash + 1), item) : first;
     if (last < first) {
-      fail("the range " + std::string(item) + " ends before it begins; write " +
-           std::to_string(last) + "-" + std::to_string(first));
+      fail(fmt::format("the range {} ends before it begins; write {}-{}", item, last, first));
     }
     return {first, last};
   }
@@ -81,11 +82,11 @@ std::vector<std::uint32_t> select_rows(const std::string& text, std::uint64_t ro
   std::uint64_t count = 0;
   for (const Range& range : ranges) count += range.last - range.first + 1;
   if (count > most) {
-    selection.fail("these are " + std::to_string(count) + " rows, the server keeps the traces of " +
-                   std::to_string(most) + " at most; name fewer");
+    selection.fail(fmt::format(
+        "these are {} rows, the server keeps the traces of {} at most; name fewer", count, most));
   }
   if (!ranges.empty() && ranges.back().last > std::numeric_limits<std::uint32_t>::max())
-    selection.fail("row " + std::to_string(ranges.back().last) + " is too large to be named");
+    selection.fail(fmt::format("row {} is too large to be named", ranges.back().last));
   std::vector<std::uint32_t> selected;
   selected.reserve(static_cast<std::size_t>(count));
   for (const Range& range : ranges)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 //   anticrack server
+#include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
 #include <map>
@@ -36,10 +37,10 @@ std::string seconds(const google::protobuf::Duration& time) {
   constexpr std::int64_t hour = 3600;
   constexpr std::int64_t day = 24 * hour;
   if (time.seconds() >= 2 * day && time.seconds() % day == 0)
-    return std::to_string(time.seconds() / day) + " days";
+    return fmt::format("{} days", time.seconds() / day);
   return time.seconds() >= hour && time.seconds() % hour == 0
-             ? std::to_string(time.seconds() / hour) + " h"
-             : std::to_string(time.seconds()) + " s";
+             ? fmt::format("{} h", time.seconds() / hour)
+             : fmt::format("{} s", time.seconds());
 }
 
 std::string info_text(const v1::ServerInfo& info, const std::string& address) {
@@ -53,28 +54,24 @@ std::string info_text(const v1::ServerInfo& info, const std::string& address) {
     rows.push_back({rows.size() == 3 ? "features" : "", line});
   const std::vector<std::vector<std::string>> counters{
       {"solver threads", std::to_string(info.threads())},
-      {"jobs", std::to_string(metrics.jobs_queued()) + " queued, " +
-                   std::to_string(metrics.jobs_running()) + " running, " +
-                   std::to_string(metrics.jobs_ended()) + " ended"},
+      {"jobs", fmt::format("{} queued, {} running, {} ended", metrics.jobs_queued(),
+                           metrics.jobs_running(), metrics.jobs_ended())},
       {"load cases ended", std::to_string(metrics.load_cases_ended())},
       {"iterations", std::to_string(metrics.iterations())},
       {"meshings", std::to_string(metrics.meshings())},
-      {"factorisations", std::to_string(metrics.factorizations()) + ", reused " +
-                             std::to_string(metrics.operator_hits()) + " times, joined " +
-                             std::to_string(metrics.operator_joins()) + " times, evicted " +
-                             std::to_string(metrics.operator_evictions())},
+      {"factorisations", fmt::format("{}, reused {} times, joined {} times, evicted {}",
+                                     metrics.factorizations(), metrics.operator_hits(),
+                                     metrics.operator_joins(), metrics.operator_evictions())},
       {"factors in memory",
        bytes(metrics.operator_bytes()) + " of " + bytes(limits.memory_budget_bytes())},
-      {"watchers", std::to_string(metrics.watchers()) + " of " + std::to_string(limits.watchers())},
-      {"limits", std::to_string(limits.mesh_triangles()) + " triangles a mesh, uploads of " +
-                     bytes(limits.upload_bytes()) + ", " + std::to_string(limits.load_cases()) +
-                     " load cases a job"},
-      {"", std::to_string(limits.iterations()) + " iterations a load case, sweeps of " +
-               std::to_string(limits.sweep_rows()) + " rows and " +
-               std::to_string(limits.sweep_basis()) + " loads"},
-      {"queue", std::to_string(limits.queued_jobs()) + " jobs, " +
-                    std::to_string(limits.queued_cases()) + " load cases a mesh, " +
-                    bytes(limits.queued_bytes()) + " of memory"},
+      {"watchers", fmt::format("{} of {}", metrics.watchers(), limits.watchers())},
+      {"limits",
+       fmt::format("{} triangles a mesh, uploads of {}, {} load cases a job",
+                   limits.mesh_triangles(), bytes(limits.upload_bytes()), limits.load_cases())},
+      {"", fmt::format("{} iterations a load case, sweeps of {} rows and {} loads",
+                       limits.iterations(), limits.sweep_rows(), limits.sweep_basis())},
+      {"queue", fmt::format("{} jobs, {} load cases a mesh, {} of memory", limits.queued_jobs(),
+                            limits.queued_cases(), bytes(limits.queued_bytes()))},
       {"times", "a job waits at most " + seconds(limits.queue_time()) + " and runs at most " +
                     seconds(limits.run_time())},
       {"results", "kept " +

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/submit.hpp"
 
+#include <fmt/core.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -30,8 +31,7 @@ void upload_forces(Session& session, const Case& the_case, v1::JobSpec& spec) {
   for (const ForceFile& file : the_case.force_files)
     if (indices.try_emplace({file.path, file.dataset}, files.size()).second) files.push_back(&file);
   const auto place_of = [&](std::size_t index) {
-    return told(
-        *the_case.locate("load_cases[" + std::to_string(files[index]->load_case) + "].force"));
+    return told(*the_case.locate(fmt::format("load_cases[{}].force", files[index]->load_case)));
   };
   const auto read = [&, read_array = results::array_reader()](std::size_t index) {
     try {

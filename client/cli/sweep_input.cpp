@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/sweep_input.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <optional>
@@ -96,17 +98,16 @@ void read_combinations(const SweepFiles& files, const Case& the_case, SweepInput
   take(std::move(matrix), input);
   if (input.columns != loads.size()) {
     fail(files.coefficients,
-         "it has " + std::to_string(input.columns) + " columns, the case " +
-             std::to_string(loads.size()) +
-             " loads; write one column for each load, in their order, or name them in an "
-             "attribute loads of the dataset");
+         fmt::format("it has {} columns, the case {} loads; write one column for each load, in "
+                     "their order, or name them in an attribute loads of the dataset",
+                     input.columns, loads.size()));
   }
   if (loads_of.size() == input.columns) {
     sort_columns(loads_of, input);
   } else if (!loads_of.empty()) {
-    fail(files.coefficients, "its attribute loads names " + std::to_string(loads_of.size()) +
-                                 " of " + std::to_string(input.columns) +
-                                 " columns; name all of them");
+    fail(files.coefficients,
+         fmt::format("its attribute loads names {} of {} columns; name all of them",
+                     loads_of.size(), input.columns));
   }
 }
 
@@ -125,15 +126,14 @@ void check_limits(const SweepInput& input, const v1::ServerLimits& limits) {
   if (limits.sweep_rows() == 0)
     fail(source, "the server knows no sweeps; update it, or name a newer one with --server");
   if (input.rows > limits.sweep_rows()) {
-    fail(source, "it has " + std::to_string(input.rows) + " rows, the server takes " +
-                     std::to_string(limits.sweep_rows()) +
-                     " a sweep; cut it into several, or start the server with a larger limit");
+    fail(source, fmt::format("it has {} rows, the server takes {} a sweep; cut it into several, or "
+                             "start the server with a larger limit",
+                             input.rows, limits.sweep_rows()));
   }
   if (!input.nodal && input.columns > static_cast<std::size_t>(limits.sweep_basis())) {
-    fail(source, "it combines " + std::to_string(input.columns) + " loads, the server at most " +
-                     std::to_string(limits.sweep_basis()) +
-                     "; join loads that always go together, or start the server with a larger "
-                     "limit");
+    fail(source, fmt::format("it combines {} loads, the server at most {}; join loads that always "
+                             "go together, or start the server with a larger limit",
+                             input.columns, limits.sweep_basis()));
   }
   if (input.bytes() > inline_matrix_bytes && input.bytes() > limits.upload_bytes()) {
     fail(source, "it takes " + bytes(input.bytes()) + ", the server takes uploads of " +
@@ -185,10 +185,10 @@ void make_sweep(const SweepInput& input, const v1::ServerLimits& limits, Case& t
 
 void check_nodes(const SweepInput& input, std::uint64_t node_count) {
   if (input.columns != node_count) {
-    fail(input.source, "it has " + std::to_string(input.columns) + " columns, the mesh " +
-                           std::to_string(node_count) +
-                           " nodes; write f on every node, in the order of the mesh (the dataset "
-                           "/mesh/nodes of a result file on it)");
+    fail(input.source,
+         fmt::format("it has {} columns, the mesh {} nodes; write f on every node, in the order of "
+                     "the mesh (the dataset /mesh/nodes of a result file on it)",
+                     input.columns, node_count));
   }
 }
 

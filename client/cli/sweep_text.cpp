@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/sweep_text.hpp"
 
+#include <fmt/core.h>
+
 #include <array>
 #include <cmath>
 #include <utility>
@@ -28,9 +30,9 @@ std::uint64_t not_solved(const v1::SweepAnswer& answer) {
 }
 
 std::string endings(const v1::SweepAnswer& answer) {
-  std::string text = std::to_string(answer.converged()) + " converged";
+  std::string text = fmt::format("{} converged", answer.converged());
   const auto add = [&text](std::uint64_t count, const char* what) {
-    text += count > 0 ? ", " + std::to_string(count) + " " + what : std::string();
+    text += count > 0 ? fmt::format(", {} {}", count, what) : std::string();
   };
   add(answer.not_converged(), "did not converge");
   add(answer.failed(), "failed");
@@ -83,10 +85,10 @@ void add_extremes(const results::Sweep& sweep, const SweepSummary& counts, const
       if (range_of(i).low < range_of(least).low) least = i;
       if (range_of(i).high > range_of(most).high) most = i;
     }
-    rows.push_back({sanitise(results::labelled(
-                        name + (" of " + std::to_string(inclusions) + " inclusions"), unit)),
-                    end_of(range_of(least).low, -1), sanitise(sweep.inclusions[least]),
-                    end_of(range_of(most).high, 1), sanitise(sweep.inclusions[most])});
+    rows.push_back(
+        {sanitise(results::labelled(name + (fmt::format(" of {} inclusions", inclusions)), unit)),
+         end_of(range_of(least).low, -1), sanitise(sweep.inclusions[least]),
+         end_of(range_of(most).high, 1), sanitise(sweep.inclusions[most])});
   };
   add_one("A", sanitise(results::label_of(units, "L")),
           [&](std::size_t i) { return counts.displacement_bounds[i]; });
@@ -106,10 +108,10 @@ std::string first_rows(const results::Sweep& sweep, const Holds& holds) {
   std::size_t count = 0;
   for (std::size_t row = 0; row < sweep.rows(); ++row) {
     if (!holds(row) || ++count > most) continue;
-    rows += (count == 1 ? " " : ", ") + std::to_string(row);
+    rows += fmt::format("{}{}", count == 1 ? " " : ", ", row);
   }
   return (count == 1 ? "row" : "rows") + rows +
-         (count > most ? " and " + std::to_string(count - most) + " more" : "");
+         (count > most ? fmt::format(" and {} more", count - most) : "");
 }
 
 /// A text like "bounds of 9 rows: of the energy at most 0.89 % wide, of A at most +- 0.0056".
@@ -239,7 +241,7 @@ std::string sweep_csv(const results::Sweep& sweep) {
     add(sweep.energy[row]);
     add_bounds(sweep.energy_lower, sweep.energy_upper, row);
     add(sweep.contact_length[row]);
-    text += "," + std::to_string(sweep.steps[row]) + ",";
+    text += fmt::format(",{},", sweep.steps[row]);
     text += results::status_name(sweep.status[row]);
     text += '\n';
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/terminal.hpp"
 
+#include <fmt/core.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -122,7 +123,7 @@ void Painter::draw(Draw how) {
   std::string frame = joined(lines);
   if (how != Draw::if_new || frame != _drawn) {
     hide_keys();
-    const std::string up = lines.size() > 1 ? "\x1b[" + std::to_string(lines.size() - 1) + "A" : "";
+    const std::string up = lines.size() > 1 ? fmt::format("\x1b[{}A", lines.size() - 1) : "";
     write(std::string(cut_lines) + frame + std::string(wrap_lines) + "\r" + up);
     _drawn = std::move(frame);
     _drawn_lines = lines.size();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/text.hpp"
 
+#include <fmt/core.h>
 #include <unistr.h>
 #include <uniwidth.h>
 
@@ -119,10 +120,9 @@ std::string time_text(double seconds) {
   const auto whole = static_cast<std::int64_t>(std::lround(seconds));
   constexpr std::int64_t minute = 60;
   constexpr std::int64_t hour = 60 * minute;
-  if (whole < minute) return std::to_string(whole) + " s";
-  if (whole < hour)
-    return std::to_string(whole / minute) + " min " + std::to_string(whole % minute) + " s";
-  return std::to_string(whole / hour) + " h " + std::to_string(whole % hour / minute) + " min";
+  if (whole < minute) return fmt::format("{} s", whole);
+  if (whole < hour) return fmt::format("{} min {} s", whole / minute, whole % minute);
+  return fmt::format("{} h {} min", whole / hour, whole % hour / minute);
 }
 
 std::string clock_text(std::int64_t seconds) {
@@ -161,11 +161,11 @@ std::string short_table(std::vector<std::vector<std::string>> rows,
   if (rows.size() <= most + 1) return table(rows, left);
   const std::size_t others = rows.size() - most;
   rows.resize(most);
-  return table(rows, left) + "and " + std::to_string(others) + " more, see --json\n";
+  return fmt::format("{}and {} more, see --json\n", table(rows, left), others);
 }
 
 std::string counted(std::size_t count, const std::string& one) {
-  return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
+  return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
 }
 
 void drop_if_empty(std::vector<std::vector<std::string>>& rows, std::size_t column) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "guide/manual.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cctype>
 #include <sstream>
@@ -39,7 +41,7 @@ class PageWriter {
     listed("COMMANDS", [this] {
       for (const Command& below : _command.commands)
         item("\\fB" + plain(below.name) + "\\fR",
-             below.description + ": see " + page_of(below) + "(" + std::to_string(_section) + ")");
+             fmt::format("{}: see {}({})", below.description, page_of(below), _section));
     });
     listed("ARGUMENTS", [this] {
       for (const Option& argument : _command.positionals) {
@@ -56,7 +58,7 @@ class PageWriter {
     }
   }
 
-  Page page() const { return {page_of(_command) + "." + std::to_string(_section), _out.str()}; }
+  Page page() const { return {fmt::format("{}.{}", page_of(_command), _section), _out.str()}; }
 
  private:
   std::string page_of(const Command& command) const {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "output/stems.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <set>
 
@@ -40,7 +42,7 @@ std::vector<std::string> file_stems(const std::vector<std::string>& names,
         taken.insert(files.begin(), files.end());
         break;
       }
-      stem = base + "-" + std::to_string(copy);
+      stem = fmt::format("{}-{}", base, copy);
     }
     stems.push_back(stem);
   }

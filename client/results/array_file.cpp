@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results/array_file.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -67,10 +69,10 @@ Matrix read(std::optional<OpenFile>& open, const std::filesystem::path& file,
       std::ranges::find_if_not(matrix.values, [](double v) { return std::isfinite(v); });
   if (odd != matrix.values.end()) {
     const auto index = static_cast<std::size_t>(odd - matrix.values.begin());
-    const std::string which = is_matrix ? "the value in row " +
-                                              std::to_string(index / matrix.columns) + ", column " +
-                                              std::to_string(index % matrix.columns) + " (from 0)"
-                                        : "value " + std::to_string(index);
+    const std::string which = is_matrix
+                                  ? fmt::format("the value in row {}, column {} (from 0)",
+                                                index / matrix.columns, index % matrix.columns)
+                                  : fmt::format("value {}", index);
     throw Error(file.string(), which + " of dataset " + path + " is not finite",
                 "write finite numbers");
   }

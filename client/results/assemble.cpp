@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results/assemble.hpp"
 
+#include <fmt/core.h>
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/message.h>
 
@@ -19,7 +20,7 @@ namespace {
 std::vector<Trace> traces_of(const Block& block, const std::string& at, std::size_t interfaces) {
   std::vector<Trace> traces;
   for (std::size_t i = 0; i < interfaces; ++i)
-    get_arrays(block, at + std::to_string(i) + "/", traces.emplace_back(), arrays::trace<Trace>);
+    get_arrays(block, fmt::format("{}{}/", at, i), traces.emplace_back(), arrays::trace<Trace>);
   return traces;
 }
 
@@ -39,7 +40,7 @@ void add_load(const Block& block, std::size_t index, std::size_t interfaces, int
   for (std::size_t i = 0; i < static_cast<std::size_t>(subdomains); ++i) {
     Field& field = load.fields.emplace_back();
     get_arrays(block, arrays::field_folder(i), field, arrays::subdomain<Field>);
-    field.u = block.get<double>(arrays::load_fields(index) + std::to_string(i));
+    field.u = block.get<double>(fmt::format("{}{}", arrays::load_fields(index), i));
   }
 }
 

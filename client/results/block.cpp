@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results/block.hpp"
 
+#include <fmt/core.h>
+
 #include "results/entries.hpp"
 #include "results/error.hpp"
 
@@ -11,7 +13,7 @@ namespace {
 std::string text_of(const v1::ArrayLayout& array) {
   std::string text = "(";
   for (int i = 0; i < array.shape_size(); ++i)
-    text += (i == 0 ? "" : ",") + std::to_string(array.shape(i));
+    text += fmt::format("{}{}", i == 0 ? "" : ",", array.shape(i));
   return text + ")";
 }
 
@@ -51,18 +53,17 @@ std::span<const std::byte> Block::bytes_of(const std::string& name, ValueType ty
                     (depth == 1 || shape[shape.size() - 1] == depth);
   if (!fits) {
     fail("array " + name + " has shape " + text_of(array) + ", not (" +
-         (by_rows ? std::to_string(rows) + "," : "") + "n" +
-         (by_rows || columns == 0 ? "" : "," + std::to_string(columns)) +
-         (depth == 1 ? "" : "," + std::to_string(depth)) + ")");
+         (by_rows ? fmt::format("{},", rows) : "") + "n" +
+         (by_rows || columns == 0 ? "" : fmt::format(",{}", columns)) +
+         (depth == 1 ? "" : fmt::format(",{}", depth)) + ")");
   }
   std::uint64_t size = results::bytes_of(type);
   bool inside = array.offset() <= _bytes.size();
   for (const std::uint64_t extent : shape)
     inside = inside && !__builtin_mul_overflow(size, extent, &size);
   if (!inside || size > _bytes.size() - array.offset()) {
-    fail("array " + name + " of shape " + text_of(array) + " at byte " +
-         std::to_string(array.offset()) + " lies outside the " + std::to_string(_bytes.size()) +
-         " bytes");
+    fail(fmt::format("array {} of shape {} at byte {} lies outside the {} bytes", name,
+                     text_of(array), array.offset(), _bytes.size()));
   }
   return _bytes.subspan(array.offset(), size);
 }

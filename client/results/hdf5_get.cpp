@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <map>
@@ -120,7 +122,7 @@ std::string shape_text(const Handle& space) {
   H5Sget_simple_extent_dims(space.get(), shape.data(), nullptr);
   std::string text = " but (";
   for (std::size_t i = 0; i < shape.size(); ++i)
-    text += (i == 0 ? "" : ",") + std::to_string(shape[i]);
+    text += fmt::format("{}{}", i == 0 ? "" : ",", shape[i]);
   return text + ")";
 }
 
@@ -132,8 +134,8 @@ std::string filter_text(H5Z_filter_t filter, const char* name) {
       {32015, "zstandard"},      {32017, "sz"},  {32026, "blosc2"}};
   const auto found = known.find(filter);
   const std::string text = found == known.end() ? name : found->second;
-  return (text.empty() ? "" : text + " (") + "filter " + std::to_string(filter) +
-         (text.empty() ? "" : ")");
+  return fmt::format("{}filter {}{}", text.empty() ? "" : text + " (", filter,
+                     text.empty() ? "" : ")");
 }
 
 /// A dataset that this library cannot unpack is not damaged.
@@ -259,15 +261,14 @@ Dataset open_array(const Handle& group, const std::string& name, ValueType wante
                 (rank == 1 ? std::string("(n)")
                  : row.columns == any_columns
                      ? std::string("(rows,columns)")
-                     : "(n," + std::to_string(row.columns) +
-                           (rank == 2 ? "" : "," + std::to_string(row.depth)) + ")") +
+                     : fmt::format("(n,{}{})", row.columns,
+                                   rank == 2 ? "" : fmt::format(",{}", row.depth))) +
                 shape_text(space));
   }
   const hsize_t width = shape[1] * shape[2];
   const std::uint64_t entries = budget / bytes_of(wanted);
   if (width > entries || (width > 0 && shape[0] > entries / width)) {
-    throw Fault(what + " claims " + std::to_string(shape[0]) +
-                " rows, more than the file can hold");
+    throw Fault(fmt::format("{} claims {} rows, more than the file can hold", what, shape[0]));
   }
   return {std::move(id), name, wanted, static_cast<std::size_t>(shape[0]),
           static_cast<std::size_t>(width)};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results/interval.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -30,7 +32,7 @@ std::string interval(double lower, double upper) {
     return std::string(buffer.data(), static_cast<std::size_t>(length));
   };
   const std::string text = fixed(shown) + " +- " + fixed(beside);
-  return exponent == 0 ? text : "(" + text + ")e" + std::to_string(exponent);
+  return exponent == 0 ? text : fmt::format("({})e{}", text, exponent);
 }
 
 }  // namespace anticrack::results

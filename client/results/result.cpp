@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results/result.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -24,8 +26,7 @@ class Faults {
 
   void length(const std::string& what, std::size_t have, std::size_t want, const char* of) {
     if (have != want && _first.empty()) {
-      _first =
-          what + " has " + std::to_string(have) + " entries for " + std::to_string(want) + " " + of;
+      _first = fmt::format("{} has {} entries for {} {}", what, have, want, of);
     }
   }
 
@@ -45,22 +46,22 @@ class Faults {
                 std::size_t count) {
     for (std::size_t i = 0; i < values.size() && _first.empty(); ++i) {
       if (values[i] < 0 || static_cast<std::size_t>(values[i]) >= count) {
-        _first = what + "[" + std::to_string(i) + "] is " + std::to_string(values[i]) +
-                 ", outside 0.." + std::to_string(count) + " (end excluded)";
+        _first =
+            fmt::format("{}[{}] is {}, outside 0..{} (end excluded)", what, i, values[i], count);
       }
     }
   }
 
   void finite(const std::string& what, const std::vector<double>& values) {
     for (std::size_t i = 0; i < values.size() && _first.empty(); ++i)
-      if (!std::isfinite(values[i])) _first = what + "[" + std::to_string(i) + "] is not finite";
+      if (!std::isfinite(values[i])) _first = fmt::format("{}[{}] is not finite", what, i);
   }
 
   template <typename T>
   void increasing(const std::string& what, const std::vector<T>& values) {
     for (std::size_t i = 1; i < values.size() && _first.empty(); ++i)
       if (!(values[i - 1] < values[i]))
-        _first = what + " does not increase at entry " + std::to_string(i);
+        _first = fmt::format("{} does not increase at entry {}", what, i);
   }
 
  private:
@@ -68,7 +69,7 @@ class Faults {
 };
 
 std::string item(const std::string& list, std::size_t index) {
-  return list + "[" + std::to_string(index) + "]";
+  return fmt::format("{}[{}]", list, index);
 }
 
 template <class Repeated>
@@ -95,7 +96,7 @@ void check_mesh(const Mesh& mesh, Faults& faults) {
 void check_kinds(const std::string& at, const std::vector<std::int32_t>& kinds, Faults& faults) {
   for (std::size_t i = 0; i < kinds.size() && !faults.any(); ++i)
     faults.require(kinds[i] >= v1::INTERFACE_KIND_GLUE && kinds[i] <= v1::INTERFACE_KIND_FREE,
-                   item(at, i) + " is " + std::to_string(kinds[i]) + ", not 1 to 5");
+                   fmt::format("{} is {}, not 1 to 5", item(at, i), kinds[i]));
 }
 
 void check_edges(const std::string& at, const Interface& interface, int inclusions,
@@ -108,9 +109,9 @@ void check_edges(const std::string& at, const Interface& interface, int inclusio
     const bool rigid =
         kind == v1::INTERFACE_KIND_INCLUSION || kind == v1::INTERFACE_KIND_DELAMINATED;
     faults.require(rigid ? inclusion >= 0 && inclusion < inclusions : inclusion == -1,
-                   item(at + ".edge_inclusion", e) + " is " + std::to_string(inclusion) +
-                       (rigid ? ", there are " + std::to_string(inclusions) + " inclusions"
-                              : ", but its edge_kind is that of no inclusion"));
+                   fmt::format("{} is {}{}", item(at + ".edge_inclusion", e), inclusion,
+                               rigid ? fmt::format(", there are {} inclusions", inclusions)
+                                     : ", but its edge_kind is that of no inclusion"));
   }
 }
 

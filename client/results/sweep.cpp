@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results/sweep.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -50,15 +52,14 @@ std::string length_fault(const Sweep& sweep) {
                                         : columns) *
             arrays::depth_of(row.shape);
         if (have == want) return;
-        fault = "sweep." + std::string(row.name) + " has " + std::to_string(have) +
-                " entries instead of " + std::to_string(want);
+        fault = fmt::format("sweep.{} has {} entries instead of {}", row.name, have, want);
       },
       tables::sweep_arrays);
   return fault;
 }
 
 std::string entry(const char* name, std::size_t index) {
-  return std::string("sweep.") + name + "[" + std::to_string(index) + "]";
+  return fmt::format("sweep.{}[{}]", name, index);
 }
 
 bool is_node(std::int32_t interface, std::int32_t node,
@@ -76,7 +77,7 @@ std::string counts_fault(const Sweep& sweep) {
     fits = fits && count <= left;
     left -= count;
   }
-  return fits ? "" : "sweep counts other rows than its " + std::to_string(sweep.rows());
+  return fits ? "" : fmt::format("sweep counts other rows than its {}", sweep.rows());
 }
 
 /// All bounds or none.
@@ -91,7 +92,7 @@ std::string bounds_fault(const Sweep& sweep) {
 std::string range_fault(const Sweep& sweep, const std::vector<std::size_t>& interface_nodes) {
   for (std::size_t i = 0; i < sweep.rows(); ++i)
     if (!v1::LoadCaseAnswer::Status_IsValid(sweep.status[i]))
-      return entry("status", i) + " is " + std::to_string(sweep.status[i]) + ", no status";
+      return fmt::format("{} is {}, no status", entry("status", i), sweep.status[i]);
   for (std::size_t i = 0; i < sweep.contacts(); ++i)
     if (!is_node(sweep.contact_nodes[2 * i], sweep.contact_nodes[2 * i + 1], interface_nodes))
       return entry("contact_nodes", i) + " is not a node of an interface";
@@ -101,8 +102,7 @@ std::string range_fault(const Sweep& sweep, const std::vector<std::size_t>& inte
     const std::int32_t row = sweep.kept[i];
     if (row < 0 || static_cast<std::size_t>(row) >= sweep.rows() ||
         (i > 0 && row <= sweep.kept[i - 1])) {
-      return entry("kept", i) + " is " + std::to_string(row) +
-             ", out of order or no row of the sweep";
+      return fmt::format("{} is {}, out of order or no row of the sweep", entry("kept", i), row);
     }
   }
   return {};
@@ -148,7 +148,7 @@ SweepSummary summary(const Sweep& sweep) {
   return result;
 }
 
-std::string row_name(std::int64_t row) { return "row-" + std::to_string(row); }
+std::string row_name(std::int64_t row) { return fmt::format("row-{}", row); }
 
 std::string first_fault(const Sweep& sweep, const std::vector<std::size_t>& interface_nodes) {
   std::string fault = length_fault(sweep);

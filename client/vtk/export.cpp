@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtk/export.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -148,7 +150,7 @@ UnstructuredGrid interfaces(const Result& result, const Load& load) {
 
 Exported export_result(const Result& result, const std::string& source, const fs::path& folder) {
   const std::string fault = results::first_fault(result);
-  if (!fault.empty()) throw results::Error(source, "is inconsistent: " + fault, "");
+  if (!fault.empty()) throw results::Error(source, fmt::format("is inconsistent: {}", fault), "");
   std::vector<std::string> names;
   names.reserve(result.loads.size());
   for (const Load& load : result.loads) names.push_back(load.name());

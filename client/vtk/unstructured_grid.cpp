@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtk/unstructured_grid.hpp"
 
+#include <fmt/core.h>
+
 #include <bit>
 #include <cstring>
 #include <span>
@@ -21,7 +23,7 @@ std::string escaped(const std::string& text) {
   for (const char c : text) {
     const auto code = static_cast<unsigned char>(c);
     if (c == '&' || c == '<' || c == '"' || code < 0x20)
-      out += "&#" + std::to_string(code < 0x20 ? int{' '} : int{code}) + ";";
+      out += fmt::format("&#{};", code < 0x20 ? int{' '} : int{code});
     else
       out += c;
   }

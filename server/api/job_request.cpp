@@ -45,8 +45,8 @@ void require_time(const google::protobuf::Duration& duration, std::chrono::milli
           : 1000 * duration.seconds() + (duration.nanos() + 999'999) / 1'000'000;
   if (milliseconds > longest.count()) {
     throw Error(Reason::limit_exceeded,
-                fmt::format("a time of {} s: at most {} s are allowed (see GetServerInfo)",
-                            duration.seconds(), limit))
+                "a time of {} s: at most {} s are allowed (see GetServerInfo)", duration.seconds(),
+                limit)
         .at(field);
   }
 }
@@ -59,16 +59,16 @@ std::size_t packed_bytes(const v1::JobSpec& asked) {
 void require_packed(const std::string& packed, const std::string& field) {
   if (packed.size() > max_packed_bytes) {
     throw Error(Reason::limit_exceeded,
-                fmt::format("a matrix of {} bytes: a job may contain at most {}; upload it with "
-                            "CreateUploads as KIND_ARRAY and name it in `upload`",
-                            packed.size(), max_packed_bytes))
+                "a matrix of {} bytes: a job may contain at most {}; upload it with "
+                "CreateUploads as KIND_ARRAY and name it in `upload`",
+                packed.size(), max_packed_bytes)
         .at(field);
   }
   if (packed.empty() || packed.size() % sizeof(double) != 0) {
     throw Error(Reason::invalid_argument,
-                fmt::format("a matrix of {} bytes: give at least one value, each of 8 bytes (f64, "
-                            "little-endian)",
-                            packed.size()))
+                "a matrix of {} bytes: give at least one value, each of 8 bytes (f64, "
+                "little-endian)",
+                packed.size())
         .at(field);
   }
 }
@@ -125,8 +125,8 @@ records::JobSpec to_spec(const v1::JobSpec& asked, const JobLimits& limits) {
   const std::size_t bytes = asked.ByteSizeLong() - packed_bytes(asked);
   if (bytes > max_job_bytes) {
     throw Error(Reason::limit_exceeded,
-                fmt::format("the job has {} bytes: at most {} are accepted; make several jobs",
-                            bytes, max_job_bytes))
+                "the job has {} bytes: at most {} are accepted; make several jobs", bytes,
+                max_job_bytes)
         .at("");
   }
   mesh_id(asked.mesh(), "mesh");

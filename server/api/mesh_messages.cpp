@@ -103,8 +103,7 @@ void read_place(const Message& from, const Spec& own, const char* own_name, cons
                 Place& place) {
   if (!own) return read_field(from, name, place);
   if (!has(from, field_of(from, name))) return;
-  throw Error(Reason::invalid_argument,
-              std::string(own_name) + " and " + name + " are both set; set one of them")
+  throw Error(Reason::invalid_argument, "{} and {} are both set; set one of them", own_name, name)
       .at(own_name);
 }
 

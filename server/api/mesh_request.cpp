@@ -16,8 +16,7 @@ using errors::Reason;
 
 void require_count(std::size_t count, std::size_t limit, const char* field, const char* what) {
   if (count <= limit) return;
-  throw Error(Reason::limit_exceeded,
-              fmt::format("{} {}: at most {} are accepted", count, what, limit))
+  throw Error(Reason::limit_exceeded, "{} {}: at most {} are accepted", count, what, limit)
       .at(field);
 }
 
@@ -46,8 +45,8 @@ class Vertices {
   void add(int count, const char* list, int index) {
     _count += static_cast<std::size_t>(count);
     if (_count <= max_vertices) return;
-    throw Error(Reason::limit_exceeded,
-                fmt::format("more than {} points in all {} together", max_vertices, _what))
+    throw Error(Reason::limit_exceeded, "more than {} points in all {} together", max_vertices,
+                _what)
         .at(fmt::format("geometry.{}[{}]", list, index));
   }
 
@@ -117,8 +116,8 @@ records::MeshDefinition to_definition(const v1::CreateMeshRequest& request) {
 
 void require_title(const std::string& title, const char* field) {
   if (title.size() <= max_title_bytes) return;
-  throw Error(Reason::limit_exceeded, fmt::format("the title has {} bytes: at most {} are accepted",
-                                                  title.size(), max_title_bytes))
+  throw Error(Reason::limit_exceeded, "the title has {} bytes: at most {} are accepted",
+              title.size(), max_title_bytes)
       .at(field);
 }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "api/names.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <string>
 
@@ -20,8 +18,8 @@ constexpr std::size_t max_id_bytes = 64;
 std::string id_below(std::string_view collection, const std::string& name, std::string_view field) {
   const std::string prefix = std::string(collection) + "/";
   if (!name.starts_with(prefix) || !is_id(std::string_view(name).substr(prefix.size()))) {
-    throw Error(Reason::invalid_argument, fmt::format("\"{}\" is not a name of the form \"{}/ID\"",
-                                                      words::printable(name, 100), collection))
+    throw Error(Reason::invalid_argument, "\"{}\" is not a name of the form \"{}/ID\"",
+                words::printable(name, 100), collection)
         .at(std::string(field));
   }
   return name.substr(prefix.size());
@@ -45,7 +43,7 @@ std::string upload_sha256(const std::string& name, std::string_view field) {
   std::string sha256 = id_below("uploads", name, field);
   if (!is_sha256(sha256)) {
     throw Error(Reason::invalid_argument,
-                "\"" + name + "\" does not end in a sha256 of 64 lower-case hexadecimal digits")
+                "\"{}\" does not end in a sha256 of 64 lower-case hexadecimal digits", name)
         .at(std::string(field));
   }
   return sha256;
@@ -62,8 +60,8 @@ bool is_id(std::string_view text) noexcept {
 std::string after_slash(const std::string& name, std::string_view field) {
   const std::size_t slash = name.find('/');
   if (slash == std::string::npos) {
-    throw Error(Reason::invalid_argument, "\"" + words::printable(name, 100) +
-                                              "\" is not a name of the form \"COLLECTION/ID\"")
+    throw Error(Reason::invalid_argument, "\"{}\" is not a name of the form \"COLLECTION/ID\"",
+                words::printable(name, 100))
         .at(std::string(field));
   }
   return name.substr(slash + 1);

@@ -15,9 +15,8 @@ template <class Time>
 static const Time& within_range(const Time& time) {
   constexpr auto most = std::chrono::floor<std::chrono::seconds>(nanoseconds::max()).count() - 3;
   if (time.seconds() > most || time.seconds() < -most) {
-    throw errors::Error(
-        errors::Reason::invalid_argument,
-        "a time of " + std::to_string(time.seconds()) + " s is longer than 292 years")
+    throw errors::Error(errors::Reason::invalid_argument, "a time of {} s is longer than 292 years",
+                        time.seconds())
         .at("seconds");
   }
   return time;

@@ -42,7 +42,7 @@ Error untranslated(std::string_view field) {
 const FieldDescriptor& field_of(const Message& message, std::string_view name) {
   const FieldDescriptor* field = message.GetDescriptor()->FindFieldByName(std::string(name));
   if (field == nullptr)
-    throw Error(Reason::internal, message.GetTypeName() + " has no field " + std::string(name));
+    throw Error(Reason::internal, "{} has no field {}", message.GetTypeName(), name);
   return *field;
 }
 
@@ -59,8 +59,8 @@ int get_number(const Message& from, const FieldDescriptor& field, int index) {
   const int number = index < 0 ? access.GetEnumValue(from, &field)
                                : access.GetRepeatedEnumValue(from, &field, index);
   if (field.enum_type()->FindValueByNumber(number) == nullptr) {
-    throw Error(Reason::invalid_argument, fmt::format("{} {} is unknown; use {}", field.name(),
-                                                      number, choices(*field.enum_type())))
+    throw Error(Reason::invalid_argument, "{} {} is unknown; use {}", field.name(), number,
+                choices(*field.enum_type()))
         .at(path_of(field, index));
   }
   return number;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "api/unknown_fields.hpp"
 
+#include <fmt/core.h>
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/unknown_field_set.h>
 
@@ -16,11 +17,10 @@ using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 
 [[noreturn]] void refuse(const std::string& what, const std::string& path) {
-  throw errors::Error(
-      errors::Reason::not_implemented,
-      what +
-          " is unknown to this server, which is older than the client: leave it out, or use a "
-          "newer server")
+  throw errors::Error(errors::Reason::not_implemented,
+                      "{} is unknown to this server, which is older than the client: leave it out, "
+                      "or use a newer server",
+                      what)
       .at(path);
 }
 
@@ -36,8 +36,8 @@ void visit(const Message& message, const std::string& path) {
   const auto& reflection = *message.GetReflection();
   const auto& unknown = reflection.GetUnknownFields(message);
   if (!unknown.empty()) {
-    refuse("field number " + std::to_string(unknown.field(0).number()) + " of " +
-               message.GetDescriptor()->full_name(),
+    refuse(fmt::format("field number {} of {}", unknown.field(0).number(),
+                       message.GetDescriptor()->full_name()),
            path);
   }
   std::vector<const FieldDescriptor*> fields;
@@ -48,7 +48,7 @@ void visit(const Message& message, const std::string& path) {
     const int count = repeated ? reflection.FieldSize(message, field) : 1;
     for (int i = 0; i < count; ++i) {
       std::string below = (path.empty() ? "" : path + ".") + field->name();
-      if (repeated) below += "[" + std::to_string(i) + "]";
+      if (repeated) below += fmt::format("[{}]", i);
       if (field->cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE) {
         visit(repeated ? reflection.GetRepeatedMessage(message, field, i)
                        : reflection.GetMessage(message, field),
@@ -58,7 +58,7 @@ void visit(const Message& message, const std::string& path) {
       const int value = repeated ? reflection.GetRepeatedEnumValue(message, field, i)
                                  : reflection.GetEnumValue(message, field);
       if (field->enum_type()->FindValueByNumber(value) == nullptr)
-        refuse("value " + std::to_string(value) + " of " + field->enum_type()->full_name(), below);
+        refuse(fmt::format("value {} of {}", value, field->enum_type()->full_name()), below);
     }
   }
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "casefile/case.hpp"
 
+#include <fmt/core.h>
+
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -64,7 +66,7 @@ toml::table parse(const std::string& text, const std::string& name) {
   } catch (const toml::parse_error& error) {
     const toml::source_position& place = error.source().begin;
     const std::string line = line_of(text, place.line), problem(error.description());
-    throw Error({"column " + std::to_string(place.column), name, place.line},
+    throw Error({fmt::format("column {}", place.column), name, place.line},
                 "this is not TOML: " + problem + cure_of_value(problem, line, place.column) +
                     "; the line is: " + line);
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "casefile/sections.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 namespace anticrack::casefile {
@@ -76,7 +78,7 @@ void read_neumann(const Section& section, v1::Geometry& geometry, Spots& spots) 
     throw Error(section.spot_of("neumann"), shown(*node) + cure);
   const auto add_names = [&](const auto& owners, const std::string& other) {
     for (int i = 0; i < owners.size(); ++i) {
-      geometry.add_neumann_sides(owners[i].name().empty() ? other + std::to_string(i + 1)
+      geometry.add_neumann_sides(owners[i].name().empty() ? fmt::format("{}{}", other, i + 1)
                                                           : owners[i].name());
     }
   };
@@ -109,8 +111,7 @@ void note_missing_tension(Case& result) {
   const auto others = regions.size() - with - 1;
   const Spot& spot = result.spots.at(entry_field("geometry.regions", first - regions.begin()));
   result.notes.push_back(
-      prefix(spot) +
-      (others == 0 ? "it gives" : "it and " + std::to_string(others) + " more give") +
+      prefix(spot) + (others == 0 ? "it gives" : fmt::format("it and {} more give", others)) +
       " no tension, though other regions do, so " + (others == 0 ? "its" : "their") +
       " tension is 1; write tension = 1 where that is meant");
 }

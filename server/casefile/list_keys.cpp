@@ -100,9 +100,8 @@ std::vector<Row> rows_of(const std::string& name) {
       known.push_back(words.size() < 2 ? std::string(row.key->name) : joined(plain(row.path), "."));
     const auto near = words::nearest(name, known);
     throw errors::Error(
-        errors::Reason::invalid_argument,
-        "no key of a case is called " + words::shown(name) + "; " +
-            (near ? "did you mean " + *near + "?" : "anticrack explain lists the sections"))
+        errors::Reason::invalid_argument, "no key of a case is called {}; {}", words::shown(name),
+        near ? "did you mean " + *near + "?" : "anticrack explain lists the sections")
         .at("name");
   }
   std::vector<Row> with_below;
@@ -176,9 +175,8 @@ bool same(const v1::CaseKey& a, const v1::CaseKey& b) {
 v1::ListCaseKeysResponse list_keys(const v1::ListCaseKeysRequest& request) {
   constexpr std::size_t longest = 200;
   if (request.name().size() > longest) {
-    throw errors::Error(errors::Reason::limit_exceeded,
-                        "no key has " + std::to_string(request.name().size()) +
-                            " bytes; write at most " + std::to_string(longest))
+    throw errors::Error(errors::Reason::limit_exceeded, "no key has {} bytes; write at most {}",
+                        request.name().size(), longest)
         .at("name");
   }
   v1::ListCaseKeysResponse response;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "casefile/sections.hpp"
 
+#include <fmt/core.h>
+
 #include <charconv>
 
 namespace anticrack::casefile {
@@ -42,10 +44,11 @@ void read_groups(const Section& section, const char* key, const std::string& fie
     const char* end = tag_text.data() + tag_text.size();
     const auto [stopped, error] = std::from_chars(tag_text.data(), end, tag);
     if (error != std::errc() || stopped != end || tag < 1)
-      throw Error(spot, "'" + tag_text + "' is not a tag; " + group_cure);
+      throw Error(spot, fmt::format("'{}' is not a tag; {}", tag_text, group_cure));
     const auto meaning = entry.template value_exact<std::string>();
     if (!meaning || meaning->empty())
-      throw Error(spot, shown(entry) + " is not a meaning of a group; " + group_cure);
+      throw Error(spot,
+                  fmt::format("{} is not a meaning of a group; {}", shown(entry), group_cure));
     groups[tag] = *meaning;
     set_entry(spots, field, tag_text, spot);
   }

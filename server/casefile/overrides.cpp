@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "casefile/sections.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <charconv>
 #include <optional>
@@ -100,8 +102,8 @@ class Walk {
     if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
     if (!index && !names.empty())
       fail("none of them is called " + part + "; " + words::suggestion(part, names));
-    fail("there is no entry " + part + "; write an index from 0 to " +
-         std::to_string(array.size()) + (names.empty() ? "" : ", or a name"));
+    fail(fmt::format("there is no entry {}; write an index from 0 to {}{}", part, array.size(),
+                     names.empty() ? "" : ", or a name"));
   }
 
   toml::node& step(toml::node& place) const {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "casefile/read_case.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -19,8 +21,8 @@ constexpr std::size_t most_places = 20'000;  // some 3 MB
 void check_overrides(const v1::ReadCaseRequest& request) {
   if (request.overrides_size() <= most_overrides) return;
   throw errors::Error(errors::Reason::limit_exceeded,
-                      std::to_string(request.overrides_size()) + " are above the limit of " +
-                          std::to_string(most_overrides) + "; write them into the case")
+                      "{} are above the limit of {}; write them into the case",
+                      request.overrides_size(), most_overrides)
       .at("overrides");
 }
 
@@ -82,10 +84,9 @@ void check_size(const v1::ReadCaseResponse& response, const Limits& limits) {
                                     std::pair{response.spec().ByteSizeLong(), "loads"}}) {
     if (bytes <= limits.request_bytes) continue;
     throw errors::Error(errors::Reason::limit_exceeded,
-                        std::string("its ") + what + " are " + std::to_string(bytes) +
-                            " bytes as a request, and the server takes " +
-                            std::to_string(limits.request_bytes) +
-                            "; write fewer points, or a mesh in a file");
+                        "its {} are {} bytes as a request, and the server takes {}; write fewer "
+                        "points, or a mesh in a file",
+                        what, bytes, limits.request_bytes);
   }
 }
 
@@ -98,8 +99,8 @@ v1::ReadCaseResponse read_case(const v1::ReadCaseRequest& request, const Limits&
     read = case_of(request);
     if (read.spec.load_cases_size() > limits.load_cases) {
       throw Error({"load", request.source(), 0},
-                  std::to_string(read.spec.load_cases_size()) + " loads are above the limit of " +
-                      std::to_string(limits.load_cases) + "; make several cases of them");
+                  fmt::format("{} loads are above the limit of {}; make several cases of them",
+                              read.spec.load_cases_size(), limits.load_cases));
     }
   } catch (const Error& error) {
     // Nodes of JSON have no source.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "casefile/section.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -21,12 +23,12 @@ std::string join(const std::string& path, std::string_view key) {
 }  // namespace
 
 std::string entry_key(const std::string& list, std::size_t index) {
-  return list + "." + std::to_string(index);
+  return fmt::format("{}.{}", list, index);
 }
 
 std::string where(const Spot& spot) {
   if (spot.line == 0) return spot.source;
-  return (spot.source.empty() ? "line " : spot.source + ":") + std::to_string(spot.line);
+  return fmt::format("{}{}", spot.source.empty() ? "line " : spot.source + ":", spot.line);
 }
 
 std::string prefix(const Spot& spot) {
@@ -248,8 +250,8 @@ std::optional<std::int32_t> Section::count(std::string_view key) const {
   constexpr std::int64_t largest = std::numeric_limits<std::int32_t>::max();
   const auto value = node->value_exact<std::int64_t>();
   if (!value || *value < 1 || *value > largest) {
-    throw Error(spot_of(key), shown(*node) + " is not a count; write a whole number from 1 to " +
-                                  std::to_string(largest));
+    throw Error(spot_of(key), fmt::format("{} is not a count; write a whole number from 1 to {}",
+                                          shown(*node), largest));
   }
   return static_cast<std::int32_t>(*value);
 }

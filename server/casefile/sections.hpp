@@ -4,6 +4,8 @@
 // function reads its section into a message and records in `spots` where every field was written.
 #pragma once
 
+#include <fmt/core.h>
+
 #include <concepts>
 #include <map>
 #include <optional>
@@ -111,7 +113,7 @@ void read_pair(const toml::node& node, const std::string& key, Part& part) {
 
 /// The field of an entry of a repeated field: "list[3]".
 inline std::string entry_field(const std::string& list, std::integral auto index) {
-  return list + "[" + std::to_string(index) + "]";
+  return fmt::format("{}[{}]", list, index);
 }
 
 /// Adds a message for each table of [[key]]: fills it, and lets `read` do the rest, which is called

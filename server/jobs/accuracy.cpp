@@ -36,7 +36,7 @@ constexpr double of_zero = 1e6;
 void check_tolerance(const std::optional<double>& value, const char* field) {
   if (!value || (*value >= finest && *value <= coarsest)) return;
   throw Error(Reason::invalid_argument,
-              fmt::format("{:g} is not an accuracy: give a relative error from 1e-6 to 1", *value))
+              "{:g} is not an accuracy: give a relative error from 1e-6 to 1", *value)
       .at(field);
 }
 
@@ -172,9 +172,9 @@ void check_accuracy(const records::JobSpec& spec) {
   }
   if (spec.loads.size() > most_loads) {
     throw Error(Reason::limit_exceeded,
-                fmt::format("{} load cases: a job with an accuracy has at most {}; make several "
-                            "jobs",
-                            spec.loads.size(), most_loads))
+                "{} load cases: a job with an accuracy has at most {}; make several "
+                "jobs",
+                spec.loads.size(), most_loads)
         .at("load_cases");
   }
   for (std::size_t i = 0; i < spec.loads.size(); ++i) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/admission.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 #include "access/share.hpp"
@@ -19,9 +21,9 @@ constexpr std::chrono::milliseconds longest_delay{60'000};
 
 void require_possible(std::uint64_t value, std::uint64_t limit, const char* what) {
   if (value > limit) {
-    throw Error(Reason::limit_exceeded, "the job has " + std::to_string(value) + " " + what +
-                                            " and the queue takes " + std::to_string(limit) +
-                                            " at most: split the job")
+    throw Error(Reason::limit_exceeded,
+                "the job has {} {} and the queue takes {} at most: split the job", value, what,
+                limit)
         .at("load_cases");
   }
 }
@@ -42,31 +44,29 @@ void Admission::check(const std::string& owner, const std::string& mesh, std::ui
     return error.retry_after(retry_delay());
   };
   if (_jobs >= _limits.jobs) {
-    throw full(std::to_string(_jobs) + " jobs have not ended, at most " +
-               std::to_string(_limits.jobs));
+    throw full(fmt::format("{} jobs have not ended, at most {}", _jobs, _limits.jobs));
   }
   if (const auto held = _owners.find(owner); held != _owners.end() && !owner.empty()) {
     const auto& [own_jobs, own_bytes] = held->second;
     if (!access::may_have(own_jobs, 1, _jobs, _limits.jobs)) {
-      throw full("you have " + std::to_string(own_jobs) + " jobs that have not ended, one user " +
-                 "may have " + std::to_string(access::share(own_jobs, _jobs, _limits.jobs)) +
-                 " now");
+      throw full(fmt::format("you have {} jobs that have not ended, one user may have {} now",
+                             own_jobs, access::share(own_jobs, _jobs, _limits.jobs)));
     }
     if (!access::may_have(own_bytes, bytes, memory, _limits.memory)) {
-      throw full("your jobs that have not ended take " + std::to_string(own_bytes) +
-                 " bytes and this one " + std::to_string(bytes) + ", those of one user may take " +
-                 std::to_string(access::share(own_bytes, memory, _limits.memory)) + " now");
+      throw full(
+          fmt::format("your jobs that have not ended take {} bytes and this one {}, those of one "
+                      "user may take {} now",
+                      own_bytes, bytes, access::share(own_bytes, memory, _limits.memory)));
     }
   }
   const auto found = _cases.find(mesh);
   const std::uint64_t waiting = found == _cases.end() ? 0 : found->second;
   if (waiting + cases > _limits.cases) {
-    throw full(std::to_string(waiting) + " load cases of meshes/" + mesh +
-               " have not ended, at most " + std::to_string(_limits.cases));
+    throw full(fmt::format("{} load cases of meshes/{} have not ended, at most {}", waiting, mesh,
+                           _limits.cases));
   }
   if (memory + bytes > _limits.memory) {
-    throw full("jobs use " + std::to_string(memory) + " bytes of memory, at most " +
-               std::to_string(_limits.memory));
+    throw full(fmt::format("jobs use {} bytes of memory, at most {}", memory, _limits.memory));
   }
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/case_outcome.hpp"
 
+#include <fmt/core.h>
+
 #include <chrono>
 #include <new>
 #include <string>
@@ -18,7 +20,7 @@ using errors::Error;
 using errors::Reason;
 
 Error placed(Error error, std::size_t index) {
-  const std::string path = "load_cases[" + std::to_string(index) + "]";
+  const std::string path = fmt::format("load_cases[{}]", index);
   if (error.fields().empty())
     error.at(path);
   else if (error.fields().front().field == "uzawa")
@@ -96,12 +98,11 @@ CaseOutcome failed_case(const Task& task, const std::exception_ptr& failure) {
 
 CaseOutcome refused_case(const Task& task, std::uint64_t max_result_bytes) {
   auto record = new_record(task, Status::failed);
-  record->error = placed(
-      Error(Reason::limit_exceeded, "the results of the load cases before are over " +
-                                        std::to_string(max_result_bytes) +
-                                        " bytes, the limit of a job: split the job, or leave its "
-                                        "fields out"),
-      task.index);
+  record->error = placed(Error(Reason::limit_exceeded,
+                               "the results of the load cases before are over {} bytes, the limit "
+                               "of a job: split the job, or leave its fields out",
+                               max_result_bytes),
+                         task.index);
   return {std::move(record)};
 }
 

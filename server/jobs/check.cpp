@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/check.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <unordered_set>
 
@@ -30,7 +32,7 @@ bool is_name(const std::string& text) {
          });
 }
 
-std::string load_path(std::size_t load) { return "load_cases[" + std::to_string(load) + "]"; }
+std::string load_path(std::size_t load) { return fmt::format("load_cases[{}]", load); }
 
 void check_names(const std::vector<fem::Load>& loads) {
   std::unordered_set<std::string> names;
@@ -38,14 +40,14 @@ void check_names(const std::vector<fem::Load>& loads) {
     const std::string& name = loads[i].name;
     if (!is_name(name)) {
       throw Error(Reason::invalid_argument,
-                  "\"" + name.substr(0, max_name_bytes) +
-                      "\" is not a name of a load case: use 1 to 64 letters, digits, '_', '.', '-' "
-                      "and spaces, a letter or digit first")
+                  "\"{}\" is not a name of a load case: use 1 to 64 letters, digits, '_', '.', '-' "
+                  "and spaces, a letter or digit first",
+                  name.substr(0, max_name_bytes))
           .at(load_path(i) + ".name");
     }
     if (!names.insert(name).second) {
       throw Error(Reason::invalid_argument,
-                  "two load cases are named \"" + name + "\": give each its own name")
+                  "two load cases are named \"{}\": give each its own name", name)
           .at(load_path(i) + ".name");
     }
   }
@@ -57,9 +59,8 @@ void check_count(std::size_t loads, const EngineOptions& options) {
         .at("load_cases");
   }
   if (loads > static_cast<std::size_t>(options.max_load_cases)) {
-    throw Error(Reason::limit_exceeded, std::to_string(loads) + " load cases: a job may have " +
-                                            std::to_string(options.max_load_cases) +
-                                            ", so split it")
+    throw Error(Reason::limit_exceeded, "{} load cases: a job may have {}, so split it", loads,
+                options.max_load_cases)
         .at("load_cases");
   }
 }
@@ -68,9 +69,9 @@ void check_unit(const std::string& unit, const char* field) {
   constexpr std::size_t most_bytes = 16;
   const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
   if (unit.size() > most_bytes || std::ranges::any_of(unit, is_control)) {
-    throw Error(Reason::invalid_argument, "not the name of a unit: use at most " +
-                                              std::to_string(most_bytes) +
-                                              " bytes without control characters, as mm")
+    throw Error(Reason::invalid_argument,
+                "not the name of a unit: use at most {} bytes without control characters, as mm",
+                most_bytes)
         .at(field);
   }
 }

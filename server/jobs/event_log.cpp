@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/event_log.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <condition_variable>
 #include <deque>
@@ -92,12 +94,11 @@ Batch as_batch(const Event& event) {
 }
 
 Error trimmed(std::uint64_t after, std::uint64_t earliest, std::uint64_t latest) {
-  const std::string range =
-      "the log holds " + std::to_string(earliest) + " to " + std::to_string(latest);
+  const std::string range = fmt::format("the log holds {} to {}", earliest, latest);
   Error error(Reason::sequence_trimmed,
-              after > latest ? "there is no event " + std::to_string(after) + " yet: " + range
-                             : "event " + std::to_string(after + 1) + " is no longer kept: " +
-                                   range + "; continue after " + std::to_string(earliest - 1));
+              after > latest ? fmt::format("there is no event {} yet: {}", after, range)
+                             : fmt::format("event {} is no longer kept: {}; continue after {}",
+                                           after + 1, range, earliest - 1));
   return error.with("earliest_sequence", std::to_string(earliest))
       .with("latest_sequence", std::to_string(latest));
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/force_arrays.hpp"
 
+#include <fmt/core.h>
+
 #include <set>
 #include <utility>
 #include <variant>
@@ -19,8 +21,8 @@ std::string path_of(const store::Store& store, const std::string& sha256,
                     const std::string& owner) {
   std::optional<std::string> path = store.upload_path(sha256, owner);
   if (!path) {
-    throw Error(Reason::not_found,
-                "there is no uploads/" + sha256 + "; upload the values of the force first");
+    throw Error(Reason::not_found, "there is no uploads/{}; upload the values of the force first",
+                sha256);
   }
   return std::move(*path);
 }
@@ -43,7 +45,7 @@ void require_arrays(const std::vector<fem::Load>& loads, const store::Store& sto
   for (std::size_t i = 0; i < loads.size(); ++i) {
     const auto* array = std::get_if<fem::Array>(&loads[i].force);
     if (array != nullptr && seen.insert(array->upload).second) {
-      at_field("load_cases[" + std::to_string(i) + "].force.array",
+      at_field(fmt::format("load_cases[{}].force.array", i),
                [&] { return store::array_length(path_of(store, array->upload, owner)); });
     }
   }

@@ -124,10 +124,10 @@ bool crashed(EngineCore& core) {
 std::optional<Error> too_many_crashes(const JobRecord& record, const EngineOptions& options) {
   if (options.max_crashes == 0 || record.crashes < options.max_crashes) return std::nullopt;
   return Error(Reason::internal,
-               "the server crashed " + std::to_string(record.crashes) +
-                   " times while this job ran, so it is not run again: it may need more memory "
-                   "than the machine has; split it, use a larger mesh.size or tip_size, or ask "
-                   "the administrator for the server's log");
+               "the server crashed {} times while this job ran, so it is not run again: it may "
+               "need more memory than the machine has; split it, use a larger mesh.size or "
+               "tip_size, or ask the administrator for the server's log",
+               record.crashes);
 }
 
 }  // namespace

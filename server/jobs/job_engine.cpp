@@ -52,7 +52,7 @@ struct JobEngine::State {
   /// The record of a job that has ended.
   JobRecord stored(const std::string& id) const {
     std::optional<JobRecord> record = core.store.job(id);
-    if (!record) throw Error(Reason::not_found, "there is no jobs/" + id);
+    if (!record) throw Error(Reason::not_found, "there is no jobs/{}", id);
     return std::move(*record);
   }
   void interrupt(bool (*wanted)(const LiveJob&)) {
@@ -123,8 +123,7 @@ JobRecord JobEngine::cancel(const std::string& id) {
 }
 
 void JobEngine::erase(const std::string& id) {
-  if (_state->live(id))
-    throw Error(Reason::in_use, "jobs/" + id + " has not ended: cancel it first");
+  if (_state->live(id)) throw Error(Reason::in_use, "jobs/{} has not ended: cancel it first", id);
   EngineCore& core = _state->core;
   core.store.erase_job(id);
   const std::lock_guard lock(core.mutex);
@@ -145,15 +144,15 @@ std::shared_ptr<EventLog> JobEngine::events(const std::string& id) const {
 std::shared_ptr<const records::BlockSource> JobEngine::result(const std::string& id) const {
   const JobRecord record = _state->stored(id);
   if (_state->live(id) || !records::ended(record.state))
-    throw Error(Reason::not_ready, "jobs/" + id + " has not ended: wait for it");
+    throw Error(Reason::not_ready, "jobs/{} has not ended: wait for it", id);
   if (record.expired) {
     throw Error(Reason::result_expired,
-                "the result of jobs/" + id +
-                    " was removed, by its age or to make room for others: submit the job again");
+                "the result of jobs/{} was removed, by its age or to make room for others: submit "
+                "the job again",
+                id);
   }
   std::shared_ptr<const records::BlockSource> block = _state->core.store.result(id);
-  if (!block)
-    throw Error(Reason::not_ready, "jobs/" + id + " ended and no load case has an answer");
+  if (!block) throw Error(Reason::not_ready, "jobs/{} ended and no load case has an answer", id);
   return block;
 }
 

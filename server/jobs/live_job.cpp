@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/live_job.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cassert>
 #include <utility>
@@ -196,7 +198,7 @@ Outcome conclude(LiveJob& job) {
 }
 
 std::string stage_name(const LiveJob& job) {
-  return "stage " + std::to_string(job.stages->records.size());
+  return fmt::format("stage {}", job.stages->records.size());
 }
 
 Error mesh_failed(const std::string& mesh, const Error& error) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/result_block.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <functional>
@@ -50,7 +52,7 @@ records::Block case_arrays(std::size_t index, const contact::Answer& answer,
   add_traces(builder, arrays::load_traces(index), answer.traces);
   add_history(builder, arrays::load_history(index), history);
   for (std::size_t i = 0; i < answer.fields.size(); ++i)
-    builder.add(arrays::load_fields(index) + std::to_string(i), answer.fields[i].u);
+    builder.add(fmt::format("{}{}", arrays::load_fields(index), i), answer.fields[i].u);
   if (!indicator.empty()) builder.add(arrays::load_folder(index) + "indicator", indicator);
   return builder.take();
 }
@@ -87,9 +89,8 @@ void require_result_arrays(const records::JobSpec& spec, std::uint64_t interface
   }
   if (count > max_arrays) {
     throw errors::Error(errors::Reason::limit_exceeded,
-                        "the result would have " + std::to_string(count) +
-                            " arrays on this mesh and may have " + std::to_string(max_arrays) +
-                            (spec.sweep ? ": keep fewer traces" : ": split the job"))
+                        "the result would have {} arrays on this mesh and may have {}{}", count,
+                        max_arrays, spec.sweep ? ": keep fewer traces" : ": split the job")
         .at(spec.sweep ? "sweep.traces" : "load_cases");
   }
 }
@@ -102,10 +103,9 @@ void require_answers(const records::JobSpec& spec, const std::vector<std::string
   const std::uint64_t bytes = spec.sweep ? 0 : spec.loads.size() * answer;
   if (bytes > max_answer_bytes) {
     throw errors::Error(errors::Reason::limit_exceeded,
-                        "the answers to " + std::to_string(spec.loads.size()) +
-                            " load cases with " + std::to_string(inclusions.size()) +
-                            " inclusions each do not fit in a message: make jobs of at most " +
-                            std::to_string(max_answer_bytes / answer) + " load cases")
+                        "the answers to {} load cases with {} inclusions each do not fit in a "
+                        "message: make jobs of at most {} load cases",
+                        spec.loads.size(), inclusions.size(), max_answer_bytes / answer)
         .at("load_cases");
   }
 }

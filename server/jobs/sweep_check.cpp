@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/sweep_check.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -27,17 +29,15 @@ std::uint64_t parts(std::uint64_t whole, std::uint64_t part) {
 
 bool combines(const SweepSpec& sweep) { return sweep.cases == SweepSpec::Cases::combinations; }
 
-std::string trace_path(std::size_t index) { return "sweep.traces[" + std::to_string(index) + "]"; }
+std::string trace_path(std::size_t index) { return fmt::format("sweep.traces[{}]", index); }
 
 void check_loads(const SweepSpec& sweep, std::size_t loads, std::size_t max_basis) {
   if (!combines(sweep)) {
     if (loads != 0) {
       throw Error(Reason::invalid_argument,
-                  "the sweep brings its own loads as nodal forces, so "
-                  "the " +
-                      std::to_string(loads) +
-                      " load cases would not be solved: leave them out, "
-                      "or give coefficients to combine them with")
+                  "the sweep brings its own loads as nodal forces, so the {} load cases would not "
+                  "be solved: leave them out, or give coefficients to combine them with",
+                  loads)
           .at("load_cases");
     }
     return;
@@ -49,9 +49,10 @@ void check_loads(const SweepSpec& sweep, std::size_t loads, std::size_t max_basi
         .at("load_cases");
   }
   if (loads > max_basis) {
-    throw Error(Reason::limit_exceeded,
-                std::to_string(loads) + " load cases: a sweep may combine " +
-                    std::to_string(max_basis) + ", so combine fewer, or sweep over nodal forces")
+    throw Error(
+        Reason::limit_exceeded,
+        "{} load cases: a sweep may combine {}, so combine fewer, or sweep over nodal forces",
+        loads, max_basis)
         .at("load_cases");
   }
 }
@@ -59,16 +60,15 @@ void check_loads(const SweepSpec& sweep, std::size_t loads, std::size_t max_basi
 void check_traces(const SweepSpec& sweep, std::size_t max_traces) {
   const std::vector<std::uint32_t>& traces = sweep.traces;
   if (traces.size() > max_traces) {
-    throw Error(Reason::limit_exceeded, "traces of " + std::to_string(traces.size()) +
-                                            " rows: a job may keep those of " +
-                                            std::to_string(max_traces))
+    throw Error(Reason::limit_exceeded, "traces of {} rows: a job may keep those of {}",
+                traces.size(), max_traces)
         .at("sweep.traces");
   }
   for (std::size_t i = 1; i < traces.size(); ++i) {
     if (traces[i] <= traces[i - 1]) {
-      throw Error(Reason::invalid_argument, "row " + std::to_string(traces[i]) + " after row " +
-                                                std::to_string(traces[i - 1]) +
-                                                ": give the rows in ascending order, each once")
+      throw Error(Reason::invalid_argument,
+                  "row {} after row {}: give the rows in ascending order, each once", traces[i],
+                  traces[i - 1])
           .at(trace_path(i));
     }
   }
@@ -108,8 +108,8 @@ MatrixFile find_matrix(const SweepSpec& sweep, const store::Store& store,
   try {
     std::optional<std::string> path = store.upload_path(sweep.upload, owner);
     if (!path) {
-      throw Error(Reason::not_found,
-                  "there is no uploads/" + sweep.upload + "; upload the matrix of the sweep first");
+      throw Error(Reason::not_found, "there is no uploads/{}; upload the matrix of the sweep first",
+                  sweep.upload);
     }
     const std::uint64_t values = store::array_length(*path);
     return {std::move(*path), values};
@@ -123,23 +123,21 @@ std::uint64_t rows_of(const SweepSpec& sweep, std::uint64_t values, std::uint64_
                       std::uint64_t max_rows) {
   const std::string what = combines(sweep) ? " load cases" : " nodes of the mesh";
   if (values == 0 || values % columns != 0) {
-    throw Error(Reason::invalid_argument, "the matrix has " + std::to_string(values) +
-                                              " values, which is not a number of rows of " +
-                                              std::to_string(columns) +
-                                              ": give a value for each of the " +
-                                              std::to_string(columns) + what + " in every row")
+    throw Error(Reason::invalid_argument,
+                "the matrix has {} values, which is not a number of rows of {}: give a value for "
+                "each of the {}{} in every row",
+                values, columns, columns, what)
         .at(matrix_field(sweep));
   }
   const std::uint64_t rows = values / columns;
   if (rows > max_rows) {
-    throw Error(Reason::limit_exceeded, std::to_string(rows) + " rows: a sweep may have " +
-                                            std::to_string(max_rows) + ", so split it")
+    throw Error(Reason::limit_exceeded, "{} rows: a sweep may have {}, so split it", rows, max_rows)
         .at(matrix_field(sweep));
   }
   const auto beyond = std::lower_bound(sweep.traces.begin(), sweep.traces.end(), rows);
   if (beyond != sweep.traces.end()) {
-    throw Error(Reason::invalid_argument, "there is no row " + std::to_string(*beyond) +
-                                              ": the rows are 0 to " + std::to_string(rows - 1))
+    throw Error(Reason::invalid_argument, "there is no row {}: the rows are 0 to {}", *beyond,
+                rows - 1)
         .at(trace_path(static_cast<std::size_t>(beyond - sweep.traces.begin())));
   }
   return rows;

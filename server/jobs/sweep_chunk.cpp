@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/sweep_chunk.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <exception>
@@ -83,8 +85,7 @@ class ChunkRows {
   }
 
   Error in_row(std::uint64_t row, const std::string& what, Reason reason) const {
-    return Error(reason, "row " + std::to_string(row) + " of the matrix: " + what)
-        .at(matrix_field(*_job.spec->sweep));
+    return Error(reason, "row {} of the matrix: {}", row, what).at(matrix_field(*_job.spec->sweep));
   }
 
   std::vector<double> read(std::uint64_t row, std::size_t rows) const {
@@ -94,10 +95,10 @@ class ChunkRows {
                                   [](double value) { return !std::isfinite(value); });
     if (bad != values.end()) {
       const auto index = static_cast<std::size_t>(bad - values.begin());
-      throw in_row(row + index / _plan.columns,
-                   "column " + std::to_string(index % _plan.columns) + " is " +
-                       std::to_string(*bad) + "; all values must be finite",
-                   Reason::invalid_argument);
+      throw in_row(
+          row + index / _plan.columns,
+          fmt::format("column {} is {}; all values must be finite", index % _plan.columns, *bad),
+          Reason::invalid_argument);
     }
     return values;
   }
@@ -217,7 +218,7 @@ std::shared_ptr<const operators::LoadBasis> condense_basis(
     try {
       loads.push_back(job.arrays.resolve(load, store));
     } catch (Error& error) {
-      error.below("load_cases[" + std::to_string(loads.size()) + "]");
+      error.below(fmt::format("load_cases[{}]", loads.size()));
       throw;
     }
     pointers.push_back(&loads.back());

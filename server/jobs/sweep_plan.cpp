@@ -74,11 +74,10 @@ SweepPlan plan_sweep(const records::JobSpec& spec, MatrixFile matrix,
   if (sweep.bounds) plan.chunk_rows = std::min(plan.chunk_rows, mesh_operator.estimated_together());
   plan.result_bytes = result_bytes(mesh_operator, plan.rows, sweep.traces.size(), sweep.bounds);
   if (plan.result_bytes > options.max_result_bytes) {
-    throw Error(Reason::limit_exceeded, "the answers to " + std::to_string(plan.rows) +
-                                            " rows take " + std::to_string(plan.result_bytes) +
-                                            " bytes on this mesh and a job's result may have " +
-                                            std::to_string(options.max_result_bytes) +
-                                            ": split the matrix, or keep fewer traces")
+    throw Error(Reason::limit_exceeded,
+                "the answers to {} rows take {} bytes on this mesh and a job's result may have {}: "
+                "split the matrix, or keep fewer traces",
+                plan.rows, plan.result_bytes, options.max_result_bytes)
         .at(matrix_field(sweep));
   }
   return plan;

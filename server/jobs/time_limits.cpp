@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/core.h>
+
 #include <string>
 
 #include "errors/errors.hpp"
@@ -14,21 +16,23 @@ using errors::Reason;
 
 std::string seconds(std::chrono::milliseconds time) {
   const auto milliseconds = time.count();
-  return milliseconds % 1000 == 0 ? std::to_string(milliseconds / 1000) + " s"
-                                  : std::to_string(milliseconds) + " ms";
+  return milliseconds % 1000 == 0 ? fmt::format("{} s", milliseconds / 1000)
+                                  : fmt::format("{} ms", milliseconds);
 }
 
 Error waited_too_long(std::chrono::milliseconds limit) {
-  return Error(Reason::timed_out, "the job waited " + seconds(limit) +
-                                      " without being started, as long as it may: submit it again "
-                                      "later, or with a longer queue time-out")
+  return Error(Reason::timed_out,
+               "the job waited {} without being started, as long as it may: submit it again later, "
+               "or with a longer queue time-out",
+               seconds(limit))
       .at("queue_timeout");
 }
 
 Error ran_too_long(std::chrono::milliseconds limit) {
-  return Error(Reason::timed_out, "the job ran " + seconds(limit) +
-                                      ", as long as it may: split it, loosen its stopping rule, or "
-                                      "submit it with a longer run time-out")
+  return Error(Reason::timed_out,
+               "the job ran {}, as long as it may: split it, loosen its stopping rule, or submit "
+               "it with a longer run time-out",
+               seconds(limit))
       .at("run_timeout");
 }
 

@@ -3,6 +3,8 @@
 // The arrays that the results of load cases and of sweeps have in common.
 #pragma once
 
+#include <fmt/core.h>
+
 #include <functional>
 #include <string>
 #include <vector>
@@ -41,7 +43,7 @@ inline void add_geometry(records::BlockBuilder& builder,
 inline void add_traces(records::BlockBuilder& builder, const std::string& folder,
                        const std::vector<contact::Trace>& traces) {
   for (std::size_t i = 0; i < traces.size(); ++i)
-    add_arrays(builder, folder + std::to_string(i) + "/", arrays::trace<contact::Trace>, traces[i]);
+    add_arrays(builder, fmt::format("{}{}/", folder, i), arrays::trace<contact::Trace>, traces[i]);
 }
 
 }  // namespace anticrack::jobs

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "records/block.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <bit>
 #include <stdexcept>
@@ -68,8 +70,8 @@ void BlockBuilder::append(std::string name, ArrayType type, std::span<const std:
                           std::uint64_t count, std::vector<std::uint64_t> shape) {
   if (shape.empty()) shape = {count};
   if (!fits(shape, count)) {
-    throw std::invalid_argument("array " + name + ": its shape does not hold " +
-                                std::to_string(count) + " values");
+    throw std::invalid_argument(
+        fmt::format("array {}: its shape does not hold {} values", name, count));
   }
   const std::size_t offset = aligned(_block.bytes.size());
   _block.bytes.resize(offset);

@@ -2,6 +2,7 @@
 #include "rpc/acceptor.hpp"
 
 #include <arpa/inet.h>
+#include <fmt/core.h>
 #include <grpc/support/log.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
@@ -50,7 +51,7 @@ std::string local_user(int connection) {
   ucred who{};
   socklen_t size = sizeof(who);
   if (::getsockopt(connection, SOL_SOCKET, SO_PEERCRED, &who, &size) != 0) return "unix";
-  return "user " + std::to_string(who.uid);
+  return fmt::format("user {}", who.uid);
 }
 
 std::string text_of(int family, const void* address) {

@@ -11,9 +11,8 @@ namespace anticrack::rpc {
 
 void require_offset(const records::BlockSource& block, std::uint64_t offset) {
   if (offset <= block.size()) return;
-  throw errors::Error(errors::Reason::offset_out_of_range,
-                      "offset " + std::to_string(offset) + " is past the end of " +
-                          std::to_string(block.size()) + " bytes")
+  throw errors::Error(errors::Reason::offset_out_of_range, "offset {} is past the end of {} bytes",
+                      offset, block.size())
       .at("offset")
       .with("size", std::to_string(block.size()));
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "rpc/listener.hpp"
 
+#include <fmt/core.h>
 #include <netdb.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -29,10 +30,9 @@ struct Address {
 [[noreturn]] void refuse(const std::string& listen, int number) {
   const bool elsewhere = number == EADDRINUSE || number == EADDRNOTAVAIL || number == 0;
   throw errors::Error(errors::Reason::invalid_argument,
-                      "cannot listen on " + listen + ": " +
-                          (elsewhere ? "the address is taken or not one of this machine"
-                                     : std::generic_category().message(number)) +
-                          "; choose another (port 0 picks a free one)")
+                      "cannot listen on {}: {}; choose another (port 0 picks a free one)", listen,
+                      elsewhere ? "the address is taken or not one of this machine"
+                                : std::generic_category().message(number))
       .at("listen");
 }
 
@@ -166,8 +166,8 @@ Listener::Listener(const std::string& listen) {
     _sockets = listen_to(listen);
     const std::size_t colon = listen.rfind(':');
     const std::string host = listen.substr(0, colon);
-    _address = (host == "localhost" ? "127.0.0.1" : host) + ":" +
-               std::to_string(ntohs(port_of(_sockets.front())));
+    _address = fmt::format("{}:{}", host == "localhost" ? "127.0.0.1" : host,
+                           ntohs(port_of(_sockets.front())));
     return;
   }
   const std::string path = listen.substr(scheme.size());

@@ -11,8 +11,8 @@ using errors::Reason;
 Page to_page(std::int32_t page_size, const std::string& page_token) {
   if (page_size < 0 || page_size > static_cast<std::int32_t>(max_page_size)) {
     throw Error(Reason::invalid_argument,
-                "page_size " + std::to_string(page_size) + " is not between 0 (the default of " +
-                    std::to_string(default_page_size) + ") and " + std::to_string(max_page_size))
+                "page_size {} is not between 0 (the default of {}) and {}", page_size,
+                default_page_size, max_page_size)
         .at("page_size");
   }
   if (!page_token.empty() && !api::is_id(page_token)) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "rpc/stream_hub.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -24,8 +26,7 @@ std::chrono::milliseconds tick_interval(const StreamLimits& limits) {
 }
 
 Error full(const std::string& what) {
-  return Error(Reason::busy, std::string(what) + "; try again later")
-      .retry_after(std::chrono::seconds(1));
+  return Error(Reason::busy, "{}; try again later", what).retry_after(std::chrono::seconds(1));
 }
 
 }  // namespace
@@ -47,20 +48,20 @@ void StreamHub::add(StreamKind kind, const std::string& client,
   if (_closed) throw draining_error();
   const int count = count_of(kind);
   if (count >= (kind == StreamKind::watch ? _limits.watchers : _limits.transfers)) {
-    throw full(std::string(kind == StreamKind::watch ? "watches" : "transfers") +
-               " open: " + std::to_string(count) + ", as many as this server allows");
+    throw full(fmt::format("{} open: {}, as many as this server allows",
+                           kind == StreamKind::watch ? "watches" : "transfers", count));
   }
   const auto found = _clients.find(client);
   const Open held = found == _clients.end() ? Open{} : found->second;
   if (held.streams >= _limits.a_client) {
-    throw full("you have " + std::to_string(held.streams) +
-               " watches and transfers open, as many as this server allows a client");
+    throw full(fmt::format(
+        "you have {} watches and transfers open, as many as this server allows a client",
+        held.streams));
   }
   if (kind == StreamKind::transfer &&
       !access::may_have(held.transfers, 1, count, _limits.transfers)) {
-    throw full("you have " + std::to_string(held.transfers) + " transfers open, one client may " +
-               "have " + std::to_string(access::share(held.transfers, count, _limits.transfers)) +
-               " now");
+    throw full(fmt::format("you have {} transfers open, one client may have {} now", held.transfers,
+                           access::share(held.transfers, count, _limits.transfers)));
   }
   _entries.emplace(stream.get(), Entry{kind, client, stream});
   Open& open = _clients[client];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "rpc/tls.hpp"
 
+#include <fmt/core.h>
 #include <grpc/grpc.h>
 #include <openssl/err.h>
 #include <openssl/pem.h>
@@ -56,8 +57,8 @@ std::vector<Certificate> certificates_of(const std::string& pem, const char* fie
                   "-----BEGIN CERTIFICATE-----");
   }
   if (!at_end) {
-    throw refused(field, "certificate " + std::to_string(certificates.size() + 1) +
-                             " in it is damaged; copy it again");
+    throw refused(field, fmt::format("certificate {} in it is damaged; copy it again",
+                                     certificates.size() + 1));
   }
   return certificates;
 }

@@ -35,8 +35,7 @@ bool is_array(v1::Upload::Kind kind) {
     case v1::Upload::KIND_ARRAY:
       return true;
     default:
-      throw Error(Reason::invalid_argument,
-                  "kind " + std::to_string(kind) + " is unknown; use a .msh (1) or array (2)")
+      throw Error(Reason::invalid_argument, "kind {} is unknown; use a .msh (1) or array (2)", kind)
           .at("header.kind");
   }
 }
@@ -132,8 +131,7 @@ void UploadReceiver::drop() {
 
 void UploadReceiver::begin(const v1::CreateUploadsRequest::Header& header) {
   if (_complete.size() == max_files) {
-    throw Error(Reason::limit_exceeded,
-                "more than " + std::to_string(max_files) + " files in one stream; use several")
+    throw Error(Reason::limit_exceeded, "more than {} files in one stream; use several", max_files)
         .at("header");
   }
   const bool array = is_array(header.kind());
@@ -143,14 +141,14 @@ void UploadReceiver::begin(const v1::CreateUploadsRequest::Header& header) {
                       .at("header.size");
   }
   if (array && header.size() % sizeof(double) != 0) {
-    throw Error(Reason::invalid_argument, "an array of " + std::to_string(header.size()) +
-                                              " bytes: each value has 8 (f64, little-endian)")
+    throw Error(Reason::invalid_argument,
+                "an array of {} bytes: each value has 8 (f64, little-endian)", header.size())
         .at("header.size");
   }
   if (header.size() > _max_bytes) {
-    throw Error(Reason::limit_exceeded, "a file of " + std::to_string(header.size()) +
-                                            " bytes: at most " + std::to_string(_max_bytes) +
-                                            " are accepted (see GetServerInfo)")
+    throw Error(Reason::limit_exceeded,
+                "a file of {} bytes: at most {} are accepted (see GetServerInfo)", header.size(),
+                _max_bytes)
         .at("header.size");
   }
   if (!api::is_sha256(header.sha256())) {
@@ -169,14 +167,13 @@ void UploadReceiver::append(const std::string& chunk) {
   if (!_file)
     throw Error(Reason::invalid_argument, "the first message must be the header").at("header");
   if (chunk.size() > max_chunk_bytes) {
-    throw Error(Reason::limit_exceeded, "a chunk of " + std::to_string(chunk.size()) +
-                                            " bytes: at most " + std::to_string(max_chunk_bytes) +
-                                            " are accepted")
+    throw Error(Reason::limit_exceeded, "a chunk of {} bytes: at most {} are accepted",
+                chunk.size(), max_chunk_bytes)
         .at("chunk");
   }
   if (chunk.size() > _announced_bytes - _received_bytes) {
-    throw Error(Reason::invalid_argument, "more than the " + std::to_string(_announced_bytes) +
-                                              " bytes that the header announced")
+    throw Error(Reason::invalid_argument, "more than the {} bytes that the header announced",
+                _announced_bytes)
         .at("header.size");
   }
   const auto bytes = std::as_bytes(std::span(chunk));
@@ -188,15 +185,14 @@ void UploadReceiver::append(const std::string& chunk) {
 
 void UploadReceiver::end_file() {
   if (_received_bytes != _announced_bytes) {
-    throw Error(Reason::invalid_argument, std::to_string(_received_bytes) + " of the " +
-                                              std::to_string(_announced_bytes) +
-                                              " bytes that the header announced")
+    throw Error(Reason::invalid_argument, "{} of the {} bytes that the header announced",
+                _received_bytes, _announced_bytes)
         .at("header.size");
   }
   std::string sha256 = std::exchange(_hash, {}).finish();
   if (sha256 != _announced_sha256) {
     throw Error(Reason::invalid_argument,
-                "the bytes received have the sha256 " + sha256 + ", not the one announced")
+                "the bytes received have the sha256 {}, not the one announced", sha256)
         .at("header.sha256");
   }
   _file->close();

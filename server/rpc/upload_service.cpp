@@ -26,7 +26,7 @@ Unary* UploadService::GetUpload(Context* context, const v1::GetUploadRequest* re
     const std::string sha256 = api::upload_sha256(request->name(), "name");
     const auto record = _edge.backend.store.upload(sha256, who.name);
     if (!record) {
-      throw errors::Error(errors::Reason::not_found, "there is no " + api::upload_name(sha256));
+      throw errors::Error(errors::Reason::not_found, "there is no {}", api::upload_name(sha256));
     }
     *response = from_domain(*record, _edge.backend.engine.options().upload_ttl);
   });

@@ -20,7 +20,7 @@ auto visible(const access::Identity& who, const std::string& name, Get get) {
   } catch (const Error& error) {
     if (error.reason() != Reason::not_found) throw;
   }
-  throw Error(Reason::not_found, "there is no " + name);
+  throw Error(Reason::not_found, "there is no {}", name);
 }
 
 }  // namespace

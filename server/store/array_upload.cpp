@@ -41,9 +41,8 @@ bool all_finite(std::span<const double> values) {
 void require_finite(std::span<const double> values, std::uint64_t first) {
   if (all_finite(values)) return;
   const auto bad = std::ranges::find_if_not(values, [](double v) { return std::isfinite(v); });
-  throw Error(Reason::invalid_argument,
-              "value " + std::to_string(first + static_cast<std::size_t>(bad - values.begin())) +
-                  " of the array is " + std::to_string(*bad) + "; all must be finite");
+  throw Error(Reason::invalid_argument, "value {} of the array is {}; all must be finite",
+              first + static_cast<std::size_t>(bad - values.begin()), *bad);
 }
 
 }  // namespace
@@ -62,8 +61,8 @@ std::size_t array_length(const std::string& path) {
   read_at(file, path, 0, head);
   if (begins_like_msh(head)) throw is_msh();
   if (bytes == 0 || bytes % sizeof(double) != 0) {
-    throw Error(Reason::invalid_argument, "the upload has " + std::to_string(bytes) +
-                                              " bytes; an array of f64 has 8 for each value");
+    throw Error(Reason::invalid_argument,
+                "the upload has {} bytes; an array of f64 has 8 for each value", bytes);
   }
   return static_cast<std::size_t>(bytes / sizeof(double));
 }

@@ -46,7 +46,7 @@ class Backup {
     if (::mkdir(_to.c_str(), S_IRWXU) != 0) {
       if (errno == EEXIST) {
         throw Error(Reason::invalid_argument,
-                    _to + " is what an interrupted backup left: remove it and try again");
+                    "{} is what an interrupted backup left: remove it and try again", _to);
       }
       throw disk_error("make the folder " + _to, errno);
     }
@@ -74,9 +74,9 @@ class Backup {
       if (missing.empty()) return finished();
     }
     throw Error(Reason::storage,
-                missing +
-                    " is missing, though a record refers to it: stop the server and run anticrackd "
-                    "--check-store --repair, then back up");
+                "{} is missing, though a record refers to it: stop the server and run anticrackd "
+                "--check-store --repair, then back up",
+                missing);
   }
 
  private:
@@ -154,12 +154,12 @@ BackedUp back_up(const std::string& data, const std::string& to) {
   const std::string whole = path.string();
   std::error_code code;
   if (fs::exists(fs::symlink_status(path, code))) {
-    throw Error(Reason::invalid_argument,
-                whole + " exists already: name a new folder for a backup");
+    throw Error(Reason::invalid_argument, "{} exists already: name a new folder for a backup",
+                whole);
   }
   if (file_size(database_path(data)).value_or(0) == 0) {
     throw Error(Reason::invalid_argument,
-                data + " has no database: say where the data is with --data-dir");
+                "{} has no database: say where the data is with --data-dir", data);
   }
   const std::string partial = whole + ".partial";
   BackedUp made = Backup(data, partial).make();

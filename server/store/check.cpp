@@ -112,7 +112,7 @@ class Check {
     if (file.first == FileKind::result)
       require_whole(*open_result(open_to_read(path), path, file.second), path);
     else if (sha256_of(path) != file.second)
-      throw Error(Reason::storage, path + " is damaged: its content has another hash");
+      throw Error(Reason::storage, "{} is damaged: its content has another hash", path);
   }
 
   const std::string& _folder;

@@ -17,9 +17,10 @@ constexpr std::chrono::seconds retry_delay{5};
 }  // namespace
 
 Error disk_full(const std::string& what) {
-  return Error(Reason::disk_full, what +
-                                      "; try again when there is space: results expire, and "
-                                      "meshes and jobs that are not needed can be deleted")
+  return Error(Reason::disk_full,
+               "{}; try again when there is space: results expire, and meshes and jobs that are "
+               "not needed can be deleted",
+               what)
       .retry_after(retry_delay);
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "store/disk_usage.hpp"
 
+#include <fmt/core.h>
+
 #include <numeric>
 #include <string>
 
@@ -28,8 +30,9 @@ DiskUsage::Reservation DiskUsage::reserve(std::uint64_t bytes, std::uint64_t oth
   const std::uint64_t used =
       std::accumulate(_bytes.begin(), _bytes.end(), std::uint64_t{0}) + _reserved + others;
   if (_budget > 0 && (used > _budget || bytes > _budget - used)) {
-    throw disk_full(std::to_string(bytes) + " bytes more do not fit into the disk budget of " +
-                    std::to_string(_budget) + ", of which " + std::to_string(used) + " are used");
+    throw disk_full(
+        fmt::format("{} bytes more do not fit into the disk budget of {}, of which {} are used",
+                    bytes, _budget, used));
   }
   Reservation reservation(*this, bytes);
   _reserved += bytes;

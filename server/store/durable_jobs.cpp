@@ -69,8 +69,9 @@ std::optional<Row> find_request(Connection& connection, const std::string& owner
   std::optional<Row> row = find_row(connection, FileKind::result, select.text(0));
   if (row && row->intact && select.text(1) != fingerprint) {
     throw Error(Reason::request_id_reused,
-                "request id \"" + request_id + "\" was used for jobs/" + row->id +
-                    ", which is another job: make a new request id for each job")
+                "request id \"{}\" was used for jobs/{}, which is another job: make a new request "
+                "id for each job",
+                request_id, row->id)
         .at("request_id");
   }
   return row;
@@ -260,8 +261,8 @@ std::shared_ptr<const records::BlockSource> DurableStore::result(const std::stri
       return open_result(std::move(file), path, found.name);
     ResultColumns now = look();  // the result may have expired just now
     if (now.name == found.name) {
-      throw Error(Reason::storage, "the result of jobs/" + job + " is not in " + path +
-                                       ": delete the job and run it again");
+      throw Error(Reason::storage,
+                  "the result of jobs/{} is not in {}: delete the job and run it again", job, path);
     }
     found = std::move(now);
   }
@@ -275,7 +276,7 @@ void DurableStore::expire(const std::string& job, records::Clock::time_point now
     const std::string result = result_name(connection, job);
     records::JobRecord record = read_job(*find_row(connection, FileKind::result, job));
     if (!records::ended(record.state))
-      throw Error(Reason::in_use, "jobs/" + job + " has not ended: cancel it first");
+      throw Error(Reason::in_use, "jobs/{} has not ended: cancel it first", job);
     record.expired = now;
     record.result_bytes = 0;
     end(connection, record, {}, encode(record));

@@ -50,7 +50,7 @@ void DurableStore::put(const records::MeshRecord& record) {
 void DurableStore::put(const records::MeshRecord& record, const mesh::Mesh& triangulation) {
   const mesh::Bytes encoded = mesh::encode(triangulation);
   if (sha256_of(encoded) != record.sha256)
-    throw Error(Reason::internal, "meshes/" + record.id + " comes with another triangulation");
+    throw Error(Reason::internal, "meshes/{} comes with another triangulation", record.id);
   const std::string bytes = encode(record);
   const DiskUsage::Reservation reservation = reserve(encoded.size());
   Part part = _meshes.write(encoded);
@@ -99,7 +99,7 @@ std::shared_ptr<const mesh::Mesh> DurableStore::triangulation(const std::string&
   if (!bytes) return nullptr;
   if (sha256_of(*bytes) != sha256) {
     throw Error(Reason::storage,
-                "the triangulation in " + path + " is damaged: delete its mesh and make it again");
+                "the triangulation in {} is damaged: delete its mesh and make it again", path);
   }
   return _triangulations.share(sha256,
                                std::make_shared<const mesh::Mesh>(mesh::decode_mesh(*bytes)));

@@ -27,9 +27,10 @@ Connection open_writer(const std::string& folder) {
   {
     Statement mode = connection.prepare("PRAGMA journal_mode = WAL");
     if (!mode.step() || mode.text(0) != "wal") {
-      throw Error(Reason::storage, "the file system of " + folder +
-                                       " cannot share memory between programs (SQLite's WAL): "
-                                       "put the data folder on a local disk");
+      throw Error(Reason::storage,
+                  "the file system of {} cannot share memory between programs (SQLite's WAL): put "
+                  "the data folder on a local disk",
+                  folder);
     }
   }
   connection.execute(

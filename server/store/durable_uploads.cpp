@@ -64,12 +64,12 @@ records::Clock::time_point DurableStore::keep_uploads(const std::vector<Upload>&
   std::vector<Part> copies;   // of the bytes; removed at the end if they still have this name
   for (const Upload& upload : uploads) {
     if (!is_sha256(upload.sha256)) {
-      throw Error(
-          Reason::invalid_argument,
-          "\"" + upload.sha256 + "\" is not a sha256: give its 64 lower-case hexadecimal digits");
+      throw Error(Reason::invalid_argument,
+                  "\"{}\" is not a sha256: give its 64 lower-case hexadecimal digits",
+                  upload.sha256);
     }
     if (!_uploads.is_part(upload.path))
-      throw Error(Reason::internal, upload.path + " is not an upload on its way");
+      throw Error(Reason::internal, "{} is not an upload on its way", upload.path);
     const std::string there = sha256_of(_uploads.path(upload.sha256));
     damaged.push_back(!there.empty() && there != upload.sha256);
     if (damaged.back() || _parts.unflushed(upload.path)) {
@@ -153,10 +153,10 @@ void DurableStore::erase_upload(const std::string& sha256, const std::string& ow
     if (any("SELECT 1 FROM job_uploads r JOIN jobs j ON j.number = r.job "
             "WHERE r.upload = ? AND j.owner = ? AND j.ended IS NULL") ||
         any("SELECT 1 FROM meshes WHERE upload = ? AND owner = ? AND sha256 = ''")) {
-      throw Error(Reason::in_use, "uploads/" + sha256 +
-                                      " is needed by a job that has not ended or a mesh that is "
-                                      "not meshed: delete it later, or cancel the job or delete "
-                                      "the mesh first");
+      throw Error(Reason::in_use,
+                  "uploads/{} is needed by a job that has not ended or a mesh that is not meshed: "
+                  "delete it later, or cancel the job or delete the mesh first",
+                  sha256);
     }
     if (!any("DELETE FROM uploads WHERE sha256 = ? AND owner = ? RETURNING 1"))
       throw unknown("uploads", sha256);

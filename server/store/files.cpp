@@ -136,7 +136,7 @@ void read_at(const base::Descriptor& file, const std::string& path, std::uint64_
         ::pread(file.get(), bytes.data(), bytes.size(), static_cast<off_t>(offset));
     if (count == 0) {
       throw errors::Error(errors::Reason::storage,
-                          path + " is cut off: restore the data folder from a backup");
+                          "{} is cut off: restore the data folder from a backup", path);
     }
     if (count < 0 && errno != EINTR) throw disk_error("read " + path, errno);
     const auto done = static_cast<std::size_t>(std::max<ssize_t>(count, 0));
@@ -189,7 +189,7 @@ std::string sha256_of(std::span<const std::byte> bytes) {
 void require_intact_upload(const std::string& path, const std::string& sha256) {
   if (sha256_of(path) != sha256) {
     throw errors::Error(errors::Reason::storage,
-                        "uploads/" + sha256 + " is damaged or gone from the disk: upload it again");
+                        "uploads/{} is damaged or gone from the disk: upload it again", sha256);
   }
 }
 

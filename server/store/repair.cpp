@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/core.h>
 #include <sys/stat.h>
 
 #include <cerrno>
@@ -16,7 +17,7 @@ namespace {
 
 std::string make_new_folder(const std::string& folder) {
   for (int number = 1;; ++number) {
-    std::string path = folder + "/set-aside-" + std::to_string(number);
+    std::string path = fmt::format("{}/set-aside-{}", folder, number);
     if (::mkdir(path.c_str(), S_IRWXU) == 0) return path;
     if (errno != EEXIST) throw disk_error("make the folder " + path, errno);
   }

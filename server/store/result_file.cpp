@@ -98,9 +98,8 @@ std::string result_header(const records::BlockSource& block) {
   const std::string bytes =
       api::serialized(api::layout_of(block.arrays(), block.size(), block.sha256()));
   if (bytes.size() > max_header) {
-    throw Error(Reason::limit_exceeded, std::to_string(block.arrays().size()) +
-                                            " arrays are too many for one result: split "
-                                            "the job");
+    throw Error(Reason::limit_exceeded, "{} arrays are too many for one result: split the job",
+                block.arrays().size());
   }
   return std::string(magic) + number_bytes(static_cast<std::uint32_t>(bytes.size())) +
          number_bytes(digest::crc32c(std::as_bytes(std::span(bytes)))) + bytes;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "store/schema.hpp"
 
+#include <fmt/core.h>
+
 #include <cstdint>
 #include <string>
 
@@ -79,7 +81,7 @@ void make_tables(Connection& connection) {
   if (connection.integer("PRAGMA user_version") == 0) {
     Transaction transaction(connection);
     connection.execute(tables);
-    connection.execute("PRAGMA user_version = " + std::to_string(schema_version));
+    connection.execute(fmt::format("PRAGMA user_version = {}", schema_version));
     transaction.commit();
   }
   require_version(connection);
@@ -89,10 +91,10 @@ void require_version(Connection& connection) {
   const std::int64_t version = connection.integer("PRAGMA user_version");
   if (version != schema_version) {
     throw Error(Reason::storage,
-                "the database " + connection.path() + " has version " + std::to_string(version) +
-                    ", this anticrack reads version " + std::to_string(schema_version) +
-                    ": start the " + (version < schema_version ? "older" : "newer") +
-                    " anticrack that made it, or move the data folder away to start anew");
+                "the database {} has version {}, this anticrack reads version {}: start the {} "
+                "anticrack that made it, or move the data folder away to start anew",
+                connection.path(), version, schema_version,
+                version < schema_version ? "older" : "newer");
   }
 }
 
@@ -101,9 +103,10 @@ void require_sound(Connection& connection) {
   const std::string answer = check.step() ? check.text(0) : "no answer";
   if (answer != "ok") {
     throw Error(Reason::storage,
-                "the database " + connection.path() + " is damaged (" + answer +
-                    "): stop the server and restore the data folder from a backup, recover the "
-                    "database with sqlite3's .recover, or move the folder away to start anew");
+                "the database {} is damaged ({}): stop the server and restore the data folder from "
+                "a backup, recover the database with sqlite3's .recover, or move the folder away "
+                "to start anew",
+                connection.path(), answer);
   }
 }
 
