@@ -205,7 +205,13 @@ TEST(Sweep, TakesForcesOnTheNodes) {
                                      "load=[{name='up', f=1}, {name='down', f=-2}]", "-o",
                                      folder / "alone.h5", "--json"});
   ASSERT_EQ(alone.code, 0) << alone.output << alone.error;
-  const std::string mesh = parse_json(alone.output).fields().at("mesh").string_value();
+  const std::string mesh = parse_json(alone.output)
+                               .fields()
+                               .at("mesh")
+                               .struct_value()
+                               .fields()
+                               .at("name")
+                               .string_value();
   const Ended shown = server.client({"mesh", "show", mesh, "--json"});
   ASSERT_EQ(shown.code, 0) << shown.error;
   const auto nodes = static_cast<std::size_t>(

@@ -414,8 +414,8 @@ class Result:
                      info=_without_definition(mesh))
         spec, status = job.spec, job.status
         result = cls(spec.title, job.name, shape, interfaces, Named("load"), None, status.not_reached, case,
-                     server_version, units=Units(spec.units.length, spec.units.force), solver=_with_defaults(spec.solver),
-                     traction=any(load.traction for load in spec.load_cases))
+                     server_version, units=Units(spec.units.length, spec.units.force),
+                     solver=_with_defaults(spec.solver), traction=any(load.traction for load in spec.load_cases))
         if spec.HasField("sweep"):
             traces = {int(row): _traces(arrays, f"traces/{row}", len(interfaces)) for row in spec.sweep.traces}
             kept = [row for row, found in traces.items() if found]  # the others did not end
