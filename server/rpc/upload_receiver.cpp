@@ -35,7 +35,8 @@ bool is_array(v1::Upload::Kind kind) {
     case v1::Upload::KIND_ARRAY:
       return true;
     default:
-      throw Error(Reason::invalid_argument, "kind {} is unknown; use a .msh (1) or array (2)", kind)
+      throw Error(Reason::invalid_argument, "kind {} is unknown; use a .msh (1) or array (2)",
+                  static_cast<int>(kind))
           .at("header.kind");
   }
 }
