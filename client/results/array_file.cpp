@@ -17,14 +17,14 @@ namespace {
 
 using hdf5::Handle;
 
-// Lists what is there: the name may be mistyped.
+// Lists the names that the group has, as the missing one may be mistyped.
 std::string missing_text(const Handle& group, const std::string& name) {
   const std::vector<std::string> names = hdf5::names_in(group);
   return "\"" + name + "\" is missing" +
          (names.empty() ? " and nothing else is there" : ", there is " + hdf5::listed(names));
 }
 
-/// The dataset at a path below a group.
+/// Opens the dataset at a path below a group.
 hdf5::Dataset open_below(const Handle& group, const std::string& path, std::uint64_t budget,
                          std::size_t columns) {
   const std::size_t slash = path.find('/');
@@ -41,7 +41,8 @@ struct OpenFile {
   Handle root;
 };
 
-/// `columns` as open_array; a matrix may have the attribute `loads`. `open` is the last file read.
+/// `columns` is 0 for an array, any_columns for a matrix, whose attribute `loads` is optional.
+/// `open` is the file that was read last.
 Matrix read(std::optional<OpenFile>& open, const std::filesystem::path& file,
             const std::string& path, std::size_t columns) {
   const bool is_matrix = columns != 0;

@@ -9,23 +9,23 @@
 
 namespace anticrack::results {
 
-/// A one-dimensional float64 dataset of any HDF5 file; `dataset` is its path, as "/f" or
+/// Reads a one-dimensional float64 dataset of any HDF5 file; `dataset` is its path, as "/f" or
 /// "/loads/f". Throws Error for other files, types and shapes, for an empty dataset and for values
 /// that are not finite. Follows hard links only; allocates no more than the file can hold.
 using ReadArray = std::function<std::vector<double>(const std::filesystem::path& file,
                                                     const std::string& dataset)>;
-/// One that keeps the last file open, since many arrays often lie in one. Not for several threads
-/// at once.
+/// Returns a reader that keeps the last file open, since many arrays often lie in the same file.
+/// The reader must not be used by several threads at once.
 ReadArray array_reader();
 
 struct Matrix {
   std::vector<double> values;  ///< row by row
   std::size_t rows = 0;
   std::size_t columns = 0;
-  std::vector<std::string> loads;  ///< of the columns: the attribute of this name, if any
+  std::vector<std::string> loads;  ///< names of the columns: the attribute `loads`, if any
 };
 
-/// The same for a two-dimensional dataset, with at least one row and one column.
+/// Reads a two-dimensional dataset with at least one row and one column; errors as of ReadArray.
 Matrix read_matrix(const std::filesystem::path& file, const std::string& dataset);
 
 }  // namespace anticrack::results

@@ -16,7 +16,7 @@
 namespace anticrack::results {
 namespace {
 
-/// Traces along interfaces 0, 1, ... below `at`, which ends with a slash.
+/// Reads the traces along interfaces 0, 1, ... below `at`, which ends with a slash.
 std::vector<Trace> traces_of(const Block& block, const std::string& at, std::size_t interfaces) {
   std::vector<Trace> traces;
   for (std::size_t i = 0; i < interfaces; ++i)
@@ -44,7 +44,7 @@ void add_load(const Block& block, std::size_t index, std::size_t interfaces, int
   }
 }
 
-/// Runs of consecutive nodes in contact.
+/// Adds an interval for each run of consecutive nodes in contact.
 void add_contact_intervals(const std::string& name, const Interface& interface, const Trace& trace,
                            v1::LoadCaseAnswer& answer) {
   for (std::size_t i = 0; i < interface.node_count() && i < trace.contact.size(); ++i) {
@@ -58,8 +58,8 @@ void add_contact_intervals(const std::string& name, const Interface& interface, 
   }
 }
 
-/// Gives a message's numbers what the columns of their names say at a place. A bound that is NaN is
-/// none.
+/// Sets a message's numbers to the entries at `place` of the columns with their names. A bound
+/// that is NaN is not set.
 template <class Table>
 void set_numbers(const Sweep& sweep, std::size_t place, const Table& table,
                  google::protobuf::Message& message) {
@@ -79,7 +79,7 @@ void set_numbers(const Sweep& sweep, std::size_t place, const Table& table,
       table);
 }
 
-/// The answer to a row.
+/// The answer to a row, made of the sweep's columns.
 v1::LoadCaseAnswer answer_of(const Sweep& sweep, std::size_t row) {
   v1::LoadCaseAnswer answer;
   forget_numbers(answer);
@@ -98,8 +98,8 @@ v1::LoadCaseAnswer answer_of(const Sweep& sweep, std::size_t row) {
   return answer;
 }
 
-/// Fills in the columns of result.sweep and makes the loads of its kept rows. result.interfaces are
-/// complete. Rows without traces in the block are dropped from `kept`.
+/// Fills in the columns of result.sweep and makes the loads of its kept rows. Needs complete
+/// result.interfaces. Drops rows without traces in the block from `kept`.
 void add_sweep(const Block& block, Result& result) {
   Sweep& sweep = *result.sweep;
   const std::string folder = arrays::sweep_folder();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// From the two binary blocks of the server (ReadMesh, ReadResult) to a Result.
+// Makes a Result of the two binary blocks of the server (ReadMesh, ReadResult).
 #pragma once
 
 #include <cstddef>
@@ -12,19 +12,19 @@
 
 namespace anticrack::results {
 
-/// A whole block, and what it says of the arrays in it.
+/// A whole block, and the layout of the arrays in it.
 struct BlockView {
   const v1::BlockLayout& layout;
   std::span<const std::byte> bytes;
 };
 
-/// Adds the arrays to what the messages of the server say.
+/// Adds the arrays to a Result made of the server's messages.
 ///
-/// `answers` has everything but arrays. Filled in: those of the mesh from `mesh_block`, interfaces
-/// from both, loads[].traces, history, fields and indicator from `result_block`. A load may lack
+/// `answers` has everything but arrays. The mesh is filled in from `mesh_block`, interfaces from
+/// both, loads[].traces, history, fields and indicator from `result_block`. A load may lack
 /// arrays unless it is `converged` or `not_converged`.
-/// For a sweep `answers` has no loads but sweep.loads, inclusions, kept and answer; filled in: the
-/// columns, and a load for every kept row (see Sweep::kept).
+/// For a sweep `answers` has no loads, but sweep.loads, inclusions, kept and answer; the columns
+/// are filled in, and a load is added for every kept row (see Sweep::kept).
 ///
 /// Throws Error for a missing array, wrong types and shapes, arrays outside their block, indices
 /// out of range and sizes that disagree. Unknown arrays are ignored.

@@ -9,7 +9,7 @@
 namespace anticrack::results {
 namespace {
 
-/// For messages: "(3,2)".
+/// The shape of an array in messages: "(3,2)".
 std::string text_of(const v1::ArrayLayout& array) {
   std::string text = "(";
   for (int i = 0; i < array.shape_size(); ++i)

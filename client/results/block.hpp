@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A block of the server, array by array, checked before it is used. For the sources of this folder
-// only.
+// Reads the arrays of a server's block; each is checked before it is used. For the sources of this
+// folder only.
 #pragma once
 
 #include <bit>
@@ -23,19 +23,19 @@ namespace anticrack::results {
 
 static_assert(std::endian::native == std::endian::little, "blocks are little-endian");
 
-/// One block, arrays by name.
+/// One block, whose arrays are found by name.
 class Block {
  public:
-  /// `subject` begins the messages. Throws Error for a name that occurs twice. What the view is of
-  /// must outlive the block.
+  /// `subject` begins the messages. Throws Error for a name that occurs twice. The layout and bytes
+  /// that the view refers to must outlive the block.
   Block(std::string subject, const BlockView& view);
 
-  /// Any array below a folder, e.g. "loads/0/traces/".
+  /// Whether the block has any array below a folder, e.g. "loads/0/traces/".
   bool has_below(const std::string& prefix) const;
   bool has(const std::string& name) const { return _arrays.contains(name); }
 
-  /// Array of shape (n) for columns 0, (rows, n) for columns arrays::named, else (n, columns); with
-  /// a depth above 1 (rows, n, depth) or (n, columns, depth).
+  /// Copies an array of shape (n) if columns is 0, (rows, n) if it is arrays::named, else (n,
+  /// columns); a depth above 1 adds a last dimension. Throws Error for another shape or type.
   template <typename T>
   std::vector<T> get(const std::string& name, std::uint64_t columns = 0, std::uint64_t rows = 0,
                      std::uint64_t depth = 1) const {
@@ -45,9 +45,9 @@ class Block {
     return values;
   }
 
-  /// Throws Error: the subject, `cause`, and the cure.
+  /// Throws Error with the subject, `cause`, and the cure.
   [[noreturn]] void fail(const std::string& cause) const;
-  /// The same, unless `fault` is empty.
+  /// Calls fail(fault) unless `fault` is empty.
   void require(const std::string& fault) const {
     if (!fault.empty()) fail(fault);
   }
@@ -62,8 +62,8 @@ class Block {
   std::map<std::string_view, const v1::ArrayLayout*> _arrays;
 };
 
-/// The arrays of a table; what is optional and missing stays as it is. `folder` ends with a slash;
-/// `rows`: of shapes whose columns are a word.
+/// Reads the arrays of a table into a record; a missing optional array leaves its member as it is.
+/// `folder` ends with a slash; `rows` is the row count of arrays whose columns are named by a word.
 template <class Record, class Table>
 void get_arrays(const Block& block, const std::string& folder, Record& record, const Table& table,
                 std::uint64_t rows = 0) {

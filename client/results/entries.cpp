@@ -40,7 +40,7 @@ bool is_duration(const FieldDescriptor& field) {
   return is_message(field) && field.message_type() == Duration::descriptor();
 }
 
-/// Whether the values of a message are entries of their own.
+/// Whether the field is a message whose values are entries of their own.
 bool is_nested(const FieldDescriptor& field) {
   return is_message(field) && !is_duration(field) &&
          field.message_type() != Timestamp::descriptor() &&
@@ -93,7 +93,7 @@ void add_entries(const Descriptor& type, const FieldDescriptor* outer,
   }
 }
 
-/// What stands for a value that is not set.
+/// The value that means "not set".
 Value none_of(const Entry& entry) {
   switch (entry.type) {
     case ValueType::float64:
@@ -112,7 +112,7 @@ bool is_none(const Value& value, const Entry& entry) {
   return value == none_of(entry) || (number != nullptr && std::isnan(*number));
 }
 
-/// The message that has the value.
+/// The message that has the entry's field: `message` itself or one nested in it.
 const Message& owner(const Message& message, const Entry& entry) {
   return entry.outer == nullptr ? message
                                 : message.GetReflection()->GetMessage(message, entry.outer);
@@ -122,7 +122,7 @@ Message& owner(Message& message, const Entry& entry) {
                                 : *message.GetReflection()->MutableMessage(&message, entry.outer);
 }
 
-/// Of a message that stands for one value, see Entry.
+/// The value of a duration, a time or an error, see Entry.
 Value value_of(const Message& message) {
   if (const auto* const duration = dynamic_cast<const Duration*>(&message))
     return static_cast<double>(TimeUtil::DurationToNanoseconds(*duration)) / 1e9;
@@ -133,7 +133,7 @@ Value value_of(const Message& message) {
 
 bool set_message(Message& message, const Value& value) {
   if (auto* const duration = dynamic_cast<Duration*>(&message)) {
-    constexpr double most = 9e9;  // in nanoseconds an int64
+    constexpr double most = 9e9;  // so that the nanoseconds fit an int64
     const double seconds = std::get<double>(value);
     *duration = TimeUtil::NanosecondsToDuration(
         std::abs(seconds) <= most ? std::llround(1e9 * seconds) : 0);

@@ -16,10 +16,10 @@ namespace anticrack::results {
 
 inline constexpr std::string_view format = "anticrack-result/2";
 
-/// As output::write_file, completely or not at all. Needs memory for a copy of the file. Not for
-/// two threads at once unless HDF5 is thread-safe. A file that is there and no result of the same
-/// job, or of the same case without a sweep, is kept as FILE~. Returns a sentence that says so;
-/// empty: none was.
+/// Writes the file completely or not at all, as output::write_file. Needs memory for a copy of the
+/// file. Two threads may not call it at once unless HDF5 is thread-safe. An existing file is kept
+/// as FILE~ unless it is a result of the same job, or of the same case without a sweep. Returns a
+/// sentence that says so, or an empty text if no file was kept.
 std::string write(const std::filesystem::path& path, const Result& result);
 
 /// Reads a file of `format`. Throws Error for a file that is not HDF5, truncated, not a result, of

@@ -7,8 +7,8 @@
 namespace anticrack::results::hdf5 {
 namespace {
 
-/// The memory of a file of the core driver, kept when the file is closed. H5Fget_file_image reads
-/// an open file, and in HDF5 1.10.8 that leaves a wrong checksum in the superblock.
+/// Keeps the memory of a file of the core driver when the file is closed. H5Fget_file_image would
+/// read an open file, which in HDF5 1.10.8 leaves a wrong checksum in the superblock.
 class Memory {
  public:
   Memory() = default;
@@ -20,7 +20,7 @@ class Memory {
     return {allocate, copy, reallocate, release, same, forget, this};
   }
 
-  /// The closed file, `end` bytes; the memory is a little larger.
+  /// The first `end` bytes, which are the closed file; the memory is a little larger.
   std::vector<std::byte> bytes(std::size_t end) const {
     if (_kept == nullptr || end > _size) throw Fault("HDF5 made a file that is not whole");
     const auto* first = static_cast<const std::byte*>(_kept);
@@ -36,7 +36,7 @@ class Memory {
     return std::memcpy(to, from, size);
   }
   static void* reallocate(void* memory, std::size_t size, H5FD_file_image_op_t, void* self) {
-    // Zeros in the gaps: the same result gives the same bytes.
+    // Gaps are filled with zeros, so that the same result gives the same bytes.
     auto& known = static_cast<Memory*>(self)->_size;
     void* grown = std::realloc(memory, size);
     if (grown == nullptr) return nullptr;
@@ -48,7 +48,7 @@ class Memory {
     std::free(std::exchange(static_cast<Memory*>(self)->_kept, memory));
     return 0;
   }
-  // HDF5 copies the property list; all copies serve this one file.
+  // HDF5 copies the property list; all copies share this one memory.
   static void* same(void* self) { return self; }
   static herr_t forget(void*) { return 0; }
 
@@ -56,8 +56,8 @@ class Memory {
   std::size_t _size = 0;
 };
 
-/// HDF5 searches and sorts its cache of metadata, which here only doubles what is in memory: with
-/// 64 KiB in place of 2 MiB and more a file of 200 loads is written in three quarters of the time.
+/// HDF5 searches and sorts its metadata cache, which is of no use as the file is in memory anyway:
+/// a cache of 64 KiB, not 2 MiB and more, writes a file of 200 loads in three quarters of the time.
 void set_small_cache(const Handle& access) {
   H5AC_cache_config_t cache;
   cache.version = H5AC__CURR_CACHE_CONFIG_VERSION;
@@ -83,8 +83,8 @@ std::vector<std::byte> file_image(const std::function<void(const Handle& root)>&
     if (H5Pset_fapl_core(access.get(), increment, false) < 0 ||
         H5Pset_file_image_callbacks(access.get(), &callbacks) < 0)
       throw Fault("HDF5 has no core driver");
-    // Formats since 1.10 have checksums on all metadata; damaged files of older ones can make the
-    // library read outside its buffers.
+    // Formats since 1.10 have checksums on all metadata; a damaged file of an older format can make
+    // the library read outside its buffers.
     if (H5Pset_libver_bounds(access.get(), H5F_LIBVER_V110, H5F_LIBVER_V110) < 0)
       throw Fault("HDF5 is older than 1.10");
     set_small_cache(access);

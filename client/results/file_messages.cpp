@@ -34,14 +34,14 @@ void set_or_refuse(Message& message, const Entry& entry, const Value& value) {
               std::get<std::string>(value) + "\"");
 }
 
-/// visit(field) for each list of a type of message.
+/// Calls visit(field) for each list of a message type.
 template <class Visit>
 void for_each_list(const Descriptor& type, const Visit& visit) {
   for (int i = 0; i < type.field_count(); ++i)
     if (type.field(i)->is_repeated()) visit(type.field(i));
 }
 
-/// Of a message and its lists.
+/// Adds the rows of put_meanings for a message type and its lists.
 void add_meanings(const std::string& where, const Descriptor& type, const v1::Units& units,
                   std::vector<std::string>& rows) {
   const auto add = [&](const std::string& at, const Descriptor& of) {
@@ -74,7 +74,7 @@ void put_columns(const Handle& group, const v1::Units& units, const Descriptor& 
 void get_columns(const Handle& group, std::uint64_t budget, const std::string& what,
                  const Descriptor& type, std::optional<std::size_t>& length,
                  const std::function<Message&(std::size_t)>& at) {
-  constexpr std::size_t least_bytes = 64;  // of a message in memory
+  constexpr std::size_t least_bytes = 64;  // that a message takes in memory
   for (const Entry& entry : entries_of(type)) {
     texts_and_numbers(entry.type, [&](auto empty) {
       std::vector<decltype(empty)> column;

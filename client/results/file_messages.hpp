@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Writes and reads messages of the API as groups of a file, by what entries_of says. For the
+// Writes and reads messages of the API as groups of a file; entries_of lists the values. For the
 // sources of this folder only.
 #pragma once
 
@@ -16,24 +16,24 @@
 
 namespace anticrack::results::hdf5 {
 
-/// Values as attributes of the group, lists of texts as datasets, lists of messages as groups of
-/// columns.
+/// Writes values as attributes of the group, lists of texts as datasets, lists of messages as
+/// groups of columns.
 void put_message(const Handle& group, const v1::Units& units,
                  const google::protobuf::Message& message);
 void get_message(const Handle& group, std::uint64_t budget, google::protobuf::Message& message);
 
-/// Messages of a type as datasets of a group, one for each entry.
+/// Writes messages of a type as datasets of a group, one dataset for each entry.
 void put_columns(const Handle& group, const v1::Units& units,
                  const google::protobuf::Descriptor& type,
                  const std::vector<const google::protobuf::Message*>& messages);
-/// Into the messages at(0), at(1), ... Throws Fault unless all columns are as long as each other
-/// and as `length`, which is then known; `what` names the list.
+/// Reads the columns into the messages at(0), at(1), ... Throws Fault unless all columns have the
+/// same length, and that of `length` if it is set; sets `length`. `what` names the list in errors.
 void get_columns(const Handle& group, std::uint64_t budget, const std::string& what,
                  const google::protobuf::Descriptor& type, std::optional<std::size_t>& length,
                  const std::function<google::protobuf::Message&(std::size_t)>& at);
 
-/// What the numbers of the messages are: the dataset `meanings`, a row for each of where, name,
-/// unit and meaning.
+/// Writes the dataset `meanings`, which explains the numbers of the messages: each row says where
+/// a number is, its name, unit and meaning.
 void put_meanings(const Handle& root, const v1::Units& units);
 
 }  // namespace anticrack::results::hdf5

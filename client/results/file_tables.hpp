@@ -14,7 +14,7 @@
 
 namespace anticrack::results::hdf5 {
 
-/// Columns of a row's array; 0 for one of one dimension.
+/// Number of columns of the array that a row of a table describes; 0 if it has one dimension.
 template <class Row, class Record>
 std::size_t columns_of(const Row& row, const Record& record) {
   if constexpr (requires { record.extent(row.shape); }) {
@@ -24,7 +24,7 @@ std::size_t columns_of(const Row& row, const Record& record) {
   return arrays::columns_of(row.shape);
 }
 
-/// A dataset, with its meaning if the table says that the file holds it.
+/// Writes a dataset, with its meaning if the table says that the file holds the meaning.
 template <class Row, class T>
 void put_row(const Handle& group, const v1::Units& units, const Row& row,
              const std::vector<T>& values, std::size_t columns) {
@@ -34,7 +34,7 @@ void put_row(const Handle& group, const v1::Units& units, const Row& row,
   if (row.explained) put(dataset, "meaning", std::string(row.what));
 }
 
-/// Attributes of an object.
+/// Writes and reads the members of a table as attributes of an object.
 template <class Record, class Table>
 void put_values(const Handle& object, const Record& record, const Table& table) {
   arrays::for_each(
@@ -53,8 +53,8 @@ bool may_be_missing(const Row& row) {
   return row.optional || arrays::columns_of(row.shape) == arrays::named;
 }
 
-/// Datasets of a group. What is optional is left out where it is empty, and what has columns by
-/// name: HDF5 has no chunks without extent.
+/// Writes arrays as datasets of a group. An empty array is left out if it is optional or if a word
+/// names its columns, as HDF5 has no chunks without extent.
 template <class Record, class... Tables>
 void put_arrays(const Handle& group, const v1::Units& units, const Record& record,
                 const Tables&... tables) {

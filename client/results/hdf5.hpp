@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // What the result file needs of HDF5's C API: owned handles, and attributes and datasets of
-// numbers and UTF-8 text. Functions throw Fault without the path, which their callers add.
+// numbers and UTF-8 text. The functions throw Fault without the path; their callers add it.
 #pragma once
 
 #include <hdf5.h>
@@ -25,7 +25,7 @@ class Fault : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// An HDF5 identifier, closed once.
+/// Owns an HDF5 identifier and closes it once.
 class Handle {
  public:
   using Close = herr_t (*)(hid_t);
@@ -39,11 +39,11 @@ class Handle {
     if (_id >= 0) _close(_id);
   }
 
-  /// Still owned by the handle; below 0: none.
+  /// The identifier, which the handle still owns; below 0 if it has none.
   hid_t get() const noexcept { return _id; }
-  /// Gives it up without closing it.
+  /// Gives the identifier to the caller without closing it.
   hid_t release() noexcept { return std::exchange(_id, -1); }
-  /// Closes it now; throws Fault(`what`) where the destructor would ignore an error.
+  /// Closes the identifier now; throws Fault(`what`) on an error, which the destructor ignores.
   void close_now(const std::string& what) {
     if (_close(std::exchange(_id, -1)) < 0) throw Fault(what);
   }
@@ -56,7 +56,7 @@ class Handle {
 /// Keeps HDF5 from printing its error stack until the end of the scope.
 class Quiet {
  public:
-  /// Silences it.
+  /// Stops HDF5 from printing; the destructor restores what was set before.
   Quiet();
   ~Quiet();
   Quiet(const Quiet&) = delete;
@@ -69,29 +69,29 @@ class Quiet {
 
 inline constexpr std::size_t any_columns = static_cast<std::size_t>(-1);
 
-/// What a dataset of n rows has in each: its shape is (n) for 0 columns, else (n, columns), and
-/// with a depth above 1 (n, columns, depth).
+/// Shape of one row of a dataset. A dataset of n rows has the shape (n) for 0 columns, else (n,
+/// columns), or (n, columns, depth) with a depth above 1.
 struct Row {
   std::size_t columns = 0;
   std::size_t depth = 1;
 
-  /// Of the dataset.
+  /// Number of dimensions of the dataset.
   int rank() const noexcept { return columns == 0 ? 1 : depth == 1 ? 2 : 3; }
-  /// Entries of one.
+  /// Number of entries in one row.
   std::size_t width() const noexcept { return columns == 0 ? 1 : columns * depth; }
 };
 
 // Writing.
 
-/// The bytes of an HDF5 file (format 1.10) that `fill` writes into, given its root group. Made in
-/// memory: a full disk while HDF5 closes a file makes it crash when the program ends.
+/// Returns the bytes of an HDF5 file (format 1.10) whose root group `fill` has filled. It is made
+/// in memory, as a disk that is full while HDF5 closes a file makes HDF5 crash at program end.
 std::vector<std::byte> file_image(const std::function<void(const Handle& root)>& fill);
 
-/// Creation properties of a class, without times: the same result gives the same bytes.
+/// Creation properties of a class that record no times, so that equal results give equal bytes.
 Handle without_times(hid_t property_class);
 Handle create_group(const Handle& parent, const std::string& name);
 
-/// An attribute of one value or, with `count`, a list. `values` are doubles, int32 or std::string.
+/// Writes an attribute: one value or, with `count`, a list of doubles, int32 or std::string.
 void put_attribute(const Handle& object, const std::string& name, ValueType type,
                    const void* values, std::optional<std::size_t> count = {});
 template <class T>
@@ -103,16 +103,16 @@ inline void put(const Handle& object, const std::string& attribute,
   put_attribute(object, attribute, ValueType::text, texts.data(), texts.size());
 }
 
-/// Dataset of `count` values. Numbers carry a checksum; large datasets are compressed. An empty
-/// unit is that of the case. Returned for further attributes.
+/// Writes a dataset of `count` values and returns it for further attributes. Numbers have a
+/// checksum; large datasets are compressed. `unit` becomes the attribute `units`.
 Handle put_array(const Handle& group, const std::string& name, ValueType type, const void* values,
                  std::size_t count, const Row& row, const std::string& unit = "-");
 
-// Reading. Only hard links are followed and only data inside the file is read, so a file from
-// elsewhere cannot pull in others.
+// Reading. Only hard links are followed and only data inside the file is read, so that a file
+// from elsewhere cannot make us read other files.
 
-/// The root group of a file. Throws Error with `cure` where there is no HDF5 file, Fault where it
-/// is damaged.
+/// Opens the root group of a file. Throws Error with `cure` if there is no HDF5 file at the path,
+/// and Fault if the file is damaged.
 Handle open_root(const std::filesystem::path& path, const std::string& cure);
 /// The largest number of bytes a dataset of the file can take in memory.
 std::uint64_t memory_budget(const std::filesystem::path& path);
@@ -124,17 +124,17 @@ std::vector<std::string> names_in(const Handle& group);
 /// The first ten names, separated by commas.
 std::string listed(const std::vector<std::string>& names);
 
-/// An attribute of one value: double, int32 or std::string.
+/// Reads an attribute of one value: double, int32 or std::string.
 void get_attribute(const Handle& object, const std::string& name, ValueType type, void* value);
 template <class T>
 void get(const Handle& object, const std::string& attribute, T& value) {
   get_attribute(object, attribute, value_type<T>, &value);
 }
-/// A list of at most `most` texts.
+/// Reads an attribute that is a list of at most `most` texts.
 void get(const Handle& object, const std::string& attribute, std::vector<std::string>& texts,
          std::uint64_t most = 1'000'000);
 
-/// A dataset to be read; its shape is known.
+/// An open dataset of known shape, not yet read.
 struct Dataset {
   Handle id;
   std::string name;
@@ -145,8 +145,8 @@ struct Dataset {
   /// Entries in total.
   std::size_t count() const { return rows * columns; }
 };
-/// Throws Fault unless it has the type and rows like this, with any_columns two dimensions.
-/// Allocates nothing; `budget` is the largest number of bytes it may take in memory.
+/// Opens a dataset, allocating nothing. Throws Fault unless its type is `type`, its rows are like
+/// `row` (any_columns: it has two dimensions) and reading it takes at most `budget` bytes.
 Dataset open_array(const Handle& group, const std::string& name, ValueType type,
                    std::uint64_t budget, const Row& row);
 /// Reads all entries into `values`, which has room for them.

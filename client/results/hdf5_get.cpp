@@ -36,7 +36,7 @@ bool is(const Handle& type, ValueType wanted) {
 
 struct Attribute {
   Handle id;
-  Handle type;  ///< its own: HDF5 does not convert between ASCII and UTF-8
+  Handle type;  ///< as in the file, since HDF5 does not convert between ASCII and UTF-8
   hssize_t count;
 };
 
@@ -56,8 +56,8 @@ hid_t native(ValueType type) {
                                     : H5T_NATIVE_UINT8;
 }
 
-/// Fills in `count` values by `read(type in memory, where to)`. Texts, of HDF5's type `own`, are
-/// copied out of HDF5's memory, which is freed.
+/// Fills in `count` values by calling read(type in memory, destination). Texts have HDF5's type
+/// `own`; they are copied out of HDF5's memory, which is then freed.
 template <class Read>
 void read_entries(ValueType type, const Handle& own, std::size_t count, void* values,
                   const Read& read) {
@@ -93,7 +93,7 @@ Handle open_dataset(const Handle& group, const std::string& name) {
           "dataset " + name + " is damaged"};
 }
 
-/// Of a type that is not the one wanted, for people.
+/// Describes the type of a file in words, for the message that another type was expected.
 std::string description(const Handle& type) {
   const std::string bits = std::to_string(8 * H5Tget_size(type.get()));
   switch (H5Tget_class(type.get())) {
@@ -126,7 +126,7 @@ std::string shape_text(const Handle& space) {
   return text + ")";
 }
 
-/// "lzf (filter 32000)": its registered name where we know it, else what the file calls it.
+/// "lzf (filter 32000)": the filter's registered name if we know it, else its name in the file.
 std::string filter_text(H5Z_filter_t filter, const char* name) {
   static const std::map<H5Z_filter_t, const char*> known{
       {H5Z_FILTER_SZIP, "szip"}, {305, "lzo"},   {307, "bzip2"},        {32000, "lzf"},
@@ -138,7 +138,7 @@ std::string filter_text(H5Z_filter_t filter, const char* name) {
                      text.empty() ? "" : ")");
 }
 
-/// A dataset that this library cannot unpack is not damaged.
+/// Throws Fault if HDF5 lacks a filter, lest a dataset it cannot unpack is called damaged.
 void require_filters(const Handle& properties, const std::string& what) {
   const int count = H5Pget_nfilters(properties.get());
   for (int i = 0; i < count; ++i) {
@@ -167,7 +167,7 @@ Handle open_root(const std::filesystem::path& path, const std::string& cure) {
   if (is_hdf5 < 0) throw Error(path.string(), "cannot be opened", "check its permissions");
   if (is_hdf5 == 0) throw Error(path.string(), "is not an HDF5 file", cure);
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "HDF5 does not start");
-  // Reading needs no lock, and some network file systems have none.
+  // Reading needs no lock, and some network file systems do not support locks.
   H5Pset_file_locking(access.get(), false, true);
   const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get()), H5Fclose,
                     "is truncated or damaged");
@@ -175,7 +175,7 @@ Handle open_root(const std::filesystem::path& path, const std::string& cure) {
 }
 
 std::uint64_t memory_budget(const std::filesystem::path& path) {
-  constexpr std::uint64_t largest_ratio = 1032;  // of deflate
+  constexpr std::uint64_t largest_ratio = 1032;  // to which deflate compresses
   return std::filesystem::file_size(path) * largest_ratio;
 }
 

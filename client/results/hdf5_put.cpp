@@ -9,20 +9,21 @@
 namespace anticrack::results::hdf5 {
 namespace {
 
-/// Arrays up to this lie in their dataset's header, under its checksum: HDF5 writes them in half
-/// the time of a chunk.
+/// Arrays of up to so many entries lie in their dataset's header, under its checksum: HDF5 writes
+/// them in half the time that a chunk takes.
 constexpr std::size_t compact_entries = 1024;
-/// Below this many entries compression saves nothing to speak of.
+/// Below this number of entries compression saves next to nothing.
 constexpr std::size_t compressed_from = 2048;
 constexpr std::size_t chunk_entries = 65536;
-/// Higher levels take several times as long and save a twentieth.
+/// Higher levels take several times as long and save only a twentieth of the size.
 constexpr unsigned deflate_level = 1;
 
 void require(herr_t status, const std::string& what) {
   if (status < 0) throw Fault(what);
 }
 
-// A file has thousands of datasets: what they share is made once and left to HDF5's end.
+// A file has thousands of datasets: the types and properties they share are made once and never
+// closed.
 
 hid_t text_type() {
   static const hid_t id = [] {
@@ -34,7 +35,7 @@ hid_t text_type() {
   return id;
 }
 
-/// Values as HDF5 takes them: their types in the file and in memory, and where they are.
+/// Values as HDF5 takes them: their types in the file and in memory, and a pointer to them.
 struct Values {
   Values(ValueType type, const void* values, std::size_t count) : data(values) {
     switch (type) {
@@ -88,7 +89,7 @@ Handle new_creation_properties(std::size_t rows, const Row& row) {
   return properties;
 }
 
-/// Of a dataset of this shape; 0 rows: of one without a checksum.
+/// Creation properties of a dataset of this shape; 0 rows stand for a dataset without a checksum.
 hid_t creation_properties(std::size_t rows, const Row& row) {
   static std::map<std::array<std::size_t, 3>, hid_t> known;
   const auto place = known.try_emplace({rows, row.columns, row.depth}, H5I_INVALID_HID).first;
@@ -96,7 +97,7 @@ hid_t creation_properties(std::size_t rows, const Row& row) {
   return place->second;
 }
 
-/// A dataset of one chunk needs no table of 521 to find it.
+/// Access properties for a dataset of one chunk, which needs no hash table of 521 slots.
 hid_t one_chunk() {
   static const hid_t id = [] {
     const std::string what = "HDF5 has no access properties";
@@ -109,7 +110,8 @@ hid_t one_chunk() {
   return id;
 }
 
-/// Texts are few: HDF5 would clear a megabyte for each list of them.
+/// Transfer properties with a small buffer for texts, which are few: by default HDF5 clears a
+/// megabyte for each list of texts.
 hid_t text_transfer() {
   static const hid_t id = [] {
     const std::string what = "HDF5 has no transfer properties";
@@ -123,8 +125,8 @@ hid_t text_transfer() {
 }  // namespace
 
 Quiet::Quiet() {
-  // Before anything else of HDF5: at the end of the program it would free thousands of pieces one
-  // by one, when no file is open.
+  // This has to precede all other calls of HDF5, which otherwise frees thousands of pieces one by
+  // one when the program ends, though no file is open any more.
   [[maybe_unused]] static const herr_t no_cleanup = H5dont_atexit();
   H5Eget_auto2(H5E_DEFAULT, &_function, &_data);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
@@ -143,7 +145,7 @@ Handle create_group(const Handle& parent, const std::string& name) {
   static const hid_t creation = [] {
     const std::string what = "HDF5 has no creation properties";
     Handle properties = without_times(H5P_GROUP_CREATE);
-    // A load's attributes and members stay in its header: beyond 8 HDF5 makes a heap for them.
+    // Keeps a load's attributes and members in its header; by default HDF5 makes a heap beyond 8.
     require(H5Pset_attr_phase_change(properties.get(), 64, 32), what);
     require(H5Pset_link_phase_change(properties.get(), 32, 16), what);
     return properties.release();
@@ -174,7 +176,7 @@ Handle put_array(const Handle& group, const std::string& name, ValueType type, c
   const std::array<hsize_t, 3> shape{rows, row.columns, row.depth};
   const Handle space(H5Screate_simple(row.rank(), shape.data(), nullptr), H5Sclose, what);
   const Values source(type, values, count);
-  // HDF5 refuses a checksum over text, which would cover pointers into the heap.
+  // HDF5 refuses a checksum over text, as it would cover only pointers into the heap.
   const bool is_text = type == ValueType::text;
   Handle dataset(
       H5Dcreate2(group.get(), name.c_str(), source.in_file, space.get(), H5P_DEFAULT,

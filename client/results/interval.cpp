@@ -16,7 +16,7 @@ std::string interval(double lower, double upper) {
   const double size = std::max(std::abs(middle), half);
   if (!(size > 0)) return "0 +- 0";
   const auto decade = [](double value) { return static_cast<int>(std::floor(std::log10(value))); };
-  constexpr int most_digits = 6;  // behind the first of the larger number
+  constexpr int most_digits = 6;  // after the first digit of the larger number
   const int exponent = decade(size) < -4 || decade(size) > 5 ? decade(size) : 0;
   const int behind =
       std::min(most_digits - decade(size), half > 0 ? 1 - decade(half) : most_digits);

@@ -10,12 +10,12 @@
 namespace anticrack::results {
 namespace {
 
-/// A slope of about 0.4 in a parabola, whose square, which the equation neglects, is 0.16.
+/// A parabola of this height has a slope of about 0.4; the equation neglects its square, 0.16.
 constexpr double largest_part = 0.1;
 
 struct Largest {
   double u = 0;
-  std::string_view load;  ///< of a sweep: empty
+  std::string_view load;  ///< empty for a sweep
 
   void take(const std::vector<double>& values, std::string_view of) {
     for (const double value : values)

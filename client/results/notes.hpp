@@ -8,9 +8,9 @@
 
 namespace anticrack::results {
 
-/// What a reader of the answers should know before believing them: units of which one is missing;
-/// where the case gives a unit of length, u of more than a tenth of the sheet's smaller side, as
-/// the equation is that of small slopes. Empty: nothing.
+/// What a reader should know before believing the answers: that one of the units is missing; if
+/// the case gives a unit of length, that u exceeds a tenth of the sheet's smaller side, as the
+/// equation holds for small slopes. Empty if there is nothing to say.
 std::vector<std::string> notes_on(const Result& result);
 
 }  // namespace anticrack::results

@@ -20,7 +20,7 @@ using hdf5::get_values;
 using hdf5::Handle;
 using hdf5::open_group;
 
-/// get(group) of each of the groups "0", "1", ... of a list. Throws Fault for other names.
+/// Calls get(group) for each of the groups "0", "1", ... of a list. Throws Fault for other names.
 template <class Get>
 auto list_of(const Handle& parent, const char* name, const Get& get) {
   const Handle list = open_group(parent, name);
@@ -73,7 +73,7 @@ Load get_load(const Handle& group, std::uint64_t budget) {
   return load;
 }
 
-/// Loads in their order in the job: groups are listed by name.
+/// Reads the loads and puts them in the order of the job, as HDF5 lists groups by name.
 std::vector<Load> get_loads(const Handle& root, std::uint64_t budget) {
   const Handle list = open_group(root, "loads");
   const std::vector<std::string> names = hdf5::names_in(list);
@@ -118,7 +118,7 @@ Result get_result(const Handle& root, std::uint64_t budget) {
   return result;
 }
 
-/// The number behind the slash; empty where the text before it is not that of `format`.
+/// The number after the slash; empty if the text before it differs from that of `format`.
 std::optional<int> version_of(std::string_view text) {
   const std::string_view family = format.substr(0, format.find('/') + 1);
   int version = 0;
@@ -129,7 +129,7 @@ std::optional<int> version_of(std::string_view text) {
   return version;
 }
 
-/// Throws Error unless the root says `format`.
+/// Throws Error unless the root's attribute `format` is `format`.
 void check_format(const fs::path& path, const Handle& root) {
   const char* cure = "name a file that `anticrack run -o` wrote";
   if (!hdf5::has_attribute(root, "format"))

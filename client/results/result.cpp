@@ -14,7 +14,7 @@
 namespace anticrack::results {
 namespace {
 
-/// Keeps the first fault only: later ones often follow from it.
+/// Keeps the first fault only, as later faults often follow from it.
 class Faults {
  public:
   bool any() const noexcept { return !_first.empty(); }
@@ -30,7 +30,7 @@ class Faults {
     }
   }
 
-  /// Every array of the tables has `want` entries.
+  /// Requires that every array of the tables has `want` entries.
   template <class Record, class... Tables>
   void lengths(const std::string& at, const Record& record, std::size_t want, const char* of,
                const Tables&... tables) {
@@ -233,7 +233,7 @@ std::string fields_cure(const Result& result) {
 }
 
 bool is_load_name(std::string_view name) noexcept {
-  // Not std::isalnum: that depends on the locale.
+  // std::isalnum would depend on the locale.
   const auto alphanumeric = [](char c) {
     return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
   };

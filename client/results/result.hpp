@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The whole answer to a run, for the result file and tables: the API's messages, and beside them
-// the arrays of its blocks.
+// The whole answer to a run, for the result file and tables: the API's messages together with the
+// arrays of the server's blocks.
 //
 // The membrane problem, its notation and equation numbers: Rudoy & Shcherbakov (2016). Index base
 // 0. Lengths, displacements and forces are in the units of the case (dimensionless in the paper);
-// times are in seconds. [u] = u+ - u-, the plus side lies on the left of an interface.
+// times are in seconds. [u] = u+ - u-; the plus side lies on the left of an interface.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +22,8 @@
 namespace anticrack::results {
 
 struct Mesh {
-  v1::Mesh info;           ///< without its definition and the segments of its interfaces
-  std::vector<double> xy;  ///< (n,2) row-major
+  v1::Mesh info;                        ///< without the definition and the interfaces' segments
+  std::vector<double> xy;               ///< (n,2) row-major
   std::vector<std::int32_t> triangles;  ///< (m,3) row-major, counterclockwise
   std::vector<std::int32_t> subdomain;  ///< (m) index into info.subdomains
   std::vector<std::int32_t> boundary;   ///< (b,2) row-major, edges where u is prescribed
@@ -35,10 +35,10 @@ struct Mesh {
 
 /// A chain of k nodes; a closed one repeats its first node at the end.
 struct Interface {
-  std::vector<double> s;                ///< (k) arc length from its start, increasing
-  std::vector<double> x, y;             ///< (k)
-  std::vector<std::int32_t> kind;       ///< (k) InterfaceKind; a tip's is that of its neighbour
-  std::vector<std::int32_t> edge_kind;  ///< (k-1)
+  std::vector<double> s;                     ///< (k) arc length from its start, increasing
+  std::vector<double> x, y;                  ///< (k)
+  std::vector<std::int32_t> kind;            ///< (k) InterfaceKind; a tip has its neighbour's kind
+  std::vector<std::int32_t> edge_kind;       ///< (k-1)
   std::vector<std::int32_t> edge_inclusion;  ///< (k-1) index into Mesh.inclusions, -1 for none
 
   /// k of the shapes above.
@@ -48,7 +48,7 @@ struct Interface {
 
 inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// Along one interface, all (k).
+/// Values on the k nodes of one interface; every array is (k).
 struct Trace {
   std::vector<double> u_minus;
   std::vector<double> u_plus;
@@ -74,8 +74,8 @@ struct History {
   bool operator==(const History&) const = default;
 };
 
-/// u on the nodes of one subdomain, with its own trace on interfaces. A node inside a slit occurs
-/// twice, once per face; `triangles` refer to the one of their face.
+/// u on the nodes of one subdomain, with the subdomain's own trace on interfaces. A node inside a
+/// slit occurs twice, once per face; `triangles` refer to the copy on their own face.
 struct Field {
   std::vector<std::int32_t> nodes;      ///< (n_i) index into Mesh::xy
   std::vector<std::int32_t> triangles;  ///< (m_i,3) row-major, index into nodes
@@ -84,40 +84,40 @@ struct Field {
 };
 
 struct Load {
-  /// Its name is [A-Za-z0-9][A-Za-z0-9_. -]{0,63}, unique. What the method does not compute is NaN
-  /// or not set.
+  /// The name is unique and matches [A-Za-z0-9][A-Za-z0-9_. -]{0,63}. Numbers that the method does
+  /// not compute are NaN or not set.
   v1::LoadCaseAnswer answer;
-  std::vector<Trace> traces;  ///< one per Result::interfaces, or none
+  std::vector<Trace> traces;  ///< one for each of Result::interfaces, or none
   History history;
   std::vector<Field> fields;  ///< one per subdomain, or none (not asked for)
-  /// (m) the part of each triangle in error_bound^2; empty: not asked for, or no bounds.
+  /// (m) the part of each triangle in error_bound^2; empty if not asked for or without bounds.
   std::vector<double> indicator;
-  /// Of a job with an accuracy, each on a finer mesh than the one before and with the answer of
-  /// this load alone.
+  /// Stages of a job with an accuracy, each on a finer mesh than the stage before and with the
+  /// answer to this load only.
   std::vector<v1::Stage> stages;
 
   const std::string& name() const noexcept { return answer.name(); }
-  /// Whether the numbers of the answer mean anything.
+  /// Whether the answer has numbers: the load is `converged` or `not_converged`.
   bool has_answer() const noexcept {
     return answer.status() == v1::LoadCaseAnswer::STATUS_CONVERGED ||
            answer.status() == v1::LoadCaseAnswer::STATUS_NOT_CONVERGED;
   }
 };
 
-/// A LoadCaseAnswer.Status as a file has it: "not_converged".
+/// The name of a LoadCaseAnswer.Status in files: "not_converged".
 std::string status_name(int status);
 
-/// The largest relative residual; NaN where one of them is, or none is known.
+/// The largest relative residual; NaN if one of the residuals is NaN or none is known.
 double largest_kkt(const v1::LoadCaseAnswer& answer) noexcept;
 
-/// The unit of what has this dimension, in F (force) and L (length): "F/L^2" is "N/mm^2". Any
-/// other text, as "s", is a unit already. "-" where there is none, or where the unit of the
-/// length or the force has no name.
+/// The unit of a quantity by its dimension in F (force) and L (length): "F/L^2" gives "N/mm^2".
+/// Any other text, as "s", is a unit already. Returns "-" for an empty dimension, and if the case
+/// does not name the unit of the length or the force.
 std::string unit_of(const v1::Units& units, std::string_view dimension);
-/// The same for a label: empty in place of "-".
+/// The unit as unit_of, for a label: empty instead of "-".
 std::string label_of(const v1::Units& units, std::string_view dimension);
 
-/// "x [mm]"; the name alone where the unit is empty.
+/// Returns "x [mm]", or the name alone if the unit is empty.
 std::string labelled(const std::string& name, const std::string& unit);
 
 struct Result {
@@ -126,30 +126,31 @@ struct Result {
   std::string client_version;
   std::string server_version;
   std::string job_name;      ///< "jobs/ID"
-  std::string not_reached;   ///< which accuracy of the job, what stopped it, and the cure
-  double total_seconds = 0;  ///< as the user waited
+  std::string not_reached;   ///< accuracy that was not reached, what stopped the job, the cure
+  double total_seconds = 0;  ///< how long the user waited
   v1::Units units;
-  v1::Solver solver;  ///< of all loads, with the defaults of the API where nothing was asked for
+  v1::Solver solver;  ///< of all loads; what was not asked for has the API's default
   Mesh mesh;
   std::vector<Interface> interfaces;  ///< those of mesh.info
-  std::vector<Load> loads;            ///< of a sweep: its kept rows, without history
-  std::optional<Sweep> sweep;         ///< of a sweep
+  std::vector<Load> loads;            ///< if a sweep: its kept rows, without history
+  std::optional<Sweep> sweep;         ///< set if the job is a sweep
 };
 
-/// Of all load cases.
+/// Solve time of all load cases, or of the sweep [s].
 double solve_seconds(const Result& result);
 
-/// "active-set" or "uzawa".
+/// The name of the method: "active-set" or "uzawa".
 std::string method_of(const v1::Solver& solver);
 
-/// The first invariant that does not hold (shapes, index ranges, names, enums, finite coordinates),
-/// as "loads[1].traces[0].jump has 160 entries for 161 nodes"; empty: all hold. O(size).
+/// Describes the first invariant that does not hold (shapes, index ranges, names, enums, finite
+/// coordinates): "loads[1].traces[0].jump has 160 entries for 161 nodes"; empty if none. O(size).
 std::string first_fault(const Result& result);
 
-/// How to get the fields of a result without any: by the job, while the server keeps it, or anew.
+/// Says how to get the missing fields of a result: from the job while the server keeps it, or by
+/// a new run.
 std::string fields_cure(const Result& result);
 
-/// Whether a load may have this name (it becomes the name of a group).
+/// Whether a load may have this name, which becomes the name of a group in the file.
 bool is_load_name(std::string_view name) noexcept;
 
 }  // namespace anticrack::results

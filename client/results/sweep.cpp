@@ -17,7 +17,7 @@ void widen(SweepSummary::Range& range, double value) {
   range.high = std::fmax(range.high, value);
 }
 
-/// By the bounds of an entry, or its value where it has none.
+/// Widens the range to the bounds of an entry, or to its value if it has no bounds.
 void widen(SweepSummary::Range& range, const std::vector<double>& values,
            const std::vector<double>& lower, const std::vector<double>& upper, std::size_t place) {
   const bool bounded = !lower.empty() && std::isfinite(lower[place]);
@@ -80,7 +80,7 @@ std::string counts_fault(const Sweep& sweep) {
   return fits ? "" : fmt::format("sweep counts other rows than its {}", sweep.rows());
 }
 
-/// All bounds or none.
+/// Checks that the sweep has all bounds or none.
 std::string bounds_fault(const Sweep& sweep) {
   const std::size_t rows = sweep.energy_lower.size(), inclusions = sweep.inclusions.size();
   const bool whole = sweep.energy_upper.size() == rows &&

@@ -17,42 +17,42 @@
 namespace anticrack::results {
 
 struct Sweep {
-  std::vector<std::string> loads;       ///< names of the basis; empty for nodal forces
+  std::vector<std::string> loads;       ///< names of the basis loads; empty for nodal forces
   std::vector<std::string> inclusions;  ///< names
   std::string source;                   ///< file of the coefficients or nodal forces
-  std::string error;                    ///< of the first row that failed
-  v1::SweepAnswer answer;               ///< counts of rows by ending, and the worst of them
+  std::string error;                    ///< error of the first row that failed
+  v1::SweepAnswer answer;               ///< counts of rows by status, worst steps and residual
   /// (rows, loads) row-major: row k is the load sum_j c_kj loads[j]. Empty for nodal forces, and if
-  /// unknown: the server does not return them.
+  /// unknown, as the server does not return coefficients.
   std::vector<double> coefficients;
 
-  /// (rows) LoadCaseAnswer.Status; the numbers of a row hold only if converged.
+  /// (rows) LoadCaseAnswer.Status; the numbers of a row are valid only if it converged.
   std::vector<std::int32_t> status;
-  std::vector<std::int32_t> steps;  ///< (rows) of the active set
+  std::vector<std::int32_t> steps;  ///< (rows) steps of the active set
   std::vector<double> energy;       ///< (rows) Pi(u)
-  /// (rows) of the membrane's own Pi, NaN where a row has none; empty: not asked for.
+  /// (rows) bounds of the membrane's exact Pi, NaN if a row has none; empty if not asked for.
   std::vector<double> energy_lower, energy_upper;
   std::vector<double> contact_length;  ///< (rows) over all cracks and delaminated parts
   std::vector<double> kkt;             ///< (rows) largest relative residual
   std::vector<double> displacement;    ///< (rows, inclusions) row-major: A of equation (5)
-  std::vector<double> displacement_lower, displacement_upper;  ///< of it, as those of the energy
-  std::vector<double> slope;                ///< (rows, inclusions, 2) Bx, By; empty: none tilts
+  std::vector<double> displacement_lower, displacement_upper;  ///< bounds of A, as of the energy
+  std::vector<double> slope;                ///< (rows, inclusions, 2) Bx, By; empty if none tilts
   std::vector<std::uint8_t> contact;        ///< (rows, contacts) row-major: 1 closed under pressure
-  std::vector<std::int32_t> contact_nodes;  ///< (contacts, 2): interface, and node of it
+  std::vector<std::int32_t> contact_nodes;  ///< (contacts, 2): interface, and its node
 
   /// Rows whose traces were kept, ascending: Result::loads has one load for each, "row-17".
   std::vector<std::int32_t> kept;
 
-  /// Whether the numbers of a row hold.
+  /// Whether a row converged, so that its numbers are valid.
   bool converged(std::size_t row) const noexcept {
     return status[row] == v1::LoadCaseAnswer::STATUS_CONVERGED;
   }
-  /// Length of the columns; number of crack nodes.
+  /// Number of rows, and of crack nodes.
   std::size_t rows() const noexcept { return status.size(); }
   std::size_t contacts() const noexcept { return contact_nodes.size() / 2; }
-  /// The number for a word of a shape: "rows", "contacts", "inclusions", "loads", "kept".
+  /// The length that a word of a shape means: "rows", "contacts", "inclusions", "loads", "kept".
   std::size_t extent(std::string_view word) const noexcept;
-  /// Bx (part 0) or By (part 1) of an inclusion in a row; 0 where none tilts.
+  /// Bx (part 0) or By (part 1) of an inclusion in a row; 0 if no inclusion tilts.
   double slope_at(std::size_t row, std::size_t inclusion, std::size_t part) const noexcept {
     return slope.empty() ? 0 : slope[(row * inclusions.size() + inclusion) * 2 + part];
   }
@@ -61,38 +61,39 @@ struct Sweep {
 /// Ranges over the converged rows.
 struct SweepSummary {
   struct Range {
-    double low = std::numeric_limits<double>::quiet_NaN();  ///< NaN where no row converged
+    double low = std::numeric_limits<double>::quiet_NaN();  ///< NaN if no row converged
     double high = std::numeric_limits<double>::quiet_NaN();
     bool nonzero() const noexcept { return low < 0 || high > 0; }
   };
-  std::vector<Range> displacement;          ///< one an inclusion
-  std::vector<std::array<Range, 2>> slope;  ///< of Bx and By, one an inclusion
+  std::vector<Range> displacement;          ///< of A, one per inclusion
+  std::vector<std::array<Range, 2>> slope;  ///< of Bx and By, one per inclusion
   Range contact_length, energy;
-  /// Of the membrane's own A and energy: by the bounds of a row, or its value where it has none.
+  /// Ranges of the membrane's exact A and energy: from the bounds of a row or, without bounds, from
+  /// its value.
   std::vector<Range> displacement_bounds;
   Range energy_bounds;
   std::size_t bounded = 0;  ///< converged rows whose energy has bounds
-  /// Of these: the largest width of the bounds over the energy's size, and half the largest width
-  /// of the bounds of A, of all inclusions; NaN: there are none.
+  /// Over the bounded rows: the largest width of the energy's bounds relative to the energy, and
+  /// half the largest width of the bounds of A over all inclusions; NaN if no row is bounded.
   double energy_width = std::numeric_limits<double>::quiet_NaN();
   double displacement_error = std::numeric_limits<double>::quiet_NaN();
 
-  /// Whether the inclusion has a slope in a row that converged.
+  /// Whether the inclusion has a slope other than 0 in a converged row.
   bool tilted(std::size_t inclusion) const noexcept {
     return std::ranges::any_of(slope[inclusion], &Range::nonzero);
   }
-  /// Whether any has.
+  /// Whether any inclusion has a slope other than 0 in a converged row.
   bool tilted() const noexcept;
 };
 
-/// O(rows).
+/// The ranges and the widths of the bounds over the converged rows. O(rows).
 SweepSummary summary(const Sweep& sweep);
 
-/// "row-17".
+/// The name of a row's load: "row-17".
 std::string row_name(std::int64_t row);
 
-/// The first invariant that does not hold (lengths, ranges, enums); empty: all hold.
-/// `interface_nodes`: numbers of nodes of the interfaces. O(size).
+/// Describes the first invariant that does not hold (lengths, ranges, enums); empty if all hold.
+/// `interface_nodes` has the number of nodes of each interface. O(size).
 std::string first_fault(const Sweep& sweep, const std::vector<std::size_t>& interface_nodes);
 
 }  // namespace anticrack::results

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // What a result file holds beside the arrays of arrays/result_arrays.hpp, in the order of the file.
-// The table of client/RESULT.md is made of these: see tests/client/results/result_table_test.cpp.
+// client/RESULT.md has a table made of these: see tests/client/results/result_table_test.cpp.
 #pragma once
 
 #include "arrays/result_arrays.hpp"
@@ -14,7 +14,7 @@ using arrays::explained;
 using arrays::optional;
 using arrays::scalar;
 
-// Of the file: attributes of /.
+// Attributes of the root group /.
 
 inline constexpr auto result = std::tuple{
     scalar("title", &Result::title, "of the case"),
@@ -27,7 +27,7 @@ inline constexpr auto result = std::tuple{
     scalar("total_seconds", &Result::total_seconds, "as the user waited", "s"),
 };
 
-// Of /mesh, beside the message Mesh: what ReadMesh streams under the same names.
+// Datasets of /mesh, beside the message Mesh; ReadMesh streams them under the same names.
 
 inline constexpr auto mesh = std::tuple{
     array("nodes", "n,2", &Mesh::xy, "coordinates", "L"),
@@ -36,7 +36,7 @@ inline constexpr auto mesh = std::tuple{
     array("boundary", "b,2", &Mesh::boundary, "edges where u is prescribed"),
 };
 
-// Of /interfaces/I, behind arrays::interface_nodes: arrays of the edges.
+// Datasets of /interfaces/I for the edges; they follow those of arrays::interface_nodes.
 
 inline constexpr auto edges = std::tuple{
     explained("edge_kind", "k-1", &Interface::edge_kind,
@@ -45,7 +45,7 @@ inline constexpr auto edges = std::tuple{
               "index into /mesh/inclusions, -1 none"),
 };
 
-// Of /loads/NAME, beside the answer.
+// The dataset of /loads/NAME, beside the answer.
 
 inline constexpr auto indicator = std::tuple{
     optional(explained("indicator", "m", &Load::indicator,
@@ -54,7 +54,7 @@ inline constexpr auto indicator = std::tuple{
                        "F L")),
 };
 
-// Of /sweep, beside the message SweepAnswer and around the arrays of ReadResult.
+// Attributes and datasets of /sweep, beside the message SweepAnswer and the arrays of ReadResult.
 
 inline constexpr auto sweep = std::tuple{
     scalar("source", &Sweep::source, "file of the coefficients or nodal forces"),

@@ -9,10 +9,11 @@
 namespace anticrack::results {
 
 /// Type of the entries of an array, in a block and in a file. The first three have the numbers of
-/// the API's ArrayLayout.Type; blocks hold no others.
+/// the API's ArrayLayout.Type; a block holds no other types.
 enum class ValueType { float64 = 1, int32, uint8, int64, text };
 
-/// Of double, std::int32_t and enums of that size, std::uint8_t, std::int64_t, std::string.
+/// The ValueType of double, std::int32_t or an enum of its size, std::uint8_t, std::int64_t, or
+/// std::string.
 template <class T>
 inline constexpr ValueType value_type = [] {
   static_assert(std::is_same_v<T, double> || std::is_same_v<T, std::int32_t> ||
@@ -26,7 +27,7 @@ inline constexpr ValueType value_type = [] {
                                           : ValueType::int32;
 }();
 
-/// For messages: "float64".
+/// The name of a type in messages: "float64".
 constexpr const char* name_of(ValueType type) {
   return type == ValueType::float64 ? "float64"
          : type == ValueType::int32 ? "int32"
@@ -34,7 +35,7 @@ constexpr const char* name_of(ValueType type) {
          : type == ValueType::int64 ? "int64"
                                     : "variable-length text";
 }
-/// Size of an entry; of text that of the pointer to it.
+/// Size of an entry in bytes; a text counts as the pointer to it.
 constexpr std::size_t bytes_of(ValueType type) {
   return type == ValueType::int32 ? 4 : type == ValueType::uint8 ? 1 : 8;
 }

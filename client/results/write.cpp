@@ -75,8 +75,8 @@ void put_all(const Handle& root, const Result& result) {
   if (result.sweep) put_sweep(root, *result.sweep, units);
 }
 
-/// Whether a file holds what the result makes again: then it is no loss. A sweep's coefficients are
-/// not in its case.
+/// Whether the existing file is a result of the same job or case, so that replacing it loses
+/// nothing. A case does not suffice for a sweep, as it lacks the coefficients.
 bool holds_the_same(const std::filesystem::path& path, const Result& result) {
   try {
     const Handle root = hdf5::open_root(path, "");

@@ -10,7 +10,7 @@
 #include <iostream>
 #include <stdexcept>
 
-// As CreateMeshRequest of anticrack/v1/mesh.proto has it; code can set the same fields one by one.
+// The text form of anticrack/v1/mesh.proto's CreateMeshRequest; code can set its fields as well.
 constexpr const char* membrane = R"(geometry {
   boundary { x: -1 y: -1 } boundary { x: 1 y: -1 } boundary { x: 1 y: 1 } boundary { x: -1 y: 1 }
   interfaces { name: "sigma" polyline { points { x: -1 } points { x: 1 } } }
@@ -37,7 +37,7 @@ int main(int argc, char** argv) try {
   for (const v1::LoadCaseAnswer& answer : job.status().answers()) {
     for (const v1::InclusionAnswer& inclusion : answer.inclusions())
       std::cout << answer.name() << ": A = " << inclusion.displacement() << '\n';
-    // Such an answer is the last iterate and not a solution; the reason names the cure.
+    // The answer is then the last iterate and not a solution; the reason names the cure.
     if (answer.status() == v1::LoadCaseAnswer::STATUS_NOT_CONVERGED)
       std::cerr << answer.name() << " did not converge: " << answer.reason() << '\n';
   }

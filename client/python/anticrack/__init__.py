@@ -30,7 +30,7 @@ read = Result.read
 
 
 def __getattr__(name: str) -> Any:
-    """What takes time to import comes when it is used."""
+    """Imports modules that take long to import only when they are used."""
     if name in ("aio", "draw"):
         return importlib.import_module("." + name, __name__)
     raise AttributeError(f"module 'anticrack' has no attribute '{name}'")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""python3 -m anticrack plot, which `anticrack plot` runs, and what `anticrack mesh show` draws with."""
+"""Runs python3 -m anticrack, which the commands `anticrack plot` and `anticrack mesh show` call to draw."""
 import sys
 
 from .commands import main

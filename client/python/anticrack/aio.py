@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The client for asyncio: as anticrack.connect and anticrack.local, with await."""
+"""The client for asyncio: connect and local as in the package anticrack, but their calls are awaited."""
 from __future__ import annotations
 
 import asyncio
@@ -22,7 +22,7 @@ from .v1 import mesh_pb2, server_pb2, solve_pb2
 
 
 class AsyncTransport(Transport):
-    """The same calls on grpc.aio."""
+    """The calls of Transport on grpc.aio."""
     calls = grpc.aio
 
     async def answer(self, call: Any) -> Any:
@@ -36,7 +36,7 @@ class AsyncTransport(Transport):
 
 
 class AsyncJob(JobState):
-    """As anticrack.Job."""
+    """A job as anticrack.Job, whose calls are awaited."""
 
     async def refresh(self) -> AsyncJob:
         self.message = await self._session.job(self.name)
@@ -69,7 +69,7 @@ class AsyncJob(JobState):
 
 
 class AsyncClient:
-    """As anticrack.Client."""
+    """A client as anticrack.Client, whose calls are awaited."""
 
     def __init__(self, session: Session) -> None:
         self._session = session
@@ -112,11 +112,11 @@ class AsyncClient:
 def connect(address: str | None = None, *, tls: bool = False, ca: Path | None = None, cert: Path | None = None,
             key: Path | None = None, token: str | None = None, token_file: Path | None = None,
             patience: float = 300.0, first_contact: float = 3.0) -> AsyncClient:
-    """As anticrack.connect; call it where a loop runs."""
+    """Makes a client as anticrack.connect does; an event loop must be running."""
     return AsyncClient(session_to(AsyncTransport, address, Credentials(tls, ca, cert, key, token_of(token, token_file)),
                                   Backoff(patience, first_contact)))
 
 
 def local(*flags: str, program: Path | None = None) -> AsyncClient:
-    """As anticrack.local, and as connect called where a loop runs."""
+    """Makes a client of a private server as anticrack.local does; an event loop must be running."""
     return AsyncClient(session_of_own(AsyncTransport, *flags, program=program))

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Arrays as people have them: all that are taken go through `array_of`, or `plain` where lists are as good. What
-numpy would read as something else than it means - masked entries, units, times, records - is refused."""
+"""Takes arrays as people have them. All of them pass through `array_of`, or through `plain` where lists will do.
+Values whose meaning numpy would change - masked entries, units, times, records - are refused."""
 from __future__ import annotations
 
 import contextlib
@@ -12,15 +12,15 @@ from typing import Any
 import numpy as np
 import numpy.typing
 
-Array = numpy.typing.NDArray[Any]  # docstrings say its shape
-Fail = Callable[[str], Exception]  # makes the exception of a problem and its cure
+Array = numpy.typing.NDArray[Any]  # docstrings state the shape
+Fail = Callable[[str], Exception]  # makes the exception for a text with problem and cure
 
 _NO_NUMBERS = {"b": "true and false", "c": "complex numbers", "S": "bytes", "U": "text", "M": "times", "m": "times",
                "V": "records of a structured array"}
 
 
 def is_array(value: Any) -> bool:
-    """A list, or what numpy reads as an array of at least one dimension."""
+    """Whether the value is a list, or numpy reads it as an array of at least one dimension."""
     if isinstance(value, (list, tuple, range)):
         return True
     if isinstance(value, (str, bytes, bytearray, Mapping, np.generic)):
@@ -30,16 +30,17 @@ def is_array(value: Any) -> bool:
 
 
 def is_number(value: Any) -> bool:
-    """A real one of Python or numpy."""
+    """Whether the value is a real number of Python or numpy."""
     return isinstance(value, numbers.Real) and not isinstance(value, (bool, np.timedelta64))
 
 
 def array_of(values: Any, wanted: tuple[str | int, ...], fail: Fail, whole: bool = False,
              in_order: bool = False) -> Array:
-    """A copy in memory of its own: float64, or int64 of whole numbers, finite and C-contiguous, whatever type, order
-    of bytes or of axes, stride or class `values` has.
+    """Copies `values`, of whatever type, byte order, axis order, stride or class, to a finite C-contiguous array of
+    float64, or of int64 if `whole`.
 
-    wanted: the shape, a word for a length that is free; none of them is 0. in_order: the order is that of the mesh."""
+    wanted: the shape, with a word for each length that is free; no length may be 0. in_order: the entries have the
+    order of the mesh, so labels that say another order are refused."""
     array = _read(_checked(values, fail, in_order), fail)
     if array.dtype.kind == "O":
         array = _of_objects(array, values, fail)
@@ -61,7 +62,7 @@ def array_of(values: Any, wanted: tuple[str | int, ...], fail: Fail, whole: bool
 
 
 def plain(value: Any, fail: Fail) -> Any:
-    """Of an array the same as lists, of a single number or text that one; all else as it is."""
+    """Turns an array into lists, and an array of no dimension into its number or text; returns all else as it is."""
     if isinstance(value, (list, tuple, str, np.generic)) or not (hasattr(value, "__array__") or is_array(value)):
         return value
     array = _read(_checked(value, fail), fail)
@@ -71,10 +72,10 @@ def plain(value: Any, fail: Fail) -> Any:
 
 
 def _read(values: Any, fail: Fail) -> Array:
-    """Without the class that it has."""
+    """Reads values as a plain numpy array, dropping any subclass."""
     try:
         return np.asarray(values)
-    except Exception as error:  # of lists of several lengths, or whatever an __array__ raises
+    except Exception as error:  # lists differ in length, or __array__ raises anything
         uneven = isinstance(error, ValueError) and "inhomogeneous" in str(error)
         told = "its lists are not all of one length" if uneven else str(error) or type(error).__name__
         raise fail(f"{_kind(values)} cannot be read as an array: {told}") from None
@@ -86,7 +87,7 @@ def _kind(values: Any) -> str:
 
 
 def _of_objects(array: Array, values: Any, fail: Fail) -> Array:
-    """Of numbers of Python, as pandas has them beside entries that are missing; the others are told."""
+    """Reads an array of Python objects as numbers, as pandas has them beside missing entries; raises for others."""
     if array.ndim == 0:
         raise fail(f"{_kind(values)} is no array of numbers; give a list, or what numpy.asarray makes an array of")
     for at, value in np.ndenumerate(array):
@@ -100,8 +101,8 @@ def _of_objects(array: Array, values: Any, fail: Fail) -> Array:
 
 
 def _checked(values: Any, fail: Fail, in_order: bool = False) -> Any:
-    """Refuses what numpy would take, though it means something else; in lists as well, in which it would not see
-    what is no sequence as an array."""
+    """Refuses values that numpy would take though they mean something else. Looks into lists too, in which numpy would
+    not read an object that is no sequence as an array."""
     if isinstance(values, (list, tuple)):
         if all(type(item) in (float, int) for item in values):
             return values
@@ -124,7 +125,7 @@ def _checked(values: Any, fail: Fail, in_order: bool = False) -> Any:
 
 
 def _refuse_units(values: Any, fail: Fail) -> None:
-    """Of astropy, pint, unyt: numpy leaves them out."""
+    """Refuses units of astropy, pint and unyt, which numpy would drop."""
     for name in ("units", "unit"):
         given = isinstance(values, np.ndarray) or hasattr(type(values), name)
         unit = str(getattr(values, name, "") or "") if given else ""
@@ -134,7 +135,7 @@ def _refuse_units(values: Any, fail: Fail) -> None:
 
 
 def _refuse_labels(values: Any, fail: Fail, in_order: bool) -> None:
-    """Of pandas: labels that say another order than that of the entries."""
+    """Refuses labels of pandas that say another order than that of the entries."""
     axes = {axis: getattr(values, axis) for axis in ("index", "columns") if hasattr(values, axis)}
     for axis, labels in axes.items():
         if in_order and np.asarray(labels).dtype.kind in "iuf" and not labels.is_monotonic_increasing:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Named arrays in one byte string, as streamed by ReadMesh and ReadResult."""
+"""Reads the named arrays that ReadMesh and ReadResult stream as one byte string."""
 from __future__ import annotations
 
 import hashlib
@@ -20,7 +20,7 @@ def _damaged(what: str) -> ServerError:
 
 
 class BlockReceiver:
-    """Takes layouts and chunks over as many streams as it needs."""
+    """Collects the layout and the chunks of a block, from as many streams as it takes."""
 
     def __init__(self) -> None:
         self._layout: mesh_pb2.BlockLayout | None = None
@@ -29,7 +29,7 @@ class BlockReceiver:
 
     @property
     def offset(self) -> int:
-        """Where the next stream has to begin."""
+        """The byte at which the next stream has to begin."""
         return len(self._bytes)
 
     @property
@@ -38,7 +38,7 @@ class BlockReceiver:
                 and len(self._arrays) >= self._layout.array_count)
 
     def accept(self, message: Any) -> None:
-        """A ReadMeshResponse or ReadResultResponse."""
+        """Takes a ReadMeshResponse or ReadResultResponse."""
         if message.HasField("layout"):
             layout = message.layout
             if self._layout is None:
@@ -53,7 +53,7 @@ class BlockReceiver:
             self._bytes += message.chunk.data
 
     def finish(self) -> dict[str, Array]:
-        """By name; all share one memory."""
+        """Returns the arrays by name; all of them share one memory."""
         if self._layout is None or hashlib.sha256(self._bytes).hexdigest() != self._layout.sha256:
             raise _damaged("its sha256 is wrong")
         out = {}

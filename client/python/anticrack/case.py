@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A case: a membrane, its mesh, its loads and how to solve them. Built of the objects below, or read from TOML; the
-keys, their meaning and their defaults are those of the guide. Lengths, forces and displacements are in your units.
-A point is (x, y), points are a list of them or an array (n, 2). What is None is left to the default."""
+"""A case: a membrane, its mesh, its loads and how to solve them. It is built of the objects below, or read from TOML;
+the guide explains the keys and their defaults. Lengths, forces and displacements are in your units. A point is (x, y),
+points are a list of such pairs or an array (n, 2). None stands for the default."""
 from __future__ import annotations
 
 import os
@@ -20,13 +20,13 @@ Point = Sequence[float]
 Points = Sequence[Point] | Array
 Part = tuple[Point, Point]
 Tension = float | str | Mapping[str, float | str]
-# Where a name of Python's differs from the key in TOML.
+# Names in Python that differ from the key in TOML.
 _KEYS = {"start": "from", "end": "to", "interfaces": "interface", "inclusions": "inclusion", "cracks": "crack",
          "regions": "region", "holes": "hole"}
 
 
 def tables_of(value: Any) -> Any:
-    """The objects below as tables, wherever they are in it."""
+    """Replaces the objects below by their tables, at any depth of the value."""
     if isinstance(value, (list, tuple)):
         return [tables_of(item) for item in value]
     if isinstance(value, dict):
@@ -36,14 +36,14 @@ def tables_of(value: Any) -> Any:
 
 class _Table:
     def table(self, keys: Mapping[str, str] = _KEYS) -> dict[str, Any]:
-        """As in TOML; what is None or empty is left out."""
+        """The object as a table of TOML, without values that are None or empty."""
         entries = fields(self)  # type: ignore[arg-type]
         out = {keys.get(entry.name, entry.name): tables_of(getattr(self, entry.name)) for entry in entries}
         return {key: value for key, value in out.items()
                 if value is not None and not (isinstance(value, (list, dict)) and not value)}
 
     def __repr__(self) -> str:
-        """What is given; long values are cut."""
+        """Shows the values that are given; long ones are cut."""
         given = {entry.name: without_numpy(getattr(self, entry.name))
                  for entry in fields(self)}  # type: ignore[arg-type]
         told = [f"{name}={short(repr(given[name]))}" for name in sorted(given, key=lambda name: name != "name")
@@ -53,8 +53,8 @@ class _Table:
 
 @dataclass(kw_only=True, repr=False)
 class _Line(_Table):
-    """A line by its points, as an arc (start, through, end), a spline, or straight by its center, the angle [degrees]
-    at which it points and its length."""
+    """A line, given by its points, as an arc (start, through, end), as a spline, or as a straight line by its center,
+    its angle [degrees] and its length."""
     points: Points | None = None
     arc: Points | None = None
     spline: Points | None = None
@@ -65,7 +65,7 @@ class _Line(_Table):
 
 @dataclass(kw_only=True, repr=False)
 class _Outline(_Table):
-    """A closed line: circle = {"center": (x, y), "radius": r}, the corners of a polygon, or a spline."""
+    """A closed line: circle = {"center": (x, y), "radius": r}, points as corners of a polygon, or a spline."""
     circle: Mapping[str, Any] | None = None
     points: Points | None = None
     spline: Points | None = None
@@ -73,8 +73,8 @@ class _Outline(_Table):
 
 @dataclass(repr=False)
 class Interface(_Table):
-    """A line on which cracks and inclusions lie, by its points, as an arc (start, through, end) or a spline; its plus
-    side is on its left. closed: a ring of points or of a spline."""
+    """A line on which cracks and inclusions lie, given by its points, as an arc (start, through, end) or as a spline;
+    its plus side is on its left. closed: the points or the spline make a ring."""
     points: Points | None = None
     arc: Points | None = None
     spline: Points | None = None
@@ -84,10 +84,10 @@ class Interface(_Table):
 
 @dataclass(repr=False)
 class Inclusion(_Line):
-    """A thin rigid inclusion: from start to end on an interface, or on a line of its own: points, arc, spline, or
-    center, angle and length. delaminated: all of it, none, "left" or "right", parts [(start, end), ...], or
-    stretches [(0.5, 1.0), ...] by arc length over its length; side: "left" or "right", that comes off, beside a list.
-    tilt: it turns as well; fixed: held at this u."""
+    """A thin rigid inclusion, from start to end on an interface, or on a line of its own: points, arc, spline, or
+    center, angle and length. delaminated: True, False, the side "left" or "right", parts [(start, end), ...], or
+    stretches [(0.5, 1.0), ...] as fractions of its arc length; side: with a list, the side that comes off, "left" or
+    "right". tilt: the inclusion can turn as well; fixed: it is held at this u."""
     name: str
     start: Point | None = None
     end: Point | None = None
@@ -99,7 +99,7 @@ class Inclusion(_Line):
 
 @dataclass(repr=False)
 class Crack(_Line):
-    """A crack, placed as an inclusion; contact: [u] >= 0 (the default), else free faces."""
+    """A crack, placed like an inclusion. contact: True demands [u] >= 0 (the default), False leaves the faces free."""
     name: str
     start: Point | None = None
     end: Point | None = None
@@ -108,9 +108,9 @@ class Crack(_Line):
 
 @dataclass(repr=False)
 class Region(_Outline):
-    """Names the subdomain around the point `at`, or all inside an outline: points, a spline, or circle = {"center": (x,
-    y), "radius": r}. Gives it its tension T [force per length]: a number, an expression in x and y, or {"along": T1,
-    "across": T2, "angle": degrees}, T1 in the direction of the angle."""
+    """Names the subdomain around the point `at`, or all that is inside an outline: points, a spline, or circle =
+    {"center": (x, y), "radius": r}. Gives it the tension T [force per length]: a number, an expression in x and y, or
+    {"along": T1, "across": T2, "angle": degrees}, where T1 acts in the direction of the angle."""
     name: str
     at: Point | None = None
     tension: Tension | None = None
@@ -118,20 +118,20 @@ class Region(_Outline):
 
 @dataclass(repr=False)
 class Side(_Line):
-    """A side of the boundary, which begins where the one before it ends; a line as that of an inclusion."""
+    """A side of the boundary, which begins where the side before it ends; its line is given as for an inclusion."""
     name: str | None = None
 
 
 @dataclass(repr=False)
 class Hole(_Outline):
-    """A hole in the membrane; an outline as that of a region."""
+    """A hole in the membrane; its outline is given as for a region."""
     name: str | None = None
 
 
 @dataclass(repr=False)
 class Geometry(_Table):
-    """boundary: polygon or sides, u = g_D on it and on the holes but where `neumann` says: names of sides (side-1, ...
-    of a polygon) and holes, (start, end) walked counterclockwise, or "all"."""
+    """boundary: a polygon or sides. u = g_D on the boundary and the holes, except where `neumann` says: names of sides
+    (side-1, ... of a polygon) and holes, stretches (start, end) walked counterclockwise, or "all"."""
     boundary: Points | Sequence[Side]
     interfaces: list[Interface] = field(default_factory=list)
     inclusions: list[Inclusion] = field(default_factory=list)
@@ -146,8 +146,8 @@ class Mesh(_Table):
     """How fine the mesh is: preset "graded" (default), "uniform", "paper" or "coarse"; sizes are lengths,
     chord_angle is in degrees.
 
-    file: a .msh, or an Msh of arrays, instead of a geometry; only with it curves and surfaces (physical tag -> what it
-    is), tension (by subdomain, as of a Region) and inclusions (by name: {"tilt": True} or {"fixed": u})."""
+    file: a .msh, or an Msh of arrays, instead of a geometry. Only a file takes curves and surfaces (physical tag ->
+    what it is), tension (by subdomain, as for a Region) and inclusions (by name: {"tilt": True} or {"fixed": u})."""
     preset: str | None = None
     size: float | None = None
     tip_size: float | None = None
@@ -173,8 +173,9 @@ class Mesh(_Table):
 @dataclass(repr=False)
 class Load(_Table):
     """f [force per area]: a number, an expression in x and y, {subdomain: number}, or with per = "node" or "triangle"
-    an array with a value for each of the mesh; no Python function. boundary_value, traction: numbers or expressions.
-    point_forces: [((x, y), force), ...]. inclusion_forces: {name: force}; inclusion_moments: {name: (Mx, My)}."""
+    an array with a value for each of them in the mesh, but no Python function. boundary_value, traction: numbers or
+    expressions. point_forces: [((x, y), force), ...]. inclusion_forces: {name: force}; inclusion_moments: {name: (Mx,
+    My)}."""
     name: str
     f: float | str | Mapping[str, float] | Array | None = None
     per: str | None = None
@@ -200,7 +201,7 @@ class Load(_Table):
 
 @dataclass(repr=False)
 class ActiveSet(_Table):
-    """Exact, the default."""
+    """The active-set method, which is exact and the default."""
     tolerance: float | None = None
     max_steps: int | None = None
 
@@ -210,7 +211,7 @@ class ActiveSet(_Table):
 
 @dataclass(repr=False)
 class Uzawa(_Table):
-    """Algorithm 2 of the paper. theta: a number or "auto"; mass: "lumped" or "consistent"."""
+    """The Uzawa method, Algorithm 2 of the paper. theta: a number or "auto"; mass: "lumped" or "consistent"."""
     theta: float | str | None = None
     epsilon: float | None = None
     p: float | None = None
@@ -224,7 +225,8 @@ class Uzawa(_Table):
 
 @dataclass(kw_only=True, repr=False)
 class Accuracy(_Table):
-    """Relative errors to reach, with proof: of the energy and of the displacements A. time: seconds, or "10min"."""
+    """Relative errors of the energy and of the displacements A that the job has to reach, proved by bounds. time:
+    seconds, or "10min"."""
     energy: float | None = None
     A: float | None = None
     each_inclusion: bool | None = None
@@ -235,22 +237,22 @@ class Accuracy(_Table):
 
 @dataclass(repr=False)
 class Units(_Table):
-    """Names of units, for people: nothing is converted. "mm" and "N" give T in N/mm, f in N/mm^2, energies in N mm."""
+    """Names of units to show; no number is converted. "mm" and "N" give T in N/mm, f in N/mm^2, energies in N mm."""
     length: str | None = None
     force: str | None = None
 
 
 class Case:
-    """tables: as tomllib reads a case; may be changed before it is submitted. Geometry, loads and the other objects are
-    read when the case is built."""
+    """tables: the case as tomllib reads it; you may change them before you submit the case. Geometry, loads and the
+    other objects are read when the case is built, so changing these later has no effect."""
 
     def __init__(self, geometry: Geometry | None = None, loads: Sequence[Load] = (), mesh: Mesh | None = None,
                  solver: ActiveSet | Uzawa | None = None, accuracy: Accuracy | None = None, title: str = "",
                  units: Units | None = None, fields: bool = False, bounds: bool = True, priority: str | None = None,
                  queue_timeout: float | str | None = None,
                  run_timeout: float | str | None = None) -> None:
-        """fields: keep u on every node, to draw the membrane. bounds: of the error of each answer. Timeouts are
-        seconds, or text such as "2h"."""
+        """fields: keep u on every node, which drawing the membrane needs. bounds: bound the error of each answer.
+        Timeouts are seconds, or text such as "2h"."""
         job = {"priority": priority, "queue_timeout": queue_timeout, "run_timeout": run_timeout}
         tables: dict[str, Any] = {
             "title": title or None, "geometry": geometry, "mesh": mesh, "solver": solver, "accuracy": accuracy,
@@ -262,7 +264,7 @@ class Case:
 
     @classmethod
     def parse(cls, text: str, source: str = "case", folder: str | os.PathLike[str] = ".") -> Case:
-        """A case in TOML; names of files in it are relative to `folder`, errors call it `source`."""
+        """Reads a case from TOML text; file names in it are relative to `folder`, and errors call the text `source`."""
         case = cls()
         try:
             case.tables = tomllib.loads(text)
@@ -276,7 +278,7 @@ class Case:
 
     @classmethod
     def read(cls, path: str | os.PathLike[str]) -> Case:
-        """A case from a TOML file."""
+        """Reads a case from a TOML file."""
         path = pathlib.Path(path)
         try:
             text = path.read_text(encoding="utf-8")
@@ -289,7 +291,7 @@ class Case:
     def __repr__(self) -> str:
         return f"<Case {self.tables.get('title', '')!r} with {listed(self.tables)}>"
 
-    if not TYPE_CHECKING:  # a type checker knows the attributes and reports others itself
+    if not TYPE_CHECKING:  # type checkers know the attributes and report others themselves
         def __setattr__(self, name: str, value: Any) -> None:
             if name not in ("tables", "text", "source", "folder"):
                 raise AttributeError(f"case.{name} cannot be set: the case is built; change case.tables, which has "
@@ -298,7 +300,7 @@ class Case:
 
 
 def as_case(case: Case | str | os.PathLike[str]) -> Case:
-    """Of a path: its file."""
+    """Returns a case as it is, and reads the file of a path."""
     if not isinstance(case, (Case, str, os.PathLike)):
         raise CaseError(f"case: {shown(case)} is no case; give a Case, or the path of a TOML file")
     return case if isinstance(case, Case) else Case.read(case)

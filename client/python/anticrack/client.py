@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The client that waits for each answer. anticrack.aio has the same with await."""
+"""The client that blocks until each answer is there. anticrack.aio has the same client with await."""
 from __future__ import annotations
 
 import os
@@ -24,19 +24,19 @@ from .v1 import mesh_pb2, server_pb2, solve_pb2
 
 
 class JobState:
-    """A job as it was last heard of: `message`, see Job in solve.proto."""
+    """The state of a job when the server last told it: `message`, see Job in solve.proto."""
 
     def __init__(self, session: Session, message: solve_pb2.Job, case: ReadCase | None = None,
                  coefficients: Any = None) -> None:
         self.message = message
         self._session, self._case = session, case
-        # As they are now: the array may be used for something else before the answers are there.
+        # A copy, as the caller may change the array before the answers are there.
         self._coefficients = None if coefficients is None else coefficients_of(
             coefficients, [load.name for load in message.spec.load_cases])
 
     @property
     def name(self) -> str:
-        """"jobs/ID"; client.job(name) finds it again, from any machine."""
+        """"jobs/ID"; client.job(name) finds the job again, from any machine."""
         return str(self.message.name)
 
     @property
@@ -50,7 +50,7 @@ class JobState:
 
     @property
     def error(self) -> ServerError | None:
-        """Of one that failed."""
+        """The error of a failed job, else None."""
         if not self.message.status.HasField("error"):
             return None
         return in_terms_of(self._case.places if self._case else places_of(self.message.spec),
@@ -69,45 +69,46 @@ class JobState:
 
 
 def noted(result: Result) -> Result:
-    """Warns of what is to be known, at the line that called run()."""
+    """Issues the notes on a result as warnings, at the line that called run()."""
     for note in notes_on(result):
         warnings.warn(harmless(note), stacklevel=3)
     return result
 
 
 class Job(JobState):
-    """Outlives this program: only cancel() ends it."""
+    """A job on the server. It outlives this program: only cancel() ends it early."""
 
     def refresh(self) -> Job:
         self.message = finished(self._session.job(self.name))
         return self
 
     def events(self, after: int = 0) -> Iterator[solve_pb2.WatchJobResponse]:
-        """Every event after a sequence number, in order, up to the one that ends the job; see WatchJobResponse."""
+        """Yields every event after a sequence number in order, up to the job's last event; see WatchJobResponse."""
         for message in each(self._session.events(self.name, after)):
             if message.HasField("ended"):
                 self.message = message.ended
             yield message
 
     def wait(self, progress: bool = True, out: TextIO | None = None) -> Job:
-        """Until it has ended; an interrupt leaves it running. progress: shown on `out`, standard error by default."""
+        """Waits until the job has ended; an interrupt leaves it running. progress: show it on `out`, by default
+        standard error."""
         shown = Progress(self.message, out, progress)
         for message in self.events():
             shown.take(message)
         return self
 
     def cancel(self) -> Job:
-        """It ends within an iteration and keeps what is finished."""
+        """Cancels the job, which ends within an iteration and keeps the load cases that are finished."""
         self.message = finished(self._session.cancel(self.name))
         return self
 
     def delete(self) -> None:
-        """One that has ended, and its results."""
+        """Deletes a job that has ended, with its results."""
         finished(self._session.delete(self.name))
 
     def result(self, progress: bool = False) -> Result:
-        """Once it has ended. Raises ServerError where there are no answers; one that did not converge is not an
-        error: see Result.converged."""
+        """Waits until the job has ended and returns its answers. Raises ServerError if there are none; an answer that
+        did not converge is no error: see Result.converged."""
         self.refresh()
         if not self.ended:
             self.wait(progress)
@@ -115,7 +116,7 @@ class Job(JobState):
 
 
 class Client:
-    """Of one server; may be used as a context. Raises ServerError where a call is refused."""
+    """A client of one server; `with` closes it. Raises ServerError if the server refuses a call."""
 
     def __init__(self, session: Session) -> None:
         self._session = session
@@ -125,36 +126,37 @@ class Client:
 
     def submit(self, case: Case | str | os.PathLike[str], coefficients: Any = None, nodal_forces: Any = None,
                traces: Sequence[int] = (), bounds: bool = False) -> Job:
-        """A job of a case, or of a file with one; returns at once.
+        """Submits a case, or the case in a file, as a job and returns at once.
 
         A sweep solves a load case for every row of coefficients (rows, loads), a DataFrame or an array in the order of
-        the loads, or of nodal_forces (rows, nodes): f on the mesh's nodes. traces: rows whose traces are kept.
-        bounds: of the energy and of every A in each row, which then takes as long as a load case."""
+        the loads, or of nodal_forces (rows, nodes): f on the mesh's nodes. traces: rows whose traces are kept. bounds:
+        bound the energy and every A in each row; a row then takes as long as a load case."""
         message, read = finished(self._session.submit(case, coefficients, nodal_forces, traces, bounds))
         return Job(self._session, message, read, coefficients)
 
     def run(self, case: Case | str | os.PathLike[str], coefficients: Any = None, nodal_forces: Any = None,
             traces: Sequence[int] = (), progress: bool = True, bounds: bool = False) -> Result:
-        """Submits, waits and fetches the answers; warns where u is not small against the sheet."""
+        """Submits a case, waits and fetches the answers; warns if u is not small against the sheet."""
         return noted(self.submit(case, coefficients, nodal_forces, traces, bounds).wait(progress).result())
 
     def mesh(self, case: Case | str | os.PathLike[str]) -> mesh_pb2.Mesh:
-        """The mesh of a case, once it is meshed: its counts, subdomains and interfaces (Mesh in mesh.proto)."""
+        """Meshes a case and returns the mesh's counts, subdomains and interfaces (Mesh in mesh.proto)."""
         return finished(self._session.mesh_of(case))
 
     def mesh_arrays(self, mesh: mesh_pb2.Mesh | str) -> dict[str, Array]:
-        """nodes (n, 2), triangles (m, 3), subdomain (m), boundary (b, 2), interfaces/I/...: see ReadMeshResponse."""
+        """Reads nodes (n, 2), triangles (m, 3), subdomain (m), boundary (b, 2), interfaces/I/..., see ReadMeshResponse,
+        by name."""
         return finished(self._session.mesh_arrays(mesh if isinstance(mesh, str) else mesh.name))
 
     def job(self, name: str) -> Job:
         return Job(self._session, finished(self._session.job(name)))
 
     def jobs(self, limit: int = 50) -> list[Job]:
-        """The newest first, without load cases and answers."""
+        """Lists the server's jobs, newest first, without load cases and answers."""
         return [Job(self._session, message) for message in finished(self._session.jobs(limit))]
 
     def info(self) -> server_pb2.ServerInfo:
-        """Version, limits and counters."""
+        """The server's version, limits and counters."""
         return finished(self._session.info())
 
     def close(self) -> None:
@@ -170,17 +172,18 @@ class Client:
 def connect(address: str | None = None, *, tls: bool = False, ca: Path | None = None, cert: Path | None = None,
             key: Path | None = None, token: str | None = None, token_file: Path | None = None,
             patience: float = 300.0, first_contact: float = 3.0) -> Client:
-    """A client of the server at "HOST:PORT" or "unix:PATH" (ANTICRACK_SERVER, or 127.0.0.1:7433). The first call
-    connects.
+    """Makes a client of the server at "HOST:PORT" or "unix:PATH" (default: ANTICRACK_SERVER, or 127.0.0.1:7433). The
+    first call connects.
 
-    tls: with the system's authorities; ca: with this one. cert, key: of this client. token, or its file (or
-    ANTICRACK_TOKEN): never sent over a network unencrypted. A lost connection is restored for up to `patience`
-    seconds, before the first answer for `first_contact`."""
+    tls: encrypt and trust the system's authorities; ca: trust this authority. cert, key: those of this client. token,
+    or its file (or ANTICRACK_TOKEN): never sent over a network unencrypted. The client tries for up to `patience`
+    seconds to restore a lost connection, and for `first_contact` seconds before the first answer."""
     return Client(session_to(Transport, address, Credentials(tls, ca, cert, key, token_of(token, token_file)),
                              Backoff(patience, first_contact)))
 
 
 def local(*flags: str, program: Path | None = None) -> Client:
-    """A client of a private server, which ends at the end of `with`, by close(), or when nobody has the client or a job
-    of it any more. flags: of anticrackd, as "--threads", "2"; program: that on PATH unless named."""
+    """Starts a private server and makes its client. The server ends at the end of `with`, by close(), or when no
+    reference to the client or its jobs is left. flags: of anticrackd, as "--threads", "2"; program: the path of
+    anticrackd, by default the one on PATH."""
     return Client(session_of_own(Transport, *flags, program=program))

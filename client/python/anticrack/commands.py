@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The commands that draw. `anticrack` has the same options, for its help and completion, and runs these."""
+"""The commands that draw. `anticrack` has the same options, for its help and completion, and runs these commands."""
 from __future__ import annotations
 
 import argparse
@@ -19,11 +19,11 @@ from .text import harmless
 from .v1 import mesh_pb2
 
 FIGURES = ("overview", "membrane", "plan", "traces", "convergence", "accuracy")
-USAGE, CLOSED = 2, 141  # exit codes, as the command's
+USAGE, CLOSED = 2, 141  # exit codes, as those of `anticrack`
 
 
 class _Usage(Error):
-    """A command line that is wrong."""
+    """The command line is wrong."""
 
 
 class _Parser(argparse.ArgumentParser):
@@ -32,7 +32,7 @@ class _Parser(argparse.ArgumentParser):
 
 
 def _some(known: Sequence[str], wrong: str) -> Any:
-    """wrong: what is said of a word that is not known, as the command does."""
+    """Makes a parser of comma-separated words. wrong: the error for an unknown word, which replaces the {} in it."""
     def some(text: str) -> list[str]:
         found = list(dict.fromkeys(text.split(",")))
         for name in found:
@@ -128,14 +128,15 @@ def _read_mesh(given: argparse.Namespace) -> Any:
 
 
 def plot() -> int:
-    """The program anticrack-plot, which `anticrack plot` runs where it is on PATH."""
+    """The program anticrack-plot, which `anticrack plot` runs if it is on PATH."""
     return main(["plot", *sys.argv[1:]])
 
 
 def main(words: Sequence[str]) -> int:
-    """The exit code: 0, 2 with a line on standard error, or 141 where nobody reads what is printed."""
+    """Runs a command line and returns the exit code: 0, 2 with a line on standard error, or 141 if the reader of
+    standard output has closed it."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
-    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)  # an error of the write, and not a signal
+    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)  # a file too large is an error of the write, no signal
     code, document, lines = 0, {}, []
     try:
         given = _parser().parse_args(words)
@@ -154,7 +155,7 @@ def main(words: Sequence[str]) -> int:
             print(line if "--json" in words else harmless(line))
         sys.stdout.flush()
     except OSError as error:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # nothing more at exit
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # no second error at exit
         if isinstance(error, BrokenPipeError):
             return code or CLOSED
         print(f"anticrack: standard output cannot be written: {error.strerror}", file=sys.stderr)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How to prove who one is, and to know who the server is."""
+"""Credentials: how the client proves who it is and checks who the server is."""
 from __future__ import annotations
 
 import os
@@ -14,21 +14,21 @@ from .errors import CaseError
 
 Path = str | os.PathLike[str]
 DEFAULT_ADDRESS = "127.0.0.1:7433"
-# Heartbeats come every 10 s: a stream that is silent for longer may hang on a dead connection.
+# The server sends heartbeats every 10 s, so a stream that is silent for longer may hang on a dead connection.
 CHANNEL = [("grpc.keepalive_time_ms", 30_000), ("grpc.keepalive_timeout_ms", 10_000),
            ("grpc.initial_reconnect_backoff_ms", 100), ("grpc.min_reconnect_backoff_ms", 1_000),
            ("grpc.max_reconnect_backoff_ms", 1_000), ("grpc.max_receive_message_length", -1)]
 
 
 def host_and_port(address: str) -> tuple[str, str]:
-    """Of HOST, HOST:PORT, [IPV6]:PORT or IPV6, in lower case, without the resolver's name."""
+    """Splits HOST, HOST:PORT, [IPV6]:PORT or IPV6 into host and port, in lower case, without the resolver's name."""
     text = re.sub(r"^(dns:///|dns:|ipv4:|ipv6:)", "", address.lower())
     found = re.fullmatch(r"\[(.*)\]:?(.*)|([^:]*):?([^:]*)", text)
     return (found[1] or found[3] or "", found[2] or found[4] or "") if found else (text, "")
 
 
 def is_loopback(address: str) -> bool:
-    """Whether what is sent there stays on the machine."""
+    """Whether data sent to the address stay on this machine."""
     host, _ = host_and_port(address)
     return (address.startswith(("unix:", "unix-abstract:")) or host in ("localhost", "localhost.", "::1")
             or re.fullmatch(r"127\.[0-9.]*", host) is not None)
@@ -48,7 +48,7 @@ def _read(path: Path | None, option: str, needed: str) -> bytes | None:
 
 @dataclass(frozen=True)
 class Credentials:
-    """See anticrack.connect. Files are PEM."""
+    """What anticrack.connect takes to encrypt and to identify the client; files are PEM."""
     tls: bool = False
     ca: Path | None = None
     cert: Path | None = None
@@ -56,7 +56,8 @@ class Credentials:
     token: str | None = None
 
     def of_channel(self, address: str) -> Any:
-        """None: unencrypted. Raises CaseError for files that do not serve, and for a token on the open road."""
+        """The channel's credentials, or None if it is unencrypted. Raises CaseError for unusable files, and for a token
+        that would go over a network unencrypted."""
         if (self.cert is None) != (self.key is None):
             raise CaseError("cert needs key, and key needs cert")
         tls = self.tls or self.ca is not None or self.cert is not None
@@ -72,7 +73,7 @@ class Credentials:
         return grpc.ssl_channel_credentials(*files) if tls else None
 
     def metadata(self) -> tuple[tuple[str, str], ...]:
-        """Of every call."""
+        """The metadata of every call."""
         return (("authorization", f"Bearer {self.token}"),) if self.token is not None else ()
 
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The single values of the API's messages, as result files name them: walked, so that a new field is everywhere by
-itself. The command's client/results/entries.hpp says the same."""
+"""The single values of the API's messages, as result files name them. They are found by walking the message type, so
+that a new field appears everywhere by itself. client/results/entries.hpp does the same for the command."""
 from __future__ import annotations
 
 import functools
@@ -12,12 +12,12 @@ from google.protobuf import descriptor_pb2
 from google.protobuf.descriptor import FieldDescriptor
 
 NAN = float("nan")
-_SYMBOLS = [("displacement", "A"), ("slope_", "B"), ("moment_", "M")]  # of an inclusion
-_MESSAGES, _FIELDS = 4, 2  # in paths of source_code_info, see descriptor.proto
+_SYMBOLS = [("displacement", "A"), ("slope_", "B"), ("moment_", "M")]  # names of an inclusion's values
+_MESSAGES, _FIELDS = 4, 2  # numbers in paths of source_code_info, see descriptor.proto
 
 
 def name_of(field: Any) -> str:
-    """In files: that of the field; of an inclusion A, B and M as in the paper; of a duration in seconds."""
+    """The name in files: the field's, but A, B, M of inclusions as in the paper, and seconds for durations."""
     name = str(field.name)
     if field.message_type is not None and field.message_type.name == "Duration":
         return name.replace("time", "seconds")
@@ -29,7 +29,7 @@ def name_of(field: Any) -> str:
 
 
 def status_name(code: int, enum: Any) -> str:
-    """STATUS_NOT_CONVERGED is "not_converged"."""
+    """The name of a status in files: "not_converged" for STATUS_NOT_CONVERGED."""
     first = enum.values_by_number[0].name  # STATUS_UNSPECIFIED
     return str(enum.values_by_number[int(code)].name)[first.rfind("_") + 1:].lower()
 
@@ -44,8 +44,8 @@ def _is_list(field: Any) -> bool:
 
 @functools.cache
 def entries_of(descriptor: Any) -> dict[str, tuple[Any, Any]]:
-    """By the names of files: the nested message that has the value, or None, and its field. Lists, and nested messages
-    with lists, are left out."""
+    """Maps each name in files to the nested message that has the value, or None, and to the value's field. Leaves out
+    lists and nested messages with lists."""
     found: dict[str, tuple[Any, Any]] = {}
     for field in descriptor.fields:
         if _is_nested(field) and not _is_list(field):
@@ -58,13 +58,13 @@ def entries_of(descriptor: Any) -> dict[str, tuple[Any, Any]]:
 
 
 def lists_of(descriptor: Any) -> list[Any]:
-    """Those of texts and messages."""
+    """The fields that are lists of texts or messages."""
     return [field for field in descriptor.fields if _is_list(field)
             and not (field.message_type is not None and field.message_type.GetOptions().map_entry)]
 
 
 def none_of(field: Any) -> Any:
-    """What stands for a value that is not set."""
+    """The value that means "not set"."""
     if field.message_type is not None:
         return 0.0 if field.message_type.name == "Duration" else ""
     known = {FieldDescriptor.CPPTYPE_DOUBLE: NAN, FieldDescriptor.CPPTYPE_INT32: 0, FieldDescriptor.CPPTYPE_UINT64: 0,
@@ -73,7 +73,7 @@ def none_of(field: Any) -> Any:
 
 
 def value_of(message: Any, outer: Any, field: Any) -> Any:
-    """Of an enum its name, of an error its message, of a time its text; NaN of a number that is not set."""
+    """Reads a value: an enum by its name, an error by its message, a time by its text; NaN if a number is not set."""
     if outer is not None:
         if not message.HasField(outer.name):
             return none_of(field)
@@ -91,7 +91,7 @@ def value_of(message: Any, outer: Any, field: Any) -> Any:
 
 
 def set_value(message: Any, outer: Any, field: Any, value: Any) -> None:
-    """The opposite of value_of."""
+    """Sets the value that value_of reads."""
     if (outer is not None or field.has_presence) and (value == none_of(field) or value != value):
         return
     if outer is not None:
@@ -114,13 +114,13 @@ def values_of(message: Any) -> dict[str, Any]:
 
 
 def defaults_of(message: Any) -> dict[str, Any]:
-    """What is not known."""
+    """The values of a message in which nothing is set, by name."""
     return {name: none_of(field) for name, (_, field) in entries_of(message.DESCRIPTOR).items()}
 
 
 @functools.cache
 def _comments() -> dict[str, str]:
-    """By the full names of fields."""
+    """The comments of the proto files, by the full names of fields."""
     packed = importlib.resources.files(__package__).joinpath("v1/comments.desc").read_bytes()
     comments = {}
     for file in descriptor_pb2.FileDescriptorSet.FromString(packed).file:
@@ -133,14 +133,14 @@ def _comments() -> dict[str, str]:
 
 
 def meaning_of(field: Any) -> tuple[str, str]:
-    """What the comment says, and the unit in F and L that ends it: "Pi(u) [F L]"."""
+    """Splits a field's comment, as "Pi(u) [F L]", into the meaning and the unit in F and L."""
     comment = _comments().get(field.full_name, "")
     found = re.fullmatch(r"(.*) \[([FLs/() ^0-9]+)\]", comment)
     return (found[1], found[2]) if found else (comment, "")
 
 
 def meanings(descriptor: Any, where: str) -> list[tuple[str, str, str, str]]:
-    """Of all values in a message and in its lists: where they are in a file, name, dimension and meaning."""
+    """For each value in a message and in its lists: its place in a file, name, dimension and meaning."""
     rows = []
     for at, of in [(where, descriptor), *((field.name, field.message_type) for field in lists_of(descriptor)
                                           if field.message_type is not None)]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What goes wrong: in a case, on the way to the server, or on it."""
+"""Errors in a case, on the way to the server, or on the server."""
 from __future__ import annotations
 
 import importlib
@@ -12,30 +12,30 @@ from .v1 import error_pb2
 
 
 class Error(Exception):
-    """All errors of this package."""
+    """The base of all errors of this package."""
 
 
 class CaseError(Error, ValueError):
-    """A case that is wrong; the message names the file, the key and the cure."""
+    """A case is wrong; the message names the file, the key and the cure."""
 
 
 class UnknownName(Error, KeyError):
-    """There is nothing of this name; the message has the names that are known."""
+    """Nothing has this name; the message lists the known names."""
 
     def __str__(self) -> str:
-        return Exception.__str__(self)  # KeyError's is in quotes
+        return Exception.__str__(self)  # KeyError would put the message in quotes
 
 
 class UnknownIndex(Error, IndexError):
-    """There are not so many; the message has their number."""
+    """An index is out of range; the message says how many entries there are."""
 
 
 class MissingPackage(Error, ImportError):
-    """What is asked for takes a package that is not installed."""
+    """The call needs a package that is not installed."""
 
 
 def package(module: str) -> Any:
-    """A module of a package that not everybody has."""
+    """Imports a module of an optional package; raises MissingPackage if it is not installed."""
     try:
         return importlib.import_module(module)
     except ModuleNotFoundError as error:
@@ -51,11 +51,11 @@ class LocalServerError(Error):
 
 
 class ServerError(Error):
-    """A call, a mesh or a job that the server refused or that failed, or a server that is not there.
+    """The server refused a call, a mesh or a job, or one of these failed, or the server cannot be reached.
 
-    code: gRPC's name, as "NOT_FOUND". message: the server's own. reason: see ErrorInfo in error.proto. fields: (path in
-    the request, what is wrong with it). metadata: values named in the message. retry_delay [s]: wait at least this
-    long; 0: none given.
+    code: gRPC's name, as "NOT_FOUND". message: the server's text. reason: see ErrorInfo in error.proto. fields: pairs
+    (path in the request, what is wrong with it). metadata: values named in the message. retry_delay [s]: wait at least
+    this long; 0 if the server gave none.
     """
 
     def __init__(self, code: str, message: str, reason: str = "", fields: tuple[tuple[str, str], ...] = (),
@@ -67,9 +67,9 @@ class ServerError(Error):
 
     @property
     def lost(self) -> bool:
-        """Whether the connection was lost rather than the call refused."""
+        """Whether the connection was lost, not the call refused."""
         return (self.code == "UNAVAILABLE" or (self.code == "UNKNOWN" and "Stream removed" in str(self))
-                or (self.code == "CANCELLED" and not self.reason)  # by a server that stops, not by one asked to
+                or (self.code == "CANCELLED" and not self.reason)  # a stopping server cancelled it, not a caller
                 or (self.code == "INTERNAL" and "RST_STREAM" in str(self)))
 
     @property
@@ -78,7 +78,7 @@ class ServerError(Error):
 
 
 def of_status(status: error_pb2.Status) -> ServerError:
-    """The error of a mesh, a job or a load case."""
+    """Makes the error of a mesh, a job or a load case."""
     names = {code.value[0]: code.name for code in grpc.StatusCode}
     info, request, retry = error_pb2.ErrorInfo(), error_pb2.BadRequest(), error_pb2.RetryInfo()
     kinds: dict[str, Any] = {"google.rpc.ErrorInfo": info, "google.rpc.BadRequest": request,
@@ -93,11 +93,11 @@ def of_status(status: error_pb2.Status) -> ServerError:
 
 
 def of_call(call: Any) -> ServerError:
-    """The error of a failed call, a grpc.RpcError."""
+    """Makes the error of a failed call, which is a grpc.RpcError."""
     for key, value in call.trailing_metadata() or ():
         if key == "grpc-status-details-bin":
             try:
                 return of_status(error_pb2.Status.FromString(value))
-            except Exception:  # not ours: what gRPC says has to do
+            except Exception:  # details that are not ours: gRPC's message has to do
                 break
     return ServerError(call.code().name, call.details() or "")

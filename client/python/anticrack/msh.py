@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Meshes of one's own as files that the server reads."""
+"""Turns a mesh of your own into a .msh file that the server reads."""
 from __future__ import annotations
 
 from collections.abc import Mapping
@@ -10,15 +10,15 @@ from .arrays import Array, array_of
 from .errors import CaseError
 from .text import counted
 
-_TYPES = {"line": (1, 1, 2), "triangle": (2, 2, 3)}  # of a cell: type in MSH, dimension, nodes
+_TYPES = {"line": (1, 1, 2), "triangle": (2, 2, 3)}  # type of the cell in MSH, dimension, nodes
 
 
 @dataclass(repr=False)
 class Msh:
-    """points (n, 2) or (n, 3); cells: "triangle" (m, 3) and "line" (l, 2), indices of points from 0.
+    """A mesh. points (n, 2) or (n, 3); cells: "triangle" (m, 3) and "line" (l, 2), indices of points from 0.
 
-    groups: for each kind of cell a name for every cell, "" for none: of triangles the subdomain, of lines what they
-    are, as "dirichlet", "crack:NAME" or "delaminated:NAME" (see the guide on .msh files)."""
+    groups: for each kind of cell a name for every cell, or "". A triangle's name is its subdomain, a line's says what
+    the line is: "dirichlet", "crack:NAME", "delaminated:NAME" and so on (see the guide on .msh files)."""
     points: Array
     cells: Mapping[str, Array]
     groups: Mapping[str, Any] = field(default_factory=dict)
@@ -29,7 +29,7 @@ class Msh:
 
     @classmethod
     def of_meshio(cls, mesh: Any) -> Msh:
-        """Of a meshio.Mesh: its lines, triangles and physical groups."""
+        """Takes the lines, triangles and physical groups of a meshio.Mesh."""
         names = {(int(tag), int(dimension)): name for name, (tag, dimension) in mesh.field_data.items()}
         tags = mesh.cell_data_dict.get("gmsh:physical", {})
         cells = {kind: array for kind, array in mesh.cells_dict.items() if kind in _TYPES}
@@ -38,7 +38,7 @@ class Msh:
         return cls(mesh.points, cells, groups)
 
     def to_bytes(self) -> bytes:
-        """MSH 2.2, ascii: every number reads back as the same."""
+        """The file in MSH 2.2 ascii; every number reads back exactly."""
         points = _points(self.points)
         tags: dict[tuple[int, str], int] = {}
         elements: list[str] = []
@@ -69,7 +69,7 @@ class Msh:
 
 
 def _points(values: Any) -> Array:
-    """(n, 2) or (n, 3), in a plane of one z."""
+    """Checks points (n, 2) or (n, 3), which must all have the same z."""
     def fail(problem: str) -> CaseError:
         return CaseError(f"points: {problem}")
     points = array_of(values, ("n", "2 or 3"), fail)
@@ -82,7 +82,7 @@ def _points(values: Any) -> Array:
 
 
 def _names(values: Any, kind: str) -> list[str]:
-    """Of groups; "" for none."""
+    """Checks the names of one kind of cells; "" is a cell without a group."""
     for i, name in enumerate(values):
         if not isinstance(name, str):
             raise CaseError(f"groups of '{kind}': {name!r} at [{i}] is not text; write a name, or '' for none")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is found by name; a name that is not there is told with those that are."""
+"""Containers whose items are found by name; the error for an unknown name lists the known ones."""
 from __future__ import annotations
 
 from collections.abc import Iterable
@@ -16,14 +16,14 @@ def unknown(what: str, name: object, known: Iterable[str]) -> UnknownName:
 
 
 def place(what: str, name: str, known: list[str]) -> int:
-    """The index of a name."""
+    """The index of a name in `known`; raises UnknownName."""
     if name not in known:
         raise unknown(what, name, known)
     return known.index(name)
 
 
 class Named(dict[str, T]):
-    """what: they are, for errors: "load"."""
+    """Items by name. what: the word for an item in errors, as "load"."""
 
     def __init__(self, what: str, items: Iterable[tuple[str, T]] = ()) -> None:
         super().__init__(items)
@@ -37,7 +37,7 @@ class Named(dict[str, T]):
 
 
 class Parts(list[T]):
-    """In their order, by index or by name."""
+    """Items in their order, found by index or by name."""
 
     def __init__(self, what: str, items: Iterable[T] = ()) -> None:
         super().__init__(items)
@@ -57,7 +57,7 @@ class Parts(list[T]):
                                f"{counted(len(self), self.what)}, counted from 0") from None
 
     def place(self, name: str) -> int:
-        """The index of the one of this name."""
+        """The index of the item of this name."""
         return place(self.what, name, [str(getattr(item, "name")) for item in self])
 
     def __repr__(self) -> str:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What to know before believing the answers; the command says it below its table."""
+"""Notes that a reader should know before believing the answers; the command prints them below its table."""
 from __future__ import annotations
 
 from collections.abc import Iterator
@@ -13,8 +13,8 @@ _LARGEST_PART = 0.1
 
 
 def notes_on(result: Result) -> list[str]:
-    """Units of which one is missing; where the case gives a unit of length, u of more than a tenth of the sheet's
-    smaller side, as the equation is that of small slopes."""
+    """Notes that one of the units is missing and, if the case gives a unit of length, that u exceeds a tenth of the
+    sheet's smaller side, as the equation holds for small slopes."""
     units, notes = result.units, []
     if bool(units.length) != bool(units.force):
         notes.append(f"[units] gives no {'force' if units.length else 'length'}, so energies and tensions have no unit "
@@ -33,7 +33,7 @@ def notes_on(result: Result) -> list[str]:
 
 
 def _known(result: Result) -> Iterator[tuple[str, Array]]:
-    """u, by load case."""
+    """Yields the known u of each load case with the name of the load case."""
     for name, load in result.loads.items():
         yield name, np.array([inclusion.A for inclusion in load.inclusions.values() if np.isfinite(inclusion.A)])
         for trace in load.traces:

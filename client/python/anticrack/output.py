@@ -12,19 +12,19 @@ import sys
 
 from .errors import Error
 
-_numbers = itertools.count()  # of temporary names
+_numbers = itertools.count()  # make temporary names unique
 
 
 def target_of(path: str | os.PathLike[str]) -> tuple[str, bool]:
-    """Where a path leads, behind all symbolic links, and whether that is a device or a pipe, to be written from here to
-    its end."""
+    """Follows all symbolic links of a path; returns the target and whether it is a device or a pipe, which is written
+    as a stream."""
     found = os.fsdecode(path)
-    for _ in range(40):  # as the kernel
-        if _descriptor(found) is not None:  # whose link leads to a name that need not be the open file's
+    for _ in range(40):  # the kernel follows no more links either
+        if _descriptor(found) is not None:  # its link may name another file than the open one
             return found, True
         try:
             found = os.path.join(os.path.dirname(found), os.readlink(found))
-        except OSError:  # no link
+        except OSError:  # not a link
             break
     try:
         mode = os.stat(found).st_mode
@@ -39,8 +39,8 @@ def target_of(path: str | os.PathLike[str]) -> tuple[str, bool]:
 
 
 def write(path: str | os.PathLike[str], content: bytes | memoryview, keep: bool = False) -> None:
-    """Whole or not at all, with the permissions of a file that is there; through symbolic links, and into a device or
-    pipe as a stream. keep: what was there is called PATH~ from then on."""
+    """Writes a file whole or not at all, following symbolic links; an existing file keeps its permissions. A device or
+    pipe is written as a stream. keep: renames the existing file to PATH~."""
     target, stream = target_of(path)
     try:
         if stream:
@@ -52,7 +52,7 @@ def write(path: str | os.PathLike[str], content: bytes | memoryview, keep: bool 
 
 
 def make_folder(path: str) -> None:
-    """Of files, unless it is there."""
+    """Makes the folder unless it exists."""
     if path == "-":
         raise Error("-: is standard output, and several files are to be written; name a folder")
     try:
@@ -65,7 +65,7 @@ def make_folder(path: str) -> None:
 
 
 def _descriptor(path: str) -> int | None:
-    """Of this process, which the path names."""
+    """The file descriptor of this process that the path names, or None."""
     with contextlib.suppress(OSError):
         if re.fullmatch("[0-9]+", os.path.basename(path)) and os.path.samefile(
                 os.path.dirname(path) or ".", "/proc/self/fd"):
@@ -81,7 +81,7 @@ def _unwritable(path: str | os.PathLike[str], error: OSError) -> Error:
 
 
 def _write_stream(target: str, content: bytes | memoryview) -> None:
-    for text in (sys.stdout, sys.stderr):  # what was printed before comes before
+    for text in (sys.stdout, sys.stderr):  # earlier prints have to come first
         if text is not None:
             text.flush()
     number = _descriptor(target)
@@ -116,5 +116,5 @@ def _keep(target: str) -> None:
         os.remove(backup)
     try:
         os.link(target, backup)
-    except OSError:  # not every file system has second names
+    except OSError:  # not every file system has hard links
         os.replace(target, backup)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A server of one's own. It ends with this process however that ends, since its standard input does, and removes its
-folders then; see anticrackd --private."""
+"""A private server. Its standard input closes when this process ends, however that happens; the server then ends too
+and removes its folders; see anticrackd --private."""
 from __future__ import annotations
 
 import os
@@ -14,14 +14,14 @@ import weakref
 from .credentials import Path
 from .errors import LocalServerError
 
-DYING = 1.0  # from the end of a connection to that of the process, which closes its files first [s]
-PATIENCE = 20.0  # with one that ends [s]
+DYING = 1.0  # how long a process may take to end after its connections have closed [s]
+PATIENCE = 20.0  # how long stop() waits for the server to end [s]
 
 
 class Server:
-    """An anticrackd (that on PATH unless named) on a socket that only this user can reach, with a data folder that goes
-    with it; `flags` are further ones of its command line. Raises LocalServerError. Belongs to the process that made
-    it: in a forked one stop() does nothing."""
+    """Runs anticrackd (`program`, or the one on PATH) on a socket that only this user can reach, with a data folder
+    that is removed with it; `flags` are added to its command line. Raises LocalServerError. Belongs to the process that
+    made it: in a forked process stop() does nothing."""
 
     def __init__(self, *flags: str, program: Path | None = None) -> None:
         found = shutil.which("anticrackd" if program is None else program)
@@ -47,14 +47,14 @@ class Server:
 
     def _wait_until_ready(self) -> None:
         assert self._process.stdout is not None
-        line = self._process.stdout.readline().decode()  # once it listens; empty if it ends before
+        line = self._process.stdout.readline().decode()  # comes once it listens; empty if it ends before that
         self.address = line.partition("listening on ")[2].strip()
         if not self.address:
             self._process.wait()
             raise LocalServerError(f"anticrackd {self._ending(' before it was ready')}{self._last_words()}")
 
     def require_alive(self) -> None:
-        """For who has lost the connection: raises LocalServerError if the server has ended, with how it did."""
+        """Call it after a lost connection: raises LocalServerError, which says how, if the server has ended."""
         try:
             self._process.wait(DYING)
         except subprocess.TimeoutExpired:
@@ -62,14 +62,14 @@ class Server:
         raise LocalServerError(f"the private server {self._ending()}{self._last_words()}")
 
     def stop(self) -> None:
-        """And wait until it is gone; once."""
+        """Stops the server and waits until it has ended; a second call does nothing."""
         if os.getpid() != self._owner:
             return
         with self._stopping:
             if self._log < 0:
                 return
             assert self._process.stdin is not None and self._process.stdout is not None
-            self._process.stdin.close()  # which asks it to end
+            self._process.stdin.close()  # this asks the server to end
             try:
                 self._process.wait(PATIENCE)
             except subprocess.TimeoutExpired:
@@ -82,10 +82,10 @@ class Server:
             self._log = -1
 
     def leave(self) -> None:
-        """In a forked child, which else would keep the server alive beyond its owner."""
+        """Lets go of the server in a forked child, which would otherwise keep it alive beyond its owner."""
         if self._process.stdin is not None and not self._process.stdin.closed:
             self._process.stdin.close()
-        self._process.returncode = 0  # not this process's child
+        self._process.returncode = 0  # the server is not this process's child
 
     def _ending(self, when: str = "") -> str:
         code = self._process.returncode
@@ -102,7 +102,7 @@ class Server:
         return "".join([":"] + ["\n  " + line for line in text.splitlines()[-5:]]) if text else ""
 
     def _remove_left(self) -> None:
-        """What it had no chance to remove."""
+        """Removes the folder that the server had no chance to remove."""
         folder = pathlib.Path(self.address.removeprefix("unix:")).parent
         if folder.name.startswith("anticrack-private-"):
             shutil.rmtree(folder, ignore_errors=True)
@@ -116,5 +116,5 @@ def _in_child() -> None:
         server.leave()
 
 
-if hasattr(os, "register_at_fork"):  # not on Windows, where nothing is forked
+if hasattr(os, "register_at_fork"):  # Windows has neither this nor fork
     os.register_at_fork(after_in_child=_in_child)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a job is doing: a bar on a terminal and in a notebook, plain lines elsewhere."""
+"""Shows what a job is doing: a bar on a terminal and in a notebook, plain lines elsewhere."""
 from __future__ import annotations
 
 import os
@@ -14,11 +14,11 @@ from .text import harmless
 from .v1 import solve_pb2
 
 WIDTH = 20
-PAUSE = 0.1  # between two looks of a bar [s]
+PAUSE = 0.1  # between two updates of a bar [s]
 
 
 class State:
-    """Follows the events of a job; what is worth a line. stages: of an accuracy, a line each."""
+    """Follows the events of a job and says which are worth a line. stages: a line for each stage of an accuracy."""
 
     def __init__(self, job: solve_pb2.Job) -> None:
         spec, sweeps = job.spec, job.spec.HasField("sweep")
@@ -53,7 +53,7 @@ class State:
             self.ended += len(message.sweep_rows.status)
             self.now = "solving"
         elif event == "stage_ended":
-            self.ended = 0  # the next one solves them again
+            self.ended = 0  # the next stage solves the load cases again
             lines += self._stage_ended(message.stage_ended)
         elif event == "ended":
             self.now = _word(solve_pb2.JobStatus.State.Name(message.ended.status.state))
@@ -63,13 +63,13 @@ class State:
 
     def _load_ended(self, answer: solve_pb2.LoadCaseAnswer) -> list[str]:
         if self.accuracy is not None and answer.status == answer.STATUS_CONVERGED:
-            return []  # in each stage again: what goes well is told by the line of the stage
+            return []  # it is solved in every stage; the stage's line tells of success
         count = answer.iterations
         return [f"{answer.name}: {_word(solve_pb2.LoadCaseAnswer.Status.Name(answer.status))} after {count} {self.step}"
                 f"{'' if count == 1 else 's'}"]
 
     def _stage_ended(self, stage: solve_pb2.Stage) -> list[str]:
-        """A watch may tell of a stage twice."""
+        """The line of a stage; none if it was told already, as a watch may tell of a stage twice."""
         if not stage.answers or stage.mesh in self.stages or self.accuracy is None:
             return []
         self.stages[stage.mesh] = (f"stage {len(self.stages) + 1}: {stage.triangles} triangles, "
@@ -83,14 +83,14 @@ class State:
 
 
 def _word(name: str) -> str:
-    """As the command's."""
+    """The word for a state that the command uses."""
     word = name.removeprefix("STATE_").removeprefix("STATUS_").lower().replace("_", " ")
     return {"waiting for mesh": "waiting for the mesh", "succeeded": "done"}.get(word, word)
 
 
 def _errors(stage: solve_pb2.Stage, asked: solve_pb2.Accuracy) -> str:
-    """The largest of all load cases, as the command tells them: "energy 0.21 % (asked 0.1 %)"; "-" where one is
-    not known."""
+    """The largest errors over all load cases, as the command prints them: "energy 0.21 % (asked 0.1 %)", with "-" for
+    an unknown one."""
     def text(error: float, most: float) -> str:
         percent = f"{100 * error:.{2 if error < 1 and not most else 3}g} %" if np.isfinite(error) else "- %"
         return percent + (f" (asked {100 * most:.6g} %)" if most else "")
@@ -106,11 +106,11 @@ def _errors(stage: solve_pb2.Stage, asked: solve_pb2.Accuracy) -> str:
 
 
 class Progress:
-    """out: where it is shown; a notebook is noticed."""
+    """Shows the progress of a job on `out`, or in the notebook that it finds itself in."""
 
     def __init__(self, job: solve_pb2.Job, out: TextIO | None = None, shown: bool = True) -> None:
         self._state, self._name = State(job), job.name
-        self._out: TextIO | None = (out or sys.stderr) if shown else None  # a program without a terminal may lack it
+        self._out: TextIO | None = (out or sys.stderr) if shown else None  # sys.stderr may be None without a terminal
         self._handle = _notebook_handle() if shown and out is None else None
         self._bar = self._handle is None and _is_terminal(self._out)
         self._shown, self._next = 0, 0.0
@@ -120,7 +120,7 @@ class Progress:
             return
         try:
             self._show(message, self._out)
-        except (OSError, ValueError):  # closed, or full: no reason to lose the job
+        except (OSError, ValueError):  # `out` is closed or full, no reason to lose the job
             self._out = None
 
     def _show(self, message: solve_pb2.WatchJobResponse, out: TextIO) -> None:
@@ -146,7 +146,7 @@ class Progress:
 
 
 def _columns(out: TextIO) -> int:
-    """A longer text would go on in a second line, which stays."""
+    """Width of the terminal: a longer text would wrap into a second line, which would not be overwritten."""
     try:
         return os.get_terminal_size(out.fileno()).columns - 1
     except OSError:
@@ -161,7 +161,7 @@ def _is_terminal(out: TextIO | None) -> bool:
 
 
 def _notebook_handle() -> Any:
-    """Of a text that can be replaced; None outside notebooks."""
+    """The handle of a text in a notebook that can be replaced; None outside notebooks."""
     ipython = sys.modules.get("IPython")
     shell = ipython.get_ipython() if ipython is not None else None
     if shell is None or not hasattr(shell, "kernel"):

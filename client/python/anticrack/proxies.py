@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which HTTP proxy gRPC would use, by the environment."""
+"""Finds the HTTP proxy that gRPC takes from the environment."""
 from __future__ import annotations
 
 import ipaddress
@@ -9,9 +9,9 @@ from .credentials import host_and_port, is_loopback
 
 
 def proxy_for(address: str) -> tuple[str, str] | None:
-    """The variable that names it, and HOST:PORT. None for what stays on the machine, and for what no_grpc_proxy,
-    no_proxy or NO_PROXY, the first that is set, exempts: a list of the ends of names, addresses and networks
-    (10.0.0.0/8), each also with a port, or *."""
+    """Returns the variable that names the proxy, and the proxy's HOST:PORT. None for an address on this machine, and
+    for one that the first set variable of no_grpc_proxy, no_proxy and NO_PROXY exempts: a list of ends of names,
+    addresses and networks (10.0.0.0/8), each also with a port, or *."""
     name = _first_set("grpc_proxy", "https_proxy", "http_proxy")
     if name is None or not os.environ[name] or is_loopback(address):
         return None

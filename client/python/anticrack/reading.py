@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A case on its way to the server, which reads it, and what the server makes of it. Arrays and meshes in memory stay
-here: the server is given a name for each, as if it were that of a file."""
+"""Sends a case to the server, which reads it, and holds what the server makes of it. Arrays and meshes in memory stay
+here: the server gets a name for each, as if it were a file."""
 from __future__ import annotations
 
 import contextlib
@@ -26,15 +26,15 @@ Places = Mapping[str, case_pb2.CasePlace]
 
 
 class Question:
-    """memory: what the names stand for."""
+    """The request to read a case. memory: the contents that the names stand for."""
 
     def __init__(self, case: Case, loads_optional: bool) -> None:
-        """Raises CaseError for what only Python has."""
+        """Raises CaseError for values that a case cannot have, such as functions."""
         self.case = case
         self.memory: dict[str, Any] = {}
         self.request = case_pb2.ReadCaseRequest(source=harmless(case.source), loads_optional=loads_optional)
-        if case.text and repr(case.tables) == repr(tomllib.loads(case.text)):  # equal, and of the same types
-            self.request.toml = case.text.encode("utf-8", "replace")  # of which errors have lines
+        if case.text and repr(case.tables) == repr(tomllib.loads(case.text)):  # repr also compares types
+            self.request.toml = case.text.encode("utf-8", "replace")  # errors then name lines
         else:
             try:
                 tables = self._sent(tables_of(case.tables), "")
@@ -46,7 +46,7 @@ class Question:
         return CaseError(": ".join(part for part in (self.case.source, key, problem) if part))
 
     def _sent(self, given: Any, key: str) -> Any:
-        """As JSON has it."""
+        """The value as JSON, with names in place of arrays and meshes."""
         value = plain(given, lambda problem: self._error(key, problem))
         if isinstance(value, Mapping):
             if key.startswith("load.") and key.endswith(".f") and "values" in value:
@@ -85,14 +85,14 @@ class Question:
         return {"file": self._kept(values, values.tobytes()), "dataset": "values", "per": table.get("per")}
 
     def _kept(self, value: Any, content: bytes) -> str:
-        """Its name, by its content: cases with other values are other texts."""
+        """Keeps a content and returns its name, which depends on it: cases that differ in values differ in text."""
         name = f"in memory, sha256 {hashlib.sha256(content).hexdigest()[:16]}"
         self.memory[name] = value
         return name
 
 
 class ReadCase:
-    """The answer: `mesh` and `spec` are what is asked for, `text` is the case in TOML."""
+    """The server's reading of a case: `mesh` and `spec` are the requests to send, `text` is the case in TOML."""
 
     def __init__(self, question: Question, answer: case_pb2.ReadCaseResponse) -> None:
         self._case, self._memory, self._answer = question.case, question.memory, answer
@@ -100,7 +100,7 @@ class ReadCase:
         self.text = answer.toml or question.case.text
 
     def msh(self) -> bytes | None:
-        """The content of mesh.file."""
+        """The content of mesh.file, or None."""
         name = self._answer.mesh_file
         if not name or name in self._memory:
             return self._memory.get(name)
@@ -111,7 +111,7 @@ class ReadCase:
             raise CaseError(f"{self._where('upload')}: {path}: {error.strerror}; name a .msh file") from None
 
     def arrays(self) -> list[tuple[int, Array]]:
-        """The index of the load case, the values of its f."""
+        """Pairs of a load case's index and the values of its f, for each f given as an array."""
         return [(array.load_case, self._memory[array.file] if array.file in self._memory else self._values(array))
                 for array in self._answer.arrays]
 
@@ -138,7 +138,7 @@ class ReadCase:
         return array_of(values, (of,), lambda problem: error("dataset", problem))
 
     def leave_out_accuracy(self) -> None:
-        """Of a sweep, and the coarse mesh that only it would begin on."""
+        """Drops the accuracy, which a sweep does not have, and the coarse mesh on which only an accuracy begins."""
         if self.spec.HasField("accuracy"):
             warnings.warn("[accuracy] is not used: a sweep has one mesh, of mesh.size; bounds=True tells how far each "
                           "row is from the membrane. For closer bounds take a smaller mesh.size, or make few rows "
@@ -148,13 +148,13 @@ class ReadCase:
                 self.mesh.options.preset = mesh_pb2.MESH_PRESET_GRADED
 
     def warn(self) -> None:
-        """Once nothing is refused: of a case with an error the error is told alone."""
+        """Issues the server's warnings. Call it when nothing was refused, as an error should be told alone."""
         for note in self._answer.notes:
             warnings.warn(harmless(note))
 
 
 def _name_or_index(table: Any, index: int) -> str:
-    """What tells an entry of a list in a key, as the server has it."""
+    """Names an entry of a list in a key as the server does: by its name, else by its index."""
     name = table.get("name") if isinstance(table, Mapping) else None
     return name if isinstance(name, str) and 0 < len(name) <= 64 else str(index)
 
@@ -164,7 +164,7 @@ def _written(place: case_pb2.CasePlace | None) -> str:
 
 
 def _nearest(places: Places, field: str) -> case_pb2.CasePlace | None:
-    """Where the value of a field, or what is nearest around it, was written."""
+    """The place in the case where a field, or the nearest one around it, was written."""
     field = field.removeprefix("spec.").removeprefix("mesh.")
     while field and field not in places:
         field = field[:max(field.rfind("."), field.rfind("["), 0)]
@@ -172,13 +172,13 @@ def _nearest(places: Places, field: str) -> case_pb2.CasePlace | None:
 
 
 def places_of(spec: solve_pb2.JobSpec) -> Places:
-    """As far as a job tells them without its case."""
+    """The places that can be known from a job without its case."""
     return {f"load_cases[{i}]{field}": case_pb2.CasePlace(key=f"load.{load.name}{key}")
             for i, load in enumerate(spec.load_cases) for field, key in (("", ""), (".force", ".f"))}
 
 
 def in_terms_of(places: Places, error: ServerError) -> ServerError:
-    """With the keys of the case in its message."""
+    """Returns the error with the case's keys in its message."""
     if not error.fields:
         return error
     fields: list[tuple[str, str]] = []
@@ -186,7 +186,7 @@ def in_terms_of(places: Places, error: ServerError) -> ServerError:
     for field, what in error.fields:
         place = _nearest(places, field)
         if place and what == told and told_of.startswith(place.key + "."):
-            continue  # of two keys that cause it together, the one that the case leaves out
+            continue  # two keys cause it together, and the case lacks this one
         told_of, told = place.key if place else "", what
         fields.append((_written(place) or field, what))
     return ServerError(error.code, error.message, error.reason, tuple(fields), error.metadata, error.retry_delay)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Answers with their arrays, the same whether they come from a result file or from the server. Lengths, forces and
-displacements are in the units of the case; a number that is not known is NaN."""
+"""Answers with their arrays, which are the same whether read from a result file or from the server. Lengths, forces
+and displacements are in the units of the case; an unknown number is NaN."""
 from __future__ import annotations
 
 import os
@@ -28,33 +28,33 @@ GLUE, CRACK, BONDED, DELAMINATED, FREE = range(1, 6)  # kinds of nodes and edges
 
 @dataclass
 class Units:
-    """Names of units; empty: none."""
+    """Names of units; an empty name means that the case gives none."""
     length: str = ""
     force: str = ""
 
     def of(self, dimension: str) -> str:
-        """Of what has this dimension, in F and L: "F/L^2" is "N/mm^2"; "-" where a unit in it has no name."""
+        """The unit of a dimension in F (force) and L (length): "F/L^2" gives "N/mm^2"; "-" if a unit has no name."""
         names = {"F": self.force, "L": self.length}
         if not dimension or any(letter in dimension and not name for letter, name in names.items()):
             return "-"
         return "".join(names.get(letter, letter) for letter in dimension)
 
     def behind(self, dimension: str) -> str:
-        """Behind a number: " N/mm^2"; empty where there is none."""
+        """The unit to write after a number: " N/mm^2"; empty if there is none."""
         unit = self.of(dimension)
         return "" if unit == "-" else f" {unit}"
 
     def label(self, dimension: str) -> str:
-        """Behind the name of an axis: " [N/mm^2]"; empty where there is none."""
+        """The unit to write after the name of an axis: " [N/mm^2]"; empty if there is none."""
         unit = self.behind(dimension).strip()
         return f" [{unit}]" if unit else ""
 
 
 @dataclass(repr=False)
 class Mesh:
-    """nodes (n, 2); triangles (m, 3) and boundary (b, 2), where u is prescribed: indices of nodes; subdomain (m): of a
-    triangle, index of subdomain_names (d); info: what the server says of it, Mesh in mesh.proto, without its
-    definition."""
+    """nodes (n, 2); triangles (m, 3): indices of nodes; boundary (b, 2): indices of nodes of the edges where u is
+    prescribed; subdomain (m): index into subdomain_names (d) for each triangle; info: the server's Mesh (mesh.proto)
+    without its definition."""
     nodes: Array
     triangles: Array
     subdomain: Array
@@ -67,12 +67,12 @@ class Mesh:
 
     @property
     def tension(self) -> Array:
-        """(d), of a law its mean"""
+        """(d) tension of each subdomain; the mean if it is a law"""
         return np.array([part.tension for part in self.info.subdomains])
 
     @property
     def tension_law(self) -> list[str]:
-        """(d) texts, empty where the tension is a number; none where all are"""
+        """(d) texts of the laws, "" where the tension is a number; an empty list if all are numbers"""
         laws = [part.tension_law for part in self.info.subdomains]
         texts = [f"along {law.along}, across {law.across}, angle {law.angle:g}" if law.across else law.along
                  for law in laws]
@@ -90,7 +90,7 @@ class Mesh:
 @dataclass(repr=False)
 class Interface:
     """s (k): arc length; x, y (k): coordinates; kind (k) and edge_kind (k-1): 1 glue, 2 crack, 3 bonded inclusion,
-    4 delaminated inclusion, 5 free crack; edge_inclusion (k-1): index of Mesh.inclusions, -1 none."""
+    4 delaminated inclusion, 5 free crack; edge_inclusion (k-1): index into Mesh.inclusions, -1 for none."""
     name: str
     s: Array
     x: Array
@@ -98,7 +98,7 @@ class Interface:
     kind: Array
     edge_kind: Array
     edge_inclusion: Array
-    units = Units()  # here and below: of the result that it is part of
+    units = Units()  # here and below: the units of the whole result
 
     def __repr__(self) -> str:
         length = self.s[-1] if len(self.s) else 0.0
@@ -107,14 +107,14 @@ class Interface:
 
 @dataclass(repr=False)
 class Trace:
-    """On the nodes (k) of an interface: u on its sides, jump = u_plus - u_minus, pressure (on glue the flux), contact
-    (1 where a crack is closed under pressure)."""
+    """Values on the nodes (k) of an interface: u on its two sides, jump = u_plus - u_minus, pressure (the flux on
+    glue), contact (1 where a crack is closed under pressure)."""
     u_minus: Array
     u_plus: Array
     jump: Array
     pressure: Array
     contact: Array
-    name, units = "", Units()  # of the interface
+    name, units = "", Units()  # name of the interface
 
     def __repr__(self) -> str:
         return (f"{harmless(self.name or 'interface')}: {counted(len(self.jump), 'node')}, "
@@ -124,7 +124,8 @@ class Trace:
 
 @dataclass(repr=False)
 class Field:
-    """u (n) of a subdomain on nodes (n), indices of Mesh.nodes, a slit's twice; triangles (m, 3): indices of these."""
+    """u (n) on the nodes of a subdomain. nodes (n): indices of Mesh.nodes, where a node inside a slit occurs twice;
+    triangles (m, 3): indices into nodes."""
     subdomain: str
     nodes: Array
     triangles: Array
@@ -142,7 +143,7 @@ class Field:
 
 
 def _walked(message: Any, but: tuple[str, ...], **other: Any) -> Any:
-    """A class with the values of a message, where they are not known as `other` says or not known."""
+    """Makes a class with the values of a message except `but`; unknown values default to `other` or to "not known"."""
     defaults = {name: value for name, value in {**entries.defaults_of(message), **other}.items() if name not in but}
     return make_dataclass(f"_{message.DESCRIPTOR.name}", [(name, type(value), field(default=value, kw_only=True))
                                                           for name, value in defaults.items()], repr=False)
@@ -150,9 +151,9 @@ def _walked(message: Any, but: tuple[str, ...], **other: Any) -> Any:
 
 @dataclass(repr=False)
 class Inclusion(_walked(solve_pb2.InclusionAnswer, ("name",), Bx=0.0, By=0.0)):  # type: ignore[misc]
-    """The values of InclusionAnswer in solve.proto, shorter: u = A + Bx (x - x0) + By (y - y0) along it; resultant: the
-    force on it; contact_length; Mx, My: the moment about (x0, y0); the membrane's own A lies between A_lower and
-    A_upper."""
+    """The values of InclusionAnswer in solve.proto under shorter names. u = A + Bx (x - x0) + By (y - y0) along the
+    inclusion; resultant: the force on it; contact_length; Mx, My: the moment about (x0, y0). The membrane's exact A
+    lies between A_lower and A_upper."""
     name: str
     units = Units()
 
@@ -168,7 +169,7 @@ class Inclusion(_walked(solve_pb2.InclusionAnswer, ("name",), Bx=0.0, By=0.0)): 
 class Load(_walked(solve_pb2.LoadCaseAnswer, ("name", "status"))):  # type: ignore[misc]
     """The answer to a load case: the values of LoadCaseAnswer in solve.proto, energy, contact_length, iterations and so
     on, and solve_seconds. status: "converged", "not_converged" (see reason), "failed" (see error) or "cancelled". The
-    membrane's own energy lies between energy_lower and energy_upper. solver: what was asked of the method.
+    membrane's exact energy lies between energy_lower and energy_upper. solver: the method and its options.
 
     kkt: relative residuals of the optimality conditions. traces: one for each interface, by its name or index. history:
     arrays (n), one entry an iteration. stages: arrays, one entry a stage; empty without an accuracy.
@@ -203,7 +204,7 @@ class Load(_walked(solve_pb2.LoadCaseAnswer, ("name", "status"))):  # type: igno
         return {name: getattr(self, f"kkt_{name}") for name in KKT}
 
     def displacements(self) -> dict[str, float]:
-        """A of every inclusion."""
+        """A of every inclusion, by its name."""
         return {name: inclusion.A for name, inclusion in self.inclusions.items()}
 
     def _energy(self) -> str:
@@ -223,7 +224,7 @@ class Load(_walked(solve_pb2.LoadCaseAnswer, ("name", "status"))):  # type: igno
         return told.replace("\n", "\n  ")
 
     def _repr_html_(self) -> str:
-        """For a notebook."""
+        """The HTML that a notebook shows."""
         length, force = self.units.label("L"), self.units.label("F")
         rows = [[part.name, interval(part.A_lower, part.A_upper, part.A), f"{part.resultant:.6g}",
                  short_length(part.contact_length)] for part in self.inclusions.values()]
@@ -231,16 +232,16 @@ class Load(_walked(solve_pb2.LoadCaseAnswer, ("name", "status"))):  # type: igno
                                                           "contact length" + length], rows)
 
 
-SCALARS = list(entries.defaults_of(solve_pb2.LoadCaseAnswer))  # of a load, its name first
+SCALARS = list(entries.defaults_of(solve_pb2.LoadCaseAnswer))  # names of a load's values, `name` first
 
 
 @dataclass(repr=False)
 class Sweep:
-    """Columns, an entry a row: status (3 converged, 4 not converged, 5 failed, 6 cancelled), steps, energy,
+    """Columns with an entry for each row: status (3 converged, 4 not converged, 5 failed, 6 cancelled), steps, energy,
     contact_length, kkt (largest relative residual), displacement (rows, inclusions): A, slope (rows, inclusions, 2) or
     None, contact (rows, contacts) of the crack nodes contact_nodes (contacts, 2): interface, node. coefficients
     (rows, loads), or None where they are not known. energy_lower, energy_upper, displacement_lower, displacement_upper:
-    bounds of the membrane's own, NaN where a row has none, or None where they were not asked for. kept: rows whose
+    bounds of the membrane's exact values, NaN if a row has none, or None if not asked for. kept: rows whose
     traces are in Result.loads["row-K"]. answer: SweepAnswer in solve.proto."""
     loads: list[str]
     inclusions: list[str]
@@ -268,11 +269,11 @@ class Sweep:
 
     @property
     def converged(self) -> Array:
-        """(rows) bool"""
+        """(rows) whether the row converged"""
         return np.asarray(self.status == solve_pb2.LoadCaseAnswer.STATUS_CONVERGED)
 
     def frame(self) -> Any:
-        """A pandas.DataFrame, a line a row: coefficients, A, its bounds and slopes by name; takes pandas."""
+        """A pandas.DataFrame with a line for each row: coefficients, A, its bounds and slopes by name; needs pandas."""
         pandas = package("pandas")
         columns: dict[str, Any] = {}
         if self.coefficients is not None:
@@ -295,8 +296,8 @@ class Sweep:
 
 @dataclass(repr=False)
 class Result:
-    """loads: answers by name, in the order of the case; interfaces: by name or index. not_reached: which accuracy was
-    not reached and why."""
+    """All answers to a job. loads: answers by name, in the order of the case; interfaces: by name or index.
+    not_reached: which accuracy was not reached and why."""
     title: str
     job: str
     mesh: Mesh
@@ -308,12 +309,12 @@ class Result:
     server_version: str = ""
     total_seconds: float = NAN
     units: Units = field(default_factory=Units)
-    solver: solve_pb2.Solver = field(default_factory=solve_pb2.Solver)  # with the defaults of the API
-    traction: bool | None = None  # whether a load has one; None: not known
+    solver: solve_pb2.Solver = field(default_factory=solve_pb2.Solver)  # defaults of the API are filled in
+    traction: bool | None = None  # whether a load has a traction; None if not known
 
     @property
     def converged(self) -> bool:
-        """Whether everything is, and an accuracy reached."""
+        """Whether all loads or rows converged and the accuracy, if one was asked for, is reached."""
         if self.sweep is not None:
             return bool(self.sweep.converged.all())
         return not self.not_reached and all(load.converged for load in self.loads.values())
@@ -331,8 +332,8 @@ class Result:
         return self.loads[load]
 
     def frame(self) -> Any:
-        """The answers as a pandas.DataFrame, a line a load case, with "A of NAME" and its bounds; takes pandas. Its
-        attrs["meanings"] say of numbers what they are, attrs["units"] their units."""
+        """The answers as a pandas.DataFrame with a line for each load case, "A of NAME" and its bounds; needs pandas.
+        attrs["meanings"] explains the columns of numbers, attrs["units"] gives their units."""
         pandas = package("pandas")
         rows = []
         for load in self.loads.values():
@@ -356,8 +357,8 @@ class Result:
         return "\n".join(told + [f"not reached: {harmless(self.not_reached)}"] * bool(self.not_reached))
 
     def _repr_html_(self) -> str:
-        """For a notebook."""
-        most = 8  # columns
+        """The HTML that a notebook shows."""
+        most = 8  # columns that are shown
         every = list(next(iter(self.loads.values())).inclusions) if self.loads else []
         rows, names = [], every[:most]
         for load in self.loads.values():
@@ -372,7 +373,7 @@ class Result:
 
     @classmethod
     def read(cls, path: str | os.PathLike[str]) -> Result:
-        """Of a result file of FORMAT."""
+        """Reads a result file of FORMAT."""
         h5py = package("h5py")
         try:
             with h5py.File(path) as file:
@@ -396,8 +397,8 @@ class Result:
             raise Error(f"{os.fspath(path)}: cannot be read as a result file: {error}") from None
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """As a result file, which the command shows, plots and exports too. What is there is replaced; where it is no
-        result of the same case, it is kept as PATH~, with a warning."""
+        """Writes a result file, which the command shows, plots and exports too. An existing file is replaced; unless it
+        is a result of the same case, it is kept as PATH~, with a warning."""
         package("h5py")
         from .save import save
         if save(self, path):
@@ -406,7 +407,7 @@ class Result:
     @classmethod
     def of_job(cls, job: solve_pb2.Job, mesh: mesh_pb2.Mesh, mesh_arrays: Mapping[str, Array],
                arrays: Mapping[str, Array], case: str = "", server_version: str = "") -> Result:
-        """Of what the server streams."""
+        """Makes a result of the server's messages and of the arrays that it streams."""
         interfaces = Parts("interface", [Interface(info.name, **_below(arrays, f"interfaces/{i}/"), **{
             name: mesh_arrays[f"interfaces/{i}/{name}"] for name in ("edge_kind", "edge_inclusion")})
             for i, info in enumerate(mesh.interfaces)])
@@ -418,7 +419,7 @@ class Result:
                      solver=_with_defaults(spec.solver), traction=any(load.traction for load in spec.load_cases))
         if spec.HasField("sweep"):
             traces = {int(row): _traces(arrays, f"traces/{row}", len(interfaces)) for row in spec.sweep.traces}
-            kept = [row for row, found in traces.items() if found]  # the others did not end
+            kept = [row for row, found in traces.items() if found]  # the other rows did not end
             result.sweep = _sweep([load.name for load in spec.load_cases], shape.inclusions, _below(arrays, "sweep/"),
                                   kept, status.error.message, status.sweep_answer)
             result.loads.update((f"row-{row}", _row(result.sweep, row, traces[row], interfaces)) for row in kept)
@@ -429,7 +430,7 @@ class Result:
 
 
 def _without_definition(mesh: mesh_pb2.Mesh) -> mesh_pb2.Mesh:
-    """As a file has it."""
+    """A copy of the mesh as a file has it."""
     info = mesh_pb2.Mesh()
     info.CopyFrom(mesh)
     if info.HasField("geometry"):
@@ -441,7 +442,7 @@ def _without_definition(mesh: mesh_pb2.Mesh) -> mesh_pb2.Mesh:
 
 
 def _with_defaults(solver: solve_pb2.Solver) -> solve_pb2.Solver:
-    """With the defaults that the API documents."""
+    """A copy of the solver in which the API's defaults are filled in."""
     asked = solve_pb2.Solver(active_set=solve_pb2.ActiveSet(tolerance=1e-12, max_steps=1000))
     if solver.HasField("uzawa"):
         asked = solve_pb2.Solver(uzawa=solve_pb2.Uzawa(epsilon=1e-12, p=1e5, max_iterations=20000))
@@ -454,7 +455,7 @@ def _with_defaults(solver: solve_pb2.Solver) -> solve_pb2.Solver:
 
 
 def _told(result: Result) -> Result:
-    """Its parts know their units, and traces their interfaces."""
+    """Tells the parts of a result their units, and traces their interfaces."""
     parts: list[Any] = [*result.interfaces, *result.loads.values()]
     for load in result.loads.values():
         parts += [*load.inclusions.values(), *load.traces, *load.fields]
@@ -468,7 +469,7 @@ def _told(result: Result) -> Result:
 
 
 def _below(arrays: Mapping[str, Array], prefix: str) -> Arrays:
-    """Arrays directly under a name."""
+    """The arrays directly under a name, by the rest of their names."""
     return {name[len(prefix):]: array for name, array in arrays.items()
             if name.startswith(prefix) and "/" not in name[len(prefix):]}
 
@@ -491,7 +492,7 @@ def _sweep(loads: list[str], inclusions: list[str], columns: Arrays, kept: list[
 
 
 def _row(sweep: Sweep, row: int, traces: Parts[Trace], interfaces: list[Interface]) -> Load:
-    """The answer to a row whose traces were kept."""
+    """Makes the answer to a row whose traces were kept."""
     load = Load(f"row-{row}", _status(sweep.status[row]), iterations=int(sweep.steps[row]),
                 traces=traces)
     for key in ("energy", "energy_lower", "energy_upper", "contact_length"):
@@ -510,13 +511,13 @@ def _row(sweep: Sweep, row: int, traces: Parts[Trace], interfaces: list[Interfac
 
 
 def runs(values: Array) -> list[tuple[int, int]]:
-    """(first, last + 1) of equal entries."""
+    """The runs of equal entries, each as (first, last + 1)."""
     cuts = [int(last) + 1 for last in np.flatnonzero(np.diff(values))]
     return list(zip([0, *cuts], [*cuts, len(values)])) if len(values) else []
 
 
 def _load_of_answer(answer: solve_pb2.LoadCaseAnswer, lines_in: list[str]) -> Load:
-    """Without its arrays; lines_in: names of the interfaces."""
+    """Makes a load of its answer, without the arrays; lines_in: names of the interfaces."""
     values = entries.values_of(answer)
     solved = values["status"] in ("converged", "not_converged")
     load = Load(**{name: value for name, value in values.items()
@@ -553,7 +554,7 @@ def _texts(dataset: Any) -> list[str]:
 
 
 def _message_in(group: Any, message: Any) -> Any:
-    """Filled in with what the group has of it: the opposite of save's."""
+    """Fills in a message with the values that a group has; the opposite of save's _put_message."""
     for name, place in entries.entries_of(message.DESCRIPTOR).items():
         value = group.attrs[name]
         entries.set_value(message, *place, value if isinstance(value, str) else value.item())

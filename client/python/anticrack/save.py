@@ -25,7 +25,7 @@ _MEANINGS = [*entries.meanings(solve_pb2.Solver.DESCRIPTOR, "solver"),
              *entries.meanings(solve_pb2.Stage.DESCRIPTOR, "stages"),
              *entries.meanings(solve_pb2.SweepAnswer.DESCRIPTOR, "sweep")]
 
-# Of datasets, as Units.of has them; each name means the same wherever it is.
+# Dimensions of datasets, as Units.of takes them; a name means the same in every group.
 _DIMENSIONS = {
     **dict.fromkeys(["nodes", "s", "x", "y", "u_minus", "u_plus", "jump", "u", "displacement", "displacement_lower",
                      "displacement_upper"], "L"),
@@ -33,9 +33,10 @@ _DIMENSIONS = {
 
 
 def save(result: Result, path: str | os.PathLike[str]) -> bool:
-    """Whole or not at all. Whether what was there is kept as PATH~: no result of the same case."""
+    """Writes the file whole or not at all. Returns whether the old file is kept as PATH~, as it is no result of the
+    same case."""
     target, stream = output.target_of(path)
-    image = io.BytesIO()  # a full disk while HDF5 closes a file makes it crash
+    image = io.BytesIO()  # HDF5 crashes if the disk is full while it closes a file
     with h5py.File(image, "w") as file:
         _put_result(file, result)
     former = not stream and os.path.isfile(target) and not _holds_the_same(target, result)
@@ -44,7 +45,8 @@ def save(result: Result, path: str | os.PathLike[str]) -> bool:
 
 
 def _holds_the_same(path: str | os.PathLike[str], result: Result) -> bool:
-    """What the result makes again, which is no loss. A sweep's coefficients are not in its case."""
+    """Whether the existing file is a result of the same job or case, so that replacing it loses nothing. A case does
+    not suffice for a sweep, as it lacks the coefficients."""
     try:
         with h5py.File(path) as file:
             job, case = file.attrs["job"], file.attrs["case"]
@@ -63,8 +65,8 @@ def _put(group: Any, name: str, values: Any) -> None:
 
 
 def _put_record(group: Any, record: Any, *but: str) -> None:
-    """Its texts and numbers as attributes, its arrays and lists of texts as datasets, of a sweep without columns of
-    nothing; fields `but` are left out."""
+    """Writes a record's texts and numbers as attributes, its arrays and lists of texts as datasets, without the fields
+    `but` and a sweep's arrays without columns."""
     for field in fields(record):
         value = getattr(record, field.name)
         if field.name in but or isinstance(value, bool):
@@ -77,7 +79,7 @@ def _put_record(group: Any, record: Any, *but: str) -> None:
 
 
 def _put_message(group: Any, message: Any) -> None:
-    """Values as attributes, lists of texts as datasets, lists of messages as groups of columns."""
+    """Writes values as attributes, lists of texts as datasets, lists of messages as groups of columns."""
     for name, place in entries.entries_of(message.DESCRIPTOR).items():
         group.attrs[name] = _typed(place[1], entries.value_of(message, *place))
     for field in entries.lists_of(message.DESCRIPTOR):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What one does with a server, written once for blocking and asynchronous clients. Lost connections are retried."""
+"""The work with a server, written once for blocking and asynchronous clients. Calls that lose the connection are
+tried again."""
 from __future__ import annotations
 
 import contextlib
@@ -38,7 +39,7 @@ class Session:
         self.transport, self.address, self.backoff = transport, address, backoff
 
     async def _wait(self, backoff: Backoff, error: ServerError) -> None:
-        """Until the next try; raises `error`, if it is about a lost connection with the cure, to give up."""
+        """Waits until the next try. Raises `error` to give up; if the connection was lost, its message has the cure."""
         if error.lost:
             self.transport.require_alive()
         try:
@@ -59,7 +60,7 @@ class Session:
         self.backoff.met = True
 
     async def _tried(self, call: Callable[..., Any], *arguments: Any, deletes: bool = False) -> Any:
-        """Until there is an answer. deletes: NOT_FOUND after a lost answer is success, None."""
+        """Calls until there is an answer. deletes: NOT_FOUND after a lost answer means success and returns None."""
         backoff, lost = self.backoff.fresh(), False
         while True:
             try:
@@ -77,8 +78,8 @@ class Session:
         return await self._tried(self.transport.unary, method, request)
 
     async def events(self, name: str, after: int = 0) -> AsyncIterator[solve_pb2.WatchJobResponse]:
-        """Every event of a job after a number, in order and once each, up to the one that ends it; goes on behind the
-        last one after a lost connection. Where the server keeps that one no longer, starts again from the earliest."""
+        """Yields every event of a job after a sequence number, in order and once each, up to the job's last one. When a
+        connection was lost, goes on after the last event, or from the earliest if the server has dropped that one."""
         backoff = self.backoff.fresh()
         while True:
             lost = ServerError("UNAVAILABLE", "the server closed the stream early")
@@ -104,7 +105,7 @@ class Session:
             await self._wait(backoff, lost)
 
     async def block(self, method: Any, request_type: Callable[..., Any], name: str) -> dict[str, Array]:
-        """The arrays that a method streams; goes on where it was after a lost connection."""
+        """Reads the arrays that a method streams; goes on where it was after a lost connection."""
         backoff, receiver, damaged = self.backoff.fresh(), BlockReceiver(), 0
         while True:
             lost = ServerError("UNAVAILABLE", "the server closed the stream early")
@@ -125,7 +126,7 @@ class Session:
             await self._wait(backoff, lost)
 
     async def upload(self, contents: Sequence[bytes], kind: upload_pb2.Upload.Kind) -> list[str]:
-        """Their names."""
+        """Uploads contents and returns their names."""
         names: list[str] = []
         for begin in range(0, len(contents), FILES_A_STREAM):
             parts = functools.partial(_parts, contents[begin:begin + FILES_A_STREAM], kind)
@@ -133,7 +134,7 @@ class Session:
         return names
 
     async def read(self, case: Case | str | os.PathLike[str], loads_optional: bool = False) -> ReadCase:
-        """Raises CaseError where the case is wrong."""
+        """Has the server read a case. Raises CaseError if the case is wrong."""
         question = Question(as_case(case), loads_optional)
         size = question.request.ByteSize()
         if size >= CHUNK and size > (most := (await self.info()).limits.message_bytes):
@@ -153,7 +154,7 @@ class Session:
         return await self.call(self.transport.meshes.CreateMesh, case.mesh)  # type: ignore[no-any-return]
 
     async def mesh_of(self, case: Case | str | os.PathLike[str]) -> mesh_pb2.Mesh:
-        """Once it is meshed. Raises ServerError where it cannot be."""
+        """Returns the mesh of a case once it is meshed. Raises ServerError if it cannot be meshed."""
         read = await self.read(case, loads_optional=True)
         with _in_terms_of(read):
             mesh = await self._create_mesh(read)
@@ -185,7 +186,7 @@ class Session:
         return created, read
 
     async def mesh(self, name: str) -> mesh_pb2.Mesh:
-        """Once it is meshed, or has failed."""
+        """Returns a mesh once it is meshed or has failed."""
         pause = 0.02
         while True:
             mesh = await self.call(self.transport.meshes.GetMesh, mesh_pb2.GetMeshRequest(name=name))
@@ -201,7 +202,7 @@ class Session:
         return await self.call(self.transport.jobs.GetJob, solve_pb2.GetJobRequest(name=name))  # type: ignore
 
     async def jobs(self, limit: int) -> list[solve_pb2.Job]:
-        """The newest, without load cases and answers."""
+        """The newest jobs, without load cases and answers."""
         found: list[solve_pb2.Job] = []
         request = solve_pb2.ListJobsRequest()
         while len(found) < limit:
@@ -224,7 +225,7 @@ class Session:
         return await self.call(self.transport.server.GetServerInfo, server_pb2.GetServerInfoRequest())  # type: ignore
 
     async def result(self, name: str, case_text: str = "") -> Result:
-        """Of an ended job."""
+        """Reads the result of a job that has ended."""
         job = await self.job(name)
         stages = [stage.mesh for stage in job.status.stages if stage.answers]
         mesh = await self.mesh(stages[-1] if stages else job.spec.mesh)
@@ -235,7 +236,7 @@ class Session:
 
 @contextlib.contextmanager
 def _in_terms_of(case: ReadCase) -> Iterator[None]:
-    """What the server refuses is told with the case's keys."""
+    """Inside the context, errors of the server are raised with the case's keys."""
     try:
         yield
     except ServerError as error:
@@ -256,6 +257,6 @@ def session_to(transport: type[Transport], address: str | None, credentials: Cre
 
 
 def session_of_own(transport: type[Transport], *flags: str, program: Path | None) -> Session:
-    """With a private server."""
+    """Makes a session with a private server."""
     server = Server(*flags, program=program)
     return Session(transport(server.address, Credentials(), server), server.address, Backoff(300.0, 3.0))

@@ -14,10 +14,11 @@ from .v1 import solve_pb2
 
 def sweep_of(spec: solve_pb2.JobSpec, coefficients: Any, nodal_forces: Any, traces: Sequence[int],
              bounds: bool) -> bytes | None:
-    """Makes a job a sweep; the matrix to upload, none where neither is given.
+    """Makes a job a sweep; returns the matrix to upload, or None if neither coefficients nor nodal_forces are given.
 
     coefficients (rows, loads) in the order of the case's loads, or a DataFrame with their names as columns;
-    nodal_forces (rows, nodes): f on the nodes of the mesh. traces: rows whose traces are kept. bounds: of every row."""
+    nodal_forces (rows, nodes): f on the nodes of the mesh. traces: rows whose traces are kept. bounds: bound every
+    row."""
     if coefficients is None and nodal_forces is None:
         if traces or bounds:
             raise CaseError("traces and bounds are of a sweep; give coefficients or nodal_forces"
@@ -43,7 +44,7 @@ def sweep_of(spec: solve_pb2.JobSpec, coefficients: Any, nodal_forces: Any, trac
 
 
 def coefficients_of(values: Any, loads: Sequence[str]) -> Array:
-    """(rows, loads), of a DataFrame its columns by name, wherever they stand."""
+    """The coefficients as an array (rows, loads); columns of a DataFrame are found by name, in any order."""
     def fail(problem: str) -> CaseError:
         return CaseError(f"coefficients: {problem}")
     if hasattr(values, "columns"):
@@ -55,7 +56,7 @@ def coefficients_of(values: Any, loads: Sequence[str]) -> Array:
 
 
 def _kept(traces: Any, rows: int) -> list[int]:
-    """Each once, in their order."""
+    """The rows whose traces are kept, ascending and each once."""
     def fail(problem: str) -> CaseError:
         return CaseError(f"traces: {problem}; write rows, as [0, 2]")
     if not is_array(traces) and (isinstance(traces, (str, bytes)) or not isinstance(traces, Iterable)):

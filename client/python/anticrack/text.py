@@ -12,22 +12,22 @@ from typing import Any
 
 import numpy as np
 
-# What Unicode ignores though its category does not say so.
+# Characters that Unicode ignores though their category does not say so.
 _IGNORABLE = re.compile("[\u034f\u115f\u1160\u17b4\u17b5\u180b-\u180f\u2065\u3164\ufe00-\ufe0f\uffa0"
                         "\ufff0-\ufff8\U000e0000-\U000e0fff]")
 _HIDDEN = {"Cc", "Cf", "Cs", "Zl", "Zp"}
 
 
 def harmless(text: object, keep: str = "") -> str:
-    """Text of others for a terminal or a page, as the command shows it: what does not show itself, as line breaks and
-    marks of the direction of writing, becomes "?", but for what is in `keep`."""
+    """Makes text of others safe to show on a terminal or a page, as the command does: invisible characters, as line
+    breaks and marks of the writing direction, become "?", except those in `keep`."""
     return "".join(c if c in keep or not (unicodedata.category(c) in _HIDDEN or _IGNORABLE.match(c)) else "?"
                    for c in str(text))
 
 
 def interval(lower: float, upper: float, value: float, unit: str = "") -> str:
-    """The middle and half the width, in the words of the command's tables, and the mesh's own value: "0.4483 +- 0.0038
-    mm (0.4462 on the mesh)". The printed interval contains the given one. Without bounds the value alone."""
+    """Writes the middle and half the width, as in the command's tables, and the value on the mesh: "0.4483 +- 0.0038
+    mm (0.4462 on the mesh)". The printed interval contains the given one. Without bounds it is the value alone."""
     if not math.isfinite(lower) or not math.isfinite(upper):
         return f"{value:.6g}{unit}"
     middle, half = lower + (upper - lower) / 2, (upper - lower) / 2
@@ -37,7 +37,7 @@ def interval(lower: float, upper: float, value: float, unit: str = "") -> str:
 
     def decade(number: float) -> int:
         return math.floor(math.log10(number))
-    most = 6  # digits behind the first of the larger number
+    most = 6  # digits after the first digit of the larger number
     exponent = decade(size) if decade(size) < -4 or decade(size) > 5 else 0
     behind = min(most - decade(size), 1 - decade(half) if half > 0 else most)
     step = 10.0 ** -behind
@@ -51,30 +51,30 @@ def interval(lower: float, upper: float, value: float, unit: str = "") -> str:
 
 
 def _unsigned(number: float, decimals: int) -> float:
-    """0 where no other digit would be printed than 0: no "-0.00"."""
+    """Returns 0.0 for a number that prints as zeros only, so that no "-0.00" appears."""
     return 0.0 if abs(number) < 0.5 * 10.0 ** -decimals else number
 
 
 def short_length(length: float) -> str:
-    """Of contact: without bounds, and the mesh's to about an edge, so three digits."""
+    """Writes a contact length with three digits: it has no bounds and is known to about one edge of the mesh."""
     return f"{float(f'{length:.3g}'):.6g}"
 
 
 def without_numpy(value: Any) -> Any:
-    """With Python's numbers for numpy's, of which numpy 2 writes np.float64(0.5)."""
+    """Replaces numpy's numbers by Python's, as numpy 2 shows np.float64(0.5) for 0.5."""
     if isinstance(value, np.generic):
         return value.item()
     return type(value)(map(without_numpy, value)) if type(value) in (list, tuple) else value
 
 
 def short(text: str, most: int = 60) -> str:
-    """In one line, cut."""
+    """Puts a text on one line and cuts it."""
     text = harmless(" ".join(text.split()))
     return text if len(text) <= most else text[:most] + "..."
 
 
 def shown(value: Any) -> str:
-    """Of a case, in an error."""
+    """Shows a value of a case in an error."""
     if isinstance(value, bool):
         return str(value).lower()
     if callable(value):
@@ -87,13 +87,13 @@ def counted(count: int, one: str) -> str:
 
 
 def listed(names: Iterable[object], most: int = 20) -> str:
-    """Separated by commas; of many the first."""
+    """Joins names with commas; of many it shows the first."""
     texts = [harmless(name) for name in names]
     return ", ".join(texts[:most]) + (f" and {len(texts) - most} more" if len(texts) > most else "")
 
 
 def suggestion(word: str, known: Iterable[str]) -> str:
-    """As the command's: the nearest word, or those that are known."""
+    """Suggests the nearest known word, or lists the known ones, as the command does."""
     known = list(known)
     near = difflib.get_close_matches(word, known, 1)
     if near:
@@ -102,13 +102,13 @@ def suggestion(word: str, known: Iterable[str]) -> str:
 
 
 def lines(items: Sequence[object], most: int = 10) -> str:
-    """Each below the one before; of many the first."""
+    """Writes one item a line; of many it shows the first."""
     more = [f"and {len(items) - most} more"] if len(items) > most else []
     return "\n".join([repr(item) for item in items[:most]] + more)
 
 
 def html_table(title: str, head: Sequence[str], rows: Sequence[Sequence[str]], most: int = 50) -> str:
-    """Of many rows the first."""
+    """Makes a table in HTML; of many rows it shows the first."""
     def row(cells: Sequence[str], tag: str) -> str:
         return "<tr>" + "".join(f"<{tag}>{html.escape(harmless(cell))}</{tag}>" for cell in cells) + "</tr>"
     more = f"<p>and {len(rows) - most} more</p>" if len(rows) > most else ""

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Calls to the server, one try each, that raise ServerError. The session is written once, as coroutines: with the
-blocking calls of this transport they never wait for an event loop, so that `finished` runs them like functions."""
+blocking calls of this transport, coroutines never wait for an event loop, so `finished` runs them like functions."""
 from __future__ import annotations
 
 import os
@@ -17,28 +17,28 @@ from .private_server import Server
 from .proxies import proxy_for
 from .v1 import case_pb2_grpc, mesh_pb2_grpc, server_pb2_grpc, solve_pb2_grpc, upload_pb2_grpc
 
-# In Debian 13 this gRPC is built without NDEBUG and so has an experiment of debug builds, with which os.fork() waits
-# for ever in a process that has called a server. Before the first channel; whoever set experiments keeps their own.
+# Debian 13 builds gRPC without NDEBUG, which turns on an experiment of debug builds: os.fork() then waits for ever in
+# a process that has called a server. This has to precede the first channel; experiments set by the user are kept.
 if grpc.__version__.startswith("1.51."):
     os.environ.setdefault("GRPC_EXPERIMENTS", "-posix_event_engine_enable_polling")
 
 T = TypeVar("T")
-DEADLINE = 30.0  # of a try of a unary call [s]
+DEADLINE = 30.0  # for each try of a unary call [s]
 
 
 class _Closed:
-    """In place of the methods of a server."""
+    """Stands in for the methods of a server once the client is closed."""
 
     def __getattr__(self, method: str) -> Any:
         raise Error("this client is closed, as at the end of its 'with'; use it before, or connect another")
 
 
 class Transport:
-    """Blocking."""
+    """Calls that block until the answer is there."""
     calls: Any = grpc
 
     def __init__(self, address: str, credentials: Credentials, server: Server | None = None) -> None:
-        """server: a private one, which ends with this."""
+        """server: a private server, which ends together with the transport."""
         self.server_process, self._owner = server, os.getpid()
         self.stop_server: Any = weakref.finalize(self, server.stop) if server else lambda: None
         secrets = credentials.of_channel(address)
@@ -54,13 +54,13 @@ class Transport:
         self.uploads: Any = upload_pb2_grpc.UploadServiceStub(self.channel)  # type: ignore[no-untyped-call]
 
     def require_owner(self) -> None:
-        """gRPC's connections do not survive a fork: calls of the child would wait for ever."""
+        """Raises in a forked child, whose calls would wait for ever, as gRPC's connections do not survive a fork."""
         if os.getpid() != self._owner:
             raise Error("this client belongs to the process that this one was forked from; make one here, with "
                         "anticrack.local() or anticrack.connect()")
 
     def require_alive(self) -> None:
-        """For who has lost the connection: raises LocalServerError if a private server has ended."""
+        """Call it after a lost connection: raises LocalServerError if the private server has ended."""
         if self.server_process is not None:
             self.server_process.require_alive()
 
@@ -102,7 +102,7 @@ class Transport:
 
 
 def finished(work: Coroutine[Any, Any, T]) -> T:
-    """What a coroutine returns that waits for nothing."""
+    """Runs a coroutine that never waits, and returns its value."""
     try:
         work.send(None)
     except StopIteration as end:
@@ -111,7 +111,7 @@ def finished(work: Coroutine[Any, Any, T]) -> T:
 
 
 def each(messages: AsyncIterator[T]) -> Iterator[T]:
-    """The same of an iterator."""
+    """Yields the items of an asynchronous iterator that never waits."""
     async def following() -> T:
         return await messages.__anext__()
     try:

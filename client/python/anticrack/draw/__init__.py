@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Figures with matplotlib. Each function draws one panel, on `ax` or on a new figure, and returns its Axes: several
-load cases lie over each other when they are drawn on the same one. `load` is a name or an answer. `mesh` draws a
-mesh."""
-from . import panel  # noqa: F401  first: it says that matplotlib is missing
+"""Figures with matplotlib. Each function draws one panel, on `ax` or on a new figure, and returns its Axes; draw
+several load cases on the same Axes to compare them. `load` is a name or an answer. `mesh` draws a mesh."""
+from . import panel  # noqa: F401  first, as it says if matplotlib is missing
 from .along import jump, pressure, traces
 from .history import convergence, error_band, errors
 from .meshes import mesh

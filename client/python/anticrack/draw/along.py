@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Along an interface: u on both sides, the jump and the contact pressure."""
+"""Panels along an interface: u on both sides, the jump and the contact pressure."""
 from __future__ import annotations
 
 import operator
@@ -18,13 +18,13 @@ from .panel import (BOX, CONTACT, CURVES, LINES, MARKED, Scale, axes, cut, fit_a
 
 
 def can_open(line: Interface) -> bool:
-    """Whether it has a crack or a delaminated part."""
+    """Whether the interface has a crack or a delaminated part."""
     return bool(np.isin(line.edge_kind, MARKED[:1] + MARKED[2:]).any())
 
 
 def eventful(result: Result, loads: list[Load]) -> tuple[int, int]:
-    """The interface whose jump is largest or, if nothing is open, whose contact is longest; and that whose contact is
-    longest, but the same one where its contact is at least half as long."""
+    """Indices of two interfaces: that with the largest jump (if nothing is open, with the longest contact), and that
+    with the longest contact, but the first one again if its contact is at least half as long."""
     def most(of: Callable[[Interface, Trace], float]) -> list[float]:
         return [max(of(line, load.traces[i]) for load in loads) for i, line in enumerate(result.interfaces)]
     jumps = most(lambda _, trace: _largest(trace.jump))
@@ -38,8 +38,8 @@ def eventful(result: Result, loads: list[Load]) -> tuple[int, int]:
 
 def _begin(result: Result, load: str | Load | None, interface: int | str | None, ax: Any,
            pressed: bool = False) -> tuple[Any, Load, int, Profile, Trace, int]:
-    """Of the interface named, or the most eventful: the axes, the load, its index, itself, the trace, and the number of
-    curves that are there already."""
+    """Chooses the interface that is named, or the most eventful. Returns the axes, the load, the interface's index,
+    profile and trace, and the number of curves that the axes have already."""
     ax, load = axes(ax), load_of(result, load)
     if not result.interfaces:
         raise Error("the sheet has no interface, so there is nothing to draw along one")
@@ -57,13 +57,13 @@ def _largest(*values: Array) -> float:
 
 
 def middles(values: Array) -> Array:
-    """Between neighbours, and the ends (k+1): around a node is half of the edges at it."""
+    """Middles between neighbours, and the two ends (k+1): they enclose half of each edge at a node."""
     return np.concatenate((values[:1], (values[:-1] + values[1:]) / 2, values[-1:]))
 
 
 class Profile:
-    """An interface on a horizontal axis: x or y of one that runs along it, as in the paper, else the arc length from
-    its first node, which the label names. at (k): of the nodes."""
+    """Places an interface on a horizontal axis: by x or y if it runs along that, as in the paper, else by the arc
+    length from its first node, which the label names. at (k): places of the nodes."""
 
     def __init__(self, result: Result, line: Interface) -> None:
         self.line, small = line, 1e-9 * line.s[-1]
@@ -81,7 +81,7 @@ class Profile:
         self.label = self.scale.label(name, unit_of(result))
 
     def place(self, s: Array) -> Array:
-        """Of arc lengths."""
+        """The places of arc lengths."""
         return np.interp(s, self.line.s, self.at)
 
     def axis(self, ax: Any) -> None:
@@ -92,8 +92,7 @@ class Profile:
             ax.set_xlim(*self.ends)
 
     def bars(self, result: Result, ax: Any) -> None:
-        """At the foot of what is drawn: cracks and inclusions, with the names of inclusions as long as they do not
-        meet."""
+        """Draws bars for cracks and inclusions at the foot of the panel, with inclusions' names unless they overlap."""
         low, high = ax.get_ylim()
         inclusions = sorted({int(inclusion) for inclusion in self.line.edge_inclusion} - {-1})
         ax.set_ylim(low - (0.16 if inclusions else 0.06) * (high - low), high)
@@ -117,10 +116,10 @@ class Profile:
 
 
 def edge_pressure(line: Interface, trace: Trace) -> tuple[Array, Array, Array, Array]:
-    """Middles of the edges, the mean pressure over them, their lengths, and which are in contact; of length 0 off
-    cracks. Half of an edge belongs to either node, at a tip its own half to none: the force is that of the nodes,
-    without the teeth of their pressures, which go up and down with the number of triangles there."""
-    opens = np.isin(line.kind, (CRACK, DELAMINATED))  # on glue it is a flux
+    """Middles of the edges, the mean pressure over them, their lengths (0 off cracks), and which are in contact. Each
+    node has half of an edge, but a tip's half goes to no node. The force is that of the nodes, without the teeth of the
+    nodal pressures, which vary with the number of triangles at a node."""
+    opens = np.isin(line.kind, (CRACK, DELAMINATED))  # on glue the pressure is a flux
     begins, ends, edges = opens[:-1], opens[1:], np.diff(line.s)
     count = begins.astype(int) + ends
     pressures = np.where(opens, trace.pressure, 0)
@@ -136,8 +135,9 @@ def pressed(line: Interface, trace: Trace) -> bool:
 
 
 def finish(ax: Any, profile: Profile, loads: list[Load], index: int, name: str, unit: str) -> None:
-    """The axes of heights; 0 is a line, unless all is far from it, and looks like it where u is rounding against that
-    of the membrane, estimated from its energy, or the jump against u. loads: none of what is no displacement."""
+    """Finishes the vertical axis. Draws a line at 0 unless all values are far from it; shows as 0 a u that is rounding
+    against the membrane's u (estimated from its energy), or a jump that is rounding against u. loads: empty if the
+    heights are no displacements."""
     low, high = ax.get_ylim()
     if low - 0.5 * (high - low) <= 0 <= high + 0.5 * (high - low):
         ax.axhline(0, color="#888888", linewidth=0.6, zorder=0)
@@ -158,7 +158,7 @@ def finish(ax: Any, profile: Profile, loads: list[Load], index: int, name: str, 
 
 def shade(profile: Profile, trace: Trace, ax: Any, color: str = CONTACT, alpha: float = 1,
           label: str = "contact") -> None:
-    """Where it is in contact, to the middles of the edges at the ends: the stretches add up to its length."""
+    """Shades contact up to the middles of the edges at its ends, so that the stretches add up to the contact length."""
     ends, closed = middles(profile.at), trace.contact != 0
     for first, last in runs(closed):
         if closed[first]:
@@ -167,7 +167,7 @@ def shade(profile: Profile, trace: Trace, ax: Any, color: str = CONTACT, alpha: 
 
 
 def heading(result: Result, load: Load, line: Interface) -> str:
-    """The interface and A of its inclusions, as exactly as there is room."""
+    """The title: the interface and A of its inclusions, with as many digits as there is room for."""
     unit, where = result.units.behind("L"), named(line.name, 20) if len(result.interfaces) > 1 else ""
     here = [result.mesh.inclusions[i] for i in sorted({int(i) for i in line.edge_inclusion} - {-1})]
     for bounds in (True, False):
@@ -184,8 +184,8 @@ def heading(result: Result, load: Load, line: Interface) -> str:
 
 
 def traces(result: Result, load: str | Load | None = None, interface: int | str | None = None, ax: Any = None) -> Any:
-    """u on both sides of an interface and the jump [u] = u+ - u-; contact is shaded, cracks and inclusions are bars.
-    Unless it is named, the interface with the largest jump."""
+    """Draws u on both sides of an interface and the jump [u] = u+ - u-; contact is shaded, cracks and inclusions are
+    bars. The default is the interface with the largest jump."""
     ax, load, index, profile, trace, count = _begin(result, load, interface, ax)
     name = named(load.name)
     color = CURVES[sum(str(curve.get_label()).endswith(": [u]") for curve in ax.lines) % len(CURVES)][0]
@@ -203,14 +203,14 @@ def traces(result: Result, load: str | Load | None = None, interface: int | str 
 
 
 def common(shown: list[Trace]) -> float:
-    """What u on both sides leaves out, as of a lifted sheet."""
+    """The part that u has in common on both sides, as on a lifted sheet, which the panel leaves out."""
     values = np.concatenate([side for trace in shown for side in (trace.u_minus, trace.u_plus)])
     values = values[np.isfinite(values)]
     return offset_of(values.min(), values.max(), max(np.ptp(trace.jump) for trace in shown)) if len(values) else 0.0
 
 
 def draw_traces(result: Result, load: Load, index: int, ax: Any, colors: Sequence[str], prefix: str = "") -> None:
-    """u- and u+, without what they have in common."""
+    """Draws u- and u+ without their common part."""
     trace, profile = load.traces[index], Profile(result, result.interfaces[index])
     offset = common([trace])
     for each, color, curve, name in zip((trace.u_minus, trace.u_plus), colors, CURVES, ("u\u207b", "u\u207a")):
@@ -219,8 +219,8 @@ def draw_traces(result: Result, load: Load, index: int, ax: Any, colors: Sequenc
 
 
 def jump(result: Result, load: str | Load | None = None, interface: int | str | None = None, ax: Any = None) -> Any:
-    """The jump [u] = u+ - u- along an interface, which may be too small to be seen beside u; contact is shaded. Unless
-    it is named, the interface with the largest jump."""
+    """Draws the jump [u] = u+ - u- along an interface, which may be too small to be seen beside u; contact is shaded.
+    The default is the interface with the largest jump."""
     ax, load, index, profile, trace, count = _begin(result, load, interface, ax)
     color, dash = CURVES[count % len(CURVES)]
     ax.plot(profile.at, trace.jump, color=color, linestyle=dash, label=named(load.name))
@@ -233,10 +233,10 @@ def jump(result: Result, load: str | Load | None = None, interface: int | str | 
 
 def pressure(result: Result, load: str | Load | None = None, interface: int | str | None = None, ax: Any = None,
              whole: bool = False) -> Any:
-    """The contact pressure where an interface is in contact, which is shaded, the mean over each edge in its middle.
-    Unless it is named, the interface of `traces` or, where its contact is less than half as long as another's, the one
-    with the longest contact. The pressure grows without bound at tips: its axis ends below its peaks, and the panel
-    says so. whole: over all of the interface."""
+    """Draws the contact pressure where an interface is in contact, which is shaded, as the mean over each edge. The
+    default is the interface of `traces` or, if its contact is less than half as long as another's, the interface with
+    the longest contact. The pressure grows without bound at tips: the axis ends below the peaks, and the panel says so.
+    whole: show all of the interface."""
     ax, load, _, profile, trace, count = _begin(result, load, interface, ax, pressed=True)
     s, values, lengths, closed = edge_pressure(profile.line, trace)
     before = ax.get_ylim()[1] if count else 0.0
@@ -253,7 +253,7 @@ def pressure(result: Result, load: str | Load | None = None, interface: int | st
             left = profile.place(np.mean(s[closed])) > np.mean(profile.ends) and whole
             ax.text(0.01 if left else 0.99, 0.97, "peaks at the tips are cut off", ha="left" if left else "right",
                     va="top", fontsize="small", transform=ax.transAxes, bbox={**BOX, "boxstyle": "square,pad=0.1"})
-        if not whole and not count:  # no empty axes
+        if not whole and not count:  # show no empty axes
             here = s[closed]
             margin = 0.15 * np.ptp(here) + 0.02 * np.ptp(profile.line.s)
             ax.set_xlim(*sorted(profile.place(np.clip((here.min() - margin, here.max() + margin), 0,

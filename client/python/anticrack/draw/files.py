@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which figures of a result are drawn, and their files."""
+"""Chooses the figures of a result that are drawn, and writes their files."""
 from __future__ import annotations
 
 import os
@@ -21,15 +21,15 @@ from .meshes import Plan
 from .sheet import Look
 from .sweeps import Rows
 
-_MANY = 12  # more loads, rows and interfaces are drawn where they are asked for
-_TOGETHER = 8  # loads over each other
+_MANY = 12  # more loads, rows and interfaces are drawn only on request
+_TOGETHER = 8  # most loads that are drawn over each other
 
 
 @dataclass
 class Wanted:
-    """only: of commands.FIGURES, none: all that have something to show; interface: the one of the traces, the overview
-    and together, empty: the most eventful, and traces of all that can open; loads: names, none: the first twelve; all:
-    of loads and interfaces, however many."""
+    """What to draw. only: some of commands.FIGURES; empty: all that have something to show. interface: that of the
+    traces, the overview and together; empty: the most eventful, and traces of all that can open. loads: names; empty:
+    the first twelve. all: draw all loads and interfaces, however many."""
     only: list[str] = field(default_factory=list)
     interface: str = ""
     loads: list[str] = field(default_factory=list)
@@ -40,7 +40,8 @@ class Wanted:
 
 
 class Drawn:
-    """files: in the order of the loads, each written whole or not at all; notes: what was left out and why."""
+    """What was drawn. files: in the order of the loads, each written whole or not at all; notes: what was left out and
+    why."""
 
     def __init__(self, folder: str) -> None:
         self.folder, self.files, self.notes = folder, list[str](), list[str]()
@@ -52,8 +53,8 @@ class Drawn:
 
 
 def stems(names: Iterable[str], suffixes: list[str]) -> list[str]:
-    """A name of a file for each: [A-Za-z0-9][A-Za-z0-9_.-]*. No two of them, with any of the suffixes or none, are
-    equal, in upper or lower case."""
+    """Makes a file name [A-Za-z0-9][A-Za-z0-9_.-]* for each name. No two of them, with any of the suffixes or none, are
+    equal, even if case is ignored."""
     taken: set[str] = set()
     found = []
     for name in names:
@@ -76,7 +77,7 @@ def _steps(load: Load) -> int:
 
 
 class _Drawing:
-    """Of what is wanted of a result. Raises Error where a name is not there."""
+    """Draws what is wanted of a result. Raises Error if a name does not exist."""
 
     def __init__(self, result: Result, folder: str, wanted: Wanted, look: Look) -> None:
         self.result, self.wanted, self.look = result, wanted, look
@@ -91,10 +92,10 @@ class _Drawing:
                     "it keeps traces of no row; run the sweep with --traces")
                 raise Error(f"there is no load {harmless(name)}; {cure}")
         self.loads = [result.loads[name] for name in wanted.loads] or list(result.loads.values())
-        # Of the interfaces that can open only the most eventful is drawn.
+        # Only the most eventful of the interfaces that can open is drawn.
         self.chooses = (not wanted.all and self.asked is None and "traces" not in wanted.only
                         and len(self.opening) > _MANY)
-        self.fewest = 2 if "convergence" in wanted.only else 3  # steps of a convergence
+        self.fewest = 2 if "convergence" in wanted.only else 3  # steps that a convergence must have
         self.drawn = Drawn(folder)
 
     def note(self, text: str) -> None:
@@ -117,7 +118,7 @@ class _Drawing:
     def draw_loads(self) -> None:
         suffixes = ["-membrane", "-plan", "-convergence", "-accuracy",
                     *(_traces_suffix(i) for i in range(len(self.result.interfaces)))]
-        # Of all loads, drawn or not: a load has the same name however many are drawn.
+        # Stems of all loads, so that a load's file has the same name however many are drawn.
         for load, stem in zip(self.shown("loads", "NAME"), stems((load.name for load in self.loads), suffixes)):
             self.draw_load(load, stem)
         self.note_interfaces()
@@ -159,7 +160,7 @@ class _Drawing:
             self.drawn.add(stem + _traces_suffix(index), pictures.traces_picture(self.look, self.result, load, index))
 
     def note_interfaces(self) -> None:
-        """What is left out of them."""
+        """Notes which interfaces are left out."""
         if not self.wanted.has("traces"):
             return
         if self.chooses:
@@ -199,9 +200,9 @@ class _Drawing:
 
 
 def draw_figures(result: Result, folder: str, wanted: Wanted, look: Look) -> Drawn:
-    """Of every load with traces LOAD-membrane, LOAD-plan, LOAD-traces (-2 and so on of further interfaces),
-    LOAD-convergence, LOAD-accuracy and LOAD, an overview; of a sweep sweep, sweep-slope, sweep-contact and the traces
-    of rows that were kept. The folder is made. Raises Error where it cannot be written or a name is not there."""
+    """Draws LOAD-membrane, LOAD-plan, LOAD-traces (-2 and so on for further interfaces), LOAD-convergence,
+    LOAD-accuracy and the overview LOAD for every load with traces; for a sweep, sweep, sweep-slope, sweep-contact and
+    the traces of kept rows. Makes the folder. Raises Error if it cannot be written or a name does not exist."""
     drawing = _Drawing(result, folder, wanted, look)
     output.make_folder(folder)
     with look.applied():
@@ -216,7 +217,7 @@ def draw_figures(result: Result, folder: str, wanted: Wanted, look: Look) -> Dra
 
 
 def draw_together(result: Result, folder: str, wanted: Wanted, look: Look) -> Drawn:
-    """"together": [u], u-, u+ and the contact pressure of the loads with traces, the first eight, on one interface."""
+    """Draws "together": [u], u-, u+ and the contact pressure of the first eight loads with traces on one interface."""
     drawing = _Drawing(result, folder, wanted, look)
     loads = [load for load in drawing.loads if load.traces]
     if not loads or not result.interfaces:
@@ -231,7 +232,7 @@ def draw_together(result: Result, folder: str, wanted: Wanted, look: Look) -> Dr
 
 
 def draw_mesh(plan: Plan, folder: str, look: Look) -> Drawn:
-    """"mesh-ID" of a mesh."""
+    """Draws the picture "mesh-ID" of a mesh."""
     drawn = Drawn(folder)
     output.make_folder(folder)
     with look.applied():

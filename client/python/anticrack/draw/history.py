@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Over iterations and stages."""
+"""Panels over iterations and stages."""
 from __future__ import annotations
 
 from typing import Any
@@ -13,17 +13,17 @@ from ..result import Load, Result
 from ..text import counted, harmless
 from .panel import CONTACT, CURVES, axes, fit_axis, load_of, log_axis, named, number_text, rounded, unit_of
 
-_FEW = 60  # iterations that are points, too
+_FEW = 60  # up to so many iterations are marked by points, too
 
 
-# Of the active set, which has no criterion: it is done when the conditions hold.
+# Names of the active set's residuals; it has no criterion but ends when the conditions hold.
 _CONDITIONS = [("kkt_gap", "gap: faces overlap"), ("kkt_sign", "sign: closed faces pull"),
                ("kkt_complementarity", "complementarity: pressure where open")]
 
 
 def convergence(result: Result, load: str | Load | None = None, ax: Any = None) -> Any:
-    """Of Algorithm 2 the relative change per iteration, and epsilon; of the active set its KKT residuals, a curve for
-    each, over the steps. What is exactly 0 has a place at the foot."""
+    """Draws the relative change per iteration and epsilon for Algorithm 2, and a curve for each KKT residual over the
+    steps for the active set. Values that are exactly 0 have a place at the foot."""
     ax, load = axes(ax), load_of(result, load)
     if not load.history:
         raise Error(f"{harmless(load.name)} has no history of iterations")
@@ -72,8 +72,8 @@ def _log_with_zero(ax: Any) -> None:
 
 
 def bounded(load: Load) -> dict[str, Array]:
-    """Of the stages those whose bounds have a place on a log axis: triangles, error and displacement_error, both
-    relative; an error of A of 0 is NaN."""
+    """Triangles and relative error and displacement_error of the stages whose bounds a log axis can show; an error of A
+    that is 0 becomes NaN."""
     stages = load.stages
     if not stages:
         return {"triangles": np.empty(0)}
@@ -96,7 +96,7 @@ def _begin(result: Result, load: str | Load | None, ax: Any) -> tuple[Any, Load]
 
 
 def errors(result: Result, load: str | Load | None = None, ax: Any = None) -> Any:
-    """How wide the bounds of the energy and of A are, over the triangles of the stages; takes a case with an
+    """Draws the width of the bounds of the energy and of A over the triangles of the stages; needs a case with an
     accuracy."""
     ax, load = _begin(result, load, ax)
     at = bounded(load)
@@ -121,7 +121,7 @@ def errors(result: Result, load: str | Load | None = None, ax: Any = None) -> An
 
 
 def error_band(result: Result, load: str | Load | None = None, ax: Any = None) -> Any:
-    """The energy of each stage and the band in which the membrane's own lies; takes a case with an accuracy."""
+    """Draws the energy of each stage and the band in which the exact one lies; needs a case with an accuracy."""
     ax, load = _begin(result, load, ax)
     stages, first = load.stages, not ax.lines
     color = CURVES[len(ax.lines) % len(CURVES)][0]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A mesh as the server understood it, before anything is solved."""
+"""Draws a mesh as the server understood it, before anything is solved."""
 from __future__ import annotations
 
 from collections.abc import Mapping
@@ -15,14 +15,14 @@ from .names import Names
 from .panel import axes, legend_below, number_text, point_text, rounded
 from .plane import NAMED, Plane
 
-# Pale: lines stand out.
+# Pale colours, so that lines stand out.
 _PAINTS = ListedColormap(["#E8F1F8", "#FBEEDD", "#E9F5EC", "#F5E9F3", "#F6F5DC", "#ECECEC"])
-_EDGED = 60_000  # edges of more triangles could not be told apart
+_EDGED = 60_000  # triangles; the edges of more could not be told apart
 
 
 class Plan(Plane):
-    """What is drawn of a mesh: its message and the arrays of ReadMesh (see Client.mesh and Client.mesh_arrays). free:
-    no traction acts where u is not given; None: not known."""
+    """A mesh to draw, made of its message and the arrays of ReadMesh (see Client.mesh and Client.mesh_arrays). free: no
+    traction acts where u is not given; None if not known."""
 
     def __init__(self, message: mesh_pb2.Mesh, arrays: Mapping[str, Array], units: Units | None = None,
                  free: bool | None = None) -> None:
@@ -35,7 +35,7 @@ class Plan(Plane):
         self.tips = np.array([(tip.at.x, tip.at.y) for tip in message.tips]).reshape(-1, 2)
 
     def finest(self) -> Any:
-        """The tip with the smallest edge; None where the mesh around it is as coarse."""
+        """The tip with the smallest edge; None if the mesh around it is hardly finer than elsewhere."""
         if not self.message.tips:
             return None
         tip = min(self.message.tips, key=lambda each: float(each.smallest_edge))
@@ -44,7 +44,7 @@ class Plan(Plane):
         return tip if tip.smallest_edge <= (2 * area / len(self.triangles)) ** 0.5 / 4 else None
 
     def near(self, tip: Any) -> tuple[Array, Array]:
-        """The corners of its neighbourhood: a twentieth of the mesh, or more where that has few triangles."""
+        """The corners of a tip's neighbourhood: a twentieth of the mesh, or more if that has few triangles."""
         half = max(float(np.ptp(self.nodes[:, 0])) / 40, 20 * tip.smallest_edge)
         middle = np.array((tip.at.x, tip.at.y))
         return middle - half, middle + half
@@ -52,9 +52,9 @@ class Plan(Plane):
 
 def mesh(message: mesh_pb2.Mesh, arrays: Mapping[str, Array], ax: Any = None, tip: bool = False,
          units: Units | None = None) -> Any:
-    """The triangles of client.mesh(case), arrays those of client.mesh_arrays(message): its subdomains, boundary,
+    """Draws the mesh of client.mesh(case) with arrays of client.mesh_arrays(message): triangles, subdomains, boundary,
     interfaces with an arrow into their plus sides and a square where their arc length is 0, inclusions with dots on the
-    side that came off, and tips. tip: the neighbourhood of that with the smallest edge."""
+    side that came off, and tips. tip: draw only the neighbourhood of the tip with the smallest edge."""
     ax, plan = axes(ax), Plan(message, arrays, units)
     draw_mesh(plan, ax, plan.finest() if tip else None)
     legend_below(ax, 4)
@@ -62,7 +62,7 @@ def mesh(message: mesh_pb2.Mesh, arrays: Mapping[str, Array], ax: Any = None, ti
 
 
 def draw_mesh(plan: Plan, ax: Any, tip: Any = None) -> int:
-    """The number of triangles whose edges are left out."""
+    """Draws a plan, or the neighbourhood of a tip; returns the number of triangles whose edges are left out."""
     low, high = (plan.low, plan.high) if tip is None else plan.near(tip)
     corners = plan.nodes[plan.triangles]
     least = (high - low).max() / 3000  # about a pixel
@@ -90,11 +90,11 @@ def draw_mesh(plan: Plan, ax: Any, tip: Any = None) -> int:
 
 
 def _name(plan: Plan, names: Names, low: Array, high: Array, corners: Array, subdomain: Array) -> None:
-    """Interfaces, inclusions and subdomains, as far as there is room."""
+    """Writes the names of interfaces, inclusions and subdomains as far as there is room."""
     if len(plan.lines) <= NAMED or len(plan.lines) * (high - low).max() < NAMED * plan.size:
         told = []
         for info, (points, _, _) in zip(plan.message.interfaces, plan.lines):
-            # A little off the middle: there may be a tip, a cross point or another interface's arrow.
+            # A little off the middle, where a tip, a cross point or another interface's arrow may be.
             where = plan.beside(points, np.array(True), (0.56, 0.3, 0.8, 0.42, 0.15, 0.9), (1,))
             if names.beside(f"{info.name} +", where, arrow=True):
                 told.append(info.name)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Names on a map, none of which covers another."""
+"""Places names on a map so that none covers another."""
 from __future__ import annotations
 
 from typing import Any
@@ -9,12 +9,12 @@ import numpy as np
 from ..arrays import Array
 from .panel import BOX, named
 
-_SIZE = 7.0  # of the letters, points
+_SIZE = 7.0  # size of the letters [points]
 _LONGEST = 24
 
 
 class Names:
-    """Of axes with their limits, on which `lines` (n, 2) are drawn."""
+    """The names on axes whose limits are set, on which `lines` (n, 2) are drawn."""
 
     def __init__(self, ax: Any, lines: Array) -> None:
         ax.apply_aspect()
@@ -24,12 +24,12 @@ class Names:
         self._taken = np.empty((0, 4))
 
     def _points(self, spots: Array) -> Array:
-        """On paper."""
+        """The spots in points on paper."""
         return np.asarray((self._ax.transData.transform(np.reshape(spots, (-1, 2))) - self._ax.bbox.p0)
                           * self._points_a_dot)
 
     def _box(self, text: str, at: Array, towards: Any = (0, 0)) -> Array:
-        """Left, low, right, high of a text beside a point, which lies in this direction of it."""
+        """Left, low, right and high end of a text that lies in a direction from a point."""
         half = np.array((0.31 * _SIZE * (min(len(text), _LONGEST) + 0.5), 0.65 * _SIZE))
         middle = at + half * towards
         return np.concatenate((middle - half, middle + half))
@@ -40,8 +40,8 @@ class Names:
         return bool(inside and apart.any(axis=1).all())
 
     def beside(self, text: str, choices: list[tuple[float, float, float, float]], arrow: bool = False) -> bool:
-        """At the one of some places (x, y, and a direction of length 1) where it covers nothing, and the least of the
-        lines. arrow: to it. False: there is no room."""
+        """Writes a text at the place of `choices` (x, y, and a direction of length 1) where it covers no name and the
+        least of the lines. arrow: draw an arrow to the place. Returns False if there is no room."""
         free: list[Any] = []
         for x, y, right, up in choices:
             direction = np.array((right, up))
@@ -65,7 +65,8 @@ class Names:
         return True
 
     def on(self, text: str, spots: Array, least: float) -> bool:
-        """On the one of the spots (n, 2) with the most room around it, `least` points; farther from other names."""
+        """Writes a text on the one of the spots (n, 2) with the most room around it: `least` points to lines, and more
+        to other names. Returns False if there is no room."""
         spots = spots[::max(1, len(spots) // 200)]
         points = self._points(spots)
         if not len(points):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What panels share: where they are drawn, of what, in which colours, and their numbers and names."""
+"""What panels share: their axes, their load, colours, numbers and names."""
 from __future__ import annotations
 
 import math
@@ -12,17 +12,17 @@ from ..errors import Error, package
 from ..result import BONDED, CRACK, DELAMINATED, FREE, GLUE, Load, Result
 from ..text import harmless
 
-package("matplotlib.ticker")  # which the modules beside this one import, too
+package("matplotlib.ticker")  # needed by the other modules of this folder, too
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter  # noqa: E402
 from matplotlib.transforms import ScaledTranslation  # noqa: E402
 
-# Of kinds of edges of an interface: name, colour, width and dash, so that they differ in print without colour.
+# For each kind of edge of an interface: name, colour, width and dash, so that they differ in print without colour.
 LINES: dict[int, tuple[str, str, float, Any]] = {
     GLUE: ("glue, u\u207a = u\u207b", "#0072B2", 1.0, (0, (5, 3))), BONDED: ("bonded inclusion", "#000000", 2.5, "-"),
     DELAMINATED: ("delaminated inclusion", "#E69F00", 2.5, "-"), FREE: ("free crack", "#8CD17D", 1.8, "-"),
     CRACK: ("crack, [u] \u2265 0", "#B04A8A", 1.8, "-")}
 MARKED = (DELAMINATED, BONDED, CRACK, FREE)
-# Of Okabe and Ito, for colour-blind readers; no two of a panel have one colour, nor neighbours one dash.
+# Okabe and Ito's colours for colour-blind readers; all curves of a panel differ in colour, and neighbours in dash.
 CURVES: list[tuple[str, Any]] = [
     ("#0072B2", "-"), ("#D55E00", (0, (5, 2))), ("#009E73", (0, (1, 1.2))), ("#CC79A7", (0, (7, 1.5, 1.5, 1.5))),
     ("#222222", (0, (3, 2))), ("#E69F00", "-"), ("#56B4E9", (0, (5, 2))), ("#8C6D31", (0, (1, 1.2)))]
@@ -48,18 +48,18 @@ def load_of(result: Result, load: str | Load | None) -> Load:
 
 
 def unit_of(result: Result, dimension: str = "L") -> str:
-    """Of an axis; empty where there is none."""
+    """The unit on an axis; empty if there is none."""
     return result.units.behind(dimension).strip()
 
 
 def named(text: object, most: int = 60) -> str:
-    """Of others, as it is: matplotlib takes what is between two $ for a formula."""
+    """Makes a name of others show as it is, as matplotlib takes text between two $ for a formula."""
     shown = harmless(text)
     return (shown if len(shown) <= most else shown[:most - 1] + "\u2026").replace("$", r"\$")
 
 
 def widened(low: float, high: float) -> tuple[float, float]:
-    """The range of an axis or of colours, around a single value."""
+    """Widens the range of an axis or of colours if it is a single value."""
     if not (math.isfinite(low) and math.isfinite(high)):
         return 0.0, 1.0
     half = 0.0 if high > low else abs(low) / 2 or 1.0
@@ -67,7 +67,7 @@ def widened(low: float, high: float) -> tuple[float, float]:
 
 
 def stretch_of(sides: Array) -> Array:
-    """Of a sheet: longer ones than eight times their width are drawn wider."""
+    """Factors by which a sheet is stretched: one longer than eight times its width is drawn wider."""
     return np.asarray(np.maximum(sides, sides.max() / 8) / sides)
 
 
@@ -80,7 +80,7 @@ def power_of_ten(exponent: int) -> str:
 
 
 def number_text(value: float, digits: int = 4) -> str:
-    """For people: \u22121.5\u00d710\u207b\u00b9\u00b2."""
+    """Writes a number for people: \u22121.5\u00d710\u207b\u00b9\u00b2."""
     leading, e, exponent = f"{float(f'{value:.{digits}g}'):.{max(digits, 6)}g}".partition("e")
     if not e:
         return signed(leading)
@@ -88,8 +88,8 @@ def number_text(value: float, digits: int = 4) -> str:
 
 
 def offset_of(low: float, high: float, extent: float = 0) -> float:
-    """What the labels of an axis leave out: a round number where all is far from 0 against its range, or against the
-    longer `extent` of all that is drawn to one scale; else 0."""
+    """The offset that the labels of an axis leave out: a round number if all values are far from 0 against their range,
+    or against the longer `extent` of all that is drawn to the same scale; else 0."""
     size = max(high - low, extent)
     if not size > 0 or not max(abs(low), abs(high)) > 1e3 * size:
         return 0.0
@@ -98,17 +98,17 @@ def offset_of(low: float, high: float, extent: float = 0) -> float:
 
 
 def named_without(name: str, offset: float) -> str:
-    """Of what is drawn without an offset."""
+    """The name of a value that is drawn without an offset."""
     return f"{name} {MINUS if offset > 0 else '+'} {abs(offset):.15g}" if offset else name
 
 
 def rounded(most: int, **options: Any) -> MaxNLocator:
-    """Of an axis: about so many round numbers."""
+    """Makes a locator of about so many round numbers on an axis."""
     return MaxNLocator(most, steps=[1, 2, 5, 10], **options)
 
 
 class Scale:
-    """Of numbers from low to high: their texts leave an offset and a power of ten out, which the label says. factor:
+    """How numbers from low to high are written: without an offset and a power of ten, which the label states. factor:
     by how much they are drawn larger."""
 
     def __init__(self, low: float, high: float, extent: float = 0, factor: float = 1) -> None:
@@ -124,26 +124,26 @@ class Scale:
         return signed(f"{shown / 10.0 ** self._exponent:.6g}")
 
     def label(self, name: str, unit: str) -> str:
-        """unit: "mm", empty where there is none."""
+        """Writes the label; unit: "mm", or empty if there is none."""
         name = named_without(name, self.offset) + (f" {unit}" if self.offset and unit and self._exponent else "")
         inside = " ".join(part for part in (power_of_ten(self._exponent) if self._exponent else "", unit) if part)
         return name + (f" [{inside}]" if inside else "")
 
 
 def label_axis(axis: Any, name: str, unit: str, scale: Scale, stretched: float = 1) -> None:
-    """stretched: by how much it is drawn longer than others to one scale, which the label says too."""
+    """Labels an axis. stretched: by how much it is drawn longer than the others, which the label states too."""
     axis.set_major_formatter(FuncFormatter(scale.text))
     axis.set_label_text(scale.label(name, unit) + (
         f", stretched \u00d7{number_text(stretched, 6)}" if stretched != 1 else ""))
 
 
 def fit_axis(axis: Any, name: str, unit: str) -> None:
-    """Of what has been drawn."""
+    """Labels an axis by the range of what has been drawn."""
     label_axis(axis, name, unit, Scale(*sorted(axis.get_view_interval())))
 
 
 def log_axis(axis: Any) -> None:
-    """Labels at powers of ten or, of few decades, at 1, 2 and 5 as well; marks between them where there is room."""
+    """Puts labels at powers of ten, over few decades at 2 and 5 as well, and marks between them if there is room."""
     low, high = axis.get_view_interval()
     decades = abs(math.log10(high / low)) if low > 0 else 0
     axis.set_major_locator(rounded(5) if decades < 0.7 else
@@ -155,7 +155,7 @@ def log_axis(axis: Any) -> None:
 
 
 def point_text(x: float, y: float, size: float, digits: int = 4) -> str:
-    """A point, with the digits that tell it from others of a line of this size."""
+    """Writes a point with the digits that tell it from other points of a line of this size."""
     def text(value: float) -> str:
         more = math.ceil(math.log10(abs(value) / size)) if value and size > 0 else 0
         return number_text(value, min(max(digits + more, digits), 15))
@@ -163,15 +163,15 @@ def point_text(x: float, y: float, size: float, digits: int = 4) -> str:
 
 
 def legend_below(ax: Any, columns: int = 2, down: float = 0.5, middle: float = 0.5, **options: Any) -> Any:
-    """`down` inches below the axes, clear of its labels, however flat it is drawn."""
+    """Puts a legend `down` inches below the axes, clear of their labels, however flat they are drawn."""
     moved = ax.transAxes + ScaledTranslation(0, -down, ax.figure.dpi_scale_trans)
     return ax.legend(loc="upper center", bbox_to_anchor=(middle, 0), bbox_transform=moved, ncol=columns,
                      fontsize="small", frameon=False, **options)
 
 
 def colour_bar(ax: Any, shades: Any, name: str, unit: str, colorbar: Any, **options: Any) -> None:
-    """colorbar: False for none, or axes to draw it in; beside `ax` unless said otherwise. Drawn again on the same axes
-    it is changed and not another one added."""
+    """Draws a colour bar, by default beside `ax`. colorbar: False for none, or axes to draw it in. A second call for
+    the same axes changes the bar and adds no other."""
     if colorbar is False:
         return
     scale, made = Scale(*shades.get_clim()), getattr(ax, "anticrack_colour_bar", None)
@@ -191,8 +191,8 @@ def colour_bar(ax: Any, shades: Any, name: str, unit: str, colorbar: Any, **opti
 
 
 def cut(values: Array, weights: Array, part: float, room: float) -> tuple[float, float]:
-    """The end of an axis for values that are singular at tips, and the highest of them: `room` times what `part` of the
-    weight stays below, or the highest if that is little more. (0, 0) of none."""
+    """The end of an axis for values that are singular at tips, and the highest value. The end is `room` times the value
+    below which `part` of the weight lies, or the highest value if that is little more; (0, 0) without values."""
     if not len(values):
         return 0.0, 0.0
     order = np.argsort(values)

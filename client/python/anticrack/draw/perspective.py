@@ -13,12 +13,12 @@ from .panel import (BOX, LINES, MARKED, Scale, axes, colour_bar, label_axis, loa
                     stretch_of, unit_of, widened)
 from .surface import Heights, Surface
 
-_NAMES = 6  # of inclusions: more would cover each other
+_NAMES = 6  # most inclusions that are named, as more names would cover each other
 _ELEVATION = 38
 
 
 def _amplification(extent: float, size: float) -> float:
-    """A round factor by which u is up to 0.3 of the size."""
+    """A round factor that makes u at most 0.3 of the size."""
     if not extent > 0:
         return 1.0
     wanted = 0.3 * size / extent
@@ -27,8 +27,8 @@ def _amplification(extent: float, size: float) -> float:
 
 
 def view(result: Result) -> tuple[float, float]:
-    """Degrees up and around. From the front, x to the right as from above, and over the minus side of the first
-    interface if that can be: its cracks open upwards on the far side. Else from higher up."""
+    """The viewer's direction, in degrees up and around. It is from the front, with x to the right, and over the minus
+    side of the first interface if possible, so that its cracks open upwards on the far side; else from higher up."""
     across = np.array((0.0, 1.0))
     for line in result.interfaces[:1]:
         across = np.array((line.y[0] - line.y[-1], line.x[-1] - line.x[0]))
@@ -39,8 +39,8 @@ def view(result: Result) -> tuple[float, float]:
 
 
 def _plane(surface: Surface) -> Array:
-    """(n) of the nodes: the plane through u where that is most of it, as of a sheet whose edges are held at different
-    heights; else 0."""
+    """(n) heights of the plane through u on the nodes if the plane makes up most of u, as for a sheet whose edges are
+    held at different heights; else 0."""
     if len(surface.known) != len(surface.u) or not np.ptp(surface.u) > 0:
         return np.zeros(len(surface.u))
     middle, size = surface.nodes.mean(axis=0), np.ptp(surface.nodes, axis=0).max()
@@ -51,7 +51,7 @@ def _plane(surface: Surface) -> Array:
 
 
 def _lit(surface: Surface, slopes: Array, around: float) -> Array:
-    """(n) brightness of the nodes. The light comes from the upper left of the viewer."""
+    """(n) brightness of the nodes; the light comes from the viewer's upper left."""
     angle = np.radians(around + 90)
     right, away = np.array((np.cos(angle), np.sin(angle))), np.array((-np.sin(angle), np.cos(angle)))
     with np.errstate(over="ignore", invalid="ignore"):
@@ -60,8 +60,8 @@ def _lit(surface: Surface, slopes: Array, around: float) -> Array:
 
 
 def _mark(result: Result, load: Load, height: Any, above: float, ax: Any) -> None:
-    """Inclusions and cracks on their plus faces, which inclusions hold, and the names of a few inclusions above
-    them."""
+    """Draws inclusions and cracks on their plus faces, to which inclusions are bonded, and the names of a few
+    inclusions above them."""
     known: set[int] = set()
     thin = min(1.0, (12 / max(len(result.interfaces), 1)) ** 0.5)
     for interface, trace in zip(result.interfaces, load.traces):
@@ -84,11 +84,11 @@ def _mark(result: Result, load: Load, height: Any, above: float, ax: Any) -> Non
 
 def membrane(result: Result, load: str | Load | None = None, ax: Any = None, cmap: Any = None,
              amplify: float | None = None, limits: tuple[float, float] | None = None, colorbar: Any = True) -> Any:
-    """The deformed membrane in perspective, its cracks open, u amplified as the title says (or by `amplify`) and in
-    colours, with cracks and inclusions; takes a case with fields. Of a sheet whose edges are held at different heights
-    the plane through it is left out. limits: (lowest, highest) u of the colours, the same for several figures.
-    colorbar: False, or axes to draw it in. `ax` has three dimensions: subplots(subplot_kw={"projection": "3d"});
-    `displacement` draws u on an `ax` of two."""
+    """Draws the deformed membrane in perspective with its cracks open; u is in colours and amplified as the title says
+    (or by `amplify`). Needs a case with fields. If the sheet's edges are held at different heights, the plane through
+    u is left out. limits: (lowest, highest) u of the colours, to share by several figures. colorbar: False, or axes to
+    draw it in. `ax` has three dimensions: subplots(subplot_kw={"projection": "3d"}); `displacement` draws u on an `ax`
+    of two."""
     load = load_of(result, load)
     surface = Surface(result, load)
     ax = axes(ax, "3d")
@@ -99,7 +99,7 @@ def membrane(result: Result, load: str | Load | None = None, ax: Any = None, cma
     plane = _plane(surface)
     level = plane.any()
     low, high = surface.nodes.min(axis=0), surface.nodes.max(axis=0)
-    # Of a long sheet neither its length, or it would stand like a curtain, nor its width.
+    # The mean of length and width: by its length alone a long sheet would stand like a curtain.
     stretched = stretch_of(high - low)
     shown = stretched * (high - low)
     size = float(np.sqrt(shown.prod()))

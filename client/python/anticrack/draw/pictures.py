@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the files of `anticrack plot` and `anticrack mesh show` have in them: panels of this folder put together, each
-a picture of one column or, of two columns, an overview. Each returns the picture by format."""
+"""The pictures in the files of `anticrack plot` and `anticrack mesh show`, made of the panels of this folder: a picture
+has one column, an overview two. Each function returns the picture's files by format."""
 from __future__ import annotations
 
 import functools
@@ -28,7 +28,7 @@ def title_of(result: Result, load: Load | None = None) -> str:
 
 
 def _handles(*panels: Any) -> list[Any]:
-    """Of a legend: what panels name, each name once."""
+    """The entries of a legend: all that the panels name, each name once."""
     return [*{handle.get_label(): handle for ax in panels for handle in ax.get_legend_handles_labels()[0]}.values()]
 
 
@@ -39,7 +39,7 @@ def _over_one_axis(panels: list[Any]) -> None:
     for ax in panels[1:]:
         ax.set_title("")
     width = panels[0].get_position().width * panels[0].figure.get_size_inches()[0]
-    for ax in panels:  # names in one line, wherever the numbers end
+    for ax in panels:  # aligns the axes' names, however wide the numbers are
         ax.yaxis.set_label_coords(-(LEFT - 5) / INCH / width, 0.5)
 
 
@@ -55,7 +55,7 @@ def draw_membrane(sheet: Sheet, result: Result, load: Load, *_: float) -> float:
 
 
 def _map_size(sides: Any, width: float, most: float) -> tuple[float, float]:
-    """Of the axes of a map, mm."""
+    """Width and height of the axes of a map [mm]."""
     shown = stretch_of(sides) * sides + 0.06 * sides.max()
     high = width * float(shown[1] / shown[0])
     return (width, high) if high <= most else (most * float(shown[0] / shown[1]), most)
@@ -81,7 +81,7 @@ def draw_plan(sheet: Sheet, result: Result, load: Load, _: float = 0, top: float
 
 
 def draw_curves(draw: Any, sheet: Sheet, result: Result, load: Load, left: float = 0, top: float = 0) -> float:
-    """By one of the functions of this folder."""
+    """Draws curves with one of the functions of this folder."""
     high = 0.5 * sheet.look.width
     ax = sheet.axes(left, top + ABOVE, high)
     draw(result, load, ax=ax)
@@ -90,7 +90,7 @@ def draw_curves(draw: Any, sheet: Sheet, result: Result, load: Load, left: float
 
 
 def _draw_along(sheet: Sheet, result: Result, load: Load, index: int, left: float, heights: tuple[float, ...]) -> float:
-    """u on both sides, [u] and the pressure, if it has a height, over one axis; heights of the panels, mm."""
+    """Draws u on both sides, [u] and, if it has a height, the pressure over one axis; heights of the panels in mm."""
     line, trace = result.interfaces[index], load.traces[index]
     profile = Profile(result, line)
     panels, bottom = sheet.stack(left, [heights[0], *heights[1:2] * can_open(line),
@@ -117,7 +117,7 @@ def traces_picture(look: Look, result: Result, load: Load, index: int) -> Files:
 
 
 def together_picture(look: Look, result: Result, loads: list[Load], index: int) -> Files:
-    """[u], u- and u+ and, where there is contact, the pressure along an interface; colour and dash are the load."""
+    """Draws [u], u-, u+ and, if there is contact, the pressure along an interface; colour and dash mark the load."""
     sheet, scale = Sheet(look, title_of(result)), look.width / 85
     line, traces = result.interfaces[index], [load.traces[index] for load in loads]
     profile, offset = Profile(result, line), common(traces)
@@ -146,7 +146,7 @@ def together_picture(look: Look, result: Result, loads: list[Load], index: int) 
 
 
 def picture(draw: Any, look: Look, result: Result, load: Load) -> Files:
-    """Of one panel: draw_membrane, draw_plan or, of the convergence, draw_curves."""
+    """Makes a picture of one panel with `draw`, e.g. draw_membrane or draw_plan."""
     sheet = Sheet(look, title_of(result, load))
     return sheet.files(draw(sheet, result, load))
 
@@ -155,8 +155,8 @@ draw_convergence = functools.partial(draw_curves, convergence)
 
 
 def overview_picture(look: Look, result: Result, load: Load, opened: int, closed: int) -> Files:
-    """Membrane left, traces of an interface right, as in the paper's Figures 2-5. Where there is something for it, a
-    second row: the plan, and the first that there is of the contact pressure, the bounds of an accuracy and the
+    """Draws the membrane left and the traces of an interface right, as in the paper's Figures 2-5. A second row, if
+    there is something to show, has the plan and the first available of contact pressure, bounds of an accuracy and
     convergence."""
     sheet, scale = Sheet(look, title_of(result, load), 2), look.width / 85
     row = max(draw_membrane(sheet, result, load),
@@ -174,7 +174,7 @@ def overview_picture(look: Look, result: Result, load: Load, opened: int, closed
 
 
 def _stacked(look: Look, result: Result, draw: list[Any], more: str = "") -> Files:
-    """Of a sweep: panels over one axis, their legends below all."""
+    """Draws panels of a sweep over one axis, with their legends below all panels."""
     sheet = Sheet(look, title_of(result) or "sweep")
     panels, bottom = sheet.stack(0, [0.44 * look.width] * len(draw))
     for each, ax in zip(draw, panels):
@@ -206,7 +206,7 @@ def _rows(result: Result) -> str:
 
 
 def sweep_picture(look: Look, result: Result) -> Files:
-    """A of every inclusion above, contact length below."""
+    """Draws A of every inclusion above, and the contact length below."""
     columns = result.sweep
     assert columns is not None
     panels: list[Any] = [functools.partial(sweep, result)] if columns.inclusions else []
@@ -227,7 +227,7 @@ def contact_picture(look: Look, result: Result, index: int) -> Files:
 
 
 def mesh_picture(look: Look, plan_of: Plan) -> tuple[Files, list[str]]:
-    """All of it and, where there is one, the finest tip; and what is left out."""
+    """Draws the whole mesh and, if there is one, the finest tip. Returns the picture and notes on what is left out."""
     tip, notes, panels = plan_of.finest(), list[str](), list[Any]()
     sheet = Sheet(look, plan_of.message.title or plan_of.message.name, 1 if tip is None else 2)
     room, bottom = look.width - LEFT - RIGHT, 0.0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From above: the parts of a membrane, u, and its flux."""
+"""Panels from above: the parts of a membrane, u, and its flux."""
 from __future__ import annotations
 
 from collections.abc import Collection
@@ -19,19 +19,19 @@ from .panel import (LINES, Scale, axes, colour_bar, cut, label_axis, legend_belo
 from .perspective import not_converged
 from .surface import Surface
 
-NAMED = 16  # inclusions: more names would cover the lines
+NAMED = 16  # most inclusions that are named, as more names would cover the lines
 Limits = tuple[float, float]
 
 
 class Plane:
-    """What a map shows of a mesh. held (b, 2): edges where u is given; traction: whether one acts on some of the other
-    outer edges, None: not known; lines: of each interface its points (k, 2) and the kinds and inclusions (k-1) of its
-    edges, the plus side on its left."""
+    """The parts of a mesh that a map shows. held (b, 2): edges where u is given; traction: whether a traction acts on
+    other outer edges, None if not known; lines: for each interface its points (k, 2) and the kinds and inclusions (k-1)
+    of its edges, with the plus side on its left."""
 
     def __init__(self, nodes: Array, triangles: Array, held: Array, traction: bool | None,
                  lines: list[tuple[Array, Array, Array]], inclusions: list[str], unit: str) -> None:
         self.nodes, self.triangles, self.lines, self.inclusions, self.unit = nodes, triangles, lines, inclusions, unit
-        code = np.array((1 << 32, 1))  # of an edge's nodes, the lower one first, in one number
+        code = np.array((1 << 32, 1))  # makes one number of an edge's nodes, the lower one first
         edges = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
         keys, counts = np.unique(edges @ code, return_counts=True)
         outer = keys[counts == 1]
@@ -42,7 +42,7 @@ class Plane:
         self.low, self.high = nodes.min(axis=0), nodes.max(axis=0)
 
     def draw(self, ax: Any, low: Array, high: Array, margin: float = 0.03) -> Names:
-        """Between these corners, with labels for a legend; what finds room for names beside it."""
+        """Draws the map between two corners, with labels for a legend; returns the Names that find room for names."""
         stretched = frame(ax, low, high, self.unit, margin)
         self._away = 0.012 * (stretched * (high - low)).max() / stretched
         for (what, edges), (color, width, dash) in zip(self.boundary.items(), (("#444444", 1.4, "-"),
@@ -66,8 +66,8 @@ class Plane:
 
     def beside(self, points: Array, chosen: Array, wheres: tuple[float, ...], sides: tuple[int, ...]) -> list[
             tuple[float, float, float, float]]:
-        """Places on both sides (1: plus) at these parts of the length of the edges of a line that are chosen and
-        seen."""
+        """Places beside those edges of a line that are chosen and visible: at the fractions `wheres` of their length,
+        on the given sides (1: plus)."""
         inside = self._inside(points)
         edges = np.flatnonzero(chosen & inside[1:] & inside[:-1])
         lengths = np.cumsum(np.hypot(*(np.diff(points, axis=0) / self._away)[edges].T))
@@ -80,7 +80,7 @@ class Plane:
         return found
 
     def name_inclusions(self, names: Names, told: Collection[str] = ()) -> None:
-        """But for those of interfaces that are told already."""
+        """Names the inclusions, except those of interfaces whose names are in `told`."""
         for index, name in enumerate(self.inclusions):
             for points, kinds, inclusions in self.lines:
                 places = self.beside(points, (inclusions == index) & (kinds != GLUE), (0.5, 0.25, 0.75, 0.1, 0.9),
@@ -91,7 +91,7 @@ class Plane:
 
 
 def frame(ax: Any, low: Array, high: Array, unit: str, margin: float = 0.03) -> Array:
-    """The limits of a map of these corners, both axes to one scale; by how much either is drawn longer."""
+    """Sets the limits of a map with these corners, both axes to one scale; returns by how much each is stretched."""
     stretched = stretch_of(high - low)
     shown = stretched * (high - low)
     margins = margin * shown.max() / stretched
@@ -101,19 +101,19 @@ def frame(ax: Any, low: Array, high: Array, unit: str, margin: float = 0.03) -> 
         label_axis(axis, "xy"[i], unit, Scale(low[i], high[i], shown.max() / stretched[i]), stretched[i])
         narrow = shown.max() / shown[i]
         axis.set_major_locator(rounded(6 if narrow < 3 else 3 if narrow < 6 else 1))
-        if narrow >= 3:  # little room, above all for numbers side by side
+        if narrow >= 3:  # there is little room, above all for numbers side by side
             axis.set_tick_params(labelsize="x-small")
     return stretched
 
 
 def _chains(edges: Array) -> list[list[int]]:
-    """Nodes in the order of the lines that the edges (n, 2) make up: dashes go on from one to the next."""
+    """Joins edges (n, 2) to lines and returns the nodes of each in order, so that dashes go on from edge to edge."""
     beside: dict[int, list[int]] = {}
     for a, b in edges.tolist():
         beside.setdefault(a, []).append(b)
         beside.setdefault(b, []).append(a)
     chains = []
-    for start in sorted(beside, key=lambda node: len(beside[node]) == 2):  # from ends first, then what is closed
+    for start in sorted(beside, key=lambda node: len(beside[node]) == 2):  # from ends of open lines, then closed ones
         while beside[start]:
             chain = [start]
             while beside[chain[-1]]:
@@ -125,15 +125,15 @@ def _chains(edges: Array) -> list[list[int]]:
 
 
 def draw_lines(ax: Any, lines: list[tuple[Array, Array]], away: Array) -> None:
-    """lines: points (k, 2) and kinds (k-1) of the edges of each interface, plus side on its left; away (2): from a
-    delaminated inclusion to the dots on its other side."""
+    """Draws interfaces. lines: points (k, 2) and kinds (k-1) of the edges of each, with the plus side on the left; away
+    (2): offset from a delaminated inclusion to the dots on the side that came off."""
     thin = float(np.clip((16 / max(len(lines), 1)) ** 0.5, 0.35, 1))
     for kind, (what, color, width, dash) in LINES.items():
         labels = {"line": what, "side": "the side that came off"}
         for (first, last), points in [(run, points) for points, kinds in lines for run in runs(kinds)
                                       if kinds[run[0]] == kind]:
             x, y = points[first:last + 1].T
-            if kind != GLUE and thin == 1:  # against dark triangles
+            if kind != GLUE and thin == 1:  # a white rim makes it stand out on dark triangles
                 ax.plot(x, y, color="white", linewidth=width + 1.2, solid_capstyle="butt", label="_")
             ax.plot(x, y, color=color, linewidth=thin * width, linestyle=dash, solid_capstyle="butt",
                     label=labels.pop("line", "_"))
@@ -146,8 +146,9 @@ def draw_lines(ax: Any, lines: list[tuple[Array, Array]], away: Array) -> None:
 
 
 def interfaces(result: Result, load: str | Load | None = None, ax: Any = None, labels: bool = True) -> Any:
-    """The boundary, the inclusions, with dots on the side that came off, cracks, glue, and where the arc length of an
-    interface begins, the same for every load; labels: names of inclusions, unless they are many, and a legend."""
+    """Draws the boundary, inclusions with dots on the side that came off, cracks, glue, and where the arc length of
+    each interface begins; all are the same for every load. labels: add a legend and, unless they are many,
+    inclusions' names."""
     ax = axes(ax)
     if load is not None:
         load_of(result, load)
@@ -169,7 +170,7 @@ def _parts(result: Result, ax: Any, labels: bool = True) -> Names:
 
 
 def _beside(result: Result) -> dict[str, Any]:
-    """Where there is room for a colour bar: along the longer sides."""
+    """Options that place a colour bar where there is room, along the sheet's longer sides."""
     width, height = np.ptp(result.mesh.nodes, axis=0)
     return {"location": "top", "aspect": 40} if width > 2 * height else {"location": "right"}
 
@@ -181,7 +182,7 @@ def _smooth(ax: Any, surface: Surface, values: Array, shades: Any) -> None:
 
 
 def _lines_of_u(ax: Any, surface: Surface, levels: int) -> Any:
-    """At round numbers, about so many; None where u is one number."""
+    """Draws about so many contour lines of u at round numbers; returns None if u is constant."""
     low, high = float(surface.known.min()), float(surface.known.max())
     steps = np.asarray(rounded(levels).tick_values(*widened(low, high)))
     steps = steps[(steps > low) & (steps < high)]
@@ -195,7 +196,7 @@ def _lines_of_u(ax: Any, surface: Surface, levels: int) -> Any:
 
 def displacement(result: Result, load: str | Load | None = None, ax: Any = None, levels: int = 12, lines: bool = True,
                  cmap: Any = None, limits: Limits | None = None, colorbar: Any = True) -> Any:
-    """u from above, in colours and contour lines, with cracks and inclusions; takes a case with fields. limits:
+    """Draws u from above, in colours and contour lines, with cracks and inclusions; needs a case with fields. limits:
     (lowest, highest) u of the colours. colorbar: False, or axes to draw it in."""
     load = load_of(result, load)
     surface, ax = Surface(result, load), axes(ax)
@@ -210,8 +211,8 @@ def displacement(result: Result, load: str | Load | None = None, ax: Any = None,
 
 
 def flux(result: Result, load: str | Load | None = None) -> list[Array]:
-    """|T grad u| in the triangles of each subdomain, as its field lists them; takes a case with fields. Where some T is
-    a law, of which a result has the mean alone, |grad u|."""
+    """|T grad u| in the triangles of each subdomain, in the order of its field; needs a case with fields. If any T is a
+    law, of which a result has only the mean, it is |grad u|."""
     load = load_of(result, load)
     ends = np.cumsum([len(part.triangles) for part in load.fields])[:-1]
     return np.split(Surface(result, load).flux, ends)
@@ -219,9 +220,9 @@ def flux(result: Result, load: str | Load | None = None) -> list[Array]:
 
 def plan(result: Result, load: str | Load | None = None, ax: Any = None, levels: int = 10, cmap: Any = "Blues",
          limits: Limits | None = None, colorbar: Any = True) -> Any:
-    """From above: labelled lines of u over the flux (see `flux`) in colours, with cracks and inclusions; takes a case
-    with fields. The flux grows without bound at tips: the colours end below its peaks. limits: (lowest, highest) flux
-    of the colours. colorbar: False, or axes to draw it in."""
+    """Draws labelled contour lines of u over the flux (see `flux`) in colours, from above, with cracks and inclusions;
+    needs a case with fields. The flux grows without bound at tips: the colours end below its peaks. limits: (lowest,
+    highest) flux of the colours. colorbar: False, or axes to draw it in."""
     ax, load = axes(ax), load_of(result, load)
     surface = Surface(result, load)
     shown, highest = cut(surface.flux, surface.areas, 0.98, 1.5)

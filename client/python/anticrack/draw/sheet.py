@@ -20,12 +20,12 @@ from ..text import suggestion
 from .panel import legend_below, named
 
 INCH = 25.4
-_LINE = 4.2  # of the title, mm
-LEFT, RIGHT = 16.0, 3.5  # of axes: room for numbers and a name, mm
-ABOVE, BELOW = 6.5, 10.5  # room for a heading, and for numbers and a name
-KEY = 3.7  # a row of a legend
-_GAP = 3.0  # between panels over one axis
-_ROOM = 400.0  # a height that no picture reaches; its own is set in the end
+_LINE = 4.2  # height of a line of the title [mm]
+LEFT, RIGHT = 16.0, 3.5  # room beside axes for numbers and a name [mm]
+ABOVE, BELOW = 6.5, 10.5  # room above for a heading, below for numbers and a name [mm]
+KEY = 3.7  # height of a row of a legend [mm]
+_GAP = 3.0  # gap between panels over one axis [mm]
+_ROOM = 400.0  # more than the height of any picture, which is set in the end [mm]
 
 _LOOKS: dict[str, Any] = {
     "font.size": 8, "axes.titlesize": 8, "axes.labelsize": 8, "figure.titlesize": 9, "legend.fontsize": 7,
@@ -41,8 +41,8 @@ _LOOKS: dict[str, Any] = {
 
 @dataclass
 class Look:
-    """width: of a panel, mm, two of which are side by side in an overview; titles: of case and load, and headings of
-    panels; font: a family, empty for matplotlib's own; limits and amplify: as of draw.membrane."""
+    """How pictures look. width: of a panel [mm]; an overview has two side by side; titles: show titles of case and load
+    and headings of panels; font: a family, empty for matplotlib's own; limits, amplify: as for draw.membrane."""
     formats: list[str] = field(default_factory=lambda: ["png", "svg"])
     dpi: int = 300
     titles: bool = True
@@ -53,7 +53,7 @@ class Look:
 
     @contextlib.contextmanager
     def applied(self) -> Iterator[None]:
-        """While figures are made. Raises Error where the font is not there."""
+        """Applies the look inside the context, while figures are made. Raises Error if the font does not exist."""
         looks = dict(_LOOKS)
         if self.font:
             known = sorted({font.name for font in font_manager.fontManager.ttflist})
@@ -81,20 +81,20 @@ class Sheet:
                               color="#222222")
 
     def height(self, down: float) -> float:
-        """Of what is so many mm below the title, as a part of the figure's."""
+        """The height of a place so many mm below the title, as a fraction of the figure."""
         return 1 - (self._head + down) / _ROOM
 
     def panel(self, left: float, top: float, width: float, height: float, **options: Any) -> Any:
-        """Axes, in mm from the left and from below the title."""
+        """Makes axes at a place in mm from the left and from below the title."""
         return self._figure.add_axes((left / self.width, self.height(top + height), width / self.width,
                                       height / _ROOM), **options)
 
     def centre(self, ax: Any) -> None:
-        """Axes of three dimensions: their names are inside their place, in which they become smaller if need be."""
+        """Centres axes of three dimensions in their place, and shrinks them if their names would leave it."""
         room, smaller = ax.get_position(original=True), 1.0
-        for _ in range(3):  # letters stay as large as they are
+        for _ in range(3):  # repeated, as letters do not shrink with the axes
             if smaller:
-                self._figure.draw_without_rendering()  # which places the names
+                self._figure.draw_without_rendering()  # this places the names
                 renderer, now = self._figure.canvas.get_renderer(), ax.get_position(original=True)
                 names = Bbox.union([axis.get_tightbbox(renderer) for axis in (ax.xaxis, ax.yaxis, ax.zaxis)])
                 names = names.transformed(self._figure.transFigure.inverted())
@@ -105,11 +105,11 @@ class Sheet:
         ax.title.set_x(((room.x0 + room.x1) / 2 - ax.get_position().x0) / ax.get_position().width)
 
     def axes(self, left: float, top: float, height: float, **options: Any) -> Any:
-        """Of a column, without what its numbers and names take."""
+        """Makes the axes of a column, leaving room for their numbers and names."""
         return self.panel(left + LEFT, top, self.look.width - LEFT - RIGHT, height, **options)
 
     def stack(self, left: float, heights: list[float]) -> tuple[list[Any], float]:
-        """Axes of a column below each other over one axis, and where they end with its numbers and name."""
+        """Makes the axes of a column below each other over one axis; returns them and where the axis's name ends."""
         panels, top = list[Any](), ABOVE
         for height in heights:
             panels.append(self.axes(left, top, height, sharex=panels[0] if panels else None))
@@ -117,7 +117,8 @@ class Sheet:
         return panels, top - _GAP + BELOW
 
     def legend(self, ax: Any, columns: int, handles: list[Any]) -> float:
-        """Below the axis, in place of its own, in the middle of the column; its height, mm."""
+        """Puts a legend below the axis in the middle of the column, in place of the axes' own; returns its height
+        [mm]."""
         if not handles:
             return 0.0
         box, column = ax.get_position(), self.look.width / self.width
@@ -126,9 +127,9 @@ class Sheet:
         return 1 + KEY * -(-len(handles) // columns)
 
     def files(self, height: float) -> dict[str, bytes]:
-        """By format; the picture ends at this height."""
+        """Returns the files by format; the picture ends at this height."""
         for ax in self._figure.axes:
-            room = (ax.get_position().width * self.width + 2 * RIGHT) / 1.6  # characters
+            room = (ax.get_position().width * self.width + 2 * RIGHT) / 1.6  # in characters
             ax.title.set_fontsize(8 * min(1, max(0.8, room / max(len(ax.get_title()), 1))))
             if not self.look.titles:
                 ax.set_title("")
@@ -136,7 +137,7 @@ class Sheet:
         made = {}
         for kind in self.look.formats:
             buffer = io.BytesIO()
-            # The same result gives the same bytes.
+            # Without a date, so that the same result gives the same bytes.
             metadata: dict[str, Any] = {"png": {"Software": None}, "svg": {"Date": None, "Creator": None},
                                         "pdf": {"CreationDate": None, "Creator": None, "Producer": None}}[kind]
             self._figure.savefig(buffer, format=kind, dpi=self.look.dpi, metadata=metadata, facecolor="white",

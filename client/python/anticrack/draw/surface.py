@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The membrane as triangles, and what draws hundreds of thousands of them in space."""
+"""The membrane as triangles, and a collection that draws hundreds of thousands of them in space."""
 from __future__ import annotations
 
 from typing import Any
@@ -15,17 +15,17 @@ from ..result import Load, Result
 from ..text import harmless
 from .panel import widened
 
-# Light grey, and not white, in the middle: the membrane is seen on paper.
+# The middle is light grey and not white, so that the membrane is seen on paper.
 DIVERGING = LinearSegmentedColormap.from_list("anticrack", [
     "#1b4f8f", "#4a90c8", "#a6cbe3", "#dedede", "#f4b698", "#d6604d", "#97162b"])
-_EDGED = 12_000  # of more triangles edges could not be told apart
+_EDGED = 12_000  # triangles; the edges of more could not be told apart
 
 
 class Surface:
-    """All subdomains together; both faces of an open crack have their own nodes. Without triangles that have no u.
+    """All subdomains together, without triangles that have no u; both faces of an open crack have their own nodes.
 
-    nodes (n, 2); u (n); triangles (m, 3): indices of these; areas (m); flux (m): |T grad u|, where some T is a law, of
-    which a result has the mean alone, |grad u|; flux_of_nodes (n) and slopes (n, 2): grad u, means by area."""
+    nodes (n, 2); u (n); triangles (m, 3): indices into nodes; areas (m); flux (m): |T grad u|, but |grad u| if any T is
+    a law, of which a result has only the mean; flux_of_nodes (n) and slopes (n, 2), grad u: means weighted by area."""
 
     def __init__(self, result: Result, load: Load) -> None:
         parts = load.fields
@@ -40,7 +40,7 @@ class Surface:
         tension = np.repeat(tensions, [len(part.triangles) for part in parts])
         known = np.isfinite(self.u[self.triangles]).all(axis=1)
         self.triangles, tension = self.triangles[known], tension[known]
-        # Of the second and third corner against the first.
+        # Differences of the second and third corner to the first.
         (bx, cx), (by, cy), (b, c) = ((values[:, 1:] - values[:, :1]).T for values in (
             *np.moveaxis(self.nodes[self.triangles], 2, 0), self.u[self.triangles]))
         twice = bx * cy - cx * by
@@ -48,7 +48,7 @@ class Surface:
         with np.errstate(divide="ignore", invalid="ignore"):
             slopes = np.nan_to_num(np.stack((b * cy - c * by, c * bx - b * cx)) / twice, posinf=0, neginf=0)
         self.flux = tension * np.hypot(*slopes)
-        self.around = self._of_nodes(np.ones_like(self.flux))  # the area of the triangles at a node, three times
+        self.around = self._of_nodes(np.ones_like(self.flux))  # three times the area of the triangles at a node
         self.flux_of_nodes, *means = (self._of_nodes(each) / np.where(self.around == 0, 1, self.around)
                                       for each in (self.flux, *slopes))
         self.slopes = np.stack(means, axis=1)
@@ -58,12 +58,12 @@ class Surface:
 
     @property
     def known(self) -> Array:
-        """u where it is known; of no node 0."""
+        """The known values of u; a single 0 if there are no nodes."""
         found = self.u[np.isfinite(self.u)]
         return np.asarray(found if len(found) else np.zeros(1))
 
     def shades(self, limits: tuple[float, float] | None, cmap: Any) -> Any:
-        """The colours of u: blue to red around 0 where u has both signs."""
+        """The colours of u, from blue to red around 0 if u has both signs."""
         from matplotlib.cm import ScalarMappable
         low, high = limits or (float(self.known.min()), float(self.known.max()))
         both = min(-low, high) > 0.05 * max(-low, high) > 0
@@ -73,9 +73,9 @@ class Surface:
 
 
 class Heights(PolyCollection):  # type: ignore[misc]
-    """Triangles in space, drawn from the farthest to the nearest on axes of three dimensions, in colours that run into
-    each other, an image in files of lines: a million of them take a second. edges: those of the triangles, unless they
-    are many. points (n, 3); triangles (m, 3); colours (n, 4) of the points."""
+    """Triangles in space, drawn from the farthest to the nearest on axes of three dimensions, in colours that blend.
+    They are an image in vector files; a million take a second. edges: draw the triangles' edges, unless they are many.
+    points (n, 3); triangles (m, 3); colours (n, 4) of the points."""
 
     def __init__(self, points: Array, triangles: Array, colours: Array, edges: bool) -> None:
         super().__init__([], linewidths=0.15, edgecolors=(0, 0, 0, 0.3), rasterized=True, zorder=0)

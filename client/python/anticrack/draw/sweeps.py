@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Over the rows of a sweep."""
+"""Panels over the rows of a sweep."""
 from __future__ import annotations
 
 from numbers import Integral
@@ -16,14 +16,14 @@ from ..result import Result, Sweep
 from .along import Profile, middles
 from .panel import CURVES, axes, fit_axis, legend_below, named, rounded, unit_of
 
-_NAMED = 6  # curves; what is beyond is drawn alike and counted
-_STRIPS = 400  # of rows, of a map: more would not be seen
+_NAMED = 6  # curves with names; further ones are drawn alike and counted
+_STRIPS = 400  # most strips of rows in a map, as more would not be seen
 _OPEN, _CLOSED = "#e4e4e4", "#0072B2"
 
 
 class Rows:
-    """The horizontal axis: the coefficient that varies, the angle of two that lie on a circle around 0, or else the
-    rows, whose points are not joined. at: (rows)."""
+    """The horizontal axis: the one coefficient that varies, the angle of two coefficients on a circle around 0, or else
+    the rows, whose points are not joined. at (rows): places of the rows."""
 
     def __init__(self, columns: Sweep) -> None:
         rows = np.arange(len(columns.status))
@@ -46,7 +46,7 @@ class Rows:
 
     def axis(self, axis: Any) -> None:
         size = float(np.ptp(self.at)) if len(self.at) else 0.0
-        quarters = [step for step in (5, 15, 30, 45, 90, 180) if size <= 6 * step or step == 180]  # a turn has them
+        quarters = [step for step in (5, 15, 30, 45, 90, 180) if size <= 6 * step or step == 180]  # divide a turn
         axis.set_major_locator(MultipleLocator(quarters[0]) if self.turn and size > 5 else
                                rounded(6, integer=self.label == "row"))
         fit_axis(axis, self.label, "")
@@ -60,12 +60,12 @@ def columns_of(result: Result) -> Sweep:
 
 def curves(ax: Any, result: Result, over: Rows, names: list[str], values: Array, label: str, unit: str,
            bounds: tuple[Array, Array] | None = None) -> None:
-    """Of values (rows, names) of the rows that converged, with bands."""
+    """Draws curves of values (rows, names) over the rows that converged, with bands."""
     rows = np.flatnonzero(columns_of(result).converged)
     rows = rows[np.argsort(over.at[rows], kind="stable")]
     options: dict[str, Any] = {"marker": "o", "markersize": 2.2 if len(rows) <= 60 else 1.2} if (
         len(rows) <= 60 or not over.joined) else {}
-    for i in range(len(names)):  # the first above the others
+    for i in range(len(names)):  # draws the first above the others
         color, dash = CURVES[i] if i < _NAMED else ("#bbbbbb", "-")
         more = "_" if i > _NAMED else f"{len(names) - _NAMED} more" if i == _NAMED else named(names[i], 18)
         ax.plot(over.at[rows], values[rows, i], color=color, linestyle=dash if over.joined else "none", label=more,
@@ -81,9 +81,9 @@ def curves(ax: Any, result: Result, over: Rows, names: list[str], values: Array,
 
 def sweep(result: Result, x: str | int | Array | None = None, inclusion: str | int | None = None,
           ax: Any = None) -> Any:
-    """A of the inclusions, the first six in colours of their own, or of one by name or index (where there is none: the
-    contact length), over the coefficient that varies, of a load by name or index, or over values (rows) of one's own,
-    with bands where rows have bounds. Rows that did not converge are left out."""
+    """Draws A of the inclusions, the first six in colours of their own, or of one given by name or index; the contact
+    length if there is no inclusion. x: the coefficient that varies by default, that of a load by name or index, or your
+    own values (rows). Rows with bounds have bands; rows that did not converge are left out."""
     ax, columns = axes(ax), columns_of(result)
     over = Rows(columns)
     if isinstance(x, (str, Integral)):
@@ -108,7 +108,7 @@ def sweep(result: Result, x: str | int | Array | None = None, inclusion: str | i
 
 
 def contact_length(result: Result, ax: Any = None, over: Rows | None = None) -> Any:
-    """Of the cracks of every row, over what `sweep` is drawn over."""
+    """Draws the contact length of all cracks in every row, over the horizontal axis of `sweep`."""
     ax, columns = axes(ax), columns_of(result)
     curves(ax, result, over or Rows(columns), [""], columns.contact_length[:, None], "contact length", unit_of(result))
     if ax.get_ylim()[1] > 0 and not columns.contact_length[columns.converged].any():
@@ -117,7 +117,7 @@ def contact_length(result: Result, ax: Any = None, over: Rows | None = None) -> 
 
 
 def slopes(result: Result, part: int, ax: Any = None) -> Any:
-    """Bx (part 0) or By (1) of every inclusion, over what `sweep` is drawn over."""
+    """Draws Bx (part 0) or By (part 1) of every inclusion, over the horizontal axis of `sweep`."""
     ax, columns = axes(ax), columns_of(result)
     if columns.slope is None:
         raise Error("no inclusion of this sweep tilts")
@@ -126,15 +126,16 @@ def slopes(result: Result, part: int, ax: Any = None) -> Any:
 
 
 def _ends(values: Array) -> Array:
-    """Half-way to the neighbours, and as far beyond the ends; of one value half a unit around it."""
+    """Ends of the values' strips: half-way to the neighbours and as far beyond the ends; half a unit around a single
+    value."""
     if len(values) == 1:
         return np.array((values[0] - 0.5, values[0] + 0.5))
     return middles(np.concatenate((2 * values[:1] - values[1:2], values, 2 * values[-1:] - values[-2:-1])))[1:-1]
 
 
 def contact_map(result: Result, interface: int | str, ax: Any = None) -> Any:
-    """Where the cracks of an interface are closed, row by row; of many rows the part of them that is. Raises Error
-    where it has none."""
+    """Draws where the cracks of an interface are closed, row by row; with many rows, the fraction of rows that are
+    closed. Raises Error if the interface has no cracks."""
     ax, columns = axes(ax), columns_of(result)
     index = result.interfaces.place(interface) if isinstance(interface, str) else interface
     over, profile = Rows(columns), Profile(result, result.interfaces[index])
