@@ -36,7 +36,8 @@ FILES = {
     "libanticrack-dev": {
         EXECUTABLE: [],
         PLAIN: [*(f"usr/lib/libanticrack_{part}.a" for part in ("client", "digest", "messages", "proto")),
-                "usr/lib/cmake/anticrack/Findre2.cmake", *(f"usr/lib/cmake/anticrack/anticrack-{part}.cmake"
+                "usr/lib/cmake/anticrack/Findre2.cmake",
+                *(f"usr/lib/cmake/anticrack/anticrack-{part}.cmake"
                   for part in ("config", "config-version", "targets", "targets-release")),
                 *(f"usr/include/anticrack/client/{part}.hpp" for part in
                   ("block", "cases", "connection", "credentials", "error", "jobs", "meshes", "retry", "uuid")),
