@@ -86,7 +86,7 @@ void add_extremes(const results::Sweep& sweep, const SweepSummary& counts, const
       if (range_of(i).high > range_of(most).high) most = i;
     }
     rows.push_back(
-        {sanitise(results::labelled(name + (fmt::format(" of {} inclusions", inclusions)), unit)),
+        {sanitise(results::labelled(fmt::format("{} of {} inclusions", name, inclusions), unit)),
          end_of(range_of(least).low, -1), sanitise(sweep.inclusions[least]),
          end_of(range_of(most).high, 1), sanitise(sweep.inclusions[most])});
   };

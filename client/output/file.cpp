@@ -43,8 +43,8 @@ class TemporaryFile {
     // O_EXCL with an own name instead of mkstemp: so the file gets the permissions of the umask.
     static std::atomic<unsigned> counter{0};
     do {
-      _name = folder_of(path) /
-              (fmt::format(".{}-{}.anticrack-partial", getpid(), counter.fetch_add(1)));
+      _name =
+          folder_of(path) / fmt::format(".{}-{}.anticrack-partial", getpid(), counter.fetch_add(1));
       _descriptor = open(_name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     } while (_descriptor < 0 && errno == EEXIST);
     if (_descriptor < 0) fail(path, "cannot create a file in this folder", errno);

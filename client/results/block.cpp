@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results/block.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include "results/entries.hpp"
 #include "results/error.hpp"
@@ -11,10 +11,7 @@ namespace {
 
 /// The shape of an array in messages: "(3,2)".
 std::string text_of(const v1::ArrayLayout& array) {
-  std::string text = "(";
-  for (int i = 0; i < array.shape_size(); ++i)
-    text += fmt::format("{}{}", i == 0 ? "" : ",", array.shape(i));
-  return text + ")";
+  return fmt::format("({})", fmt::join(array.shape(), ","));
 }
 
 }  // namespace

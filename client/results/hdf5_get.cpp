@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -120,10 +120,7 @@ std::string shape_text(const Handle& space) {
   if (H5Sget_simple_extent_type(space.get()) == H5S_NULL || rank < 0) return " but empty";
   std::vector<hsize_t> shape(static_cast<std::size_t>(rank));
   H5Sget_simple_extent_dims(space.get(), shape.data(), nullptr);
-  std::string text = " but (";
-  for (std::size_t i = 0; i < shape.size(); ++i)
-    text += fmt::format("{}{}", i == 0 ? "" : ",", shape[i]);
-  return text + ")";
+  return fmt::format(" but ({})", fmt::join(shape, ","));
 }
 
 /// "lzf (filter 32000)": the filter's registered name if we know it, else its name in the file.
