@@ -35,8 +35,10 @@ VectorXd forces_of(const TraceProblem& traces, const Answer& answer) {
   return force;
 }
 
-VectorXd clip(const VectorXd& values, const VectorXd& most) {
-  return values.cwiseMin(most).cwiseMax(-most);
+/// The values of the sign of `sign` clipped to `most`.
+VectorXd clip(const VectorXd& values, double sign, const VectorXd& most) {
+  if (sign > 0) return values.cwiseMin(most);
+  return values.cwiseMax(-most);
 }
 
 }  // namespace
@@ -48,17 +50,17 @@ Adjoint::Adjoint(const TraceProblem& traces, const Answer& answer)
   const ddm::Skeleton& skeleton = decomposition.skeleton;
   const auto contacts = static_cast<Index>(skeleton.independent);
   const VectorXd w = unknowns_of(decomposition, answer), force = forces_of(traces, answer);
-  _jumps.resize(contacts);
-  _lambda.setZero(contacts);
+  _room.jumps.resize(contacts);
+  _room.forces.setZero(contacts);
   for (std::size_t i = 0; i < decomposition.pairs.size(); ++i)
     if (const std::int32_t contact = decomposition.pairs[i].contact; contact >= 0)
-      _lambda[contact] += force[static_cast<Index>(i)];
+      _room.forces[contact] += force[static_cast<Index>(i)];
   const std::vector<bool> crossing = cross(decomposition);
   for (Index i = 0; i < contacts; ++i) {
     const ddm::Contact& contact = skeleton.contacts[at(i)];
-    _jumps[i] = std::max(0.0, w[contact.plus] - w[contact.minus]);
+    _room.jumps[i] = std::max(0.0, w[contact.plus] - w[contact.minus]);
     _open.push_back(answer.closed[at(i)] == 0);
-    if (_open.back() != 0 || crossing[at(i)]) _lambda[i] = 0;
+    if (_open.back() != 0 || crossing[at(i)]) _room.forces[i] = 0;
   }
 }
 
@@ -69,10 +71,12 @@ Adjoint::Goal Adjoint::aim(const UnitForce& force, const Opened& opened) const {
   return goal;
 }
 
-VectorXd Adjoint::jumps(const Goal& goal, double c) const { return clip(goal.jumps, c * _jumps); }
+VectorXd Adjoint::jumps(const Goal& goal, double sign, const Room& room) {
+  return clip(goal.jumps, sign, room.jumps);
+}
 
-VectorXd Adjoint::load(const Goal& goal, double c) const {
-  return goal.force->r + clip(goal.reactions, c * _lambda);
+VectorXd Adjoint::load(const Goal& goal, double sign, const Room& room) {
+  return goal.force->r + clip(goal.reactions, -sign, room.forces);
 }
 
 }  // namespace anticrack::contact

@@ -29,16 +29,23 @@ class Adjoint {
   /// `opened`: from ContactProblem::solve_open for force.r and the answer's closed contacts.
   Goal aim(const UnitForce& force, const Opened& opened) const;
 
-  /// Jumps of z: those of z_0, clipped to [-c [u], c [u]].
-  Eigen::VectorXd jumps(const Goal& goal, double c) const;
-  /// Load of z' on the contacts, all of which are open: r plus the reactions clipped to [-c lambda,
-  /// c lambda], and to 0 where cracks cross.
-  Eigen::VectorXd load(const Goal& goal, double c) const;
+  /// Per contact, the jumps of the answer and its forces lambda: what jumps and reactions of an
+  /// adjoint may be is a multiple of them. Both are 0 or more; lambda is 0 on open contacts, and
+  /// where cracks cross.
+  struct Room {
+    Eigen::VectorXd jumps, forces;
+  };
+  const Room& room() const noexcept { return _room; }
+  /// Jumps of z: those of z_0, of which those of the sign of `sign` are clipped to `room`.
+  static Eigen::VectorXd jumps(const Goal& goal, double sign, const Room& room);
+  /// Load of z' on the contacts, all of which are open: r plus the reactions, of which those of the
+  /// other sign are clipped to `room`.
+  static Eigen::VectorXd load(const Goal& goal, double sign, const Room& room);
 
  private:
   bool _possible = false;
-  std::vector<char> _open;          // of the contacts
-  Eigen::VectorXd _jumps, _lambda;  // of the answer; lambda 0 where cracks cross
+  std::vector<char> _open;  // of the contacts
+  Room _room;
 };
 
 }  // namespace anticrack::contact

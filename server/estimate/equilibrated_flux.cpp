@@ -124,10 +124,12 @@ void EquilibratedFlux::make(std::span<EquilibratedFlux> fluxes, std::span<const 
   for (std::size_t l = 0; l < lanes; ++l) {
     EquilibratedFlux& own = fluxes[std::min(l, fluxes.size() - 1)];
     const Balance& load = own._balance;
+    const FaceBounds of = bounds.empty() ? FaceBounds() : bounds[std::min(l, fluxes.size() - 1)];
     lane[l] = {load.u.data(),
                values(load.force),
                values(load.traction),
-               bounds.empty() ? nullptr : values(bounds[std::min(l, fluxes.size() - 1)]),
+               values(of.least),
+               values(of.most),
                own._mean.front().data(),
                own._distance.data(),
                own._through.data(),

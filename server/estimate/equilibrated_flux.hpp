@@ -22,9 +22,11 @@ struct Balance {
   std::span<const double> traction;  ///< (Neumann edges, 2) int g phi_i at ends 0 and 1
 };
 
-/// Bounds of the fluxes through minus faces, (faces, 2) at ends 0 and 1: |w| <= bound, for w of any
-/// sign. Empty: w <= 0 instead, as for contact pressure.
-using FaceBounds = std::span<const double>;
+/// Bounds of the fluxes through minus faces, (faces, 2) at ends 0 and 1: least <= w <= most. Empty:
+/// w <= 0, as for contact pressure.
+struct FaceBounds {
+  std::span<const double> least{}, most{};
+};
 
 /// sigma with  div sigma + f = 0  for the elementwise linear f of `force`, and sigma.n = mean g on
 /// Neumann edges. Its normal component is continuous across all edges except those of cracks and

@@ -34,10 +34,10 @@ struct FluxLane {
   const double* u;
   const double* force;
   const double* traction;
-  const double* bounds;  ///< null: w <= 0 on minus faces
-  double* mean;          ///< (triangles, 2) of sigma - T grad u, times sqrt(area / T)
-  double* distance;      ///< (triangles) int |sigma - T grad u|^2 / T
-  double* through;       ///< (faces, 2)
+  const double *least, *most;  ///< of w on minus faces; null: w <= 0
+  double* mean;                ///< (triangles, 2) of sigma - T grad u, times sqrt(area / T)
+  double* distance;            ///< (triangles) int |sigma - T grad u|^2 / T
+  double* through;             ///< (faces, 2)
   double norm_squared;
   double imbalance;
 };

@@ -55,7 +55,7 @@ class Flux {
 
  public:
   Flux(const FluxMesh& mesh, FluxLane* lane, double* scratch)
-      : _mesh(mesh), _lane(lane), _pressure(lane->bounds == nullptr) {
+      : _mesh(mesh), _lane(lane), _pressure(lane->most == nullptr) {
     const auto take = [&scratch](std::size_t count) {
       V* const taken = reinterpret_cast<V*>(scratch);
       scratch += count * lanes;
@@ -259,8 +259,8 @@ class Flux {
         least = most;
       } else if (is_minus(face)) {
         if (!_pressure) {
-          most = of_lanes([&](std::size_t l) { return _lane[l].bounds[place]; });
-          least = -most;
+          most = of_lanes([&](std::size_t l) { return _lane[l].most[place]; });
+          least = of_lanes([&](std::size_t l) { return _lane[l].least[place]; });
         }
       } else {
         continue;

@@ -25,10 +25,24 @@ struct Cone {
   double rounding = 0, most = 0, beyond = 0;
   double all_beyond = 0;  ///< sum over all
   bool left() const { return beyond > most; }
-  /// The part of a number within `bound`; 0 if it is rounding.
-  double kept(double of, double bound) const {
-    return std::abs(of) <= rounding ? 0 : std::clamp(of, -bound, bound);
+  /// The part of a number within `bound` on the side of `sign`; 0 if it is rounding.
+  double kept(double of, double sign, double bound) const {
+    return std::abs(of) <= rounding ? 0 : sign * std::min(sign * of, bound);
   }
+};
+
+/// What a Weight adds to the sums of Products: to `distance`, to `square`, and M twice.
+struct Weighted {
+  double primal = 0, mixed = 0, dual = 0;
+};
+
+/// Sums over the triangles with the part o of the load that is not balanced.
+struct Unbalanced {
+  double squared = 0;  ///< o^2
+  double primal = 0;   ///< o |sigma - T grad v|
+  double dual = 0;     ///< o |tau - T grad z|
+  double moved = 0;    ///< >= int (f - f_h) z + int (g - g_h) z
+  double weighed = 0;  ///< o^2 where there is a weight, which the others leave out
 };
 
 /// Integrals of products over T: of tau - T grad z with itself (`square`) and with sigma - T grad
@@ -39,6 +53,8 @@ struct Products {
   double mixed = 0;
   double distance = 0;
   double slack = 0;
+  Weighted weighted{};
+  Unbalanced unbalanced{};
 
   void operator+=(const Products& by) {
     square += by.square;
@@ -56,15 +72,19 @@ Products varied(const Products& by_mean, const fem::Variation& variation, double
                c = variation.below * std::sqrt(by_mean.distance), d = variation.spread * norm_of_u;
   const double change =
       std::max(variation.below * variation.below - 1, 1 - 1 / (variation.above * variation.above));
-  return {(a + b) * (a + b), by_mean.mixed, (c + d) * (c + d),
+  return {(a + b) * (a + b),
+          by_mean.mixed,
+          (c + d) * (c + d),
           change * std::sqrt(by_mean.square * by_mean.distance) + a * d + b * (c + d) +
-              2 * variation.unknown * norm_of_z * norm_of_u};
+              2 * variation.unknown * norm_of_z * norm_of_u,
+          {},
+          {}};
 }
 
 class Sum {
  public:
   Sum(const Primal& primal, const Dual& dual, const EquilibratedFlux& tau)
-      : _primal(primal), _tau(tau), _z(dual.z), _rest(dual.z.size()) {
+      : _primal(primal), _tau(tau), _weight(dual.weight), _z(dual.z), _rest(dual.z.size()) {
     for (std::size_t i = 0; i < _rest.size(); ++i) _rest[i] = dual.reacting[i] - dual.z[i];
   }
 
@@ -72,15 +92,35 @@ class Sum {
     Products sum;
     const EquilibratedFlux& sigma = _primal.flux;
     const Shapes& shapes = _primal.cut.shapes;
+    const std::vector<double>& oscillation = _primal.load.oscillation;
+    std::span<const Weight::OnTriangle> weighed;
+    if (_weight != nullptr) weighed = _weight->triangles;
     for (std::size_t t = 0; t < _primal.cut.triangle_count(); ++t) {
       stop::look_at_turn(t, "computing bounds of A");
-      const Products own = of_triangle(t);
-      if (shapes.variation.empty())
-        sum += own;
-      else
-        sum += varied(own, shapes.variation[t], std::sqrt(sigma.energy_of(t, _z)),
-                      std::sqrt(sigma.energy_of(t, _primal.u)));
+      Products own = of_triangle(t);
+      if (!shapes.variation.empty())
+        own = varied(own, shapes.variation[t], std::sqrt(sigma.energy_of(t, _z)),
+                     std::sqrt(sigma.energy_of(t, _primal.u)));
+      sum += own;
+      const bool inside = !weighed.empty() && weighed.front().triangle == t;
+      if (inside) weighed = weighed.subspan(1);
+      if (oscillation.empty() || oscillation[t] == 0) continue;
+      const double o = oscillation[t];
+      Unbalanced& of = sum.unbalanced;
+      if (inside) {
+        of.weighed += o * o;
+        continue;
+      }
+      of.squared += o * o;
+      of.primal += o * std::sqrt(own.distance);
+      of.dual += o * std::sqrt(own.square);
+      const std::int32_t* copy = &_primal.cut.copy[3 * t];
+      const double largest = std::max(
+          {std::abs(_z[at(copy[0])]), std::abs(_z[at(copy[1])]), std::abs(_z[at(copy[2])])});
+      of.moved += std::min(o * std::sqrt(sigma.energy_of(t, _z)),
+                           largest > 0 ? _primal.load.moments[t] * largest : 0);
     }
+    if (_weight != nullptr) sum.weighted = weighted();
     return sum;
   }
 
@@ -120,28 +160,57 @@ class Sum {
     return sum;
   }
 
+  /// b = beta w where w is not constant, so that w + b + b^2/h = w / (1 - beta).
+  Weighted weighted() const {
+    Weighted sum;
+    for (const Weight::OnTriangle& one : _weight->triangles) {
+      const Products own = of_triangle(one.triangle);
+      const double beta = one.sloped ? _weight->beta : 0;
+      sum.primal += (one.most / (1 - beta) - 1) * own.distance;
+      sum.dual += (1 / ((1 - beta) * one.least) - 1) * own.square;
+      sum.mixed += beta / (1 - beta) * std::sqrt(own.square * own.distance);
+    }
+    return sum;
+  }
+
   const Primal& _primal;
   const EquilibratedFlux& _tau;
+  const Weight* _weight;
   std::span<const double> _z;
   std::vector<double> _rest;
 };
 
-/// The bounds c p of |q|; 0 if p < 0 by rounding.
-std::vector<double> cone_of(const EquilibratedFlux& sigma, double c) {
-  std::vector<double> bounds = sigma.through_faces();
-  for (double& bound : bounds) bound = c * std::max(0.0, -bound);
+/// The bounds of tau.n on minus faces, which is -q.
+struct FluxBounds {
+  std::vector<double> least, most;
+  operator FaceBounds() const { return {least, most}; }
+};
+
+FluxBounds flux_bounds(const CutMesh& cut, const EquilibratedFlux& sigma, const Dual& dual) {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  FluxBounds bounds{std::vector<double>(2 * cut.faces.size(), -none),
+                    std::vector<double>(2 * cut.faces.size(), none)};
+  WeightOf weights(sigma, dual.weight);
+  for (std::size_t f = 0; f < cut.faces.size(); ++f) {
+    const Weight::OnFace on = weights.on(f);
+    for (const std::size_t end : {0, 1}) {
+      if (dual.side == Side::upper)
+        bounds.most[2 * f + end] = dual.c * on.bound[end];
+      else
+        bounds.least[2 * f + end] = -dual.c * on.bound[end];
+    }
+  }
   return bounds;
 }
 
-Interval interval(const Aimed& aimed, const EquilibratedFlux& tau) {
+Bound bound(const Aimed& aimed, const EquilibratedFlux& tau) {
   const Primal& primal = *aimed.primal;
   const Dual& dual = aimed.dual;
   const CutMesh& cut = primal.cut;
   const EquilibratedFlux& sigma = primal.flux;
   if (!cut.shapes.variation.empty() && !primal.lifts.empty()) return {};
+  if (dual.weight != nullptr && !(cut.shapes.variation.empty() && primal.lifts.empty())) return {};
 
-  double pressure = 0;
-  for (const double one : sigma.work_of_pressure()) pressure += std::max(0.0, one);
   const Sum sum(primal, dual, tau);
   const Products products = sum.products();
   double residual = 0, mixed = 0.5 * products.mixed, distance = products.distance, unknown = 0;
@@ -155,7 +224,8 @@ Interval interval(const Aimed& aimed, const EquilibratedFlux& tau) {
     distance += of.norm * of.norm - 2 * of.difference() + 2 * of.unknown;
   }
 
-  double above = 0, below = 0, work = 0;
+  const double sign = dual.side == Side::upper ? 1 : -1;
+  double c = 0, work = 0, pressure = 0;
   // Fluxes are sums of T grad z', whose rounding errors are relative to T |z'|.
   const double of_jumps = 1e-12 * largest_of(dual.z),
                of_pressures = 1e-12 * largest_of(tau.through_faces()) +
@@ -164,17 +234,19 @@ Interval interval(const Aimed& aimed, const EquilibratedFlux& tau) {
   const bool bridged = std::isfinite(cut.ways.triangle);
   std::vector<double> kept(cut.faces.size(), 0);
   Cone jumps{of_jumps, of_jumps}, pressures{of_pressures, 1000 * of_pressures};
+  // What is on the other side of 0 may be of any size.
   const auto limit = [&](Cone& cone, double of_dual, double of_primal) {
     const double most = dual.c * std::max(0.0, of_primal), size = std::abs(of_dual);
     if (size <= cone.rounding) {  // counts as 0, as its sign means nothing
       cone.all_beyond += size;
       return;
     }
+    if (sign * of_dual < 0) return;
     cone.beyond = std::max(cone.beyond, size - most);
     cone.all_beyond += std::max(0.0, size - most);
-    double& c = of_dual > 0 ? above : below;
     c = std::max(c, size < most ? size / of_primal : dual.c);
   };
+  WeightOf weights(sigma, dual.weight);
   for (std::size_t f = 0; f < cut.faces.size(); ++f) {
     const Face& face = cut.faces[f];
     if (face.traction >= 0 && !primal.load.traction.empty()) {
@@ -183,39 +255,50 @@ Interval interval(const Aimed& aimed, const EquilibratedFlux& tau) {
       residual -= 0.5 * (load[0] - load[1]) * (dual.z[at(ends[0])] - dual.z[at(ends[1])]);
     }
     if (!presses(face.condition)) continue;
+    const Weight::OnFace on = weights.on(f);
     const auto ends = cut.ends(face), others = cut.ends(cut.faces[at(face.other)]);
     for (const std::size_t end : {0, 1})
-      limit(jumps, dual.z[at(others[1 - end])] - dual.z[at(ends[end])], sigma.jump(f, end));
+      limit(jumps, dual.z[at(others[1 - end])] - dual.z[at(ends[end])],
+            on.least * sigma.jump(f, end));
     const auto through = [&](const EquilibratedFlux& flux) {
       return flux.through_faces()[2 * f] + flux.through_faces()[2 * f + 1];
     };
-    const double outward = through(tau), pressure_of = std::max(0.0, -through(sigma));  // -q, p
-    kept[f] = bridged ? pressures.kept(outward, dual.c * pressure_of) : outward;
-    work -= 0.5 * kept[f] * (sigma.jump(f, 0) + sigma.jump(f, 1));
-    limit(pressures, outward, pressure_of);
+    const double outward = through(tau), bound = std::max(0.0, on.bound[0] + on.bound[1]);
+    kept[f] = bridged ? pressures.kept(outward, sign, dual.c * bound) : outward;  // -q
+    const double opening = sigma.jump(f, 0) + sigma.jump(f, 1);
+    work -= 0.5 * kept[f] * opening;
+    pressure += on.most * std::max(0.0, -0.5 * through(sigma) * opening);
+    limit(pressures, outward, bound);
   }
   if (jumps.left() || pressures.left()) return {};  // no bounds: another c is better
-  double beyond = 0;
-  for (const double one : primal.load.oscillation) beyond += one * one;
   const double off = std::sqrt(std::max(0.0, distance)), of_dual = std::sqrt(products.square);
   const double s = bridged ? primal.lack.flux : 0;
   const double t = bridged ? lack_of(cut, tau, {}, dual.unit, kept).flux : 0;
-  const double rho = std::sqrt((off + s) * (off + s) / 4 + pressure), eta = of_dual + t;
-  const double middle = dual.value + work + residual + mixed;
+  const Weighted& sloped = products.weighted;
+  const Unbalanced& rest = products.unbalanced;
+  const double beyond =
+      rest.squared + 2 * (primal.lifts.empty() ? rest.primal : off * std::sqrt(rest.squared));
+  const double e = std::sqrt(std::max(0.0, distance + beyond + sloped.primal)) / 2 +
+                   std::sqrt(weights.most_primal()) * s / 2,
+               f = std::sqrt(products.square + sloped.dual) / 2 +
+                   std::sqrt(weights.most_dual()) * t / 2;
+  Bound found;
+  found.half = {e * e + pressure,
+                sloped.mixed / 2 + rest.dual / 2 + t * std::sqrt(rest.squared) / 2 +
+                    weights.most_mixed() * (of_dual * s + t * off + s * t) / 2,
+                f * f};
+  found.c = c;
+  found.estimate = mixed;
+  found.short_of = std::sqrt(found.half.dual / found.half.primal) / dual.c;
+  found.middle = dual.value + work + residual + mixed;
   const double lacking =
       bridged ? primal.lack.work * largest_of(dual.z) + 0.5 * (of_dual * s + t * off + s * t)
               : 2 * largest_of(primal.u) * pressures.all_beyond;
-  const double extra = aimed.unloaded * std::sqrt(beyond) + 0.5 * products.slack + unknown +
-                       1e-12 * (std::abs(dual.value) + std::abs(middle)) + lacking;
-  return {middle - half_width(below, eta, rho) - extra,
-          middle + half_width(above, eta, rho) + extra,
-          mixed,
-          eta / (2 * dual.c * rho),
-          middle,
-          eta,
-          rho,
-          below,
-          above};
+  const double extra = aimed.unloaded * std::sqrt(rest.weighed) + rest.moved +
+                       0.5 * products.slack + unknown +
+                       1e-12 * (std::abs(dual.value) + std::abs(found.middle)) + lacking;
+  found.value = found.middle + sign * (found.half(c) + extra);
+  return found;
 }
 
 double norm(const CutMesh& cut, const EquilibratedFlux& tau, std::span<const ForceOn> unit) {
@@ -231,38 +314,35 @@ double norm(const CutMesh& cut, const EquilibratedFlux& tau, std::span<const For
 
 }  // namespace
 
-double half_width(double c, double eta, double rho) {
-  return 2 * c * rho <= eta ? eta * rho : c * rho * rho + eta * eta / (4 * c);
+double HalfWidth::operator()(double c) const {
+  if (!(primal > 0)) return mixed;  // c' may be as large as it likes
+  const double best = std::max(c, std::sqrt(dual / primal));
+  return best * primal + mixed + (dual > 0 ? dual / best : 0);
 }
 
 EquilibratedFlux dual_flux(const CutMesh& cut, const EquilibratedFlux& sigma, const Dual& dual) {
-  return EquilibratedFlux(cut, {dual.reacting, {}, {}}, cone_of(sigma, dual.c));
+  return EquilibratedFlux(cut, {dual.reacting, {}, {}}, flux_bounds(cut, sigma, dual));
 }
 
-std::vector<Interval> intervals(const CutMesh& cut, std::span<const Aimed> of) {
-  std::vector<std::vector<double>> cones;
+std::vector<Bound> bounds(const CutMesh& cut, std::span<const Aimed> of) {
+  std::vector<FluxBounds> cones;
   std::vector<Balance> balances;
   for (const Aimed& one : of) {
-    cones.push_back(cone_of(one.primal->flux, one.dual.c));
+    cones.push_back(flux_bounds(cut, one.primal->flux, one.dual));
     balances.push_back({one.dual.reacting, {}, {}});
   }
-  const std::vector<FaceBounds> bounds(cones.begin(), cones.end());
-  const std::vector<EquilibratedFlux> taus = EquilibratedFlux::of_all(cut, balances, bounds);
-  std::vector<Interval> found;
-  for (std::size_t i = 0; i < of.size(); ++i) found.push_back(interval(of[i], taus[i]));
+  const std::vector<FaceBounds> of_faces(cones.begin(), cones.end());
+  const std::vector<EquilibratedFlux> taus = EquilibratedFlux::of_all(cut, balances, of_faces);
+  std::vector<Bound> found;
+  for (std::size_t i = 0; i < of.size(); ++i) found.push_back(bound(of[i], taus[i]));
   return found;
-}
-
-Interval interval(const Primal& primal, const Dual& dual, double unloaded) {
-  const Aimed one{&primal, dual, unloaded};
-  return intervals(primal.cut, {&one, 1}).front();
 }
 
 std::vector<double> norms_of_fluxes(const CutMesh& cut,
                                     std::span<const std::vector<double>> reacting,
                                     std::span<const std::vector<ForceOn>> units) {
   const std::vector<double> none(2 * cut.faces.size(), 0.0);
-  const std::vector<FaceBounds> bounds(flux_lanes, none);
+  const std::vector<FaceBounds> bounds(flux_lanes, FaceBounds{none, none});
   std::vector<double> norms;
   while (!reacting.empty()) {
     const auto some = reacting.first(std::min(flux_lanes, reacting.size()));

@@ -1,28 +1,39 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// An interval for the exact A of an inclusion, or for a component of its slope.
+// A bound for the exact A of an inclusion, or for a component of its slope, from one side.
 //
 // Let sigma be in equilibrium with the load, and tau with a unit force on the goal; v = u_h + w,
 // and z = 0 on the Dirichlet boundary. With p the pressure of sigma, q that of tau (of any sign),
-// and
+// and for an upper bound
 //
-//   -c_l [v] <= [z] <= c_u [v],   -c_u p <= q <= c_l p   on the cracks,
+//   [z] <= c [v],   -q <= c p   on the cracks,
 //   rho^2 = |sigma - T grad v|^2 / 4 + int p [v],   eta = |tau - T grad z|,
 //   mid = A(v) + int q [v] + l(z) - a(v, z) + 1/2 int (tau - T grad z).(sigma/T - grad v):
 //
-//   mid - R(c_l) <= A <= mid + R(c_u),
-//   R(c) = eta rho  if 2 c rho <= eta,  else  c rho^2 + eta^2 / (4 c).
+//   A <= mid + R(c),   R(c) = min over c' >= c of c' E + M + F / c'
+//   E = rho^2,  M = 0,  F = eta^2 / 4,   so R = eta rho if 2 c rho <= eta.
+//
+// A lower bound needs -[z] <= c [v] and q <= c p, and A >= mid - R(c). Towards ends of contact
+// zones c may grow: with a Weight and  D = (grad v - sigma / T) / 2,
+//
+//   [z] <= c w [v],   -q <= c k p,   h = w - b,
+//   E = int (w + b + b^2 / h) T |D|^2 + int w p [v],   M = int b/h |tau - T grad z| |D|,
+//   F = int |tau - T grad z|^2 / (4 h T).
 //
 // If T varies on triangles, eta and rho are bounded as in bracket.hpp, mid is computed with the
-// mean of T, and its error is added to R. This needs w = 0.
+// mean of T, and its error is added to R. This needs w = 0. A Weight needs both T constant and w =
+// 0.
 //
-// The interval is guaranteed for the load that sigma balances; the rest of the load
-// (LoadBalance::oscillation) widens it. So do s and t, which sigma and tau lack of equilibrium
-// (lack.hpp): eta + |t| and |sigma - T grad v| + |s| take the place of eta and |sigma - T grad v|,
-// and mid is computed from sigma and tau alone with l(z) - a(u_h, z) = 0, which is wrong by at most
+// The rest of the load, which sigma does not balance (LoadBalance: o, moments), moves the bound
+// outwards: |D| takes o/2 more on each triangle, M half of sum o |tau - T grad z|, and R what the
+// rest may be of l(z). In the triangles of a Weight it moves A by `unloaded` times its norm. So do
+// s and t, which sigma and tau lack of equilibrium (lack.hpp): eta + |t| and |sigma - T grad v| +
+// |s| take the place of eta and |sigma - T grad v|, and mid is computed from sigma and tau alone
+// with l(z) - a(u_h, z) = 0, which is wrong by at most
 //   work max |z| + (eta |s| + |t| |sigma - T grad v| + |s| |t|) / 2.
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
@@ -31,6 +42,7 @@
 #include "estimate/equilibrated_flux.hpp"
 #include "estimate/lack.hpp"
 #include "estimate/load_balance.hpp"
+#include "estimate/weight.hpp"
 
 namespace anticrack::estimate {
 
@@ -44,42 +56,48 @@ struct Primal {
   Lack lack{};                ///< of the flux
 };
 
+enum class Side : std::uint8_t { lower, upper };
+
 /// The dual solution. [z] = 0 where u_h is closed, so that l(z) - a(u_h, z) = 0.
 struct Dual {
   std::span<const double> z;         ///< (copies)
   std::span<const double> reacting;  ///< (copies) z', from which tau is made
   double value = 0;                  ///< A(u_h)
-  double c = 0;                      ///< bound of c_l and c_u
+  Side side = Side::upper;           ///< which bound
+  double c = 0;                      ///< the most that c may be
   std::span<const ForceOn> unit;     ///< (inclusions) the force that tau balances
+  const Weight* weight = nullptr;    ///< null: 1
 };
 
-struct Interval {
-  double lower = -std::numeric_limits<double>::infinity();
-  double upper = std::numeric_limits<double>::infinity();
-  double estimate = 0;  ///< estimate of A - A(u_h), not a bound
+/// The terms of R(c).
+struct HalfWidth {
+  double primal = 0, mixed = 0, dual = 0;  ///< E, M, F
+  double operator()(double c) const;
+};
+
+struct Bound {
+  double value = std::numeric_limits<double>::infinity();  ///< not finite: there is none
+  double estimate = 0;                                     ///< estimate of A - A(u_h), not a bound
   double short_of = 0;  ///< eta / (2 c rho): if above 1, a larger c is probably better
-  // mid, eta, rho, c_l and c_u of the formulas above.
-  double middle = 0, eta = 0, rho = 0, below = 0, above = 0;
-  double width() const noexcept { return upper - lower; }
+  // mid, c, and R of the formulas above.
+  double middle = 0, c = 0;
+  HalfWidth half{};
 };
 
-/// R(c) of the formula above.
-double half_width(double c, double eta, double rho);
-
-/// The tau of a Dual: |q| <= c p at each end of a face, with p the pressure of sigma.
+/// The tau of a Dual: on one side of 0, q is within c k p at each end of a face.
 EquilibratedFlux dual_flux(const CutMesh& cut, const EquilibratedFlux& sigma, const Dual& dual);
 
-/// A dual for an answer. `unloaded`: |tau| of a tau with q = 0, which multiplies the oscillation.
+/// A dual for an answer. `unloaded`: |tau| of a tau with q = 0, for the oscillation in a weight's
+/// triangles.
 struct Aimed {
   const Primal* primal;
   Dual dual;
   double unloaded = 0;
 };
 
-/// The intervals of several duals at once; the bits of each are as if it were alone. Infinite if z
-/// or tau leave the cone, or if T varies on triangles and w is not 0. O(m) each.
-std::vector<Interval> intervals(const CutMesh& cut, std::span<const Aimed> of);
-Interval interval(const Primal& primal, const Dual& dual, double unloaded);
+/// The bounds by several duals at once; the bits of each are as if it were alone. There is none if
+/// z or tau leave the cone, or if T varies on triangles and w is not 0. O(m) each.
+std::vector<Bound> bounds(const CutMesh& cut, std::span<const Aimed> of);
 
 /// |tau| of fluxes tau for unit forces with all cracks free; infinite where `reacting` is empty.
 /// The bits of each are as if it were alone. `units`: Dual::unit of each. O(m) each.

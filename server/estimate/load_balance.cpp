@@ -74,6 +74,7 @@ LoadBalance load_balance(const CutMesh& cut, const std::vector<fem::ForceParts>&
   balance.force.reserve(cut.copy.size());
   const auto oscillation = [&](std::size_t t) -> double& {
     balance.oscillation.resize(cut.triangle_count(), 0);
+    balance.moments.resize(cut.triangle_count(), 0);
     return balance.oscillation[t];
   };
   std::vector<double> source;
@@ -89,6 +90,7 @@ LoadBalance load_balance(const CutMesh& cut, const std::vector<fem::ForceParts>&
       stop::look_at_turn(k, balancing);
       oscillation(first + k) += size_of(cut, first + k) / j_11 * force[s].beyond[k];
       unknown(first + k, force[s].unknown[k]);
+      balance.moments[first + k] += force[s].moments[k];
     }
   }
   std::vector<double> beyond, of_edges;
@@ -103,8 +105,12 @@ LoadBalance load_balance(const CutMesh& cut, const std::vector<fem::ForceParts>&
     const Vector &p = cut.at[at(cut.copy[3 * t + (i + 1) % 3])],
                  &q = cut.at[at(cut.copy[3 * t + (i + 2) % 3])];
     const double length = std::hypot(q[0] - p[0], q[1] - p[1]);
-    oscillation(t) += size_of(cut, t) * std::sqrt(trace_constant * length / cut.shapes.area[t]) *
-                      beyond[at(face.traction)];
+    if (beyond[at(face.traction)] == 0 && of_edges[at(face.traction)] == 0) continue;
+    const double on_edge = size_of(cut, t) *
+                           std::sqrt(trace_constant * length / cut.shapes.area[t]) *
+                           beyond[at(face.traction)];
+    oscillation(t) += on_edge;
+    balance.moments[t] = std::numeric_limits<double>::infinity();
     unknown(t, of_edges[at(face.traction)]);
   }
   if (!source.empty()) {

@@ -26,6 +26,9 @@ struct LoadBalance {
   /// since |v| is as smooth as v and 0 there too, int |v| s = int tau.grad |v| for the sources s of
   /// tau.
   std::vector<double> oscillation;
+  /// (triangles) m with |int_K (f - f_h) z| <= m max |z| for linear z; infinite on triangles where
+  /// int (g - g_h) z is not known. Empty if `oscillation` is.
+  std::vector<double> moments;
 };
 
 /// `traction`: per subdomain, or empty. O(m). The oscillation is infinite if an unknown part has no

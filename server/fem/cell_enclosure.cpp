@@ -47,6 +47,10 @@ void keep_closer(Enclosed& result, double integral, double radius) {
   result.radius = radius;
 }
 
+void keep_closer(Modelled& result, const Modelled& other) {
+  if (other.radius < result.radius) result = other;
+}
+
 Interval box_x(const Centred& at) {
   return {at.x + *std::min_element(at.dx.begin(), at.dx.end()),
           at.x + *std::max_element(at.dx.begin(), at.dx.end())};
@@ -69,7 +73,19 @@ void by_derivatives(Enclosure& f, const Centred& at, const Jet& jet, Enclosed& r
   const double u = at.length_x, v = at.length_y;
   const double first = c[1].radius() * std::sqrt(at.xx()) + c[2].radius() * std::sqrt(at.yy());
   keep_closer(result, at.area * value.middle(), at.area * (value.radius() + first));
+  const auto moments = [&](const Jet& slopes, double radius) {
+    const double slope_x = slopes.of[1].middle(), slope_y = slopes.of[2].middle();
+    keep_closer(result.moments,
+                {at.area * value.middle(), at.area * (slope_x * at.xx() + slope_y * at.xy()),
+                 at.area * (slope_x * at.xy() + slope_y * at.yy()), radius});
+  };
+  moments(jet, at.area * (value.radius() + first));
   if (jet.order < 2) return;
+  const double slopes = centre.of[1].radius() * std::sqrt(at.xx()) +
+                        centre.of[2].radius() * std::sqrt(at.yy()),
+               bend =
+                   c[3].magnitude() * u * u + c[4].magnitude() * u * v + c[5].magnitude() * v * v;
+  moments(centre, at.area * (value.radius() + slopes + bend));
   const auto quadratic = [&](const Jet& by) {
     return by.of[3].middle() * at.xx() + by.of[4].middle() * at.xy() + by.of[5].middle() * at.yy();
   };
@@ -120,9 +136,9 @@ class Polygon {
     return part;
   }
 
-  /// The area and the centroid.
+  /// The area, the centroid, and the integrals of dx^2, dx dy and dy^2.
   struct Measure {
-    double area = 0, dx = 0, dy = 0;
+    double area = 0, dx = 0, dy = 0, xx = 0, xy = 0, yy = 0;
   };
   Measure measure() const {
     Measure sum;
@@ -133,6 +149,14 @@ class Polygon {
       sum.area += part;
       sum.dx += part * (o[0] + p[0] + q[0]) / 3;
       sum.dy += part * (o[1] + p[1] + q[1]) / 3;
+      const auto product = [&](std::size_t a, std::size_t b) {
+        return part / 12 *
+               ((o[a] + p[a] + q[a]) * (o[b] + p[b] + q[b]) + o[a] * o[b] + p[a] * p[b] +
+                q[a] * q[b]);
+      };
+      sum.xx += product(0, 0);
+      sum.xy += product(0, 1);
+      sum.yy += product(1, 1);
     }
     if (sum.area > 0) {
       sum.dx /= sum.area;
@@ -156,9 +180,14 @@ class Sides {
 
   void operator()(Enclosed& result) {
     add(Polygon(_at));
-    keep_closer(result, _integral, _radius + rounding * _largest * _at.area);
+    const double radius = _radius + rounding * _largest * _at.area;
+    keep_closer(result, _moments.integral, radius);
+    _moments.radius = radius;
+    keep_closer(result.moments, _moments);
     result.values.low = std::max(result.values.low, _values.low);
     result.values.high = std::min(result.values.high, _values.high);
+    if (_beside.low <= _beside.high) result.beside = _beside;
+    result.strips = _strips;
   }
 
  private:
@@ -201,8 +230,21 @@ class Sides {
     }
     const Polygon below = polygon.below(value + away, slope_x, slope_y),
                   above = polygon.below(away - value, -slope_x, -slope_y);
-    const double strip = std::max(0.0, own.area - below.measure().area - above.measure().area);
-    add_part({strip, 0, 0}, jet.value().middle(), jet.value().radius(), jet.value());
+    // The centroid of the strip is what the parts beside it leave.
+    const Polygon::Measure before = below.measure(), behind = above.measure();
+    Polygon::Measure strip;
+    strip.area = std::max(0.0, own.area - before.area - behind.area);
+    if (strip.area > 0) {
+      const auto left = [&](double all, double one, double other) {
+        return (own.area * all - before.area * one - behind.area * other) / strip.area;
+      };
+      strip.dx = std::clamp(left(own.dx, before.dx, behind.dx), -_at.reach_x, _at.reach_x);
+      strip.dy = std::clamp(left(own.dy, before.dy, behind.dy), -_at.reach_y, _at.reach_y);
+    }
+    const Interval beside = _beside;
+    add_part(strip, jet.value().middle(), {0, 0}, jet.value().radius(), jet.value());
+    _beside = beside;
+    _strips += strip.area;
     for (const bool side : {false, true}) {
       _taken.back().above = side;
       add(side ? above : below);
@@ -212,7 +254,7 @@ class Sides {
 
   void add_smooth(const Polygon::Measure& own, const Jet& jet) {
     if (jet.order < 1 || !jet.of[1].finite() || !jet.of[2].finite()) {
-      add_part(own, jet.value().middle(), jet.value().radius(), jet.value());
+      add_part(own, jet.value().middle(), {0, 0}, jet.value().radius(), jet.value());
       return;
     }
     const double slope_x = jet.of[1].middle(), slope_y = jet.of[2].middle(),
@@ -220,15 +262,20 @@ class Sides {
     const Interval centre = in_centre(0).value();
     const double farthest =
         jet.of[1].magnitude() * _at.reach_x + jet.of[2].magnitude() * _at.reach_y;
-    add_part(own, centre.middle() + slope_x * own.dx + slope_y * own.dy, centre.radius() + off,
+    add_part(own, centre.middle(), {slope_x, slope_y}, centre.radius() + off,
              {std::max(jet.value().low, centre.low - farthest),
               std::min(jet.value().high, centre.high + farthest)});
   }
 
-  void add_part(const Polygon::Measure& part, double value, double off, const Interval& values) {
+  /// The values are within `off` of  value + slope . (dx, dy).
+  void add_part(const Polygon::Measure& part, double value, const std::array<double, 2>& slope,
+                double off, const Interval& values) {
     if (part.area == 0) return;
     _values = hull(_values, values);
-    _integral += part.area * value;
+    _beside = hull(_beside, values);
+    _moments.integral += part.area * (value + slope[0] * part.dx + slope[1] * part.dy);
+    _moments.x += part.area * value * part.dx + slope[0] * part.xx + slope[1] * part.xy;
+    _moments.y += part.area * value * part.dy + slope[0] * part.xy + slope[1] * part.yy;
     _radius += part.area * off;
   }
 
@@ -236,8 +283,10 @@ class Sides {
   const Centred& _at;
   Interval _x, _y;
   std::vector<Enclosure::Choice> _taken;
-  double _integral = 0, _radius = 0, _largest = 0;
-  Interval _values{infinite, -infinite};
+  Modelled _moments;
+  double _radius = 0, _largest = 0;
+  Interval _values{infinite, -infinite}, _beside = _values;
+  double _strips = 0;
 };
 
 }  // namespace
@@ -245,13 +294,18 @@ class Sides {
 Enclosed enclose(Enclosure& f, const Centred& triangle) {
   const Jet jet = f(box_x(triangle), box_y(triangle), 3);
   const std::optional<Enclosure::Choice> choice = f.choice();
-  Enclosed result{0, infinite, jet.value()};
-  if (jet.value().finite())
-    keep_closer(result, triangle.area * jet.value().middle(), triangle.area * jet.value().radius());
+  Enclosed result{0, infinite, jet.value(), jet.value(), 0, {0, 0, 0, infinite}};
+  if (jet.value().finite()) {
+    const double integral = triangle.area * jet.value().middle(),
+                 radius = triangle.area * jet.value().radius();
+    keep_closer(result, integral, radius);
+    keep_closer(result.moments, {integral, 0, 0, radius});
+  }
   if (choice)
     Sides(f, triangle)(result);
   else
     by_derivatives(f, triangle, jet, result);
+  if (!choice) result.beside = result.values;
   return result;
 }
 

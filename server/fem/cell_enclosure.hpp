@@ -36,16 +36,27 @@ struct Centred {
   }
 };
 
+/// A model of f whose error has a bound in the mean: |f - model| has at most the integral `radius`,
+/// which may be infinite. The moments are about the centroid.
+struct Modelled {
+  double integral = 0, x = 0, y = 0;  ///< int of the model, and of it times dx and dy
+  double radius = 0;
+};
+
 struct Enclosed {
   double integral = 0;  ///< int f is within `radius` of this; `radius` may be infinite
   double radius = 0;
   Interval values;  ///< holds the values of f
+  /// Holds the values outside strips about lines where f jumps or bends, whose area is `strips`.
+  Interval beside;
+  double strips = 0;
+  Modelled moments;
 };
 
-/// Encloses int f and the values of f on a triangle: by the mean value form, of degree 3 where f is
-/// smooth and of degree 1 where it has kinks; where lines of jumps or kinks pass, by straight lines
-/// in their places, with strips about these in which either side is possible; else by the values
-/// alone. Rounding of the points is not enclosed: some 1e-15 of the coordinates.
+/// Encloses int f, the values and the moments of f on a triangle: by the mean value form, of degree
+/// 3 where f is smooth and of degree 1 where it has kinks; where lines of jumps or kinks pass, by
+/// straight lines in their places, with strips about these in which either side is possible; else
+/// by the values alone. Rounding of the points is not enclosed: some 1e-15 of the coordinates.
 Enclosed enclose(expression::Enclosure& f, const Centred& triangle);
 
 }  // namespace anticrack::fem

@@ -26,6 +26,8 @@ struct ForceParts {
   /// linear on every triangle.
   std::vector<double> beyond;
   std::vector<double> unknown;  ///< (m) >= |int_K (f - f_h)|; empty: 0
+  /// (m) >= |int_K (f - f_h) z| for linear z with |z| <= 1; as long as `unknown`.
+  std::vector<double> moments;
 };
 
 /// g_N on the edges of the Neumann boundary of a subdomain.

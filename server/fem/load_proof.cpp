@@ -73,6 +73,7 @@ class ForceProver {
     const std::size_t count = _order.size();
     _parts.beyond.assign(count, 0);
     _parts.unknown.assign(count, 0);
+    _parts.moments.assign(count, 0);
     if (_options.spread != nullptr) _options.spread->assign(count, {});
     std::iota(_order.begin(), _order.end(), 0);
     _proof.absolute = _options.absolute;
@@ -235,7 +236,7 @@ class ForceProver {
     // f is within `all` of its tangent plane in the mean square, and the plane is integrated
     // exactly. The moments of f are wrong by `missed` in all; the linear function with such moments
     // has a norm at most 7 times as large.
-    _parts.unknown[t] = frame.area * (missed + size);
+    _parts.unknown[t] = _parts.moments[t] = frame.area * (missed + size);
     _parts.beyond[t] = std::sqrt(frame.area) * (all + 3.5 * missed + size);
     if (_options.spread == nullptr) return;
     spread_smooth(t, jet, all, missed);
@@ -354,6 +355,7 @@ class ForceProver {
     const std::size_t roots = _first.size();
     struct Sum {
       double integral = 0, radius = 0, at_b = 0, at_c = 0;
+      double modelled = 0, b = 0, c = 0, off = 0;  // of the models of Enclosed::moments
     };
     std::vector<Sum> sums(_quarters.size());
     for (std::size_t i = _quarters.size(); i-- > 0;) {
@@ -361,8 +363,17 @@ class ForceProver {
       Sum& sum = sums[i];
       if (one.children < 0) {
         const Place middle = one.cell.at(1.0 / 3, 1.0 / 3);
-        sum = {one.found.integral, one.found.radius, one.found.integral * middle.b,
-               one.found.integral * middle.c};
+        const Modelled& model = one.found.moments;
+        const Frame frame = frame_of(_xy, _triangles, at(one.cell.triangle));
+        const double twice = frame.bx * frame.cy - frame.by * frame.cx;
+        sum = {one.found.integral,
+               one.found.radius,
+               one.found.integral * middle.b,
+               one.found.integral * middle.c,
+               model.integral,
+               model.integral * middle.b + (model.x * frame.cy - model.y * frame.cx) / twice,
+               model.integral * middle.c + (model.y * frame.bx - model.x * frame.by) / twice,
+               model.radius};
         continue;
       }
       for (std::size_t k = 0; k < 4; ++k) {
@@ -371,6 +382,10 @@ class ForceProver {
         sum.radius += child.radius;
         sum.at_b += child.at_b;
         sum.at_c += child.at_c;
+        sum.modelled += child.modelled;
+        sum.b += child.b;
+        sum.c += child.c;
+        sum.off += child.off;
       }
     }
     for (std::size_t i = 0; i < roots; ++i) {
@@ -382,6 +397,10 @@ class ForceProver {
       if (std::abs(sum_of(t) - sum.integral) > slack + doubt)
         replace(t, {sum.integral - sum.at_b - sum.at_c, sum.at_b, sum.at_c});
       _parts.unknown[t] = std::abs(sum_of(t) - sum.integral) + slack;
+      const double* own = &_parts.load[3 * t];
+      _parts.moments[t] = std::abs(own[0] - (sum.modelled - sum.b - sum.c)) +
+                          std::abs(own[1] - sum.b) + std::abs(own[2] - sum.c) + sum.off +
+                          rounding * std::abs(sum.modelled);
     }
     bound_rest(roots);
   }
@@ -412,16 +431,22 @@ class ForceProver {
       Rest& rest = rests[i];
       if (one.children < 0) {
         const Linear linear(&_parts.load[3 * t], frame.area);
-        double low = infinite, high = -infinite;
-        for (const Place& corner : one.cell.corners) {
-          const double value = linear(corner);
-          low = std::min(low, one.found.values.low - value);
-          high = std::max(high, one.found.values.high - value);
-        }
-        const double most = std::max(std::abs(low), std::abs(high)), half = 0.5 * high - 0.5 * low;
-        const double dual = own.diameter() / j_11 * half;
+        const auto less_linear = [&](const Interval& values) {
+          Interval off{infinite, -infinite};
+          for (const Place& corner : one.cell.corners) {
+            const double value = linear(corner);
+            off = hull(off, {values.low - value, values.high - value});
+          }
+          return off;
+        };
+        const Interval beside = less_linear(one.found.beside), all = less_linear(one.found.values);
+        const double most = beside.magnitude(), half = beside.radius(),
+                     in_strips = all.magnitude() + beside.magnitude(),
+                     strips = one.found.strips > 0 ? one.found.strips * in_strips * in_strips : 0;
+        const double by_poincare = own.diameter() / j_11;
         rest = {one.found.integral - own.area * linear(one.cell.at(1.0 / 3, 1.0 / 3)),
-                one.found.radius, own.area * most * most, own.area * dual * dual};
+                one.found.radius, own.area * most * most + strips,
+                by_poincare * by_poincare * (own.area * half * half + strips)};
         continue;
       }
       for (std::size_t k = 0; k < 4; ++k) {

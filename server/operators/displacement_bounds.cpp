@@ -9,85 +9,17 @@
 #include <optional>
 #include <utility>
 
-#include "contact/adjoint.hpp"
 #include "contact/trace_state.hpp"
 #include "estimate/bracket.hpp"
 #include "estimate/interval.hpp"
 #include "operators/aims.hpp"
+#include "operators/bound_search.hpp"
 #include "stop/stop.hpp"
 
 namespace anticrack::operators {
 namespace {
 
 constexpr const char* bounding_a = "computing bounds of A";
-
-/// Most bounds of the cone to try; most answers need two.
-constexpr int most_tries = 4;
-
-/// Searches for the best interval by trying a few bounds c of the cone, each wider than the last.
-class Search {
- public:
-  /// `unloaded`: norm of the flux of a unit force with every contact open.
-  Search(const Bounded& of, const contact::Adjoint& adjoint, const Aim& aim,
-         contact::Adjoint::Goal goal, double unloaded)
-      : _of(of),
-        _adjoint(adjoint),
-        _aim(aim),
-        _unit(aim.unit(of.answer.inclusions.size())),
-        _goal(std::move(goal)),
-        _unloaded(unloaded) {
-    const double norm = std::sqrt(of.primal.flux.norm_squared());
-    _c = 2 * (norm > 0 ? std::sqrt(_goal.compliance) / norm : 1);
-  }
-
-  const Bounded& of() const { return _of; }
-  const Aim& aim() const { return _aim; }
-  bool held() const { return !(_goal.compliance > 0); }
-  bool done() const { return held() || _tries == most_tries || stopped(); }
-  bool stopped() const { return _of.stop.stop_requested(); }
-
-  Eigen::VectorXd load() const { return _adjoint.load(_goal, _c); }
-  Eigen::VectorXd jumps() const { return _adjoint.jumps(_goal, _c); }
-  estimate::Aimed aimed(std::span<const double> z, std::span<const double> reacting) const {
-    return {&_of.primal, {z, reacting, _aim.value_in(_of.answer), _c, _unit}, _unloaded};
-  }
-
-  void take(const estimate::Interval& one) {
-    ++_tries;
-    if (!std::isfinite(one.width())) {
-      _c *= 8;
-      return;
-    }
-    const bool better = one.width() < _best.width();
-    if (better) _best.estimate = one.estimate;
-    _best.lower = std::max(_best.lower, one.lower);
-    _best.upper = std::min(_best.upper, one.upper);
-    if (!better || !(one.short_of > 1)) _tries = most_tries;
-    _c *= std::clamp(one.short_of, 1.5, 8.0);
-  }
-  void give_up() { _tries = most_tries; }
-
-  /// Writes the bounds. Returns false if there are none: forces that tie the sides of crossing
-  /// cracks may leave any cone.
-  bool finish() const {
-    const double value = _aim.value_in(_of.answer);
-    if (!held() && !std::isfinite(_best.width())) return false;
-    _aim.set(_of.answer, held() ? value : _best.lower, held() ? value : _best.upper);
-    if (!held() && _aim.estimate != nullptr)
-      _of.answer.inclusions[_aim.inclusion].*_aim.estimate = _best.estimate;
-    return true;
-  }
-
- private:
-  const Bounded& _of;
-  const contact::Adjoint& _adjoint;
-  const Aim& _aim;
-  std::vector<estimate::ForceOn> _unit;
-  contact::Adjoint::Goal _goal;
-  double _c = 0, _unloaded;
-  estimate::Interval _best;
-  int _tries = 0;
-};
 
 /// Tries the present cone of each search.
 void advance(const MeshOperator::Parts& parts, const estimate::CutMesh& cut,
@@ -104,14 +36,15 @@ void advance(const MeshOperator::Parts& parts, const estimate::CutMesh& cut,
       continue;
     }
     solved.push_back(searches[i]);
-    displaced.push_back({&searches[i]->aim().goal, searches[i]->jumps()});
-    displaced.push_back({&searches[i]->aim().goal, opened[i].d});
+    const ddm::Terms& force = searches[i]->target().aim().goal;
+    displaced.push_back({&force, searches[i]->jumps()});
+    displaced.push_back({&force, opened[i].d});
   }
   const std::vector<std::vector<double>> fields = parts.contact->fields_of(displaced);
   std::vector<estimate::Aimed> aimed;
   for (std::size_t i = 0; i < solved.size(); ++i)
     aimed.push_back(solved[i]->aimed(fields[2 * i], fields[2 * i + 1]));
-  const std::vector<estimate::Interval> found = estimate::intervals(cut, aimed);
+  const std::vector<estimate::Bound> found = estimate::bounds(cut, aimed);
   for (std::size_t i = 0; i < found.size(); ++i) solved[i]->take(found[i]);
 }
 
@@ -221,22 +154,31 @@ void bound_by_adjoints(const MeshOperator::Parts& parts, const std::vector<Aim>&
   const std::vector<contact::UnitForce> forces = unit_forces(parts, goals);
   std::vector<Eigen::VectorXd> r;
   for (const contact::UnitForce& force : forces) r.push_back(force.r);
-  std::deque<contact::Adjoint> adjoints;
+  std::deque<Adjoints> adjoints;
+  std::deque<Target> targets;
   std::deque<Search> searches;
   std::vector<std::pair<const Bounded*, const Aim*>> by_energy;
   for (const Bounded& of : answers) {
     if (of.stop.stop_requested()) continue;
     stop::look(bounding_a);
-    const contact::Adjoint& adjoint = adjoints.emplace_back(parts.problem, of.answer);
-    const bool loaded_beyond = !of.primal.load.oscillation.empty();
+    Adjoints& own = adjoints.emplace_back(of, contact::Adjoint(parts.problem, of.answer));
     std::vector<contact::Opened> opened;
-    if (adjoint.possible()) opened = parts.contact->solve_open(of.answer.closed, r);
+    if (own.adjoint.possible()) opened = parts.contact->solve_open(of.answer.closed, r);
     for (std::size_t k = 0; k < goals.size(); ++k) {
-      const double unloaded = loaded_beyond ? flux_norms(parts, cut, goals)[k] : 0;
-      if (adjoint.possible() && opened[k].solved && std::isfinite(unloaded))
-        searches.emplace_back(of, adjoint, goals[k], adjoint.aim(forces[k], opened[k]), unloaded);
-      else
+      if (!own.adjoint.possible() || !opened[k].solved) {
         by_energy.emplace_back(&of, &goals[k]);
+        continue;
+      }
+      Target& target =
+          targets.emplace_back(own, goals, k, goals[k].unit(of.answer.inclusions.size()),
+                               own.adjoint.aim(forces[k], opened[k]));
+      if (!(target.goal.compliance > 0)) {  // held
+        const double value = goals[k].value_in(of.answer);
+        goals[k].set(of.answer, value, value);
+        continue;
+      }
+      for (const estimate::Side side : {estimate::Side::lower, estimate::Side::upper})
+        searches.emplace_back(parts, target, side);
     }
   }
   std::vector<Search*> active;
@@ -248,8 +190,19 @@ void bound_by_adjoints(const MeshOperator::Parts& parts, const std::vector<Aim>&
     if (active.empty()) break;
     advance(parts, cut, active);
   }
-  for (const Search& search : searches)
-    if (!search.stopped() && !search.finish()) by_energy.emplace_back(&search.of(), &search.aim());
+  for (std::size_t i = 0; i < searches.size(); i += 2) {
+    const Search &lower = searches[i], &upper = searches[i + 1];
+    if (lower.stopped()) continue;
+    // Forces that tie the sides of crossing cracks may leave any cone.
+    const auto& [of, aim] = std::pair(&lower.target().adjoints.of, &lower.target().aim());
+    if (std::isfinite(lower.best().value) && std::isfinite(upper.best().value)) {
+      aim->set(of->answer, lower.best().value, upper.best().value);
+      if (aim->estimate != nullptr)
+        of->answer.inclusions[aim->inclusion].*aim->estimate = lower.best().estimate;
+    } else {
+      by_energy.emplace_back(of, aim);
+    }
+  }
   for (const auto& [of, aim] : by_energy) {
     if (of->stop.stop_requested()) continue;
     const stop::Scope scope(of->stop);

@@ -24,7 +24,7 @@ void add(std::vector<double>& sum, const std::vector<double>& values, double fac
 std::size_t BalancedLoad::bytes() const noexcept {
   return sizeof(double) *
          (balance.force.capacity() + balance.traction.capacity() + balance.oscillation.capacity() +
-          boundary.values.capacity() + boundary.unknown.capacity());
+          balance.moments.capacity() + boundary.values.capacity() + boundary.unknown.capacity());
 }
 
 BalancedLoad balanced(const LoadParts& parts, const std::vector<ddm::Subdomain>& subdomains,
@@ -85,6 +85,7 @@ BalancedLoad combine(std::span<const BalancedLoad> loads, std::span<const double
     add(sum.balance.force, loads[j].balance.force, c);
     add(sum.balance.traction, loads[j].balance.traction, c);
     add(sum.balance.oscillation, loads[j].balance.oscillation, std::abs(c));
+    add(sum.balance.moments, loads[j].balance.moments, std::abs(c));
     add(sum.boundary.values, loads[j].boundary.values, c);
     add(sum.boundary.unknown, loads[j].boundary.unknown, std::abs(c));
     if (sum.obstacle.empty()) sum.obstacle = loads[j].obstacle;

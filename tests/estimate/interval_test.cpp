@@ -61,7 +61,7 @@ double sum_of(const std::vector<double>& values) {
 
 /// A of the fine solution from the coarse one, its bounds' own middle and what bounds them.
 double displacement_from(const Nested& nested, const EquilibratedFlux& sigma,
-                         const EquilibratedFlux& tau, const Dual& dual, const Interval& found) {
+                         const EquilibratedFlux& tau, const Dual& dual, const Bound& found) {
   const Solved &coarse = *nested.coarse, &fine = *nested.fine;
   const std::vector<double> z(dual.z.begin(), dual.z.end()),
       reacting(dual.reacting.begin(), dual.reacting.end());
@@ -82,22 +82,25 @@ double displacement_from(const Nested& nested, const EquilibratedFlux& sigma,
 
 /// How far the jumps of z and the pressures of tau leave the cone of the bounds.
 double outside_cone(const Solved& in, const EquilibratedFlux& sigma, const EquilibratedFlux& tau,
-                    const Dual& dual, const Interval& found) {
+                    const Dual& dual, double c) {
+  const double sign = dual.side == Side::upper ? 1 : -1;
   const std::vector<double> z(dual.z.begin(), dual.z.end());
+  WeightOf weights(sigma, dual.weight);
   double jumps = 0, pressures = 0, largest_jump = 1e-12, largest_pressure = 1e-12;
   for (std::size_t f = 0; f < in.cut.faces.size(); ++f) {
     const Face& face = in.cut.faces[f];
     if (!presses(face.condition)) continue;
+    const Weight::OnFace on = weights.on(f);
     for (const std::size_t end : {0U, 1U}) {
       const double of_z = in.jump(z, face, end), of_v = in.jump(in.u, face, end);
-      jumps = std::max({jumps, of_z - found.above * of_v, -of_z - found.below * of_v});
+      jumps = std::max(jumps, sign * of_z - c * on.least * of_v);
       largest_jump = std::max(largest_jump, std::abs(of_z));
     }
     const auto pressure = [f](const EquilibratedFlux& flux) {
       return -flux.through_faces()[2 * f] - flux.through_faces()[2 * f + 1];
     };
-    const double q = pressure(tau), p = pressure(sigma);
-    pressures = std::max({pressures, q - found.below * p, -q - found.above * p});
+    const double q = pressure(tau);
+    pressures = std::max(pressures, -sign * q - c * (on.bound[0] + on.bound[1]));
     largest_pressure = std::max(largest_pressure, std::abs(q));
   }
   return std::max(jumps / std::max(1.0, largest_jump), pressures / std::max(1.0, largest_pressure));
@@ -125,9 +128,10 @@ void check_identities(unsigned seed, bool rich, Figures& tally) {
     tally.energy = std::max(tally.energy, std::abs(left - right) / scale);
   }
   // z = a (u - v), tau = a (sigma - T grad u) of the functional 0: the worst that c = a allows.
-  for (const double a : {0.1, 1.0, 10.0})
-    EXPECT_NEAR(half_width(a, 2 * a * std::sqrt(of.middle), std::sqrt(rho_squared)),
-                a * (2 * of.middle + x), 1e-10 * a * scale);
+  for (const double a : {0.1, 1.0, 10.0}) {
+    const HalfWidth half{rho_squared, 0, a * a * of.middle};
+    EXPECT_NEAR(half(a), a * (2 * of.middle + x), 1e-10 * a * scale);
+  }
   ++tally.brackets;
 
   const contact::Adjoint adjoint(coarse.parts.problem, coarse.answer);
@@ -136,6 +140,7 @@ void check_identities(unsigned seed, bool rich, Figures& tally) {
   load.force = coarse.force;
   load.traction = coarse.traction;
   const std::vector<Lift> none;
+  const Primal primal{coarse.cut, sigma, load, none, coarse.u};
   for (std::size_t j = 0; j < coarse.answer.inclusions.size(); ++j) {
     const contact::ContactProblem& problem = *coarse.parts.contact;
     const ddm::Terms& aim = coarse.parts.decomposition.skeleton.motions[j].displacement;
@@ -146,55 +151,60 @@ void check_identities(unsigned seed, bool rich, Figures& tally) {
     if (!kept.solved || !(goal.compliance > 1e-9)) continue;
     const double unit = std::sqrt(goal.compliance / std::max(scale, 1e-9));
     const double truth = fine.answer.inclusions[j].displacement;
+    const double size = std::abs(truth) + std::sqrt(goal.compliance * scale);
     for (const double c : {0.5 * unit, 2 * unit, 16 * unit}) {
-      const Eigen::VectorXd clipped = adjoint.load(goal, c);
-      const contact::Opened free = std::move(problem.solve_open({}, {&clipped, 1}).front());
-      if (!free.solved) continue;
-      const contact::Displaced pair[] = {{&aim, adjoint.jumps(goal, c)}, {&aim, free.d}};
-      const std::vector<std::vector<double>> fields = problem.fields_of(pair);
-      const std::vector<double>&z = fields[0], &reacting = fields[1];
-      std::vector<ForceOn> on_inclusions(coarse.answer.inclusions.size());
-      on_inclusions[j].force = 1;
-      const Dual dual{z, reacting, coarse.answer.inclusions[j].displacement, c, on_inclusions};
-      const Interval found = interval({coarse.cut, sigma, load, none, coarse.u}, dual, 0);
-      tally.left += std::isfinite(found.width()) ? 0 : 1;
-      if (!std::isfinite(found.width())) continue;
-      const EquilibratedFlux tau = dual_flux(coarse.cut, sigma, dual);
-      const double from_coarse = displacement_from(nested, sigma, tau, dual, found);
-      const double size = std::abs(truth) + std::sqrt(goal.compliance * scale);
-      tally.displacement = std::max(tally.displacement, std::abs(truth - from_coarse) / size);
-      EXPECT_NEAR(truth, from_coarse, 1e-8 * size);  // rounding: 1.4e-9 in one of some ten thousand
-      const double outside = outside_cone(coarse, sigma, tau, dual, found);
-      tally.cone = std::max(tally.cone, outside);
-      EXPECT_LT(outside, 1e-10);
-      // Bounds are wider than the formula by their own rounding, which is of A(u_h) and the middle.
-      const double rounding = 1e-11 * (size + std::abs(dual.value) + std::abs(found.middle));
-      EXPECT_NEAR(found.lower, found.middle - half_width(found.below, found.eta, found.rho),
-                  rounding);
-      EXPECT_NEAR(found.upper, found.middle + half_width(found.above, found.eta, found.rho),
-                  rounding);
-      EXPECT_NEAR(found.rho, std::sqrt(rho_squared), 1e-9 * std::sqrt(scale));
-      const double half = found.width() / 2;
-      if (half > 1e-9)
-        tally.nearest =
-            std::min(tally.nearest, std::min(truth - found.lower, found.upper - truth) / half);
-      EXPECT_GT(truth, found.lower - 1e-11 * size);
-      EXPECT_LT(truth, found.upper + 1e-11 * size);
-      // Jumps solved as well as on millions of triangles leave the cone, and bounds remain.
-      Eigen::VectorXd jumps = free.d;
-      const double z_size = Eigen::Map<const Eigen::VectorXd>(
-                                reacting.data(), static_cast<Eigen::Index>(reacting.size()))
-                                .lpNorm<Eigen::Infinity>();
-      for (Eigen::Index i = 0; i < jumps.size(); ++i)
-        jumps[i] += (i % 2 == 0 ? 1 : -1) * 3e-13 * z_size;
-      const contact::Displaced rounded{&aim, jumps};
-      const std::vector<double> near = problem.fields_of({&rounded, 1}).front();
-      const Interval wider = interval({coarse.cut, sigma, load, none, coarse.u},
-                                      {z, near, dual.value, c, on_inclusions}, 0);
-      EXPECT_GT(truth, wider.lower - 1e-11 * size);
-      EXPECT_LT(truth, wider.upper + 1e-11 * size);
-      EXPECT_LT(wider.width(), half_width(c, found.eta, found.rho) * 2 * (1 + 1e-6));
-      ++tally.intervals;
+      for (const Side side : {Side::lower, Side::upper}) {
+        const double sign = side == Side::upper ? 1 : -1;
+        contact::Adjoint::Room room = adjoint.room();
+        room.jumps *= c;
+        room.forces *= c;
+        const Eigen::VectorXd clipped = contact::Adjoint::load(goal, sign, room);
+        const contact::Opened free = std::move(problem.solve_open({}, {&clipped, 1}).front());
+        if (!free.solved) continue;
+        const contact::Displaced pair[] = {{&aim, contact::Adjoint::jumps(goal, sign, room)},
+                                           {&aim, free.d}};
+        const std::vector<std::vector<double>> fields = problem.fields_of(pair);
+        const std::vector<double>&z = fields[0], &reacting = fields[1];
+        std::vector<ForceOn> on_inclusions(coarse.answer.inclusions.size());
+        on_inclusions[j].force = 1;
+        Dual dual{z, reacting, coarse.answer.inclusions[j].displacement, side, c, on_inclusions};
+        const auto bound_by = [&](const Dual& by) {
+          const Aimed one{&primal, by};
+          return bounds(coarse.cut, {&one, 1}).front();
+        };
+        const Bound found = bound_by(dual);
+        tally.left += std::isfinite(found.value) ? 0 : 1;
+        if (!std::isfinite(found.value)) continue;
+        const EquilibratedFlux tau = dual_flux(coarse.cut, sigma, dual);
+        const double from_coarse = displacement_from(nested, sigma, tau, dual, found);
+        tally.displacement = std::max(tally.displacement, std::abs(truth - from_coarse) / size);
+        EXPECT_NEAR(truth, from_coarse, 1e-8 * size);  // rounding: 1.4e-9 in one of some 10,000
+        const double outside = outside_cone(coarse, sigma, tau, dual, found.c);
+        tally.cone = std::max(tally.cone, outside);
+        EXPECT_LT(outside, 1e-10);
+        // A bound is wider than the formula by its own rounding, which is of A(u_h) and the middle.
+        const double rounding = 1e-11 * (size + std::abs(dual.value) + std::abs(found.middle));
+        EXPECT_NEAR(found.value, found.middle + sign * found.half(found.c), rounding);
+        EXPECT_NEAR(found.half.primal, rho_squared, 1e-9 * scale);
+        const double half = found.half(found.c);
+        if (half > 1e-9)
+          tally.nearest = std::min(tally.nearest, sign * (found.value - truth) / half);
+        EXPECT_GT(sign * (found.value - truth), -1e-11 * size);
+        // Jumps solved as well as on millions of triangles leave the cone, and bounds remain.
+        Eigen::VectorXd jumps = free.d;
+        const double z_size = Eigen::Map<const Eigen::VectorXd>(
+                                  reacting.data(), static_cast<Eigen::Index>(reacting.size()))
+                                  .lpNorm<Eigen::Infinity>();
+        for (Eigen::Index i = 0; i < jumps.size(); ++i)
+          jumps[i] += (i % 2 == 0 ? 1 : -1) * 3e-13 * z_size;
+        const contact::Displaced rounded{&aim, jumps};
+        const std::vector<double> near = problem.fields_of({&rounded, 1}).front();
+        dual.reacting = near;
+        const Bound wider = bound_by(dual);
+        EXPECT_GT(sign * (wider.value - truth), -1e-11 * size);
+        EXPECT_LT(sign * (wider.value - wider.middle), found.half(c) * 2 * (1 + 1e-6));
+        ++tally.intervals;
+      }
     }
   }
 }
@@ -217,7 +227,7 @@ TEST_P(Identities, HoldOnNestedMeshes) {
 INSTANTIATE_TEST_SUITE_P(Random, Identities, ::testing::Bool(),
                          [](const auto& one) { return one.param ? "Rich" : "Plain"; });
 
-/// R(c) is the largest eta y + c (rho^2 - y^2) for 0 <= y <= rho.
+/// Without a weight R(c) is the largest eta y + c (rho^2 - y^2) for 0 <= y <= rho.
 TEST(HalfWidth, IsTheWorstThatTheConeAllows) {
   for (const double c : {0.0, 0.01, 0.4, 3.0}) {
     const double eta = 0.7, rho = 1.3;
@@ -226,7 +236,8 @@ TEST(HalfWidth, IsTheWorstThatTheConeAllows) {
       const double y = rho * k / 10'000;
       worst = std::max(worst, eta * y + c * (rho * rho - y * y));
     }
-    EXPECT_NEAR(half_width(c, eta, rho), worst, 1e-7);
+    const HalfWidth half{rho * rho, 0, eta * eta / 4};
+    EXPECT_NEAR(half(c), worst, 1e-7);
   }
 }
 

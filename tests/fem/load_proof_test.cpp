@@ -13,6 +13,7 @@
 
 #include "errors/errors.hpp"
 #include "fem/adaptive_load.hpp"
+#include "fem/cell.hpp"
 #include "fem/tension.hpp"
 #include "fem/traction.hpp"
 #include "support/errors.hpp"
@@ -110,6 +111,46 @@ TEST(LoadProof, HoldsTheIntegralsOfRandomShapesOfAnySize) {
     for (const double beyond : parts.beyond) ASSERT_TRUE(std::isfinite(beyond)) << known.f;
   }
   EXPECT_LE(wide, count / 50);
+}
+
+/// The moments of straight and curved pieces against many samples of each triangle.
+TEST(LoadProof, HoldsTheMoments) {
+  const PlaneMesh mesh = square_mesh(5, 0.2, 7);
+  constexpr int pieces = 80;
+  for (const std::string f :
+       {"x*y > 0 ? 1 : -1", "x < 0.1 ? 1 : -1", "x + 0.3*y < 0.1 ? 2*x : y - 1", "exp(x*y)",
+        "abs(x - 0.3*y)", "x^2 + y^2 < 0.3 ? 1 : 0", "sqrt(abs(x) + 0.1) * (y > 0 ? 3 : 1)"}) {
+    std::vector<double> load(mesh.node_count());
+    fem::ForceParts parts;
+    const expression::Function function(f, "f");
+    fem::integrate_load(mesh.xy, mesh.triangles, function, load,
+                        fem::limits_of(1e-5, mesh.triangle_count()), &parts);
+    double most = 0, largest = 0;
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+      const fem::Frame frame = fem::frame_of(mesh.xy, mesh.triangles, t);
+      std::array<double, 3> sum{};
+      for (int i = 0; i < pieces; ++i)
+        for (int j = 0; i + j < pieces; ++j)
+          for (const double third : {1.0 / 3, 2.0 / 3}) {
+            if (third > 0.5 && i + j > pieces - 2) continue;  // a triangle of the other direction
+            const double b = (i + third) / pieces, c = (j + third) / pieces;
+            const double value = function(frame.x + b * frame.bx + c * frame.cx,
+                                          frame.y + b * frame.by + c * frame.cy);
+            sum[0] += value * (1 - b - c);
+            sum[1] += value * b;
+            sum[2] += value * c;
+          }
+      double off = 0;
+      for (std::size_t i = 0; i < 3; ++i)
+        off += std::abs(parts.load[3 * t + i] - sum[i] * frame.area / (pieces * pieces));
+      EXPECT_LE(off, parts.moments[t] + 3e-3 * frame.area) << f << ", triangle " << t;
+      most = std::max(most, parts.moments[t] / frame.area);
+      largest = std::max(largest, off / frame.area);
+    }
+    EXPECT_LT(most, 0.1) << f;
+    std::printf("[ figures  ] %s: moments within %.1e of the area, samples %.1e\n", f.c_str(), most,
+                largest);
+  }
 }
 
 /// int f v over |grad v| for v = (1 - r/R)^+ about a point far from the boundary, against the

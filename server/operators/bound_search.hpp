@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "contact/adjoint.hpp"
+#include "estimate/interval.hpp"
+#include "operators/aims.hpp"
+#include "operators/displacement_bounds.hpp"
+
+namespace anticrack::operators {
+
+/// An answer with the adjoints of its displacements.
+struct Adjoints {
+  const Bounded& of;
+  contact::Adjoint adjoint;
+  std::optional<std::vector<estimate::ContactEnd>> ends{};  // found when a search asks for them
+};
+
+/// One displacement of an answer: the k-th of all goals.
+struct Target {
+  Adjoints& adjoints;
+  std::span<const Aim> goals;
+  std::size_t k;
+  std::vector<estimate::ForceOn> unit;
+  contact::Adjoint::Goal goal;
+  const Aim& aim() const { return goals[k]; }
+};
+
+/// The room of an answer, for a weight: jumps times w, and the forces k p.
+contact::Adjoint::Room room_of(const MeshOperator::Parts& parts, const estimate::Primal& primal,
+                               contact::Adjoint::Room room, const estimate::Weight* weight);
+
+/// Searches for the best bound from one side. Tries a few c, each larger than the last, then
+/// weights about the ends of contact zones, if the cone costs much without.
+class Search {
+ public:
+  Search(const MeshOperator::Parts& parts, Target& target, estimate::Side side);
+
+  const Target& target() const { return _target; }
+  bool done() const { return _done || stopped(); }
+  bool stopped() const { return _target.adjoints.of.stop.stop_requested(); }
+
+  /// What the present try solves: the loads of z' and the jumps of z.
+  Eigen::VectorXd load() const;
+  Eigen::VectorXd jumps() const;
+  estimate::Aimed aimed(std::span<const double> z, std::span<const double> reacting) const;
+  void take(const estimate::Bound& one);
+  void give_up() { _done = true; }
+
+  /// The best bound so far; not finite: none.
+  const estimate::Bound& best() const { return _best; }
+
+ private:
+  double sign() const { return _side == estimate::Side::upper ? 1 : -1; }
+  contact::Adjoint::Room room() const;
+  double off(const estimate::Bound& one) const;  ///< from the middle
+  void weigh();
+
+  const MeshOperator::Parts& _parts;
+  Target& _target;
+  const estimate::Side _side;
+  double _c = 0;
+  estimate::Bound _best;
+  std::optional<estimate::Weight> _weight;
+  double _inner = 1;  // of the weight
+  double _unloaded = 0;
+  int _tries = 0;
+  bool _done = false;
+};
+
+}  // namespace anticrack::operators
