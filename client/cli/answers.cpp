@@ -50,11 +50,12 @@ bool any_tilts(const std::vector<Moved>& inclusions) {
   return std::ranges::any_of(inclusions, &Moved::tilted);
 }
 
-// The bounds of a number, or its value if it has none.
+// A number with its bounds, if it has them.
 std::string text_of(const v1::InclusionAnswer& inclusion, const std::string& number_name) {
   const double lower = results::number_in(inclusion, number_name + "_lower");
   if (!std::isfinite(lower)) return number(results::number_in(inclusion, number_name));
-  return results::interval(lower, results::number_in(inclusion, number_name + "_upper"));
+  return results::interval(results::number_in(inclusion, number_name), lower,
+                           results::number_in(inclusion, number_name + "_upper"));
 }
 
 // The numbers to show for an inclusion: only A, if it never tilts.
@@ -163,7 +164,7 @@ std::vector<std::string> row_of(const results::Load& load, const Told& inclusion
       when_answered(by_uzawa ? answer.criterion() : results::largest_kkt(answer), 2, true)};
   inclusions.add(load, row);
   row.push_back(answered && answer.has_energy_lower()
-                    ? results::interval(answer.energy_lower(), answer.energy_upper())
+                    ? results::interval(answer.energy(), answer.energy_lower(), answer.energy_upper())
                     : when_answered(answer.energy()));
   if (bounded) {
     const double error = results::number_in(answer, "error_bound_relative");

@@ -210,6 +210,7 @@ void tighten(records::CaseRecord& answer, const records::CaseRecord& before) {
     closer(one.slope_x_lower, one.slope_x_upper, other.slope_x_lower, other.slope_x_upper);
     closer(one.slope_y_lower, one.slope_y_upper, other.slope_y_lower, other.slope_y_upper);
   }
+  contact::take_middles(answer.answer);
 }
 
 records::StageAnswer stage_answer(const records::CaseRecord& ended_case, bool each_inclusion) {

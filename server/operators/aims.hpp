@@ -14,7 +14,7 @@
 namespace anticrack::operators {
 
 /// A displacement of an inclusion, A or a slope, with the unit force that does work on it and the
-/// members of the answer that take its bounds.
+/// members of the answer that have its value on the mesh and take its bounds.
 struct Aim {
   const ddm::Terms& goal;
   std::size_t inclusion;

@@ -177,7 +177,7 @@ class Slopes {
     const std::vector<double> u = of_copies(answer.fields);
     const estimate::LoadBalance& load = _primal.load;
     const estimate::EquilibratedFlux flux(cut, {u, load.force, load.traction});
-    return estimate::bracket(cut, flux, load, _primal.lifts, u, answer.energy,
+    return estimate::bracket(cut, flux, load, _primal.lifts, u, answer.energy_mesh,
                              lack_of(cut, flux, load, sum).flux)
         .lower;
   }
