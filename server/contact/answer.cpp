@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/at.hpp"
 #include "contact/solve.hpp"
@@ -179,6 +180,14 @@ double middle_or(double mesh, const std::optional<double>& lower,
   return lower && upper ? *lower + 0.5 * (*upper - *lower) : mesh;
 }
 
+double error_of(const InclusionAnswer& inclusion, double size) {
+  const double lower = *inclusion.displacement_lower, upper = *inclusion.displacement_upper,
+               half = 0.5 * (upper - lower), most = std::max(std::abs(lower), std::abs(upper));
+  if (!(half > 0)) return 0;
+  const double scale = inclusion.displacement_scale.value_or(0);
+  return scale > 0 ? std::min(half / size, most / scale) : half / size;
+}
+
 void take_middles(AnswerSummary& answer) {
   answer.energy = middle_or(answer.energy_mesh, answer.energy_lower, answer.energy_upper);
   for (InclusionAnswer& one : answer.inclusions) {
@@ -186,6 +195,8 @@ void take_middles(AnswerSummary& answer) {
         middle_or(one.displacement_mesh, one.displacement_lower, one.displacement_upper);
     one.slope_x = middle_or(one.slope_x_mesh, one.slope_x_lower, one.slope_x_upper);
     one.slope_y = middle_or(one.slope_y_mesh, one.slope_y_lower, one.slope_y_upper);
+    if (one.displacement_lower && one.displacement_upper)
+      one.displacement_error_relative = error_of(one, std::abs(one.displacement));
   }
 }
 

@@ -113,11 +113,16 @@ struct InclusionAnswer {
   std::optional<double> slope_x_lower = {}, slope_x_upper = {};
   std::optional<double> slope_y_lower = {}, slope_y_upper = {};
   double displacement_mesh = 0, slope_x_mesh = 0, slope_y_mesh = 0;  ///< of u on the mesh
+  /// Half the width of the bounds of A over |A|, or the error of 0 if that is less; see error_of.
+  std::optional<double> displacement_error_relative = {};
+  /// The size of A to which an A of 0 compares: |z| |u| >= |A|, z the answer to a unit force on it.
+  std::optional<double> displacement_scale = {};
 };
 ANTICRACK_FIELDS(InclusionAnswer, name, displacement, resultant, contact_length, slope_x, slope_y,
                  moment_x, moment_y, displacement_lower, displacement_upper,
                  displacement_estimated_error, slope_x_lower, slope_x_upper, slope_y_lower,
-                 slope_y_upper, displacement_mesh, slope_x_mesh, slope_y_mesh)
+                 slope_y_upper, displacement_mesh, slope_x_mesh, slope_y_mesh,
+                 displacement_error_relative, displacement_scale)
 
 struct ContactInterval {
   std::string interface;  ///< its name
@@ -174,7 +179,13 @@ ANTICRACK_FIELDS(AnswerSummary, reason, iterations, criterion, theta, theta_star
 double middle_or(double mesh, const std::optional<double>& lower,
                  const std::optional<double>& upper);
 
-/// Sets the energy, A and B to the middles of their bounds, where they have bounds.
+/// The relative error of A, which has bounds: half their width over `size`, or, if that is less,
+/// the largest |A| within them over displacement_scale, the error of 0. So an A is known to a part
+/// of `size`, or to be no more than that part of its scale.
+double error_of(const InclusionAnswer& inclusion, double size);
+
+/// Sets the energy, A and B to the middles of their bounds, where they have bounds, and the error
+/// of A, which is over its own |A|.
 void take_middles(AnswerSummary& answer);
 
 struct Answer : AnswerSummary {

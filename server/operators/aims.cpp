@@ -41,13 +41,22 @@ std::vector<Aim> aims(const MeshOperator::Parts& parts) {
                     &Of::displacement_mesh,
                     &Of::displacement_lower,
                     &Of::displacement_upper,
-                    &Of::displacement_estimated_error});
+                    &Of::displacement_estimated_error,
+                    &Of::displacement_scale});
     if (!motions[j].slope_x.empty())
-      aims.push_back(
-          {motions[j].slope_x, j, {1, 0}, &Of::slope_x_mesh, &Of::slope_x_lower, &Of::slope_x_upper});
+      aims.push_back({motions[j].slope_x,
+                      j,
+                      {1, 0},
+                      &Of::slope_x_mesh,
+                      &Of::slope_x_lower,
+                      &Of::slope_x_upper});
     if (!motions[j].slope_y.empty())
-      aims.push_back(
-          {motions[j].slope_y, j, {0, 1}, &Of::slope_y_mesh, &Of::slope_y_lower, &Of::slope_y_upper});
+      aims.push_back({motions[j].slope_y,
+                      j,
+                      {0, 1},
+                      &Of::slope_y_mesh,
+                      &Of::slope_y_lower,
+                      &Of::slope_y_upper});
   }
   return aims;
 }

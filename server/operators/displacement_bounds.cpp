@@ -37,6 +37,7 @@ class Search {
         _goal(std::move(goal)),
         _unloaded(unloaded) {
     const double norm = std::sqrt(of.primal.flux.norm_squared());
+    aim.set_scale(of.answer, _goal.compliance, norm);
     _c = 2 * (norm > 0 ? std::sqrt(_goal.compliance) / norm : 1);
   }
 
@@ -149,6 +150,7 @@ class Slopes {
     const double d = std::sqrt(2 * _gap / compliance);
     const std::optional<double> below = lower_with(*unit, -d), above = lower_with(*unit, d);
     if (!(d > 0) || !below || !above) return;
+    aim.set_scale(answer, compliance, std::sqrt(_primal.flux.norm_squared()));
     aim.set(answer, (*below - _upper) / d, (_upper - *above) / d);
   }
 
@@ -208,8 +210,9 @@ void bound_by_norms(const MeshOperator::Parts& parts, const std::vector<Aim>& go
     for (std::size_t k = 0; k < goals.size(); ++k) {
       const double value = goals[k].value_in(of.answer), half = norms[k] * *of.answer.error_bound;
       const double rounding = half > 0 ? 1e-12 * std::abs(value) : 0;
-      if (std::isfinite(half))
-        goals[k].set(of.answer, value - half - rounding, value + half + rounding);
+      if (!std::isfinite(half)) continue;
+      goals[k].set_scale(of.answer, norms[k] * norms[k], std::sqrt(of.primal.flux.norm_squared()));
+      goals[k].set(of.answer, value - half - rounding, value + half + rounding);
     }
   }
 }

@@ -48,6 +48,20 @@ void check_example(std::size_t i, const operators::MeshOperator& op) {
   EXPECT_EQ(inclusion.displacement, lower + 0.5 * (upper - lower));
   EXPECT_EQ(answer.energy,
             *answer.energy_lower + 0.5 * (*answer.energy_upper - *answer.energy_lower));
+  EXPECT_GT(inclusion.displacement_scale.value_or(0), std::abs(inclusion.displacement_mesh));
+}
+
+TEST(Bracket, HasAScaleOfAThatHardlyDependsOnTheMesh) {
+  std::vector<double> scales;
+  for (const double h0 : {0.2, 0.1, 0.05}) {
+    const auto op = factorise(mesh::grade(diagonals(), {h0, 0.2, 0}, 2'000'000));
+    fem::Load load;
+    load.force = fem::Expression{"x"};  // odd, so that A is 0
+    scales.push_back(solve_bounded(*op, load).inclusions[0].displacement_scale.value_or(0));
+    std::printf("[ figures  ] h0 %g: scale of A %.5f\n", h0, scales.back());
+    EXPECT_NEAR(scales.back(), scales.front(), 0.02 * scales.front());
+  }
+  EXPECT_GT(scales.back(), 0);
 }
 
 TEST(Bracket, ContainsTheEnergyAndAOfThePaperExamples) {

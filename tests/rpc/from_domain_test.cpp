@@ -78,7 +78,7 @@ TEST(FromDomain, AJobThatIsTakenFitsInAMessage) {
   answer.answer.warnings.assign(4, std::string(400, 'w'));
   for (const std::string& name : inclusions) {
     answer.answer.inclusions.push_back({name, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9,
-                                        1.0,  1.1, 1.2, 1.3, 1.4, 1.5, 1.6, 1.7});
+                                        1.0,  1.1, 1.2, 1.3, 1.4, 1.5, 1.6, 1.7, 1.8, 1.9});
     answer.answer.contact_intervals.push_back({name, 0.1, 0.2});
   }
   for (; taken(); record.cases.push_back(answer)) {

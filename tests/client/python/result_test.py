@@ -237,6 +237,15 @@ max_iterations = 3
         self.assertEqual(interval(0.25, float("nan"), 1, 0.5, " mm"), "0.25 mm")
         self.assertEqual(interval(0, 0, 0, 0), "0 +- 0 (0 on the mesh)")
 
+    def test_an_inclusion_tells_the_relative_error_of_its_own_a(self):
+        def told(a, half, error, scale=2.0):
+            return repr(anticrack.result.Inclusion("fibre", A=a, A_lower=a - half, A_upper=a + half, A_mesh=a,
+                                                   A_error_relative=error, A_scale=scale))
+        self.assertEqual(told(0.5, 0.03125, 0.0625), "fibre: A = 0.500 +- 0.032 (6.2 %; 0.500 on the mesh)")
+        self.assertEqual(told(0.0, 0.03, 0.015), "fibre: A = 0.000 +- 0.030 (1.5 % of 2; 0.000 on the mesh)")
+        self.assertEqual(told(0.1, 0.01, 0.055), "fibre: A = 0.100 +- 0.010 (10 %; 5.5 % of 2; 0.100 on the mesh)")
+        self.assertEqual(told(0.5, 0.04, float("nan")), "fibre: A = 0.500 +- 0.040 (0.500 on the mesh)")
+
     def test_a_traction_is_found_in_the_case_of_a_file(self):
         result, _ = self.both(EXAMPLES / "slit.toml", "run")
         self.assertIs(result.traction, False)
