@@ -59,7 +59,7 @@ std::string scale_of(const v1::Job& job) {
     return answer.inclusions_size() > 1;
   };
   if (std::ranges::none_of(job.status().answers(), several)) return "";
-  return job.spec().accuracy().each_inclusion() ? " of each A" : " of the largest A";
+  return job.spec().accuracy().largest() ? " of the largest A" : " of each A";
 }
 
 }  // namespace

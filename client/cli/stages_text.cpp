@@ -31,8 +31,9 @@ std::string stages_table(const results::Load& load) {
     };
     auto& row = rows.emplace_back(std::vector{
         std::to_string(i + 1), std::to_string(stage.triangles()),
-        answer.has_energy_lower() ? results::interval(answer.energy_lower(), answer.energy_upper())
-                                  : number(answer.energy()),
+        answer.has_energy_lower()
+            ? results::interval(answer.energy(), answer.energy_lower(), answer.energy_upper())
+            : number(answer.energy()),
         per_cent_of("error_bound_relative")});
     if (of_a) row.push_back(per_cent_of("displacement_error"));
     row.push_back(seconds(stage.seconds()));

@@ -139,12 +139,14 @@ std::string csv_head(const results::Sweep& sweep, std::size_t loads) {
   for (std::size_t i = 0; i < sweep.inclusions.size(); ++i) {
     head += "," + csv_field(name_of("A", sweep, i));
     if (!sweep.energy_lower.empty())
-      for (const char* part : {"A_lower", "A_upper"})
+      for (const char* part : {"A_lower", "A_upper", "A_mesh"})
         head += "," + csv_field(name_of(part, sweep, i));
     for (const char* part : slope_parts)
       if (!sweep.slope.empty()) head += "," + csv_field(name_of(part, sweep, i));
   }
-  return head + (sweep.energy_lower.empty() ? ",energy" : ",energy,energy_lower,energy_upper") +
+  return head +
+         (sweep.energy_lower.empty() ? ",energy"
+                                     : ",energy,energy_lower,energy_upper,energy_mesh") +
          ",contact_length,steps,status\n";
 }
 
@@ -222,10 +224,9 @@ std::string sweep_csv(const results::Sweep& sweep) {
       if (right && std::isfinite(value)) text += exact(value);
     };
     const auto add_bounds = [&](const std::vector<double>& lower, const std::vector<double>& upper,
-                                std::size_t place) {
+                                const std::vector<double>& mesh, std::size_t place) {
       if (lower.empty()) return;
-      add(lower[place]);
-      add(upper[place]);
+      for (const auto* column : {&lower, &upper, &mesh}) add((*column)[place]);
     };
     text += std::to_string(row);
     for (std::size_t i = 0; i < loads; ++i) {
@@ -234,12 +235,13 @@ std::string sweep_csv(const results::Sweep& sweep) {
     }
     for (std::size_t i = 0; i < inclusions; ++i) {
       add(sweep.displacement[row * inclusions + i]);
-      add_bounds(sweep.displacement_lower, sweep.displacement_upper, row * inclusions + i);
+      add_bounds(sweep.displacement_lower, sweep.displacement_upper, sweep.displacement_mesh,
+                 row * inclusions + i);
       for (std::size_t part = 0; part < slope_parts.size() && !sweep.slope.empty(); ++part)
         add(sweep.slope_at(row, i, part));
     }
     add(sweep.energy[row]);
-    add_bounds(sweep.energy_lower, sweep.energy_upper, row);
+    add_bounds(sweep.energy_lower, sweep.energy_upper, sweep.energy_mesh, row);
     add(sweep.contact_length[row]);
     text += fmt::format(",{},", sweep.steps[row]);
     text += results::status_name(sweep.status[row]);

@@ -86,14 +86,21 @@ v1::LoadCaseAnswer answer_of(const Sweep& sweep, std::size_t row) {
   answer.set_name(row_name(static_cast<std::int64_t>(row)));
   answer.set_status(static_cast<v1::LoadCaseAnswer::Status>(sweep.status[row]));
   answer.set_iterations(sweep.steps[row]);
+  answer.set_energy_mesh(sweep.energy[row]);  // unless the sweep has bounds
   set_numbers(sweep, row, arrays::sweep_rows<Sweep>, answer);
   for (std::size_t i = 0; i < sweep.inclusions.size(); ++i) {
     v1::InclusionAnswer& inclusion = *answer.add_inclusions();
     forget_numbers(inclusion);
     inclusion.set_name(sweep.inclusions[i]);
-    set_numbers(sweep, row * sweep.inclusions.size() + i, arrays::sweep_matrices<Sweep>, inclusion);
-    inclusion.set_slope_x(sweep.slope_at(row, i, 0));
-    inclusion.set_slope_y(sweep.slope_at(row, i, 1));
+    const std::size_t place = row * sweep.inclusions.size() + i;
+    inclusion.set_displacement_mesh(sweep.displacement[place]);  // unless the sweep has bounds
+    set_numbers(sweep, place, arrays::sweep_matrices<Sweep>, inclusion);
+    for (const auto set :
+         {&v1::InclusionAnswer::set_slope_x, &v1::InclusionAnswer::set_slope_x_mesh})
+      (inclusion.*set)(sweep.slope_at(row, i, 0));
+    for (const auto set :
+         {&v1::InclusionAnswer::set_slope_y, &v1::InclusionAnswer::set_slope_y_mesh})
+      (inclusion.*set)(sweep.slope_at(row, i, 1));
   }
   return answer;
 }

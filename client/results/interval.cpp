@@ -10,25 +10,26 @@
 
 namespace anticrack::results {
 
-std::string interval(double lower, double upper) {
+std::string interval(double value, double lower, double upper) {
   if (!std::isfinite(lower) || !std::isfinite(upper)) return "-";
-  const double middle = lower + 0.5 * (upper - lower), half = 0.5 * (upper - lower);
-  const double size = std::max(std::abs(middle), half);
+  const double half = 0.5 * (upper - lower), size = std::max(std::abs(value), half);
   if (!(size > 0)) return "0 +- 0";
-  const auto decade = [](double value) { return static_cast<int>(std::floor(std::log10(value))); };
+  const auto decade = [](double number) {
+    return static_cast<int>(std::floor(std::log10(number)));
+  };
   constexpr int most_digits = 6;  // after the first digit of the larger number
   const int exponent = decade(size) < -4 || decade(size) > 5 ? decade(size) : 0;
   const int behind =
       std::min(most_digits - decade(size), half > 0 ? 1 - decade(half) : most_digits);
   const double unit = std::pow(10.0, -behind);
-  const double shown = std::round(middle / unit) * unit;
+  const double shown = std::round(value / unit) * unit;
   const double beside = std::ceil(std::max(upper - shown, shown - lower) / unit - 1e-6) * unit;
   const int decimals = std::max(0, behind + exponent);
   const double scale = std::pow(10.0, -exponent);
-  const auto fixed = [&](double value) {
+  const auto fixed = [&](double number) {
     std::array<char, 64> buffer{};
     const int length =
-        std::snprintf(buffer.data(), buffer.size(), "%.*f", decimals, value * scale + 0.0);
+        std::snprintf(buffer.data(), buffer.size(), "%.*f", decimals, number * scale + 0.0);
     return std::string(buffer.data(), static_cast<std::size_t>(length));
   };
   const std::string text = fixed(shown) + " +- " + fixed(beside);

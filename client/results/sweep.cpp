@@ -80,12 +80,13 @@ std::string counts_fault(const Sweep& sweep) {
   return fits ? "" : fmt::format("sweep counts other rows than its {}", sweep.rows());
 }
 
-/// Checks that the sweep has all bounds or none.
+/// Checks that the sweep has all bounds, with the values on the mesh, or none.
 std::string bounds_fault(const Sweep& sweep) {
   const std::size_t rows = sweep.energy_lower.size(), inclusions = sweep.inclusions.size();
-  const bool whole = sweep.energy_upper.size() == rows &&
+  const bool whole = sweep.energy_upper.size() == rows && sweep.energy_mesh.size() == rows &&
                      sweep.displacement_lower.size() == rows * inclusions &&
-                     sweep.displacement_upper.size() == rows * inclusions;
+                     sweep.displacement_upper.size() == rows * inclusions &&
+                     sweep.displacement_mesh.size() == rows * inclusions;
   return whole ? "" : "sweep has some of its bounds without the others";
 }
 

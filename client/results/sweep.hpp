@@ -32,10 +32,12 @@ struct Sweep {
   std::vector<double> energy;       ///< (rows) Pi(u)
   /// (rows) bounds of the membrane's exact Pi, NaN if a row has none; empty if not asked for.
   std::vector<double> energy_lower, energy_upper;
+  std::vector<double> energy_mesh;     ///< (rows) Pi of u on the mesh; empty as the bounds
   std::vector<double> contact_length;  ///< (rows) over all cracks and delaminated parts
   std::vector<double> kkt;             ///< (rows) largest relative residual
   std::vector<double> displacement;    ///< (rows, inclusions) row-major: A of equation (5)
   std::vector<double> displacement_lower, displacement_upper;  ///< bounds of A, as of the energy
+  std::vector<double> displacement_mesh;    ///< A of u on the mesh; empty as the bounds
   std::vector<double> slope;                ///< (rows, inclusions, 2) Bx, By; empty if none tilts
   std::vector<std::uint8_t> contact;        ///< (rows, contacts) row-major: 1 closed under pressure
   std::vector<std::int32_t> contact_nodes;  ///< (contacts, 2): interface, and its node

@@ -68,10 +68,13 @@ inline constexpr auto sweep_rows = std::tuple{
         "3 converged, 4 not converged, 5 failed, 6 cancelled; no number of a row is right but "
         "where it converged"),
     explained("steps", "rows", &Columns::steps, "steps of the active set"),
-    explained("energy", "rows", &Columns::energy, "Pi(u)", "F L"),
+    explained("energy", "rows", &Columns::energy,
+              "Pi(u): the middle of its bounds, or else the mesh's", "F L"),
     optional(array("energy_lower", "rows", &Columns::energy_lower, "", "F L")),
     optional(array("energy_upper", "rows", &Columns::energy_upper,
                    "if asked for: the membrane's own Pi lies between them", "F L")),
+    optional(array("energy_mesh", "rows", &Columns::energy_mesh,
+                   "if bounds are asked for: Pi of u on the mesh", "F L")),
     explained("contact_length", "rows", &Columns::contact_length,
               "length in contact, of all cracks and delaminated inclusions", "L"),
     explained("kkt", "rows", &Columns::kkt,
@@ -90,12 +93,16 @@ inline constexpr auto sweep_contacts = std::tuple{
 template <class Columns>
 inline constexpr auto sweep_matrices = std::tuple{
     explained("displacement", "rows,inclusions", &Columns::displacement,
-              "A of each inclusion, in the order of the attribute inclusions", "L"),
+              "A of each inclusion, in the order of the attribute inclusions: the middle of its "
+              "bounds, or else the mesh's",
+              "L"),
     optional(array("displacement_lower", "rows,inclusions", &Columns::displacement_lower, "", "L")),
     optional(array("displacement_upper", "rows,inclusions", &Columns::displacement_upper,
                    "if asked for: the membrane's own A lies between them", "L")),
+    optional(array("displacement_mesh", "rows,inclusions", &Columns::displacement_mesh,
+                   "if bounds are asked for: A of u on the mesh", "L")),
     optional(explained("slope", "rows,inclusions,2", &Columns::slope,
-                       "Bx, By of each inclusion; none where no inclusion tilts")),
+                       "Bx, By of each inclusion on the mesh; none where no inclusion tilts")),
     explained("contact", "rows,contacts", &Columns::contact,
               "1 where the node is closed under pressure"),
 };

@@ -258,9 +258,11 @@ constexpr Key accuracy_rows[] = {
      "the width of the energy's interval over the energy, of each load case",
      "needed without A"_absent},
     {"A", number, "number, 1e-6 to 1"_form,
-     "half the width of each A's interval, over the largest A of all inclusions",
+     "half the width of each A's interval, over that A; or, of an A near 0, its largest amount "
+     "over "
+     "A_scale",
      "needed without energy"_absent, "displacement"_field},
-    {"each_inclusion", boolean, "true: A is over the inclusion's own A, however small that is",
+    {"largest", boolean, "true: A is over the largest A of all inclusions, not each over its own",
      "false"_absent},
     {"max_triangles", count, "of a mesh", "the server's limit"_absent},
     {"time", time, "no stage begins later", "none is too late"_absent},

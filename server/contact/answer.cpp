@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/at.hpp"
 #include "contact/solve.hpp"
@@ -72,9 +73,9 @@ void fill_inclusions(const TraceProblem& problem, const mesh::Mesh& mesh,
     const RigidForce given = inclusion_forces.empty() ? RigidForce{} : inclusion_forces[j].on_nodes;
     InclusionAnswer inclusion;
     inclusion.name = mesh.inclusions[j];
-    inclusion.displacement = motion[0];
-    inclusion.slope_x = motion[1];
-    inclusion.slope_y = motion[2];
+    inclusion.displacement = inclusion.displacement_mesh = motion[0];
+    inclusion.slope_x = inclusion.slope_x_mesh = motion[1];
+    inclusion.slope_y = inclusion.slope_y_mesh = motion[2];
     inclusion.resultant = given.force;
     inclusion.moment_x = given.moment_x;
     inclusion.moment_y = given.moment_y;
@@ -134,7 +135,7 @@ Eigen::VectorXd held_values(const ddm::Decomposition& decomposition,
 void describe(const TraceProblem& problem, const mesh::Mesh& mesh, const CaseLoads& loads,
               const TraceState& state, const Sample& sample, Answer& answer) {
   const ddm::Decomposition& decomposition = problem.decomposition();
-  answer.energy = sample.energy;
+  answer.energy = answer.energy_mesh = sample.energy;
   answer.kkt = sample.kkt;
   answer.kkt_relative = relative_residuals(decomposition, state.mu, state.jump,
                                            scales_of(loads.subdomains, state), answer.kkt);
@@ -171,6 +172,49 @@ void recover_fields(const TraceProblem& problem, std::span<const SolvedCase> cas
       solved.push_back({one.loads[s], view(trace), view(one.answer.fields.back().u)});
     }
     problem.operators()[s].recover(solved);
+  }
+}
+
+double middle_or(double mesh, const std::optional<double>& lower,
+                 const std::optional<double>& upper) {
+  return lower && upper ? *lower + 0.5 * (*upper - *lower) : mesh;
+}
+
+double error_of(const InclusionAnswer& inclusion, double size) {
+  const double lower = *inclusion.displacement_lower, upper = *inclusion.displacement_upper,
+               half = 0.5 * (upper - lower), most = std::max(std::abs(lower), std::abs(upper));
+  if (!(half > 0)) return 0;
+  const double scale = inclusion.displacement_scale.value_or(0);
+  return scale > 0 ? std::min(half / size, most / scale) : half / size;
+}
+
+void take_middles(AnswerSummary& answer) {
+  answer.energy = middle_or(answer.energy_mesh, answer.energy_lower, answer.energy_upper);
+  for (InclusionAnswer& one : answer.inclusions) {
+    one.displacement =
+        middle_or(one.displacement_mesh, one.displacement_lower, one.displacement_upper);
+    one.slope_x = middle_or(one.slope_x_mesh, one.slope_x_lower, one.slope_x_upper);
+    one.slope_y = middle_or(one.slope_y_mesh, one.slope_y_lower, one.slope_y_upper);
+    if (one.displacement_lower && one.displacement_upper)
+      one.displacement_error_relative = error_of(one, std::abs(one.displacement));
+  }
+}
+
+void SweepColumns::take_bounds(std::size_t row, const AnswerSummary& answer) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  energy_mesh[row] = energy[row];
+  energy[row] = middle_or(energy[row], answer.energy_lower, answer.energy_upper);
+  energy_lower[row] = answer.energy_lower.value_or(none);
+  energy_upper[row] = answer.energy_upper.value_or(none);
+  for (std::size_t i = 0; i < inclusions; ++i) {
+    const InclusionAnswer& inclusion = answer.inclusions[i];
+    const std::size_t place = row * inclusions + i;
+    const std::optional<double>&lower = inclusion.displacement_lower,
+          &upper = inclusion.displacement_upper;
+    displacement_mesh[place] = displacement[place];
+    displacement[place] = middle_or(displacement[place], lower, upper);
+    displacement_lower[place] = lower.value_or(none);
+    displacement_upper[place] = upper.value_or(none);
   }
 }
 

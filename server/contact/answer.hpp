@@ -94,6 +94,8 @@ enum class Status : std::int32_t {
   cancelled,
 };
 
+/// Bounds of the exact A and B are those of estimate/. A and B are the middles of their bounds, or,
+/// without bounds, those of u on the mesh; see take_middles.
 struct InclusionAnswer {
   std::string name;
   double displacement = 0;    ///< A, equation (5); u in its middle (x0, y0) if it tilts
@@ -105,16 +107,22 @@ struct InclusionAnswer {
   /// Moment on the inclusion about its middle: the sum of flux times (x - x0), and times (y - y0).
   /// If it does not tilt, this is the moment that keeps it from tilting.
   double moment_x = 0, moment_y = 0;
-  /// Bounds of the exact A and B, and an estimate of exact A - displacement (estimate/).
+  /// Bounds of the exact A and B, and an estimate of exact A - displacement_mesh.
   std::optional<double> displacement_lower = {}, displacement_upper = {},
                         displacement_estimated_error = {};
   std::optional<double> slope_x_lower = {}, slope_x_upper = {};
   std::optional<double> slope_y_lower = {}, slope_y_upper = {};
+  double displacement_mesh = 0, slope_x_mesh = 0, slope_y_mesh = 0;  ///< of u on the mesh
+  /// Half the width of the bounds of A over |A|, or the error of 0 if that is less; see error_of.
+  std::optional<double> displacement_error_relative = {};
+  /// The size of A to which an A of 0 compares: |z| |u| >= |A|, z the answer to a unit force on it.
+  std::optional<double> displacement_scale = {};
 };
 ANTICRACK_FIELDS(InclusionAnswer, name, displacement, resultant, contact_length, slope_x, slope_y,
                  moment_x, moment_y, displacement_lower, displacement_upper,
                  displacement_estimated_error, slope_x_lower, slope_x_upper, slope_y_lower,
-                 slope_y_upper)
+                 slope_y_upper, displacement_mesh, slope_x_mesh, slope_y_mesh,
+                 displacement_error_relative, displacement_scale)
 
 struct ContactInterval {
   std::string interface;  ///< its name
@@ -147,7 +155,7 @@ struct AnswerSummary {
   double theta = 0;  ///< used
   /// 2 / lambda_max(M^1/2 (F1+F2) M^1/2), Theorem 4; 0 for the active set, which does not need it.
   double theta_star = 0;
-  double energy = 0;  ///< Pi(u)
+  double energy = 0;  ///< Pi(u): the middle of its bounds, or energy_mesh without bounds
   KktResiduals kkt;
   KktResiduals kkt_relative;
   int weakly_active = 0;  ///< active set: crack nodes with neither jump nor pressure
@@ -159,11 +167,26 @@ struct AnswerSummary {
   /// Empty if they were not asked for, or for the reason that `no_bracket` gives.
   std::optional<double> energy_lower, energy_upper, error_bound, error_bound_relative;
   std::string no_bracket;
+  double energy_mesh = 0;  ///< Pi of u on the mesh
 };
 ANTICRACK_FIELDS(AnswerSummary, reason, iterations, criterion, theta, theta_star, energy, kkt,
                  kkt_relative, weakly_active, warnings, inclusions, contact_length,
                  contact_intervals, energy_lower, energy_upper, error_bound, error_bound_relative,
-                 no_bracket)
+                 no_bracket, energy_mesh)
+
+/// The number that users are told of a value: the middle of its bounds, or without bounds `mesh`,
+/// that of u on the mesh.
+double middle_or(double mesh, const std::optional<double>& lower,
+                 const std::optional<double>& upper);
+
+/// The relative error of A, which has bounds: half their width over `size`, or, if that is less,
+/// the largest |A| within them over displacement_scale, the error of 0. So an A is known to a part
+/// of `size`, or to be no more than that part of its scale.
+double error_of(const InclusionAnswer& inclusion, double size);
+
+/// Sets the energy, A and B to the middles of their bounds, where they have bounds, and the error
+/// of A, which is over its own |A|.
+void take_middles(AnswerSummary& answer);
 
 struct Answer : AnswerSummary {
   Status status = Status::not_converged;
@@ -198,45 +221,41 @@ struct SweepColumns {
         energy(row_count, 0),
         energy_lower(bounded ? row_count : 0, std::numeric_limits<double>::quiet_NaN()),
         energy_upper(energy_lower),
+        energy_mesh(energy_lower.size(), 0),
         contact_length(row_count, 0),
         kkt(row_count, 0),
         displacement(row_count * inclusion_count, 0),
         displacement_lower(energy_lower.size() * inclusion_count,
                            std::numeric_limits<double>::quiet_NaN()),
         displacement_upper(displacement_lower),
+        displacement_mesh(displacement_lower.size(), 0),
         slope(tilting ? row_count * inclusion_count * 2 : 0, 0),
         contact(row_count * contact_count, 0) {}
 
   std::size_t rows() const noexcept { return status.size(); }
-  /// Copies the bounds of the answer to a row; the columns must have been made with `bounded`.
-  void take_bounds(std::size_t row, const AnswerSummary& answer) {
-    constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    energy_lower[row] = answer.energy_lower.value_or(none);
-    energy_upper[row] = answer.energy_upper.value_or(none);
-    for (std::size_t i = 0; i < inclusions; ++i) {
-      const InclusionAnswer& inclusion = answer.inclusions[i];
-      displacement_lower[row * inclusions + i] = inclusion.displacement_lower.value_or(none);
-      displacement_upper[row * inclusions + i] = inclusion.displacement_upper.value_or(none);
-    }
-  }
+  /// Takes the energy and A of a row with their bounds from the answer; the columns must have been
+  /// made with `bounded`.
+  void take_bounds(std::size_t row, const AnswerSummary& answer);
 
   std::size_t inclusions = 0;
   std::size_t contacts = 0;
   std::vector<Status> status;       ///< only converged rows hold results
   std::vector<std::int32_t> steps;  ///< of the active set
-  std::vector<double> energy;       ///< Pi(u)
+  std::vector<double> energy;       ///< Pi(u), as in AnswerSummary
   /// Bounds of the exact Pi, NaN where a row has none; empty if bounds were not asked for.
   std::vector<double> energy_lower, energy_upper;
+  std::vector<double> energy_mesh;     ///< Pi of u on the mesh; empty if bounds were not asked for
   std::vector<double> contact_length;  ///< over all cracks and delaminated parts
   std::vector<double> kkt;             ///< largest of the relative KktResiduals
   std::vector<double> displacement;    ///< (rows, inclusions), row-major: A of equation (5)
   std::vector<double> displacement_lower, displacement_upper;  ///< bounds of A, as for the energy
-  /// (rows, inclusions, 2), row-major: Bx, By of each; empty where no inclusion of the mesh tilts.
+  std::vector<double> displacement_mesh;                       ///< A on the mesh, as for the energy
+  /// (rows, inclusions, 2), row-major: Bx, By of each on the mesh; empty where none tilts.
   std::vector<double> slope;
   std::vector<std::uint8_t> contact;  ///< (rows, contacts), row-major: 1 closed under pressure
 };
 ANTICRACK_FIELDS(SweepColumns, inclusions, contacts, status, steps, energy, energy_lower,
-                 energy_upper, contact_length, kkt, displacement, displacement_lower,
-                 displacement_upper, slope, contact)
+                 energy_upper, energy_mesh, contact_length, kkt, displacement, displacement_lower,
+                 displacement_upper, displacement_mesh, slope, contact)
 
 }  // namespace anticrack::contact

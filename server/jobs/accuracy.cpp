@@ -78,15 +78,16 @@ double relative_width(const records::StageAnswer& answer) {
 }
 
 /// An error as text, in the format of the client.
-std::string in_per_cent(double error, double asked) {
-  return fmt::format("{:.3g} % (asked {:g} %)", 100 * error, 100 * asked);
+std::string in_per_cent(double error, double asked, const std::optional<double>& scale = {}) {
+  const std::string of = scale ? fmt::format(" of {:.2g}", *scale) : "";
+  return fmt::format("{:.3g} %{} (asked {:g} %)", 100 * error, of, 100 * asked);
 }
 
-/// A value whose bounds have 0 between them, so that a relative error means nothing.
+/// A value whose bounds may have 0 between them, so that an error relative to it means nothing.
 struct AroundZero {
-  std::string name;      ///< the name by which users ask for it
-  double within = -1;    ///< the largest amount it may have
-  std::string others{};  ///< how to leave it out
+  std::string name;               ///< the name by which users ask for it
+  double within = -1;             ///< the largest amount it may have; negative if it is not 0
+  std::optional<double> scale{};  ///< what its error is relative to, instead of itself
 
   explicit operator bool() const { return within >= 0; }
   void add(const std::optional<double>& lower, const std::optional<double>& upper) {
@@ -102,43 +103,60 @@ AroundZero energy_around_zero(const records::StageAnswer& answer,
   return found;
 }
 
-/// The A to which the error is relative, if its bounds have 0 between them.
+/// The A of a load case with the largest error.
+struct WorstA {
+  const contact::InclusionAnswer* inclusion;
+  double size;   ///< to which its error is relative, unless 0 is nearer
+  double error;  ///< contact::error_of it
+};
+
+/// Returns none if there is no inclusion, or one without bounds.
+std::optional<WorstA> worst_a(const contact::AnswerSummary& answer, bool of_largest) {
+  double largest = 0;
+  for (const contact::InclusionAnswer& one : answer.inclusions) {
+    if (!one.displacement_lower || !one.displacement_upper) return std::nullopt;
+    largest = std::max(largest, std::abs(one.displacement));
+  }
+  std::optional<WorstA> worst;
+  for (const contact::InclusionAnswer& one : answer.inclusions) {
+    const double size = of_largest ? largest : std::abs(one.displacement),
+                 error = contact::error_of(one, size);
+    if (!worst || error > worst->error) worst = {&one, size, error};
+  }
+  return worst;
+}
+
+/// The A of the largest error.
 AroundZero displacement_around_zero(const contact::AnswerSummary& answer,
                                     const records::AccuracySpec& wanted) {
   AroundZero found{"A"};
   if (!wanted.displacement) return found;
-  const auto amount = [](const contact::InclusionAnswer& one) {
-    return std::abs(one.displacement);
-  };
-  double largest = 0;
-  for (const contact::InclusionAnswer& one : answer.inclusions)
-    largest = std::max(largest, amount(one));
-  for (const contact::InclusionAnswer& one : answer.inclusions) {
-    if (!one.displacement_lower || !one.displacement_upper) continue;
-    const double half = (*one.displacement_upper - *one.displacement_lower) / 2;
-    const double size = wanted.each_inclusion ? amount(one) : largest;
-    if (!(half > *wanted.displacement * size)) continue;
-    if (!wanted.each_inclusion && amount(one) < largest) continue;  // not the A in question
-    const double before = found.within;
-    found.add(one.displacement_lower, one.displacement_upper);
-    if (wanted.each_inclusion && answer.inclusions.size() > 1 && found.within > before) {
-      found.name = "A of \"" + one.name + "\"";
-      found.others = "leave each_inclusion out, or ";
-    }
-  }
+  const std::optional<WorstA> worst = worst_a(answer, wanted.largest);
+  if (!worst || !(worst->error > *wanted.displacement)) return found;
+  const contact::InclusionAnswer& one = *worst->inclusion;
+  const double half = 0.5 * (*one.displacement_upper - *one.displacement_lower);
+  found.add(one.displacement_lower, one.displacement_upper);
+  if (worst->error < half / worst->size) found.scale = one.displacement_scale;
+  if (!found.scale && worst->size > found.within) found.within = -1;
+  if (answer.inclusions.size() > 1) found.name = "A of \"" + one.name + "\"";
   return found;
 }
 
-std::string within(const AroundZero& value) {
-  return fmt::format("{} is 0 within {:.2g}", value.name, value.within);
+/// What was reached of a value with this relative error.
+std::string reached(const AroundZero& value, double error, double asked) {
+  if (!value) return value.name + " " + in_per_cent(error, asked, value.scale);
+  return fmt::format("{} is 0 within {:.2g}", value.name, value.within) +
+         (value.scale ? ", " + in_per_cent(error, asked, value.scale) : "");
 }
 
 /// The reason why no further stage helps.
 std::string no_hope(const records::StageAnswer& answer, const contact::AnswerSummary& summary,
                     const records::AccuracySpec& wanted) {
-  if (const AroundZero of_a = displacement_around_zero(summary, wanted))
+  if (const AroundZero of_a = displacement_around_zero(summary, wanted); of_a && !of_a.scale) {
+    const bool others = summary.inclusions.size() > 1 && !wanted.largest;
     return fmt::format("an error relative to 0 cannot be reached; {}ask for accuracy.energy",
-                       of_a.others);
+                       others ? "set accuracy.largest, or " : "");
+  }
   if (energy_around_zero(answer, wanted))
     return "an error relative to 0 cannot be reached; ask for accuracy.A";
   return "finer meshes no longer help: rounding, a tip_size too large for it, or, of A, cracks "
@@ -154,9 +172,9 @@ void check_accuracy(const records::JobSpec& spec) {
                 "no accuracy is asked for: give energy = 1e-3, A = 1e-3 (displacement), or both")
         .at("accuracy");
   }
-  if (wanted.each_inclusion && !wanted.displacement) {
+  if (wanted.largest && !wanted.displacement) {
     throw Error(Reason::invalid_argument, "is about A (displacement): give that with it")
-        .at("accuracy.each_inclusion");
+        .at("accuracy.largest");
   }
   check_tolerance(wanted.energy, "accuracy.energy");
   check_tolerance(wanted.displacement, "accuracy.displacement");
@@ -210,24 +228,14 @@ void tighten(records::CaseRecord& answer, const records::CaseRecord& before) {
     closer(one.slope_x_lower, one.slope_x_upper, other.slope_x_lower, other.slope_x_upper);
     closer(one.slope_y_lower, one.slope_y_upper, other.slope_y_lower, other.slope_y_upper);
   }
+  contact::take_middles(answer.answer);
 }
 
-records::StageAnswer stage_answer(const records::CaseRecord& ended_case, bool each_inclusion) {
+records::StageAnswer stage_answer(const records::CaseRecord& ended_case, bool largest) {
   const contact::AnswerSummary& answer = ended_case.answer;
   records::StageAnswer result{answer.energy, answer.energy_lower, answer.energy_upper,
                               answer.error_bound_relative};
-  double largest = 0;
-  for (const contact::InclusionAnswer& one : answer.inclusions) {
-    if (!one.displacement_lower || !one.displacement_upper) return result;
-    largest = std::max(largest, std::abs(one.displacement));
-  }
-  double error = 0;
-  for (const contact::InclusionAnswer& one : answer.inclusions) {
-    const double half = (*one.displacement_upper - *one.displacement_lower) / 2;
-    if (half > 0)
-      error = std::max(error, half / (each_inclusion ? std::abs(one.displacement) : largest));
-  }
-  if (!answer.inclusions.empty()) result.displacement_error = error;
+  if (const auto worst = worst_a(answer, largest)) result.displacement_error = worst->error;
   return result;
 }
 
@@ -253,21 +261,18 @@ std::string not_reached(const records::StageRecord& last,
   const records::AccuracySpec& wanted = *spec.accuracy;
   const std::size_t load = worst_of(last, wanted).load;
   const records::StageAnswer& answer = last.answers[load];
-  std::string reached;
-  const auto add = [&](const std::string& text) {
-    reached += (reached.empty() ? "" : ", ") + text;
+  std::string found;
+  const auto add = [&](const AroundZero& value, double error, double asked) {
+    found += (found.empty() ? "" : ", ") + reached(value, error, asked);
   };
-  if (wanted.energy && answer.energy_lower) {
-    const AroundZero zero = energy_around_zero(answer, wanted);
-    add(zero ? within(zero) : "energy " + in_per_cent(relative_width(answer), *wanted.energy));
-  }
+  if (wanted.energy && answer.energy_lower)
+    add(energy_around_zero(answer, wanted), relative_width(answer), *wanted.energy);
   if (wanted.displacement && answer.displacement_error) {
-    const AroundZero zero =
-        cases.empty() ? AroundZero{} : displacement_around_zero(cases[load]->answer, wanted);
-    add(zero ? within(zero) : "A " + in_per_cent(*answer.displacement_error, *wanted.displacement));
+    add(cases.empty() ? AroundZero{"A"} : displacement_around_zero(cases[load]->answer, wanted),
+        *answer.displacement_error, *wanted.displacement);
   }
   return fmt::format("load case \"{}\" reached {} on {} triangles: {}", spec.loads[load].name,
-                     reached.empty() ? "no bounds" : reached, last.triangles, why);
+                     found.empty() ? "no bounds" : found, last.triangles, why);
 }
 
 std::string limit_reached(const records::JobSpec& spec, std::uint64_t max_triangles) {

@@ -20,11 +20,10 @@ void check_accuracy(const records::JobSpec& spec);
 /// whatever the mesh.
 void tighten(records::CaseRecord& answer, const records::CaseRecord& before);
 
-/// The numbers of an answer that are kept. Its displacement_error is the largest, over all
-/// inclusions, of half the width of the bounds of A divided by the largest |A| of the load case,
-/// or, with `each_inclusion`, by the inclusion's own |A|; unset if an inclusion has no bounds.
-records::StageAnswer stage_answer(const records::CaseRecord& ended_case,
-                                  bool each_inclusion = false);
+/// The numbers of an answer that are kept. Its displacement_error is the largest contact::error_of
+/// an inclusion's A over its own |A|, or, if `largest`, over the largest |A| of the load case;
+/// unset if an inclusion has no bounds.
+records::StageAnswer stage_answer(const records::CaseRecord& ended_case, bool largest = false);
 
 /// The largest ratio of an error to the accuracy asked for: at most 1 if all are reached, infinity
 /// without bounds. A relative error above 1e6 is that of a value that is 0, and counts as 1e6.

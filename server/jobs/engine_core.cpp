@@ -25,7 +25,7 @@ constexpr std::uint64_t trim_every = std::uint64_t{16} << 20U;
 void add_indicator(LiveStages& stages, const records::AccuracySpec& wanted,
                    const records::CaseRecord& record, std::vector<double>& indicator) {
   constexpr double most = 1e3;  // for a case that has no bounds of A yet
-  const double factor = std::min(excess(stage_answer(record, wanted.each_inclusion), wanted), most);
+  const double factor = std::min(excess(stage_answer(record, wanted.largest), wanted), most);
   const double sum = std::accumulate(indicator.begin(), indicator.end(), 0.0);
   if (!(factor > 1) || !(sum > 0)) return;
   for (double& one : indicator) one *= factor / sum;

@@ -92,8 +92,8 @@ void end_stage(EngineCore& core, const JobPtr& job) {
   records::StageRecord& ended = records.back();
   ended.seconds =
       stages.seconds_before + std::chrono::duration<double>(now - *stages.begun).count();
-  const bool each = job->spec->accuracy->each_inclusion;
-  for (const records::CaseRecord* one : cases) ended.answers.push_back(stage_answer(*one, each));
+  const bool largest = job->spec->accuracy->largest;
+  for (const records::CaseRecord* one : cases) ended.answers.push_back(stage_answer(*one, largest));
   const auto event = std::make_shared<const records::StageRecord>(ended);
   const std::uint64_t most = most_triangles(core, *job);
   Verdict verdict = judge(records, cases, *job->spec, most, ended.seconds);

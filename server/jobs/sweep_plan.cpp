@@ -39,13 +39,13 @@ std::uint64_t result_bytes(const operators::MeshOperator& mesh_operator, std::ui
   const std::uint64_t contacts = mesh_operator.contact_nodes().size();
   const std::uint64_t interfaces = mesh_operator.trace_geometry().size();
   const std::uint64_t bounded =
-      bounds ? 2 * sizeof(double) * (1 + mesh_operator.mesh().inclusions.size()) : 0;
+      bounds ? 3 * sizeof(double) * (1 + mesh_operator.mesh().inclusions.size()) : 0;
   std::uint64_t nodes = 0;
   for (const contact::TraceGeometry& interface : mesh_operator.trace_geometry())
     nodes += interface.s.size();
   return rows * (a_row + sizeof(double) * motions(mesh_operator.mesh()) + bounded + contacts) +
          contacts * 2 * sizeof(std::int32_t) + nodes * (a_node + traces * a_trace_node) +
-         alignment * (bounds ? 13 : 9) + alignment * (interfaces * (4 + 5 * traces));
+         alignment * (bounds ? 15 : 9) + alignment * (interfaces * (4 + 5 * traces));
 }
 
 }  // namespace

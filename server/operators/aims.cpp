@@ -14,7 +14,7 @@ namespace anticrack::operators {
 fem::Load Aim::force(const mesh::Mesh& mesh) const {
   fem::Load load;
   const std::string& name = mesh.inclusions[inclusion];
-  if (value == &contact::InclusionAnswer::displacement)
+  if (value == &contact::InclusionAnswer::displacement_mesh)
     load.inclusion_forces[name] = 1;
   else
     load.inclusion_moments[name] = moment;
@@ -23,7 +23,7 @@ fem::Load Aim::force(const mesh::Mesh& mesh) const {
 
 std::vector<estimate::ForceOn> Aim::unit(std::size_t inclusions) const {
   std::vector<estimate::ForceOn> forces(inclusions);
-  if (value == &contact::InclusionAnswer::displacement)
+  if (value == &contact::InclusionAnswer::displacement_mesh)
     forces[inclusion].force = 1;
   else
     forces[inclusion].moment = {moment.x, moment.y};
@@ -38,16 +38,25 @@ std::vector<Aim> aims(const MeshOperator::Parts& parts) {
     aims.push_back({motions[j].displacement,
                     j,
                     {},
-                    &Of::displacement,
+                    &Of::displacement_mesh,
                     &Of::displacement_lower,
                     &Of::displacement_upper,
-                    &Of::displacement_estimated_error});
+                    &Of::displacement_estimated_error,
+                    &Of::displacement_scale});
     if (!motions[j].slope_x.empty())
-      aims.push_back(
-          {motions[j].slope_x, j, {1, 0}, &Of::slope_x, &Of::slope_x_lower, &Of::slope_x_upper});
+      aims.push_back({motions[j].slope_x,
+                      j,
+                      {1, 0},
+                      &Of::slope_x_mesh,
+                      &Of::slope_x_lower,
+                      &Of::slope_x_upper});
     if (!motions[j].slope_y.empty())
-      aims.push_back(
-          {motions[j].slope_y, j, {0, 1}, &Of::slope_y, &Of::slope_y_lower, &Of::slope_y_upper});
+      aims.push_back({motions[j].slope_y,
+                      j,
+                      {0, 1},
+                      &Of::slope_y_mesh,
+                      &Of::slope_y_lower,
+                      &Of::slope_y_upper});
   }
   return aims;
 }

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -14,7 +16,7 @@
 namespace anticrack::operators {
 
 /// A displacement of an inclusion, A or a slope, with the unit force that does work on it and the
-/// members of the answer that take its bounds.
+/// members of the answer that have its value on the mesh and take its bounds.
 struct Aim {
   const ddm::Terms& goal;
   std::size_t inclusion;
@@ -22,6 +24,7 @@ struct Aim {
   double contact::InclusionAnswer::*value;
   std::optional<double> contact::InclusionAnswer::*lower, contact::InclusionAnswer::*upper;
   std::optional<double> contact::InclusionAnswer::*estimate = nullptr;
+  std::optional<double> contact::InclusionAnswer::*scale = nullptr;
 
   fem::Load force(const mesh::Mesh& mesh) const;
   /// The unit force as forces on all inclusions, of which there are `inclusions`.
@@ -32,6 +35,12 @@ struct Aim {
   void set(contact::Answer& answer, double low, double high) const {
     answer.inclusions[inclusion].*lower = low;
     answer.inclusions[inclusion].*upper = high;
+  }
+  /// Sets the size to which a displacement of 0 compares: the root of `compliance`, the
+  /// displacement under the unit force, times |u|.
+  void set_scale(contact::Answer& answer, double compliance, double norm) const {
+    if (scale != nullptr)
+      answer.inclusions[inclusion].*scale = std::sqrt(std::max(0.0, compliance)) * norm;
   }
 };
 

@@ -65,7 +65,7 @@ void find_bounds(const MeshOperator::Parts& parts, const estimate::CutMesh& cut,
     const auto& [of, load, u, lifts, balance, parts_energy] = materials[i];
     contact::Answer& answer = *of.answer;
     constexpr double most_cancelled = 1e3;  // beyond, rounding exceeds the bracket's
-    if (parts_energy > most_cancelled * (std::abs(answer.energy) + fluxes[i].norm_squared())) {
+    if (parts_energy > most_cancelled * (std::abs(answer.energy_mesh) + fluxes[i].norm_squared())) {
       answer.no_bracket =
           "the loads that are combined cancel, and rounding is not small beside what they leave: "
           "give their sum as a load of its own";
@@ -73,7 +73,7 @@ void find_bounds(const MeshOperator::Parts& parts, const estimate::CutMesh& cut,
     }
     const estimate::Lack lack = lack_of(cut, fluxes[i], balance, load);
     const estimate::Bracket bracket =
-        estimate::bracket(cut, fluxes[i], balance, lifts, u, answer.energy, lack.flux);
+        estimate::bracket(cut, fluxes[i], balance, lifts, u, answer.energy_mesh, lack.flux);
     answer.energy_lower = bracket.lower;
     answer.energy_upper = bracket.upper;
     answer.error_bound = bracket.error;
@@ -85,6 +85,7 @@ void find_bounds(const MeshOperator::Parts& parts, const estimate::CutMesh& cut,
         {load, primals.emplace_back(cut, fluxes[i], balance, lifts, u, lack), answer, of.stop});
   }
   bound_displacements(parts, bounded);
+  for (const Bounded& one : bounded) contact::take_middles(one.answer);
 }
 
 }  // namespace

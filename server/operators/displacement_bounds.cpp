@@ -82,6 +82,7 @@ class Slopes {
     const double d = std::sqrt(2 * _gap / compliance);
     const std::optional<double> below = lower_with(*unit, -d), above = lower_with(*unit, d);
     if (!(d > 0) || !below || !above) return;
+    aim.set_scale(answer, compliance, std::sqrt(_primal.flux.norm_squared()));
     aim.set(answer, (*below - _upper) / d, (_upper - *above) / d);
   }
 
@@ -110,7 +111,7 @@ class Slopes {
     const std::vector<double> u = of_copies(answer.fields);
     const estimate::LoadBalance& load = _primal.load;
     const estimate::EquilibratedFlux flux(cut, {u, load.force, load.traction});
-    return estimate::bracket(cut, flux, load, _primal.lifts, u, answer.energy,
+    return estimate::bracket(cut, flux, load, _primal.lifts, u, answer.energy_mesh,
                              lack_of(cut, flux, load, sum).flux)
         .lower;
   }
@@ -141,8 +142,9 @@ void bound_by_norms(const MeshOperator::Parts& parts, const std::vector<Aim>& go
     for (std::size_t k = 0; k < goals.size(); ++k) {
       const double value = goals[k].value_in(of.answer), half = norms[k] * *of.answer.error_bound;
       const double rounding = half > 0 ? 1e-12 * std::abs(value) : 0;
-      if (std::isfinite(half))
-        goals[k].set(of.answer, value - half - rounding, value + half + rounding);
+      if (!std::isfinite(half)) continue;
+      goals[k].set_scale(of.answer, norms[k] * norms[k], std::sqrt(of.primal.flux.norm_squared()));
+      goals[k].set(of.answer, value - half - rounding, value + half + rounding);
     }
   }
 }
@@ -172,6 +174,8 @@ void bound_by_adjoints(const MeshOperator::Parts& parts, const std::vector<Aim>&
       Target& target =
           targets.emplace_back(own, goals, k, goals[k].unit(of.answer.inclusions.size()),
                                own.adjoint.aim(forces[k], opened[k]));
+      goals[k].set_scale(of.answer, target.goal.compliance,
+                         std::sqrt(of.primal.flux.norm_squared()));
       if (!(target.goal.compliance > 0)) {  // held
         const double value = goals[k].value_in(of.answer);
         goals[k].set(of.answer, value, value);

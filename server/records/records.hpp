@@ -188,14 +188,13 @@ ANTICRACK_FIELDS(SweepRecord, converged, not_converged, failed, most_steps, wors
 /// Load cases solved stage after stage, on meshes refined until their bounds are close enough.
 struct AccuracySpec {
   std::optional<double> energy{};        ///< (energy_upper - energy_lower) / |energy|
-  std::optional<double> displacement{};  ///< half the width of the bounds of A / the largest |A|
+  std::optional<double> displacement{};  ///< contact::error_of each inclusion's A
   std::uint64_t max_triangles = 0;       ///< 0: the server's limit
   std::chrono::milliseconds time{0};     ///< no stage begins after this time; 0: no limit
   bool keep_stages = false;              ///< keep the meshes of all stages
-  bool each_inclusion = false;           ///< displacement: divide by each |A|, not by the largest
+  bool largest = false;  ///< displacement: over the largest |A|, not each over its own
 };
-ANTICRACK_FIELDS(AccuracySpec, energy, displacement, max_triangles, time, keep_stages,
-                 each_inclusion)
+ANTICRACK_FIELDS(AccuracySpec, energy, displacement, max_triangles, time, keep_stages, largest)
 
 /// A load case at the end of a stage; members are empty if it has no bounds.
 struct StageAnswer {

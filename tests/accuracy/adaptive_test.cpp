@@ -33,7 +33,7 @@ Stage solve_stage(const operators::MeshOperator& op, const fem::Load& load,
   contact::Answer answer = op.solve(prepared, {}, true, silent);
   indicator = op.estimate(prepared, answer);
   EXPECT_EQ(answer.no_bracket, "");
-  Stage stage{op.mesh().triangle_count(), answer.energy, answer.energy_lower.value_or(NAN)};
+  Stage stage{op.mesh().triangle_count(), answer.energy_mesh, answer.energy_lower.value_or(NAN)};
   for (const std::int32_t closed : answer.traces.front().contact)
     ++(closed != 0 ? stage.in_contact : stage.open);
   return stage;

@@ -93,13 +93,13 @@ void check_driven(const Driven& driven, std::size_t condensed_up_to) {
   for (const double one : {kkt.equilibrium, kkt.gap, kkt.sign, kkt.complementarity})
     EXPECT_LE(one, 1e-10);
   ASSERT_EQ(answer.no_bracket, "");
-  EXPECT_LE(*answer.energy_lower, answer.energy);
-  EXPECT_GE(*answer.energy_upper, answer.energy);
+  EXPECT_LE(*answer.energy_lower, answer.energy_mesh);
+  EXPECT_GE(*answer.energy_upper, answer.energy_mesh);
   const double size = std::abs(*answer.energy_upper) + std::abs(*answer.energy_lower);
   EXPECT_LE(*answer.energy_upper - *answer.energy_lower, 0.7 * size + 1e-12);
   ASSERT_TRUE(answer.inclusions[0].displacement_lower);
-  EXPECT_LE(*answer.inclusions[0].displacement_lower, answer.inclusions[0].displacement);
-  EXPECT_GE(*answer.inclusions[0].displacement_upper, answer.inclusions[0].displacement);
+  EXPECT_LE(*answer.inclusions[0].displacement_lower, answer.inclusions[0].displacement_mesh);
+  EXPECT_GE(*answer.inclusions[0].displacement_upper, answer.inclusions[0].displacement_mesh);
 }
 
 TEST(Driven, ByAnythingAloneItConvergesWithBounds) {

@@ -22,7 +22,7 @@ A = 0.01
 max_triangles = 200000
 time = "10min"
 keep_stages = true
-each_inclusion = true
+largest = true
 )"));
   const v1::Accuracy& accuracy = the_case.spec.accuracy();
   EXPECT_EQ(accuracy.energy(), 1e-3);
@@ -30,7 +30,7 @@ each_inclusion = true
   EXPECT_EQ(accuracy.max_triangles(), 200000U);
   EXPECT_EQ(accuracy.time().seconds(), 600);
   EXPECT_TRUE(accuracy.keep_stages());
-  EXPECT_TRUE(accuracy.each_inclusion());
+  EXPECT_TRUE(accuracy.largest());
   EXPECT_THAT(the_case.spec.outputs(), ElementsAre(v1::OUTPUT_INDICATORS));
   EXPECT_EQ(locate(the_case, "spec.accuracy.energy")->line, 20U);
   EXPECT_EQ(locate(the_case, "spec.accuracy.displacement")->line, 21U);

@@ -82,15 +82,17 @@ inline results::Result sample_sweep(std::size_t rows = 21, int n = 10) {
   return result;
 }
 
-/// The same with bounds, of the energy 0.5 % wide and A +- 0.01; none of the last row.
+/// The same with bounds, of the energy 0.5 % wide and A +- 0.01; none of the last row. On the mesh
+/// A is 0.001 less.
 inline results::Result bounded_sweep(std::size_t rows = 21, int n = 10) {
   results::Result result = sample_sweep(rows, n);
   results::Sweep& sweep = *result.sweep;
-  sweep.energy_upper = sweep.energy;
+  sweep.energy_upper = sweep.energy_mesh = sweep.energy;
   for (const double energy : sweep.energy) sweep.energy_lower.push_back(1.005 * energy);
   for (const double a : sweep.displacement) {
     sweep.displacement_lower.push_back(a - 0.01);
     sweep.displacement_upper.push_back(a + 0.01);
+    sweep.displacement_mesh.push_back(a - 0.001);
   }
   for (auto* bounds : {&sweep.energy_lower, &sweep.energy_upper, &sweep.displacement_lower,
                        &sweep.displacement_upper})

@@ -127,14 +127,14 @@ void check_bounds(Membrane membrane, const Variant& variant, Contained& tally) {
   for (std::size_t j = 0; j < coarse.inclusions.size(); ++j) {
     const contact::InclusionAnswer &one = coarse.inclusions[j], &better = fine.inclusions[j];
     const bool found = check_interval(one.displacement_lower, one.displacement_upper,
-                                      one.displacement, better.displacement, "A", tally);
+                                      one.displacement_mesh, better.displacement_mesh, "A", tally);
     tally.displacements += found;
     tally.by_slope += found && !one.displacement_estimated_error;
     tally.none += !found;
-    tally.slopes += check_interval(one.slope_x_lower, one.slope_x_upper, one.slope_x,
-                                   better.slope_x, "Bx", tally);
-    tally.slopes += check_interval(one.slope_y_lower, one.slope_y_upper, one.slope_y,
-                                   better.slope_y, "By", tally);
+    tally.slopes += check_interval(one.slope_x_lower, one.slope_x_upper, one.slope_x_mesh,
+                                   better.slope_x_mesh, "Bx", tally);
+    tally.slopes += check_interval(one.slope_y_lower, one.slope_y_upper, one.slope_y_mesh,
+                                   better.slope_y_mesh, "By", tally);
   }
 }
 

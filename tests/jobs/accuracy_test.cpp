@@ -59,17 +59,43 @@ TEST(Accuracy, IsTheWidthOfTheBracketOverTheEnergy) {
   EXPECT_TRUE(std::isinf(excess({}, *spec.accuracy))) << "no bracket";
 }
 
-TEST(Accuracy, OfADisplacementIsRelativeToTheLargestOfTheLoadCase) {
+TEST(Accuracy, OfADisplacementIsRelativeToItselfUnlessTheLargestIsAskedFor) {
   JobSpec spec = energy_to(1);
   spec.accuracy->displacement = 0.01;
   CaseRecord record = answer_between(-1, -1);
-  record.answer.inclusions = {inclusion(2, 1.9, 2.1), inclusion(1e-9, -0.04, 0.04)};
-  EXPECT_NEAR(*stage_answer(record).displacement_error, 0.05, 1e-12);
-  EXPECT_NEAR(excess(stage_answer(record), *spec.accuracy), 5, 1e-12);
-  EXPECT_NEAR(*stage_answer(record, true).displacement_error, 0.04 / 1e-9, 1) << "its own";
+  record.answer.inclusions = {inclusion(2, 1.9, 2.1), inclusion(0.5, 0.46, 0.54)};
+  EXPECT_NEAR(*stage_answer(record).displacement_error, 0.08, 1e-12) << "its own";
+  EXPECT_NEAR(excess(stage_answer(record), *spec.accuracy), 8, 1e-12);
+  EXPECT_NEAR(*stage_answer(record, true).displacement_error, 0.05, 1e-12);
   record.answer.inclusions[1].displacement_lower.reset();
   EXPECT_FALSE(stage_answer(record).displacement_error) << "one has no bounds";
   EXPECT_TRUE(std::isinf(excess(stage_answer(record), *spec.accuracy)));
+}
+
+TEST(Accuracy, OfADisplacementOfZeroIsRelativeToItsScale) {
+  JobSpec spec = energy_to(1);
+  spec.accuracy->displacement = 0.01;
+  CaseRecord record = answer_between(-1, -1);
+  record.answer.inclusions = {inclusion(1e-17, -0.03, 0.02)};
+  EXPECT_GT(*stage_answer(record).displacement_error, 1e14) << "without a scale";
+  record.answer.inclusions[0].displacement_scale = 2;
+  EXPECT_NEAR(*stage_answer(record).displacement_error, 0.015, 1e-12) << "at most 0.03, not 0.025";
+  EXPECT_NEAR(*stage_answer(record, true).displacement_error, 0.015, 1e-12);
+  EXPECT_THAT(judge_one(record, spec, {}, 100).not_reached,
+              HasSubstr("A is 0 within 0.03, 1.5 % of 2 (asked 1 %) on 100 triangles: a finer"));
+  const StageRecord same{"mesh", 50, 0, {stage_answer(record)}};
+  EXPECT_THAT(judge_one(record, spec, {same, same, same}).not_reached, HasSubstr("no longer help"));
+  record.answer.inclusions.push_back(inclusion(0.1, 0.09, 0.11));
+  record.answer.inclusions.back().displacement_scale = 2;
+  EXPECT_NEAR(*stage_answer(record).displacement_error, 0.055, 1e-12)
+      << "0.11 of 2, not 0.01 of 0.1";
+  record.answer.inclusions.erase(record.answer.inclusions.begin());
+  EXPECT_THAT(judge_one(record, spec, {}, 100).not_reached,
+              HasSubstr("reached energy 0 % (asked 100 %), A 5.5 % of 2 (asked 1 %) on 100"));
+  record.answer.inclusions = {inclusion(1e-17, -0.02, 0.02)};
+  record.answer.inclusions[0].displacement_scale = 2;
+  EXPECT_EQ(judge_one(record, spec).not_reached, "") << "1 % of the scale";
+  EXPECT_TRUE(judge_one(record, spec).over);
 }
 
 TEST(Accuracy, BoundsOfTheStageBeforeHoldStill) {
@@ -84,6 +110,10 @@ TEST(Accuracy, BoundsOfTheStageBeforeHoldStill) {
   EXPECT_EQ(now.answer.inclusions[0].displacement_lower, 1.9);
   EXPECT_EQ(now.answer.inclusions[0].displacement_upper, 2.05);
   EXPECT_EQ(now.answer.inclusions[1].displacement_lower, 0.9) << "it has none of its own";
+  EXPECT_EQ(now.answer.energy, -1.75) << "the middle of what is left";
+  EXPECT_DOUBLE_EQ(now.answer.inclusions[0].displacement, 1.975);
+  EXPECT_DOUBLE_EQ(now.answer.inclusions[1].displacement, 1.05);
+  EXPECT_NEAR(*now.answer.inclusions[0].displacement_error_relative, 0.075 / 1.975, 1e-12);
   CaseRecord apart = answer_between(-1, -0.9), unbounded = answer_between(-9, -9);
   tighten(apart, before);
   EXPECT_EQ(apart.answer.energy_lower, -1);
@@ -144,14 +174,15 @@ TEST(Accuracy, OfWhatIsZeroIsSaidInItsUnit) {
   EXPECT_THAT(judge_one(odd, spec, {}, 100).not_reached, HasSubstr("A is 0 within 6e-05 on 100"));
 
   odd.answer.inclusions.push_back(inclusion(2, 1.999, 2.001));
-  EXPECT_EQ(judge_one(odd, spec).not_reached, "") << "relative to the largest";
-  EXPECT_TRUE(judge_one(odd, spec).over);
-  spec.accuracy->each_inclusion = true;
   odd.answer.inclusions[0].name = "left";
-  now.answers = {stage_answer(odd, true)};
-  const Verdict each = judge({now, now, now, now}, {&odd}, spec, 1000, 0);
+  const Verdict each = judge_one(odd, spec, {now, now, now});
   EXPECT_THAT(each.not_reached, HasSubstr("A of \"left\" is 0 within 6e-05"));
-  EXPECT_THAT(each.not_reached, HasSubstr("leave each_inclusion out, or ask for accuracy.energy"));
+  EXPECT_THAT(each.not_reached, HasSubstr("set accuracy.largest, or ask for accuracy.energy"));
+  spec.accuracy->largest = true;
+  now.answers = {stage_answer(odd, true)};
+  const Verdict largest = judge({now}, {&odd}, spec, 1000, 0);
+  EXPECT_TRUE(largest.over);
+  EXPECT_EQ(largest.not_reached, "") << "relative to the largest";
 
   spec = energy_to(0.01);
   CaseRecord balanced = answer_between(-0.02, 0.01);
@@ -206,8 +237,8 @@ TEST(Accuracy, RefusesWhatCannotBeSolvedInStages) {
   spec.accuracy->energy.reset();
   EXPECT_EQ(field_at_fault(spec), "accuracy");
   spec = energy_to(0.1);
-  spec.accuracy->each_inclusion = true;
-  EXPECT_EQ(field_at_fault(spec), "accuracy.each_inclusion");
+  spec.accuracy->largest = true;
+  EXPECT_EQ(field_at_fault(spec), "accuracy.largest");
   spec = energy_to(0.1);
   spec.solver = contact::UzawaOptions();
   EXPECT_EQ(field_at_fault(spec), "solver.uzawa");

@@ -103,9 +103,11 @@ TEST(EngineStages, RefineUntilEveryLoadCaseIsAccurate) {
     EXPECT_GT(stage.triangles, job.stages[k - 1].triangles);
     EXPECT_GE(stage.seconds, job.stages[k - 1].seconds);
     for (std::size_t i = 0; i < 2; ++i) {
-      // Meshes are nested: energies fall towards the membrane's, which the brackets hold.
-      EXPECT_LT(stage.answers[i].energy, job.stages[k - 1].answers[i].energy);
-      EXPECT_GE(stage.answers[i].energy, *job.stages[k - 1].answers[i].energy_lower);
+      // Meshes are nested: their energies, the upper bounds, fall towards the membrane's.
+      const records::StageAnswer &now = stage.answers[i], &before = job.stages[k - 1].answers[i];
+      EXPECT_LT(*now.energy_upper, *before.energy_upper);
+      EXPECT_GE(*now.energy_lower, *before.energy_lower);
+      EXPECT_EQ(now.energy, *now.energy_lower + 0.5 * (*now.energy_upper - *now.energy_lower));
     }
   }
   const auto worst = [](const StageRecord& stage) {

@@ -53,8 +53,8 @@ void expect_inside(const contact::Answer& narrow, const contact::Answer& wide) {
   ASSERT_TRUE(a.displacement_lower && b.displacement_lower);
   EXPECT_LE(*b.displacement_lower, *a.displacement_upper);
   EXPECT_GE(*b.displacement_upper, *a.displacement_lower);
-  EXPECT_LE(*b.displacement_lower, b.displacement);
-  EXPECT_GE(*b.displacement_upper, b.displacement);
+  EXPECT_LE(*b.displacement_lower, b.displacement_mesh);
+  EXPECT_GE(*b.displacement_upper, b.displacement_mesh);
 }
 
 void expect_same(const contact::Answer& a, const contact::Answer& b) {

@@ -71,14 +71,14 @@ TEST(FromDomain, AJobThatIsTakenFitsInAMessage) {
   answer.status = contact::Status::not_converged;
   answer.answer.reason = std::string(200, 'r');
   answer.answer.energy = answer.answer.criterion = answer.answer.contact_length = 0.1;
-  answer.answer.energy_lower = answer.answer.energy_upper = 0.1;
+  answer.answer.energy_lower = answer.answer.energy_upper = answer.answer.energy_mesh = 0.1;
   answer.answer.error_bound = answer.answer.error_bound_relative = 0.1;
   answer.answer.no_bracket = std::string(200, 'b');
   answer.answer.kkt = answer.answer.kkt_relative = {0.1, 0.2, 0.3, 0.4};
   answer.answer.warnings.assign(4, std::string(400, 'w'));
   for (const std::string& name : inclusions) {
-    answer.answer.inclusions.push_back(
-        {name, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.3, 1.4});
+    answer.answer.inclusions.push_back({name, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9,
+                                        1.0,  1.1, 1.2, 1.3, 1.4, 1.5, 1.6, 1.7, 1.8, 1.9});
     answer.answer.contact_intervals.push_back({name, 0.1, 0.2});
   }
   for (; taken(); record.cases.push_back(answer)) {

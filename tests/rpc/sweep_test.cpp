@@ -87,9 +87,11 @@ v1::Job solve_alone(RunningServer& server, const std::string& mesh, Received& bl
 
 /// The columns of the block against the answers of the plain job, and the contact of each row
 /// against its traces.
-void expect_columns(const Received& sweep, const v1::Job& alone, const Received& traces) {
-  const auto displacement = doubles(sweep, "sweep/displacement");
-  const auto energy = doubles(sweep, "sweep/energy");
+/// `of_mesh`: the ending of the names of what is of u on the mesh, "_mesh" with bounds.
+void expect_columns(const Received& sweep, const v1::Job& alone, const Received& traces,
+                    const std::string& of_mesh = "") {
+  const auto displacement = doubles(sweep, "sweep/displacement" + of_mesh);
+  const auto energy = doubles(sweep, "sweep/energy" + of_mesh);
   const auto contact_length = doubles(sweep, "sweep/contact_length");
   std::vector<std::uint64_t> shape;
   const auto contact =
@@ -105,8 +107,8 @@ void expect_columns(const Received& sweep, const v1::Job& alone, const Received&
   for (std::size_t row = 0; row < row_count; ++row) {
     SCOPED_TRACE(row);
     const v1::LoadCaseAnswer& answer = alone.status().answers(static_cast<int>(row));
-    EXPECT_NEAR(displacement[row], answer.inclusions(0).displacement(), tolerance);
-    EXPECT_NEAR(energy[row], answer.energy(), tolerance);
+    EXPECT_NEAR(displacement[row], answer.inclusions(0).displacement_mesh(), tolerance);
+    EXPECT_NEAR(energy[row], answer.energy_mesh(), tolerance);
     EXPECT_NEAR(contact_length[row], answer.contact_length(), tolerance);
     const auto closed = values_of<std::int32_t>(
         traces, "loads/" + std::to_string(row) + "/traces/0/contact", v1::ArrayLayout::TYPE_INT32);
@@ -178,9 +180,11 @@ TEST(Sweep, HasBoundsOfEveryRowWhereItIsAskedForThem) {
   Received block, traces;
   ASSERT_TRUE(read_result(server, swept.name(), 0, block).ok());
   const v1::Job alone = solve_alone(server, mesh, traces);
-  expect_columns(block, alone, traces);
-  std::vector<double> lower, upper, a_lower, a_upper;
+  expect_columns(block, alone, traces, "_mesh");
+  std::vector<double> energy, lower, upper, a, a_lower, a_upper;
   for (const v1::LoadCaseAnswer& answer : alone.status().answers()) {
+    energy.push_back(answer.energy());
+    a.push_back(answer.inclusions(0).displacement());
     lower.push_back(answer.energy_lower());
     upper.push_back(answer.energy_upper());
     a_lower.push_back(answer.inclusions(0).displacement_lower());
@@ -191,6 +195,8 @@ TEST(Sweep, HasBoundsOfEveryRowWhereItIsAskedForThem) {
     EXPECT_THAT(doubles(block, name),
                 ::testing::Pointwise(::testing::DoubleNear(of_integrals), expected));
   };
+  near("sweep/energy", energy);
+  near("sweep/displacement", a);
   near("sweep/energy_lower", lower);
   near("sweep/energy_upper", upper);
   near("sweep/displacement_lower", a_lower);
@@ -247,8 +253,8 @@ TEST(Sweep, OverNodalForcesIsTheSweepOverTheFunctionsTheyAreOf) {
   const v1::Job plain = server.finish(server.create(alone).name());
   std::vector<double> displacement, energy;
   for (const v1::LoadCaseAnswer& answer : plain.status().answers()) {
-    displacement.push_back(answer.inclusions(0).displacement());
-    energy.push_back(answer.energy());
+    displacement.push_back(answer.inclusions(0).displacement_mesh());
+    energy.push_back(answer.energy_mesh());
   }
   expect_near(doubles(block, "sweep/displacement"), displacement);
   expect_near(doubles(block, "sweep/energy"), energy);

@@ -229,7 +229,7 @@ class Accuracy(_Table):
     seconds, or "10min"."""
     energy: float | None = None
     A: float | None = None
-    each_inclusion: bool | None = None
+    largest: bool | None = None
     max_triangles: int | None = None
     time: float | str | None = None
     keep_stages: bool | None = None

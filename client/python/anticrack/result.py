@@ -17,7 +17,7 @@ from .arrays import Array
 from .entries import NAN
 from .errors import Error, package
 from .names import Named, Parts
-from .text import counted, harmless, html_table, interval, lines, listed, short_length
+from .text import counted, harmless, html_table, lines, listed, short_length, with_bounds
 from .v1 import mesh_pb2, solve_pb2
 
 FORMAT = "anticrack-result/2"
@@ -153,15 +153,15 @@ def _walked(message: Any, but: tuple[str, ...], **other: Any) -> Any:
 class Inclusion(_walked(solve_pb2.InclusionAnswer, ("name",), Bx=0.0, By=0.0)):  # type: ignore[misc]
     """The values of InclusionAnswer in solve.proto under shorter names. u = A + Bx (x - x0) + By (y - y0) along the
     inclusion; resultant: the force on it; contact_length; Mx, My: the moment about (x0, y0). The membrane's exact A
-    lies between A_lower and A_upper."""
+    lies between A_lower and A_upper, and A is the middle; A_mesh is that of u on the mesh, and A too where there are no
+    bounds. Bx and By likewise."""
     name: str
     units = Units()
 
     def __repr__(self) -> str:
-        told = f"{harmless(self.name)}: A = {interval(self.A_lower, self.A_upper, self.A, self.units.behind('L'))}"
+        told = f"{harmless(self.name)}: A = {with_bounds(self, 'A', self.units.behind('L'))}"
         if self.Bx or self.By:
-            told += (f", Bx = {interval(self.Bx_lower, self.Bx_upper, self.Bx)}, "
-                     f"By = {interval(self.By_lower, self.By_upper, self.By)}")
+            told += f", Bx = {with_bounds(self, 'Bx')}, By = {with_bounds(self, 'By')}"
         return told
 
 
@@ -169,7 +169,8 @@ class Inclusion(_walked(solve_pb2.InclusionAnswer, ("name",), Bx=0.0, By=0.0)): 
 class Load(_walked(solve_pb2.LoadCaseAnswer, ("name", "status"))):  # type: ignore[misc]
     """The answer to a load case: the values of LoadCaseAnswer in solve.proto, energy, contact_length, iterations and so
     on, and solve_seconds. status: "converged", "not_converged" (see reason), "failed" (see error) or "cancelled". The
-    membrane's exact energy lies between energy_lower and energy_upper. solver: the method and its options.
+    membrane's exact energy lies between energy_lower and energy_upper, and energy is the middle; energy_mesh is that of
+    u on the mesh, and energy too where there are no bounds. solver: the method and its options.
 
     kkt: relative residuals of the optimality conditions. traces: one for each interface, by its name or index. history:
     arrays (n), one entry an iteration. stages: arrays, one entry a stage; empty without an accuracy.
@@ -208,7 +209,7 @@ class Load(_walked(solve_pb2.LoadCaseAnswer, ("name", "status"))):  # type: igno
         return {name: inclusion.A for name, inclusion in self.inclusions.items()}
 
     def _energy(self) -> str:
-        return interval(self.energy_lower, self.energy_upper, self.energy, self.units.behind("F L"))
+        return with_bounds(self, "energy", self.units.behind("F L"))
 
     def __repr__(self) -> str:
         told = f"{harmless(self.name)}: {self.status.replace('_', ' ')}"
@@ -226,7 +227,7 @@ class Load(_walked(solve_pb2.LoadCaseAnswer, ("name", "status"))):  # type: igno
     def _repr_html_(self) -> str:
         """The HTML that a notebook shows."""
         length, force = self.units.label("L"), self.units.label("F")
-        rows = [[part.name, interval(part.A_lower, part.A_upper, part.A), f"{part.resultant:.6g}",
+        rows = [[part.name, with_bounds(part, "A"), f"{part.resultant:.6g}",
                  short_length(part.contact_length)] for part in self.inclusions.values()]
         return html_table(repr(self).partition("\n")[0], ["inclusion", "A" + length, "resultant" + force,
                                                           "contact length" + length], rows)
@@ -241,8 +242,9 @@ class Sweep:
     contact_length, kkt (largest relative residual), displacement (rows, inclusions): A, slope (rows, inclusions, 2) or
     None, contact (rows, contacts) of the crack nodes contact_nodes (contacts, 2): interface, node. coefficients
     (rows, loads), or None where they are not known. energy_lower, energy_upper, displacement_lower, displacement_upper:
-    bounds of the membrane's exact values, NaN if a row has none, or None if not asked for. kept: rows whose
-    traces are in Result.loads["row-K"]. answer: SweepAnswer in solve.proto."""
+    bounds of the membrane's exact values, NaN if a row has none, or None if not asked for; energy and displacement are
+    then the middles, and energy_mesh and displacement_mesh those of u on the mesh, else None. kept: rows whose traces
+    are in Result.loads["row-K"]. answer: SweepAnswer in solve.proto."""
     loads: list[str]
     inclusions: list[str]
     status: Array
@@ -256,8 +258,10 @@ class Sweep:
     slope: Array | None = None
     energy_lower: Array | None = None
     energy_upper: Array | None = None
+    energy_mesh: Array | None = None
     displacement_lower: Array | None = None
     displacement_upper: Array | None = None
+    displacement_mesh: Array | None = None
     coefficients: Array | None = None
     kept: list[int] = field(default_factory=list)
     error: str = ""
@@ -279,12 +283,13 @@ class Sweep:
         if self.coefficients is not None:
             columns.update((name, self.coefficients[:, i]) for i, name in enumerate(self.loads))
         columns["status"] = [_status(code) for code in self.status]
-        for name in ("steps", "energy", "energy_lower", "energy_upper", "contact_length", "kkt"):
+        for name in ("steps", "energy", "energy_lower", "energy_upper", "energy_mesh", "contact_length", "kkt"):
             columns[name] = getattr(self, name)
         slopes: Any = (None, None) if self.slope is None else np.moveaxis(self.slope, 2, 0)
         for i, name in enumerate(self.inclusions):
             for what, values in (("A", self.displacement), ("A_lower", self.displacement_lower),
-                                 ("A_upper", self.displacement_upper), ("Bx", slopes[0]), ("By", slopes[1])):
+                                 ("A_upper", self.displacement_upper), ("A_mesh", self.displacement_mesh),
+                                 ("Bx", slopes[0]), ("By", slopes[1])):
                 columns[f"{what} of {name}"] = None if values is None else values[:, i]
         columns = {name: column for name, column in columns.items() if column is not None}
         return pandas.DataFrame(columns).rename_axis("row")
@@ -340,7 +345,7 @@ class Result:
             line = {name: getattr(load, name) for name in [*SCALARS, "method"]}
             for name, inclusion in load.inclusions.items():
                 line.update({f"{column} of {name}": getattr(inclusion, column)
-                             for column in ("A", "A_lower", "A_upper", "resultant")})
+                             for column in ("A", "A_lower", "A_upper", "A_mesh", "resultant")})
             rows.append(line)
         frame = pandas.DataFrame(rows).set_index("name") if rows else pandas.DataFrame()
         told = [row for row in entries.meanings(solve_pb2.LoadCaseAnswer.DESCRIPTOR, "loads") if row[0] == "loads"]
@@ -364,7 +369,7 @@ class Result:
         for load in self.loads.values():
             parts = [load.inclusions.get(name) for name in names]
             rows.append([load.name, load.status.replace("_", " "), load._energy(), *(
-                interval(part.A_lower, part.A_upper, part.A) if part is not None else "-" for part in parts)])
+                with_bounds(part, "A") if part is not None else "-" for part in parts)])
         head = ["load", "status", "energy", *(f"A of {name}{self.units.label('L')}" for name in names)]
         title = self._title() + (f"; not reached: {self.not_reached}" if self.not_reached else "")
         if len(every) > most:
@@ -495,12 +500,17 @@ def _row(sweep: Sweep, row: int, traces: Parts[Trace], interfaces: list[Interfac
     """Makes the answer to a row whose traces were kept."""
     load = Load(f"row-{row}", _status(sweep.status[row]), iterations=int(sweep.steps[row]),
                 traces=traces)
-    for key in ("energy", "energy_lower", "energy_upper", "contact_length"):
-        if getattr(sweep, key) is not None:
-            setattr(load, key, float(getattr(sweep, key)[row]))
-    columns = {"A": sweep.displacement, "A_lower": sweep.displacement_lower, "A_upper": sweep.displacement_upper}
-    if sweep.slope is not None:
-        columns.update(Bx=sweep.slope[:, :, 0], By=sweep.slope[:, :, 1])
+    energies = {"energy": sweep.energy, "energy_lower": sweep.energy_lower, "energy_upper": sweep.energy_upper,
+                "energy_mesh": sweep.energy if sweep.energy_mesh is None else sweep.energy_mesh,
+                "contact_length": sweep.contact_length}
+    for key, values in energies.items():
+        if values is not None:
+            setattr(load, key, float(values[row]))
+    columns = {"A": sweep.displacement, "A_lower": sweep.displacement_lower, "A_upper": sweep.displacement_upper,
+               "A_mesh": sweep.displacement if sweep.displacement_mesh is None else sweep.displacement_mesh}
+    slopes = np.zeros((*sweep.displacement.shape, 2)) if sweep.slope is None else sweep.slope
+    for part, name in enumerate(("Bx", "By")):
+        columns.update({name: slopes[:, :, part], name + "_mesh": slopes[:, :, part]})
     for i, name in enumerate(sweep.inclusions):
         load.inclusions[name] = Inclusion(name, **{  # type: ignore[arg-type]
             key: float(column[row, i]) for key, column in columns.items() if column is not None})

@@ -28,7 +28,7 @@ _MEANINGS = [*entries.meanings(solve_pb2.Solver.DESCRIPTOR, "solver"),
 # Dimensions of datasets, as Units.of takes them; a name means the same in every group.
 _DIMENSIONS = {
     **dict.fromkeys(["nodes", "s", "x", "y", "u_minus", "u_plus", "jump", "u", "displacement", "displacement_lower",
-                     "displacement_upper"], "L"),
+                     "displacement_upper", "displacement_mesh"], "L"),
     **{name: unit for where, name, unit, _ in _MEANINGS if where != "loads"}, "pressure": "F/L", "indicator": "F L"}
 
 

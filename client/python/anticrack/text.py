@@ -25,15 +25,17 @@ def harmless(text: object, keep: str = "") -> str:
                    for c in str(text))
 
 
-def interval(lower: float, upper: float, value: float, unit: str = "") -> str:
-    """Writes the middle and half the width, as in the command's tables, and the value on the mesh: "0.4483 +- 0.0038
-    mm (0.4462 on the mesh)". The printed interval contains the given one. Without bounds it is the value alone."""
+def interval(value: float, lower: float, upper: float, mesh: float, unit: str = "", error: str = "") -> str:
+    """Writes a value with the distance of its bounds, as the command's tables do, its relative error if given, and the
+    value on the mesh: "0.4483 +- 0.0038 mm (0.85 %; 0.4462 on the mesh)". The printed interval contains the bounds.
+    Without bounds it is the value alone."""
+    error = error and f"{error}; "
     if not math.isfinite(lower) or not math.isfinite(upper):
         return f"{value:.6g}{unit}"
-    middle, half = lower + (upper - lower) / 2, (upper - lower) / 2
-    size = max(abs(middle), half)
+    half = (upper - lower) / 2
+    size = max(abs(value), half)
     if not size > 0:
-        return f"0 +- 0{unit} ({value:.6g} on the mesh)"
+        return f"0 +- 0{unit} ({error}{mesh:.6g} on the mesh)"
 
     def decade(number: float) -> int:
         return math.floor(math.log10(number))
@@ -41,13 +43,31 @@ def interval(lower: float, upper: float, value: float, unit: str = "") -> str:
     exponent = decade(size) if decade(size) < -4 or decade(size) > 5 else 0
     behind = min(most - decade(size), 1 - decade(half) if half > 0 else most)
     step = 10.0 ** -behind
-    shown = math.copysign(math.floor(abs(middle) / step + 0.5), middle) * step
+    shown = math.copysign(math.floor(abs(value) / step + 0.5), value) * step
     beside = math.ceil(max(upper - shown, shown - lower) / step - 1e-6) * step
     texts = [f"{_unsigned(number / 10.0 ** exponent, max(0, behind + exponent)):.{max(0, behind + exponent)}f}"
-             for number in (shown, beside, value)]
+             for number in (shown, beside, mesh)]
     if not exponent:
-        return f"{texts[0]} +- {texts[1]}{unit} ({texts[2]} on the mesh)"
-    return f"({texts[0]} +- {texts[1]})e{exponent}{unit} ({texts[2]}e{exponent} on the mesh)"
+        return f"{texts[0]} +- {texts[1]}{unit} ({error}{texts[2]} on the mesh)"
+    return f"({texts[0]} +- {texts[1]})e{exponent}{unit} ({error}{texts[2]}e{exponent} on the mesh)"
+
+
+def with_bounds(of: Any, name: str, unit: str = "") -> str:
+    """Writes the interval of a value of an answer, "A", "energy" and so on, and of A its relative error, as the command
+    does: "0.85 %" of itself unless it may be 0, and where it is nearer to 0 "40 %; 0.3 % of 0.05 mm", of its scale."""
+    value, lower, upper, mesh = (getattr(of, name + part) for part in ("", "_lower", "_upper", "_mesh"))
+    relative, errors = getattr(of, f"{name}_error_relative", math.nan), []
+    if math.isfinite(relative):
+        half = (upper - lower) / 2
+        if not lower <= 0 <= upper:
+            errors.append(per_cent(half / abs(value)))
+        if half > 0 and (not value or relative < half / abs(value)):
+            errors.append(f"{per_cent(relative)} of {of.A_scale:.3g}{unit}")
+    return interval(value, lower, upper, mesh, unit, "; ".join(errors))
+
+
+def per_cent(error: float) -> str:
+    return f"{100 * error:.{2 if error < 1 else 3}g} %"
 
 
 def _unsigned(number: float, decimals: int) -> float:

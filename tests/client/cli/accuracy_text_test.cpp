@@ -92,10 +92,10 @@ TEST(AccuracyText, TellsWhatWasReachedAndWhatNot) {
   for (int i = 0; i < 2; ++i) job.mutable_status()->mutable_answers()->Add()->add_inclusions();
   EXPECT_THAT(accuracy_text(job), HasSubstr(", A 0.9 %; ")) << "one inclusion, two load cases";
   job.mutable_status()->mutable_answers(1)->add_inclusions();
-  EXPECT_THAT(accuracy_text(job), HasSubstr(", A 0.9 % of the largest A; "));
+  EXPECT_THAT(accuracy_text(job), HasSubstr(", A 0.9 % of each A; "));
   job.mutable_spec()->mutable_accuracy()->set_displacement(0.01);
-  job.mutable_spec()->mutable_accuracy()->set_each_inclusion(true);
-  EXPECT_THAT(accuracy_text(job), HasSubstr(", A 0.9 % of each A (asked 1 %); "));
+  job.mutable_spec()->mutable_accuracy()->set_largest(true);
+  EXPECT_THAT(accuracy_text(job), HasSubstr(", A 0.9 % of the largest A (asked 1 %); "));
   job.mutable_status()->clear_answers();
   *job.mutable_spec()->mutable_accuracy() = asked(1e-3);
   job.mutable_status()->mutable_stages()->DeleteSubrange(1, 2);

@@ -90,6 +90,25 @@ TEST(AnswersTable, NamesTheCureOfAnErrorAboveOnePerCentThatNobodyChose) {
   EXPECT_THAT(answers_table(result), ::testing::Not(::testing::HasSubstr("[accuracy]")));
 }
 
+TEST(AnswersTable, TellsTheRelativeErrorOfEachAAndOfOneNear0AgainstWhat) {
+  const auto told = [](double a, double half, double error) {
+    results::Result result = two_loads();
+    v1::InclusionAnswer& fibre = *result.loads[0].answer.mutable_inclusions(0);
+    fibre.set_displacement(a);
+    fibre.set_displacement_mesh(0.086569);
+    fibre.set_displacement_lower(a - half);
+    fibre.set_displacement_upper(a + half);
+    fibre.set_displacement_error_relative(error);
+    fibre.set_displacement_scale(2);
+    return answers_table(result);
+  };
+  EXPECT_THAT(told(0.5, 0.03125, 0.0625), ::testing::HasSubstr("  0.500 +- 0.032 (6.2 %)  "));
+  EXPECT_THAT(told(0, 0.03, 0.015), ::testing::HasSubstr("  0.000 +- 0.030 (1.5 % of 2)  "));
+  EXPECT_THAT(told(0.125, 0.0125, 0.055),
+              ::testing::HasSubstr("  0.125 +- 0.013 (10 %; 5.5 % of 2)  "));
+  EXPECT_THAT(told(0, 0, 0), ::testing::HasSubstr("  0 +- 0  ")) << "it is held";
+}
+
 TEST(AnswersTable, SaysThatUOf0HasNoRelativeError) {
   results::Result result = two_loads();
   v1::LoadCaseAnswer& answer = result.loads[0].answer;
@@ -199,9 +218,9 @@ TEST(AnswersCsv, HasALineForEachAndQuotesNames) {
   result.loads[0].answer.mutable_inclusions(0)->set_displacement(0.1);
   EXPECT_EQ(answers_csv(result),
             "load,inclusion,A,resultant,contact_length,Bx,By,Mx,My,A_lower,A_upper,A_estimated_"
-            "error,Bx_lower,Bx_upper,By_lower,"
-            "By_upper\n"
-            "\"a \"\"b\"\", c\",fibre,0.1,1e-16,0,0,0,0,0,,,,,,,\n");
+            "error,Bx_lower,Bx_upper,By_lower,By_upper,A_mesh,Bx_mesh,By_mesh,A_error_relative,"
+            "A_scale\n"
+            "\"a \"\"b\"\", c\",fibre,0.1,1e-16,0,0,0,0,0,,,,,,,,0,0,0,,\n");
 }
 
 TEST(NumbersTable, HasEveryNumberWithItsUnitAndMeaning) {
@@ -214,7 +233,7 @@ TEST(NumbersTable, HasEveryNumberWithItsUnitAndMeaning) {
   EXPECT_THAT(text,
               ::testing::ContainsRegex("meshes/1, every number:\n(.*\n)*minimum_angle +12.5"));
   EXPECT_THAT(text, ::testing::HasSubstr("\nopening, every number:\n"));
-  EXPECT_THAT(text, ::testing::ContainsRegex("\nenergy +-0.163945  N mm +Pi\\(u\\)\n"));
+  EXPECT_THAT(text, ::testing::ContainsRegex("\nenergy +-0.163945  N mm +Pi\\(u\\): the middle"));
   EXPECT_THAT(text, ::testing::ContainsRegex("\nkkt_gap +0  mm +largest violation of "));
   EXPECT_THAT(text, ::testing::ContainsRegex("\niterations +346  - +of Algorithm 2"));
 }

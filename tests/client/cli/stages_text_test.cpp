@@ -21,6 +21,7 @@ results::Load sample() {
   first.set_energy(-0.147);
   load.stages[0].set_seconds(0.0123);
   v1::StageAnswer& last = *load.stages[1].mutable_answers(0);
+  last.set_energy(-0.1675);
   last.set_energy_lower(-0.17);
   last.set_energy_upper(-0.165);
   last.set_error_bound_relative(0.05);

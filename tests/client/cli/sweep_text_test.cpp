@@ -181,12 +181,14 @@ TEST(SweepCsv, HasSlopesWhereAnInclusionTilts) {
 TEST(SweepCsv, HasBoundsBesideWhatTheyAreOf) {
   results::Result result = anticrack::testing::bounded_sweep(5);
   result.sweep->displacement_lower[0] = -0.125;
+  result.sweep->displacement_upper[0] = -0.0625;
   const std::string text = sweep_csv(*result.sweep);
-  EXPECT_THAT(text, ::testing::StartsWith("row,skew,opening,A,A_lower,A_upper,energy,energy_lower,"
-                                          "energy_upper,contact_length,steps,status\n"
-                                          "0,1,-1,-0.1,-0.125,"));
-  EXPECT_THAT(text, HasSubstr("\n3,1,0.5,,,,,,,,5,not_converged\n"));
-  EXPECT_THAT(text, HasSubstr("\n4,1,1,0.1,,,-2,,,"));
+  EXPECT_THAT(text, ::testing::StartsWith("row,skew,opening,A,A_lower,A_upper,A_mesh,energy,"
+                                          "energy_lower,energy_upper,energy_mesh,contact_length,"
+                                          "steps,status\n"
+                                          "0,1,-1,-0.1,-0.125,-0.0625,-0.101,"));
+  EXPECT_THAT(text, HasSubstr("\n3,1,0.5,,,,,,,,,,5,not_converged\n"));
+  EXPECT_THAT(text, HasSubstr("\n4,1,1,0.1,,,0.099,-2,,,-2,"));
 }
 
 TEST(SweepCsv, GivesNumbersBackExactly) {

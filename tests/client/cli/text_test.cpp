@@ -107,13 +107,13 @@ TEST(Number, IsShortAndSaysWhenThereIsNone) {
 }
 
 TEST(Text, IntervalsContainWhatTheyPrint) {
-  EXPECT_EQ(results::interval(0.1028791, 0.1047679), "0.10382 +- 0.00095");
-  EXPECT_EQ(results::interval(-0.1703715, -0.1695454), "-0.16996 +- 0.00042");
-  EXPECT_EQ(results::interval(1, 1), "1.000000 +- 0.000000");
-  EXPECT_EQ(results::interval(-2e-5, 4e-5), "(1.0 +- 3.0)e-5");
-  EXPECT_EQ(results::interval(123456789, 123456999), "(1.234569 +- 0.000002)e8");
-  EXPECT_EQ(results::interval(0, 0), "0 +- 0");
-  EXPECT_EQ(results::interval(0, std::numeric_limits<double>::infinity()), "-");
+  EXPECT_EQ(results::interval(0.1038235, 0.1028791, 0.1047679), "0.10382 +- 0.00095");
+  EXPECT_EQ(results::interval(-0.16995845, -0.1703715, -0.1695454), "-0.16996 +- 0.00042");
+  EXPECT_EQ(results::interval(1, 1, 1), "1.000000 +- 0.000000");
+  EXPECT_EQ(results::interval(1e-5, -2e-5, 4e-5), "(1.0 +- 3.0)e-5");
+  EXPECT_EQ(results::interval(123456894, 123456789, 123456999), "(1.234569 +- 0.000002)e8");
+  EXPECT_EQ(results::interval(0, 0, 0), "0 +- 0");
+  EXPECT_EQ(results::interval(0, 0, std::numeric_limits<double>::infinity()), "-");
 }
 
 TEST(Seconds, AreNoFinerThanATenthOfAMillisecond) {

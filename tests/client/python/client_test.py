@@ -171,7 +171,7 @@ class Jobs(unittest.TestCase):
         nodes = self.client.mesh_arrays(self.client.mesh(case))["nodes"]
         forces = numpy.vstack([numpy.ones(len(nodes)), nodes[:, 1]])
         sweep = self.client.run(case, nodal_forces=forces, progress=False).sweep
-        self.assertAlmostEqual(sweep.energy[0], self.client.run(case, progress=False)["one"].energy, places=12)
+        self.assertAlmostEqual(sweep.energy[0], self.client.run(case, progress=False)["one"].energy_mesh, places=12)
         self.assertIsNone(sweep.coefficients)
 
     def test_sweeps_have_bounds_on_request(self):
@@ -186,8 +186,12 @@ class Jobs(unittest.TestCase):
                  sweep.displacement_upper[row, 0]],
                 [alone[name].energy_lower, alone[name].energy_upper, fibre.A_lower, fibre.A_upper], rtol=1e-6)
         kept = result["row-1"]
-        self.assertEqual((kept.energy_upper, kept.inclusions["gamma_c"].A_lower),
-                         (sweep.energy_upper[1], sweep.displacement_lower[1, 0]))
+        self.assertEqual((kept.energy_upper, kept.energy_mesh, kept.inclusions["gamma_c"].A_lower,
+                          kept.inclusions["gamma_c"].A_mesh),
+                         (sweep.energy_upper[1], sweep.energy_mesh[1], sweep.displacement_lower[1, 0],
+                          sweep.displacement_mesh[1, 0]))
+        numpy.testing.assert_array_equal(sweep.displacement, sweep.displacement_lower + 0.5 * (
+            sweep.displacement_upper - sweep.displacement_lower))
         frame = sweep.frame()
         self.assertEqual(frame["energy_lower"].tolist(), sweep.energy_lower.tolist())
         self.assertTrue((frame["A_lower of gamma_c"] < frame["A of gamma_c"]).all())

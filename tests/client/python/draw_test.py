@@ -471,5 +471,5 @@ class OddResults(unittest.TestCase):
             draw.traces(result, "a", 1)
 
     def test_no_zero_has_a_sign(self):
-        self.assertEqual(anticrack.text.interval(-1e-3, 1e-3, -1e-17), "0.0000 +- 0.0010 (0.0000 on the mesh)")
+        self.assertEqual(anticrack.text.interval(0, -1e-3, 1e-3, -1e-17), "0.0000 +- 0.0010 (0.0000 on the mesh)")
         self.assertNotIn("-0.0000 ", repr(self.results["pressed"]))

@@ -165,7 +165,7 @@ max_iterations = 3
         self.assertEqual(list(frame.index), ["opening", "pulled"])
         self.assertEqual(frame.loc["pulled", "A of short"], file["pulled"].inclusions["short"].A)
         self.assertEqual(frame["energy"].tolist(), [load.energy for load in file.loads.values()])
-        self.assertEqual(frame.attrs["meanings"]["energy"], "Pi(u)")
+        self.assertEqual(frame.attrs["meanings"]["energy_mesh"], "Pi of u on the mesh")
         self.assertLess(set(frame.attrs["meanings"]) - {"name", *(f"kkt_{name}{end}" for name in anticrack.result.KKT
                                                                   for end in ("", "_relative"))}, set(frame.columns))
 
@@ -229,13 +229,22 @@ max_iterations = 3
         for case in cases:
             numbers, text = case.split(" | ")
             lower, upper = map(float, numbers.split())
-            self.assertEqual(interval(lower, upper, lower).rsplit(" (", 1)[0], text, case)
+            self.assertEqual(interval(lower + (upper - lower) / 2, lower, upper, 0).rsplit(" (", 1)[0], text, case)
 
     def test_an_interval_contains_the_bounds(self):
-        self.assertEqual(interval(0.44447, 0.45197, 0.4457, " mm"), "0.4482 +- 0.0038 mm (0.4457 on the mesh)")
-        self.assertEqual(interval(1e-7, 1.2e-7, 1.1e-7), "(1.10 +- 0.10)e-7 (1.10e-7 on the mesh)")
-        self.assertEqual(interval(float("nan"), 1, 0.25, " mm"), "0.25 mm")
-        self.assertEqual(interval(0, 0, 0), "0 +- 0 (0 on the mesh)")
+        self.assertEqual(interval(0.44822, 0.44447, 0.45197, 0.4457, " mm"), "0.4482 +- 0.0038 mm (0.4457 on the mesh)")
+        self.assertEqual(interval(1.1e-7, 1e-7, 1.2e-7, 1.15e-7), "(1.10 +- 0.10)e-7 (1.15e-7 on the mesh)")
+        self.assertEqual(interval(0.25, float("nan"), 1, 0.5, " mm"), "0.25 mm")
+        self.assertEqual(interval(0, 0, 0, 0), "0 +- 0 (0 on the mesh)")
+
+    def test_an_inclusion_tells_the_relative_error_of_its_own_a(self):
+        def told(a, half, error, scale=2.0):
+            return repr(anticrack.result.Inclusion("fibre", A=a, A_lower=a - half, A_upper=a + half, A_mesh=a,
+                                                   A_error_relative=error, A_scale=scale))
+        self.assertEqual(told(0.5, 0.03125, 0.0625), "fibre: A = 0.500 +- 0.032 (6.2 %; 0.500 on the mesh)")
+        self.assertEqual(told(0.0, 0.03, 0.015), "fibre: A = 0.000 +- 0.030 (1.5 % of 2; 0.000 on the mesh)")
+        self.assertEqual(told(0.1, 0.01, 0.055), "fibre: A = 0.100 +- 0.010 (10 %; 5.5 % of 2; 0.100 on the mesh)")
+        self.assertEqual(told(0.5, 0.04, float("nan")), "fibre: A = 0.500 +- 0.040 (0.500 on the mesh)")
 
     def test_a_traction_is_found_in_the_case_of_a_file(self):
         result, _ = self.both(EXAMPLES / "slit.toml", "run")

@@ -18,15 +18,17 @@ TEST(Interval, is_the_text_that_python_writes) {
     std::istringstream numbers(line);
     double lower = 0, upper = 0;
     ASSERT_TRUE(numbers >> lower >> upper) << line;
-    EXPECT_EQ(interval(lower, upper), line.substr(line.find("| ") + 2)) << line;
+    EXPECT_EQ(interval(lower + 0.5 * (upper - lower), lower, upper),
+              line.substr(line.find("| ") + 2))
+        << line;
     ++count;
   }
   EXPECT_GT(count, 10);
 }
 
 TEST(Interval, is_a_dash_where_an_end_is_not_known) {
-  EXPECT_EQ(interval(std::nan(""), 1), "-");
-  EXPECT_EQ(interval(0, HUGE_VAL), "-");
+  EXPECT_EQ(interval(0, std::nan(""), 1), "-");
+  EXPECT_EQ(interval(0, 0, HUGE_VAL), "-");
 }
 
 }  // namespace

@@ -71,8 +71,10 @@ TEST(SweepFile, HasBoundsWhereTheyWereAskedFor) {
   for (const auto& [name, member] : std::map<std::string, std::vector<double> Sweep::*>{
            {"energy_lower", &Sweep::energy_lower},
            {"energy_upper", &Sweep::energy_upper},
+           {"energy_mesh", &Sweep::energy_mesh},
            {"displacement_lower", &Sweep::displacement_lower},
-           {"displacement_upper", &Sweep::displacement_upper}}) {
+           {"displacement_upper", &Sweep::displacement_upper},
+           {"displacement_mesh", &Sweep::displacement_mesh}}) {
     std::vector<double> read = back.*member, wanted = (*result.sweep).*member;
     read.pop_back();
     wanted.pop_back();

@@ -12,7 +12,7 @@ from matplotlib.ticker import FuncFormatter
 from ..arrays import Array
 from ..errors import Error
 from ..result import CRACK, DELAMINATED, Interface, Load, Result, Trace, runs
-from ..text import harmless, interval
+from ..text import harmless, with_bounds
 from .panel import (BOX, CONTACT, CURVES, LINES, MARKED, Scale, axes, cut, fit_axis, legend_below, load_of, named,
                     named_without, offset_of, point_text, rounded, signed, unit_of)
 
@@ -174,7 +174,7 @@ def heading(result: Result, load: Load, line: Interface) -> str:
         parts = [where] if where else []
         for part in (load.inclusions[name] for name in here if name in load.inclusions):
             known = bounds and np.isfinite(part.A_lower)
-            text = interval(part.A_lower, part.A_upper, part.A).partition(" (")[0] if known else f"{part.A:.4g}"
+            text = with_bounds(part, "A").partition(" (")[0] if known else f"{part.A:.4g}"
             slopes = f", B = ({part.Bx:.4g}, {part.By:.4g})" if part.Bx or part.By else ""
             behind = f" ({named(part.name, 12)})" if len(load.inclusions) > 1 and part.name != line.name else ""
             parts.append(signed(f"A = {text.replace('+-', chr(177))}{unit}{slopes}{behind}"))

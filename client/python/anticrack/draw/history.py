@@ -130,7 +130,7 @@ def error_band(result: Result, load: str | Load | None = None, ax: Any = None) -
                     color=CONTACT if first else color, alpha=1 if first else 0.3,
                     label=name + "bounds of the membrane\u2019s energy")
     ax.plot(stages["triangles"], stages["energy"], color=color, marker="o", markersize=2.5,
-            label=name + "energy on the mesh of the stage")
+            label=name + "energy, in the middle of them")
     log_axis(ax.xaxis)
     ax.yaxis.set_major_locator(rounded(5))
     fit_axis(ax.yaxis, "energy", unit_of(result, "F L"))
