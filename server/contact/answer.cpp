@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/answer.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
