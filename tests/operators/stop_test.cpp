@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Every stage of a job looks often whether it is still wanted, and ends when it is not.
+#include "contact/options.hpp"
 #include "stop/stop.hpp"
+#include "contact/answer.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "operators/mesh_operator.hpp"
+#include "operators/uzawa_block.hpp"
 #include "support/paper_mesh.hpp"
 #include "support/solve.hpp"
 
