@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "benchmarks/our_mesh.hpp"
+#include "contact/answer.hpp"
 #include "contact/options.hpp"
 #include "contact/sweep_columns.hpp"
 #include "contact/trace_problem.hpp"

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "contact/observer.hpp"
 #include "operators/answer_difference.hpp"
 #include "operators/mesh_operator.hpp"
 #include "operators/uzawa_block.hpp"
