@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Every stage of a job looks often whether it is still wanted, and ends when it is not.
-#include "contact/options.hpp"
 #include "stop/stop.hpp"
-#include "contact/answer.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,6 +12,8 @@
 #include <set>
 #include <variant>
 
+#include "contact/answer.hpp"
+#include "contact/options.hpp"
 #include "errors/errors.hpp"
 #include "estimate/marking.hpp"
 #include "mesh/codec.hpp"
