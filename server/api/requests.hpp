@@ -12,7 +12,8 @@
 #include "anticrack/v1/mesh.pb.h"
 #include "anticrack/v1/solve.pb.h"
 #include "errors/errors.hpp"
-#include "records/records.hpp"
+#include "records/job_spec.hpp"
+#include "records/mesh_record.hpp"
 
 namespace anticrack::api {
 

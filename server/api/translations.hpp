@@ -15,7 +15,8 @@
 #include "anticrack/v1/solve.pb.h"
 #include "api/translation.hpp"
 #include "records/block.hpp"
-#include "records/records.hpp"
+#include "records/job_record.hpp"
+#include "records/mesh_record.hpp"
 
 namespace anticrack::api {
 

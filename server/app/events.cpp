@@ -7,6 +7,8 @@
 #include "errors/errors.hpp"
 #include "log/log.hpp"
 #include "metrics/phases.hpp"
+#include "records/job_record.hpp"
+#include "records/mesh_record.hpp"
 
 namespace anticrack::app {
 namespace {

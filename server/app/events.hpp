@@ -6,7 +6,11 @@
 #include <chrono>
 
 #include "metrics/metrics.hpp"
-#include "records/records.hpp"
+
+namespace anticrack::records {
+struct JobRecord;
+struct MeshRecord;
+}  // namespace anticrack::records
 
 namespace anticrack::app {
 

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "base/at.hpp"
+#include "contact/answer.hpp"
 
 namespace anticrack::contact {
 namespace {

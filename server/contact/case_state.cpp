@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/at.hpp"
+#include "contact/answer.hpp"
 #include "errors/errors.hpp"
 
 namespace anticrack::contact {

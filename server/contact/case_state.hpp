@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "contact/answer.hpp"
 #include "contact/dense_lcp.hpp"
+#include "contact/observer.hpp"
 #include "contact/solve.hpp"
 #include "contact/trace_problem.hpp"
 #include "contact/trace_state.hpp"

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/at.hpp"
+#include "contact/answer.hpp"
 #include "contact/dense.hpp"
 #include "errors/errors.hpp"
 #include "stop/stop.hpp"

@@ -10,7 +10,6 @@
 #include <span>
 #include <vector>
 
-#include "contact/answer.hpp"
 #include "contact/conditions.hpp"
 #include "contact/dense_lcp.hpp"
 #include "contact/solve.hpp"

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/at.hpp"
+#include "contact/answer.hpp"
 #include "contact/open_membrane.hpp"
 
 namespace anticrack::contact {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/options.hpp"
+
 #include <fmt/core.h>
 
 #include <cmath>
 
-#include "contact/answer.hpp"
 #include "errors/errors.hpp"
 
 namespace anticrack::contact {

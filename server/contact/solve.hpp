@@ -3,13 +3,16 @@
 
 #include <span>
 
-#include "contact/answer.hpp"
+#include "contact/observer.hpp"
+#include "contact/options.hpp"
 #include "contact/trace_problem.hpp"
 #include "contact/trace_state.hpp"
+#include "contact/traces.hpp"
 
 namespace anticrack::contact {
 
 class ContactProblem;
+struct Answer;
 
 /// A force on an inclusion with its moments about the inclusion's middle.
 struct RigidForce {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/at.hpp"
+#include "contact/answer.hpp"
 #include "contact/case_state.hpp"
 #include "contact/contact_problem.hpp"
 #include "contact/solve.hpp"

@@ -11,10 +11,11 @@
 #include <span>
 #include <vector>
 
-#include "contact/answer.hpp"
 #include "contact/contact_problem.hpp"
+#include "contact/options.hpp"
 #include "contact/pair_forces.hpp"
 #include "contact/solve.hpp"
+#include "contact/sweep_columns.hpp"
 
 namespace anticrack::contact {
 

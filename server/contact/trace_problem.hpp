@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/lazy.hpp"
-#include "contact/answer.hpp"
 #include "contact/maps.hpp"
+#include "contact/options.hpp"
 #include "contact/pair_forces.hpp"
 #include "ddm/decomposition.hpp"
 #include "ddm/subdomain_operator.hpp"

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "contact/answer.hpp"
+#include "contact/residuals.hpp"
 #include "ddm/decomposition.hpp"
 #include "ddm/subdomain_operator.hpp"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/at.hpp"
-#include "contact/answer.hpp"
+#include "contact/options.hpp"
 #include "contact/trace_problem.hpp"
 #include "contact/trace_state.hpp"
 

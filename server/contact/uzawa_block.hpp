@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/at.hpp"
+#include "contact/answer.hpp"
 #include "contact/solve.hpp"
 #include "contact/uzawa.hpp"
 

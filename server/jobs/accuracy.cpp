@@ -8,6 +8,7 @@
 #include <limits>
 #include <variant>
 
+#include "contact/answer.hpp"
 #include "errors/errors.hpp"
 
 namespace anticrack::jobs {

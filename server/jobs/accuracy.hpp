@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "records/records.hpp"
+#include "records/job_record.hpp"
 
 namespace anticrack::jobs {
 

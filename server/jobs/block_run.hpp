@@ -12,7 +12,8 @@
 #include <vector>
 
 #include "jobs/case_outcome.hpp"
-#include "operators/mesh_operator.hpp"
+#include "operators/uzawa_block.hpp"
+#include "records/priority.hpp"
 
 namespace anticrack::jobs {
 

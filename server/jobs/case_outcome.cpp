@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "contact/answer.hpp"
 #include "errors/errors.hpp"
 #include "jobs/result_block.hpp"
 

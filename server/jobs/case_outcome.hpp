@@ -10,8 +10,13 @@
 #include <memory>
 #include <vector>
 
+#include "contact/observer.hpp"
 #include "jobs/live_job.hpp"
 #include "store/store.hpp"
+
+namespace anticrack::contact {
+struct Answer;
+}  // namespace anticrack::contact
 
 namespace anticrack::jobs {
 

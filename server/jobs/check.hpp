@@ -4,7 +4,8 @@
 #pragma once
 
 #include "jobs/job_engine.hpp"
-#include "records/records.hpp"
+#include "records/job_spec.hpp"
+#include "records/mesh_record.hpp"
 
 namespace anticrack::jobs {
 

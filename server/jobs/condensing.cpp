@@ -8,6 +8,7 @@
 #include <utility>
 #include <variant>
 
+#include "operators/mesh_operator.hpp"
 #include "stop/stop.hpp"
 
 namespace anticrack::jobs {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "records/job_record.hpp"
+
 namespace anticrack::jobs {
 
 std::shared_ptr<EventLog> end_alone(const records::JobRecord& record) {

@@ -11,9 +11,11 @@
 #include <type_traits>
 #include <utility>
 
+#include "contact/sweep_columns.hpp"
 #include "errors/errors.hpp"
 #include "fields/walk.hpp"
 #include "jobs/sample_queue.hpp"
+#include "records/job_record.hpp"
 
 namespace anticrack::jobs {
 

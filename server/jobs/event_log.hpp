@@ -12,10 +12,19 @@
 #include <variant>
 #include <vector>
 
-#include "contact/answer.hpp"
 #include "jobs/memory_budget.hpp"
 #include "jobs/sample_run.hpp"
-#include "records/records.hpp"
+#include "records/job_state.hpp"
+
+namespace anticrack::contact {
+struct SweepColumns;
+}  // namespace anticrack::contact
+
+namespace anticrack::records {
+struct CaseRecord;
+struct JobRecord;
+struct StageRecord;
+}  // namespace anticrack::records
 
 namespace anticrack::jobs {
 

@@ -5,6 +5,8 @@
 #include <exception>
 #include <utility>
 
+#include "contact/answer.hpp"
+#include "operators/mesh_operator.hpp"
 #include "stop/stop.hpp"
 
 namespace anticrack::jobs {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "fem/load.hpp"
 #include "store/store.hpp"
 
 namespace anticrack::jobs {

@@ -12,7 +12,12 @@
 
 #include "jobs/event_log.hpp"
 #include "meshes/mesh_catalogue.hpp"
+#include "records/job_spec.hpp"
 #include "store/store.hpp"
+
+namespace anticrack::records {
+struct JobRecord;
+}  // namespace anticrack::records
 
 namespace anticrack::jobs {
 

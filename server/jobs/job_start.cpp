@@ -11,6 +11,7 @@
 #include "jobs/sweep_check.hpp"
 #include "jobs/sweep_chunk.hpp"
 #include "jobs/sweep_plan.hpp"
+#include "operators/mesh_operator.hpp"
 #include "stop/stop.hpp"
 #include "store/files.hpp"
 

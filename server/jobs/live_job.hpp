@@ -13,14 +13,16 @@
 #include <string>
 #include <vector>
 
-#include "contact/answer.hpp"
 #include "jobs/event_log.hpp"
 #include "jobs/force_arrays.hpp"
 #include "jobs/live_sweep.hpp"
 #include "jobs/result_part.hpp"
 #include "jobs/schedule.hpp"
-#include "operators/mesh_operator.hpp"
-#include "records/records.hpp"
+#include "records/job_record.hpp"
+
+namespace anticrack::operators {
+class MeshOperator;
+}  // namespace anticrack::operators
 
 namespace anticrack::jobs {
 

@@ -10,7 +10,10 @@
 
 #include "jobs/result_part.hpp"
 #include "jobs/sweep_plan.hpp"
-#include "operators/mesh_operator.hpp"
+
+namespace anticrack::operators {
+class LoadBasis;
+}  // namespace anticrack::operators
 
 namespace anticrack::jobs {
 

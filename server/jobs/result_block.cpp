@@ -11,8 +11,10 @@
 #include <tuple>
 #include <utility>
 
+#include "contact/answer.hpp"
 #include "errors/errors.hpp"
 #include "jobs/trace_arrays.hpp"
+#include "operators/mesh_operator.hpp"
 
 namespace anticrack::jobs {
 

@@ -10,8 +10,12 @@
 #include <vector>
 
 #include "jobs/live_job.hpp"
-#include "operators/mesh_operator.hpp"
 #include "records/block.hpp"
+
+namespace anticrack::contact {
+struct Answer;
+struct Sample;
+}  // namespace anticrack::contact
 
 namespace anticrack::jobs {
 

@@ -9,7 +9,7 @@
 #include <memory>
 #include <span>
 
-#include "contact/answer.hpp"
+#include "contact/observer.hpp"
 
 namespace anticrack::jobs {
 

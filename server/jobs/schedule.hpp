@@ -15,7 +15,7 @@
 #include <unordered_map>
 
 #include "meshes/queue.hpp"
-#include "records/records.hpp"
+#include "records/priority.hpp"
 
 namespace anticrack::jobs {
 

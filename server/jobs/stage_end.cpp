@@ -10,6 +10,7 @@
 #include "jobs/accuracy.hpp"
 #include "jobs/case_outcome.hpp"
 #include "jobs/result_block.hpp"
+#include "records/mesh_record.hpp"
 #include "stop/stop.hpp"
 
 namespace anticrack::jobs {

@@ -11,9 +11,12 @@
 #include <utility>
 #include <variant>
 
+#include "contact/answer.hpp"
+#include "contact/sweep_columns.hpp"
 #include "jobs/case_outcome.hpp"
 #include "jobs/sweep_result.hpp"
 #include "jobs/trace_arrays.hpp"
+#include "operators/mesh_operator.hpp"
 #include "stop/stop.hpp"
 #include "store/array_upload.hpp"
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "errors/errors.hpp"
+#include "operators/mesh_operator.hpp"
 
 namespace anticrack::jobs {
 

@@ -10,7 +10,10 @@
 
 #include "jobs/job_engine.hpp"
 #include "jobs/sweep_check.hpp"
-#include "operators/mesh_operator.hpp"
+
+namespace anticrack::operators {
+class MeshOperator;
+}  // namespace anticrack::operators
 
 namespace anticrack::jobs {
 

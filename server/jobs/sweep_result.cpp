@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "jobs/trace_arrays.hpp"
+#include "operators/mesh_operator.hpp"
 
 namespace anticrack::jobs {
 

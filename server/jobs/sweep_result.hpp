@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "contact/sweep_columns.hpp"
 #include "jobs/live_job.hpp"
 #include "records/block.hpp"
 

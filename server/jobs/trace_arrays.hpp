@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "arrays/result_arrays.hpp"
-#include "contact/answer.hpp"
+#include "contact/traces.hpp"
 #include "records/block.hpp"
 
 namespace anticrack::jobs {

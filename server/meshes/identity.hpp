@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "records/records.hpp"
+#include "records/mesh_record.hpp"
 
 namespace anticrack::meshes {
 

@@ -14,8 +14,12 @@
 
 #include "errors/errors.hpp"
 #include "meshes/mesh_waits.hpp"
-#include "operators/mesh_operator.hpp"
-#include "records/records.hpp"
+#include "records/mesh_record.hpp"
+#include "records/priority.hpp"
+
+namespace anticrack::operators {
+class MeshOperator;
+}  // namespace anticrack::operators
 
 namespace anticrack::meshes {
 

@@ -13,7 +13,7 @@
 #include <string>
 #include <unordered_map>
 
-#include "records/records.hpp"
+#include "records/priority.hpp"
 
 namespace anticrack::meshes {
 

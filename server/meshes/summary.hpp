@@ -5,7 +5,7 @@
 
 #include "mesh/mesh.hpp"
 #include "records/block.hpp"
-#include "records/records.hpp"
+#include "records/mesh_record.hpp"
 
 namespace anticrack::meshes {
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "records/records.hpp"
+#include "records/mesh_record.hpp"
 
 namespace anticrack::meshes {
 

@@ -19,6 +19,8 @@
 #include "metrics/http_page.hpp"
 #include "metrics/phases.hpp"
 #include "metrics/pulled.hpp"
+#include "records/job_record.hpp"
+#include "records/mesh_record.hpp"
 
 namespace anticrack::metrics {
 namespace {

@@ -13,8 +13,12 @@
 
 #include "jobs/job_engine.hpp"
 #include "operators/operator_cache.hpp"
-#include "records/records.hpp"
 #include "store/store.hpp"
+
+namespace anticrack::records {
+struct JobRecord;
+struct MeshRecord;
+}  // namespace anticrack::records
 
 namespace anticrack::metrics {
 

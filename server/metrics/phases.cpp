@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "records/job_record.hpp"
+
 namespace anticrack::metrics {
 
 using records::JobState;

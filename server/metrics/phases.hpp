@@ -7,7 +7,13 @@
 #include <chrono>
 #include <string_view>
 
-#include "records/records.hpp"
+#include "records/job_state.hpp"
+#include "records/priority.hpp"
+
+namespace anticrack::records {
+struct JobRecord;
+struct Step;
+}  // namespace anticrack::records
 
 namespace anticrack::metrics {
 

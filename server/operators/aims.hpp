@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "contact/answer.hpp"
 #include "contact/contact_problem.hpp"
 #include "estimate/lack.hpp"
 #include "operators/mesh_parts.hpp"

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/at.hpp"
+#include "contact/answer.hpp"
 #include "estimate/bracket.hpp"
 #include "operators/displacement_bounds.hpp"
 #include "operators/load_bounds.hpp"

@@ -7,6 +7,7 @@
 #include "base/at_once.hpp"
 #include "contact/condensed_problem.hpp"
 #include "contact/joined_problem.hpp"
+#include "contact/traces.hpp"
 #include "ddm/blas.hpp"
 #include "operators/mesh_parts.hpp"
 #include "stop/stop.hpp"

@@ -2,6 +2,7 @@
 #include <span>
 #include <utility>
 
+#include "contact/answer.hpp"
 #include "errors/errors.hpp"
 #include "operators/mesh_parts.hpp"
 #include "stop/stop.hpp"

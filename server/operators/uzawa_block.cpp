@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/uzawa_block.hpp"
+#include "operators/uzawa_block.hpp"
 
 #include <optional>
 #include <utility>
 
 #include "base/at.hpp"
+#include "contact/uzawa_block.hpp"
 #include "errors/errors.hpp"
 #include "operators/mesh_parts.hpp"
 

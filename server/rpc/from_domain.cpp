@@ -7,7 +7,10 @@
 
 #include "api/names.hpp"
 #include "api/translations.hpp"
+#include "contact/sweep_columns.hpp"
 #include "jobs/sample_run.hpp"
+#include "records/job_record.hpp"
+#include "records/mesh_record.hpp"
 #include "rpc/error_table.hpp"
 #include "words/shown.hpp"
 

@@ -4,7 +4,7 @@
 #include <grpcpp/grpcpp.h>
 
 #include "anticrack/v1/mesh.grpc.pb.h"
-#include "records/records.hpp"
+#include "records/mesh_record.hpp"
 #include "rpc/edge.hpp"
 
 namespace anticrack::rpc {

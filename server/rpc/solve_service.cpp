@@ -8,6 +8,7 @@
 #include "api/requests.hpp"
 #include "jobs/check.hpp"
 #include "jobs/job_engine.hpp"
+#include "records/job_record.hpp"
 #include "rpc/block_feed.hpp"
 #include "rpc/from_domain.hpp"
 #include "rpc/pages.hpp"

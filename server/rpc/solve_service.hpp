@@ -4,7 +4,6 @@
 #include <grpcpp/grpcpp.h>
 
 #include "anticrack/v1/solve.grpc.pb.h"
-#include "records/records.hpp"
 #include "rpc/edge.hpp"
 
 namespace anticrack::rpc {

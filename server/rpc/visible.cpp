@@ -5,6 +5,8 @@
 #include "errors/errors.hpp"
 #include "jobs/job_engine.hpp"
 #include "meshes/mesh_catalogue.hpp"
+#include "records/job_record.hpp"
+#include "records/mesh_record.hpp"
 
 namespace anticrack::rpc {
 namespace {

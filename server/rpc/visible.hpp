@@ -8,8 +8,12 @@
 #include <string>
 
 #include "access/identity.hpp"
-#include "records/records.hpp"
 #include "rpc/backend.hpp"
+
+namespace anticrack::records {
+struct JobRecord;
+struct MeshRecord;
+}  // namespace anticrack::records
 
 namespace anticrack::rpc {
 

@@ -6,8 +6,10 @@
 #include <variant>
 
 #include "api/translations.hpp"
+#include "contact/sweep_columns.hpp"
 #include "errors/errors.hpp"
 #include "jobs/job_engine.hpp"
+#include "records/job_record.hpp"
 #include "rpc/from_domain.hpp"
 
 namespace anticrack::rpc {

@@ -4,6 +4,8 @@
 #include <map>
 #include <optional>
 
+#include "records/job_record.hpp"
+#include "records/mesh_record.hpp"
 #include "store/files.hpp"
 #include "store/identity.hpp"
 #include "store/result_file.hpp"

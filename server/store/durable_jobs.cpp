@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "digest/digest.hpp"
+#include "records/job_record.hpp"
 #include "stop/stop.hpp"
 #include "store/durable_store.hpp"
 #include "store/record_codec.hpp"

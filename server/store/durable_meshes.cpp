@@ -3,6 +3,7 @@
 #include <variant>
 
 #include "mesh/codec.hpp"
+#include "records/mesh_record.hpp"
 #include "store/durable_store.hpp"
 #include "store/record_codec.hpp"
 

@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "api/translations.hpp"
+#include "records/job_record.hpp"
+#include "records/mesh_record.hpp"
 #include "store/records.pb.h"
 
 namespace anticrack::store {

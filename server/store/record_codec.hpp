@@ -9,7 +9,12 @@
 #include <string>
 #include <string_view>
 
-#include "records/records.hpp"
+#include "records/clock.hpp"
+
+namespace anticrack::records {
+struct JobRecord;
+struct MeshRecord;
+}  // namespace anticrack::records
 
 namespace anticrack::store {
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "records/job_record.hpp"
+#include "records/mesh_record.hpp"
 #include "store/record_codec.hpp"
 
 namespace anticrack::store {

@@ -7,9 +7,13 @@
 #include <optional>
 #include <string>
 
-#include "records/records.hpp"
 #include "store/disk_usage.hpp"
 #include "store/sqlite.hpp"
+
+namespace anticrack::records {
+struct JobRecord;
+struct MeshRecord;
+}  // namespace anticrack::records
 
 namespace anticrack::store {
 

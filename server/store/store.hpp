@@ -27,8 +27,13 @@
 
 #include "mesh/mesh.hpp"
 #include "records/block.hpp"
-#include "records/records.hpp"
+#include "records/clock.hpp"
 #include "store/spool.hpp"
+
+namespace anticrack::records {
+struct JobRecord;
+struct MeshRecord;
+}  // namespace anticrack::records
 
 namespace anticrack::store {
 

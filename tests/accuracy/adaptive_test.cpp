@@ -12,6 +12,8 @@
 #include "accuracy/base_meshes.hpp"
 #include "accuracy/paper_limits.hpp"
 #include "accuracy/sequence.hpp"
+#include "contact/answer.hpp"
+#include "contact/options.hpp"
 #include "estimate/marking.hpp"
 #include "mesh/refine.hpp"
 #include "support/silent_observer.hpp"

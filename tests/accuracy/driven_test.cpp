@@ -11,6 +11,7 @@
 
 #include "accuracy/base_meshes.hpp"
 #include "accuracy/sequence.hpp"
+#include "contact/sweep_columns.hpp"
 #include "errors/errors.hpp"
 #include "mesh/refine.hpp"
 

@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 
+#include "contact/answer.hpp"
 #include "mesh/mesh.hpp"
 #include "operators/mesh_operator.hpp"
 

@@ -13,6 +13,9 @@
 #include <vector>
 
 #include "benchmarks/our_mesh.hpp"
+#include "contact/answer.hpp"
+#include "contact/options.hpp"
+#include "contact/sweep_columns.hpp"
 #include "contact/trace_problem.hpp"
 #include "contact/uzawa.hpp"
 #include "ddm/decomposition.hpp"

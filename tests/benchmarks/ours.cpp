@@ -13,6 +13,7 @@
 
 #include "benchmarks/figures.hpp"
 #include "benchmarks/our_mesh.hpp"
+#include "contact/sweep_columns.hpp"
 #include "ddm/decomposition.hpp"
 #include "operators/freed_memory.hpp"
 #include "operators/mesh_operator.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "contact/answer.hpp"
+#include "contact/options.hpp"
 #include "errors/errors.hpp"
 
 namespace anticrack::contact {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/at.hpp"
+#include "contact/answer.hpp"
 #include "estimate/cut_mesh.hpp"
 #include "estimate/equilibrated_flux.hpp"
 #include "fem/triangle_rules.hpp"

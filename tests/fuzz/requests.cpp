@@ -22,6 +22,8 @@
 #include "fuzz/input.hpp"
 #include "fuzz/quiet_protobuf.hpp"
 #include "mesh/codec.hpp"
+#include "records/job_record.hpp"
+#include "records/mesh_record.hpp"
 #include "rpc/pages.hpp"
 #include "store/record_codec.hpp"
 

@@ -24,6 +24,8 @@
 #include "mesher/grading.hpp"
 #include "mesher/import.hpp"
 #include "mesher/msh_writer.hpp"
+#include "records/job_record.hpp"
+#include "records/mesh_record.hpp"
 #include "store/record_codec.hpp"
 #include "support/block_maker.hpp"
 #include "support/case_file.hpp"

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "jobs/job_engine.hpp"
+#include "records/job_record.hpp"
 #include "store/canonical.hpp"
 #include "support/backend.hpp"
 #include "support/eventually.hpp"

@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 
+#include "contact/sweep_columns.hpp"
 #include "jobs/sweep_support.hpp"
 
 namespace anticrack::jobs {

@@ -9,6 +9,7 @@
 #include <span>
 #include <thread>
 
+#include "contact/sweep_columns.hpp"
 #include "jobs/event_log_support.hpp"
 #include "support/errors.hpp"
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "jobs/event_log.hpp"
+#include "records/job_record.hpp"
 
 namespace anticrack::jobs {
 

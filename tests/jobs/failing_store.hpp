@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "records/job_record.hpp"
+#include "records/mesh_record.hpp"
 #include "store/store.hpp"
 
 namespace anticrack::testing {

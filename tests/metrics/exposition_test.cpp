@@ -16,6 +16,8 @@
 #include <vector>
 
 #include "metrics/metrics.hpp"
+#include "records/job_record.hpp"
+#include "records/mesh_record.hpp"
 #include "support/errors.hpp"
 #include "support/process.hpp"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "metrics/phases.hpp"
+#include "records/job_record.hpp"
 
 #include <gtest/gtest.h>
 

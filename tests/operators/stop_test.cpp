@@ -12,6 +12,8 @@
 #include <set>
 #include <variant>
 
+#include "contact/answer.hpp"
+#include "contact/options.hpp"
 #include "errors/errors.hpp"
 #include "estimate/marking.hpp"
 #include "mesh/codec.hpp"

@@ -7,6 +7,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "contact/sweep_columns.hpp"
 #include "operators/mesh_operator.hpp"
 #include "support/silent_observer.hpp"
 #include "support/solve.hpp"

@@ -11,8 +11,10 @@
 #include <utility>
 #include <vector>
 
+#include "contact/observer.hpp"
 #include "operators/answer_difference.hpp"
 #include "operators/mesh_operator.hpp"
+#include "operators/uzawa_block.hpp"
 #include "reference/random_membrane.hpp"
 #include "support/errors.hpp"
 #include "support/solve.hpp"

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <cstdio>
 
+#include "contact/observer.hpp"
 #include "operators/mesh_operator.hpp"
+#include "operators/uzawa_block.hpp"
 #include "support/paper_mesh.hpp"
 #include "support/solve.hpp"
 

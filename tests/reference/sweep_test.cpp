@@ -13,6 +13,7 @@
 #include <tuple>
 #include <vector>
 
+#include "contact/sweep_columns.hpp"
 #include "errors/errors.hpp"
 #include "operators/mesh_operator.hpp"
 #include "reference/random_membrane.hpp"

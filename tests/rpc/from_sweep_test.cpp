@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/sweep_columns.hpp"
+#include "records/job_record.hpp"
 #include "rpc/from_domain.hpp"
 
 #include <gmock/gmock.h>

@@ -19,7 +19,8 @@
 #include <vector>
 
 #include "fields/fields.hpp"
-#include "records/records.hpp"
+#include "records/job_record.hpp"
+#include "records/mesh_record.hpp"
 
 namespace anticrack::testing {
 

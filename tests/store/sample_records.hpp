@@ -7,6 +7,8 @@
 
 #include "digest/digest.hpp"
 #include "mesh/codec.hpp"
+#include "records/job_record.hpp"
+#include "records/mesh_record.hpp"
 #include "store/store.hpp"
 #include "support/grid_mesh.hpp"
 

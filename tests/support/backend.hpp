@@ -22,6 +22,7 @@
 #include "meshes/mesh_catalogue.hpp"
 #include "operators/mesh_operator.hpp"
 #include "operators/operator_cache.hpp"
+#include "records/mesh_record.hpp"
 #include "store/store.hpp"
 #include "support/paper_geometry.hpp"
 #include "support/temporary_folder.hpp"

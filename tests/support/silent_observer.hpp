@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "contact/answer.hpp"
+#include "contact/observer.hpp"
 
 namespace anticrack::testing {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <variant>
 
-#include "operators/mesh_operator.hpp"
+#include "operators/uzawa_block.hpp"
 
 namespace anticrack::testing {
 

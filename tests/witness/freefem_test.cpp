@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "contact/observer.hpp"
 #include "mesh/refine.hpp"
 #include "operators/mesh_operator.hpp"
 #include "support/solve.hpp"

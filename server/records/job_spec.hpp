@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What is asked for with a job.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "contact/options.hpp"
+#include "fem/load.hpp"
+#include "fields/fields.hpp"
+#include "records/priority.hpp"
+
+namespace anticrack::records {
+
+/// Many load cases, answered in columns: the rows of a matrix, row-major f64, that is an upload.
+struct SweepSpec {
+  enum class Cases {
+    combinations,  ///< (rows, loads): row k is the load sum_j c_kj loads[j]
+    nodal_forces,  ///< (rows, nodes of the mesh): row k is f on the nodes, linear between
+  };
+  Cases cases = Cases::combinations;
+  std::string upload;                   ///< sha256 of the matrix's bytes
+  std::uint64_t rows = 0;               ///< for nodal forces set when the job starts
+  std::vector<std::uint32_t> traces{};  ///< rows whose traces are kept, ascending
+  bool packed = false;                  ///< the matrix came with the job
+  bool bounds = false;                  ///< rows have bounds of their errors
+};
+ANTICRACK_FIELDS(SweepSpec, cases, upload, rows, traces, packed, bounds)
+
+/// Load cases solved stage after stage, on meshes refined until their bounds are close enough.
+struct AccuracySpec {
+  std::optional<double> energy{};        ///< (energy_upper - energy_lower) / |energy|
+  std::optional<double> displacement{};  ///< contact::error_of each inclusion's A
+  std::uint64_t max_triangles = 0;       ///< 0: the server's limit
+  std::chrono::milliseconds time{0};     ///< no stage begins after this time; 0: no limit
+  bool keep_stages = false;              ///< keep the meshes of all stages
+  bool largest = false;  ///< displacement: over the largest |A|, not each over its own
+};
+ANTICRACK_FIELDS(AccuracySpec, energy, displacement, max_triangles, time, keep_stages, largest)
+
+/// Names of units, for readers; empty: none.
+struct Units {
+  std::string length;
+  std::string force;
+};
+ANTICRACK_FIELDS(Units, length, force)
+
+/// The request of a client for a job.
+struct JobSpec {
+  std::string title;
+  std::string mesh;  ///< id of the mesh
+  std::vector<fem::Load> loads;
+  contact::SolverOptions solver;
+  bool fields = false;
+  bool indicators = false;                 ///< keep indicators of the error per triangle
+  bool without_bounds = false;             ///< answers have no bounds of their errors
+  std::optional<SweepSpec> sweep{};        ///< loads are its basis
+  std::optional<AccuracySpec> accuracy{};  ///< solved in stages
+  std::optional<Units> units{};            ///< of all numbers
+  Priority priority = Priority::normal;
+  std::chrono::milliseconds queue_time_limit{0};  ///< from creation to start; 0: the server's limit
+  std::chrono::milliseconds run_time_limit{0};    ///< from start to end; 0: the server's limit
+};
+ANTICRACK_FIELDS(JobSpec, title, mesh, loads, solver, fields, indicators, without_bounds, sweep,
+                 accuracy, units, priority, queue_time_limit, run_time_limit)
+
+}  // namespace anticrack::records
