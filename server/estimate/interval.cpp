@@ -186,18 +186,23 @@ struct FluxBounds {
   operator FaceBounds() const { return {least, most}; }
 };
 
+/// What q has on the other side of 0 costs int q [v] in the middle. It needs no bound, but gets
+/// one but for closed nodes, whose reaction it has to carry.
 FluxBounds flux_bounds(const CutMesh& cut, const EquilibratedFlux& sigma, const Dual& dual) {
-  constexpr double none = std::numeric_limits<double>::infinity();
-  FluxBounds bounds{std::vector<double>(2 * cut.faces.size(), -none),
-                    std::vector<double>(2 * cut.faces.size(), none)};
+  constexpr double unlimited = std::numeric_limits<double>::infinity();
+  FluxBounds bounds{std::vector<double>(2 * cut.faces.size()),
+                    std::vector<double>(2 * cut.faces.size())};
   WeightOf weights(sigma, dual.weight);
   for (std::size_t f = 0; f < cut.faces.size(); ++f) {
+    if (!presses(cut.faces[f].condition)) continue;
     const Weight::OnFace on = weights.on(f);
+    const auto ends = cut.ends(cut.faces[f]), others = cut.ends(cut.faces[at(cut.faces[f].other)]);
     for (const std::size_t end : {0, 1}) {
-      if (dual.side == Side::upper)
-        bounds.most[2 * f + end] = dual.c * on.bound[end];
-      else
-        bounds.least[2 * f + end] = -dual.c * on.bound[end];
+      const bool tip = ends[end] == others[1 - end], closed = !tip && !(sigma.jump(f, end) > 0);
+      const double bound = dual.c * on.bound[end], other = closed ? unlimited : bound;
+      const bool upper = dual.side == Side::upper;
+      bounds.most[2 * f + end] = upper ? bound : other;
+      bounds.least[2 * f + end] = -(upper ? other : bound);
     }
   }
   return bounds;

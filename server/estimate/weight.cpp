@@ -34,6 +34,9 @@ std::array<Vector, 2> places(const CutMesh& cut, std::size_t face) {
   return {cut.at[at(ends[0])], cut.at[at(ends[1])]};
 }
 
+/// The outward normal of a face with these ends, which go counterclockwise, as long as the face.
+Vector normal_of(const Vector& a, const Vector& b) { return {b[1] - a[1], a[0] - b[0]}; }
+
 /// p on a minus face, of which the flux through its ends has the parts p_0 and p_1, times the
 /// length of the face.
 struct Pressure {
@@ -62,6 +65,7 @@ std::vector<Stretch> line_from(const CutMesh& cut, const ContactEnd& end, double
     const auto [a, b] = places(cut, f);
     const Vector p = between(end.place, a), q = between(end.place, b);
     const double size = std::max(size_of(p), size_of(q));
+    if (!(dot(normal_of(a, b), end.normal) > 0)) continue;  // its minus side is the other one
     if (std::max(std::abs(dot(p, end.normal)), std::abs(dot(q, end.normal))) > rounding * size)
       continue;
     const double s = direction * dot(p, end.along), t = direction * dot(q, end.along);
@@ -130,7 +134,7 @@ class Ends {
       ends.push_back(end_at(node.second, static_cast<std::size_t>(faces[0]),
                             static_cast<std::size_t>(faces[1])));
     }
-    for (ContactEnd& end : ends) find_reach(end, ends.size() > 1 ? 0.475 : 0.95);
+    for (ContactEnd& end : ends) find_reach(end, ends);
     std::erase_if(ends, [](const ContactEnd& end) { return !(end.reach > 0); });
     return ends;
   }
@@ -150,7 +154,7 @@ class Ends {
     end.open = _cut.at[at(ends[0])] == place ? ends[1] : ends[0];
     const auto [a, b] = places(_cut, closed);
     const Vector edge = a == place ? between(a, b) : between(b, a);
-    const Vector normal = {b[1] - a[1], a[0] - b[0]};  // ends go counterclockwise
+    const Vector normal = normal_of(a, b);
     const double size = size_of(edge);
     end.along = {edge[0] / size, edge[1] / size};
     end.normal = {normal[0] / size, normal[1] / size};
@@ -159,11 +163,15 @@ class Ends {
     return end;
   }
 
-  /// The largest R: a part of the distance from everything that the half disc may not meet.
-  void find_reach(ContactEnd& end, double part) const {
+  /// The largest R: below the distance from everything that the half disc may not meet, and half
+  /// that from other ends, whose discs are others.
+  void find_reach(ContactEnd& end, const std::vector<ContactEnd>& ends) const {
+    constexpr double part = 0.95;
     const std::vector<Stretch> closed = line_from(_cut, end, 1), open = line_from(_cut, end, -1);
     if (closed.empty() || open.empty()) return;
     double most = std::min(closed.back().to, open.back().to);
+    for (const ContactEnd& other : ends)
+      if (&other != &end) most = std::min(most, 0.5 * size_of(between(end.place, other.place)));
     for (std::size_t f = 0; f < _cut.faces.size(); ++f) {
       stop::look_at_turn(f, weighing);
       const auto [a, b] = places(_cut, f);

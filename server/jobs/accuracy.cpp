@@ -256,6 +256,18 @@ double excess(const records::StageAnswer& answer, const records::AccuracySpec& w
   return result;
 }
 
+double rate_of(const std::vector<records::StageRecord>& stages,
+               const records::AccuracySpec& wanted) {
+  constexpr double clearly_less = 0.8, least = 0.5;
+  if (stages.size() < 2) return 1;
+  const records::StageRecord &now = stages.back(), &before = stages[stages.size() - 2];
+  const double fell = std::log(worst_of(before, wanted).excess / worst_of(now, wanted).excess),
+               grew = std::log(static_cast<double>(now.triangles) /
+                               static_cast<double>(before.triangles));
+  if (!(grew > 0) || !std::isfinite(fell) || !(fell < clearly_less * grew)) return 1;
+  return std::max(least, fell / grew);
+}
+
 std::string not_reached(const records::StageRecord& last,
                         std::span<const records::CaseRecord* const> cases,
                         const records::JobSpec& spec, const std::string& why) {

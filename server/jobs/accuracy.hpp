@@ -29,6 +29,11 @@ records::StageAnswer stage_answer(const records::CaseRecord& ended_case, bool la
 /// without bounds. A relative error above 1e6 is that of a value that is 0, and counts as 1e6.
 double excess(const records::StageAnswer& answer, const records::AccuracySpec& wanted);
 
+/// The rate at which the largest excess fell in the last stage: as triangles^-rate. 1, that of
+/// energies and of A without contact, unless it was clearly less; at least 1/2.
+double rate_of(const std::vector<records::StageRecord>& stages,
+               const records::AccuracySpec& wanted);
+
 /// The decision after a stage: whether it was the last, and why an accuracy was not reached.
 struct Verdict {
   bool over = false;

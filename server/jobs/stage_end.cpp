@@ -2,6 +2,7 @@
 #include "jobs/stage_end.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <numeric>
 #include <utility>
@@ -36,12 +37,13 @@ std::uint64_t most_triangles(const EngineCore& core, const LiveJob& job) {
   return asked > 0 ? std::min(asked, server) : server;
 }
 
-/// Makes the mesh of the next stage, as fine as the accuracy asks for and the limit allows. Throws
-/// errors::Error.
+/// Makes the mesh of the next stage, as fine as the accuracy asks for and the limit allows; errors
+/// fall as triangles^-rate. Throws errors::Error.
 records::MeshRecord next_mesh(EngineCore& core, const LiveJob& job,
-                              const std::vector<double>& indicator, std::uint64_t most) {
+                              const std::vector<double>& indicator, double rate,
+                              std::uint64_t most) {
   const double sum = std::accumulate(indicator.begin(), indicator.end(), 0.0);
-  for (double reduction = std::min(sum / aim, most_reduction);;
+  for (double reduction = std::min(std::pow(sum / aim, 1 / rate), most_reduction);;
        reduction = 1 + (reduction - 1) / 2) {
     const std::vector<std::uint8_t> levels =
         estimate::levels(indicator, std::max(reduction, least_reduction));
@@ -97,6 +99,7 @@ void end_stage(EngineCore& core, const JobPtr& job) {
   for (const records::CaseRecord* one : cases) ended.answers.push_back(stage_answer(*one, largest));
   const auto event = std::make_shared<const records::StageRecord>(ended);
   const std::uint64_t most = most_triangles(core, *job);
+  const double rate = rate_of(records, *job->spec->accuracy);
   Verdict verdict = judge(records, cases, *job->spec, most, ended.seconds);
   LiveStages::Complete complete;
   std::shared_ptr<void> use;
@@ -107,7 +110,7 @@ void end_stage(EngineCore& core, const JobPtr& job) {
   if (!verdict.over) {
     const stop::Scope scope(job->stop.get_token());
     try {
-      const records::MeshRecord mesh = next_mesh(core, *job, indicator, most);
+      const records::MeshRecord mesh = next_mesh(core, *job, indicator, rate, most);
       finer = mesh.id;
       use = core.catalogue.use(mesh.id);
       complete = {job->cases, result_block(*job), job->answer_bytes + job->spool->memory()};

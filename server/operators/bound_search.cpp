@@ -103,17 +103,12 @@ void Search::take(const estimate::Bound& one) {
     _done = _tries >= most_tries + most_weights || !(gained > worth * off(one));
     _inner /= 4;
   } else {
-    const bool limited = !std::isfinite(one.value) || one.c > 0.9 * _c;
-    if (limited && _tries < most_tries) {
-      if (!std::isfinite(one.value)) {
-        _c *= 8;
-        return;
-      }
-      if (better && one.short_of > 1) {
-        _c *= std::clamp(one.short_of, 1.5, 8.0);
-        return;
-      }
+    const bool found = std::isfinite(one.value);
+    if (_tries < most_tries && (!found || (better && one.short_of > 1))) {
+      _c *= found ? std::clamp(one.short_of, 1.5, 8.0) : 8;
+      return;
     }
+    const bool limited = !found || one.c > 0.9 * _c;
     _done = !limited || !std::isfinite(_best.value);
     _tries = most_tries;
     _inner = 0.1;

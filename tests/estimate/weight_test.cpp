@@ -36,12 +36,14 @@ struct Case {
     };
     mesh = testing::structured_mesh({32, 16, {}, {}, {"bar"}});
     // One side of the bar is pressed and the other one pulled.
-    const double edge = std::floor(uniform(-5, 5)) / 16, below = uniform(0.5, 2),
-                 beside = -uniform(0.5, 2), above = uniform(-1, 1);
+    const double first = std::floor(uniform(-7, 5)) / 16,
+                 second = seed % 2 == 0 ? 1 : first + std::floor(uniform(4, 7)) / 16,
+                 sign = seed % 4 < 2 ? 1 : -1, below = sign * uniform(0.5, 2),
+                 beside = -sign * uniform(0.5, 2), above = uniform(-1, 1);
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
       double x = 0;
       for (std::size_t i = 0; i < 3; ++i) x += mesh.xy[2 * at(mesh.triangles[3 * t + i])] / 3;
-      force.push_back(mesh.subdomain[t] == 1 ? above : x < edge ? below : beside);
+      force.push_back(mesh.subdomain[t] == 1 ? above : x < first || x > second ? below : beside);
     }
     load.name = "random";
     load.inclusion_forces["bar"] = uniform(-0.3, 0.3);
@@ -62,7 +64,7 @@ struct Case {
 };
 
 struct Found {
-  int bounds = 0, extreme = 0;
+  int bounds = 0, extreme = 0, several = 0;
   double nearest = 1, most = 0;
 };
 
@@ -170,6 +172,12 @@ void check(unsigned seed, Found& tally) {
   const EquilibratedFlux sigma(coarse.cut, coarse.balance());
   const std::vector<ContactEnd> ends = contact_ends(coarse.cut, sigma, {});
   if (ends.empty()) return;
+  tally.several += ends.size() > 1 ? 1 : 0;
+  for (const ContactEnd& a : ends)  // their discs are disjoint
+    for (const ContactEnd& b : ends)
+      if (&a != &b) {
+        EXPECT_GE(std::hypot(a.place[0] - b.place[0], a.place[1] - b.place[1]), a.reach + b.reach);
+      }
   const double fine = one.displacement(2), finer = one.displacement(3);
   const double truth = finer + (finer - fine), doubt = 2 * std::abs(finer - fine);
 
@@ -229,12 +237,14 @@ TEST(Weight, BoundsHoldOnFinerMeshes) {
   Found tally;
   for (unsigned k = 0; k < 40; ++k) check(first + k, tally);
   std::printf(
-      "[ figures  ] seeds from %u: %d bounds, %d at the limits of the cone, nearest %.3f; terms "
+      "[ figures  ] seeds from %u: %d bounds (%d membranes with several ends), %d at the limits of "
+      "the cone, nearest %.3f; terms "
       "at most %.2f times their samples\n",
-      first, tally.bounds, tally.extreme, tally.nearest, tally.most);
+      first, tally.bounds, tally.several, tally.extreme, tally.nearest, tally.most);
   EXPECT_GT(tally.most, 1);
   EXPECT_GT(tally.bounds, 50);
   EXPECT_GT(tally.extreme, 50);
+  EXPECT_GT(tally.several, 0);
 }
 
 }  // namespace

@@ -130,6 +130,29 @@ TEST(Accuracy, GoesOnUntilItIsReached) {
   EXPECT_EQ(reached.not_reached, "");
 }
 
+TEST(Accuracy, TheNextStageKnowsHowFastTheLastOneConverged) {
+  records::AccuracySpec wanted;
+  wanted.displacement = 0.01;
+  const auto stages = [](double before, double now, std::uint64_t triangles) {
+    std::vector<StageRecord> both(2);
+    both[0].triangles = 1000;
+    both[1].triangles = triangles;
+    for (StageRecord& stage : both) stage.answers.resize(1);
+    both[0].answers[0].displacement_error = before;
+    both[1].answers[0].displacement_error = now;
+    return both;
+  };
+  EXPECT_NEAR(rate_of(stages(0.4, 0.1, 8000), wanted), 2.0 / 3, 1e-12);
+  EXPECT_EQ(rate_of(stages(0.4, 0.1, 4000), wanted), 1);
+  EXPECT_EQ(rate_of(stages(0.4, 0.11, 4000), wanted), 1);  // as good as
+  EXPECT_EQ(rate_of(stages(0.4, 0.39, 4000), wanted), 0.5);
+  EXPECT_EQ(rate_of(stages(0.1, 0.4, 4000), wanted), 0.5);
+  EXPECT_EQ(rate_of({stages(0.4, 0.1, 8000).front()}, wanted), 1);
+  std::vector<StageRecord> unbounded = stages(0.4, 0.1, 8000);
+  unbounded[0].answers[0].displacement_error.reset();
+  EXPECT_EQ(rate_of(unbounded, wanted), 1);
+}
+
 TEST(Accuracy, SaysWhatWasReachedAndWhatStoppedIt) {
   JobSpec spec = energy_to(0.1);
   const CaseRecord far = answer_between(-3, -2);
