@@ -65,9 +65,11 @@ std::vector<BalancedLoad> balanced(std::span<const fem::Load* const> loads,
   for (std::size_t j = 0; j < loads.size(); ++j) {
     LoadParts parts = std::exchange(condensed[j].parts, {});
     // In a sum with a g_D that is not linear along edges, the linear ones need samples as well.
+    const bool linear = parts.boundary_value.empty();
     if (lifted) parts.boundary_value = loads[j]->boundary_value;
     try {
       result.push_back(balanced(parts, subdomains, cut));
+      result.back().linear_along_edges = linear;
     } catch (errors::Error& error) {
       error.below(fmt::format("load_cases[{}]", j));
       throw;
@@ -88,8 +90,10 @@ BalancedLoad combine(std::span<const BalancedLoad> loads, std::span<const double
     add(sum.balance.moments, loads[j].balance.moments, std::abs(c));
     add(sum.boundary.values, loads[j].boundary.values, c);
     add(sum.boundary.unknown, loads[j].boundary.unknown, std::abs(c));
+    sum.linear_along_edges = sum.linear_along_edges && loads[j].linear_along_edges;
     if (sum.obstacle.empty()) sum.obstacle = loads[j].obstacle;
   }
+  if (sum.linear_along_edges) sum.boundary = {};  // rounding alone
   return sum;
 }
 

@@ -17,7 +17,8 @@ namespace anticrack::operators {
 /// All members are linear in the load, except the oscillation, whose bounds add up.
 struct BalancedLoad {
   estimate::LoadBalance balance;
-  estimate::BoundarySamples boundary;  ///< of g_D; empty if it is linear along edges
+  estimate::BoundarySamples boundary;  ///< of g_D; may be empty if it is linear along edges
+  bool linear_along_edges = true;      ///< whether g_D is
   std::string obstacle;                ///< why there are no bounds, with the cure
 
   /// Memory of the arrays in bytes.

@@ -99,6 +99,22 @@ TEST(SweepBounds, AreThoseOfTheSameLoads) {
   }
 }
 
+/// Where T varies, a g_D that bends allows wide bounds of A only; one with a coefficient of 0 is no
+/// such.
+TEST(SweepBounds, AreNotWidenedByALoadThatIsLeftOut) {
+  mesh::Mesh mesh = anticrack::testing::structured_mesh({32, 8, {}, {}, {"bar"}});
+  mesh.tension_laws.assign(2, {"1 + 0.5*x^2", "", 0});
+  const Operator op =
+      MeshOperator::factorise(std::make_shared<const mesh::Mesh>(std::move(mesh)), 1, {});
+  const std::vector<fem::Load> loads = lifted_loads();
+  const auto basis = bounded_basis(*op, loads);
+  for (const std::size_t own : {0, 2}) {
+    std::vector<double> c(3, 0);
+    c[own] = 1;
+    expect_same(of_row(*op, *basis, c), of_load(*op, loads[own]));
+  }
+}
+
 TEST(SweepBounds, OfLoadsThatAreNotLinearAreTheirOwnOrWider) {
   mesh::Mesh mesh = anticrack::testing::structured_mesh({32, 8, {}, {}, {"bar"}});
   std::erase_if(mesh.dirichlet, [&](const auto& edge) {
