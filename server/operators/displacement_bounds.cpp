@@ -155,6 +155,7 @@ void bound_by_adjoints(const MeshOperator::Parts& parts, const std::vector<Aim>&
   const estimate::CutMesh& cut = answers.front().primal.cut;
   const std::vector<contact::UnitForce> forces = unit_forces(parts, goals);
   std::vector<Eigen::VectorXd> r;
+  r.reserve(forces.size());
   for (const contact::UnitForce& force : forces) r.push_back(force.r);
   std::deque<Adjoints> adjoints;
   std::deque<Target> targets;
@@ -163,7 +164,7 @@ void bound_by_adjoints(const MeshOperator::Parts& parts, const std::vector<Aim>&
   for (const Bounded& of : answers) {
     if (of.stop.stop_requested()) continue;
     stop::look(bounding_a);
-    Adjoints& own = adjoints.emplace_back(of, contact::Adjoint(parts.problem, of.answer));
+    Adjoints& own = adjoints.emplace_back(Adjoints{of, contact::Adjoint(parts.problem, of.answer)});
     std::vector<contact::Opened> opened;
     if (own.adjoint.possible()) opened = parts.contact->solve_open(of.answer.closed, r);
     for (std::size_t k = 0; k < goals.size(); ++k) {
@@ -172,8 +173,8 @@ void bound_by_adjoints(const MeshOperator::Parts& parts, const std::vector<Aim>&
         continue;
       }
       Target& target =
-          targets.emplace_back(own, goals, k, goals[k].unit(of.answer.inclusions.size()),
-                               own.adjoint.aim(forces[k], opened[k]));
+          targets.emplace_back(Target{own, goals, k, goals[k].unit(of.answer.inclusions.size()),
+                                      own.adjoint.aim(forces[k], opened[k])});
       goals[k].set_scale(of.answer, target.goal.compliance,
                          std::sqrt(of.primal.flux.norm_squared()));
       if (!(target.goal.compliance > 0)) {  // held

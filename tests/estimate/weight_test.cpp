@@ -99,9 +99,10 @@ void check_terms(const Solved& in, const EquilibratedFlux& sigma, const Dual& du
   for (std::size_t t = 0; t < in.cut.triangle_count(); ++t) {
     const Vector shift = sigma.flux_of(t, rest);
     for (int i = 0; i < pieces; ++i)
-      for (int j = 0; j < 2 * (pieces - i) - 1; ++j) {
-        const double third = j % 2 == 0 ? 1.0 / 3 : 2.0 / 3;
-        const double beside = (i + third) / pieces, above = (j / 2 + third) / pieces;
+      for (int half = 0; half < 2 * (pieces - i) - 1; ++half) {
+        const int j = half / 2;
+        const double third = half % 2 == 0 ? 1.0 / 3 : 2.0 / 3;
+        const double beside = (i + third) / pieces, above = (j + third) / pieces;
         const std::array<double, 3> place{1 - beside - above, beside, above};
         Vector x{};
         for (std::size_t k = 0; k < 3; ++k)
