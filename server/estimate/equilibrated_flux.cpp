@@ -117,7 +117,7 @@ std::vector<EquilibratedFlux> EquilibratedFlux::of_all(const CutMesh& cut,
 void EquilibratedFlux::make(std::span<EquilibratedFlux> fluxes, std::span<const FaceBounds> bounds,
                             int polish) {
   static const FluxKernels& kernels = *supported_flux_kernels(0);
-  const std::size_t lanes = fluxes.size() == 1 ? 1 : flux_lanes;
+  const std::size_t lanes = fluxes.size() <= 2 ? fluxes.size() : flux_lanes;
   const FluxMesh mesh = flux_mesh(fluxes.front()._cut);
   std::array<FluxLane, flux_lanes> lane;
   const auto values = [](std::span<const double> of) { return of.empty() ? nullptr : of.data(); };
@@ -138,7 +138,8 @@ void EquilibratedFlux::make(std::span<EquilibratedFlux> fluxes, std::span<const 
   }
   look();
   const Scratch scratch(lanes * scratch_of(mesh));
-  (lanes == 1 ? kernels.one : kernels.several)(mesh, lane.data(), polish, scratch.values());
+  const FluxLoop loop = lanes == 1 ? kernels.one : lanes == 2 ? kernels.two : kernels.several;
+  loop(mesh, lane.data(), polish, scratch.values());
   for (std::size_t l = 0; l < fluxes.size(); ++l) {
     look();
     fluxes[l]._norm_squared = lane[l].norm_squared;

@@ -51,7 +51,7 @@ constexpr std::size_t scratch_of(const FluxMesh& mesh) {
 }
 
 struct FluxKernels {
-  FluxLoop one, several;  ///< for 1 lane, and for `flux_lanes`
+  FluxLoop one, two, several;  ///< for 1 lane, 2, and `flux_lanes`
 };
 
 /// The kernels that this processor supports: rank 0 is the best; null beyond the last.

@@ -8,27 +8,21 @@
 namespace anticrack::estimate {
 namespace {
 
-/// The types that hold a number, and a vector, for each lane.
 template <std::size_t lanes>
-struct Numbers;
+struct Wide;
 template <>
-struct Numbers<1> {
-  using Number = double;
-  using Vector = double __attribute__((vector_size(2 * sizeof(double))));
-  static Vector scaled(Number by, const double* edge) { return Vector{by, by} * loaded(edge); }
-  static Vector products(const Vector& a, const double* edge) { return a * loaded(edge); }
-  static Number sum(const Vector& of) { return of[0] + of[1]; }
-
- private:
-  static Vector loaded(const double* edge) {
-    Vector to;
-    __builtin_memcpy(&to, edge, sizeof to);
-    return to;
-  }
+struct Wide<2> {
+  using Number = double __attribute__((vector_size(2 * sizeof(double))));
 };
 template <>
-struct Numbers<flux_lanes> {
+struct Wide<flux_lanes> {
   using Number = double __attribute__((vector_size(flux_lanes * sizeof(double))));
+};
+
+/// The types that hold a number, and a vector, for each lane.
+template <std::size_t lanes>
+struct Numbers {
+  using Number = typename Wide<lanes>::Number;
   struct Vector {
     Number of[2];
     const Number& operator[](std::size_t i) const { return of[i]; }
@@ -45,6 +39,21 @@ struct Numbers<flux_lanes> {
     return {{a[0] * edge[0], a[1] * edge[1]}};
   }
   static Number sum(const Vector& of) { return of[0] + of[1]; }
+};
+template <>
+struct Numbers<1> {
+  using Number = double;
+  using Vector = Wide<2>::Number;
+  static Vector scaled(Number by, const double* edge) { return Vector{by, by} * loaded(edge); }
+  static Vector products(const Vector& a, const double* edge) { return a * loaded(edge); }
+  static Number sum(const Vector& of) { return of[0] + of[1]; }
+
+ private:
+  static Vector loaded(const double* edge) {
+    Vector to;
+    __builtin_memcpy(&to, edge, sizeof to);
+    return to;
+  }
 };
 
 template <std::size_t lanes>
@@ -83,6 +92,8 @@ class Flux {
   static V of_lanes(const Value& value) {
     if constexpr (lanes == 1)
       return value(0);
+    else if constexpr (lanes == 2)
+      return V{value(0), value(1)};
     else
       return V{value(0), value(1), value(2), value(3)};
   }
@@ -312,6 +323,6 @@ void balance(const FluxMesh& mesh, FluxLane* lane, int polish, double* scratch) 
 
 }  // namespace
 
-extern const FluxKernels ANTICRACK_FLUX_KERNELS{balance<1>, balance<flux_lanes>};
+extern const FluxKernels ANTICRACK_FLUX_KERNELS{balance<1>, balance<2>, balance<flux_lanes>};
 
 }  // namespace anticrack::estimate

@@ -76,7 +76,9 @@ void add_bounds(const std::vector<PreparedCase>& cases, std::vector<Solved>& sol
     if (solved[i].failure || spec_of(cases[i]).without_bounds ||
         solved[i].answer.status != contact::Status::converged)
       continue;
-    estimates.push_back({&cases[i].load, &solved[i].answer, cases[i].task.job->stop.get_token()});
+    const auto& accuracy = spec_of(cases[i]).accuracy;
+    estimates.push_back({&cases[i].load, &solved[i].answer, cases[i].task.job->stop.get_token(),
+                         accuracy && accuracy->displacement});
     of_estimates.push_back(&solved[i]);
   }
   try {

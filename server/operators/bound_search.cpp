@@ -109,7 +109,7 @@ void Search::take(const estimate::Bound& one) {
       return;
     }
     const bool limited = !found || one.c > 0.9 * _c;
-    _done = !limited || !std::isfinite(_best.value);
+    _done = !limited || !_target.adjoints.of.closely || !std::isfinite(_best.value);
     _tries = most_tries;
     _inner = 0.1;
     _c = std::sqrt(_best.half.dual / _best.half.primal);

@@ -35,7 +35,7 @@ contact::Adjoint::Room room_of(const MeshOperator::Parts& parts, const estimate:
                                contact::Adjoint::Room room, const estimate::Weight* weight);
 
 /// Searches for the best bound from one side. Tries a few c, each larger than the last, then
-/// weights about the ends of contact zones, if the cone costs much without.
+/// weights about the ends of contact zones, if bounds are to be close.
 class Search {
  public:
   Search(const MeshOperator::Parts& parts, Target& target, estimate::Side side);

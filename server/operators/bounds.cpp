@@ -82,8 +82,8 @@ void find_bounds(const MeshOperator::Parts& parts, const estimate::CutMesh& cut,
     of.indicator.resize(bracket.indicator.size());
     for (std::size_t t = 0; t < bracket.indicator.size(); ++t)
       of.indicator[at(cut.triangle[t])] = bracket.indicator[t];
-    bounded.push_back(
-        {load, primals.emplace_back(cut, fluxes[i], balance, lifts, u, lack), answer, of.stop});
+    bounded.push_back({load, primals.emplace_back(cut, fluxes[i], balance, lifts, u, lack), answer,
+                       of.stop, of.closely});
   }
   bound_displacements(parts, bounded);
   for (const Bounded& one : bounded) contact::take_middles(one.answer);
@@ -93,7 +93,7 @@ void find_bounds(const MeshOperator::Parts& parts, const estimate::CutMesh& cut,
 
 std::vector<double> MeshOperator::estimate(const PreparedLoad& load, contact::Answer& answer,
                                            const std::stop_token& stop) const {
-  Estimate one{&load, &answer, stop};
+  Estimate one{&load, &answer, stop, true};
   estimate({&one, 1});
   if (one.failure) std::rethrow_exception(one.failure);
   return std::move(one.indicator);

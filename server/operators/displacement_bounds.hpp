@@ -28,6 +28,7 @@ struct Bounded {
   const estimate::Primal& primal;
   contact::Answer& answer;
   const std::stop_token& stop;
+  bool closely = false;  ///< as MeshOperator::Estimate
 };
 
 /// Bounds A, and the slopes if it tilts, of each inclusion that moves. estimate/interval.hpp gives

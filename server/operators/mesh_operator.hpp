@@ -79,6 +79,7 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
     const PreparedLoad* load;
     contact::Answer* answer;
     std::stop_token stop;
+    bool closely = false;  ///< spend more on closer bounds of A, as for an accuracy of it
     std::vector<double> indicator{};
     std::exception_ptr failure{};
   };
