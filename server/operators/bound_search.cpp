@@ -32,18 +32,17 @@ std::vector<std::int32_t> contact_at(const MeshOperator::Parts& parts,
 }  // namespace
 
 contact::Adjoint::Room room_of(const MeshOperator::Parts& parts, const estimate::Primal& primal,
-                               contact::Adjoint::Room room, const estimate::Weight* weight) {
-  if (weight == nullptr) return room;
+                               contact::Adjoint::Room room, const estimate::Weight& weight) {
   const estimate::CutMesh& cut = primal.cut;
   const std::vector<std::int32_t> contact = contact_at(parts, cut);
   std::vector<char> weighed(at(room.jumps.size()), 0);
-  for (const estimate::Weight::OnFace& on : weight->faces)
+  for (const estimate::Weight::OnFace& on : weight.faces)
     for (const std::int32_t copy : cut.ends(cut.faces[on.face]))
       if (contact[at(copy)] >= 0) weighed[at(contact[at(copy)])] = 1;
   // In a node the least weight of the faces beside it counts, and what both may carry.
-  Eigen::VectorXd least = Eigen::VectorXd::Constant(room.jumps.size(), weight->largest);
+  Eigen::VectorXd least = Eigen::VectorXd::Constant(room.jumps.size(), weight.largest);
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(room.forces.size());
-  estimate::WeightOf weights(primal.flux, weight);
+  estimate::WeightOf weights(primal.flux, &weight);
   for (std::size_t f = 0; f < cut.faces.size(); ++f) {
     if (!estimate::presses(cut.faces[f].condition)) continue;
     const estimate::Weight::OnFace on = weights.on(f);
@@ -64,20 +63,13 @@ contact::Adjoint::Room room_of(const MeshOperator::Parts& parts, const estimate:
 }
 
 Search::Search(const MeshOperator::Parts& parts, Target& target, estimate::Side side)
-    : _parts(parts), _target(target), _side(side) {
+    : _parts(parts), _target(target), _side(side), _room(target.adjoints.adjoint.room()) {
   const double norm = std::sqrt(target.adjoints.of.primal.flux.norm_squared());
   _c = 2 * (norm > 0 ? std::sqrt(target.goal.compliance) / norm : 1);
   _best.value = sign() * std::numeric_limits<double>::infinity();
 }
 
-contact::Adjoint::Room Search::room() const {
-  const Adjoints& of = _target.adjoints;
-  contact::Adjoint::Room room =
-      room_of(_parts, of.of.primal, of.adjoint.room(), _weight ? &*_weight : nullptr);
-  room.jumps *= _c;
-  room.forces *= _c;
-  return room;
-}
+contact::Adjoint::Room Search::room() const { return {_c * _room.jumps, _c * _room.forces}; }
 
 Eigen::VectorXd Search::load() const {
   return contact::Adjoint::load(_target.goal, sign(), room());
@@ -128,6 +120,7 @@ void Search::weigh() {
   if (!primal.load.oscillation.empty())
     _unloaded = flux_norms(_parts, primal.cut, _target.goals)[_target.k];
   _done = _weight->faces.empty() || !std::isfinite(_unloaded);
+  if (!_done) _room = room_of(_parts, primal, adjoints.adjoint.room(), *_weight);
 }
 
 }  // namespace anticrack::operators

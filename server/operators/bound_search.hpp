@@ -32,7 +32,7 @@ struct Target {
 
 /// The room of an answer, for a weight: jumps times w, and the forces k p.
 contact::Adjoint::Room room_of(const MeshOperator::Parts& parts, const estimate::Primal& primal,
-                               contact::Adjoint::Room room, const estimate::Weight* weight);
+                               contact::Adjoint::Room room, const estimate::Weight& weight);
 
 /// Searches for the best bound from one side. Tries a few c, each larger than the last, then
 /// weights about the ends of contact zones, if bounds are to be close.
@@ -56,13 +56,14 @@ class Search {
 
  private:
   double sign() const { return _side == estimate::Side::upper ? 1 : -1; }
-  contact::Adjoint::Room room() const;
+  contact::Adjoint::Room room() const;           ///< for the present c
   double off(const estimate::Bound& one) const;  ///< from the middle
   void weigh();
 
   const MeshOperator::Parts& _parts;
   Target& _target;
   const estimate::Side _side;
+  contact::Adjoint::Room _room;  // for c = 1 and the present weight
   double _c = 0;
   estimate::Bound _best;
   std::optional<estimate::Weight> _weight;

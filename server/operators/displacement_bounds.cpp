@@ -199,14 +199,15 @@ void bound_by_adjoints(const MeshOperator::Parts& parts, const std::vector<Aim>&
     const Search &lower = searches[i], &upper = searches[i + 1];
     if (lower.stopped()) continue;
     // Forces that tie the sides of crossing cracks may leave any cone.
-    const auto& [of, aim] = std::pair(&lower.target().adjoints.of, &lower.target().aim());
-    if (std::isfinite(lower.best().value) && std::isfinite(upper.best().value)) {
-      aim->set(of->answer, lower.best().value, upper.best().value);
-      if (aim->estimate != nullptr)
-        of->answer.inclusions[aim->inclusion].*aim->estimate = lower.best().estimate;
-    } else {
-      by_energy.emplace_back(of, aim);
+    const Bounded& of = lower.target().adjoints.of;
+    const Aim& aim = lower.target().aim();
+    if (!std::isfinite(lower.best().value) || !std::isfinite(upper.best().value)) {
+      by_energy.emplace_back(&of, &aim);
+      continue;
     }
+    aim.set(of.answer, lower.best().value, upper.best().value);
+    if (aim.estimate != nullptr)
+      of.answer.inclusions[aim.inclusion].*aim.estimate = lower.best().estimate;
   }
   for (const auto& [of, aim] : by_energy) {
     if (of->stop.stop_requested()) continue;

@@ -204,7 +204,7 @@ void check(unsigned seed, Found& tally) {
             if (weight.faces.empty()) continue;
             const double sign = side == Side::upper ? 1 : -1;
             contact::Adjoint::Room room =
-                operators::room_of(coarse.parts, primal, adjoint.room(), &weight);
+                operators::room_of(coarse.parts, primal, adjoint.room(), weight);
             room.jumps *= c;
             room.forces *= c;
             contact::Adjoint::Goal own = goal;
