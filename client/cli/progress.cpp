@@ -88,9 +88,7 @@ void JobProgress::apply(const v1::Job& job_now) {
   if (now.has_end_time()) elapsed = seconds_between(now.create_time(), now.end_time());
   const v1::Uzawa& uzawa = spec.solver().uzawa();
   active_set = !spec.solver().has_uzawa();
-  target = active_set || uzawa.has_kkt_tolerance() ? 0
-           : uzawa.has_epsilon()                   ? uzawa.epsilon()
-                                                   : 1e-12;
+  target = uzawa.epsilon();
   if (spec.has_sweep()) {
     if (!sweep) sweep.emplace();
     sweep->apply(now.sweep_answer());

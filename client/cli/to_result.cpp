@@ -10,25 +10,6 @@
 namespace anticrack::cli {
 namespace {
 
-// With the defaults that the API documents.
-v1::Solver with_defaults(v1::Solver solver) {
-  if (!solver.has_uzawa()) {
-    v1::ActiveSet& active_set = *solver.mutable_active_set();
-    if (!active_set.has_tolerance()) active_set.set_tolerance(1e-12);
-    if (!active_set.has_max_steps()) active_set.set_max_steps(1000);
-    return solver;
-  }
-  v1::Uzawa& uzawa = *solver.mutable_uzawa();
-  if (!uzawa.has_p()) uzawa.set_p(1e5);
-  if (!uzawa.has_max_iterations()) uzawa.set_max_iterations(20000);
-  if (uzawa.mass() == v1::MASS_UNSPECIFIED) uzawa.set_mass(v1::MASS_LUMPED);
-  if (uzawa.has_kkt_tolerance())
-    uzawa.clear_epsilon();
-  else if (!uzawa.has_epsilon())
-    uzawa.set_epsilon(1e-12);
-  return solver;
-}
-
 // The sweep without its columns.
 results::Sweep to_sweep(const Fetched& fetched) {
   results::Sweep sweep;
@@ -77,7 +58,7 @@ results::Result to_result(const Fetched& fetched) {
   result.job_name = fetched.job.name();
   result.not_reached = fetched.job.status().not_reached();
   result.units = fetched.job.spec().units();
-  result.solver = with_defaults(fetched.job.spec().solver());
+  result.solver = fetched.job.spec().solver();
   result.mesh.info = fetched.mesh;
   if (fetched.job.spec().has_sweep())
     result.sweep = to_sweep(fetched);

@@ -43,7 +43,11 @@ TEST(Job, OpensTheCrackOfExampleThree) {
   ASSERT_EQ(job.status().state(), v1::JobStatus::STATE_SUCCEEDED);
   EXPECT_EQ(job.status().attempt(), 1);
   EXPECT_GE(job.status().end_time().seconds(), job.status().start_time().seconds());
-  EXPECT_EQ(job.spec().solver().uzawa().theta(), 2.0);
+  const v1::Uzawa& uzawa = job.spec().solver().uzawa();
+  EXPECT_EQ(uzawa.theta(), 2.0);
+  EXPECT_EQ(uzawa.epsilon(), 1e-12);
+  EXPECT_EQ(uzawa.p(), 1e5);
+  EXPECT_EQ(uzawa.mass(), v1::MASS_LUMPED);
   EXPECT_EQ(job.spec().load_cases(0).force().expression(), "y > 0 ? 1 : -1");
   EXPECT_EQ(job.status().load_case_count(), 1);
   EXPECT_EQ(job.status().load_cases_ended(), 1);
@@ -222,8 +226,11 @@ TEST(Job, IsCancelledWhileItRuns) {
 TEST(Job, ThatDidNotConvergeSaysWhy) {
   RunningServer server;
   v1::CreateJobRequest request = opening_job(server.create(paper_mesh()).name());
-  request.mutable_spec()->mutable_solver()->mutable_uzawa()->set_max_iterations(3);
+  v1::Uzawa& uzawa = *request.mutable_spec()->mutable_solver()->mutable_uzawa();
+  uzawa.set_max_iterations(3);
+  uzawa.set_kkt_tolerance(1e-9);
   const v1::Job job = server.finish(server.create(request).name());
+  EXPECT_FALSE(job.spec().solver().uzawa().has_epsilon()) << "KKT residuals stop it";
   EXPECT_EQ(job.status().state(), v1::JobStatus::STATE_NOT_CONVERGED);
   EXPECT_FALSE(job.status().has_error());
   EXPECT_EQ(job.status().result_state(), v1::JobStatus::RESULT_STATE_AVAILABLE);

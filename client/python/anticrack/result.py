@@ -314,7 +314,7 @@ class Result:
     server_version: str = ""
     total_seconds: float = NAN
     units: Units = field(default_factory=Units)
-    solver: solve_pb2.Solver = field(default_factory=solve_pb2.Solver)  # defaults of the API are filled in
+    solver: solve_pb2.Solver = field(default_factory=solve_pb2.Solver)  # with defaults, as the server filled them in
     traction: bool | None = None  # whether a load has a traction; None if not known
 
     @property
@@ -421,7 +421,7 @@ class Result:
         spec, status = job.spec, job.status
         result = cls(spec.title, job.name, shape, interfaces, Named("load"), None, status.not_reached, case,
                      server_version, units=Units(spec.units.length, spec.units.force),
-                     solver=_with_defaults(spec.solver), traction=any(load.traction for load in spec.load_cases))
+                     solver=spec.solver, traction=any(load.traction for load in spec.load_cases))
         if spec.HasField("sweep"):
             traces = {int(row): _traces(arrays, f"traces/{row}", len(interfaces)) for row in spec.sweep.traces}
             kept = [row for row, found in traces.items() if found]  # the other rows did not end
@@ -444,19 +444,6 @@ def _without_definition(mesh: mesh_pb2.Mesh) -> mesh_pb2.Mesh:
     for line in info.interfaces:
         line.ClearField("segments")
     return info
-
-
-def _with_defaults(solver: solve_pb2.Solver) -> solve_pb2.Solver:
-    """A copy of the solver in which the API's defaults are filled in."""
-    asked = solve_pb2.Solver(active_set=solve_pb2.ActiveSet(tolerance=1e-12, max_steps=1000))
-    if solver.HasField("uzawa"):
-        asked = solve_pb2.Solver(uzawa=solve_pb2.Uzawa(epsilon=1e-12, p=1e5, max_iterations=20000))
-    asked.MergeFrom(solver)
-    if asked.HasField("uzawa"):
-        asked.uzawa.mass = asked.uzawa.mass or solve_pb2.MASS_LUMPED
-        if asked.uzawa.HasField("kkt_tolerance"):
-            asked.uzawa.ClearField("epsilon")
-    return asked
 
 
 def _told(result: Result) -> Result:

@@ -140,23 +140,6 @@ TEST(ToResult, KeepsTheStagesThatEnded) {
   EXPECT_FALSE(stages[1].answers(0).has_energy_lower());
 }
 
-TEST(ToResult, KeepsWhatWasAskedOfTheMethodWithTheDefaultsOfTheApi) {
-  Fetched asked = fetched();
-  v1::Uzawa& uzawa = *asked.job.mutable_spec()->mutable_solver()->mutable_uzawa();
-  EXPECT_EQ(to_result(asked).solver.uzawa().epsilon(), 1e-12);
-  EXPECT_EQ(to_result(asked).solver.uzawa().p(), 1e5);
-  EXPECT_EQ(to_result(asked).solver.uzawa().mass(), v1::MASS_LUMPED);
-  uzawa.set_epsilon(1e-8);
-  uzawa.set_mass(v1::MASS_CONSISTENT);
-  EXPECT_EQ(to_result(asked).solver.uzawa().epsilon(), 1e-8);
-  EXPECT_EQ(to_result(asked).solver.uzawa().mass(), v1::MASS_CONSISTENT);
-  uzawa.set_kkt_tolerance(1e-7);
-  EXPECT_FALSE(to_result(asked).solver.uzawa().has_epsilon()) << "KKT residuals stop it";
-  asked.job.mutable_spec()->clear_solver();
-  EXPECT_EQ(to_result(asked).solver.active_set().tolerance(), 1e-12);
-  EXPECT_EQ(results::method_of(to_result(asked).solver), "active-set");
-}
-
 TEST(ToResult, KeepsALoadThatFailedWithoutArrays) {
   Fetched failed = fetched();
   failed.job.mutable_spec()->add_load_cases()->set_name("two");
