@@ -15,6 +15,21 @@
 
 namespace anticrack::base {
 
+/// While it lives, loops of this thread may run on so many threads, itself included; else on one.
+/// Threads that help have no helpers. Results must not depend on it.
+class Threads {
+ public:
+  explicit Threads(int allowed) noexcept : _before(_allowed) { _allowed = allowed; }
+  ~Threads() { _allowed = _before; }
+  Threads(const Threads&) = delete;
+  Threads& operator=(const Threads&) = delete;
+  static int allowed() noexcept { return _allowed; }
+
+ private:
+  static inline thread_local int _allowed = 1;
+  const int _before;
+};
+
 /// Calls worker(i) for i = 0, ..., count - 1 from a shared counter on at most `threads` threads,
 /// including that of the caller; each thread has a worker from `make_worker()`. After an exception
 /// no index is begun, and when all threads have stopped the first exception is rethrown. Looks

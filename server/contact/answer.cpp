@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/at.hpp"
+#include "base/at_once.hpp"
 #include "contact/solve.hpp"
 
 namespace anticrack::contact {
@@ -108,11 +109,11 @@ void fill_inclusions(const TraceProblem& problem, const mesh::Mesh& mesh,
   }
 }
 
-Eigen::Map<const Eigen::VectorXd> view(const std::vector<double>& values) {
+Eigen::Map<const Eigen::VectorXd> view(std::span<const double> values) {
   return {values.data(), static_cast<Eigen::Index>(values.size())};
 }
 
-Eigen::Map<Eigen::VectorXd> view(std::vector<double>& values) {
+Eigen::Map<Eigen::VectorXd> view(std::span<double> values) {
   return {values.data(), static_cast<Eigen::Index>(values.size())};
 }
 
@@ -162,19 +163,27 @@ Eigen::VectorXd unknowns_of(const ddm::Decomposition& decomposition, const Answe
   return w;
 }
 
-void recover_fields(const TraceProblem& problem, std::span<const SolvedCase> cases) {
-  const std::vector<ddm::Subdomain>& subdomains = problem.decomposition().subdomains;
-  for (std::size_t s = 0; s < subdomains.size(); ++s) {
+void recover(const TraceProblem& problem, std::span<const Recovery> cases) {
+  const auto recover_in = [&](std::size_t s) {
     std::vector<ddm::SubdomainOperator::Solved> solved;
     solved.reserve(cases.size());
-    const std::vector<std::int32_t>& nodes = subdomains[s].node;
-    for (const SolvedCase& one : cases) {
-      const std::vector<double>& trace = one.answer.side_traces[s];
-      one.answer.fields.push_back({nodes, std::vector<double>(nodes.size())});
-      solved.push_back({one.loads[s], view(trace), view(one.answer.fields.back().u)});
-    }
+    for (const Recovery& one : cases)
+      solved.push_back({one.loads[s], view(one.traces[s]), view(one.u[s])});
     problem.operators()[s].recover(solved);
+  };
+  base::at_once(problem.operators().size(), base::Threads::allowed(), [&] { return recover_in; });
+}
+
+void recover_fields(const TraceProblem& problem, std::span<const SolvedCase> cases) {
+  std::vector<Recovery> to_recover;
+  for (const SolvedCase& one : cases) {
+    Recovery& own = to_recover.emplace_back(Recovery{one.loads, {}, {}});
+    for (const std::vector<double>& trace : one.answer.side_traces) own.traces.emplace_back(trace);
+    for (const ddm::Subdomain& subdomain : problem.decomposition().subdomains)
+      one.answer.fields.push_back({subdomain.node, std::vector<double>(subdomain.node.size())});
+    for (Field& field : one.answer.fields) own.u.emplace_back(field.u);
   }
+  recover(problem, to_recover);
 }
 
 double middle_or(double mesh, const std::optional<double>& lower,

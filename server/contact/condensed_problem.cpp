@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/condensed_problem.hpp"
 
+#include <deque>
+#include <span>
 #include <utility>
 
 #include "base/at.hpp"
@@ -230,21 +232,27 @@ std::vector<std::vector<double>> CondensedProblem::fields_of(
     none.emplace_back().z_interior.setZero(static_cast<Index>(subdomain.interior));
     none.back().dirichlet.setZero(static_cast<Index>(subdomain.dirichlet));
   }
-  std::vector<Answer> answers(displaced.size());
-  std::vector<SolvedCase> cases;
-  for (std::size_t f = 0; f < answers.size(); ++f) {
+  std::size_t size = 0;
+  for (const ddm::Subdomain& subdomain : traces().decomposition().subdomains)
+    size += subdomain.node.size();
+  std::vector<std::vector<double>> fields(displaced.size(), std::vector<double>(size));
+  std::deque<std::vector<VectorXd>> side_traces;
+  std::vector<Recovery> cases;
+  for (std::size_t f = 0; f < fields.size(); ++f) {
     stop::look("solving for contact");
     const auto& [force, d] = displaced[f];
     const Reduced load = eliminate(maps().vector_of(*force), {}, {}, false);
-    for (const VectorXd& trace : traces().scatter(values(solve(load, d), d, load.p)))
-      answers[f].side_traces.emplace_back(trace.begin(), trace.end());
-    cases.push_back({none, answers[f]});
+    side_traces.push_back(traces().scatter(values(solve(load, d), d, load.p)));
+    Recovery& own = cases.emplace_back(Recovery{none, {}, {}});
+    for (const VectorXd& trace : side_traces.back())
+      own.traces.emplace_back(trace.data(), at(trace.size()));
+    std::span<double> rest = fields[f];
+    for (const ddm::Subdomain& subdomain : traces().decomposition().subdomains) {
+      own.u.push_back(rest.first(subdomain.node.size()));
+      rest = rest.subspan(subdomain.node.size());
+    }
   }
-  recover_fields(cases);
-  std::vector<std::vector<double>> fields(answers.size());
-  for (std::size_t f = 0; f < fields.size(); ++f)
-    for (const Field& field : answers[f].fields)
-      fields[f].insert(fields[f].end(), field.u.begin(), field.u.end());
+  recover(traces(), cases);
   return fields;
 }
 

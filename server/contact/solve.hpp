@@ -70,6 +70,14 @@ struct SolvedCase {
 /// on the others. O(N) each.
 void recover_fields(const TraceProblem& problem, std::span<const SolvedCase> cases);
 
+/// The same without an answer: `traces` and `u`, on all nodes, of each subdomain.
+struct Recovery {
+  std::span<const ddm::CondensedLoad> loads;
+  std::vector<std::span<const double>> traces;
+  std::vector<std::span<double>> u;
+};
+void recover(const TraceProblem& problem, std::span<const Recovery> cases);
+
 /// Fills an answer from the last state and sample: energy, residuals, traces, contact, inclusions.
 /// The resultant on inclusion j is the sum of the fluxes of its sides (its own and, through
 /// contact, the delaminated ones), computed without the force F_j in the load. In the solution it

@@ -56,7 +56,7 @@ Bracket bracket(const CutMesh& cut, const EquilibratedFlux& flux, const LoadBala
   }
 
   Bracket result;
-  result.indicator = flux.distance();
+  result.indicator.assign(flux.distance().begin(), flux.distance().end());
   const bool varies = !cut.shapes.variation.empty();
   double half_distance = 0;  // eta^2 / 2; if T is known, without |w|^2 / 2, which cancels in Pi(v)
   double squared = 0, work = 0, lift_energy = 0, lift_norm = 0;

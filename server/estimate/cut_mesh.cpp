@@ -28,7 +28,7 @@ class Cutting {
   Cutting(const mesh::Mesh& mesh, const ddm::Decomposition& decomposition)
       : _mesh(mesh), _decomposition(decomposition), _edges(mesh.triangles) {}
 
-  CutMesh operator()() {
+  CutMesh operator()(std::size_t block) {
     number();
     for (const ddm::RigidMotion& motion : _decomposition.skeleton.motions) {
       _cut.tilts.push_back(motion.slope_x.empty() && motion.slope_y.empty() ? 0 : 1);
@@ -37,6 +37,7 @@ class Cutting {
     find_faces();
     find_ways_out();
     find_fans();
+    sort_fans(block);
     find_obstacle();
     return std::move(_cut);
   }
@@ -223,6 +224,54 @@ class Cutting {
     }
   }
 
+  /// Sorts the fans by blocks.
+  void sort_fans(std::size_t block) {
+    const std::size_t blocks = _cut.triangle_count() / block + 1;
+    _cut.first_fan.assign(blocks + 2, 0);
+    std::vector<std::int32_t> block_of;  // per triangle
+    for (std::size_t b = 0; b < blocks; ++b)
+      block_of.resize(_cut.first_of_block(b + 1), static_cast<std::int32_t>(b));
+    std::vector<std::vector<std::int32_t>> fans(blocks + 1);
+    for (std::size_t fan = 0; fan < _cut.fan_count(); ++fan) {
+      stop::look_at_turn(fan, cutting);
+      const std::span<const std::int32_t> corners = corners_of(fan);
+      const std::int32_t first = block_of[at(corners.front() / 3)];
+      const bool alone = std::ranges::all_of(
+          corners, [&](std::int32_t corner) { return block_of[at(corner / 3)] == first; });
+      fans[alone ? at(first) : blocks].push_back(static_cast<std::int32_t>(fan));
+    }
+    std::vector<std::int32_t> first_corner{0}, corners, first_stop{0};
+    std::vector<Stop> stops;
+    corners.reserve(_cut.corners.size());
+    for (std::size_t b = 0; b <= blocks; ++b) {
+      stop::look(cutting);
+      for (const std::int32_t fan : fans[b]) {
+        const std::span<const std::int32_t> own = corners_of(at(fan));
+        corners.insert(corners.end(), own.begin(), own.end());
+        first_corner.push_back(static_cast<std::int32_t>(corners.size()));
+        const std::span<const Stop> met = stops_of(at(fan));
+        stops.insert(stops.end(), met.begin(), met.end());
+        first_stop.push_back(static_cast<std::int32_t>(stops.size()));
+      }
+      _cut.first_fan[b + 1] = static_cast<std::int32_t>(first_corner.size()) - 1;
+    }
+    _cut.first_corner = std::move(first_corner);
+    _cut.corners = std::move(corners);
+    _cut.first_stop = std::move(first_stop);
+    _cut.stops = std::move(stops);
+  }
+
+  std::span<const std::int32_t> corners_of(std::size_t fan) const {
+    return std::span(_cut.corners)
+        .subspan(at(_cut.first_corner[fan]),
+                 at(_cut.first_corner[fan + 1] - _cut.first_corner[fan]));
+  }
+
+  std::span<const Stop> stops_of(std::size_t fan) const {
+    return std::span(_cut.stops)
+        .subspan(at(_cut.first_stop[fan]), at(_cut.first_stop[fan + 1] - _cut.first_stop[fan]));
+  }
+
   /// Inclusions that share nodes are one body, with the first unknown of their displacement as its
   /// name.
   std::int32_t body_of(std::int32_t inclusion) const {
@@ -237,8 +286,7 @@ class Cutting {
     std::vector<std::int32_t> ends(_mesh.node_count(), 0);
     for (std::size_t fan = 0; fan < _cut.fan_count() && _cut.obstacle.empty(); ++fan) {
       stop::look_at_turn(fan, cutting);
-      const std::span<const Stop> stops(&_cut.stops[at(_cut.first_stop[fan])],
-                                        at(_cut.first_stop[fan + 1] - _cut.first_stop[fan]));
+      const std::span<const Stop> stops = stops_of(fan);
       const auto has = [&](const auto& what) {
         return std::ranges::any_of(
             stops, [&](const Stop& stop) { return what(_cut.faces[at(stop.face)]); });
@@ -278,12 +326,13 @@ std::size_t CutMesh::bytes() const noexcept {
   const auto of = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
   return shapes.bytes() + of(first_triangle) + of(first_copy) + of(copy) + of(at) + of(triangle) +
          of(faces) + of(ways_out) + of(first_corner) + of(corners) + of(first_stop) + of(stops) +
-         of(ways.bodies) + of(ways.of);
+         of(first_fan) + of(ways.bodies) + of(ways.of);
 }
 
-CutMesh cut_mesh(const mesh::Mesh& mesh, const ddm::Decomposition& decomposition) {
+CutMesh cut_mesh(const mesh::Mesh& mesh, const ddm::Decomposition& decomposition,
+                 std::size_t block) {
   Cutting cutting(mesh, decomposition);
-  CutMesh cut = cutting();
+  CutMesh cut = cutting(block);
   std::vector<const fem::Tension*> tension;
   for (const ddm::Subdomain& subdomain : decomposition.subdomains)
     tension.push_back(&subdomain.tension);

@@ -75,6 +75,10 @@ struct CutMesh {
   std::vector<std::int32_t> corners;       ///< of all fans
   std::vector<std::int32_t> first_stop;    ///< (fans + 1) index into stops
   std::vector<Stop> stops;
+  /// Blocks of triangles, of equal size. The fans of block b, first_fan[b] to first_fan[b + 1] - 1,
+  /// have triangles of this block alone, so that threads may work on blocks at once; the last fans
+  /// have triangles of several. Blocks depend on the mesh only, not on the number of threads.
+  std::vector<std::int32_t> first_fan;  ///< (blocks + 2)
   /// Ways from triangles to the Dirichlet boundary that cross no crack and no inclusion. A triangle
   /// comes after those that its way leads through; triangles without a way are left out.
   std::vector<WayOut> ways_out;
@@ -88,6 +92,11 @@ struct CutMesh {
 
   std::size_t triangle_count() const noexcept { return triangle.size(); }
   std::size_t fan_count() const noexcept { return first_corner.size() - 1; }
+  std::size_t block_count() const noexcept { return first_fan.size() - 2; }
+  /// The first triangle of a block; of block_count(): the number of triangles.
+  std::size_t first_of_block(std::size_t block) const noexcept {
+    return triangle_count() * block / block_count();
+  }
   /// Copies at ends 0 and 1 of a face.
   std::array<std::int32_t, 2> ends(const Face& face) const noexcept {
     const std::int32_t t = face.side / 3, i = face.side % 3;
@@ -97,7 +106,11 @@ struct CutMesh {
   std::size_t bytes() const noexcept;
 };
 
-/// Cuts the mesh into fans. O(m log m).
-CutMesh cut_mesh(const mesh::Mesh& mesh, const ddm::Decomposition& decomposition);
+/// Triangles of a block whose fluxes fit in the cache of a core.
+constexpr std::size_t default_block = 16384;
+
+/// Cuts the mesh into fans, and these into blocks of about `block` triangles. O(m log m).
+CutMesh cut_mesh(const mesh::Mesh& mesh, const ddm::Decomposition& decomposition,
+                 std::size_t block = default_block);
 
 }  // namespace anticrack::estimate

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "estimate/equilibrated_flux.hpp"
 
-#include <sys/mman.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
-#include <memory>
-#include <new>
 
 #include "base/at.hpp"
+#include "base/at_once.hpp"
+#include "base/large.hpp"
 #include "estimate/flux_kernels.hpp"
 #include "fem/triangle_rules.hpp"
 #include "stop/stop.hpp"
@@ -29,38 +26,6 @@ constexpr std::size_t previous(std::size_t corner) {
   return corner % 3 == 0 ? corner + 2 : corner - 1;
 }
 
-/// Uninitialised memory of the loops, aligned to cache lines. A thread keeps it unless it is large,
-/// since page faults take longer than the loops. Large memory has huge pages, if available.
-class Scratch {
- public:
-  explicit Scratch(std::size_t doubles) {
-    const std::size_t bytes = doubles * sizeof(double), alignment = bytes > most_kept ? huge : line;
-    const std::size_t rounded = (bytes + alignment - 1) / alignment * alignment;
-    if (rounded <= size) return;
-    size = 0;
-    memory.reset(static_cast<double*>(std::aligned_alloc(alignment, rounded)));
-    if (!memory) throw std::bad_alloc();
-    size = rounded;
-    if (alignment == huge) static_cast<void>(madvise(memory.get(), size, MADV_HUGEPAGE));  // a hint
-  }
-  ~Scratch() {
-    if (size <= most_kept) return;
-    memory.reset();
-    size = 0;
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  double* values() const { return memory.get(); }
-
- private:
-  static constexpr std::size_t line = 64, huge = std::size_t{2} << 20, most_kept = 4 * huge;
-  struct Free {
-    void operator()(double* values) const noexcept { std::free(values); }
-  };
-  static inline thread_local std::unique_ptr<double, Free> memory;
-  static inline thread_local std::size_t size = 0;
-};
-
 void look() { stop::look("computing a flux in equilibrium"); }
 
 FluxMesh flux_mesh(const CutMesh& cut) {
@@ -68,13 +33,36 @@ FluxMesh flux_mesh(const CutMesh& cut) {
   for (std::size_t fan = 0; fan < cut.fan_count(); ++fan)
     largest = std::max(largest, cut.first_corner[fan + 1] - cut.first_corner[fan]);
   const Shapes& shapes = cut.shapes;
-  return {cut.triangle_count(),  cut.fan_count(),
-          cut.faces.size(),      at(largest),
-          cut.copy.data(),       cut.first_corner.data(),
-          cut.first_stop.data(), shapes.edge.front().data(),
-          shapes.tension.data(), shapes.softness.data(),
-          shapes.around.data(),  cut.stops.data(),
-          cut.faces.data(),      look};
+  return {at(largest),
+          cut.copy.data(),
+          cut.first_corner.data(),
+          cut.first_stop.data(),
+          shapes.edge.front().data(),
+          shapes.tension.data(),
+          shapes.softness.data(),
+          shapes.around.data(),
+          cut.stops.data(),
+          cut.faces.data(),
+          look};
+}
+
+/// The blocks with triangles, and last the fans between them.
+std::vector<FluxBlock> blocks_of(const CutMesh& cut) {
+  std::vector<FluxBlock> blocks(cut.block_count() + 1);
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    blocks[b].first_triangle = cut.first_of_block(std::min(b, cut.block_count()));
+    blocks[b].last_triangle = cut.first_of_block(std::min(b + 1, cut.block_count()));
+    blocks[b].first_fan = at(cut.first_fan[b]);
+    blocks[b].last_fan = at(cut.first_fan[b + 1]);
+  }
+  return blocks;
+}
+
+std::size_t largest_of(const std::vector<FluxBlock>& blocks) {
+  std::size_t largest = 0;
+  for (const FluxBlock& block : blocks)
+    largest = std::max(largest, block.last_triangle - block.first_triangle);
+  return largest;
 }
 
 }  // namespace
@@ -117,35 +105,52 @@ std::vector<EquilibratedFlux> EquilibratedFlux::of_all(const CutMesh& cut,
 void EquilibratedFlux::make(std::span<EquilibratedFlux> fluxes, std::span<const FaceBounds> bounds,
                             int polish) {
   static const FluxKernels& kernels = *supported_flux_kernels(0);
+  const CutMesh& cut = fluxes.front()._cut;
   const std::size_t lanes = fluxes.size() <= 2 ? fluxes.size() : flux_lanes;
-  const FluxMesh mesh = flux_mesh(fluxes.front()._cut);
+  const FluxMesh mesh = flux_mesh(cut);
   std::array<FluxLane, flux_lanes> lane;
   const auto values = [](std::span<const double> of) { return of.empty() ? nullptr : of.data(); };
   for (std::size_t l = 0; l < lanes; ++l) {
     EquilibratedFlux& own = fluxes[std::min(l, fluxes.size() - 1)];
     const Balance& load = own._balance;
     const FaceBounds of = bounds.empty() ? FaceBounds() : bounds[std::min(l, fluxes.size() - 1)];
-    lane[l] = {load.u.data(),
-               values(load.force),
-               values(load.traction),
-               values(of.least),
-               values(of.most),
-               own._mean.front().data(),
-               own._distance.data(),
-               own._through.data(),
-               0,
-               0};
+    lane[l] = {load.u.data(),   values(load.force),       values(load.traction), values(of.least),
+               values(of.most), own._mean.front().data(), own._distance.data()};
   }
   look();
-  const Scratch scratch(lanes * scratch_of(mesh));
+  std::vector<FluxBlock> blocks = blocks_of(cut);
+  const std::size_t own_scratch = lanes * flux_scratch(mesh, largest_of(blocks));
+  base::Large<double> means(lanes == 1 ? 0 : lanes * 2 * cut.triangle_count());
+  base::Large<double> through(lanes * 2 * cut.faces.size(), 0.0);
+  double* const mean = lanes == 1 ? lane.front().mean : means.data();
   const FluxLoop loop = lanes == 1 ? kernels.one : lanes == 2 ? kernels.two : kernels.several;
-  loop(mesh, lane.data(), polish, scratch.values());
+  const auto take = [&](FluxStep step) {
+    const auto worker = [&] {
+      return [&, own = base::Large<double>(own_scratch)](std::size_t b) mutable {
+        loop(mesh, lane.data(), step, blocks[b], {mean, through.data(), own.data()});
+      };
+    };
+    base::at_once(blocks.size() - 1, base::Threads::allowed(), worker);
+    worker()(blocks.size() - 1);
+  };
+  take(FluxStep::build);
+  for (int sweep = 0; sweep < polish; ++sweep) take(FluxStep::polish);
+  take(FluxStep::finish);
   for (std::size_t l = 0; l < fluxes.size(); ++l) {
     look();
-    fluxes[l]._norm_squared = lane[l].norm_squared;
-    fluxes[l]._imbalance = lane[l].imbalance;
-    fluxes[l].turn();
+    fluxes[l].finish(l, lanes, blocks, through);
   }
+}
+
+void EquilibratedFlux::finish(std::size_t lane, std::size_t lanes,
+                              std::span<const FluxBlock> blocks, std::span<const double> through) {
+  for (const FluxBlock& block : blocks) {
+    _norm_squared += block.norm_squared[lane];
+    _imbalance += block.imbalance[lane];
+  }
+  for (std::size_t place = 0; place < _through.size(); ++place)
+    _through[place] = through[lanes * place + lane];
+  turn();
 }
 
 double EquilibratedFlux::jump(std::size_t face, std::size_t end) const {

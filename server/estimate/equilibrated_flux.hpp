@@ -10,9 +10,12 @@
 #include <span>
 #include <vector>
 
+#include "base/large.hpp"
 #include "estimate/cut_mesh.hpp"
 
 namespace anticrack::estimate {
+
+struct FluxBlock;
 
 /// The data from which a flux is made. Triangles and Neumann edges are in the order of CutMesh; an
 /// empty member means 0.
@@ -33,9 +36,9 @@ struct FaceBounds {
 /// inclusions; on minus faces sigma.n = -p, the same on both faces of a crack; the flux through the
 /// faces of an inclusion is the force on it. On the faces of an inclusion that tilts, RT0 has
 /// another moment than the nodal forces; there kappa curl(l_0 l_1) is added, which changes no other
-/// flux and no mean. O(m). `polish`: further sweeps over the fans, which bring sigma nearer to T
-/// grad u. Vectors are those after the maps of the tension; T is the mean on each triangle
-/// (Shapes).
+/// flux and no mean. O(m), on base::Threads; no bit depends on their number. `polish`: further
+/// sweeps over the fans, which bring sigma nearer to T grad u. Vectors are those after the maps of
+/// the tension; T is the mean on each triangle (Shapes).
 class EquilibratedFlux {
  public:
   EquilibratedFlux(const CutMesh& cut, const Balance& balance, FaceBounds bounds = {},
@@ -47,7 +50,7 @@ class EquilibratedFlux {
                                               int polish = 1);
 
   /// int |sigma - T grad u|^2 / T over each triangle, shape (m).
-  const std::vector<double>& distance() const noexcept { return _distance; }
+  const base::Large<double>& distance() const noexcept { return _distance; }
   /// int p [u] over each minus face, 0 for other faces; shape (faces).
   std::vector<double> work_of_pressure() const;
   /// Outward flux through each face, (faces, 2): the parts that belong to its ends 0 and 1.
@@ -90,14 +93,18 @@ class EquilibratedFlux {
   EquilibratedFlux(const Balance& balance, const CutMesh& cut);  // not made yet
   static void make(std::span<EquilibratedFlux> fluxes, std::span<const FaceBounds> bounds,
                    int polish);
+  /// Takes its lane of what the blocks found and of the fluxes `through` faces.
+  void finish(std::size_t lane, std::size_t lanes, std::span<const FluxBlock> blocks,
+              std::span<const double> through);
   void turn();
 
   const CutMesh& _cut;
   Balance _balance;
   const std::vector<double>&_tension, &_area;  // (m)
   const std::vector<Vector>& _edge;            // (corners) e_i
-  std::vector<Vector> _mean;                   // (m)
-  std::vector<double> _distance, _through;
+  base::Large<Vector> _mean;                   // (m)
+  base::Large<double> _distance;
+  std::vector<double> _through;
   struct Turn {
     std::size_t side;
     double kappa;

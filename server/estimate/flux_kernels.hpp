@@ -17,7 +17,7 @@ constexpr std::size_t flux_lanes = 4;
 
 /// The data of a CutMesh that the loops need.
 struct FluxMesh {
-  std::size_t triangles, fans, faces, largest_fan;
+  std::size_t largest_fan;
   const std::int32_t *copy, *first_corner, *first_stop;
   const double *edge, *tension, *softness;  // edge: (corners, 2)
   const FanCorner* around;
@@ -37,18 +37,34 @@ struct FluxLane {
   const double *least, *most;  ///< of w on minus faces; null: w <= 0
   double* mean;                ///< (triangles, 2) of sigma - T grad u, times sqrt(area / T)
   double* distance;            ///< (triangles) int |sigma - T grad u|^2 / T
-  double* through;             ///< (faces, 2)
-  double norm_squared;
-  double imbalance;
 };
 
-/// All lanes have a force or none has; the same holds for bounds. `scratch`: scratch_of() doubles a
-/// lane.
-using FluxLoop = void (*)(const FluxMesh& mesh, FluxLane* lanes, int polish, double* scratch);
+/// Triangles and fans of a block of CutMesh, and what the step `build` finds for each lane. Blocks
+/// with triangles share none, and may be worked on at once; the last block, which has none, comes
+/// after them in each step.
+struct FluxBlock {
+  std::size_t first_triangle, last_triangle, first_fan, last_fan;
+  double norm_squared[flux_lanes] = {};
+  double imbalance[flux_lanes] = {};
+};
 
-constexpr std::size_t scratch_of(const FluxMesh& mesh) {
-  return 9 * mesh.triangles + 2 * mesh.faces + mesh.largest_fan + 1;
+/// Memory of the loops, entries of the lanes side by side.
+struct FluxScratch {
+  double* mean;     ///< (triangles, 2); of one lane its own
+  double* through;  ///< (faces, 2)
+  double* own;      ///< flux_scratch() a lane, for each thread
+};
+
+constexpr std::size_t flux_scratch(const FluxMesh& mesh, std::size_t triangles_of_a_block) {
+  return 6 * triangles_of_a_block + mesh.largest_fan + 1;
 }
+
+/// The steps, in their order; `polish` may be repeated.
+enum class FluxStep : std::uint8_t { build, polish, finish };
+
+/// All lanes have a force or none has; the same holds for bounds.
+using FluxLoop = void (*)(const FluxMesh& mesh, FluxLane* lanes, FluxStep step, FluxBlock& block,
+                          const FluxScratch& scratch);
 
 struct FluxKernels {
   FluxLoop one, two, several;  ///< for 1 lane, 2, and `flux_lanes`

@@ -63,28 +63,30 @@ class Flux {
   using Pair = typename Of::Vector;
 
  public:
-  Flux(const FluxMesh& mesh, FluxLane* lane, double* scratch)
-      : _mesh(mesh), _lane(lane), _pressure(lane->most == nullptr) {
-    const auto take = [&scratch](std::size_t count) {
-      V* const taken = reinterpret_cast<V*>(scratch);
-      scratch += count * lanes;
-      return taken;
-    };
-    _mean = reinterpret_cast<Pair*>(take(2 * mesh.triangles));
-    _spoke = take(6 * mesh.triangles);
-    _rest = take(mesh.triangles);
-    _through = take(2 * mesh.faces);
-    _x = take(mesh.largest_fan + 1);
-  }
+  Flux(const FluxMesh& mesh, FluxLane* lane, FluxBlock& block, const FluxScratch& scratch)
+      : _mesh(mesh),
+        _lane(lane),
+        _block(block),
+        _pressure(lane->most == nullptr),
+        _mean(reinterpret_cast<Pair*>(scratch.mean)),
+        _through(reinterpret_cast<V*>(scratch.through)),
+        _x(reinterpret_cast<V*>(scratch.own)),
+        _spoke(_x + mesh.largest_fan + 1) {}
 
-  void run(int polish_sweeps) {
-    if (_lane->force != nullptr)
-      measure<true>();
-    else
-      measure<false>();
-    build();
-    for (int sweep = 0; sweep < polish_sweeps; ++sweep) polish();
-    finish();
+  void run(FluxStep step) {
+    switch (step) {
+      case FluxStep::build:
+        if (_lane->force != nullptr)
+          build<true>();
+        else
+          build<false>();
+        break;
+      case FluxStep::polish:
+        polish();
+        break;
+      case FluxStep::finish:
+        finish();
+    }
   }
 
  private:
@@ -113,9 +115,28 @@ class Flux {
     return of_lanes([&](std::size_t l) { return _lane[l].force[corner]; });
   }
 
-  /// Computes minus half the outward flux of T grad u through each side, which is -T^2 G.e_i / 2
-  /// for side i with G = sum of u_i e_i. Also the part of sigma - T grad u that comes from the
-  /// load: d/2 (x - centroid) with the divergence d, and the bubble
+  /// Half the outward flux of T grad u through the sides of a triangle, negative: side i has
+  /// -T^2 G.e_i / 2 with G = sum of u_i e_i. Returns |G|^2 T^2.
+  V halves(std::size_t t, V* half) const {
+    const std::int32_t* const copy = _mesh.copy + 3 * t;
+    const double* const edge = _mesh.edge + 6 * t;
+    const double tension = _mesh.tension[t], q = tension * tension;
+    const V first = u(copy[0]), second = u(copy[1]) - first, third = u(copy[2]) - first;
+    const V gx = second * edge[2] + third * edge[4], gy = second * edge[3] + third * edge[5];
+    for (std::size_t i = 0; i < 3; ++i) half[i] = q * (gx * edge[2 * i] + gy * edge[2 * i + 1]);
+    return q * (gx * gx + gy * gy);
+  }
+
+  /// What the fan of corner i of a triangle adds between its spokes, and before the second of them.
+  template <bool loaded>
+  void spoke_of(const V* half, std::size_t t, std::size_t i, V* to) const {
+    to[0] = half[i];
+    if constexpr (loaded) to[0] -= force(3 * t + i);
+    to[1] = to[0] + half[(i + 1) % 3];
+  }
+
+  /// Begins the triangles of the block: the part of sigma - T grad u that comes from the load is
+  /// d/2 (x - centroid) with the divergence d, and the bubble
   ///   b = 1/3 sum_(i<j) (f_j - f_i)(P_j - P_i) l_i l_j,  div b = -(f - mean f),
   /// which has no flux through the sides. With the loads f_i, their sum s and d_i = f_k - f_j this
   /// adds -(f_0 e_2 + f_1 e_0 + f_2 e_1) to the mean, and the square of the rest is
@@ -123,19 +144,14 @@ class Flux {
   template <bool loaded>
   void measure() {
     V norm_squared{};
-    for (std::size_t t = 0; t < _mesh.triangles; ++t) {
+    for (std::size_t t = _block.first_triangle; t < _block.last_triangle; ++t) {
       look(t);
-      const std::int32_t* const copy = _mesh.copy + 3 * t;
-      const double* const edge = _mesh.edge + 6 * t;
-      const double tension = _mesh.tension[t], q = tension * tension;
-      const V first = u(copy[0]), second = u(copy[1]) - first, third = u(copy[2]) - first;
-      const V gx = second * edge[2] + third * edge[4], gy = second * edge[3] + third * edge[5];
-      norm_squared += q * (gx * gx + gy * gy);
-      V half[3], f[3] = {};
-      for (std::size_t i = 0; i < 3; ++i) half[i] = q * (gx * edge[2 * i] + gy * edge[2 * i + 1]);
+      V half[3];
+      norm_squared += halves(t, half);
       V mx{}, my{};
       if constexpr (loaded) {
-        for (std::size_t i = 0; i < 3; ++i) f[i] = force(3 * t + i);
+        const double* const edge = _mesh.edge + 6 * t;
+        const V f[3] = {force(3 * t), force(3 * t + 1), force(3 * t + 2)};
         const V d[3] = {f[2] - f[1], f[0] - f[2], f[1] - f[0]};
         const V sum = f[0] + f[1] + f[2];
         mx = d[2] * edge[4] - d[0] * edge[2];
@@ -147,25 +163,25 @@ class Flux {
           const double length = edge[2 * i] * edge[2 * i] + edge[2 * i + 1] * edge[2 * i + 1];
           rest += length * (1.0 / 144 * sum * sum + 1.0 / 45 * bubble);
         }
-        _rest[t] = 4 * rest;
+        for (std::size_t l = 0; l < lanes; ++l) _lane[l].distance[t] = of(4 * rest, l);
       }
       _mean[t] = Pair{mx, my};
-      for (std::size_t i = 0; i < 3; ++i) {
-        const V out = half[i] - f[i];
-        _spoke[2 * (3 * t + i)] = out;
-        _spoke[2 * (3 * t + i) + 1] = out + half[(i + 1) % 3];
-      }
+      for (std::size_t i = 0; i < 3; ++i)
+        spoke_of<loaded>(half, t, i, _spoke + 2 * (3 * (t - _block.first_triangle) + i));
     }
-    for (std::size_t l = 0; l < lanes; ++l) _lane[l].norm_squared = of(norm_squared, l);
+    for (std::size_t l = 0; l < lanes; ++l) _block.norm_squared[l] = of(norm_squared, l);
   }
 
   /// The fan of corner i adds x out through side j and x' in through side k of the triangle; fans
   /// not yet built count as half of T grad u. With a = x less half of T grad u through side j, this
-  /// adds a e_i to the mean of sigma - T grad u, apart from the load.
+  /// adds a e_i to the mean of sigma - T grad u, apart from the load. The block without triangles
+  /// has fans of other blocks' triangles.
+  template <bool loaded>
   void build() {
+    measure<loaded>();
+    const bool own_triangles = _block.first_triangle < _block.last_triangle;
     V imbalance{};
-    for (std::size_t place = 0; place < 2 * _mesh.faces; ++place) _through[place] = V{};
-    for (std::size_t fan = 0; fan < _mesh.fans; ++fan) {
+    for (std::size_t fan = _block.first_fan; fan < _block.last_fan; ++fan) {
       look(fan);
       const FanCorner* const end = _mesh.around + _mesh.first_corner[fan + 1];
       V x{};
@@ -173,8 +189,17 @@ class Flux {
       V* spoke = _x;
       *spoke = x;
       for (const FanCorner* one = _mesh.around + _mesh.first_corner[fan]; one != end; ++one) {
-        const std::size_t t = static_cast<std::size_t>(one->triangle);
-        const V* const own = _spoke + 2 * (3 * t + static_cast<std::size_t>(one->i));
+        const std::size_t t = static_cast<std::size_t>(one->triangle),
+                          i = static_cast<std::size_t>(one->i);
+        V computed[2];
+        const V* own = computed;
+        if (own_triangles) {
+          own = _spoke + 2 * (3 * (t - _block.first_triangle) + i);
+        } else {
+          V half[3];
+          halves(t, half);
+          spoke_of<loaded>(half, t, i, computed);
+        }
         Pair mean = _mean[t];
         mean += Of::scaled(x + own[1], one->edge);
         _mean[t] = mean;
@@ -190,11 +215,11 @@ class Flux {
       }
       rotate(fan, step(fan, slope_of_work(fan) + Of::sum(slope)));
     }
-    for (std::size_t l = 0; l < lanes; ++l) _lane[l].imbalance = of(imbalance, l);
+    for (std::size_t l = 0; l < lanes; ++l) _block.imbalance[l] = of(imbalance, l);
   }
 
   void polish() {
-    for (std::size_t fan = 0; fan < _mesh.fans; ++fan) {
+    for (std::size_t fan = _block.first_fan; fan < _block.last_fan; ++fan) {
       look(fan);
       const FanCorner* const end = _mesh.around + _mesh.first_corner[fan + 1];
       Pair slope{};
@@ -291,34 +316,34 @@ class Flux {
 
   void finish() {
     const bool loaded = _lane->force != nullptr;
-    for (std::size_t t = 0; t < _mesh.triangles; ++t) {
+    for (std::size_t t = _block.first_triangle; t < _block.last_triangle; ++t) {
       look(t);
       const V mx = _mean[t][0], my = _mean[t][1];
       const V square = mx * mx + my * my;
-      const V distance = loaded ? square + _rest[t] : square;
       for (std::size_t l = 0; l < lanes; ++l) {
-        _lane[l].mean[2 * t] = of(mx, l);
-        _lane[l].mean[2 * t + 1] = of(my, l);
-        _lane[l].distance[t] = of(distance, l);
+        FluxLane& to = _lane[l];
+        to.distance[t] = loaded ? of(square, l) + to.distance[t] : of(square, l);
+        if (lanes == 1) continue;  // _mean is its own
+        to.mean[2 * t] = of(mx, l);
+        to.mean[2 * t + 1] = of(my, l);
       }
     }
-    for (std::size_t place = 0; place < 2 * _mesh.faces; ++place)
-      for (std::size_t l = 0; l < lanes; ++l) _lane[l].through[place] = of(_through[place], l);
   }
 
   const FluxMesh& _mesh;
   FluxLane* const _lane;
+  FluxBlock& _block;
   const bool _pressure;
-  V* _spoke;
-  Pair* _mean;
-  V* _rest;  // (triangles) int |sigma - T grad u - its mean|^2 / T
-  V* _through;
-  V* _x;  // fluxes through the spokes of a fan
+  Pair* const _mean;
+  V* const _through;
+  V* const _x;      // fluxes through the spokes of a fan
+  V* const _spoke;  // of the block's triangles
 };
 
 template <std::size_t lanes>
-void balance(const FluxMesh& mesh, FluxLane* lane, int polish, double* scratch) {
-  Flux<lanes>(mesh, lane, scratch).run(polish);
+void balance(const FluxMesh& mesh, FluxLane* lane, FluxStep step, FluxBlock& block,
+             const FluxScratch& scratch) {
+  Flux<lanes>(mesh, lane, block, scratch).run(step);
 }
 
 }  // namespace

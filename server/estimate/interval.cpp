@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/at.hpp"
+#include "base/at_once.hpp"
 #include "estimate/bracket.hpp"
 #include "estimate/flux_kernels.hpp"
 #include "fem/triangle_rules.hpp"
@@ -338,8 +339,9 @@ std::vector<Bound> bounds(const CutMesh& cut, std::span<const Aimed> of) {
   }
   const std::vector<FaceBounds> of_faces(cones.begin(), cones.end());
   const std::vector<EquilibratedFlux> taus = EquilibratedFlux::of_all(cut, balances, of_faces);
-  std::vector<Bound> found;
-  for (std::size_t i = 0; i < of.size(); ++i) found.push_back(bound(of[i], taus[i]));
+  std::vector<Bound> found(of.size());
+  base::at_once(of.size(), base::Threads::allowed(),
+                [&] { return [&](std::size_t i) { found[i] = bound(of[i], taus[i]); }; });
   return found;
 }
 

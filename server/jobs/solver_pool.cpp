@@ -7,6 +7,7 @@
 #include <system_error>
 #include <utility>
 
+#include "base/at_once.hpp"
 #include "jobs/condensing.hpp"
 #include "jobs/exact_run.hpp"
 #include "jobs/job_start.hpp"
@@ -241,6 +242,7 @@ void SolverPool::solve_exactly(const Mesh& mesh, Working& working) {
   Lock lock(_core.mutex);
   do {
     working.step = Clock::now();
+    const base::Threads helped(1 + static_cast<int>(idle()));
     std::vector<EndedCase> ended;
     if (mesh->prepared.empty()) {
       lock.unlock();

@@ -12,6 +12,7 @@
 #include <map>
 #include <utility>
 
+#include "base/at_once.hpp"
 #include "estimate/solved.hpp"
 #include "support/random_seed.hpp"
 
@@ -19,7 +20,7 @@ namespace anticrack::estimate {
 namespace {
 
 struct Tally {
-  int fluxes = 0, without = 0, unsolved = 0;
+  int fluxes = 0, without = 0, unsolved = 0, blocks = 0;
   double identity = 0, imbalance = 0, off = 0;
 };
 
@@ -196,6 +197,9 @@ void check(unsigned seed, bool rich, Tally& tally) {
   EXPECT_LT(fault, 1e-10);
   tally.imbalance = std::max(tally.imbalance, flux.imbalance() / std::sqrt(scale));
   EXPECT_LT(dual, nested.fine->answer.energy + 1e-12 * scale);
+  tally.blocks += coarse.cut.block_count() > 1 ? 1 : 0;
+  const base::Threads helped(3);
+  EXPECT_EQ(EquilibratedFlux(coarse.cut, coarse.balance()).distance(), flux.distance());
 }
 
 class Fluxes : public ::testing::TestWithParam<bool> {};
@@ -210,6 +214,7 @@ TEST_P(Fluxes, AreInEquilibriumOnRandomMembranes) {
       first, tally.fluxes, tally.without, tally.unsolved, tally.identity, tally.off,
       tally.imbalance);
   EXPECT_GT(tally.fluxes, 100);
+  EXPECT_GT(tally.blocks, 50);
   EXPECT_LT(tally.imbalance, 1e-10);
 }
 

@@ -53,7 +53,7 @@ struct Figures {
   double energy = 0, displacement = 0, cone = 0, nearest = 1;
 };
 
-double sum_of(const std::vector<double>& values) {
+double sum_of(std::span<const double> values) {
   double sum = 0;
   for (const double one : values) sum += one;
   return sum;

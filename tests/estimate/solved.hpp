@@ -38,7 +38,7 @@ struct Solved {
   Solved(const mesh::Mesh& given, fem::Load full, const std::vector<double>& values)
       : mesh(std::make_shared<const mesh::Mesh>(given)),
         parts(mesh, 1, operators::default_condensed_up_to),
-        cut(cut_mesh(*mesh, parts.decomposition)) {
+        cut(cut_mesh(*mesh, parts.decomposition, 20)) {  // several blocks, and fans between them
     const bool by_triangle = values.size() == mesh->triangle_count();
     full.force = fem::Array{"", by_triangle, std::make_shared<const std::vector<double>>(values)};
     const fem::Load* const one[] = {&full};
