@@ -70,9 +70,7 @@ CondensedProblem::CondensedProblem(const TraceProblem& traces, Blocks blocks)
     : ContactProblem(traces, true),
       _h(std::move(blocks.h)),
       _closed_to_open(std::move(blocks.w)),
-      _nested_start(blocks.condensed, traces.chains()),
-      _lcp(std::move(blocks.condensed), traces.decomposition().skeleton.dependent,
-           traces.pair_forces().contact_mass().cwiseInverse()) {}
+      _contact(std::move(blocks.condensed), traces) {}
 
 std::vector<ddm::CondensedLoad> CondensedProblem::loads(
     std::size_t subdomain, const Eigen::Ref<const MatrixXd>& of_nodes,
@@ -158,7 +156,7 @@ void CondensedProblem::refine(std::span<const ddm::CondensedLoad> loads, const T
                               const LcpAnswer& solution, Position& position) const {
   const Reduced correction = eliminate(-traces().gather(state.flux), loads, {}, false);
   position.load.x += correction.x;
-  position.d += _lcp.solve_open(solution.factor, correction.r);
+  position.d += lcp().solve_open(solution.factor, correction.r);
   position.d = position.d.cwiseMax(0.0);
   position.x = solve(position.load, position.d);
 }
@@ -166,59 +164,21 @@ void CondensedProblem::refine(std::span<const ddm::CondensedLoad> loads, const T
 LcpAnswer CondensedProblem::solve_contact(const Reduced& load, const LcpOptions& options,
                                           std::span<const char> start,
                                           const OnStep& on_step) const {
-  if (!start.empty()) return _lcp.solve(load.r, load.magnitude, options, start, on_step);
-  return _lcp.solve(load.r, load.magnitude, options, _nested_start.closed(load.r, load.magnitude),
-                    on_step);
+  return _contact.solve(load, options, start, on_step);
 }
 
 std::vector<Opened> CondensedProblem::solve_open(const std::vector<char>& closed,
                                                  std::span<const VectorXd> r) const {
-  OpenFactor own;
-  if (!closed.empty()) own.factorise(_lcp.scaled_matrix(), _lcp.scaled_conditions().rows(), closed);
-  const OpenFactor& factor = closed.empty() ? all_open() : own;
-  std::vector<Opened> result;
-  for (const VectorXd& one : r) {
-    stop::look("solving for contact");
-    if (factor.regular()) {
-      const VectorXd d = _lcp.solve_open(factor, one);
-      result.push_back({d, one - _lcp.apply(d)});
-    } else {
-      result.push_back({VectorXd::Zero(one.size()), one, false});
-    }
-  }
-  return result;
+  return _contact.solve_open(closed, r);
 }
-
-namespace {
-
-class CondensedRows final : public RowContact {
- public:
-  CondensedRows(const DenseLcp& lcp, const LcpOptions& options, std::span<const char> start,
-                const NestedStart& nested, MatrixXd motions)
-      : _contact(lcp, options, start, &nested), _motions(std::move(motions)) {}
-
-  void solve(const VectorXd& r, const VectorXd& magnitude) override {
-    _contact.solve(r, magnitude);
-  }
-  const LcpAnswer& answer() const override { return _contact.answer(); }
-  void motion(VectorXd& of_jumps) const override {
-    multiply(_motions, answer().d.head(_motions.cols()), of_jumps);
-  }
-
- private:
-  LcpSequence _contact;
-  MatrixXd _motions;  // (motions, d)
-};
-
-}  // namespace
 
 std::unique_ptr<RowContact> CondensedProblem::rows(const LcpOptions& options,
                                                    std::span<const char> start,
                                                    std::vector<ddm::Terms> motions) const {
-  MatrixXd of_jumps(static_cast<Index>(motions.size()), _lcp.size());
+  MatrixXd of_jumps(static_cast<Index>(motions.size()), maps().jump_count());
   for (Index j = 0; j < of_jumps.rows(); ++j)
     of_jumps.row(j) = response(motions[at(j)]).transpose();
-  return std::make_unique<CondensedRows>(_lcp, options, start, _nested_start, std::move(of_jumps));
+  return _contact.rows(options, start, std::move(of_jumps));
 }
 
 void CondensedProblem::recover_fields(std::span<const SolvedCase> cases) const {
@@ -256,19 +216,9 @@ std::vector<std::vector<double>> CondensedProblem::fields_of(
   return fields;
 }
 
-const OpenFactor& CondensedProblem::all_open() const {
-  return _all_open.get([this] {
-    OpenFactor factor;
-    factor.factorise(_lcp.scaled_matrix(), _lcp.scaled_conditions().rows(),
-                     std::vector<char>(at(_lcp.conditions()), 0));
-    return factor;
-  });
-}
-
 std::size_t CondensedProblem::bytes() const noexcept {
-  const auto all_open = _all_open.known() == nullptr ? 0 : _lcp.size() * _lcp.size();
-  return sizeof(double) * at(_h.size() + _closed_to_open.size() + all_open) +
-         _nested_start.bytes() + _lcp.bytes() + maps().bytes();
+  return sizeof(double) * at(_h.size() + _closed_to_open.size()) + _contact.bytes() +
+         maps().bytes();
 }
 
 }  // namespace anticrack::contact

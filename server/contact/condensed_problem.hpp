@@ -5,9 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "base/lazy.hpp"
 #include "contact/contact_problem.hpp"
-#include "contact/nested_start.hpp"
+#include "contact/dense_contact.hpp"
 
 namespace anticrack::contact {
 
@@ -42,7 +41,7 @@ class CondensedProblem final : public ContactProblem {
   std::vector<std::vector<double>> fields_of(std::span<const Displaced> displaced) const override;
   std::size_t bytes() const noexcept override;
 
-  const DenseLcp& lcp() const noexcept { return _lcp; }
+  const DenseLcp& lcp() const noexcept { return _contact.lcp(); }
 
  protected:
   Reduced eliminate(const Eigen::VectorXd& h, std::span<const ddm::CondensedLoad> loads,
@@ -56,13 +55,10 @@ class CondensedProblem final : public ContactProblem {
   Eigen::VectorXd apply(const Eigen::VectorXd& w) const;
   /// How much a unit jump of each contact changes a sum of unknowns. O(c) a term.
   Eigen::VectorXd response(const ddm::Terms& terms) const;
-  const OpenFactor& all_open() const;
 
   Eigen::MatrixXd _h;               // Cholesky factor of H, lower triangle
   Eigen::MatrixXd _closed_to_open;  // W = H^-1 C
-  NestedStart _nested_start;
-  DenseLcp _lcp;
-  base::Lazy<OpenFactor> _all_open;  // factor of the lcp with every contact open
+  DenseContact _contact;
 };
 
 }  // namespace anticrack::contact

@@ -13,6 +13,7 @@ namespace anticrack::contact {
 namespace {
 
 using Eigen::Index;
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Sparse = Eigen::SparseMatrix<double>;
 
@@ -35,9 +36,16 @@ void add_product(const Sparse& lower, const VectorXd& x, VectorXd& y) {
   y += lower.selfadjointView<Eigen::Lower>() * x;
 }
 
+/// The factor of A, with the contacts as its trace or without them.
+ddm::SubdomainFactor factor_of(const Sparse& matrix, Index interior, Index trace,
+                               std::span<const double> places, int threads) {
+  const Sparse part = block_of(matrix, 0, 0, interior + trace, interior + trace);
+  return {part, interior, ddm::elimination_order(part, interior, places), threads};
+}
+
 }  // namespace
 
-JoinedMembrane::JoinedMembrane(const TraceProblem& traces, int threads)
+JoinedMembrane::JoinedMembrane(const TraceProblem& traces, bool condense_contacts, int threads)
     : _traces(traces),
       _stiffness(decomposition().subdomains.size()),
       _matrix(assemble()),
@@ -45,7 +53,7 @@ JoinedMembrane::JoinedMembrane(const TraceProblem& traces, int threads)
                   _interior + traces.maps().free_count())),
       _b(block_of(_matrix, _a.rows(), 0, traces.maps().jump_count(), _a.rows())),
       _d(block_of(_matrix, _a.rows(), _a.rows(), _b.rows(), _b.rows())),
-      _factor(_a, _a.rows(), ddm::elimination_order(_a, _a.rows(), _places), threads) {
+      _factor(factor_of(_matrix, _a.rows(), condense_contacts ? _b.rows() : 0, _places, threads)) {
   const Index held = traces.maps().held_count(), last = _a.rows() + _b.rows();
   _xp = Sparse(block_of(_matrix, last, 0, held, _a.rows()).transpose());
   _dp = Sparse(block_of(_matrix, last, _a.rows(), held, _b.rows()).transpose());
@@ -167,8 +175,8 @@ VectorXd JoinedMembrane::spread(const VectorXd& h,
   return force;
 }
 
-VectorXd JoinedMembrane::solve_once(const VectorXd& force) const {
-  VectorXd x(size());
+MatrixXd JoinedMembrane::solve_once(const MatrixXd& force) const {
+  MatrixXd x(force.rows(), force.cols());
   _factor.solve(force, x);
   return x;
 }
@@ -180,19 +188,28 @@ VectorXd JoinedMembrane::solve_refined(const VectorXd& force) const {
   return x;
 }
 
-Reduced JoinedMembrane::reduce(const VectorXd& force, const VectorXd& p) const {
+VectorXd JoinedMembrane::on_free(const VectorXd& force, const VectorXd& p) const {
+  VectorXd result = force.head(size());
+  if (p.size() > 0) result -= _xp * p;
+  return result;
+}
+
+VectorXd JoinedMembrane::of_jumps(const VectorXd& d) const {
+  return solve_once(_b.transpose() * d);
+}
+
+Reduced JoinedMembrane::reduce(const VectorXd& force, const VectorXd& p, bool refined) const {
   Reduced result;
   result.p = p;
-  result.force = force.head(size());
+  result.force = on_free(force, p);
   result.r = force.segment(size(), contacts());
   result.magnitude = result.r.cwiseAbs();
   if (p.size() > 0) {
     const VectorXd of_held = _dp * p;
-    result.force -= _xp * p;
     result.r -= of_held;
     result.magnitude += of_held.cwiseAbs();
   }
-  result.x = solve_refined(result.force);
+  result.x = refined ? solve_refined(result.force) : VectorXd(solve_once(result.force));
   result.r -= _b * result.x;
   result.magnitude += _b.cwiseAbs() * result.x.cwiseAbs();
   result.size = std::max(largest(result.force), largest(result.r));
@@ -201,7 +218,7 @@ Reduced JoinedMembrane::reduce(const VectorXd& force, const VectorXd& p) const {
 
 VectorXd JoinedMembrane::apply(const VectorXd& d, bool refined) const {
   const VectorXd force = _b.transpose() * d;
-  VectorXd result = -(_b * (refined ? solve_refined(force) : solve_once(force)));
+  VectorXd result = -(_b * (refined ? solve_refined(force) : VectorXd(solve_once(force))));
   add_product(_d, d, result);
   return result;
 }
@@ -210,9 +227,10 @@ VectorXd JoinedMembrane::forces_of(const VectorXd& x, const VectorXd& d) const {
   return -residual({}, x, values(x, d));
 }
 
-VectorXd JoinedMembrane::solve(const Reduced& load, const VectorXd& d) const {
-  VectorXd x = solve_once(load.force - _b.transpose() * d);
-  x += solve_once(load.force - forces_of(x, d).head(size()));
+MatrixXd JoinedMembrane::solve(const MatrixXd& force, const MatrixXd& d) const {
+  MatrixXd x = solve_once(force - _b.transpose() * d), left = force;
+  for (Index k = 0; k < x.cols(); ++k) left.col(k) -= forces_of(x.col(k), d.col(k)).head(size());
+  x += solve_once(left);
   return x;
 }
 

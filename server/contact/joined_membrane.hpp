@@ -16,13 +16,17 @@ namespace anticrack::contact {
 
 /// The matrices of a JoinedProblem: the whole membrane with one sparse factor, for interfaces too
 /// long for dense matrices. Unknowns: x has the interior nodes of the subdomains one after another
-/// and then q; d are the jumps and p the held values (ddm::Skeleton). S^ is never formed: it is
-/// applied by a solve with the factor of A. Immutable after construction, thread-safe. Keeps a
-/// reference.
+/// and then q; d are the jumps and p the held values (ddm::Skeleton). S^ is applied by a solve with
+/// the factor of A, or, if contacts are condensed, is what the factorisation leaves of D: contacts
+/// come last in the elimination. Immutable after construction, thread-safe. Keeps a reference.
 class JoinedMembrane {
  public:
   /// Throws errors::Error: numerical when A is not positive definite; cancelled. O(N log N) memory.
-  JoinedMembrane(const TraceProblem& traces, int threads);
+  JoinedMembrane(const TraceProblem& traces, bool condense_contacts, int threads);
+
+  bool condenses_contacts() const noexcept { return _factor.trace() == contacts(); }
+  /// S^, once, while the problem is made.
+  Eigen::MatrixXd take_condensed() { return _factor.take_schur(); }
 
   const TraceProblem& traces() const noexcept { return _traces; }
   const ddm::Decomposition& decomposition() const noexcept { return _traces.decomposition(); }
@@ -38,17 +42,22 @@ class JoinedMembrane {
   /// f in [x d p], from forces h on the skeleton's unknowns and the interior part of `loads`.
   Eigen::VectorXd spread(const Eigen::VectorXd& h,
                          std::span<const ddm::CondensedLoad> loads = {}) const;
-  /// Eliminates x with every contact closed. `force`: in [x d p]. Two solves, one of them of
-  /// iterative refinement.
-  Reduced reduce(const Eigen::VectorXd& force, const Eigen::VectorXd& p) const;
+  /// Eliminates x with every contact closed. `force`: in [x d p]. One solve, `refined`: two, the
+  /// second of iterative refinement.
+  Reduced reduce(const Eigen::VectorXd& force, const Eigen::VectorXd& p, bool refined) const;
+  /// f_x - K_xp p. `force`: in [x d p].
+  Eigen::VectorXd on_free(const Eigen::VectorXd& force, const Eigen::VectorXd& p) const;
 
   /// S^ d. One solve, or two with a step of iterative refinement.
   Eigen::VectorXd apply(const Eigen::VectorXd& d, bool refined = false) const;
   /// K [x d 0] in [x d p], summed from the forces on the nodes. The equation of an inclusion that
   /// moves is the sum over all its nodes, whose forces are far larger than their sum.
   Eigen::VectorXd forces_of(const Eigen::VectorXd& x, const Eigen::VectorXd& d) const;
-  /// x for jumps d. Two solves, the second for the residual by forces_of.
-  Eigen::VectorXd solve(const Reduced& load, const Eigen::VectorXd& d) const;
+  /// x for forces on x and jumps d, column by column. Two solves, the second for the residual by
+  /// forces_of.
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& force, const Eigen::MatrixXd& d) const;
+  /// A^-1 B'd, what jumps d take off x. One solve.
+  Eigen::VectorXd of_jumps(const Eigen::VectorXd& d) const;
   /// [y p], f and K [y 0 p] of a load with every contact closed, all in [x p].
   Work work(const Eigen::VectorXd& force, const Reduced& reduced) const;
 
@@ -74,7 +83,7 @@ class JoinedMembrane {
  private:
   Eigen::SparseMatrix<double> assemble();
   Eigen::VectorXd values(const Eigen::VectorXd& x, const Eigen::VectorXd& d) const;
-  Eigen::VectorXd solve_once(const Eigen::VectorXd& force) const;
+  Eigen::MatrixXd solve_once(const Eigen::MatrixXd& force) const;
   Eigen::VectorXd solve_refined(const Eigen::VectorXd& force) const;
 
   const TraceProblem& _traces;

@@ -22,11 +22,19 @@ bool is_joined(const ddm::Decomposition& decomposition, std::size_t condensed_up
                              });
 }
 
-JoinedProblem::JoinedProblem(const TraceProblem& traces, int threads)
+JoinedProblem::ByBlocks::ByBlocks(const JoinedMembrane& membrane, const Conditions& conditions,
+                                  int threads)
+    : blocks(membrane, membrane.traces().pair_forces(), threads),
+      lcp(membrane, blocks, conditions) {}
+
+JoinedProblem::JoinedProblem(const TraceProblem& traces, int threads, std::size_t most_dense)
     : ContactProblem(traces, false),
-      _membrane(traces, threads),
-      _blocks(_membrane, traces.pair_forces(), threads),
-      _lcp(_membrane, _blocks, conditions()) {}
+      _membrane(traces, at(traces.maps().jump_count()) <= most_dense, threads) {
+  if (_membrane.condenses_contacts())
+    _dense.emplace(_membrane.take_condensed(), traces);
+  else
+    _by_blocks.emplace(_membrane, conditions(), threads);
+}
 
 std::vector<ddm::CondensedLoad> JoinedProblem::loads(
     std::size_t subdomain, const Eigen::Ref<const MatrixXd>& of_nodes,
@@ -35,12 +43,12 @@ std::vector<ddm::CondensedLoad> JoinedProblem::loads(
 }
 
 Reduced JoinedProblem::eliminate(const VectorXd& h, std::span<const ddm::CondensedLoad> loads,
-                                 const VectorXd& p, bool /*refined*/) const {
-  return _membrane.reduce(_membrane.spread(h, loads), p);
+                                 const VectorXd& p, bool refined) const {
+  return _membrane.reduce(_membrane.spread(h, loads), p, refined || !_dense);
 }
 
 VectorXd JoinedProblem::solve(const Reduced& load, const VectorXd& d) const {
-  return _membrane.solve(load, d);
+  return _membrane.solve(load.force, d);
 }
 
 Work JoinedProblem::work(std::span<const ddm::CondensedLoad> loads, const Reduced& reduced) const {
@@ -65,21 +73,25 @@ void JoinedProblem::fill(std::span<const ddm::CondensedLoad> loads, const Vector
 void JoinedProblem::refine(std::span<const ddm::CondensedLoad> loads, const TraceState& /*state*/,
                            const LcpAnswer& solution, Position& position) const {
   auto& [load, x, d] = position;
-  const Reduced left = _membrane.reduce(_membrane.residual(loads, x, values(x, d, load.p)), {});
-  const VectorXd change = _lcp.solve_open(left.r, solution.closed).d;
-  x += _membrane.solve(left, change);
+  const VectorXd force = _membrane.residual(loads, x, values(x, d, load.p));
+  const Reduced left = _membrane.reduce(force, {}, !_dense);
+  const VectorXd change = _dense ? _dense->lcp().solve_open(solution.factor, left.r)
+                                 : _by_blocks->lcp.solve_open(left.r, solution.closed).d;
+  x += left.x - _membrane.of_jumps(change);
   d = (d + change).cwiseMax(0.0);
 }
 
 LcpAnswer JoinedProblem::solve_contact(const Reduced& load, const LcpOptions& options,
                                        std::span<const char> start, const OnStep& on_step) const {
-  return _lcp.solve(load.r, load.magnitude, options, start, on_step);
+  if (_dense) return _dense->solve(load, options, start, on_step);
+  return _by_blocks->lcp.solve(load.r, load.magnitude, options, start, on_step);
 }
 
 std::vector<Opened> JoinedProblem::solve_open(const std::vector<char>& closed,
                                               std::span<const VectorXd> r) const {
+  if (_dense) return _dense->solve_open(closed, r);
   std::vector<Opened> result;
-  for (const VectorXd& one : r) result.push_back(_lcp.solve_open(one, closed));
+  for (const VectorXd& one : r) result.push_back(_by_blocks->lcp.solve_open(one, closed));
   return result;
 }
 
@@ -87,14 +99,14 @@ namespace {
 
 class JoinedRows final : public RowContact {
  public:
-  JoinedRows(const JoinedProblem& problem, const LcpOptions& options, std::span<const char> start,
-             std::vector<ddm::Terms> motions)
-      : _problem(problem), _options(options), _motions(std::move(motions)) {
+  JoinedRows(const JoinedProblem& problem, const BlockLcp& lcp, const LcpOptions& options,
+             std::span<const char> start, std::vector<ddm::Terms> motions)
+      : _problem(problem), _lcp(lcp), _options(options), _motions(std::move(motions)) {
     _answer.closed.assign(start.begin(), start.end());
   }
 
   void solve(const VectorXd& r, const VectorXd& magnitude) override {
-    _answer = _problem.lcp().solve(r, magnitude, _options, _answer.closed, {});
+    _answer = _lcp.solve(r, magnitude, _options, _answer.closed, {});
   }
   const LcpAnswer& answer() const override { return _answer; }
   void motion(VectorXd& of_jumps) const override {
@@ -109,6 +121,7 @@ class JoinedRows final : public RowContact {
 
  private:
   const JoinedProblem& _problem;
+  const BlockLcp& _lcp;
   const LcpOptions _options;
   const std::vector<ddm::Terms> _motions;
   LcpAnswer _answer;
@@ -119,20 +132,34 @@ class JoinedRows final : public RowContact {
 std::unique_ptr<RowContact> JoinedProblem::rows(const LcpOptions& options,
                                                 std::span<const char> start,
                                                 std::vector<ddm::Terms> motions) const {
-  return std::make_unique<JoinedRows>(*this, options, start, std::move(motions));
+  if (!_dense)
+    return std::make_unique<JoinedRows>(*this, _by_blocks->lcp, options, start, std::move(motions));
+  MatrixXd of_jumps(static_cast<Index>(motions.size()), _membrane.contacts());
+  for (Index j = 0; j < of_jumps.rows(); ++j)
+    of_jumps.row(j) = unit_force(motions[at(j)]).r.transpose();
+  return _dense->rows(options, start, std::move(of_jumps));
 }
 
 void JoinedProblem::recover_fields(std::span<const SolvedCase> cases) const {
   const ddm::Decomposition& decomposition = traces().decomposition();
   const std::vector<ddm::Contact>& contacts = decomposition.skeleton.contacts;
-  for (const SolvedCase& one : cases) {
+  const auto columns = static_cast<Index>(cases.size());
+  MatrixXd forces(_membrane.size(), columns), d(_membrane.contacts(), columns);
+  std::vector<VectorXd> w;
+  for (Index k = 0; k < columns; ++k) {
     // The traces give the jumps, and the jumps everything else.
-    const VectorXd w = unknowns_of(decomposition, one.answer);
-    VectorXd d(_membrane.contacts());
-    for (Index c = 0; c < d.size(); ++c) d[c] = w[contacts[at(c)].plus] - w[contacts[at(c)].minus];
-    const VectorXd x = solve(reduce(one.loads, held_values(decomposition, one.loads)), d);
+    const SolvedCase& one = cases[at(k)];
+    w.push_back(unknowns_of(decomposition, one.answer));
+    for (Index c = 0; c < d.rows(); ++c)
+      d(c, k) = w.back()[contacts[at(c)].plus] - w.back()[contacts[at(c)].minus];
+    forces.col(k) = _membrane.on_free(_membrane.spread(traces().gather(one.loads), one.loads),
+                                      held_values(decomposition, one.loads));
+  }
+  const MatrixXd x = _membrane.solve(forces, d);
+  for (Index k = 0; k < columns; ++k) {
+    const SolvedCase& one = cases[at(k)];
     for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
-      const VectorXd u = _membrane.field(s, x, w);
+      const VectorXd u = _membrane.field(s, x.col(k), w[at(k)]);
       Field field{decomposition.subdomains[s].node, std::vector<double>(u.begin(), u.end())};
       field.u.insert(field.u.end(), one.loads[s].dirichlet.begin(), one.loads[s].dirichlet.end());
       one.answer.fields.push_back(std::move(field));
@@ -142,17 +169,25 @@ void JoinedProblem::recover_fields(std::span<const SolvedCase> cases) const {
 
 std::vector<std::vector<double>> JoinedProblem::fields_of(
     std::span<const Displaced> displaced) const {
-  std::vector<std::vector<double>> fields;
-  for (const Displaced& one : displaced) {
-    Reduced load;  // its force is all that solve() asks for
-    load.force = _membrane.spread(maps().vector_of(*one.force)).head(_membrane.size());
-    fields.push_back(_membrane.field(solve(load, one.d), one.d));
+  const auto columns = static_cast<Index>(displaced.size());
+  MatrixXd forces(_membrane.size(), columns), d(_membrane.contacts(), columns);
+  for (Index k = 0; k < columns; ++k) {
+    const Displaced& one = displaced[at(k)];
+    forces.col(k) = _membrane.spread(maps().vector_of(*one.force)).head(_membrane.size());
+    d.col(k) = one.d;
   }
+  const MatrixXd x = _membrane.solve(forces, d);
+  std::vector<std::vector<double>> fields;
+  for (Index k = 0; k < columns; ++k) fields.push_back(_membrane.field(x.col(k), d.col(k)));
   return fields;
 }
 
 std::unique_ptr<const OpenMembrane> JoinedProblem::open_membrane() const {
-  return std::make_unique<const OpenMembrane>(_membrane);
+  return _dense ? nullptr : std::make_unique<const OpenMembrane>(_membrane);
+}
+
+std::size_t JoinedProblem::bytes() const noexcept {
+  return _membrane.bytes() + (_dense ? _dense->bytes() : _by_blocks->blocks.bytes());
 }
 
 }  // namespace anticrack::contact

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "contact/block_lcp.hpp"
 #include "contact/contact_blocks.hpp"
 #include "contact/contact_problem.hpp"
+#include "contact/dense_contact.hpp"
 #include "contact/joined_membrane.hpp"
 
 namespace anticrack::contact {
@@ -16,13 +18,19 @@ namespace anticrack::contact {
 /// the dense matrices of CondensedProblem.
 bool is_joined(const ddm::Decomposition& decomposition, std::size_t condensed_up_to);
 
+/// Contacts of a joined membrane up to which S^ is dense: it has 290 MB then, and takes a few times
+/// that with its factors.
+constexpr std::size_t most_dense_contacts = 6000;
+
 /// The contact problem of a JoinedMembrane; its answers agree with those of a CondensedProblem to
 /// 1e-10. Its steps report criterion, energy, gap and complementarity from jumps and multipliers
-/// alone, since traces would cost a solve.
+/// alone, since traces would cost a solve. With more than `most_dense` contacts S^ is not formed,
+/// and conjugate gradients solve for the jumps.
 class JoinedProblem final : public ContactProblem {
  public:
   /// Costs and errors are those of JoinedMembrane and ContactBlocks.
-  JoinedProblem(const TraceProblem& traces, int threads);
+  JoinedProblem(const TraceProblem& traces, int threads,
+                std::size_t most_dense = most_dense_contacts);
 
   std::vector<ddm::CondensedLoad> loads(
       std::size_t subdomain, const Eigen::Ref<const Eigen::MatrixXd>& of_nodes,
@@ -42,19 +50,26 @@ class JoinedProblem final : public ContactProblem {
   void recover_fields(std::span<const SolvedCase> cases) const override;
   std::vector<std::vector<double>> fields_of(std::span<const Displaced> displaced) const override;
   std::unique_ptr<const OpenMembrane> open_membrane() const override;
-  std::size_t bytes() const noexcept override { return _membrane.bytes() + _blocks.bytes(); }
+  std::size_t bytes() const noexcept override;
 
   const JoinedMembrane& membrane() const noexcept { return _membrane; }
-  const BlockLcp& lcp() const noexcept { return _lcp; }
+  /// Only if S^ is not formed.
+  const BlockLcp& by_blocks() const { return _by_blocks.value().lcp; }
 
  protected:
   Reduced eliminate(const Eigen::VectorXd& h, std::span<const ddm::CondensedLoad> loads,
                     const Eigen::VectorXd& p, bool refined) const override;
 
  private:
+  struct ByBlocks {
+    ByBlocks(const JoinedMembrane& membrane, const Conditions& conditions, int threads);
+    ContactBlocks blocks;
+    BlockLcp lcp;
+  };
+
   JoinedMembrane _membrane;
-  ContactBlocks _blocks;
-  BlockLcp _lcp;
+  std::optional<DenseContact> _dense;  // or else:
+  std::optional<ByBlocks> _by_blocks;
 };
 
 }  // namespace anticrack::contact

@@ -121,7 +121,7 @@ Eigen::Index columns_at_once(Eigen::Index rows) noexcept {
 
 SubdomainFactor::SubdomainFactor(const Sparse& stiffness, Eigen::Index interior,
                                  std::span<const std::int32_t> order, int threads)
-    : _interior(interior) {
+    : _interior(interior), _trace(stiffness.rows() - interior) {
   if (stiffness.rows() == 0)
     return;  // u is prescribed in every node; CHOLMOD refuses empty matrices
   std::vector<int> permutation(at(stiffness.rows()));
@@ -203,12 +203,16 @@ void SubdomainFactor::recover(std::span<Backward> columns) const {
 
 void SubdomainFactor::solve(const Eigen::Ref<const Eigen::MatrixXd>& f,
                             Eigen::Ref<Eigen::MatrixXd> x) const {
-  const std::vector<Forward> half = forward(f);
-  const Eigen::VectorXd nothing(0);
+  Eigen::MatrixXd all(_interior + _trace, f.cols());
+  all.topRows(_interior) = f;
+  all.bottomRows(_trace).setZero();
+  const std::vector<Forward> half = forward(all);
+  const Eigen::VectorXd at_rest = Eigen::VectorXd::Zero(_trace);
   std::vector<Backward> columns;
   for (Eigen::Index j = 0; j < f.cols(); ++j)
-    columns.push_back({half[at(j)].z_interior, nothing, x.col(j)});
+    columns.push_back({half[at(j)].z_interior, at_rest, all.col(j)});
   recover(columns);
+  x = all.topRows(_interior);
 }
 
 Eigen::VectorXd SubdomainFactor::apply_schur(const Eigen::VectorXd& trace_values) const {
@@ -219,7 +223,7 @@ Eigen::VectorXd SubdomainFactor::apply_schur(const Eigen::VectorXd& trace_values
 
 void SubdomainFactor::apply_schur(const Eigen::Ref<const Eigen::VectorXd>& trace_values,
                                   Eigen::Ref<Eigen::VectorXd> result) const {
-  const int size = static_cast<int>(trace());
+  const int size = static_cast<int>(_schur.rows());
   if (size > 0) {
     cblas_dsymv(CblasColMajor, CblasLower, size, 1, _schur.data(), size, trace_values.data(), 1, 0,
                 result.data(), 1);

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace anticrack::ddm {
@@ -54,7 +55,7 @@ class SubdomainFactor {
   /// the bits of a column do not depend on the others.
   void recover(std::span<Backward> columns) const;
 
-  /// x <- K^-1 f for a matrix without interface: forward() and recover() in one.
+  /// x <- K_II^-1 f on the interior, with 0 on the trace: forward() and recover() in one.
   void solve(const Eigen::Ref<const Eigen::MatrixXd>& f, Eigen::Ref<Eigen::MatrixXd> x) const;
 
   /// S t, O(n_G^2).
@@ -64,16 +65,18 @@ class SubdomainFactor {
                    Eigen::Ref<Eigen::VectorXd> result) const;
   /// S, dense, symmetric to the bit.
   const Eigen::MatrixXd& schur() const noexcept { return _schur; }
+  /// Takes S away; apply_schur() has nothing to apply then.
+  Eigen::MatrixXd take_schur() { return std::move(_schur); }
 
   /// The number of interior and of trace nodes; the memory of the factor and S in bytes.
   Eigen::Index interior() const noexcept { return _interior; }
-  Eigen::Index trace() const noexcept { return _schur.rows(); }
+  Eigen::Index trace() const noexcept { return _trace; }
   std::size_t bytes() const noexcept;
 
  private:
   struct Factor;  // keeps CHOLMOD's types out of this header
   std::unique_ptr<const Factor> _factor;
-  Eigen::Index _interior;
+  Eigen::Index _interior, _trace;
   Eigen::MatrixXd _schur;
 };
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/at.hpp"
+#include "contact/joined_problem.hpp"
 #include "ddm/cut_steps.hpp"
 #include "operators/mesh_operator.hpp"
 #include "stop/stop.hpp"
@@ -83,8 +84,8 @@ std::size_t estimate_bytes(const mesh::Mesh& mesh) {
   // The factor of a planar graph ordered by nested dissection has O(n log n) entries; measured with
   // all other data per node: 30 to 42 bytes times log2(n) a node, from 1 k to 2 M nodes. Dense
   // matrices: S and the flexibility on the trace; H and W on the skeleton; S^ with its coarser
-  // levels, two factors and a block of each on the contacts. A joined membrane has the stiffness
-  // three times, and the blocks.
+  // levels, two factors and a block of each on the contacts, or blocks of contacts where they are
+  // too many. A joined membrane has the stiffness three times.
   constexpr double bytes_per_node_and_level = 60, bytes_per_node = 200, bytes_per_joined_node = 500;
   constexpr double trace_blocks = 3, skeleton_blocks = 2, contact_blocks = 4.5, fixed = 1 << 14,
                    bytes_per_law = sizeof(fem::Tension::of_triangle[0]) + sizeof(fem::Variation);
@@ -104,11 +105,12 @@ std::size_t estimate_bytes(const mesh::Mesh& mesh) {
   }
   if (joined) {
     bytes += nodes * (bytes_per_joined_node + bytes_per_node_and_level * std::log2(nodes + 1));
-    bytes += block_bytes(mesh);
   } else {
     bytes += skeleton_blocks * sizeof(double) * skeleton.unknowns * skeleton.unknowns;
-    bytes += contact_blocks * sizeof(double) * skeleton.contacts * skeleton.contacts;
   }
+  bytes += joined && skeleton.contacts > contact::most_dense_contacts
+               ? block_bytes(mesh)
+               : contact_blocks * sizeof(double) * skeleton.contacts * skeleton.contacts;
   if (!mesh.tension_laws.empty())
     bytes += bytes_per_law * static_cast<double>(mesh.triangle_count());
   return static_cast<std::size_t>(bytes);

@@ -45,7 +45,8 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
   /// Factorises every subdomain (paper: the matrices of Algorithm 2) on `threads` threads. Throws
   /// errors::Error: numerical (a part that nothing or contact alone holds), cancelled. One sparse
   /// Cholesky factorisation per subdomain plus O(n_G^3) for n_G interface nodes. Of more than
-  /// `condensed_up_to` the membrane is joined instead: one sparse factor, O(N^1.5).
+  /// `condensed_up_to` the membrane is joined instead: one sparse factor, O(N^1.5), with a dense
+  /// matrix for up to contact::most_dense_contacts contacts, O(c^3); 0: no dense matrix at all.
   static std::shared_ptr<const MeshOperator> factorise(
       std::shared_ptr<const mesh::Mesh> mesh, int threads, std::stop_token stop,
       std::size_t condensed_up_to = default_condensed_up_to);

@@ -14,6 +14,7 @@
 #include "contact/sweep_columns.hpp"
 #include "errors/errors.hpp"
 #include "mesh/refine.hpp"
+#include "support/paths.hpp"
 
 namespace anticrack::accuracy {
 namespace {
@@ -86,7 +87,7 @@ mesh::Mesh driven_mesh(const Driven& driven) {
 }
 
 void check_driven(const Driven& driven, std::size_t condensed_up_to) {
-  SCOPED_TRACE(driven.what + (condensed_up_to == 0 ? ", joined" : ""));
+  SCOPED_TRACE(driven.what + (", " + std::string(testing::path_name(condensed_up_to))));
   const auto op = factorise(driven_mesh(driven), condensed_up_to);
   const contact::Answer answer = solve_bounded(*op, driven.load);
   ASSERT_EQ(answer.status, contact::Status::converged) << answer.reason;
@@ -105,12 +106,14 @@ void check_driven(const Driven& driven, std::size_t condensed_up_to) {
 
 TEST(Driven, ByAnythingAloneItConvergesWithBounds) {
   for (const Driven& driven : driven_cases())
-    for (const std::size_t condensed_up_to : {operators::default_condensed_up_to, std::size_t{0}})
+    for (const std::size_t condensed_up_to :
+         {operators::default_condensed_up_to, std::size_t{0}, std::size_t{1}})
       check_driven(driven, condensed_up_to);
 }
 
 TEST(Driven, ByNothingItStaysAtZero) {
-  for (const std::size_t condensed_up_to : {operators::default_condensed_up_to, std::size_t{0}}) {
+  for (const std::size_t condensed_up_to :
+       {operators::default_condensed_up_to, std::size_t{0}, std::size_t{1}}) {
     const auto op = factorise(driven_mesh({"nothing", no_load()}), condensed_up_to);
     const contact::Answer answer = solve_bounded(*op, no_load());
     EXPECT_EQ(answer.energy, 0);
@@ -122,7 +125,8 @@ TEST(Driven, ByNothingItStaysAtZero) {
 }
 
 TEST(Driven, ByWhatHasNoSquareItHasNoBounds) {
-  for (const std::size_t condensed_up_to : {operators::default_condensed_up_to, std::size_t{0}}) {
+  for (const std::size_t condensed_up_to :
+       {operators::default_condensed_up_to, std::size_t{0}, std::size_t{1}}) {
     const auto op = factorise(driven_mesh({"little", no_load()}), condensed_up_to);
     const contact::Answer answer = solve_bounded(*op, by_force("1e-300*(1 + y)"));
     EXPECT_EQ(answer.status, contact::Status::converged) << answer.reason;
@@ -133,7 +137,8 @@ TEST(Driven, ByWhatHasNoSquareItHasNoBounds) {
 }
 
 TEST(Driven, ByLoadsThatCancelRowsOfSweepsConverge) {
-  for (const std::size_t condensed_up_to : {operators::default_condensed_up_to, std::size_t{0}}) {
+  for (const std::size_t condensed_up_to :
+       {operators::default_condensed_up_to, std::size_t{0}, std::size_t{1}}) {
     const auto op = factorise(driven_mesh({"sums", no_load(), {false, 0.1}}), condensed_up_to);
     const fem::Load first = by_force("1 + x - y"), second = by_force("3*(1 + x - y)");
     const fem::Load* const loads[] = {&first, &second};

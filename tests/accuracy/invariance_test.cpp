@@ -18,6 +18,7 @@
 #include "accuracy/sequence.hpp"
 #include "mesh/refine.hpp"
 #include "support/grid_mesh.hpp"
+#include "support/paths.hpp"
 
 namespace anticrack::accuracy {
 namespace {
@@ -334,10 +335,9 @@ TEST_P(ChangedUnits, ChangeNothingElse) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Paths, ChangedUnits,
-                         ::testing::Values(operators::default_condensed_up_to, std::size_t{0}),
-                         [](const auto& instance) {
-                           return instance.param > 0 ? "Dense" : "Joined";
-                         });
+                         ::testing::Values(operators::default_condensed_up_to, std::size_t{0},
+                                           std::size_t{1}),
+                         [](const auto& instance) { return testing::path_name(instance.param); });
 
 }  // namespace
 }  // namespace anticrack::accuracy

@@ -16,6 +16,7 @@
 #include "accuracy/sequence.hpp"
 #include "mesh/refine.hpp"
 #include "support/grid_mesh.hpp"
+#include "support/paths.hpp"
 
 namespace anticrack::accuracy {
 namespace {
@@ -98,7 +99,7 @@ void expect_patch(const Patch& patch, std::size_t condensed_up_to) {
   const double exact = (0.5 * 0.5 + 0.7 * 0.7) * area / 2;
   const double energy = std::abs(answer.energy - exact) / exact;
   std::printf("[ figures  ] %s, %s: error of u %.1e, A %.1e, B %.1e, energy %.1e, moment %.1e\n",
-              patch.name, condensed_up_to > 0 ? "dense" : "joined", field, middle, slopes, energy,
+              patch.name, testing::path_name(condensed_up_to), field, middle, slopes, energy,
               std::hypot(rigid.moment_x, rigid.moment_y));
   EXPECT_LT(field, 1e-12 * std::max(1.0, std::sqrt(area)));
   EXPECT_LT(middle, 1e-12);
@@ -110,8 +111,9 @@ void expect_patch(const Patch& patch, std::size_t condensed_up_to) {
 
 TEST(TiltingInclusion, LeavesALinearFieldAsItIs) {
   for (const Patch& patch : patches()) {
-    for (const std::size_t condensed_up_to : {operators::default_condensed_up_to, std::size_t{0}}) {
-      SCOPED_TRACE(patch.name + std::string(condensed_up_to > 0 ? ", dense" : ", joined"));
+    for (const std::size_t condensed_up_to :
+         {operators::default_condensed_up_to, std::size_t{0}, std::size_t{1}}) {
+      SCOPED_TRACE(patch.name + std::string(", ") + testing::path_name(condensed_up_to));
       expect_patch(patch, condensed_up_to);
     }
   }
@@ -302,10 +304,9 @@ TEST_P(FreeCrack, HasTheRatesOfSmoothSolutionsAndItsMirrorImage) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Paths, FreeCrack,
-                         ::testing::Values(operators::default_condensed_up_to, std::size_t{0}),
-                         [](const auto& instance) {
-                           return instance.param > 0 ? "Dense" : "Joined";
-                         });
+                         ::testing::Values(operators::default_condensed_up_to, std::size_t{0},
+                                           std::size_t{1}),
+                         [](const auto& instance) { return testing::path_name(instance.param); });
 
 }  // namespace
 }  // namespace anticrack::accuracy

@@ -49,7 +49,7 @@ mesh::Mesh crossed_strip() {
 /// A strip solved both ways.
 class Strip {
  public:
-  explicit Strip(mesh::Mesh mesh) : _dense(std::move(mesh)), _joined(_dense.problem, 2) {}
+  explicit Strip(mesh::Mesh mesh) : _dense(std::move(mesh)), _joined(_dense.problem, 2, 0) {}
 
   Reduced reduce(const char* force) const {
     const ddm::Decomposition& decomposition = _dense.space.decomposition;
@@ -67,7 +67,7 @@ class Strip {
   const CondensedProblem& condensed() const { return _dense.condensed; }
   const JoinedProblem& joined() const { return _joined; }
   const DenseLcp& dense() const { return _dense.condensed.lcp(); }
-  const BlockLcp& blocks() const { return _joined.lcp(); }
+  const BlockLcp& blocks() const { return _joined.by_blocks(); }
   const JoinedMembrane& membrane() const { return _joined.membrane(); }
   const PairForces& forces() const { return _dense.problem.pair_forces(); }
 

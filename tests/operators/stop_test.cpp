@@ -29,7 +29,7 @@ namespace {
 
 using testing::Looks;
 
-constexpr std::size_t skeleton = 1 << 20, joined = 0;  // condensed_up_to
+constexpr std::size_t skeleton = 1 << 20, joined = 0, contacts = 1;  // condensed_up_to
 
 /// Inclusions in a row on one line, in the middle half of each share of it.
 mesh::Mesh with_inclusions(int count, int columns) {
@@ -119,6 +119,8 @@ void walk(mesh::Mesh made, std::size_t condensed_up_to) {
 TEST(Stops, ManyInclusionsOnASkeleton) { walk(with_inclusions(16, 128), skeleton); }
 
 TEST(Stops, ManyInclusionsOnAJoinedMembrane) { walk(with_inclusions(16, 64), joined); }
+
+TEST(Stops, ManyInclusionsOnCondensedContacts) { walk(with_inclusions(16, 128), contacts); }
 
 TEST(Stops, MoreInclusionsThanAdjointsAreMadeFor) { walk(with_inclusions(32, 128), joined); }
 

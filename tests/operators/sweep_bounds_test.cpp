@@ -81,7 +81,7 @@ TEST(SweepBounds, AreThoseOfTheSameLoads) {
   const auto mesh = std::make_shared<const mesh::Mesh>(
       anticrack::testing::structured_mesh({32, 8, {}, {}, {"bar"}}));
   for (const std::size_t condensed_up_to :
-       {default_condensed_up_to, std::size_t{0}}) {  // condensed, and joined
+       {default_condensed_up_to, std::size_t{0}, std::size_t{1}}) {  // condensed, and joined
     const Operator op = MeshOperator::factorise(mesh, 1, {}, condensed_up_to);
     const auto basis = bounded_basis(*op, lifted_loads());
     for (const std::vector<double>& c : std::vector<std::vector<double>>{
