@@ -22,8 +22,6 @@ using Eigen::VectorXd;
 using Sparse = Eigen::SparseMatrix<double>;
 using Indices = std::vector<std::int32_t>;
 
-/// Most contacts of a block; a crack with more is cut into several blocks.
-constexpr std::size_t most_contacts = 400;
 /// How far the membrane around a block reaches, as a fraction of the length of its box.
 constexpr double reach = 0.2;
 
@@ -55,7 +53,7 @@ Partition part(const TraceProblem& traces) {
   Partition result;
   std::vector<Indices> pieces;
   for (const Indices& chain : traces.chains()) {
-    const std::size_t count = (chain.size() + most_contacts - 1) / most_contacts;
+    const std::size_t count = (chain.size() + most_of_a_block - 1) / most_of_a_block;
     const std::size_t each = (chain.size() + count - 1) / count;
     for (std::size_t first = 0; first < chain.size(); first += each)
       pieces.emplace_back(

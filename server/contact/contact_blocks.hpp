@@ -14,6 +14,9 @@
 
 namespace anticrack::contact {
 
+/// Most contacts of a block; a crack with more is cut into several blocks.
+constexpr std::size_t most_of_a_block = 400;
+
 /// Contacts of one crack, or of a part of a long crack, with their own S^ in the membrane around
 /// them: nodes further away than a fraction of the block's length are held, other cracks stay
 /// closed, and the rigid motions of their inclusion are free.

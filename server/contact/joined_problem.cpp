@@ -22,6 +22,11 @@ bool is_joined(const ddm::Decomposition& decomposition, std::size_t condensed_up
                              });
 }
 
+std::size_t dense_contacts(const TraceProblem& traces) {
+  return dense_contacts(std::ranges::any_of(
+      traces.chains(), [](const auto& chain) { return chain.size() > most_of_a_block; }));
+}
+
 JoinedProblem::ByBlocks::ByBlocks(const JoinedMembrane& membrane, const Conditions& conditions,
                                   int threads)
     : blocks(membrane, membrane.traces().pair_forces(), threads),
@@ -183,7 +188,7 @@ std::vector<std::vector<double>> JoinedProblem::fields_of(
 }
 
 std::unique_ptr<const OpenMembrane> JoinedProblem::open_membrane() const {
-  return _dense ? nullptr : std::make_unique<const OpenMembrane>(_membrane);
+  return std::make_unique<const OpenMembrane>(_membrane);
 }
 
 std::size_t JoinedProblem::bytes() const noexcept {

@@ -19,8 +19,13 @@ namespace anticrack::contact {
 bool is_joined(const ddm::Decomposition& decomposition, std::size_t condensed_up_to);
 
 /// Contacts of a joined membrane up to which S^ is dense: it has 290 MB then, and takes a few times
-/// that with its factors.
+/// that with its factors. Where each crack fits in a ContactBlock, blocks alone are nearly exact,
+/// and the limit is 1000.
 constexpr std::size_t most_dense_contacts = 6000;
+constexpr std::size_t dense_contacts(bool long_cracks) noexcept {
+  return long_cracks ? most_dense_contacts : most_dense_contacts / 6;
+}
+std::size_t dense_contacts(const TraceProblem& traces);
 
 /// The contact problem of a JoinedMembrane; its answers agree with those of a CondensedProblem to
 /// 1e-10. Its steps report criterion, energy, gap and complementarity from jumps and multipliers
@@ -29,8 +34,7 @@ constexpr std::size_t most_dense_contacts = 6000;
 class JoinedProblem final : public ContactProblem {
  public:
   /// Costs and errors are those of JoinedMembrane and ContactBlocks.
-  JoinedProblem(const TraceProblem& traces, int threads,
-                std::size_t most_dense = most_dense_contacts);
+  JoinedProblem(const TraceProblem& traces, int threads, std::size_t most_dense);
 
   std::vector<ddm::CondensedLoad> loads(
       std::size_t subdomain, const Eigen::Ref<const Eigen::MatrixXd>& of_nodes,

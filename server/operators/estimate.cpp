@@ -64,18 +64,26 @@ SkeletonSize skeleton_size(const mesh::Mesh& mesh, const ddm::Sides& sides) {
   return size;
 }
 
-/// Upper bound of the memory of the contact blocks of a joined membrane, with as many contacts in
-/// each block as its interface has, or as a block may have.
-double block_bytes(const mesh::Mesh& mesh) {
-  constexpr double most = 400, matrices = 2.5;
-  double bytes = 0;
+/// Contacts of an interface, at most.
+double contacts_of(const mesh::Interface& interface) {
+  return static_cast<double>(std::ranges::count(interface.kind, mesh::Kind::crack) +
+                             std::ranges::count(interface.kind, mesh::Kind::delaminated) + 1);
+}
+
+/// Upper bound of the memory of a joined membrane's contacts: a dense matrix with its coarser
+/// levels, two factors and a block of each; or blocks, each with as many contacts as its interface
+/// has or a block may have.
+double joined_bytes(const mesh::Mesh& mesh, double contacts) {
+  constexpr double dense_matrices = 4.5, block_matrices = 2.5, most = contact::most_of_a_block;
+  double blocks = 0;
+  bool long_cracks = false;
   for (const mesh::Interface& interface : mesh.interfaces) {
-    const double contacts =
-        static_cast<double>(std::ranges::count(interface.kind, mesh::Kind::crack) +
-                            std::ranges::count(interface.kind, mesh::Kind::delaminated) + 1);
-    bytes += matrices * sizeof(double) * contacts * std::min(contacts, most);
+    const double own = contacts_of(interface);
+    long_cracks = long_cracks || own > most;
+    blocks += block_matrices * sizeof(double) * own * std::min(own, most);
   }
-  return bytes;
+  const bool dense = contacts <= static_cast<double>(contact::dense_contacts(long_cracks));
+  return dense ? std::max(blocks, dense_matrices * sizeof(double) * contacts * contacts) : blocks;
 }
 
 }  // namespace
@@ -84,8 +92,8 @@ std::size_t estimate_bytes(const mesh::Mesh& mesh) {
   // The factor of a planar graph ordered by nested dissection has O(n log n) entries; measured with
   // all other data per node: 30 to 42 bytes times log2(n) a node, from 1 k to 2 M nodes. Dense
   // matrices: S and the flexibility on the trace; H and W on the skeleton; S^ with its coarser
-  // levels, two factors and a block of each on the contacts, or blocks of contacts where they are
-  // too many. A joined membrane has the stiffness three times.
+  // levels, two factors and a block of each on the contacts. A joined membrane has the stiffness
+  // three times.
   constexpr double bytes_per_node_and_level = 60, bytes_per_node = 200, bytes_per_joined_node = 500;
   constexpr double trace_blocks = 3, skeleton_blocks = 2, contact_blocks = 4.5, fixed = 1 << 14,
                    bytes_per_law = sizeof(fem::Tension::of_triangle[0]) + sizeof(fem::Variation);
@@ -105,12 +113,11 @@ std::size_t estimate_bytes(const mesh::Mesh& mesh) {
   }
   if (joined) {
     bytes += nodes * (bytes_per_joined_node + bytes_per_node_and_level * std::log2(nodes + 1));
+    bytes += joined_bytes(mesh, skeleton.contacts);
   } else {
     bytes += skeleton_blocks * sizeof(double) * skeleton.unknowns * skeleton.unknowns;
+    bytes += contact_blocks * sizeof(double) * skeleton.contacts * skeleton.contacts;
   }
-  bytes += joined && skeleton.contacts > contact::most_dense_contacts
-               ? block_bytes(mesh)
-               : contact_blocks * sizeof(double) * skeleton.contacts * skeleton.contacts;
   if (!mesh.tension_laws.empty())
     bytes += bytes_per_law * static_cast<double>(mesh.triangle_count());
   return static_cast<std::size_t>(bytes);

@@ -76,7 +76,7 @@ MeshOperator::Parts::Parts(std::shared_ptr<const mesh::Mesh> cut_mesh, int threa
       geometry(contact::trace_geometry(decomposition, *mesh)) {
   if (contact::is_joined(decomposition, condensed_up_to))
     contact = std::make_unique<contact::JoinedProblem>(
-        problem, threads, condensed_up_to == 0 ? 0 : contact::most_dense_contacts);
+        problem, threads, condensed_up_to == 0 ? 0 : contact::dense_contacts(problem));
   else
     contact = std::make_unique<contact::CondensedProblem>(problem);
 }
