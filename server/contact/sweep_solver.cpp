@@ -7,6 +7,7 @@
 
 #include "base/at.hpp"
 #include "contact/dense.hpp"
+#include "contact/row_order.hpp"
 
 namespace anticrack::contact {
 namespace {
@@ -136,6 +137,18 @@ std::size_t SweepGeometry::bytes() const noexcept {
 
 std::size_t SweepLoads::bytes() const noexcept {
   return bytes_of(r) + bytes_of(magnitude) + bytes_of(motion) + bytes_of(energy);
+}
+
+std::vector<std::size_t> solving_order(const SweepLoads& loads,
+                                       std::span<const double> coefficients, std::size_t rows) {
+  VectorXd weight = loads.r.colwise().stableNorm();
+  if (const double most = weight.size() > 0 ? weight.maxCoeff() : 0; most > 0) weight /= most;
+  MatrixXd points = MatrixXd::Ones(weight.size(), static_cast<Index>(rows));
+  const std::size_t given = rows == 0 ? 0 : coefficients.size() / rows;
+  for (std::size_t row = 0; row < rows; ++row)
+    std::copy_n(coefficients.data() + row * given, given,
+                points.col(static_cast<Index>(row)).data());
+  return row_order(weight.asDiagonal() * points);
 }
 
 SweepSolver::SweepSolver(const ContactProblem& problem, const SweepGeometry& geometry,

@@ -57,6 +57,11 @@ struct SweepLoads {
 SweepLoads reduce(const ContactProblem& problem, std::span<const CaseLoads> loads,
                   const Eigen::MatrixXd& constants);
 
+/// Rows of coefficients (rows, loads), row-major, in an order for SweepSolver: that of row_order,
+/// each load weighed by its r.
+std::vector<std::size_t> solving_order(const SweepLoads& loads,
+                                       std::span<const double> coefficients, std::size_t rows);
+
 /// Solves row after row, each starting from the contact of the one before. The numbers of a row are
 /// those of solve_active_set for the same load, to rounding, and do not depend on the rows before.
 /// A row allocates only where LcpSequence does. One object belongs to one thread. Keeps references

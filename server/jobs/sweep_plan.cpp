@@ -19,6 +19,8 @@ constexpr std::size_t most_combinations = 256;
 constexpr std::size_t fewest_combinations = 16;
 /// Contacts of all rows of a chunk; a row costs more than in proportion to its contacts.
 constexpr std::size_t contacts_a_chunk = std::size_t{1} << 15U;
+/// A chunk of many rows may be so many times as large, but there are enough for the threads.
+constexpr std::uint64_t most_times = 16, fewest_chunks = 64;
 /// Loads are condensed in blocks of 32 columns: more would not make a row cheaper.
 constexpr std::size_t most_forces = 32;
 constexpr std::size_t force_bytes_a_chunk = std::size_t{64} << 20U;
@@ -51,15 +53,18 @@ std::uint64_t result_bytes(const operators::MeshOperator& mesh_operator, std::ui
 
 }  // namespace
 
-std::size_t chunk_rows(SweepSpec::Cases cases, std::size_t nodes, std::size_t contacts,
-                       std::size_t motions) {
+std::size_t chunk_rows(SweepSpec::Cases cases, std::uint64_t rows, std::size_t nodes,
+                       std::size_t contacts, std::size_t motions) {
   constexpr std::size_t one = 1;
-  const std::size_t rows =
-      cases == SweepSpec::Cases::combinations
-          ? std::clamp(contacts_a_chunk / std::max(one, contacts), fewest_combinations,
-                       most_combinations)
-          : std::clamp(force_bytes_a_chunk / (sizeof(double) * nodes), one, most_forces);
-  return std::min(rows, std::max(one, motions_a_chunk / std::max(one, motions)));
+  std::size_t result = 0;
+  if (cases == SweepSpec::Cases::combinations) {
+    result = std::clamp(contacts_a_chunk / std::max(one, contacts), fewest_combinations,
+                        most_combinations);
+    result *= std::clamp<std::uint64_t>(rows / (fewest_chunks * result), 1, most_times);
+  } else {
+    result = std::clamp(force_bytes_a_chunk / (sizeof(double) * nodes), one, most_forces);
+  }
+  return std::min(result, std::max(one, motions_a_chunk / std::max(one, motions)));
 }
 
 SweepPlan plan_sweep(const records::JobSpec& spec, MatrixFile matrix,
@@ -70,7 +75,7 @@ SweepPlan plan_sweep(const records::JobSpec& spec, MatrixFile matrix,
   plan.columns = sweep.cases == SweepSpec::Cases::combinations ? spec.loads.size() : nodes;
   plan.rows = rows_of(sweep, matrix.values, plan.columns, options.max_sweep_rows);
   plan.matrix = std::move(matrix.path);
-  plan.chunk_rows = chunk_rows(sweep.cases, nodes, mesh_operator.contact_nodes().size(),
+  plan.chunk_rows = chunk_rows(sweep.cases, plan.rows, nodes, mesh_operator.contact_nodes().size(),
                                motions(mesh_operator.mesh()));
   if (sweep.bounds) plan.chunk_rows = std::min(plan.chunk_rows, mesh_operator.estimated_together());
   plan.result_bytes = result_bytes(mesh_operator, plan.rows, sweep.traces.size(), sweep.bounds);

@@ -39,10 +39,12 @@ struct SweepPlan {
 };
 
 /// Rows of a chunk: as many as a thread solves in some milliseconds, which is long compared with
-/// the lock and the event that a chunk costs, and short compared with a turn. `motions`: how many
-/// numbers give the motions of the inclusions.
-std::size_t chunk_rows(records::SweepSpec::Cases cases, std::size_t nodes, std::size_t contacts,
-                       std::size_t motions);
+/// the lock and the event that a chunk costs, and short compared with a turn. Of many `rows`
+/// combinations a chunk has more, up to some tenths of a second: the more rows there are to order
+/// (contact::solving_order), the more alike neighbours are. `motions`: how many numbers give the
+/// motions of the inclusions.
+std::size_t chunk_rows(records::SweepSpec::Cases cases, std::uint64_t rows, std::size_t nodes,
+                       std::size_t contacts, std::size_t motions);
 
 /// With bounds, rows are as slow as load cases, and a chunk has at most as many as
 /// MeshOperator::estimate takes together. Throws errors::Error as rows_of does, and limit_exceeded

@@ -101,8 +101,9 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
                                          bool bounds = false) const;
 
   /// Solves the rows of a sweep, row k for the load sum_j c_kj f_j; coefficients have shape (rows,
-  /// loads), row-major. Each row starts from the contact of the one before, the first from `start`
-  /// (empty: all closed), which is set to the contact of the last row; results do not depend on it.
+  /// loads), row-major. Rows are solved in the order of contact::solving_order. Each starts from
+  /// the contact of the one before, the first from `start` (empty: all closed), which is set to the
+  /// contact of the last; no number but the steps depends on either.
   /// A row costs O(m c) and a few steps of at most O(c^3), and allocates nothing if the contact
   /// changes little; see contact::SweepSolver for the numbers and not_converged. The width of
   /// `rows` must fit mesh() and contact_nodes(). Throws errors::Error (internal) for another shape
@@ -153,7 +154,7 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
   template <class SolveRow>
   bool sweep_rows(const contact::ActiveSetOptions& options, contact::SweepColumns& rows,
                   std::vector<char>& start, const std::stop_token& stop,
-                  const SolveRow& solve_row) const;
+                  std::span<const std::size_t> order, const SolveRow& solve_row) const;
   std::shared_ptr<const Parts> _parts;
 };
 

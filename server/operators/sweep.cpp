@@ -121,21 +121,22 @@ std::shared_ptr<const LoadBasis> MeshOperator::basis(std::span<const fem::Load* 
 template <class SolveRow>
 bool MeshOperator::sweep_rows(const contact::ActiveSetOptions& options, contact::SweepColumns& rows,
                               std::vector<char>& start, const std::stop_token& stop,
-                              const SolveRow& solve_row) const {
+                              std::span<const std::size_t> order, const SolveRow& solve_row) const {
   const auto contacts = _parts->decomposition.skeleton.contacts.size();
   if (rows.inclusions != _parts->mesh->inclusions.size() ||
       rows.contacts != contact_nodes().size() || (!start.empty() && start.size() != contacts))
     throw errors::Error(errors::Reason::internal, "rows of a sweep on another mesh");
   const stop::Scope scope(stop);
   contact::SweepSolver solver(*_parts->contact, _parts->sweep_geometry, options, start);
-  std::size_t row = 0;
+  std::size_t solved = 0;
   try {
-    for (; row < rows.rows() && !stop.stop_requested(); ++row) solve_row(solver, row);
+    for (; solved < rows.rows() && !stop.stop_requested(); ++solved)
+      solve_row(solver, order.empty() ? solved : order[solved]);
   } catch (const errors::Error& error) {
     if (error.reason() != errors::Reason::cancelled || !stop.stop_requested()) throw;
   }
   start = solver.closed();
-  return row == rows.rows();
+  return solved == rows.rows();
 }
 
 bool MeshOperator::sweep(const LoadBasis& basis, std::span<const double> coefficients,
@@ -144,9 +145,12 @@ bool MeshOperator::sweep(const LoadBasis& basis, std::span<const double> coeffic
   const std::size_t m = basis.size();
   if (basis._data->mesh_operator.get() != this || coefficients.size() != rows.rows() * m)
     throw errors::Error(errors::Reason::internal, "coefficients of another basis");
-  return sweep_rows(options, rows, start, stop, [&](contact::SweepSolver& solver, std::size_t row) {
-    solver.solve(basis._data->basis->reduced, coefficients.subspan(row * m, m), row, rows);
-  });
+  const contact::SweepLoads& loads = basis._data->basis->reduced;
+  return sweep_rows(options, rows, start, stop,
+                    contact::solving_order(loads, coefficients, rows.rows()),
+                    [&](contact::SweepSolver& solver, std::size_t row) {
+                      solver.solve(loads, coefficients.subspan(row * m, m), row, rows);
+                    });
 }
 
 bool MeshOperator::sweep(std::span<const PreparedLoad> loads,
@@ -155,14 +159,15 @@ bool MeshOperator::sweep(std::span<const PreparedLoad> loads,
   if (loads.size() != rows.rows())
     throw errors::Error(errors::Reason::internal, "as many rows as loads");
   constexpr double once[] = {1.0};
-  return sweep_rows(options, rows, start, stop, [&](contact::SweepSolver& solver, std::size_t row) {
+  const auto solve_row = [&](contact::SweepSolver& solver, std::size_t row) {
     require_prepared(loads[row], false);
     const contact::CaseLoads parts[] = {loads[row]._data->loads()};
     MatrixXd constant = MatrixXd::Zero(1, 1);
     for (const ddm::CondensedLoad& part : parts[0].subdomains)
       constant(0, 0) += part.energy_constant;
     solver.solve(contact::reduce(*_parts->contact, parts, constant), once, row, rows);
-  });
+  };
+  return sweep_rows(options, rows, start, stop, {}, solve_row);
 }
 
 PreparedLoad MeshOperator::combine(const LoadBasis& basis,

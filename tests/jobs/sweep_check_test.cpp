@@ -116,15 +116,20 @@ TEST_F(SweepCheck, CountsInTheQueueByItsMatrix) {
 }
 
 TEST(SweepPlan, HasLargeChunksOfCheapRows) {
-  EXPECT_EQ(chunk_rows(Cases::combinations, 4000, 0, 1), 256U);
-  EXPECT_EQ(chunk_rows(Cases::combinations, 4000, 80, 1), 256U);
-  EXPECT_EQ(chunk_rows(Cases::combinations, 4000, 512, 1), 64U);
-  EXPECT_EQ(chunk_rows(Cases::combinations, 4000, 100'000, 1), 16U);
-  EXPECT_EQ(chunk_rows(Cases::nodal_forces, 4000, 80, 1), 32U);
-  EXPECT_EQ(chunk_rows(Cases::nodal_forces, 1'000'000, 80, 1), 8U);
-  EXPECT_EQ(chunk_rows(Cases::nodal_forces, 100'000'000, 80, 1), 1U);
-  EXPECT_EQ(chunk_rows(Cases::combinations, 4000, 80, 4096), 16U);
-  EXPECT_EQ(chunk_rows(Cases::nodal_forces, 4000, 80, 1'000'000), 1U);
+  EXPECT_EQ(chunk_rows(Cases::combinations, 1000, 4000, 0, 1), 256U);
+  EXPECT_EQ(chunk_rows(Cases::combinations, 1000, 4000, 80, 1), 256U);
+  EXPECT_EQ(chunk_rows(Cases::combinations, 1000, 4000, 512, 1), 64U);
+  EXPECT_EQ(chunk_rows(Cases::combinations, 1000, 4000, 100'000, 1), 16U);
+  EXPECT_EQ(chunk_rows(Cases::nodal_forces, 1'000'000, 4000, 80, 1), 32U);
+  EXPECT_EQ(chunk_rows(Cases::nodal_forces, 1'000'000, 1'000'000, 80, 1), 8U);
+  EXPECT_EQ(chunk_rows(Cases::nodal_forces, 1'000'000, 100'000'000, 80, 1), 1U);
+  EXPECT_EQ(chunk_rows(Cases::combinations, 1000, 4000, 80, 4096), 16U);
+  EXPECT_EQ(chunk_rows(Cases::nodal_forces, 1'000'000, 4000, 80, 1'000'000), 1U);
+  EXPECT_EQ(chunk_rows(Cases::combinations, 64 * 512, 4000, 80, 1), 512U);
+  EXPECT_EQ(chunk_rows(Cases::combinations, 64 * 512 - 1, 4000, 80, 1), 256U);
+  EXPECT_EQ(chunk_rows(Cases::combinations, 1'000'000'000, 4000, 80, 1), 4096U);
+  EXPECT_EQ(chunk_rows(Cases::combinations, 1'000'000'000, 4000, 100'000, 1), 256U);
+  EXPECT_EQ(chunk_rows(Cases::combinations, 1'000'000'000, 4000, 80, 4096), 16U);
 }
 
 TEST(SweepPlan, CoversEveryRowOnce) {
