@@ -98,15 +98,21 @@ void fill_inclusions(const TraceProblem& problem, const mesh::Mesh& mesh,
       inclusion.moment_y += flux * (at_node[1] - centre[1]);
     }
   }
-  for (std::size_t i = 0; i < decomposition.pairs.size(); ++i) {
-    const ddm::NodePair& pair = decomposition.pairs[i];
-    const auto k = static_cast<Eigen::Index>(i);
-    if (state.contact[i] != 0) {
-      answer.contact_length += problem.lumped_mass()[k];
-      if (pair.inclusion >= 0)
-        answer.inclusions[at(pair.inclusion)].contact_length += problem.lumped_mass()[k];
-    }
+}
+
+void fill_contact_length(const TraceProblem& problem, const TraceState& state, Answer& answer) {
+  std::vector<ContactLength::Value> values;
+  for (const ContactLength::Node& node : problem.contact_length().nodes()) {
+    ContactLength::Value& value = values.emplace_back();
+    if (node.pair >= 0)
+      value = {state.mu[node.pair], state.jump[node.pair], state.contact[at(node.pair)] != 0};
   }
+  std::vector<double> of_inclusion(answer.inclusions.size(), 0);
+  const Measured all = problem.contact_length().measure(values, of_inclusion);
+  answer.contact_length = all.length;
+  answer.contact_length_error = all.error;
+  for (std::size_t j = 0; j < of_inclusion.size(); ++j)
+    answer.inclusions[j].contact_length = of_inclusion[j];
 }
 
 Eigen::Map<const Eigen::VectorXd> view(std::span<const double> values) {
@@ -143,6 +149,7 @@ void describe(const TraceProblem& problem, const mesh::Mesh& mesh, const CaseLoa
   answer.kkt_relative = relative_residuals(decomposition, state.mu, state.jump,
                                            scales_of(loads.subdomains, state), answer.kkt);
   fill_inclusions(problem, mesh, loads.inclusion_forces, state, answer);
+  fill_contact_length(problem, state, answer);
   for (std::size_t c = 0; c < mesh.interfaces.size(); ++c) {
     answer.traces.push_back(trace_of(problem, loads.subdomains, state, mesh.interfaces[c],
                                      decomposition.interface_sides[c]));

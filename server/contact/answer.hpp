@@ -21,7 +21,7 @@ struct InclusionAnswer {
   std::string name;
   double displacement = 0;    ///< A, equation (5); u in its middle (x0, y0) if it tilts
   double resultant = 0;       ///< int [T du/dnu] ds over it, equation (6): the force on it
-  double contact_length = 0;  ///< lumped length of its delaminated nodes in contact
+  double contact_length = 0;  ///< of its delaminated part, as by ContactLength
   /// Bx, By of u = A + Bx (x - x0) + By (y - y0) along the inclusion, (x0, y0) the middle of the
   /// bounding box of its nodes; 0 if it does not tilt.
   double slope_x = 0, slope_y = 0;
@@ -66,7 +66,8 @@ struct AnswerSummary {
   int weakly_active = 0;  ///< active set: crack nodes with neither jump nor pressure
   std::vector<std::string> warnings;
   std::vector<InclusionAnswer> inclusions;  ///< one per Mesh::inclusions
-  double contact_length = 0;
+  double contact_length = 0;                ///< as by ContactLength, with
+  double contact_length_error = 0;          ///< an estimate of its error, no bound
   std::vector<ContactInterval> contact_intervals;
   /// Bounds of the exact Pi, of |u - u_h| in the energy norm, and of |u - u_h| / |u_h| (estimate/).
   /// Empty if they were not asked for, or for the reason that `no_bracket` gives.
@@ -77,7 +78,7 @@ struct AnswerSummary {
 ANTICRACK_FIELDS(AnswerSummary, reason, iterations, criterion, theta, theta_star, energy, kkt,
                  kkt_relative, weakly_active, warnings, inclusions, contact_length,
                  contact_intervals, energy_lower, energy_upper, error_bound, error_bound_relative,
-                 no_bracket, energy_mesh)
+                 no_bracket, energy_mesh, contact_length_error)
 
 /// The number that users are told of a value: the middle of its bounds, or without bounds `mesh`,
 /// that of u on the mesh.
