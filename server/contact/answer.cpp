@@ -123,6 +123,22 @@ Eigen::Map<Eigen::VectorXd> view(std::span<double> values) {
   return {values.data(), static_cast<Eigen::Index>(values.size())};
 }
 
+/// Of an A that is known within `half`, so that it is at most `most`.
+double relative_error(const InclusionAnswer& inclusion, double half, double most, double size) {
+  if (!(half > 0)) return 0;
+  const double scale = inclusion.displacement_scale.value_or(0);
+  return scale > 0 ? std::min(half / size, most / scale) : half / size;
+}
+
+void take_probable_error(InclusionAnswer& one) {
+  if (!one.displacement_estimated_error || !one.displacement_lower || !one.displacement_upper)
+    return;
+  const double moved = *one.displacement_estimated_error,
+               proved = 0.5 * (*one.displacement_upper - *one.displacement_lower);
+  one.displacement_error_probable = std::min(
+      proved, std::abs(one.displacement_mesh + moved - one.displacement) + std::abs(moved));
+}
+
 }  // namespace
 
 double work(const RigidForce& force, const Eigen::Ref<const Eigen::Vector3d>& motion) {
@@ -199,11 +215,14 @@ double middle_or(double mesh, const std::optional<double>& lower,
 }
 
 double error_of(const InclusionAnswer& inclusion, double size) {
-  const double lower = *inclusion.displacement_lower, upper = *inclusion.displacement_upper,
-               half = 0.5 * (upper - lower), most = std::max(std::abs(lower), std::abs(upper));
-  if (!(half > 0)) return 0;
-  const double scale = inclusion.displacement_scale.value_or(0);
-  return scale > 0 ? std::min(half / size, most / scale) : half / size;
+  const double lower = *inclusion.displacement_lower, upper = *inclusion.displacement_upper;
+  return relative_error(inclusion, 0.5 * (upper - lower),
+                        std::max(std::abs(lower), std::abs(upper)), size);
+}
+
+double probable_error_of(const InclusionAnswer& inclusion, double size) {
+  const double half = *inclusion.displacement_error_probable;
+  return relative_error(inclusion, half, std::abs(inclusion.displacement) + half, size);
 }
 
 void take_middles(AnswerSummary& answer) {
@@ -215,6 +234,7 @@ void take_middles(AnswerSummary& answer) {
     one.slope_y = middle_or(one.slope_y_mesh, one.slope_y_lower, one.slope_y_upper);
     if (one.displacement_lower && one.displacement_upper)
       one.displacement_error_relative = error_of(one, std::abs(one.displacement));
+    take_probable_error(one);
   }
 }
 

@@ -38,12 +38,14 @@ struct InclusionAnswer {
   std::optional<double> displacement_error_relative = {};
   /// The size of A to which an A of 0 compares: |z| |u| >= |A|, z the answer to a unit force on it.
   std::optional<double> displacement_scale = {};
+  /// Estimate of |exact A - displacement|, no bound; see take_middles.
+  std::optional<double> displacement_error_probable = {};
 };
 ANTICRACK_FIELDS(InclusionAnswer, name, displacement, resultant, contact_length, slope_x, slope_y,
                  moment_x, moment_y, displacement_lower, displacement_upper,
                  displacement_estimated_error, slope_x_lower, slope_x_upper, slope_y_lower,
                  slope_y_upper, displacement_mesh, slope_x_mesh, slope_y_mesh,
-                 displacement_error_relative, displacement_scale)
+                 displacement_error_relative, displacement_scale, displacement_error_probable)
 
 struct ContactInterval {
   std::string interface;  ///< its name
@@ -89,9 +91,13 @@ double middle_or(double mesh, const std::optional<double>& lower,
 /// the largest |A| within them over displacement_scale, the error of 0. So an A is known to a part
 /// of `size`, or to be no more than that part of its scale.
 double error_of(const InclusionAnswer& inclusion, double size);
+/// The same by displacement_error_probable, which it has.
+double probable_error_of(const InclusionAnswer& inclusion, double size);
 
 /// Sets the energy, A and B to the middles of their bounds, where they have bounds, and the error
-/// of A, which is over its own |A|.
+/// of A, which is over its own |A|. What A probably is off by is the distance of that middle from
+/// displacement_mesh + displacement_estimated_error, and as much again as this estimate moved it,
+/// because its own error is of that size; at most what the bounds prove.
 void take_middles(AnswerSummary& answer);
 
 struct Answer : AnswerSummary {
