@@ -63,12 +63,15 @@ std::string error_of_a(const v1::InclusionAnswer& inclusion) {
   return text.empty() ? "" : " (" + text + ")";
 }
 
-// ", probably +- 1.2e-05", where the estimate says more than the bounds.
+// ", probably 0.015715 +- 1.2e-05", where the estimate says more than the bounds.
 std::string probable_error(const v1::InclusionAnswer& inclusion) {
   const double proved = 0.5 * (inclusion.displacement_upper() - inclusion.displacement_lower());
+  const double probable = inclusion.displacement_mesh() + inclusion.displacement_estimated_error();
   return inclusion.has_displacement_error_probable() &&
                  inclusion.displacement_error_probable() < proved
-             ? ", probably +- " + number(inclusion.displacement_error_probable(), 2)
+             ? ", probably " + results::interval(probable,
+                                                 probable - inclusion.displacement_error_probable(),
+                                                 probable + inclusion.displacement_error_probable())
              : "";
 }
 

@@ -133,10 +133,10 @@ double relative_error(const InclusionAnswer& inclusion, double half, double most
 void take_probable_error(InclusionAnswer& one) {
   if (!one.displacement_estimated_error || !one.displacement_lower || !one.displacement_upper)
     return;
-  const double moved = *one.displacement_estimated_error,
-               proved = 0.5 * (*one.displacement_upper - *one.displacement_lower);
-  one.displacement_error_probable = std::min(
-      proved, std::abs(one.displacement_mesh + moved - one.displacement) + std::abs(moved));
+  const double moved = *one.displacement_estimated_error, probable = one.displacement_mesh + moved,
+               outside =
+                   std::max(*one.displacement_lower - probable, probable - *one.displacement_upper);
+  one.displacement_error_probable = std::max(0.5 * std::abs(moved), outside);
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ struct InclusionAnswer {
   std::optional<double> displacement_error_relative = {};
   /// The size of A to which an A of 0 compares: |z| |u| >= |A|, z the answer to a unit force on it.
   std::optional<double> displacement_scale = {};
-  /// Estimate of |exact A - displacement|, no bound; see take_middles.
+  /// Of displacement_mesh + displacement_estimated_error, no bound; see take_middles.
   std::optional<double> displacement_error_probable = {};
 };
 ANTICRACK_FIELDS(InclusionAnswer, name, displacement, resultant, contact_length, slope_x, slope_y,
@@ -95,9 +95,9 @@ double error_of(const InclusionAnswer& inclusion, double size);
 double probable_error_of(const InclusionAnswer& inclusion, double size);
 
 /// Sets the energy, A and B to the middles of their bounds, where they have bounds, and the error
-/// of A, which is over its own |A|. What A probably is off by is the distance of that middle from
-/// displacement_mesh + displacement_estimated_error, and as much again as this estimate moved it,
-/// because its own error is of that size; at most what the bounds prove.
+/// of A, which is over its own |A|. The probable error of displacement_mesh +
+/// displacement_estimated_error is half of what the estimate moved it, which is more than its
+/// own error, but no less than its distance from the bounds where it is not between them.
 void take_middles(AnswerSummary& answer);
 
 struct Answer : AnswerSummary {
