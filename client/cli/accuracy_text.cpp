@@ -33,7 +33,12 @@ std::string unpadded(std::string text) { return text.erase(0, text.find_first_no
 
 // Whether to show the error of A; a mesh without inclusions has no A.
 bool tells_displacement(const StageErrors& stage, const v1::Accuracy& asked) {
-  return asked.has_displacement() || std::isfinite(stage.displacement);
+  return asked.has_displacement() || asked.has_displacement_estimated() ||
+         std::isfinite(stage.displacement);
+}
+
+bool tells_probable(const StageErrors& stage, const v1::Accuracy& asked) {
+  return asked.has_displacement_estimated() || std::isfinite(stage.probable);
 }
 
 double fraction_of(const StageErrors& stage, const v1::Accuracy& asked) {
@@ -41,6 +46,8 @@ double fraction_of(const StageErrors& stage, const v1::Accuracy& asked) {
   if (asked.has_energy()) fraction = bar_fraction(stage.energy, asked.energy());
   if (asked.has_displacement())
     fraction = std::min(fraction, bar_fraction(stage.displacement, asked.displacement()));
+  if (asked.has_displacement_estimated())
+    fraction = std::min(fraction, bar_fraction(stage.probable, asked.displacement_estimated()));
   return fraction;
 }
 
@@ -50,7 +57,10 @@ std::string errors_text(const StageErrors& stage, const v1::Accuracy& asked,
   if (!tells_displacement(stage, asked)) return text;
   std::string moved = unpadded(error_text(stage.displacement, asked.displacement()));
   moved.insert(moved.find('%') + 1, scale);
-  return text + ", A " + moved;
+  text += ", A " + moved;
+  if (!tells_probable(stage, asked)) return text;
+  return text + ", probably " +
+         unpadded(error_text(stage.probable, asked.displacement_estimated()));
 }
 
 // The value to which the error of A is relative, if there are several inclusions.
@@ -65,12 +75,15 @@ std::string scale_of(const v1::Job& job) {
 }  // namespace
 
 StageErrors errors_of(const v1::Stage& stage) {
-  StageErrors errors{stage.mesh(), stage.triangles(), 0, 0, stage.seconds()};
+  StageErrors errors{stage.mesh(), stage.triangles(), 0, 0, 0, stage.seconds(), stage.forecast()};
   for (const v1::StageAnswer& answer : stage.answers()) {
     errors.energy = larger(errors.energy, energy_error(answer));
     errors.displacement =
         larger(errors.displacement,
                answer.has_displacement_error() ? answer.displacement_error() : results::unknown);
+    errors.probable = larger(errors.probable, answer.has_displacement_error_probable()
+                                                  ? answer.displacement_error_probable()
+                                                  : results::unknown);
   }
   return errors;
 }
@@ -85,6 +98,8 @@ std::vector<StageErrors> stages_of(const v1::Job& job) {
 std::vector<std::string> stage_lines(const std::vector<StageErrors>& stages,
                                      const v1::Accuracy& asked, std::size_t width,
                                      std::size_t count) {
+  const bool foretold = count > 0 && !stages.empty() && !stages.back().forecast.empty();
+  if (foretold) --count;
   std::vector<std::string> lines;
   for (std::size_t i = stages.size() - std::min(stages.size(), count); i < stages.size(); ++i) {
     std::string line = "  stage " + pad_left(std::to_string(i + 1), 2) + "  " +
@@ -92,6 +107,8 @@ std::vector<std::string> stage_lines(const std::vector<StageErrors>& stages,
                        error_text(stages[i].energy, asked.energy());
     if (tells_displacement(stages[i], asked))
       line += "   A " + error_text(stages[i].displacement, asked.displacement());
+    if (tells_probable(stages[i], asked))
+      line += "   probably " + error_text(stages[i].probable, asked.displacement_estimated());
     lines.push_back(std::move(line));
   }
   std::size_t widest = 0;
@@ -102,12 +119,14 @@ std::vector<std::string> stage_lines(const std::vector<StageErrors>& stages,
       lines[i] = pad_right(lines[i], widest) + bar(fraction_of(stage, asked), width - widest);
     lines[i] = fit(lines[i], width);
   }
+  if (foretold) lines.push_back(fit("  " + sanitise(stages.back().forecast), width));
   return lines;
 }
 
 std::string stage_text(std::size_t number, const StageErrors& stage, const v1::Accuracy& asked) {
   return fmt::format("stage {}: {} triangles, {}", number, stage.triangles,
-                     errors_text(stage, asked));
+                     errors_text(stage, asked)) +
+         (stage.forecast.empty() ? "" : "; " + sanitise(stage.forecast));
 }
 
 std::string accuracy_text(const v1::Job& job) {

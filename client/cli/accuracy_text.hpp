@@ -19,7 +19,9 @@ struct StageErrors {
   std::uint64_t triangles = 0;
   double energy = 0;
   double displacement = 0;
-  double seconds = 0;  ///< since the first stage began
+  double probable = 0;        ///< of A by estimate
+  double seconds = 0;         ///< since the first stage began
+  std::string forecast = {};  ///< what cannot be proved within the limits
 };
 
 /// The errors of a stage that has ended.
@@ -35,7 +37,8 @@ std::vector<std::string> stage_lines(const std::vector<StageErrors>& stages,
                                      const v1::Accuracy& asked, std::size_t width,
                                      std::size_t count);
 
-/// "stage 4: 12345 triangles, energy 0.213 % (asked 0.1 %), A 0.8 %".
+/// "stage 4: 12345 triangles, energy 0.213 % (asked 0.1 %), A 0.8 %, probably
+/// 0.02 %", and the forecast.
 std::string stage_text(std::size_t number, const StageErrors& stage, const v1::Accuracy& asked);
 
 /// The text below the answers: what was reached on which mesh, and what was not and why. Empty for

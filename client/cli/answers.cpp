@@ -63,6 +63,18 @@ std::string error_of_a(const v1::InclusionAnswer& inclusion) {
   return text.empty() ? "" : " (" + text + ")";
 }
 
+// ", probably 0.015715 +- 1.2e-05", where the estimate says more than the bounds.
+std::string probable_error(const v1::InclusionAnswer& inclusion) {
+  const double proved = 0.5 * (inclusion.displacement_upper() - inclusion.displacement_lower());
+  const double probable = inclusion.displacement_mesh() + inclusion.displacement_estimated_error();
+  return inclusion.has_displacement_error_probable() &&
+                 inclusion.displacement_error_probable() < proved
+             ? ", probably " + results::interval(probable,
+                                                 probable - inclusion.displacement_error_probable(),
+                                                 probable + inclusion.displacement_error_probable())
+             : "";
+}
+
 // A number with its bounds, if it has them, and of A with its relative error.
 std::string text_of(const v1::InclusionAnswer& inclusion, const std::string& number_name) {
   const double value = results::number_in(inclusion, number_name),
@@ -70,7 +82,7 @@ std::string text_of(const v1::InclusionAnswer& inclusion, const std::string& num
   if (!std::isfinite(lower)) return number(value);
   const bool of_a = number_name == "A" && inclusion.has_displacement_error_relative();
   return results::interval(value, lower, results::number_in(inclusion, number_name + "_upper")) +
-         (of_a ? error_of_a(inclusion) : "");
+         (of_a ? probable_error(inclusion) : "") + (of_a ? error_of_a(inclusion) : "");
 }
 
 // The numbers to show for an inclusion: only A, if it never tilts.

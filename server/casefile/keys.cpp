@@ -256,12 +256,15 @@ constexpr Keys solver_keys{v1::Solver::descriptor, {solver_rows}};
 constexpr Key accuracy_rows[] = {
     {"energy", number, "number, 1e-6 to 1"_form,
      "the width of the energy's interval over the energy, of each load case",
-     "needed without A"_absent},
+     "needed without A and A_estimated"_absent},
     {"A", number, "number, 1e-6 to 1"_form,
      "half the width of each A's interval, over that A; or, of an A near 0, its largest amount "
      "over "
      "A_scale",
-     "needed without energy"_absent, "displacement"_field},
+     "needed without energy and A_estimated"_absent, "displacement"_field},
+    {"A_estimated", number, "number, 1e-6 to 1"_form,
+     "as A, by an estimate of the error, A_error_probable: much sooner reached, and no proof",
+     "proof alone counts"_absent, "displacement_estimated"_field},
     {"largest", boolean, "true: A is over the largest A of all inclusions, not each over its own",
      "false"_absent},
     {"max_triangles", count, "of a mesh", "the server's limit"_absent},

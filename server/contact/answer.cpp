@@ -98,15 +98,21 @@ void fill_inclusions(const TraceProblem& problem, const mesh::Mesh& mesh,
       inclusion.moment_y += flux * (at_node[1] - centre[1]);
     }
   }
-  for (std::size_t i = 0; i < decomposition.pairs.size(); ++i) {
-    const ddm::NodePair& pair = decomposition.pairs[i];
-    const auto k = static_cast<Eigen::Index>(i);
-    if (state.contact[i] != 0) {
-      answer.contact_length += problem.lumped_mass()[k];
-      if (pair.inclusion >= 0)
-        answer.inclusions[at(pair.inclusion)].contact_length += problem.lumped_mass()[k];
-    }
+}
+
+void fill_contact_length(const TraceProblem& problem, const TraceState& state, Answer& answer) {
+  std::vector<ContactLength::Value> values;
+  for (const ContactLength::Node& node : problem.contact_length().nodes()) {
+    ContactLength::Value& value = values.emplace_back();
+    if (node.pair >= 0)
+      value = {state.mu[node.pair], state.jump[node.pair], state.contact[at(node.pair)] != 0};
   }
+  std::vector<double> of_inclusion(answer.inclusions.size(), 0);
+  const Measured all = problem.contact_length().measure(values, of_inclusion);
+  answer.contact_length = all.length;
+  answer.contact_length_error = all.error;
+  for (std::size_t j = 0; j < of_inclusion.size(); ++j)
+    answer.inclusions[j].contact_length = of_inclusion[j];
 }
 
 Eigen::Map<const Eigen::VectorXd> view(std::span<const double> values) {
@@ -115,6 +121,22 @@ Eigen::Map<const Eigen::VectorXd> view(std::span<const double> values) {
 
 Eigen::Map<Eigen::VectorXd> view(std::span<double> values) {
   return {values.data(), static_cast<Eigen::Index>(values.size())};
+}
+
+/// Of an A that is known within `half`, so that it is at most `most`.
+double relative_error(const InclusionAnswer& inclusion, double half, double most, double size) {
+  if (!(half > 0)) return 0;
+  const double scale = inclusion.displacement_scale.value_or(0);
+  return scale > 0 ? std::min(half / size, most / scale) : half / size;
+}
+
+void take_probable_error(InclusionAnswer& one) {
+  if (!one.displacement_estimated_error || !one.displacement_lower || !one.displacement_upper)
+    return;
+  const double moved = *one.displacement_estimated_error, probable = one.displacement_mesh + moved,
+               outside =
+                   std::max(*one.displacement_lower - probable, probable - *one.displacement_upper);
+  one.displacement_error_probable = std::max(0.5 * std::abs(moved), outside);
 }
 
 }  // namespace
@@ -143,6 +165,7 @@ void describe(const TraceProblem& problem, const mesh::Mesh& mesh, const CaseLoa
   answer.kkt_relative = relative_residuals(decomposition, state.mu, state.jump,
                                            scales_of(loads.subdomains, state), answer.kkt);
   fill_inclusions(problem, mesh, loads.inclusion_forces, state, answer);
+  fill_contact_length(problem, state, answer);
   for (std::size_t c = 0; c < mesh.interfaces.size(); ++c) {
     answer.traces.push_back(trace_of(problem, loads.subdomains, state, mesh.interfaces[c],
                                      decomposition.interface_sides[c]));
@@ -192,11 +215,14 @@ double middle_or(double mesh, const std::optional<double>& lower,
 }
 
 double error_of(const InclusionAnswer& inclusion, double size) {
-  const double lower = *inclusion.displacement_lower, upper = *inclusion.displacement_upper,
-               half = 0.5 * (upper - lower), most = std::max(std::abs(lower), std::abs(upper));
-  if (!(half > 0)) return 0;
-  const double scale = inclusion.displacement_scale.value_or(0);
-  return scale > 0 ? std::min(half / size, most / scale) : half / size;
+  const double lower = *inclusion.displacement_lower, upper = *inclusion.displacement_upper;
+  return relative_error(inclusion, 0.5 * (upper - lower),
+                        std::max(std::abs(lower), std::abs(upper)), size);
+}
+
+double probable_error_of(const InclusionAnswer& inclusion, double size) {
+  const double half = *inclusion.displacement_error_probable;
+  return relative_error(inclusion, half, std::abs(inclusion.displacement) + half, size);
 }
 
 void take_middles(AnswerSummary& answer) {
@@ -208,6 +234,7 @@ void take_middles(AnswerSummary& answer) {
     one.slope_y = middle_or(one.slope_y_mesh, one.slope_y_lower, one.slope_y_upper);
     if (one.displacement_lower && one.displacement_upper)
       one.displacement_error_relative = error_of(one, std::abs(one.displacement));
+    take_probable_error(one);
   }
 }
 

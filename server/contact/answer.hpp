@@ -21,7 +21,7 @@ struct InclusionAnswer {
   std::string name;
   double displacement = 0;    ///< A, equation (5); u in its middle (x0, y0) if it tilts
   double resultant = 0;       ///< int [T du/dnu] ds over it, equation (6): the force on it
-  double contact_length = 0;  ///< lumped length of its delaminated nodes in contact
+  double contact_length = 0;  ///< of its delaminated part, as by ContactLength
   /// Bx, By of u = A + Bx (x - x0) + By (y - y0) along the inclusion, (x0, y0) the middle of the
   /// bounding box of its nodes; 0 if it does not tilt.
   double slope_x = 0, slope_y = 0;
@@ -38,12 +38,14 @@ struct InclusionAnswer {
   std::optional<double> displacement_error_relative = {};
   /// The size of A to which an A of 0 compares: |z| |u| >= |A|, z the answer to a unit force on it.
   std::optional<double> displacement_scale = {};
+  /// Of displacement_mesh + displacement_estimated_error, no bound; see take_middles.
+  std::optional<double> displacement_error_probable = {};
 };
 ANTICRACK_FIELDS(InclusionAnswer, name, displacement, resultant, contact_length, slope_x, slope_y,
                  moment_x, moment_y, displacement_lower, displacement_upper,
                  displacement_estimated_error, slope_x_lower, slope_x_upper, slope_y_lower,
                  slope_y_upper, displacement_mesh, slope_x_mesh, slope_y_mesh,
-                 displacement_error_relative, displacement_scale)
+                 displacement_error_relative, displacement_scale, displacement_error_probable)
 
 struct ContactInterval {
   std::string interface;  ///< its name
@@ -66,7 +68,8 @@ struct AnswerSummary {
   int weakly_active = 0;  ///< active set: crack nodes with neither jump nor pressure
   std::vector<std::string> warnings;
   std::vector<InclusionAnswer> inclusions;  ///< one per Mesh::inclusions
-  double contact_length = 0;
+  double contact_length = 0;                ///< as by ContactLength, with
+  double contact_length_error = 0;          ///< an estimate of its error, no bound
   std::vector<ContactInterval> contact_intervals;
   /// Bounds of the exact Pi, of |u - u_h| in the energy norm, and of |u - u_h| / |u_h| (estimate/).
   /// Empty if they were not asked for, or for the reason that `no_bracket` gives.
@@ -77,7 +80,7 @@ struct AnswerSummary {
 ANTICRACK_FIELDS(AnswerSummary, reason, iterations, criterion, theta, theta_star, energy, kkt,
                  kkt_relative, weakly_active, warnings, inclusions, contact_length,
                  contact_intervals, energy_lower, energy_upper, error_bound, error_bound_relative,
-                 no_bracket, energy_mesh)
+                 no_bracket, energy_mesh, contact_length_error)
 
 /// The number that users are told of a value: the middle of its bounds, or without bounds `mesh`,
 /// that of u on the mesh.
@@ -88,9 +91,13 @@ double middle_or(double mesh, const std::optional<double>& lower,
 /// the largest |A| within them over displacement_scale, the error of 0. So an A is known to a part
 /// of `size`, or to be no more than that part of its scale.
 double error_of(const InclusionAnswer& inclusion, double size);
+/// The same by displacement_error_probable, which it has.
+double probable_error_of(const InclusionAnswer& inclusion, double size);
 
 /// Sets the energy, A and B to the middles of their bounds, where they have bounds, and the error
-/// of A, which is over its own |A|.
+/// of A, which is over its own |A|. The probable error of displacement_mesh +
+/// displacement_estimated_error is half of what the estimate moved it, which is more than its
+/// own error, but no less than its distance from the bounds where it is not between them.
 void take_middles(AnswerSummary& answer);
 
 struct Answer : AnswerSummary {

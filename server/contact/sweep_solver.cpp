@@ -113,11 +113,17 @@ SweepLoads reduce(const ContactProblem& problem, std::span<const CaseLoads> load
   return result;
 }
 
-SweepGeometry::SweepGeometry(const TraceProblem& traces)
-    : length(traces.pair_forces().contact_mass()) {
+SweepGeometry::SweepGeometry(const TraceProblem& traces) {
   const ddm::Decomposition& decomposition = traces.decomposition();
-  for (const PairForces::Implied& pair : traces.pair_forces().implied())
-    implied.push_back({pair.path, traces.lumped_mass()[pair.pair]});
+  const std::vector<ContactLength::Node>& along = traces.contact_length().nodes();
+  for (std::size_t i = 0; i < along.size(); ++i) {
+    if (along[i].pair < 0) continue;
+    const auto node = static_cast<std::int32_t>(i);
+    if (const std::int32_t own = decomposition.pairs[at(along[i].pair)].contact; own >= 0)
+      measured.push_back({node, own});
+    for (const PairForces::Implied& pair : traces.pair_forces().implied())
+      if (pair.pair == along[i].pair) implied.push_back({node, pair.path});
+  }
   for (std::size_t c = 0; c < decomposition.interface_sides.size(); ++c) {
     const std::vector<ddm::SidePair>& sides = decomposition.interface_sides[c];
     for (std::size_t i = 0; i < sides.size(); ++i) {
@@ -131,7 +137,7 @@ SweepGeometry::SweepGeometry(const TraceProblem& traces)
 }
 
 std::size_t SweepGeometry::bytes() const noexcept {
-  return sizeof(double) * at(length.size()) + nodes.capacity() * sizeof(nodes[0]) +
+  return measured.capacity() * sizeof(measured[0]) + nodes.capacity() * sizeof(nodes[0]) +
          contact.capacity() * sizeof(contact[0]);
 }
 
@@ -155,6 +161,8 @@ SweepSolver::SweepSolver(const ContactProblem& problem, const SweepGeometry& geo
                          const ActiveSetOptions& options, std::span<const char> start)
     : _geometry(geometry),
       _forces(problem.traces().pair_forces()),
+      _length(problem.traces().contact_length()),
+      _values(_length.nodes().size()),
       _r(problem.conditions().contacts()),
       _magnitude(_r.size()) {
   std::vector<ddm::Terms> motions = sweep_motions(problem.traces().decomposition().skeleton);
@@ -198,21 +206,29 @@ bool SweepSolver::combine(const SweepLoads& loads, std::span<const double> coeff
   return std::isfinite(_energy) && _r.allFinite() && _magnitude.allFinite();
 }
 
+double SweepSolver::contact_length() {
+  const LcpAnswer& answer = _contact->answer();
+  for (const auto& [node, contact] : _geometry.measured) {
+    const double jump = contact < answer.d.size() ? answer.d[contact] : 0;
+    _values[at(node)] = {answer.lambda[contact] / _forces.contact_mass()[contact], jump,
+                         _pressed[at(contact)] != 0};
+  }
+  for (const SweepGeometry::Implied& implied : _geometry.implied)
+    _values[at(implied.node)].pressed = pressed_through(implied.path, _pressed);
+  return _length.measure(_values).length;
+}
+
 bool SweepSolver::write(std::size_t row, SweepColumns& rows) {
   const LcpAnswer& answer = _contact->answer();
-  double energy = _energy, length = 0;
+  double energy = _energy;
   _pressed = answer.pressed;
   _forces.complete_contact(answer.lambda, _pressed);
   for (Index i = 0; i < _r.size(); ++i) energy -= _r[i] * answer.d[i] / 2;
-  for (Index i = 0; i < _geometry.length.size(); ++i)
-    length += _pressed[at(i)] != 0 ? _geometry.length[i] : 0;
-  for (const SweepGeometry::Implied& implied : _geometry.implied)
-    length += pressed_through(implied.path, _pressed) ? implied.length : 0;
   _contact->motion(_of_jumps);
   _motion += _of_jumps;
   if (!std::isfinite(energy) || !_motion.allFinite() || !answer.lambda.allFinite()) return false;
   rows.energy[row] = energy;
-  rows.contact_length[row] = length;
+  rows.contact_length[row] = contact_length();
   rows.kkt[row] = answer.residual;
   const auto slope = _motion.begin() + static_cast<Index>(rows.inclusions);
   std::copy(_motion.begin(), slope, rows.displacement.data() + row * rows.inclusions);

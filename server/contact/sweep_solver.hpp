@@ -27,11 +27,12 @@ struct SweepGeometry {
   /// of each. A condition occurs twice where interfaces cross.
   std::vector<std::array<std::int32_t, 2>> nodes;
   std::vector<std::int32_t> contact;
-  Eigen::VectorXd length;  ///< per contact: lumped mass of its pairs
-  /// A pair of a cross point that is closed if all contacts of a path are closed.
+  /// Where the contact of nodes of ContactLength is found: nodes and their contact conditions, and
+  /// those whose pair is closed if all contacts of a path are.
+  std::vector<std::array<std::int32_t, 2>> measured;
   struct Implied {
+    std::int32_t node;
     std::vector<std::int32_t> path;  ///< contacts from its plus to its minus side
-    double length = 0;
   };
   std::vector<Implied> implied;
 
@@ -89,9 +90,12 @@ class SweepSolver {
  private:
   bool combine(const SweepLoads& loads, std::span<const double> coefficients);
   bool write(std::size_t row, SweepColumns& rows);
+  double contact_length();
 
   const SweepGeometry& _geometry;
   const PairForces& _forces;
+  const ContactLength& _length;
+  std::vector<ContactLength::Value> _values;
   std::unique_ptr<RowContact> _contact;
   std::vector<char> _pressed;
   Eigen::VectorXd _coefficients, _sizes, _r, _magnitude, _motion, _of_jumps, _product;

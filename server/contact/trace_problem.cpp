@@ -175,6 +175,7 @@ TraceProblem::TraceProblem(const ddm::Decomposition& decomposition,
       _lumped(fem::lumped_mass(decomposition.edges, decomposition.pairs.size())),
       _consistent(fem::consistent_mass(decomposition.edges, decomposition.pairs.size())),
       _pair_forces(decomposition, _lumped),
+      _contact_length(decomposition, _lumped),
       _carriers(find_carriers(decomposition)),
       _uzawa(uzawa) {}
 

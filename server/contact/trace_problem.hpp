@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/lazy.hpp"
+#include "contact/contact_length.hpp"
 #include "contact/maps.hpp"
 #include "contact/options.hpp"
 #include "contact/pair_forces.hpp"
@@ -33,6 +34,7 @@ class TraceProblem {
   const std::vector<ddm::SubdomainOperator>& operators() const noexcept { return _operators; }
   const Maps& maps() const noexcept { return _maps; }
   const PairForces& pair_forces() const noexcept { return _pair_forces; }
+  const ContactLength& contact_length() const noexcept { return _contact_length; }
   /// Per subdomain and trace node: the inclusion on which the node's flux acts, directly or through
   /// contact, or -1.
   const std::vector<std::vector<std::int32_t>>& carriers() const noexcept { return _carriers; }
@@ -76,6 +78,7 @@ class TraceProblem {
   Eigen::VectorXd _lumped;
   Eigen::SparseMatrix<double> _consistent;
   PairForces _pair_forces;
+  ContactLength _contact_length;
   std::vector<std::vector<std::int32_t>> _carriers;
   bool _uzawa;
   base::Lazy<double> _theta_star_lumped, _theta_star_consistent;

@@ -108,11 +108,12 @@ AroundZero energy_around_zero(const records::StageAnswer& answer,
 struct WorstA {
   const contact::InclusionAnswer* inclusion;
   double size;   ///< to which its error is relative, unless 0 is nearer
-  double error;  ///< contact::error_of it
+  double error;  ///< contact::error_of or contact::probable_error_of it
 };
 
 /// Returns none if there is no inclusion, or one without bounds.
-std::optional<WorstA> worst_a(const contact::AnswerSummary& answer, bool of_largest) {
+std::optional<WorstA> worst_a(const contact::AnswerSummary& answer, bool of_largest,
+                              double (*error_of)(const contact::InclusionAnswer&, double)) {
   double largest = 0;
   for (const contact::InclusionAnswer& one : answer.inclusions) {
     if (!one.displacement_lower || !one.displacement_upper) return std::nullopt;
@@ -121,7 +122,7 @@ std::optional<WorstA> worst_a(const contact::AnswerSummary& answer, bool of_larg
   std::optional<WorstA> worst;
   for (const contact::InclusionAnswer& one : answer.inclusions) {
     const double size = of_largest ? largest : std::abs(one.displacement),
-                 error = contact::error_of(one, size);
+                 error = error_of(one, size);
     if (!worst || error > worst->error) worst = {&one, size, error};
   }
   return worst;
@@ -132,7 +133,7 @@ AroundZero displacement_around_zero(const contact::AnswerSummary& answer,
                                     const records::AccuracySpec& wanted) {
   AroundZero found{"A"};
   if (!wanted.displacement) return found;
-  const std::optional<WorstA> worst = worst_a(answer, wanted.largest);
+  const std::optional<WorstA> worst = worst_a(answer, wanted.largest, contact::error_of);
   if (!worst || !(worst->error > *wanted.displacement)) return found;
   const contact::InclusionAnswer& one = *worst->inclusion;
   const double half = 0.5 * (*one.displacement_upper - *one.displacement_lower);
@@ -164,21 +165,46 @@ std::string no_hope(const records::StageAnswer& answer, const contact::AnswerSum
          "that cross or more than 16 inclusions";
 }
 
+/// The rate at which an error fell between two stages, as triangles^-rate; 0 if it did not, or if
+/// one of the errors is unknown or so large that it says nothing yet.
+double rate_between(double error_before, const records::StageRecord& before, double error,
+                    const records::StageRecord& now) {
+  constexpr double least = 0.1;
+  const double fell = std::log(error_before / error),
+               grew = std::log(static_cast<double>(now.triangles) /
+                               static_cast<double>(before.triangles));
+  return error_before < 1 && grew > 0 && fell > least * grew ? fell / grew : 0;
+}
+
+/// What a proof needs, if its error goes on to fall at this rate.
+struct Need {
+  const char* name = "";
+  double asked = 1, error = 0, rate = 0;
+  double at = 0;  ///< triangles of the stage with this error
+
+  double triangles() const {
+    return rate > 0 && error > asked ? at * std::pow(error / asked, 1 / rate) : 0;
+  }
+};
+
 }  // namespace
 
 void check_accuracy(const records::JobSpec& spec) {
   const records::AccuracySpec& wanted = *spec.accuracy;
-  if (!wanted.energy && !wanted.displacement) {
-    throw Error(Reason::invalid_argument,
-                "no accuracy is asked for: give energy = 1e-3, A = 1e-3 (displacement), or both")
+  if (!wanted.energy && !wanted.displacement && !wanted.displacement_estimated) {
+    throw Error(
+        Reason::invalid_argument,
+        "no accuracy is asked for: give energy = 1e-3, A = 1e-3 (displacement), or both; or "
+        "A_estimated = 1e-3 (displacement_estimated), without a proof")
         .at("accuracy");
   }
-  if (wanted.largest && !wanted.displacement) {
+  if (wanted.largest && !wanted.displacement && !wanted.displacement_estimated) {
     throw Error(Reason::invalid_argument, "is about A (displacement): give that with it")
         .at("accuracy.largest");
   }
   check_tolerance(wanted.energy, "accuracy.energy");
   check_tolerance(wanted.displacement, "accuracy.displacement");
+  check_tolerance(wanted.displacement_estimated, "accuracy.displacement_estimated");
   if (!std::holds_alternative<contact::ActiveSetOptions>(spec.solver)) {
     throw Error(Reason::invalid_argument,
                 "an accuracy needs bounds, which Algorithm 2 (uzawa) does not have: use the active "
@@ -236,7 +262,15 @@ records::StageAnswer stage_answer(const records::CaseRecord& ended_case, bool la
   const contact::AnswerSummary& answer = ended_case.answer;
   records::StageAnswer result{answer.energy, answer.energy_lower, answer.energy_upper,
                               answer.error_bound_relative};
-  if (const auto worst = worst_a(answer, largest)) result.displacement_error = worst->error;
+  if (const auto worst = worst_a(answer, largest, contact::error_of))
+    result.displacement_error = worst->error;
+  const bool all_estimated =
+      std::ranges::all_of(answer.inclusions, [](const contact::InclusionAnswer& one) {
+        return one.displacement_error_probable.has_value();
+      });
+  if (!all_estimated) return result;
+  if (const auto worst = worst_a(answer, largest, contact::probable_error_of))
+    result.displacement_error_probable = worst->error;
   return result;
 }
 
@@ -252,6 +286,10 @@ double excess(const records::StageAnswer& answer, const records::AccuracySpec& w
   if (wanted.displacement) {
     if (!answer.displacement_error) return infinity;
     add(*answer.displacement_error, *wanted.displacement);
+  }
+  if (wanted.displacement_estimated) {
+    if (!answer.displacement_error_probable) return infinity;
+    add(*answer.displacement_error_probable, *wanted.displacement_estimated);
   }
   return result;
 }
@@ -284,8 +322,41 @@ std::string not_reached(const records::StageRecord& last,
     add(cases.empty() ? AroundZero{"A"} : displacement_around_zero(cases[load]->answer, wanted),
         *answer.displacement_error, *wanted.displacement);
   }
+  if (wanted.displacement_estimated && answer.displacement_error_probable)
+    add({"A by estimate"}, *answer.displacement_error_probable, *wanted.displacement_estimated);
   return fmt::format("load case \"{}\" reached {} on {} triangles: {}", spec.loads[load].name,
                      found.empty() ? "no bounds" : found, last.triangles, why);
+}
+
+std::string forecast(const std::vector<records::StageRecord>& stages, const records::JobSpec& spec,
+                     std::uint64_t max_triangles) {
+  if (stages.size() < 2) return "";
+  const records::StageRecord &now = stages.back(), &before = stages[stages.size() - 2];
+  const records::AccuracySpec& wanted = *spec.accuracy;
+  Need most;
+  const auto consider = [&](const char* name, const std::optional<double>& asked, auto error_of) {
+    for (std::size_t i = 0; asked && i < now.answers.size(); ++i) {
+      const double error = error_of(now.answers[i]);
+      const Need need{name, *asked, error,
+                      rate_between(error_of(before.answers[i]), before, error, now),
+                      static_cast<double>(now.triangles)};
+      if (need.triangles() > most.triangles()) most = need;
+    }
+  };
+  consider("energy", wanted.energy, [](const records::StageAnswer& answer) {
+    return answer.energy_lower && answer.energy_upper ? relative_width(answer) : infinity;
+  });
+  consider("A", wanted.displacement, [](const records::StageAnswer& answer) {
+    return answer.displacement_error.value_or(infinity);
+  });
+  const auto limit = static_cast<double>(max_triangles);
+  if (!(most.triangles() > limit)) return "";
+  return fmt::format(
+      "{} to {:g} % needs about {:.2g} triangles; the limit is {}, where about {:.2g} % can be "
+      "proved "
+      "(the error falls as triangles^-{:.2f})",
+      most.name, 100 * most.asked, most.triangles(), max_triangles,
+      100 * most.error * std::pow(most.at / limit, most.rate), most.rate);
 }
 
 std::string limit_reached(const records::JobSpec& spec, std::uint64_t max_triangles) {
@@ -317,12 +388,15 @@ Verdict judge(const std::vector<records::StageRecord>& stages,
   }
   const Worst worst = worst_of(last, wanted);
   if (worst.excess <= 1) return {true, ""};
-  if (wanted.displacement && !last.answers[worst.load].displacement_error) {
+  if ((wanted.displacement || wanted.displacement_estimated) &&
+      !last.answers[worst.load].displacement_error) {
     return stop(cases[worst.load]->answer.inclusions.empty()
                     ? "the mesh has no inclusion; ask for an accuracy of the energy"
                     : "there are no bounds of A on this mesh (too many inclusions and triangles, "
                       "or a part that only contact holds); ask for an accuracy of the energy");
   }
+  if (wanted.displacement_estimated && !last.answers[worst.load].displacement_error_probable)
+    return stop("there is no estimate of the error of A on this mesh; ask for accuracy.A instead");
   if (last.triangles >= max_triangles) return stop(limit_reached(spec, max_triangles));
   if (spec.accuracy->time.count() > 0 &&
       seconds >= std::chrono::duration<double>(spec.accuracy->time).count())

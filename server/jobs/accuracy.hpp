@@ -51,6 +51,13 @@ std::string not_reached(const records::StageRecord& last,
                         std::span<const records::CaseRecord* const> cases,
                         const records::JobSpec& spec, const std::string& why);
 
+/// The proof that needs most triangles, if that is more than the limit, with how many, and what can
+/// be proved there, by the rate of its error in the last stage; empty if none does, or if the rate
+/// is not known yet. A job goes on nevertheless: what it can prove at the limit is the closest to
+/// what was asked.
+std::string forecast(const std::vector<records::StageRecord>& stages, const records::JobSpec& spec,
+                     std::uint64_t max_triangles);
+
 /// A message that says which limit on triangles is reached, with the cure.
 std::string limit_reached(const records::JobSpec& spec, std::uint64_t max_triangles);
 

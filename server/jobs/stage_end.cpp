@@ -97,8 +97,9 @@ void end_stage(EngineCore& core, const JobPtr& job) {
       stages.seconds_before + std::chrono::duration<double>(now - *stages.begun).count();
   const bool largest = job->spec->accuracy->largest;
   for (const records::CaseRecord* one : cases) ended.answers.push_back(stage_answer(*one, largest));
-  const auto event = std::make_shared<const records::StageRecord>(ended);
   const std::uint64_t most = most_triangles(core, *job);
+  ended.forecast = forecast(records, *job->spec, most);
+  const auto event = std::make_shared<const records::StageRecord>(ended);
   const double rate = rate_of(records, *job->spec->accuracy);
   Verdict verdict = judge(records, cases, *job->spec, most, ended.seconds);
   LiveStages::Complete complete;

@@ -49,17 +49,19 @@ struct StageAnswer {
   std::optional<double> energy_upper{};
   std::optional<double> error_bound_relative{};
   std::optional<double> displacement_error{};  ///< largest of all inclusions, as in AccuracySpec
+  std::optional<double> displacement_error_probable{};  ///< the same by estimate
 };
 ANTICRACK_FIELDS(StageAnswer, energy, energy_lower, energy_upper, error_bound_relative,
-                 displacement_error)
+                 displacement_error, displacement_error_probable)
 
 struct StageRecord {
   std::string mesh;  ///< id
   std::uint64_t triangles = 0;
   double seconds = 0;                  ///< from the start of the first stage to the end of this one
   std::vector<StageAnswer> answers{};  ///< (loads); empty if the stage has not ended
+  std::string forecast{};              ///< what cannot be proved within the limits; empty: unknown
 };
-ANTICRACK_FIELDS(StageRecord, mesh, triangles, seconds, answers)
+ANTICRACK_FIELDS(StageRecord, mesh, triangles, seconds, answers, forecast)
 
 /// A step of a job: it entered `state`, or another phase of it.
 struct Step {

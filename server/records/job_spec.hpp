@@ -39,8 +39,10 @@ struct AccuracySpec {
   std::chrono::milliseconds time{0};     ///< no stage begins after this time; 0: no limit
   bool keep_stages = false;              ///< keep the meshes of all stages
   bool largest = false;  ///< displacement: over the largest |A|, not each over its own
+  std::optional<double> displacement_estimated{};  ///< as displacement, by estimate
 };
-ANTICRACK_FIELDS(AccuracySpec, energy, displacement, max_triangles, time, keep_stages, largest)
+ANTICRACK_FIELDS(AccuracySpec, energy, displacement, max_triangles, time, keep_stages, largest,
+                 displacement_estimated)
 
 /// Names of units, for readers; empty: none.
 struct Units {

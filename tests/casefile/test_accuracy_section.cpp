@@ -19,6 +19,7 @@ TEST(AccuracySection, BecomesTheTaskOfTheJob) {
   EXPECT_FALSE(parse(sample_text).spec.has_accuracy());
   const Case the_case = parse(sample_to(R"(energy = 1e-3
 A = 0.01
+A_estimated = 1e-4
 max_triangles = 200000
 time = "10min"
 keep_stages = true
@@ -27,6 +28,7 @@ largest = true
   const v1::Accuracy& accuracy = the_case.spec.accuracy();
   EXPECT_EQ(accuracy.energy(), 1e-3);
   EXPECT_EQ(accuracy.displacement(), 0.01);
+  EXPECT_EQ(accuracy.displacement_estimated(), 1e-4);
   EXPECT_EQ(accuracy.max_triangles(), 200000U);
   EXPECT_EQ(accuracy.time().seconds(), 600);
   EXPECT_TRUE(accuracy.keep_stages());

@@ -59,7 +59,7 @@ void expect_as_uzawa(const Membrane& membrane, const char* force, double toleran
   const Answer exact = membrane.exact(fem::Expression{force});
   expect_exact(exact);
   EXPECT_NEAR(exact.energy, uzawa.energy, tolerance);
-  EXPECT_NEAR(exact.contact_length, uzawa.contact_length, 1e-12);
+  EXPECT_NEAR(exact.contact_length, uzawa.contact_length, 1e-11);
   for (std::size_t j = 0; j < exact.inclusions.size(); ++j) {
     EXPECT_NEAR(exact.inclusions[j].displacement, uzawa.inclusions[j].displacement, tolerance);
     EXPECT_NEAR(exact.inclusions[j].resultant, 0, rounding);
@@ -222,7 +222,7 @@ TEST(ActiveSet, AnInclusionMayLeaveThroughTheNeumannBoundary) {
     EXPECT_NEAR(answer.inclusions[0].displacement, 0, rounding);
     EXPECT_NEAR(answer.inclusions[0].resultant, 0, rounding);
     if (kind == Kind::delaminated) {
-      EXPECT_NEAR(answer.contact_length, 3.5, rounding);
+      EXPECT_NEAR(answer.contact_length, 4, rounding);
       EXPECT_NEAR(answer.traces[0].pressure[4], 0.7, 100 * rounding) << "at the boundary";
     }
   }
@@ -251,7 +251,7 @@ TEST(ActiveSet, PressureOfAnInclusionGoesOnWhereACrackCrossesIt) {
       EXPECT_NEAR(bar.pressure[i], 0.7, 100 * rounding) << i;
       EXPECT_EQ(bar.contact[i], 1) << i;
     }
-    EXPECT_NEAR(pressed.inclusions[0].contact_length, 3, rounding);
+    EXPECT_NEAR(pressed.inclusions[0].contact_length, 4, rounding);
     for (const double pressure : pressed.traces.at(1).pressure) {
       EXPECT_NEAR(pressure, 0, 100 * rounding) << "the crack carries nothing";
     }
@@ -322,7 +322,7 @@ TEST(ActiveSet, ContactOverTheWholeCrackIsThePatchTest) {
   EXPECT_NEAR(answer.inclusions[0].displacement, 0, rounding);
   EXPECT_NEAR(answer.energy, 2 * 0.49, rounding);
   EXPECT_EQ(answer.iterations, 1);
-  EXPECT_NEAR(answer.contact_length, 1 - 1.0 / 16, rounding);
+  EXPECT_NEAR(answer.contact_length, 1, rounding);
   for (std::size_t i = 1; i < 32; ++i) {  // glue carries the same flux as contact
     EXPECT_NEAR(answer.traces[0].pressure[i], 0.7, 100 * rounding) << i;
   }
@@ -350,7 +350,7 @@ TEST(ActiveSet, CrackOfOneNodeAndInclusionOfOneEdge) {
   const Answer closed = membrane.exact(fem::Expression{"y > 0 ? -1 : 1"});
   expect_exact(closed);
   EXPECT_GT(closed.traces[0].pressure[5], 0);
-  EXPECT_NEAR(closed.contact_length, 0.125, rounding);
+  EXPECT_NEAR(closed.contact_length, 0.25, rounding);
   EXPECT_NEAR(closed.inclusions[0].resultant, 0, rounding);
 }
 

@@ -283,7 +283,8 @@ TEST(Answer, ListsContactIntervalsAndTracesAlongTheInterface) {
     length += interval.end - interval.begin + 1.0 / 16;
   }
   EXPECT_GT(nodes, 0U);
-  EXPECT_NEAR(answer.contact_length, length, 1e-14);
+  EXPECT_NEAR(answer.contact_length, length, answer.contact_length_error);
+  EXPECT_LE(answer.contact_length_error, 2.0 / 16);
   EXPECT_EQ(answer.contact_length, answer.inclusions[0].contact_length);
 }
 

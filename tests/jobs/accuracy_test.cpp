@@ -72,6 +72,58 @@ TEST(Accuracy, OfADisplacementIsRelativeToItselfUnlessTheLargestIsAskedFor) {
   EXPECT_TRUE(std::isinf(excess(stage_answer(record), *spec.accuracy)));
 }
 
+TEST(Accuracy, ByEstimateIsReachedBeforeTheProof) {
+  JobSpec spec = energy_to(1);
+  spec.accuracy->energy.reset();
+  spec.accuracy->displacement_estimated = 0.01;
+  CaseRecord record = answer_between(-1, -1);
+  record.answer.inclusions = {inclusion(2, 1.9, 2.1)};
+  record.answer.inclusions[0].displacement_mesh = 1.99;
+  EXPECT_THAT(judge_one(record, spec).not_reached, HasSubstr("no estimate of the error of A"));
+  record.answer.inclusions[0].displacement_estimated_error = 0.014;
+  contact::take_middles(record.answer);
+  EXPECT_NEAR(*record.answer.inclusions[0].displacement_error_probable, 0.007, 1e-12);
+  EXPECT_NEAR(excess(stage_answer(record), *spec.accuracy), 0.35, 1e-12);
+  EXPECT_EQ(judge_one(record, spec).not_reached, "");
+  EXPECT_TRUE(judge_one(record, spec).over);
+  spec.accuracy->displacement = 0.01;
+  EXPECT_FALSE(judge_one(record, spec).over) << "the proof is asked for too";
+  record.answer.inclusions[0].displacement_estimated_error = 0.1;
+  contact::take_middles(record.answer);
+  EXPECT_NEAR(*record.answer.inclusions[0].displacement_error_probable, 0.05, 1e-12);
+  record.answer.inclusions[0].displacement_mesh = 2.1;
+  contact::take_middles(record.answer);
+  EXPECT_NEAR(*record.answer.inclusions[0].displacement_error_probable, 0.1, 1e-12) << "refuted";
+  EXPECT_THAT(judge_one(record, spec, {}, 100).not_reached,
+              HasSubstr("A 5 % (asked 1 %), A by estimate 5 % (asked 1 %) on 100 triangles"));
+  record.answer.inclusions[0] = inclusion(0, -0.01, 0.01);
+  record.answer.inclusions[0].displacement_scale = 2;
+  record.answer.inclusions[0].displacement_estimated_error = 0.002;
+  contact::take_middles(record.answer);
+  EXPECT_NEAR(*stage_answer(record).displacement_error_probable, 0.0005, 1e-12) << "of its scale";
+}
+
+TEST(Accuracy, SaysEarlyWhatCannotBeProved) {
+  JobSpec spec = energy_to(1);
+  spec.accuracy->displacement = 0.01;
+  std::vector<StageRecord> stages(2);
+  stages[0].triangles = 1000;
+  stages[1].triangles = 8000;
+  for (StageRecord& stage : stages) stage.answers.push_back({-1, -1, -1, 0, 0.4});
+  EXPECT_EQ(forecast({stages[0]}, spec, 1000000), "");
+  EXPECT_EQ(forecast(stages, spec, 10000), "") << "it does not fall at all";
+  stages[1].answers[0].displacement_error = 0.1;
+  EXPECT_EQ(forecast(stages, spec, 100000),
+            "A to 1 % needs about 2.5e+05 triangles; the limit is 100000, where about 1.9 % can be "
+            "proved (the error falls as triangles^-0.67)");
+  EXPECT_EQ(forecast(stages, spec, 260000), "") << "it can be reached";
+  stages[1].answers[0].displacement_error = 0.009;
+  EXPECT_EQ(forecast(stages, spec, 8000), "") << "it is reached";
+  stages[0].answers[0].displacement_error.reset();
+  stages[1].answers[0].displacement_error = 0.1;
+  EXPECT_EQ(forecast(stages, spec, 8000), "") << "no rate is known";
+}
+
 TEST(Accuracy, OfADisplacementOfZeroIsRelativeToItsScale) {
   JobSpec spec = energy_to(1);
   spec.accuracy->displacement = 0.01;
@@ -255,6 +307,9 @@ TEST(Accuracy, RefusesWhatCannotBeSolvedInStages) {
     JobSpec spec = energy_to(0.1);
     spec.accuracy->displacement = bad;
     EXPECT_EQ(field_at_fault(spec), "accuracy.displacement") << bad;
+    spec = energy_to(0.1);
+    spec.accuracy->displacement_estimated = bad;
+    EXPECT_EQ(field_at_fault(spec), "accuracy.displacement_estimated") << bad;
   }
   JobSpec spec = energy_to(0.1);
   spec.accuracy->energy.reset();

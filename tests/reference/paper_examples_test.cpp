@@ -134,7 +134,8 @@ TEST(PaperExamples, SecondAndFourthTouchNearTheLeftTip) {
     EXPECT_LT(begin_of(answer), -0.5 + 3 * spacing);
     EXPECT_LT(end_of(answer), 0.0);
     EXPECT_NEAR(answer.inclusions[0].contact_length, answer.contact_length, 1e-15);
-    EXPECT_NEAR(answer.contact_length, end_of(answer) - begin_of(answer) + spacing, 1e-9);
+    EXPECT_GT(answer.contact_length, end_of(answer) - begin_of(answer) - spacing);
+    EXPECT_LT(answer.contact_length, end_of(answer) - begin_of(answer) + 2 * spacing);
   }
 }
 
@@ -171,7 +172,7 @@ TEST(ClosingLoad, ConvergesWithThetaAuto) {
   EXPECT_EQ(answer.status, Status::converged);
   EXPECT_NEAR(answer.theta, 0.97 * answer.theta_star, 1e-15);
   EXPECT_NEAR(answer.inclusions[0].displacement, 0, 1e-5);
-  EXPECT_NEAR(answer.contact_length, 1 - spacing, 1e-9);  // every node but the tips
+  EXPECT_NEAR(answer.contact_length, 1, 1e-9);
 }
 
 TEST(ClosingLoad, EndsAtTheLimitWhenThetaIsFineButIterationsAreNot) {
@@ -216,7 +217,7 @@ TEST(PatchTest, ClosedCrackIsReproducedToRounding) {
         "of A %.1e, of the energy %.1e\n",
         epsilon, answer.iterations, field, pressure, std::abs(answer.inclusions[0].displacement),
         std::abs(answer.energy - c * c * 2));
-    EXPECT_NEAR(answer.contact_length, 1 - spacing, 1e-9);
+    EXPECT_NEAR(answer.contact_length, 1, 1e-9);
     if (epsilon < 1e-25) {
       EXPECT_LT(field, 1e-12);
       EXPECT_LT(pressure, 1e-12);
@@ -275,7 +276,7 @@ TEST(ActiveSet, AgreesWithUzawaOnThePapersExamples) {
     EXPECT_LT(std::abs(exact.inclusions[0].resultant), 1e-12);
     EXPECT_NEAR(exact.inclusions[0].displacement, uzawa.inclusions[0].displacement, 1e-7);
     EXPECT_NEAR(exact.energy, uzawa.energy, 1e-8);
-    EXPECT_NEAR(exact.contact_length, uzawa.contact_length, 1e-9);
+    EXPECT_NEAR(exact.contact_length, uzawa.contact_length, 1e-6);
     double jump = 0, pressure = 0, largest = 0;
     const contact::Trace &a = exact.traces.at(0), &b = uzawa.traces.at(0);
     for (std::size_t i = 0; i < a.jump.size(); ++i) {

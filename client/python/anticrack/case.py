@@ -225,14 +225,15 @@ class Uzawa(_Table):
 
 @dataclass(kw_only=True, repr=False)
 class Accuracy(_Table):
-    """Relative errors of the energy and of the displacements A that the job has to reach, proved by bounds. time:
-    seconds, or "10min"."""
+    """Relative errors of the energy and of the displacements A that the job has to reach, proved by bounds.
+    A_estimated: the same of A by an estimate, which is no proof. time: seconds, or "10min"."""
     energy: float | None = None
     A: float | None = None
     largest: bool | None = None
     max_triangles: int | None = None
     time: float | str | None = None
     keep_stages: bool | None = None
+    A_estimated: float | None = None
 
 
 @dataclass(repr=False)

@@ -95,14 +95,18 @@ def _errors(stage: solve_pb2.Stage, asked: solve_pb2.Accuracy) -> str:
         percent = f"{100 * error:.{2 if error < 1 and not most else 3}g} %" if np.isfinite(error) else "- %"
         return percent + (f" (asked {100 * most:.6g} %)" if most else "")
     columns = {name: np.array([entries.values_of(answer)[name] for answer in stage.answers])
-               for name in ("energy", "energy_lower", "energy_upper", "displacement_error")}
+               for name in ("energy", "energy_lower", "energy_upper", "displacement_error",
+                            "displacement_error_probable")}
     widths = np.maximum(columns["energy_upper"] - columns["energy_lower"], 0)
     sizes = np.where(widths == 0, 1, np.abs(columns["energy"]))
     energy, moved = (widths / sizes).max(), columns["displacement_error"].max()
     told = "energy " + text(energy, asked.energy)
     if asked.HasField("displacement") or np.isfinite(moved):
         told += ", A " + text(moved, asked.displacement)
-    return told
+    probable = columns["displacement_error_probable"].max()
+    if asked.HasField("displacement_estimated") or np.isfinite(probable):
+        told += ", probably " + text(probable, asked.displacement_estimated)
+    return told + (f"; {harmless(stage.forecast)}" if stage.forecast else "")
 
 
 class Progress:

@@ -25,9 +25,11 @@ def harmless(text: object, keep: str = "") -> str:
                    for c in str(text))
 
 
-def interval(value: float, lower: float, upper: float, mesh: float, unit: str = "", error: str = "") -> str:
+def interval(value: float, lower: float, upper: float, mesh: float, unit: str = "", error: str = "",
+             probable: str = "") -> str:
     """Writes a value with the distance of its bounds, as the command's tables do, its relative error if given, and the
-    value on the mesh: "0.4483 +- 0.0038 mm (0.85 %; 0.4462 on the mesh)". The printed interval contains the bounds.
+    value on the mesh: "0.4483 +- 0.0038 mm (0.85 %; 0.4462 on the mesh)". Before them what it
+    probably is, by an estimate: ", probably 0.4472 +- 0.0001 mm". The printed interval contains the bounds.
     Without bounds it is the value alone."""
     error = error and f"{error}; "
     if not math.isfinite(lower) or not math.isfinite(upper):
@@ -47,6 +49,7 @@ def interval(value: float, lower: float, upper: float, mesh: float, unit: str = 
     beside = math.ceil(max(upper - shown, shown - lower) / step - 1e-6) * step
     texts = [f"{_unsigned(number / 10.0 ** exponent, max(0, behind + exponent)):.{max(0, behind + exponent)}f}"
              for number in (shown, beside, mesh)]
+    unit += f", probably {probable}" if probable else ""
     if not exponent:
         return f"{texts[0]} +- {texts[1]}{unit} ({error}{texts[2]} on the mesh)"
     return f"({texts[0]} +- {texts[1]})e{exponent}{unit} ({error}{texts[2]}e{exponent} on the mesh)"
@@ -63,7 +66,17 @@ def with_bounds(of: Any, name: str, unit: str = "") -> str:
             errors.append(per_cent(half / abs(value)))
         if half > 0 and (not value or relative < half / abs(value)):
             errors.append(f"{per_cent(relative)} of {of.A_scale:.3g}{unit}")
-    return interval(value, lower, upper, mesh, unit, "; ".join(errors))
+    return interval(value, lower, upper, mesh, unit, "; ".join(errors),
+                    _probable(of, unit) if name == "A" else "")
+
+
+def _probable(of: Any, unit: str) -> str:
+    """The interval of the estimate of A, where it is closer than the bounds."""
+    error = getattr(of, "A_error_probable", math.nan)
+    middle = of.A_mesh + getattr(of, "A_estimated_error", math.nan)
+    if not error < (of.A_upper - of.A_lower) / 2:
+        return ""
+    return interval(middle, middle - error, middle + error, middle, unit).partition(" (")[0]
 
 
 def per_cent(error: float) -> str:

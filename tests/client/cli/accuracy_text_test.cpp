@@ -79,6 +79,20 @@ TEST(StageLines, AreFullWhereAllThatIsAskedForIsReached) {
   EXPECT_THAT(stage_lines({unknown}, both, 120, 1).at(0), HasSubstr("A      - % (asked 5 %)  [--"));
 }
 
+TEST(StageLines, HaveTheEstimateAndWhatCannotBeProved) {
+  v1::Accuracy wanted = asked(0.01);
+  wanted.set_displacement_estimated(0.001);
+  v1::Stage ended = stage(1, 900, 0.004);
+  ended.mutable_answers(0)->set_displacement_error_probable(0.002);
+  EXPECT_THAT(stage_lines({errors_of(ended)}, wanted, 120, 1).at(0),
+              HasSubstr("A 4 %   probably    0.2 % (asked 0.1 %)  [#"));
+  EXPECT_THAT(stage_text(1, errors_of(ended), wanted), HasSubstr(", probably 0.2 % (asked 0.1 %)"));
+  ended.set_forecast("A to 1 % needs about 1e+07 triangles");
+  EXPECT_THAT(stage_lines({errors_of(ended)}, wanted, 120, 2),
+              ElementsAre(HasSubstr("stage  1"), "  A to 1 % needs about 1e+07 triangles"));
+  EXPECT_THAT(stage_text(1, errors_of(ended), wanted), HasSubstr("; A to 1 % needs about 1e+07"));
+}
+
 TEST(AccuracyText, TellsWhatWasReachedAndWhatNot) {
   v1::Job job;
   EXPECT_EQ(accuracy_text(job), "");

@@ -219,8 +219,8 @@ TEST(AnswersCsv, HasALineForEachAndQuotesNames) {
   EXPECT_EQ(answers_csv(result),
             "load,inclusion,A,resultant,contact_length,Bx,By,Mx,My,A_lower,A_upper,A_estimated_"
             "error,Bx_lower,Bx_upper,By_lower,By_upper,A_mesh,Bx_mesh,By_mesh,A_error_relative,"
-            "A_scale\n"
-            "\"a \"\"b\"\", c\",fibre,0.1,1e-16,0,0,0,0,0,,,,,,,,0,0,0,,\n");
+            "A_scale,A_error_probable\n"
+            "\"a \"\"b\"\", c\",fibre,0.1,1e-16,0,0,0,0,0,,,,,,,,0,0,0,,,\n");
 }
 
 TEST(NumbersTable, HasEveryNumberWithItsUnitAndMeaning) {

@@ -158,7 +158,8 @@ def finish(ax: Any, profile: Profile, loads: list[Load], index: int, name: str, 
 
 def shade(profile: Profile, trace: Trace, ax: Any, color: str = CONTACT, alpha: float = 1,
           label: str = "contact") -> None:
-    """Shades contact up to the middles of the edges at its ends, so that the stretches add up to the contact length."""
+    """Shades contact up to the middles of the edges at its ends, between which the contact
+    length has its own ends."""
     ends, closed = middles(profile.at), trace.contact != 0
     for first, last in runs(closed):
         if closed[first]:
@@ -174,7 +175,7 @@ def heading(result: Result, load: Load, line: Interface) -> str:
         parts = [where] if where else []
         for part in (load.inclusions[name] for name in here if name in load.inclusions):
             known = bounds and np.isfinite(part.A_lower)
-            text = with_bounds(part, "A").partition(" (")[0] if known else f"{part.A:.4g}"
+            text = with_bounds(part, "A").partition(", probably")[0].partition(" (")[0] if known else f"{part.A:.4g}"
             slopes = f", B = ({part.Bx:.4g}, {part.By:.4g})" if part.Bx or part.By else ""
             behind = f" ({named(part.name, 12)})" if len(load.inclusions) > 1 and part.name != line.name else ""
             parts.append(signed(f"A = {text.replace('+-', chr(177))}{unit}{slopes}{behind}"))
