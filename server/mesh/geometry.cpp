@@ -8,6 +8,7 @@
 #include <numbers>
 #include <set>
 #include <unordered_map>
+#include <utility>
 
 #include "base/at.hpp"
 #include "mesh/geometry_boundary.hpp"
@@ -149,6 +150,24 @@ void add_curves(const Layout& layout, const Network& network,
   }
 }
 
+/// Notes the bend of which each curve is a chord. A line has stations where its spans meet, so a
+/// chord lies in one span.
+void add_bends(const Network& network, Plan& plan) {
+  std::pair<int, int> last{-1, -1};  // line and span
+  for (std::size_t e = 0; e < network.chords.size(); ++e) {
+    const Chord& chord = network.chords[e];
+    const Line& line = network.lines[at(chord.line)].line;
+    if (line.straight()) continue;
+    const int span = static_cast<int>((chord.from + chord.to) / 2);
+    if (last != std::pair(chord.line, span)) plan.bends.push_back(line.bend(span));
+    last = {chord.line, span};
+    PlannedCurve& curve = plan.curves[e];
+    curve.bend = static_cast<int>(plan.bends.size()) - 1;
+    curve.from = chord.from - span;
+    curve.to = chord.to - span;
+  }
+}
+
 /// How each chord must be walked: the numerics let the minus side come off, and the plus side of a
 /// crack is the left side of the user's line.
 std::vector<Walk> walks_of(const std::vector<const Stretch*>& stretches) {
@@ -263,6 +282,7 @@ Plan plan(const Geometry& given, const MeshOptions& options, std::size_t max_tri
   }
   const std::vector<const Stretch*> stretches = stretches_of(layout, network);
   add_curves(layout, network, stretches, plan);
+  add_bends(network, plan);
   check_held(geometry, plan);
   check_contacts(layout, plan);
   lay_subdomains(geometry, network, names, walks_of(stretches), plan);

@@ -192,6 +192,7 @@ void set_intervals(Plan& plan, double size) {
     // a length that is, up to rounding, a whole number of sizes is cut into just as many pieces
     const double piece = length_of(plan, curve) / curve.intervals;
     curve.intervals *= static_cast<int>(std::max(1.0, std::ceil(piece / size - 1e-9)));
+    if (curve.intervals > 1) curve.bend = -1;
   }
 }
 
@@ -240,6 +241,7 @@ void cut_near(Plan& plan, double size, double growth, std::size_t max_curves) {
     PlannedCurve piece = plan.curves[e];
     const Segment whole = segment_of(plan, piece);
     const int last = piece.b;
+    if (!cuts[e].empty()) piece.bend = -1;  // its nodes are to lie on the chord
     const auto add = [&](int b, int intervals) {
       piece.b = b;
       piece.intervals = intervals;
