@@ -228,8 +228,10 @@ void note_chords(const Network& network, std::vector<std::string>& warnings) {
     ++pieces[at(chord.line)];
     const Point& a = network.points[at(chord.a)];
     const Point& b = network.points[at(chord.b)];
-    const Point curve = on.line.at(on.line.on_line((chord.from + chord.to) / 2));
-    const double off = distance(curve, Point{(a[0] + b[0]) / 2, (a[1] + b[1]) / 2});
+    const auto curve = [&](double t) { return on.line.at(on.line.on_line(t)); };
+    const double off = std::max(
+        distance(curve(chord.to), b),
+        distance(curve((chord.from + chord.to) / 2), Point{(a[0] + b[0]) / 2, (a[1] + b[1]) / 2}));
     if (off > most) worst = at(chord.line);
     most = std::max(most, off);
   }
@@ -273,6 +275,7 @@ Plan plan(const Geometry& given, const MeshOptions& options, std::size_t max_tri
   cut(lines, rule, curve_limit);
   const Layout layout = lay_parts(geometry, network);
   cut(network, rule, curve_limit);
+  balance_areas(network);
   if (options.chord_angle == 0) note_chords(network, plan.warnings);
 
   plan.triangles = triangles;

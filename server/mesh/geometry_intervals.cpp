@@ -189,10 +189,10 @@ void set_paper_intervals(Plan& plan) {
 
 void set_intervals(Plan& plan, double size) {
   for (PlannedCurve& curve : plan.curves) {
+    if (curve.bend >= 0) continue;  // a chord, which is short enough
     // a length that is, up to rounding, a whole number of sizes is cut into just as many pieces
     const double piece = length_of(plan, curve) / curve.intervals;
     curve.intervals *= static_cast<int>(std::max(1.0, std::ceil(piece / size - 1e-9)));
-    if (curve.intervals > 1) curve.bend = -1;
   }
 }
 
