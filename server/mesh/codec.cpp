@@ -19,7 +19,7 @@ namespace {
 constexpr std::string_view mesh_tag = "ACMESH2\n";
 constexpr std::string_view moving_mesh_tag = "ACMESH3\n";     // motions follow
 constexpr std::string_view mesh_with_laws_tag = "ACMESH4\n";  // motions and tension laws follow
-constexpr std::string_view request_tag = "ACMREQ3\n";
+constexpr std::string_view request_tag = "ACMREQ4\n";
 constexpr std::string_view reply_tag = "ACMREP3\n";
 
 constexpr auto last_reason = static_cast<std::int32_t>(errors::Reason::internal);
@@ -30,10 +30,10 @@ bool moves(const Mesh& mesh) {
 }
 
 /// Fields that are not part of the hash of a mesh. Motions and laws are among them, as they were
-/// added later: a mesh without them keeps its hash.
+/// added later: a mesh without them keeps its hash. The bends leave the mesher only in its nodes.
 bool is_beside(std::string_view field) {
   return field == "warnings" || field == "bisection_bound" || field == "motions" ||
-         field == "tension_laws";
+         field == "tension_laws" || field == "bends" || field == "bent";
 }
 
 void put(Writer& out, const Mesh& mesh) {
@@ -75,6 +75,7 @@ void check_indices(const Plan& plan) {
     for (const int face : {curve.left, curve.right})
       if (face != -1) check_index(face, plan.faces.size(), "a face");
     if (curve.inclusion != -1) check_index(curve.inclusion, plan.inclusions.size(), "an inclusion");
+    if (curve.bend != -1) check_index(curve.bend, plan.bends.size(), "a bend");
   }
   const auto check_curves = [&](const std::vector<int>& curves) {
     for (const int curve : curves) check_index(curve, plan.curves.size(), "a curve");

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <set>
 #include <unordered_map>
+#include <utility>
 
 #include "base/at.hpp"
 #include "mesh/geometry_boundary.hpp"
@@ -149,6 +150,24 @@ void add_curves(const Layout& layout, const Network& network,
   }
 }
 
+/// Notes the bend of which each curve is a chord. A line has stations where its spans meet, so a
+/// chord lies in one span.
+void add_bends(const Network& network, Plan& plan) {
+  std::pair<int, int> last{-1, -1};  // line and span
+  for (std::size_t e = 0; e < network.chords.size(); ++e) {
+    const Chord& chord = network.chords[e];
+    const Line& line = network.lines[at(chord.line)].line;
+    if (line.straight()) continue;
+    const int span = static_cast<int>((chord.from + chord.to) / 2);
+    if (last != std::pair(chord.line, span)) plan.bends.push_back(line.bend(span));
+    last = {chord.line, span};
+    PlannedCurve& curve = plan.curves[e];
+    curve.bend = static_cast<int>(plan.bends.size()) - 1;
+    curve.from = chord.from - span;
+    curve.to = chord.to - span;
+  }
+}
+
 /// How each chord must be walked: the numerics let the minus side come off, and the plus side of a
 /// crack is the left side of the user's line.
 std::vector<Walk> walks_of(const std::vector<const Stretch*>& stretches) {
@@ -209,8 +228,10 @@ void note_chords(const Network& network, std::vector<std::string>& warnings) {
     ++pieces[at(chord.line)];
     const Point& a = network.points[at(chord.a)];
     const Point& b = network.points[at(chord.b)];
-    const Point curve = on.line.at(on.line.on_line((chord.from + chord.to) / 2));
-    const double off = distance(curve, Point{(a[0] + b[0]) / 2, (a[1] + b[1]) / 2});
+    const auto curve = [&](double t) { return on.line.at(on.line.on_line(t)); };
+    const double off = std::max(
+        distance(curve(chord.to), b),
+        distance(curve((chord.from + chord.to) / 2), Point{(a[0] + b[0]) / 2, (a[1] + b[1]) / 2}));
     if (off > most) worst = at(chord.line);
     most = std::max(most, off);
   }
@@ -254,6 +275,7 @@ Plan plan(const Geometry& given, const MeshOptions& options, std::size_t max_tri
   cut(lines, rule, curve_limit);
   const Layout layout = lay_parts(geometry, network);
   cut(network, rule, curve_limit);
+  balance_areas(network);
   if (options.chord_angle == 0) note_chords(network, plan.warnings);
 
   plan.triangles = triangles;
@@ -263,6 +285,7 @@ Plan plan(const Geometry& given, const MeshOptions& options, std::size_t max_tri
   }
   const std::vector<const Stretch*> stretches = stretches_of(layout, network);
   add_curves(layout, network, stretches, plan);
+  add_bends(network, plan);
   check_held(geometry, plan);
   check_contacts(layout, plan);
   lay_subdomains(geometry, network, names, walks_of(stretches), plan);

@@ -161,8 +161,12 @@ struct PlannedCurve {
   // of an interface:
   Kind kind = Kind::glue;
   int inclusion = -1;
+  // of a chord:
+  int bend = -1;    ///< index into Plan::bends; -1: the curve lies on a straight line
+  double from = 0;  ///< parameter of the bend at a
+  double to = 0;    ///< at b
 };
-ANTICRACK_FIELDS(PlannedCurve, a, b, intervals, role, left, right, kind, inclusion)
+ANTICRACK_FIELDS(PlannedCurve, a, b, intervals, role, left, right, kind, inclusion, bend, from, to)
 
 /// A chain of curves from a to b, each beginning where the last ends; the plus side is on the left.
 struct PlannedInterface {
@@ -204,9 +208,10 @@ struct Plan {
   GradingSpec grading;
   std::size_t triangles = 0;            ///< expected number, before grading
   std::vector<std::string> warnings{};  ///< for Mesh::warnings: points that were moved onto a line
+  std::vector<Bend> bends{};            ///< of which curves are chords
 };
 ANTICRACK_FIELDS(Plan, points, curves, interfaces, faces, inclusions, motions, growth, grading,
-                 triangles, warnings)
+                 triangles, warnings, bends)
 
 /// Checks a geometry and cuts it into curves with the intervals of the preset. An interface is
 /// walked against its direction where the plus side of an inclusion comes off instead of the minus

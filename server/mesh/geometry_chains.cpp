@@ -76,6 +76,7 @@ void turn_chains(const std::vector<Walk>& walks, Plan& plan) {
       PlannedCurve& curve = plan.curves[at(index)];
       std::swap(curve.a, curve.b);
       std::swap(curve.left, curve.right);
+      std::swap(curve.from, curve.to);
       turned[at(index)] = true;
     }
   }

@@ -189,6 +189,7 @@ void set_paper_intervals(Plan& plan) {
 
 void set_intervals(Plan& plan, double size) {
   for (PlannedCurve& curve : plan.curves) {
+    if (curve.bend >= 0) continue;  // a chord, which is short enough
     // a length that is, up to rounding, a whole number of sizes is cut into just as many pieces
     const double piece = length_of(plan, curve) / curve.intervals;
     curve.intervals *= static_cast<int>(std::max(1.0, std::ceil(piece / size - 1e-9)));
@@ -240,6 +241,7 @@ void cut_near(Plan& plan, double size, double growth, std::size_t max_curves) {
     PlannedCurve piece = plan.curves[e];
     const Segment whole = segment_of(plan, piece);
     const int last = piece.b;
+    if (!cuts[e].empty()) piece.bend = -1;  // its nodes are to lie on the chord
     const auto add = [&](int b, int intervals) {
       piece.b = b;
       piece.intervals = intervals;

@@ -185,58 +185,41 @@ double Line::sweep(int k) const noexcept {
   return _angles[span + 1] - _angles[span];
 }
 
-double Line::angle_at(int k, double u) const noexcept {
-  return _angles[static_cast<std::size_t>(k)] + u * sweep(k);
-}
-
 double Line::on_line(double t) const noexcept {
   if (!_closed) return std::clamp(t, 0.0, static_cast<double>(_spans));
   if (t < 0) t += _spans;
   return t >= _spans ? t - _spans : t;
 }
 
+Bend Line::bend(int k) const noexcept {
+  const auto span = static_cast<std::size_t>(k);
+  Bend bend{.a = vertex(k), .b = vertex(k + 1)};
+  if (!_angles.empty()) {
+    bend.centre = _centre;
+    bend.radius = _radius;
+    bend.angle = _angles[span];
+    bend.sweep = sweep(k);
+  } else {
+    bend.out = _out[span];
+    bend.in = _in[span];
+  }
+  return bend;
+}
+
 Point Line::at(double t) const noexcept {
   const int k = span_of(t);
   const double u = t - k;
+  if (!straight()) return bend(k).at(u);
   const Point a = vertex(k);
   const Point b = vertex(k + 1);
   if (u <= 0) return a;
   if (u >= 1) return b;
-  if (!_angles.empty()) {
-    const double angle = angle_at(k, u);
-    return {_centre[0] + _radius * std::cos(angle), _centre[1] + _radius * std::sin(angle)};
-  }
-  if (_shape == Shape::polyline) return {a[0] + u * (b[0] - a[0]), a[1] + u * (b[1] - a[1])};
-  const Point& out = _out[static_cast<std::size_t>(k)];
-  const Point& in = _in[static_cast<std::size_t>(k)];
-  const double v = 1 - u;
-  Point p{};
-  for (std::size_t i = 0; i < 2; ++i) {
-    p[i] =
-        v * v * (1 + 2 * u) * a[i] + u * u * (1 + 2 * v) * b[i] + u * v * (v * out[i] - u * in[i]);
-  }
-  return p;
+  return {a[0] + u * (b[0] - a[0]), a[1] + u * (b[1] - a[1])};
 }
 
 Point Line::derivative(double t) const noexcept {
   const int k = span_of(t);
-  const double u = std::clamp(t - k, 0.0, 1.0);
-  const Point a = vertex(k);
-  const Point b = vertex(k + 1);
-  if (_shape == Shape::polyline) return minus(b, a);
-  if (!_angles.empty()) {
-    const double angle = angle_at(k, u);
-    const double speed = _radius * sweep(k);
-    return {-speed * std::sin(angle), speed * std::cos(angle)};
-  }
-  const Point& out = _out[static_cast<std::size_t>(k)];
-  const Point& in = _in[static_cast<std::size_t>(k)];
-  Point d{};
-  for (std::size_t i = 0; i < 2; ++i) {
-    d[i] =
-        6 * u * (1 - u) * (b[i] - a[i]) + (1 - u) * (1 - 3 * u) * out[i] + u * (3 * u - 2) * in[i];
-  }
-  return d;
+  return straight() ? minus(vertex(k + 1), vertex(k)) : bend(k).derivative(t - k);
 }
 
 /// The parameter of the point nearest to `p` between two samples: starts on their chord, then

@@ -49,6 +49,8 @@ class Line {
   /// The point at a parameter, which is clipped to the line, and the derivative by the parameter.
   Point at(double t) const noexcept;
   Point derivative(double t) const noexcept;
+  /// Span k of a line that is not straight.
+  Bend bend(int k) const noexcept;
 
   /// The parameter at which the line passes within `tolerance` of `p`, in [0, spans), or up to
   /// spans if the line is open. O(log(spans)) if the line does not come near `p` many times.
@@ -81,7 +83,6 @@ class Line {
   int span_of(double t) const noexcept;
   Point vertex(int k) const noexcept;
   double sweep(int k) const noexcept;
-  double angle_at(int k, double u) const noexcept;
   double closest(const Point& p, const Sample& low, const Sample& high) const noexcept;
   std::vector<double> measure(double from, double to, const ChordRule& rule, int steps) const;
 

@@ -80,6 +80,11 @@ double station_of(const NetworkLine& line, int point) noexcept;
 /// `max_chords`.
 void cut(Network& network, const ChordRule& rule, std::size_t max_chords);
 
+/// Moves ends of chords off their curve, to the side on which it bulges, so that chords between two
+/// stations of a line leave as much area on one side of it as on the other. Ends stay where they
+/// would come near another chord. O(c log c + pairs of chords over the same x).
+void balance_areas(Network& network);
+
 /// Two lines that meet at a place where at least one of them has no station.
 struct Crossing {
   std::array<int, 2> line{};

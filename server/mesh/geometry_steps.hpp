@@ -139,7 +139,7 @@ void cut_near(Plan& plan, double size, double growth, std::size_t max_curves);
 void replace_curves(Plan& plan, std::vector<PlannedCurve> curves,
                     const std::vector<std::vector<int>>& pieces);
 
-/// Cuts the intervals of each curve into equal ones of at most `size`.
+/// Cuts the intervals of each curve but chords of bends into equal ones of at most `size`.
 void set_intervals(Plan& plan, double size);
 
 /// The distance of the curve's end points.

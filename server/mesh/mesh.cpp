@@ -295,6 +295,7 @@ Mesh without_triangles(const Mesh& mesh) {
   result.inclusions = mesh.inclusions;
   result.motions = mesh.motions;
   result.warnings = mesh.warnings;
+  result.bends = mesh.bends;
   return result;
 }
 

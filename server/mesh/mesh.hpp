@@ -10,11 +10,10 @@
 #include <vector>
 
 #include "fields/fields.hpp"
+#include "mesh/bend.hpp"
 #include "mesh/tension.hpp"
 
 namespace anticrack::mesh {
-
-using Point = std::array<double, 2>;
 
 /// Condition on an edge of an interface; u+ is the trace on its plus side, [u] = u+ - u-.
 /// The numbers are those of the API's InterfaceKind.
@@ -67,6 +66,8 @@ struct Mesh {
   std::vector<Interface> interfaces;
   std::vector<std::array<std::int32_t, 2>> dirichlet;  ///< edges of the boundary where u = g_D
   std::vector<std::string> warnings;                   ///< what was repaired or assumed
+  std::vector<Bend> bends;                             ///< what is left of the curves of a geometry
+  std::vector<BentEdge> bent;  ///< chords of these, any number; refinement puts nodes on the bend
   /// Lower bound, in degrees, of the angles of any bisection of the unrefined mesh. 0: not refined.
   double bisection_bound = 0;
 
@@ -75,7 +76,7 @@ struct Mesh {
   std::size_t triangle_count() const noexcept { return triangles.size() / 3; }
 };
 ANTICRACK_FIELDS(Mesh, xy, triangles, subdomain, subdomains, tension, tension_laws, inclusions,
-                 motions, interfaces, dirichlet, warnings, bisection_bound)
+                 motions, interfaces, dirichlet, warnings, bends, bent, bisection_bound)
 
 /// Throws errors::Error (mesh_invalid) naming the first invariant violated and where. O(m log m).
 void validate(const Mesh& mesh);

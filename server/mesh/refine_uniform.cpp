@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/refine_uniform.hpp"
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <utility>
@@ -8,17 +9,22 @@
 #include "base/at.hpp"
 #include "errors/errors.hpp"
 #include "mesh/edges.hpp"
+#include "mesh/geometry_primitives.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::mesh {
 namespace {
+
+constexpr const char* halving = "halving a mesh";
 
 /// The midpoints of all edges; their numbers follow those of the base's nodes.
 class Midpoints {
  public:
   Midpoints(const Mesh& base, std::vector<double>& xy)
-      : _base(base), _edges(base.triangles), _of_side(base.triangles.size()) {
+      : _base(base), _xy(xy), _edges(base.triangles), _of_side(base.triangles.size()) {
     _edges.each([&](std::span<const EdgeUse> uses) {
       const auto node = static_cast<std::int32_t>(xy.size() / 2);
+      stop::look_at_turn<stop::quick>(at(node), halving);
       const Point a = position(base, uses[0].from);
       const Point b = position(base, uses[0].to);
       xy.push_back(0.5 * (a[0] + b[0]));
@@ -35,6 +41,33 @@ class Midpoints {
     return _of_side[side(_edges.find(a, b)[0])];
   }
 
+  /// The four parts of a triangle, each counterclockwise.
+  std::array<std::array<std::int32_t, 3>, 4> parts(std::size_t triangle) const {
+    const std::int32_t* corner = &_base.triangles[3 * triangle];
+    const std::int32_t ab = (*this)(triangle, 0), bc = (*this)(triangle, 1),
+                       ca = (*this)(triangle, 2);
+    return {std::array{corner[0], ab, ca}, std::array{ab, corner[1], bc},
+            std::array{ca, bc, corner[2]}, std::array{ab, bc, ca}};
+  }
+
+  /// Moves the midpoints of bent edges onto their bends, where triangles keep their shape. Returns
+  /// the halves of the edges whose midpoints were moved.
+  std::vector<BentEdge> bend() {
+    std::vector<BentEdge> halves;
+    std::vector<BentEdge> bent = _base.bent;
+    for (const BentEdge& edge : bent) put(edge, _base.bends[at(edge.bend)].at(edge.middle()));
+    // where one goes back, a triangle beside it may lose what another needs: until none goes back
+    while (std::erase_if(bent, [this](const BentEdge& edge) { return put_back(edge); }) > 0) {
+    }
+    halves.reserve(2 * bent.size());
+    for (const auto& [a, b, bend, from, to] : bent) {
+      const double middle = 0.5 * (from + to);
+      halves.push_back({a, between(a, b), bend, from, middle});
+      halves.push_back({between(a, b), b, bend, middle, to});
+    }
+    return halves;
+  }
+
  private:
   std::size_t side(const EdgeUse& use) const {
     std::size_t i = 3 * at(use.triangle);
@@ -42,7 +75,34 @@ class Midpoints {
     return i;
   }
 
+  void put(const BentEdge& edge, const Point& p) {
+    const auto node = 2 * at(between(edge.a, edge.b));
+    _xy[node] = p[0];
+    _xy[node + 1] = p[1];
+  }
+
+  /// Puts the midpoint of an edge back onto it, and returns true, if it spoils a triangle.
+  bool put_back(const BentEdge& edge) {
+    const auto spoilt = [this](const EdgeUse& use) { return spoils(at(use.triangle)); };
+    if (std::ranges::none_of(_edges.find(edge.a, edge.b), spoilt)) return false;
+    const Point a = position(_base, edge.a), b = position(_base, edge.b);
+    put(edge, {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])});
+    return true;
+  }
+
+  /// Whether a part has less than half the area of a quarter.
+  bool spoils(std::size_t triangle) const {
+    const auto place = [this](std::int32_t node) {
+      return Point{_xy[2 * at(node)], _xy[2 * at(node) + 1]};
+    };
+    return std::ranges::any_of(parts(triangle), [&](const std::array<std::int32_t, 3>& part) {
+      return signed_area(std::array{place(part[0]), place(part[1]), place(part[2])}) <
+             area(_base, triangle) / 8;
+    });
+  }
+
   const Mesh& _base;
+  std::vector<double>& _xy;
   EdgeTable _edges;
   std::vector<std::int32_t> _of_side;
 };
@@ -74,15 +134,13 @@ Mesh refine_uniform(const Mesh& base) {
   Mesh fine = without_triangles(base);
   fine.xy.reserve(8 * base.node_count());
   fine.xy = base.xy;
-  const Midpoints midpoint(base, fine.xy);
+  Midpoints midpoint(base, fine.xy);
+  fine.bent = midpoint.bend();
   fine.triangles.reserve(4 * base.triangles.size());
   fine.subdomain.reserve(4 * base.subdomain.size());
   for (std::size_t t = 0; t < base.triangle_count(); ++t) {
-    const std::int32_t* corner = &base.triangles[3 * t];
-    const std::int32_t ab = midpoint(t, 0), bc = midpoint(t, 1), ca = midpoint(t, 2);
-    for (const std::array<std::int32_t, 3>& part :
-         {std::array{corner[0], ab, ca}, std::array{ab, corner[1], bc},
-          std::array{ca, bc, corner[2]}, std::array{ab, bc, ca}})
+    stop::look_at_turn<stop::quick>(t, halving, 4 * t);
+    for (const std::array<std::int32_t, 3>& part : midpoint.parts(t))
       fine.triangles.insert(fine.triangles.end(), part.begin(), part.end());
     fine.subdomain.insert(fine.subdomain.end(), 4, base.subdomain[t]);
   }

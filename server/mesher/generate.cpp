@@ -328,6 +328,12 @@ mesh::Mesh read_mesh(const Plan& plan, const Frame& frame) {
   }
   for (const mesh::PlannedInterface& planned : plan.interfaces)
     mesh.interfaces.push_back(read_interface(plan, planned, chains));
+  mesh.bends = plan.bends;
+  for (std::size_t i = 0; i < plan.curves.size(); ++i) {
+    const PlannedCurve& curve = plan.curves[i];
+    if (curve.bend < 0) continue;
+    mesh.bent.push_back({chains[i].front(), chains[i].back(), curve.bend, curve.from, curve.to});
+  }
   const std::vector<std::int32_t> subdomain_of = name_subdomains(plan, mesh);
   for (std::size_t i = 0; i < plan.faces.size(); ++i)
     read_triangles(mesh, tag_of(i), subdomain_of[i], nodes);

@@ -86,7 +86,7 @@ TEST(Sides, InterfacesEndOnThem) {
   EXPECT_TRUE(plan.warnings[0].starts_with("curves are replaced by chords: ")) << plan.warnings[0];
 }
 
-// a circle of n chords has the area r^2 n sin(2 pi / n) / 2
+// chords leave as much of the circle's area out as they take from beyond it
 TEST(Holes, CirclesHaveAsManyChordsAsTheAngleAsks) {
   Geometry geometry = square();
   geometry.holes = {window("small", {0.5, 0.5}, 0.25), window("large", {-0.5, -0.5}, 0.3)};
@@ -94,14 +94,15 @@ TEST(Holes, CirclesHaveAsManyChordsAsTheAngleAsks) {
     const mesh::MeshOptions options{.size = 1, .chord_angle = angle};
     const Plan plan = mesh::plan(geometry, options, testing::enough);
     const double n = 360 / (angle == 0 ? 5 : angle == 40 ? 30 : angle);
-    const double circles = n * std::sin(2 * pi / n) / 2 * (0.25 * 0.25 + 0.3 * 0.3);
-    EXPECT_NEAR(areas(plan).begin()->second, 4 - circles, 1e-12) << angle;
+    const double circles = pi * (0.25 * 0.25 + 0.3 * 0.3);
+    const double inscribed = n * std::sin(2 * pi / n) / 2 * (0.25 * 0.25 + 0.3 * 0.3);
+    EXPECT_NEAR(areas(plan).begin()->second, 4 - circles, 0.1 * (circles - inscribed)) << angle;
     ASSERT_EQ(plan.warnings.size(), angle == 0 ? 1U : 0U);
     if (angle > 0) continue;
-    // 0.3 (1 - cos 2.5 degrees) = 0.000286
-    EXPECT_NE(plan.warnings[0].find(
-                  R"(hole "large", the coarsest of 2 curves, by 72, up to 0.00029 off)"),
-              std::string::npos)
+    // two thirds of 0.3 (1 - cos 2.5 degrees) = 0.000286, a little more as ends of spans stay
+    EXPECT_NE(
+        plan.warnings[0].find(R"(hole "large", the coarsest of 2 curves, by 72, up to 0.0002 off)"),
+        std::string::npos)
         << plan.warnings[0];
   }
 }

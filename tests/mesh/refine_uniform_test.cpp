@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "mesh/refine.hpp"
 #include "mesh/refine_uniform.hpp"
@@ -49,6 +50,48 @@ TEST(RefineUniform, GoesOnFromAGradedMesh) {
   const Mesh fine = refine_uniform(refine_uniform(base));
   expect_refines(base, fine);
   EXPECT_EQ(fine.triangle_count(), 16 * base.triangle_count());
+}
+
+/// Two triangles whose common side is a chord of a quarter circle.
+Mesh with_chord(const Point& inside) {
+  Mesh made;
+  made.xy = {1, 0, 0, 1, inside[0], inside[1], 1, 1};
+  made.triangles = {0, 1, 2, 1, 0, 3};
+  made.subdomain = {0, 0};
+  made.subdomains = {"all"};
+  made.dirichlet = {{1, 2}};
+  made.bends = {
+      {.a = {1, 0}, .b = {0, 1}, .centre = {}, .radius = 1, .sweep = std::numbers::pi / 2}};
+  made.bent = {{1, 0, 0, 1, 0}};
+  return made;
+}
+
+TEST(RefineUniform, PutsMiddlesOfChordsOnTheirBend) {
+  Mesh mesh = with_chord({0, 0});
+  for (std::size_t chords = 1; chords <= 16; chords *= 2) {
+    ASSERT_EQ(mesh.bent.size(), chords);
+    for (const BentEdge& edge : mesh.bent) {
+      for (const auto& [node, u] : {std::pair(edge.a, edge.from), std::pair(edge.b, edge.to)}) {
+        const auto [x, y] = position(mesh, node);
+        EXPECT_NEAR(x, std::cos(u * std::numbers::pi / 2), 1e-15);
+        EXPECT_NEAR(y, std::sin(u * std::numbers::pi / 2), 1e-15);
+      }
+      EXPECT_EQ(edge.from - edge.to, 1.0 / static_cast<double>(chords)) << "from b to a";
+    }
+    mesh = refine_uniform(mesh);
+    ASSERT_NO_THROW(validate(mesh));
+  }
+}
+
+/// The middle of the chord would pass beyond the corner behind it.
+TEST(RefineUniform, LeavesAChordWhereItsBendSpoilsATriangle) {
+  Mesh mesh = with_chord({0, 0});
+  mesh.xy[6] = mesh.xy[7] = 0.75;
+  const Mesh fine = refine_uniform(mesh);
+  ASSERT_NO_THROW(validate(fine));
+  EXPECT_TRUE(fine.bent.empty());
+  EXPECT_EQ(fine.bends, mesh.bends);
+  EXPECT_NEAR(quality(fine).minimum_angle, quality(mesh).minimum_angle, 1e-12);
 }
 
 TEST(BisectionBound, IsTheSmallestAngleThatDeepBisectionReaches) {

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "base/at.hpp"
 #include "support/paper_geometry.hpp"
 
 namespace anticrack {
@@ -55,6 +59,44 @@ TEST(Coarsening, ManyFineCurvesAreNotMadeFiner) {
   }
   EXPECT_GT(mesher::halvings(plan_of(0.01)), 0);
   EXPECT_EQ(mesher::halvings(plan_of(0.01, geometry)), 0);
+}
+
+/// A square with a hole, whose chords become longer ones that lie on the circle, too.
+TEST(Coarsening, ChordsOfABendAreJoined) {
+  mesh::Geometry geometry = testing::paper_geometry();
+  geometry.holes = {{"hole", {mesh::Shape::circle, {{0.3, 0.5}}, 0.25}}};
+  const mesh::Plan plan = plan_of(0.005, geometry);
+  const int halvings = mesher::halvings(plan);
+  ASSERT_GE(halvings, 2);
+  const mesh::Plan coarse = mesher::coarsened(plan, halvings);
+  const auto on_bends = [](const mesh::Plan& of) {
+    return std::ranges::count_if(of.curves, [](const auto& curve) { return curve.bend >= 0; });
+  };
+  EXPECT_GE(on_bends(coarse) << halvings, on_bends(plan));
+  EXPECT_LT(on_bends(coarse) << halvings, 1.1 * static_cast<double>(on_bends(plan)));
+  for (const mesh::PlannedCurve& curve : coarse.curves) {
+    if (curve.bend < 0) continue;
+    for (const int end : {curve.a, curve.b}) {
+      const auto [x, y] = coarse.points[at(end)];
+      EXPECT_NEAR(std::hypot(x - 0.3, y - 0.5), 0.25, 1e-15);
+    }
+    EXPECT_EQ(coarse.bends[at(curve.bend)].at(curve.from), coarse.points[at(curve.a)]);
+    EXPECT_EQ(coarse.bends[at(curve.bend)].at(curve.to), coarse.points[at(curve.b)]);
+  }
+}
+
+/// A circle of 72 chords, each far shorter than the edges, keeps them: eight times as many would be
+/// most of the mesh.
+TEST(Coarsening, ChordsOfASmallCircleStay) {
+  mesh::Geometry geometry = testing::paper_geometry();
+  geometry.holes = {{"hole", {mesh::Shape::circle, {{0.3, 0.5}}, 0.01}}};
+  const mesh::Plan plan = plan_of(0.005, geometry);
+  const int halvings = mesher::halvings(plan);
+  const mesh::Plan coarse = mesher::coarsened(plan, halvings);
+  const auto on_bends = [](const mesh::Plan& of) {
+    return std::ranges::count_if(of.curves, [](const auto& curve) { return curve.bend >= 0; });
+  };
+  EXPECT_EQ(on_bends(coarse), on_bends(plan));
 }
 
 }  // namespace

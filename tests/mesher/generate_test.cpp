@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <set>
 #include <thread>
 
+#include "mesh/codec.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/refine.hpp"
 #include "mesher/real_helper.hpp"
@@ -115,6 +117,31 @@ TEST(Generate, AFineMeshIsLikeACoarseOne) {
   for (const auto node : fine.interfaces[0].nodes) EXPECT_EQ(point(fine, node)[1], 0);
   EXPECT_NEAR(area(fine, 0), 2, 1e-11);
   EXPECT_NEAR(area(fine, 1), 2, 1e-11);
+}
+
+/// A fine mesh of a disc with an arc in it, halved from a coarse one: as many triangles as asked
+/// for, of good shape, and no node of the boundary or the arc on a chord.
+TEST(Generate, AFineMeshOfCurvesLiesOnThem) {
+  Geometry geometry;
+  geometry.sides = {{"", {mesh::Shape::arc, {{1, 0}, {0, 1}, {-1, 0}}}},
+                    {"", {mesh::Shape::arc, {{-1, 0}, {0, -1}, {1, 0}}}}};
+  geometry.cracks = {
+      {"c", {}, true, mesh::LineSpec{mesh::Shape::arc, {{0, -0.5}, {0.5, 0}, {0, 0.5}}}}};
+  constexpr double size = 0.006;
+  const Mesh mesh = make(geometry, {mesh::Preset::uniform, size});
+  const double expected = std::numbers::pi / (std::sqrt(3.0) / 4 * size * size);
+  EXPECT_NEAR(static_cast<double>(mesh.triangle_count()), expected, 0.06 * expected);
+  EXPECT_GT(mesh::minimum_angle(mesh), 30);
+  EXPECT_LT(mesh::longest_edge(mesh), 1.5 * size);
+  EXPECT_EQ(mesh.dirichlet.size(), mesh.dirichlet.size() / 8 * 8) << "halved twice, of two sides";
+  const auto radius = [&](std::int32_t node) {
+    const auto [x, y] = point(mesh, node);
+    return std::hypot(x, y);
+  };
+  for (const auto& edge : mesh.dirichlet) EXPECT_NEAR(radius(edge[0]), 1, 1e-15);
+  ASSERT_EQ(mesh.interfaces.size(), 1U);
+  for (const auto node : mesh.interfaces[0].nodes) EXPECT_NEAR(radius(node), 0.5, 1e-15);
+  EXPECT_EQ(mesh::encode(make(geometry, {mesh::Preset::uniform, size})), mesh::encode(mesh));
 }
 
 /// An edge crack and a fibre that begins at the edge, where u is held.
