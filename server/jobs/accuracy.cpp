@@ -330,8 +330,13 @@ std::string not_reached(const records::StageRecord& last,
 
 std::string forecast(const std::vector<records::StageRecord>& stages, const records::JobSpec& spec,
                      std::uint64_t max_triangles) {
-  if (stages.size() < 2) return "";
-  const records::StageRecord &now = stages.back(), &before = stages[stages.size() - 2];
+  constexpr std::uint64_t apart = 4;  // rates of stages of about the same size mean little
+  const records::StageRecord& now = stages.back();
+  const auto found = std::find_if(stages.rbegin(), stages.rend(), [&](const auto& stage) {
+    return apart * stage.triangles <= now.triangles;
+  });
+  if (found == stages.rend()) return "";
+  const records::StageRecord& before = *found;
   const records::AccuracySpec& wanted = *spec.accuracy;
   Need most;
   const auto consider = [&](const char* name, const std::optional<double>& asked, auto error_of) {
