@@ -38,7 +38,8 @@ bool tells_displacement(const StageErrors& stage, const v1::Accuracy& asked) {
 }
 
 bool tells_probable(const StageErrors& stage, const v1::Accuracy& asked) {
-  return asked.has_displacement_estimated() || std::isfinite(stage.probable);
+  return asked.has_displacement_estimated() ||
+         (asked.has_displacement() && std::isfinite(stage.probable));
 }
 
 double fraction_of(const StageErrors& stage, const v1::Accuracy& asked) {

@@ -82,7 +82,7 @@ std::string text_of(const v1::InclusionAnswer& inclusion, const std::string& num
   if (!std::isfinite(lower)) return number(value);
   const bool of_a = number_name == "A" && inclusion.has_displacement_error_relative();
   return results::interval(value, lower, results::number_in(inclusion, number_name + "_upper")) +
-         (of_a ? probable_error(inclusion) : "") + (of_a ? error_of_a(inclusion) : "");
+         (of_a ? error_of_a(inclusion) + probable_error(inclusion) : "");
 }
 
 // The numbers to show for an inclusion: only A, if it never tilts.

@@ -88,7 +88,7 @@ void JobProgress::apply(const v1::Job& job_now) {
   if (now.has_end_time()) elapsed = seconds_between(now.create_time(), now.end_time());
   const v1::Uzawa& uzawa = spec.solver().uzawa();
   active_set = !spec.solver().has_uzawa();
-  target = uzawa.epsilon();
+  target = uzawa.has_kkt_tolerance() ? 0 : uzawa.epsilon();
   if (spec.has_sweep()) {
     if (!sweep) sweep.emplace();
     sweep->apply(now.sweep_answer());

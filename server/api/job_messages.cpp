@@ -96,7 +96,6 @@ fem::PointForce Translation<fem::PointForce>::read(const v1::PointForce& from) {
 
 void Translation<contact::UzawaOptions>::write(const contact::UzawaOptions& value, v1::Uzawa& to) {
   write_fields(value, to, {"theta"});
-  if (value.kkt_tolerance) to.clear_epsilon();  // which does not count then
   if (value.theta)
     to.set_theta(*value.theta);
   else

@@ -111,11 +111,17 @@ void EquilibratedFlux::make(std::span<EquilibratedFlux> fluxes, std::span<const 
   std::array<FluxLane, flux_lanes> lane;
   const auto values = [](std::span<const double> of) { return of.empty() ? nullptr : of.data(); };
   for (std::size_t l = 0; l < lanes; ++l) {
+    const bool more = l < fluxes.size();
     EquilibratedFlux& own = fluxes[std::min(l, fluxes.size() - 1)];
     const Balance& load = own._balance;
     const FaceBounds of = bounds.empty() ? FaceBounds() : bounds[std::min(l, fluxes.size() - 1)];
-    lane[l] = {load.u.data(),   values(load.force),       values(load.traction), values(of.least),
-               values(of.most), own._mean.front().data(), own._distance.data()};
+    lane[l] = {load.u.data(),
+               values(load.force),
+               values(load.traction),
+               values(of.least),
+               values(of.most),
+               more ? own._mean.front().data() : nullptr,
+               more ? own._distance.data() : nullptr};
   }
   look();
   std::vector<FluxBlock> blocks = blocks_of(cut);

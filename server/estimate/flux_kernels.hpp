@@ -36,7 +36,7 @@ struct FluxLane {
   const double* traction;
   const double *least, *most;  ///< of w on minus faces; null: w <= 0
   double* mean;                ///< (triangles, 2) of sigma - T grad u, times sqrt(area / T)
-  double* distance;            ///< (triangles) int |sigma - T grad u|^2 / T
+  double* distance;            ///< (triangles) int |sigma - T grad u|^2 / T; null: not wanted
 };
 
 /// Triangles and fans of a block of CutMesh, and what the step `build` finds for each lane. Blocks

@@ -163,7 +163,8 @@ class Flux {
           const double length = edge[2 * i] * edge[2 * i] + edge[2 * i + 1] * edge[2 * i + 1];
           rest += length * (1.0 / 144 * sum * sum + 1.0 / 45 * bubble);
         }
-        for (std::size_t l = 0; l < lanes; ++l) _lane[l].distance[t] = of(4 * rest, l);
+        for (std::size_t l = 0; l < lanes; ++l)
+          if (_lane[l].distance != nullptr) _lane[l].distance[t] = of(4 * rest, l);
       }
       _mean[t] = Pair{mx, my};
       for (std::size_t i = 0; i < 3; ++i)
@@ -322,6 +323,7 @@ class Flux {
       const V square = mx * mx + my * my;
       for (std::size_t l = 0; l < lanes; ++l) {
         FluxLane& to = _lane[l];
+        if (to.distance == nullptr) continue;
         to.distance[t] = loaded ? of(square, l) + to.distance[t] : of(square, l);
         if (lanes == 1) continue;  // _mean is its own
         to.mean[2 * t] = of(mx, l);

@@ -38,7 +38,8 @@ double ring_error(double size) {
   }
   std::printf("[ figures  ] ring, h = %.3f, %zu triangles: largest error of u %.2e\n", size,
               op->mesh().triangle_count(), error);
-  EXPECT_NEAR(answer.energy, -std::numbers::pi * std::log(inner), 3 * size * size);
+  // log r is given in the ends of chords, which lie beyond the circles.
+  EXPECT_NEAR(answer.energy, -std::numbers::pi * std::log(inner), 4 * size * size);
   return error;
 }
 
@@ -72,7 +73,7 @@ TEST(OwnLine, ComesOffOnTheSideThatIsAskedFor) {
               same.energy, right.energy);
   // but for the meshes, which differ
   EXPECT_NEAR(left.energy, same.energy, 1e-5);
-  EXPECT_NEAR(left.inclusions.at(0).displacement, same.inclusions.at(0).displacement, 1e-5);
+  EXPECT_NEAR(left.inclusions.at(0).displacement, same.inclusions.at(0).displacement, 2e-5);
   EXPECT_GT(std::abs(left.energy - right.energy), 1e-3);
   EXPECT_EQ(stiffened(forth, LineSide::unspecified).energy, right.energy);
   // the side that stays moves with the bar

@@ -200,6 +200,12 @@ void check(unsigned seed, bool rich, Tally& tally) {
   tally.blocks += coarse.cut.block_count() > 1 ? 1 : 0;
   const base::Threads helped(3);
   EXPECT_EQ(EquilibratedFlux(coarse.cut, coarse.balance()).distance(), flux.distance());
+  const std::vector<Balance> several(1 + seed % 5, coarse.balance());
+  for (const EquilibratedFlux& one : EquilibratedFlux::of_all(coarse.cut, several)) {
+    EXPECT_EQ(one.distance(), flux.distance());
+    EXPECT_EQ(one.norm_squared(), flux.norm_squared());
+    EXPECT_EQ(one.through_faces(), flux.through_faces());
+  }
 }
 
 class Fluxes : public ::testing::TestWithParam<bool> {};

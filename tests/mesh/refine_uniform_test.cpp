@@ -55,7 +55,7 @@ TEST(RefineUniform, GoesOnFromAGradedMesh) {
 /// Two triangles whose common side is a chord of a quarter circle.
 Mesh with_chord(const Point& inside) {
   Mesh made;
-  made.xy = {1, 0, 0, 1, inside[0], inside[1], 1, 1};
+  made.xy = {1, 0, 0, 1, inside[0], inside[1], 2, 2};
   made.triangles = {0, 1, 2, 1, 0, 3};
   made.subdomain = {0, 0};
   made.subdomains = {"all"};

@@ -104,7 +104,7 @@ def _errors(stage: solve_pb2.Stage, asked: solve_pb2.Accuracy) -> str:
     if asked.HasField("displacement") or np.isfinite(moved):
         told += ", A " + text(moved, asked.displacement)
     probable = columns["displacement_error_probable"].max()
-    if asked.HasField("displacement_estimated") or np.isfinite(probable):
+    if asked.HasField("displacement_estimated") or (asked.HasField("displacement") and np.isfinite(probable)):
         told += ", probably " + text(probable, asked.displacement_estimated)
     return told + (f"; {harmless(stage.forecast)}" if stage.forecast else "")
 

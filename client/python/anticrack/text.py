@@ -28,9 +28,9 @@ def harmless(text: object, keep: str = "") -> str:
 def interval(value: float, lower: float, upper: float, mesh: float, unit: str = "", error: str = "",
              probable: str = "") -> str:
     """Writes a value with the distance of its bounds, as the command's tables do, its relative error if given, and the
-    value on the mesh: "0.4483 +- 0.0038 mm (0.85 %; 0.4462 on the mesh)". Before them what it
-    probably is, by an estimate: ", probably 0.4472 +- 0.0001 mm". The printed interval contains the bounds.
-    Without bounds it is the value alone."""
+    value on the mesh: "0.4483 +- 0.0038 mm (0.85 %; 0.4462 on the mesh)". The printed interval contains the bounds.
+    After it what the value probably is, by an estimate: ", probably 0.4472 +- 0.0001 mm". Without bounds it is the
+    value alone."""
     error = error and f"{error}; "
     if not math.isfinite(lower) or not math.isfinite(upper):
         return f"{value:.6g}{unit}"
@@ -49,10 +49,10 @@ def interval(value: float, lower: float, upper: float, mesh: float, unit: str = 
     beside = math.ceil(max(upper - shown, shown - lower) / step - 1e-6) * step
     texts = [f"{_unsigned(number / 10.0 ** exponent, max(0, behind + exponent)):.{max(0, behind + exponent)}f}"
              for number in (shown, beside, mesh)]
-    unit += f", probably {probable}" if probable else ""
+    probable = probable and f", probably {probable}"
     if not exponent:
-        return f"{texts[0]} +- {texts[1]}{unit} ({error}{texts[2]} on the mesh)"
-    return f"({texts[0]} +- {texts[1]})e{exponent}{unit} ({error}{texts[2]}e{exponent} on the mesh)"
+        return f"{texts[0]} +- {texts[1]}{unit} ({error}{texts[2]} on the mesh){probable}"
+    return f"({texts[0]} +- {texts[1]})e{exponent}{unit} ({error}{texts[2]}e{exponent} on the mesh){probable}"
 
 
 def with_bounds(of: Any, name: str, unit: str = "") -> str:

@@ -102,7 +102,8 @@ CASES = [
     (more("[accuracy]\nenrgy = 1e-3"), 2,
      "wrong.toml:14: accuracy.enrgy: unknown key; did you mean energy?"),
     (more("[accuracy]\ntime = 60"), 2,
-     "wrong.toml:13: accuracy: no accuracy is asked for: give energy = 1e-3, A = 1e-3 (displacement), or both"),
+     "wrong.toml:13: accuracy: no accuracy is asked for: give energy = 1e-3, A = 1e-3 (displacement), or both; or "
+     "A_estimated = 1e-3 (displacement_estimated), without a proof"),
     (more("[accuracy]\nA = 2"), 2,
      "wrong.toml:14: accuracy.A: 2 is not an accuracy: give a relative error from 1e-6 to 1"),
     # Types and values.

@@ -175,7 +175,7 @@ def heading(result: Result, load: Load, line: Interface) -> str:
         parts = [where] if where else []
         for part in (load.inclusions[name] for name in here if name in load.inclusions):
             known = bounds and np.isfinite(part.A_lower)
-            text = with_bounds(part, "A").partition(", probably")[0].partition(" (")[0] if known else f"{part.A:.4g}"
+            text = with_bounds(part, "A").partition(" (")[0] if known else f"{part.A:.4g}"
             slopes = f", B = ({part.Bx:.4g}, {part.By:.4g})" if part.Bx or part.By else ""
             behind = f" ({named(part.name, 12)})" if len(load.inclusions) > 1 and part.name != line.name else ""
             parts.append(signed(f"A = {text.replace('+-', chr(177))}{unit}{slopes}{behind}"))
