@@ -600,7 +600,8 @@ def _load_in(group: Any, lines_in: list[str], mesh: Mesh) -> Load:
     if any(values.size for values in history.values()):
         load.history = history
     if "stages" in group:
-        load.stages = {**_arrays(group["stages"]), "mesh": np.array(_texts(group["stages/mesh"]))}
+        load.stages = {name: np.array(_texts(group[f"stages/{name}"])) if values.dtype == object else values
+                       for name, values in _arrays(group["stages"]).items()}
     load.fields += [Field(name, **_arrays(part)) for name, part in zip(mesh.subdomain_names, numbered("fields"))]
     load.indicator = group["indicator"][()] if "indicator" in group else None
     return load

@@ -74,7 +74,7 @@ class Shapes(GalleryTest):
         self.assert_close(load["energy_mesh"], 0.533538, 3e-3)
         self.assert_balanced(answers, "sheared", +1)
         self.assert_told(("0.4504", fibres["r5-c5"]["A"]), ("0.5598", fibres["r5-c6"]["A"]),
-                         ("2.21", load["contact_length"]), ("0.044", fibres["r5-c5"]["contact_length"]),
+                         ("2.18", load["contact_length"]), ("0.044", fibres["r5-c5"]["contact_length"]),
                          ("0.5325", answers.told_energy("sheared")))
         self.assert_figures("sheared", "sheared-membrane")
 
@@ -90,9 +90,8 @@ class Shapes(GalleryTest):
         self.assert_told(("0.4138", opening.jump), ("0.4135", answers.opens("opening")[0]), ("-0.1873", opening.energy),
                          ("-0.1872", answers.told_energy("opening")), ("0.1392", half.jump),
                          ("0.1389", answers.opens("half")[0]), ("0.372", shut),
-                         ("0.41", answers.loads["half"]["contact_length"]))
-        # the last node with pressure, half an edge of 0.0625 added
-        self.assertAlmostEqual(answers.loads["half"]["contact_length"], shut, delta=0.04)
+                         ("0.368", answers.loads["half"]["contact_length"]))
+        self.assertAlmostEqual(answers.loads["half"]["contact_length"], shut, delta=0.006)
 
     def test_orthotropic(self):
         answers = self.follow_one("orthotropic")
@@ -216,7 +215,7 @@ class Shapes(GalleryTest):
         steep = up["inclusions"][1]
         self.assert_told(("0.1900", answers.told("up")), ("0.1013", answers.told("up", 1)))
         self.assertEqual([round(answers.loads[name]["inclusions"][0]["contact_length"]) for name in ("up", "down")],
-                         [18, 8])
+                         [19, 8])
         self.assertEqual(steep["contact_length"], 0)
         traces = answers.traces("up")  # walked so that the side that comes off, the left, is its minus side
         self.assertGreater(traces["x"][0], traces["x"][-1])
@@ -267,7 +266,7 @@ class Shapes(GalleryTest):
         self.assertEqual(contact[c > 0.29].max(), 0)
         self.assertGreater(contact[c < 0.28].min(), 0.05)
         self.assert_close((moved[80] - moved[60]) / 0.5, LIMITS["example-3"][0], 0.006)
-        self.assert_told(("0.357", contact[40]), ("0.1033", (moved[80] - moved[60]) / 0.5),
+        self.assert_told(("0.338", contact[40]), ("0.1033", (moved[80] - moved[60]) / 0.5),
                          ("0.10382", LIMITS["example-3"][0]))
         # between them: Example 2
         self.assert_close(moved[40], LIMITS["example-2"][0], 0.006)
