@@ -53,8 +53,8 @@ std::string not_reached(const records::StageRecord& last,
 
 /// The proof that needs most triangles, if that is more than the limit, with how many, and what can
 /// be proved there, by the rate of its error since the last stage with at most a quarter of the
-/// triangles; empty if none does, or if the rate is not known yet. A job goes on nevertheless: what it can prove at the limit is the closest to
-/// what was asked.
+/// triangles; empty if none does, or if the rate is not known yet. A job goes on nevertheless: what
+/// it can prove at the limit is the closest to what was asked.
 std::string forecast(const std::vector<records::StageRecord>& stages, const records::JobSpec& spec,
                      std::uint64_t max_triangles);
 

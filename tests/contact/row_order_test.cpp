@@ -40,8 +40,9 @@ TEST(RowOrder, NeverLeavesAGridCellForOneThatDoesNotTouchIt) {
   for (const Index side : {2, 8, 32}) {
     MatrixXd grid(3, side * side);
     for (Index i = 0; i < grid.cols(); ++i) {
-      const auto x = static_cast<double>(2 * (i % side) + 1) / static_cast<double>(side) - 1;
-      const auto y = static_cast<double>(2 * (i / side) + 1) / static_cast<double>(side) - 1;
+      const Index column = i % side, row = i / side;
+      const auto x = static_cast<double>(2 * column + 1) / static_cast<double>(side) - 1;
+      const auto y = static_cast<double>(2 * row + 1) / static_cast<double>(side) - 1;
       grid.col(i) << x, 1, y;
     }
     EXPECT_NEAR(ways(grid).back(), 2.0 / static_cast<double>(side), 1e-12) << side;

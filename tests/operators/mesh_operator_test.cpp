@@ -224,7 +224,8 @@ TEST(MeshOperator, UzawaIsRefusedWhereASubdomainFloatsAndTheActiveSetSolves) {
 }
 
 TEST(MeshOperator, EstimateIsAnUpperBoundOfWhatIsHeld) {
-  for (const auto& [columns, rows] : {std::pair{4, 1}, {16, 4}, {160, 80}, {400, 2}, {8, 300}, {3200, 2}}) {
+  for (const auto& [columns, rows] :
+       {std::pair{4, 1}, {16, 4}, {160, 80}, {400, 2}, {8, 300}, {3200, 2}}) {
     const auto mesh = shared_membrane(columns, rows);
     const std::size_t estimate = estimate_bytes(*mesh);
     const std::size_t held = MeshOperator::factorise(mesh, 2, {})->bytes();
