@@ -68,8 +68,7 @@ std::string sizes(const v1::Mesh& mesh) {
   text += "\n";
   if (mesh.operator_bytes() > 0) {
     text += "factors of " + bytes(mesh.operator_bytes()) + " made in " +
-            seconds(mesh.factorize_seconds()) + " s";
-    text += mesh.has_theta_star() ? ", theta* " + number(mesh.theta_star()) + "\n" : "\n";
+            seconds(mesh.factorize_seconds()) + " s\n";
   }
   return text;
 }

@@ -298,7 +298,6 @@ records::MeshDefinition read_definition(const v1::CreateMeshRequest& from) {
 
 void Translation<records::MeshRecord>::write(const records::MeshRecord& value, v1::Mesh& to) {
   write_fields(value, to, {"id", "definition", "created", "for_job"});
-  if (value.theta_star == 0) to.clear_theta_star();
   if (value.bisection_bound == 0) to.clear_bisection_bound();
   to.set_name(mesh_name(value.id));
   write_field(value.created, to, "create_time");

@@ -229,10 +229,6 @@ double TraceProblem::theta_star(Mass mass) const {
   });
 }
 
-bool TraceProblem::knows_theta_star(Mass mass) const noexcept {
-  return !_uzawa || lazy_theta_star(mass).known() != nullptr;
-}
-
 void TraceProblem::apply_mass(Mass mass, const Eigen::Ref<const Eigen::MatrixXd>& mu,
                               Eigen::Ref<Eigen::MatrixXd> force) const {
   if (mass == Mass::lumped)

@@ -64,8 +64,6 @@ class TraceProblem {
   /// Computed at the first call, with the flexibilities: O(n_G^3), on large interfaces more than
   /// everything else. Throws errors::Error (numerical) when it cannot be computed.
   double theta_star(Mass mass) const;
-  /// Whether theta_star() is known already.
-  bool knows_theta_star(Mass mass) const noexcept;
 
  private:
   const base::Lazy<double>& lazy_theta_star(Mass mass) const noexcept {

@@ -82,6 +82,11 @@ Products varied(const Products& by_mean, const fem::Variation& variation, double
           {}};
 }
 
+/// (m) The parts of the triangles in E and F; empty if nobody asks for them.
+struct Parts {
+  std::vector<double> primal, dual;
+};
+
 class Sum {
  public:
   Sum(const Primal& primal, const Dual& dual, const EquilibratedFlux& tau)
@@ -89,7 +94,7 @@ class Sum {
     for (std::size_t i = 0; i < _rest.size(); ++i) _rest[i] = dual.reacting[i] - dual.z[i];
   }
 
-  Products products() const {
+  Products products(Parts& parts) const {
     Products sum;
     const EquilibratedFlux& sigma = _primal.flux;
     const Shapes& shapes = _primal.cut.shapes;
@@ -104,6 +109,12 @@ class Sum {
                      std::sqrt(sigma.energy_of(t, _primal.u)));
       sum += own;
       const bool inside = !weighed.empty() && weighed.front().triangle == t;
+      if (!parts.primal.empty()) {
+        const double o = oscillation.empty() ? 0 : oscillation[t],
+                     e = (std::sqrt(own.distance) + o) / 2, f = own.square / 4;
+        parts.primal[t] = e * e * (inside ? primal_factor(weighed.front()) : 1);
+        parts.dual[t] = f * (inside ? dual_factor(weighed.front()) : 1);
+      }
       if (inside) weighed = weighed.subspan(1);
       if (oscillation.empty() || oscillation[t] == 0) continue;
       const double o = oscillation[t];
@@ -166,12 +177,20 @@ class Sum {
     Weighted sum;
     for (const Weight::OnTriangle& one : _weight->triangles) {
       const Products own = of_triangle(one.triangle);
-      const double beta = one.sloped ? _weight->beta : 0;
-      sum.primal += (one.most / (1 - beta) - 1) * own.distance;
-      sum.dual += (1 / ((1 - beta) * one.least) - 1) * own.square;
+      const double beta = beta_in(one);
+      sum.primal += (primal_factor(one) - 1) * own.distance;
+      sum.dual += (dual_factor(one) - 1) * own.square;
       sum.mixed += beta / (1 - beta) * std::sqrt(own.square * own.distance);
     }
     return sum;
+  }
+
+  double beta_in(const Weight::OnTriangle& one) const { return one.sloped ? _weight->beta : 0; }
+  double primal_factor(const Weight::OnTriangle& one) const {
+    return one.most / (1 - beta_in(one));
+  }
+  double dual_factor(const Weight::OnTriangle& one) const {
+    return 1 / ((1 - beta_in(one)) * one.least);
   }
 
   const Primal& _primal;
@@ -218,7 +237,9 @@ Bound bound(const Aimed& aimed, const EquilibratedFlux& tau) {
   if (dual.weight != nullptr && !(cut.shapes.variation.empty() && primal.lifts.empty())) return {};
 
   const Sum sum(primal, dual, tau);
-  const Products products = sum.products();
+  Parts parts;
+  if (aimed.parts) parts.primal = parts.dual = std::vector<double>(cut.triangle_count());
+  const Products products = sum.products(parts);
   double residual = 0, mixed = 0.5 * products.mixed, distance = products.distance, unknown = 0;
   for (const Lift& lift : primal.lifts) {
     const auto side = at(cut.faces[at(lift.face)].side);
@@ -304,6 +325,11 @@ Bound bound(const Aimed& aimed, const EquilibratedFlux& tau) {
                        0.5 * products.slack + unknown +
                        1e-12 * (std::abs(dual.value) + std::abs(found.middle)) + lacking;
   found.value = found.middle + sign * (found.half(c) + extra);
+  if (const double best = found.half.best(c); std::isfinite(best)) {
+    found.parts = std::move(parts.primal);
+    for (std::size_t k = 0; k < found.parts.size(); ++k)
+      found.parts[k] = best * found.parts[k] + parts.dual[k] / best;
+  }
   return found;
 }
 
@@ -320,10 +346,14 @@ double norm(const CutMesh& cut, const EquilibratedFlux& tau, std::span<const For
 
 }  // namespace
 
+double HalfWidth::best(double c) const {
+  return primal > 0 ? std::max(c, std::sqrt(dual / primal))
+                    : std::numeric_limits<double>::infinity();
+}
+
 double HalfWidth::operator()(double c) const {
   if (!(primal > 0)) return mixed;  // c' may be as large as it likes
-  const double best = std::max(c, std::sqrt(dual / primal));
-  return best * primal + mixed + (dual > 0 ? dual / best : 0);
+  return best(c) * primal + mixed + (dual > 0 ? dual / best(c) : 0);
 }
 
 EquilibratedFlux dual_flux(const CutMesh& cut, const EquilibratedFlux& sigma, const Dual& dual) {

@@ -73,6 +73,7 @@ struct Dual {
 struct HalfWidth {
   double primal = 0, mixed = 0, dual = 0;  ///< E, M, F
   double operator()(double c) const;
+  double best(double c) const;  ///< the c' >= c of the minimum; infinite if E = 0
 };
 
 struct Bound {
@@ -82,6 +83,8 @@ struct Bound {
   // mid, c, and R of the formulas above.
   double middle = 0, c = 0;
   HalfWidth half{};
+  /// (m) the parts of the triangles in c' E + F / c' at the best c', if Aimed::parts asks for them.
+  std::vector<double> parts{};
 };
 
 /// The tau of a Dual: on one side of 0, q is within c k p at each end of a face.
@@ -93,6 +96,7 @@ struct Aimed {
   const Primal* primal;
   Dual dual;
   double unloaded = 0;
+  bool parts = false;  ///< fill Bound::parts
 };
 
 /// The bounds by several duals at once; the bits of each are as if it were alone. There is none if

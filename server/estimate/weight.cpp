@@ -104,8 +104,9 @@ struct Corners {
 
 class Ends {
  public:
-  Ends(const CutMesh& cut, const EquilibratedFlux& sigma, std::span<const double> oscillation)
-      : _cut(cut), _sigma(sigma), _oscillation(oscillation) {
+  Ends(const CutMesh& cut, const EquilibratedFlux& sigma, std::span<const double> oscillation,
+       double most_unbalanced)
+      : _cut(cut), _sigma(sigma), _oscillation(oscillation), _most_unbalanced(most_unbalanced) {
     double largest = 0;
     for (std::size_t f = 0; f < cut.faces.size(); ++f)
       for (const std::size_t end : {0, 1})
@@ -180,11 +181,7 @@ class Ends {
       if (std::min(dot(p, end.normal), dot(q, end.normal)) < -rounding * size)
         most = std::min(most, distance(p, q));
     }
-    for (std::size_t t = 0; t < _oscillation.size(); ++t) {
-      stop::look_at_turn<stop::quick>(t, weighing);
-      if (_oscillation[t] * _oscillation[t] > 0.01 * _sigma.distance()[t])
-        most = std::min(most, Corners(_cut, t, end).near());
-    }
+    most = std::min(most, balanced_within(end, most));
     for (const Stretch& one : closed) {
       const bool holds =
           !opens(one.face, 0) && !opens(one.face, 1) && pressure_of(_sigma, one.face).sum() > 0;
@@ -192,6 +189,24 @@ class Ends {
       end.reach = one.to;
     }
     if (!one_tension(end)) end.reach = 0;
+  }
+
+  /// The radius at which the half disc, of at most `most`, has too much load that is not balanced.
+  double balanced_within(const ContactEnd& end, double most) const {
+    std::vector<std::pair<double, double>> squares;  // of o, by the distance from the end
+    for (std::size_t t = 0; t < _oscillation.size(); ++t) {
+      stop::look_at_turn<stop::quick>(t, weighing);
+      if (_oscillation[t] == 0) continue;
+      const Corners corners(_cut, t, end);
+      if (!corners.on_minus_side()) continue;
+      if (const double near = corners.near(); near < most)
+        squares.emplace_back(near, _oscillation[t] * _oscillation[t]);
+    }
+    std::ranges::sort(squares);
+    double sum = 0;
+    for (const auto& [near, square] : squares)
+      if ((sum += square) > _most_unbalanced * _most_unbalanced) return near;
+    return most;
   }
 
   /// Whether T is one number in the half disc.
@@ -214,6 +229,7 @@ class Ends {
   const CutMesh& _cut;
   const EquilibratedFlux& _sigma;
   std::span<const double> _oscillation;
+  const double _most_unbalanced;
   double _least_jump = 0;
 };
 
@@ -314,9 +330,9 @@ Weight::OnFace WeightOf::on(std::size_t face) {
 }
 
 std::vector<ContactEnd> contact_ends(const CutMesh& cut, const EquilibratedFlux& sigma,
-                                     std::span<const double> oscillation) {
+                                     std::span<const double> oscillation, double most_unbalanced) {
   if (!cut.shapes.variation.empty()) return {};
-  return Ends(cut, sigma, oscillation)();
+  return Ends(cut, sigma, oscillation, most_unbalanced)();
 }
 
 Weight weight_about(const CutMesh& cut, const EquilibratedFlux& sigma,

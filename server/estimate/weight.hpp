@@ -41,10 +41,10 @@ struct ContactEnd {
 };
 
 /// The ends about which a weight is possible. None if T varies on triangles, or if there are more
-/// than a few ends. Discs do not meet triangles on which `oscillation` (LoadBalance; empty: 0) is
-/// beyond a tenth of |sigma - T grad u_h|. O(m + faces).
+/// than a few ends. In a disc the root of the sum of squares of `oscillation` (LoadBalance; empty:
+/// 0) is at most `most_unbalanced`. O(m log m + faces).
 std::vector<ContactEnd> contact_ends(const CutMesh& cut, const EquilibratedFlux& sigma,
-                                     std::span<const double> oscillation);
+                                     std::span<const double> oscillation, double most_unbalanced);
 
 struct Weight {
   struct OnTriangle {

@@ -76,9 +76,14 @@ void add_bounds(const std::vector<PreparedCase>& cases, std::vector<Solved>& sol
     if (solved[i].failure || spec_of(cases[i]).without_bounds ||
         solved[i].answer.status != contact::Status::converged)
       continue;
-    const auto& accuracy = spec_of(cases[i]).accuracy;
-    estimates.push_back({&cases[i].load, &solved[i].answer, cases[i].task.job->stop.get_token(),
-                         accuracy && accuracy->displacement});
+    operators::MeshOperator::Estimate one{&cases[i].load, &solved[i].answer,
+                                          cases[i].task.job->stop.get_token()};
+    if (const auto& accuracy = spec_of(cases[i]).accuracy) {
+      one.closely = accuracy->displacement.has_value();
+      if (accuracy->displacement || accuracy->displacement_estimated)
+        one.of_largest = accuracy->largest;
+    }
+    estimates.push_back(std::move(one));
     of_estimates.push_back(&solved[i]);
   }
   try {

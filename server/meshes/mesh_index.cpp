@@ -28,7 +28,6 @@ MeshRecord seen(const LiveMesh& mesh, MeshRecord record, bool in_memory) {
   if (record.state == MeshState::meshing && mesh.run) record.progress = mesh.run->progress;
   if (mesh.operators.bytes > 0) {
     record.operator_bytes = mesh.operators.bytes;
-    record.theta_star = mesh.operators.theta_star;
     record.factorize_seconds = mesh.operators.seconds;
   }
   return record;
@@ -44,7 +43,7 @@ LiveMesh& MeshIndex::add(const MeshRecord& record) {
   mesh.sha256 = record.sha256;
   mesh.error = record.error;
   mesh.for_job = record.for_job;
-  mesh.operators = {record.operator_bytes, record.theta_star, record.factorize_seconds};
+  mesh.operators = {record.operator_bytes, record.factorize_seconds};
   mesh.size_class = size_class(record.triangle_count);
   return mesh;
 }

@@ -34,7 +34,6 @@ enum class Stage {
 /// Sizes that were measured when the operators were last in memory.
 struct Measured {
   std::uint64_t bytes = 0;  ///< 0: never measured
-  double theta_star = 0;
   double seconds = 0;
 };
 
@@ -61,12 +60,10 @@ struct Run {
 
   records::MeshState phase = records::MeshState::pending;  ///< then meshing, factorizing
   bool background = false;                                 ///< whether it goes on without waits
-  bool measures = false;                                   ///< whether it measures theta* as well
   bool visible = false;                                    ///< the operators, to every caller
   bool ending = false;                                     ///< only its outcome is to be written
   bool writing = false;                                ///< its record; it is not given up meanwhile
   std::optional<records::MeshProgress> progress = {};  ///< progress of the mesher
-  std::shared_ptr<const operators::MeshOperator> result = {};  ///< until theta* is measured
 };
 
 struct LiveMesh {

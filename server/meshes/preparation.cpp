@@ -169,7 +169,6 @@ Run& Preparation::begin(const std::string& id, bool background) {
     _changed.notify_all();
   }
   mesh.run->background = mesh.run->background || background;
-  mesh.run->measures = mesh.run->measures || background || pending;
   return *mesh.run;
 }
 
@@ -177,10 +176,6 @@ void Preparation::serve(const std::string& id) {
   LiveMesh* mesh = _index.find(id);
   if (mesh == nullptr || mesh->waits.empty() || mesh->claimed) return;
   if (mesh->stage == Stage::failed) return fail_waits(*mesh, *mesh->error);
-  if (mesh->run && mesh->run->result) {
-    mesh->run->visible = true;
-    return hand_over(*mesh, mesh->run->result, mesh->run->place);
-  }
   const bool measured = mesh->stage == Stage::meshed && mesh->operators.bytes > 0;
   if (measured && (!mesh->run || mesh->run->visible))
     if (const Operator ready = _cache.find(mesh->sha256, mesh->owner))
@@ -203,7 +198,7 @@ Preparation::RunPtr Preparation::give_up(LiveMesh& mesh) {
 void Preparation::give_up_unwanted(LiveMesh& mesh) {
   if (!mesh.run || !mesh.waits.empty()) return;
   const Run& run = *mesh.run;
-  if (run.background || run.result || run.ending || run.writing) return;
+  if (run.background || run.ending || run.writing) return;
   _unwanted.push_back(give_up(mesh));
   _to_deliver.notify_one();
 }
@@ -215,8 +210,9 @@ void Preparation::let_go(const std::string& id) {
 }
 
 std::size_t Preparation::queued() const {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(_queued, [](const auto& queued) { return queued.second->measures; }));
+  return static_cast<std::size_t>(std::ranges::count_if(_queued, [](const auto& queued) {
+    return queued.second->background || queued.second->phase == MeshState::pending;
+  }));
 }
 
 LiveMesh* Preparation::mesh_of(const Run& run) {

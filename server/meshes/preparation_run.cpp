@@ -35,15 +35,6 @@ void give_way() {
   if (::getpriority(PRIO_PROCESS, self) < niceness) ::setpriority(PRIO_PROCESS, self, niceness);
 }
 
-/// theta*, or 0 if it cannot be computed; Algorithm 2 reports why.
-double theta_star(const operators::MeshOperator& mesh_operator) {
-  try {
-    return mesh_operator.theta_star();
-  } catch (const Error&) {
-    return 0;
-  }
-}
-
 }  // namespace
 
 void Preparation::work() {
@@ -166,8 +157,6 @@ std::shared_ptr<const mesh::Mesh> Preparation::triangulate(Run& run) {
   return std::move(made->mesh);
 }
 
-/// Waiters get the operators before theta* is known: at a large interface it takes longer than all
-/// the rest, and only Algorithm 2 and reports need it.
 void Preparation::factorize(Run& run, std::shared_ptr<const mesh::Mesh> triangulation) {
   const auto start = Steady::now();
   Lock held = lock();
@@ -194,39 +183,14 @@ void Preparation::factorize(Run& run, std::shared_ptr<const mesh::Mesh> triangul
   if (mesh == nullptr) return;
   if (std::exchange(mesh->pin, false))
     _cache.pin(sha256);  // `result` keeps it from being evicted first
-  mesh->operators.seconds = std::chrono::duration<double>(Steady::now() - start).count();
-  const auto measure = [&](double theta) {
-    mesh->operators.bytes = result->bytes();
-    mesh->operators.theta_star = theta > 0 ? theta : mesh->operators.theta_star;
-  };
-  measure(result->known_theta_star());
-  run.result = result;
-  if (!mesh->waits.empty()) {
-    run.visible = true;
-    run.ending = !run.measures;
-    hand_over(*mesh, result, run.place);
-    held.unlock();
-    record_outcome(run);
-    held.lock();
-  }
-  if (run.measures && !run.ending) {
-    held.unlock();
-    const double theta = [&] {
-      const stop::Scope scope(run.stop.get_token());
-      return theta_star(*result);
-    }();
-    held.lock();
-    mesh = mesh_of(run);
-    if (mesh == nullptr) return;
-    measure(theta);
-    result.reset();  // before they are announced, so that the operators can be evicted then
-    run.result.reset();
-    run.visible = true;
-    run.ending = true;
-    held.unlock();
-    record_outcome(run);
-    held.lock();
-  }
+  mesh->operators = {result->bytes(), std::chrono::duration<double>(Steady::now() - start).count()};
+  run.visible = true;
+  run.ending = true;
+  if (!mesh->waits.empty()) hand_over(*mesh, result, run.place);
+  result.reset();  // before they are announced, so that the operators can be evicted then
+  held.unlock();
+  record_outcome(run);
+  held.lock();
   finish(run);
   serve(run.id);  // waits that came too late for the result
 }
@@ -254,7 +218,6 @@ void Preparation::record_outcome(Run& run) {
   try {
     MeshRecord record = stored(run.id);
     record.operator_bytes = measured.bytes;
-    record.theta_star = measured.theta_star;
     record.factorize_seconds = measured.seconds;
     _store.put(record);
   } catch (const Error&) {
@@ -305,7 +268,6 @@ void Preparation::finish(Run& run) {
   if (LiveMesh* mesh = mesh_of(run)) {
     mesh->pin = false;
     ++mesh->version;
-    run.result.reset();
     mesh->run.reset();
   }
   _changed.notify_all();

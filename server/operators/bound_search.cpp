@@ -11,7 +11,7 @@ namespace anticrack::operators {
 namespace {
 
 /// Most bounds of the cone to try, of which most answers need two, and most weights.
-constexpr int most_tries = 4, most_weights = 2;
+constexpr int most_tries = 4, most_weights = 3;
 /// Another weight is tried if the last one took off this part of the distance from the middle.
 constexpr double worth = 0.03;
 /// The exponent of weights: larger ones clip less and multiply energies more (THEORY.md).
@@ -83,7 +83,8 @@ estimate::Aimed Search::aimed(std::span<const double> z, std::span<const double>
   return {&of.primal,
           {z, reacting, _target.aim().value_in(of.answer), _side, _c, _target.unit,
            _weight ? &*_weight : nullptr},
-          _unloaded};
+          _unloaded,
+          of.of_largest.has_value()};
 }
 
 void Search::take(const estimate::Bound& one) {
@@ -94,6 +95,7 @@ void Search::take(const estimate::Bound& one) {
   if (_weight) {
     _done = _tries >= most_tries + most_weights || !(gained > worth * off(one));
     _inner /= 4;
+    _c *= std::clamp(one.short_of, 1.0, 2.0);
   } else {
     const bool found = std::isfinite(one.value);
     if (_tries < most_tries && (!found || (better && one.short_of > 1))) {
@@ -112,15 +114,17 @@ void Search::take(const estimate::Bound& one) {
 double Search::off(const estimate::Bound& one) const { return sign() * (one.value - one.middle); }
 
 void Search::weigh() {
-  Adjoints& adjoints = _target.adjoints;
-  const estimate::Primal& primal = adjoints.of.primal;
-  if (!adjoints.ends)
-    adjoints.ends = estimate::contact_ends(primal.cut, primal.flux, primal.load.oscillation);
-  _weight = estimate::weight_about(primal.cut, primal.flux, *adjoints.ends, _inner, beta);
-  if (!primal.load.oscillation.empty())
-    _unloaded = flux_norms(_parts, primal.cut, _target.goals)[_target.k];
+  constexpr double of_width = 0.03;  // what the load that is not balanced in a disc may cost
+  const estimate::Primal& primal = _target.adjoints.of.primal;
+  if (!_ends) {
+    if (!primal.load.oscillation.empty())
+      _unloaded = flux_norms(_parts, primal.cut, _target.goals)[_target.k];
+    const double most = _unloaded > 0 ? of_width * off(_best) / _unloaded : 0;
+    _ends = estimate::contact_ends(primal.cut, primal.flux, primal.load.oscillation, most);
+  }
+  _weight = estimate::weight_about(primal.cut, primal.flux, *_ends, _inner, beta);
   _done = _weight->faces.empty() || !std::isfinite(_unloaded);
-  if (!_done) _room = room_of(_parts, primal, adjoints.adjoint.room(), *_weight);
+  if (!_done) _room = room_of(_parts, primal, _target.adjoints.adjoint.room(), *_weight);
 }
 
 }  // namespace anticrack::operators

@@ -17,7 +17,6 @@ namespace anticrack::operators {
 struct Adjoints {
   const Bounded& of;
   contact::Adjoint adjoint;
-  std::optional<std::vector<estimate::ContactEnd>> ends{};  // found when a search asks for them
 };
 
 /// One displacement of an answer: the k-th of all goals.
@@ -66,6 +65,7 @@ class Search {
   contact::Adjoint::Room _room;  // for c = 1 and the present weight
   double _c = 0;
   estimate::Bound _best;
+  std::optional<std::vector<estimate::ContactEnd>> _ends;  // found with the first weight
   std::optional<estimate::Weight> _weight;
   double _inner = 1;  // of the weight
   double _unloaded = 0;

@@ -83,7 +83,7 @@ void find_bounds(const MeshOperator::Parts& parts, const estimate::CutMesh& cut,
     for (std::size_t t = 0; t < bracket.indicator.size(); ++t)
       of.indicator[at(cut.triangle[t])] = bracket.indicator[t];
     bounded.push_back({load, primals.emplace_back(cut, fluxes[i], balance, lifts, u, lack), answer,
-                       of.stop, of.closely});
+                       of.stop, of.closely, of.of_largest, &of.indicator});
   }
   bound_displacements(parts, bounded);
   for (const Bounded& one : bounded) contact::take_middles(one.answer);

@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/at.hpp"
 #include "contact/trace_state.hpp"
 #include "estimate/bracket.hpp"
 #include "estimate/interval.hpp"
@@ -149,6 +150,28 @@ void bound_by_norms(const MeshOperator::Parts& parts, const std::vector<Aim>& go
   }
 }
 
+/// Replaces the indicator of an answer by the parts of the triangles in the errors of A.
+void indicate(const Bounded& of, const estimate::CutMesh& cut, const std::deque<Search>& searches) {
+  double largest = 0;
+  for (const contact::InclusionAnswer& one : of.answer.inclusions)
+    largest = std::max(largest, std::abs(one.displacement));
+  std::vector<double> sum(cut.triangle_count());
+  bool any = false;
+  for (const Search& search : searches) {
+    const Aim& aim = search.target().aim();
+    if (&search.target().adjoints.of != &of || aim.estimate == nullptr) continue;
+    const contact::InclusionAnswer& one = of.answer.inclusions[aim.inclusion];
+    if (!one.displacement_lower || !(*one.displacement_upper > *one.displacement_lower)) continue;
+    const double size = *of.of_largest ? largest : std::abs(one.displacement);
+    const double factor =
+        contact::error_of(one, size) / (*one.displacement_upper - *one.displacement_lower);
+    const std::vector<double>& parts = search.best().parts;
+    for (std::size_t t = 0; t < parts.size(); ++t) sum[t] += factor * parts[t];
+    any = any || !parts.empty();
+  }
+  for (std::size_t t = 0; any && t < sum.size(); ++t) (*of.indicator)[at(cut.triangle[t])] = sum[t];
+}
+
 void bound_by_adjoints(const MeshOperator::Parts& parts, const std::vector<Aim>& goals,
                        std::span<const Bounded> answers) {
   constexpr std::size_t together = 4;
@@ -209,6 +232,8 @@ void bound_by_adjoints(const MeshOperator::Parts& parts, const std::vector<Aim>&
     if (aim.estimate != nullptr)
       of.answer.inclusions[aim.inclusion].*aim.estimate = lower.best().estimate;
   }
+  for (const Bounded& of : answers)
+    if (of.of_largest && !of.stop.stop_requested()) indicate(of, cut, searches);
   for (const auto& [of, aim] : by_energy) {
     if (of->stop.stop_requested()) continue;
     const stop::Scope scope(of->stop);

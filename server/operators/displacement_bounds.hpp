@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <span>
 #include <stop_token>
 #include <vector>
@@ -28,7 +29,10 @@ struct Bounded {
   const estimate::Primal& primal;
   contact::Answer& answer;
   const std::stop_token& stop;
-  bool closely = false;  ///< as MeshOperator::Estimate
+  // As MeshOperator::Estimate.
+  bool closely = false;
+  std::optional<bool> of_largest{};
+  std::vector<double>* indicator = nullptr;
 };
 
 /// Bounds A, and the slopes if it tilts, of each inclusion that moves. estimate/interval.hpp gives

@@ -117,11 +117,6 @@ double MeshOperator::theta_star() const {
   return _parts->problem.theta_star(contact::Mass::lumped);
 }
 
-double MeshOperator::known_theta_star() const noexcept {
-  const contact::TraceProblem& problem = _parts->problem;
-  return problem.knows_theta_star(contact::Mass::lumped) ? theta_star() : 0;
-}
-
 std::size_t MeshOperator::bytes() const noexcept {
   std::size_t bytes = sizeof(Parts) + _parts->at_work + bytes_of(*_parts->mesh) +
                       bytes_of(_parts->decomposition) + _parts->neumann.bytes();

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <exception>
 #include <memory>
+#include <optional>
 #include <span>
 #include <stop_token>
 #include <string>
@@ -81,6 +82,9 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
     contact::Answer* answer;
     std::stop_token stop;
     bool closely = false;  ///< spend more on closer bounds of A, as for an accuracy of it
+    /// If given, the indicator has the parts of the triangles in the half widths of the bounds of
+    /// A, each over |A|; or, if true, over the largest |A|. Without such bounds it is as above.
+    std::optional<bool> of_largest{};
     std::vector<double> indicator{};
     std::exception_ptr failure{};
   };
@@ -139,8 +143,6 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
   /// theta* for lumped mass; 0 if Algorithm 2 does not apply. Computed at the first use: O(n_G^3).
   /// Throws errors::Error (numerical) when it cannot be computed.
   double theta_star() const;
-  /// theta_star() if known, else 0. Does not wait.
-  double known_theta_star() const noexcept;
 
   struct Parts;
 

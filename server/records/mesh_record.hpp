@@ -115,7 +115,6 @@ struct MeshRecord {
   double mesh_seconds = 0;
   // Known once factorised:
   std::uint64_t operator_bytes = 0;
-  double theta_star = 0;
   double factorize_seconds = 0;
   // Further members:
   std::optional<MeshProgress> progress{};  ///< while it is meshed; not on the disk
@@ -124,6 +123,6 @@ struct MeshRecord {
 ANTICRACK_FIELDS(MeshRecord, id, owner, title, definition, state, error, created, sha256,
                  node_count, triangle_count, subdomains, interfaces, inclusions, warnings,
                  minimum_angle, bisection_bound, tips, dirichlet_length, neumann_length,
-                 mesh_seconds, operator_bytes, theta_star, factorize_seconds, progress, for_job)
+                 mesh_seconds, operator_bytes, factorize_seconds, progress, for_job)
 
 }  // namespace anticrack::records

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <numeric>
 #include <vector>
@@ -24,30 +25,44 @@ namespace {
 struct Stage {
   std::size_t triangles = 0;
   double energy = 0, lower = 0;
+  double error_of_a = 0;         ///< half the width of the bounds of A, over |A|
   int in_contact = 0, open = 0;  ///< crack nodes
 };
 
+enum class Aim : std::uint8_t { energy, displacement };
+
 Stage solve_stage(const operators::MeshOperator& op, const fem::Load& load,
-                  std::vector<double>& indicator) {
+                  std::vector<double>& indicator, Aim aim) {
   const fem::Load* const one[] = {&load};
   const auto prepared = std::get<operators::PreparedLoad>(std::move(op.prepare(one).front()));
   testing::Silent silent;
   contact::Answer answer = op.solve(prepared, {}, true, silent);
-  indicator = op.estimate(prepared, answer);
+  operators::MeshOperator::Estimate one_estimate{&prepared, &answer, {}, aim == Aim::displacement};
+  if (aim == Aim::displacement) one_estimate.of_largest = false;
+  op.estimate({&one_estimate, 1});
+  indicator = std::move(one_estimate.indicator);
   EXPECT_EQ(answer.no_bracket, "");
-  Stage stage{op.mesh().triangle_count(), answer.energy_mesh, answer.energy_lower.value_or(NAN)};
+  Stage stage{op.mesh().triangle_count(), answer.energy_mesh, answer.energy_lower.value_or(NAN),
+              answer.inclusions.front().displacement_error_relative.value_or(NAN)};
   for (const std::int32_t closed : answer.traces.front().contact)
     ++(closed != 0 ? stage.in_contact : stage.open);
   return stage;
 }
 
 /// Stages that each have about twice as many triangles, until there are so many.
-std::vector<Stage> adaptive(mesh::Mesh mesh, const fem::Load& load, std::size_t most) {
+std::vector<Stage> adaptive(mesh::Mesh mesh, const fem::Load& load, std::size_t most,
+                            Aim aim = Aim::energy) {
   std::vector<Stage> stages;
   for (;;) {
     const auto op = factorise(std::move(mesh));
     std::vector<double> indicator;
-    stages.push_back(solve_stage(*op, load, indicator));
+    stages.push_back(solve_stage(*op, load, indicator, aim));
+    if (aim == Aim::displacement) {
+      // The rest is P and M, which no triangle has.
+      const double sum = std::accumulate(indicator.begin(), indicator.end(), 0.0);
+      EXPECT_LE(sum, stages.back().error_of_a);
+      EXPECT_GT(sum, 0.7 * stages.back().error_of_a);
+    }
     if (stages.back().triangles >= most) return stages;
     mesh = mesh::refine(op->mesh(), estimate::levels(indicator, 2), 4 * most);
   }
@@ -57,6 +72,29 @@ fem::Load load_of(const char* force) {
   fem::Load load;
   load.force = fem::Expression{force};
   return load;
+}
+
+/// How fast errors fall, as triangles^-rate, between so many.
+double rate_of(const std::vector<Stage>& stages, const std::vector<double>& errors,
+               std::size_t from, std::size_t to) {
+  std::vector<double> x, y;
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    if (stages[i].triangles < from || stages[i].triangles > to) continue;
+    x.push_back(std::log(static_cast<double>(stages[i].triangles)));
+    y.push_back(std::log(errors[i]));
+  }
+  EXPECT_GT(x.back() - x.front(),
+            0.7 * std::log(static_cast<double>(to) / static_cast<double>(from)));
+  const auto mean = [](const std::vector<double>& v) {
+    return std::accumulate(v.begin(), v.end(), 0.0) / static_cast<double>(v.size());
+  };
+  double xy = 0, xx = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    xy += (x[i] - mean(x)) * (y[i] - mean(y));
+    xx += (x[i] - mean(x)) * (x[i] - mean(x));
+  }
+  std::printf("[ figures  ] rate %.3f\n", -xy / xx);
+  return -xy / xx;
 }
 
 /// Opens a part of the delaminated face and presses the rest together.
@@ -76,28 +114,36 @@ TEST(Adaptive, EnergiesConvergeLikeOneOverTheTrianglesWithContact) {
         static_cast<double>(last.triangles) / static_cast<double>(before.triangles);
     const double limit = last.energy - (before.energy - last.energy) / (ratio - 1);
     EXPECT_GT(limit, last.lower);
-    std::vector<double> x, y;
+    std::vector<double> errors;
     for (const Stage& stage : stages) {
       EXPECT_LE(stage.lower, limit);
       EXPECT_GE(stage.energy, limit);
-      const double error = stage.energy - limit;
+      errors.push_back(stage.energy - limit);
       std::printf("[ figures  ] %7zu triangles: energy error %.3e, bound %.3e\n", stage.triangles,
-                  error, stage.energy - stage.lower);
-      if (stage.triangles < 500 || stage.triangles > 100'000) continue;
-      x.push_back(std::log(static_cast<double>(stage.triangles)));
-      y.push_back(std::log(error));
+                  errors.back(), stage.energy - stage.lower);
     }
-    ASSERT_GT(x.back() - x.front(), 0.9 * std::log(100)) << "two decades";
-    const auto mean = [](const std::vector<double>& v) {
-      return std::accumulate(v.begin(), v.end(), 0.0) / static_cast<double>(v.size());
-    };
-    double xy = 0, xx = 0;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      xy += (x[i] - mean(x)) * (y[i] - mean(y));
-      xx += (x[i] - mean(x)) * (x[i] - mean(x));
+    EXPECT_GT(rate_of(stages, errors, 500, 100'000), 0.95);
+  }
+}
+
+/// Without parts of the adjoint in the indicator, ends of contact zones stay coarse for it. Example
+/// 2 has one 0.003 from a tip, too, about which a weight is possible on the last meshes only.
+TEST(Adaptive, BoundsOfAConvergeWithContact) {
+  for (const bool beside_a_tip : {false, true}) {
+    const char* const force = paper_forces[beside_a_tip ? 1 : 3];
+    double last[2];
+    for (const Aim aim : {Aim::energy, Aim::displacement}) {
+      const std::vector<Stage> stages = adaptive(diagonals(), load_of(force), 150'000, aim);
+      std::vector<double> errors;
+      for (const Stage& stage : stages) {
+        errors.push_back(stage.error_of_a);
+        std::printf("[ figures  ] %7zu triangles: A to %.3e\n", stage.triangles, errors.back());
+      }
+      last[static_cast<int>(aim)] = errors.back();
+      const double rate = rate_of(stages, errors, 10'000, 200'000);
+      EXPECT_GT(rate, aim == Aim::energy || beside_a_tip ? 0.6 : 0.85);
     }
-    std::printf("[ figures  ] rate %.3f\n", -xy / xx);
-    EXPECT_GT(-xy / xx, 0.95);
+    EXPECT_LT(last[1], (beside_a_tip ? 1 : 0.8) * last[0]);
   }
 }
 
@@ -126,7 +172,7 @@ TEST(Adaptive, IsMoreAccurateThanTheDefaultMesh) {
     const std::vector<Stage> stages = adaptive(diagonals(), load, 300'000);
     const double limit = stages.back().energy;
     std::vector<double> unused;
-    const Stage by_default = solve_stage(*factorise(generated(0)), load, unused);
+    const Stage by_default = solve_stage(*factorise(generated(0)), load, unused, Aim::energy);
     const double error = error_at(stages, static_cast<double>(by_default.triangles), limit);
     const double gain = (by_default.energy - limit) / error;
     std::printf("[ figures  ] %zu triangles: %.3e adaptive, %.3e default, %.2f times\n",

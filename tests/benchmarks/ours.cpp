@@ -11,6 +11,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "base/at_once.hpp"
 #include "benchmarks/figures.hpp"
 #include "benchmarks/our_mesh.hpp"
 #include "contact/sweep_columns.hpp"
@@ -92,8 +93,10 @@ Operator first_answers(const Options& options, const std::shared_ptr<const mesh:
   return op;
 }
 
-/// Bounds of answers whose fields are known, so many at once.
-Times estimates(const MeshOperator& op, std::span<const fem::Load> loads, std::size_t at_once) {
+/// Bounds of answers whose fields are known, so many at once, on so many threads.
+Times estimates(const MeshOperator& op, std::span<const fem::Load> loads, std::size_t at_once,
+                int threads) {
+  const base::Threads allowed(threads);
   Times times;
   Silent nobody;
   for (; loads.size() >= at_once; loads = loads.subspan(at_once)) {
@@ -130,7 +133,8 @@ void further_loads(const Options& options, const MeshOperator& op,
   }
   figures.set("further", alone);
   figures.set("estimate",
-              estimates(op, std::span(loads).first(static_cast<std::size_t>(options.loads)), 1));
+              estimates(op, std::span(loads).first(static_cast<std::size_t>(options.loads)), 1,
+                        options.threads));
   answers.put(figures);
 }
 
@@ -169,7 +173,7 @@ void blocks(const Options& options, const MeshOperator& op, const std::vector<fe
   result.set("columns", static_cast<double>(block.size()));
   result.set("per_load", whole);
   result.set("condensing_per_load", condensing);
-  result.set("estimate_per_load", estimates(op, loads, block.size()));
+  result.set("estimate_per_load", estimates(op, loads, block.size(), options.threads));
   result.set("displacement", rows.displacement);
   result.set("energy", rows.energy);
   figures.set("block", result);

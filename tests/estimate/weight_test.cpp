@@ -171,7 +171,7 @@ void check(unsigned seed, Found& tally) {
   const Solved coarse(one.mesh, one.load, one.force);
   ASSERT_TRUE(coarse.converged());
   const EquilibratedFlux sigma(coarse.cut, coarse.balance());
-  const std::vector<ContactEnd> ends = contact_ends(coarse.cut, sigma, {});
+  const std::vector<ContactEnd> ends = contact_ends(coarse.cut, sigma, {}, 0);
   if (ends.empty()) return;
   tally.several += ends.size() > 1 ? 1 : 0;
   for (const ContactEnd& a : ends)  // their discs are disjoint

@@ -50,7 +50,6 @@ TEST_F(Restart, FindsMeshesEvictedAndMakesTheirOperatorsAgain) {
   EXPECT_EQ(after.owner, "ann");
   EXPECT_EQ(after.sha256, before.sha256);
   EXPECT_EQ(after.operator_bytes, before.operator_bytes);
-  EXPECT_EQ(after.theta_star, before.theta_star);
   EXPECT_EQ(backend.catalogue.read(before.id)->arrays()[0].shape[0], before.node_count);
   EXPECT_NE(backend.prepare(before.id), nullptr);
   EXPECT_EQ(backend.catalogue.get(before.id).state, MeshState::ready);

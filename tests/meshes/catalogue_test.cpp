@@ -50,7 +50,6 @@ TEST_F(Catalogue, MakesAMeshReadyInTheBackground) {
   EXPECT_GT(record.minimum_angle, 20);
   EXPECT_GT(record.mesh_seconds, 0);
   EXPECT_GT(record.factorize_seconds, 0);
-  EXPECT_GT(record.theta_star, 0);
   EXPECT_EQ(record.operator_bytes, backend.cache.metrics().bytes);
   EXPECT_TRUE(backend.catalogue.ready(created.id));
   EXPECT_EQ(backend.catalogue.meshings(), 1U);

@@ -164,7 +164,6 @@ TEST(Job, ReadsItsMeshInChunksFromAnyOffset) {
   ASSERT_EQ(mesh.state(), v1::Mesh::STATE_READY);
   EXPECT_EQ(mesh.subdomains_size(), 2);
   EXPECT_EQ(mesh.interfaces_size(), 1);
-  EXPECT_GT(mesh.theta_star(), 0);
   EXPECT_GT(mesh.minimum_angle(), 10);
 
   Received whole;

@@ -63,11 +63,20 @@ def rows(figures, clock):
         def further(time, mesh=mesh):
             return best_of(petsc[mesh], "further", clock) / time(ours[mesh]["1"])
 
+        def bounded(what, mesh=mesh):
+            own = ours[mesh]["2"]
+            return (best_of(petsc[mesh], what, clock)
+                    / (median(own[what], clock) + median(own["estimate"], clock)))
+
         result += [
             at_least(f"first answer, two threads, against PETSc + MUMPS, {mesh}", 2,
                      lambda first=first: first(2)),
             at_least(f"first answer, one thread, against PETSc + MUMPS, {mesh}", 1,
                      lambda first=first: first(1)),
+            at_least(f"first answer with bounds, two threads, against PETSc + MUMPS without, {mesh}", 2.5,
+                     lambda bounded=bounded: bounded("first")),
+            at_least(f"further load with bounds, two threads, against PETSc + MUMPS without, {mesh}", 3,
+                     lambda bounded=bounded: bounded("further")),
             at_least(f"further load alone, against PETSc + MUMPS, {mesh}", 4,
                      lambda further=further: further(lambda f: median(f["further"], clock))),
             at_least(f"further load in blocks of 32, against PETSc + MUMPS, {mesh}", 8,
