@@ -188,9 +188,13 @@ struct FluxBounds {
 };
 
 /// What q has on the other side of 0 costs int q [v] in the middle. It needs no bound, but gets
-/// one but for closed nodes, whose reaction it has to carry.
-FluxBounds flux_bounds(const CutMesh& cut, const EquilibratedFlux& sigma, const Dual& dual) {
+/// one but for closed nodes, whose reaction it has to carry. Where cracks cross, a jump of rounding
+/// is one of 0.
+FluxBounds flux_bounds(const Primal& primal, const Dual& dual) {
   constexpr double unlimited = std::numeric_limits<double>::infinity();
+  const CutMesh& cut = primal.cut;
+  const EquilibratedFlux& sigma = primal.flux;
+  const double rounding = 1e-13 * largest_of(primal.u);
   FluxBounds bounds{std::vector<double>(2 * cut.faces.size()),
                     std::vector<double>(2 * cut.faces.size())};
   WeightOf weights(sigma, dual.weight);
@@ -199,7 +203,7 @@ FluxBounds flux_bounds(const CutMesh& cut, const EquilibratedFlux& sigma, const 
     const Weight::OnFace on = weights.on(f);
     const auto ends = cut.ends(cut.faces[f]), others = cut.ends(cut.faces[at(cut.faces[f].other)]);
     for (const std::size_t end : {0, 1}) {
-      const bool tip = ends[end] == others[1 - end], closed = !tip && !(sigma.jump(f, end) > 0);
+      const bool tip = ends[end] == others[1 - end], closed = !tip && !(sigma.jump(f, end) > rounding);
       const double bound = dual.c * on.bound[end], other = closed ? unlimited : bound;
       const bool upper = dual.side == Side::upper;
       bounds.most[2 * f + end] = upper ? bound : other;
@@ -263,9 +267,11 @@ Bound bound(const Aimed& aimed, const EquilibratedFlux& tau) {
     if (!presses(face.condition)) continue;
     const Weight::OnFace on = weights.on(f);
     const auto ends = cut.ends(face), others = cut.ends(cut.faces[at(face.other)]);
-    for (const std::size_t end : {0, 1})
-      limit(jumps, dual.z[at(others[1 - end])] - dual.z[at(ends[end])],
-            on.least * sigma.jump(f, end));
+    for (const std::size_t end : {0, 1}) {
+      const double of_z = dual.z[at(others[1 - end])] - dual.z[at(ends[end])];
+      residual += sigma.through_faces()[2 * f + end] * of_z;
+      limit(jumps, of_z, on.least * sigma.jump(f, end));
+    }
     const auto through = [&](const EquilibratedFlux& flux) {
       return flux.through_faces()[2 * f] + flux.through_faces()[2 * f + 1];
     };
@@ -326,15 +332,15 @@ double HalfWidth::operator()(double c) const {
   return best * primal + mixed + (dual > 0 ? dual / best : 0);
 }
 
-EquilibratedFlux dual_flux(const CutMesh& cut, const EquilibratedFlux& sigma, const Dual& dual) {
-  return EquilibratedFlux(cut, {dual.reacting, {}, {}}, flux_bounds(cut, sigma, dual));
+EquilibratedFlux dual_flux(const Primal& primal, const Dual& dual) {
+  return EquilibratedFlux(primal.cut, {dual.reacting, {}, {}}, flux_bounds(primal, dual));
 }
 
 std::vector<Bound> bounds(const CutMesh& cut, std::span<const Aimed> of) {
   std::vector<FluxBounds> cones;
   std::vector<Balance> balances;
   for (const Aimed& one : of) {
-    cones.push_back(flux_bounds(cut, one.primal->flux, one.dual));
+    cones.push_back(flux_bounds(*one.primal, one.dual));
     balances.push_back({one.dual.reacting, {}, {}});
   }
   const std::vector<FaceBounds> of_faces(cones.begin(), cones.end());

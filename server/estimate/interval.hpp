@@ -29,7 +29,8 @@
 // rest may be of l(z). In the triangles of a Weight it moves A by `unloaded` times its norm. So do
 // s and t, which sigma and tau lack of equilibrium (lack.hpp): eta + |t| and |sigma - T grad v| +
 // |s| take the place of eta and |sigma - T grad v|, and mid is computed from sigma and tau alone
-// with l(z) - a(u_h, z) = 0, which is wrong by at most
+// with l(z) - a(u_h, z) = sum of w [z] over the ends of minus faces, w the flux of sigma through
+// them, which is wrong by at most
 //   work max |z| + (eta |s| + |t| |sigma - T grad v| + |s| |t|) / 2.
 #pragma once
 
@@ -58,7 +59,7 @@ struct Primal {
 
 enum class Side : std::uint8_t { lower, upper };
 
-/// The dual solution. [z] = 0 where u_h is closed, so that l(z) - a(u_h, z) = 0.
+/// The dual solution. z and tau need not solve any equation.
 struct Dual {
   std::span<const double> z;         ///< (copies)
   std::span<const double> reacting;  ///< (copies) z', from which tau is made
@@ -85,7 +86,7 @@ struct Bound {
 };
 
 /// The tau of a Dual: on one side of 0, q is within c k p at each end of a face.
-EquilibratedFlux dual_flux(const CutMesh& cut, const EquilibratedFlux& sigma, const Dual& dual);
+EquilibratedFlux dual_flux(const Primal& primal, const Dual& dual);
 
 /// A dual for an answer. `unloaded`: |tau| of a tau with q = 0, for the oscillation in a weight's
 /// triangles.

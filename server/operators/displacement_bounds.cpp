@@ -164,11 +164,12 @@ void bound_by_adjoints(const MeshOperator::Parts& parts, const std::vector<Aim>&
   for (const Bounded& of : answers) {
     if (of.stop.stop_requested()) continue;
     stop::look(bounding_a);
-    Adjoints& own = adjoints.emplace_back(Adjoints{of, contact::Adjoint(parts.problem, of.answer)});
-    std::vector<contact::Opened> opened;
-    if (own.adjoint.possible()) opened = parts.contact->solve_open(of.answer.closed, r);
+    const std::vector<char>& closed = of.answer.closed;
+    Adjoints& own = adjoints.emplace_back(
+        Adjoints{of, {parts.contact->conditions(), closed}, room_of(parts, of.primal, closed)});
+    const std::vector<contact::Opened> opened = parts.contact->solve_open(closed, r);
     for (std::size_t k = 0; k < goals.size(); ++k) {
-      if (!own.adjoint.possible() || !opened[k].solved) {
+      if (!opened[k].solved) {
         by_energy.emplace_back(&of, &goals[k]);
         continue;
       }
