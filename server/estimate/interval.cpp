@@ -218,12 +218,13 @@ Bound bound(const Aimed& aimed, const EquilibratedFlux& tau) {
   const Dual& dual = aimed.dual;
   const CutMesh& cut = primal.cut;
   const EquilibratedFlux& sigma = primal.flux;
-  if (!cut.shapes.variation.empty() && !primal.lifts.empty()) return {};
-  if (dual.weight != nullptr && !(cut.shapes.variation.empty() && primal.lifts.empty())) return {};
+  const bool varies = !cut.shapes.variation.empty();
+  if (dual.weight != nullptr && (varies || !primal.lifts.empty())) return {};
 
   const Sum sum(primal, dual, tau);
   const Products products = sum.products();
-  double residual = 0, mixed = 0.5 * products.mixed, distance = products.distance, unknown = 0;
+  double residual = 0, mixed = 0.5 * products.mixed, distance = products.distance, unknown = 0,
+         of_lifts = 0;
   for (const Lift& lift : primal.lifts) {
     const auto side = at(cut.faces[at(lift.face)].side);
     const double through = sigma.flux_through(side, dual.z), lifted = sum.lifted(lift);
@@ -231,8 +232,17 @@ Bound bound(const Aimed& aimed, const EquilibratedFlux& tau) {
     mixed -= 0.5 * lift.mean * lifted;
     unknown += lift.unknown * (std::abs(through) + 0.5 * std::abs(lifted));
     const LiftIntegrals of = integrals_of(cut, sigma, primal.load, lift, primal.u);
-    distance += of.norm * of.norm - 2 * of.difference() + 2 * of.unknown;
+    if (!varies) {
+      distance += of.norm * of.norm - 2 * of.difference() + 2 * of.unknown;
+      continue;
+    }
+    const fem::Variation& variation = cut.shapes.variation[side / 3];
+    const double norm = variation.above * of.norm;
+    of_lifts += 3 * norm * norm;  // a triangle has no more sides
+    unknown += 1.5 * (variation.spread + variation.unknown) * norm *
+               std::sqrt(sigma.energy_of(side / 3, dual.z));
   }
+  if (of_lifts > 0) distance = std::pow(std::sqrt(distance) + std::sqrt(of_lifts), 2);
 
   const double sign = dual.side == Side::upper ? 1 : -1;
   double c = 0, work = 0, pressure = 0;

@@ -21,8 +21,9 @@
 //   F = int |tau - T grad z|^2 / (4 h T).
 //
 // If T varies on triangles, eta and rho are bounded as in bracket.hpp, mid is computed with the
-// mean of T, and its error is added to R. This needs w = 0. A Weight needs both T constant and w =
-// 0.
+// mean of T, and its error is added to R; with w, |T grad w| is added to |sigma - T grad u_h|, and
+// spread |grad z|_h |w| to R for a(v, z), and half of it for mid. A Weight needs both T constant and
+// w = 0.
 //
 // The rest of the load, which sigma does not balance (LoadBalance: o, moments), moves the bound
 // outwards: |D| takes o/2 more on each triangle, M half of sum o |tau - T grad z|, and R what the
@@ -97,7 +98,7 @@ struct Aimed {
 };
 
 /// The bounds by several duals at once; the bits of each are as if it were alone. There is none if
-/// z or tau leave the cone, or if T varies on triangles and w is not 0. O(m) each.
+/// z or tau leave the cone. O(m) each.
 std::vector<Bound> bounds(const CutMesh& cut, std::span<const Aimed> of);
 
 /// |tau| of fluxes tau for unit forces with all cracks free; infinite where `reacting` is empty.
