@@ -7,7 +7,6 @@
 #include "base/at.hpp"
 #include "base/at_once.hpp"
 #include "estimate/bracket.hpp"
-#include "estimate/flux_kernels.hpp"
 #include "fem/triangle_rules.hpp"
 #include "stop/stop.hpp"
 
@@ -323,17 +322,6 @@ Bound bound(const Aimed& aimed, const EquilibratedFlux& tau) {
   return found;
 }
 
-double norm(const CutMesh& cut, const EquilibratedFlux& tau, std::span<const ForceOn> unit) {
-  const std::vector<double> nothing(cut.faces.size(), 0);
-  const double lack = lack_of(cut, tau, {}, unit, nothing).flux;
-  double distance = 0;
-  for (const double one : tau.distance()) distance += std::max(0.0, one);
-  double below = 1;
-  for (const fem::Variation& one : cut.shapes.variation) below = std::max(below, one.below);
-  return below * (std::sqrt(tau.norm_squared()) + std::sqrt(distance)) +
-         (std::isfinite(lack) ? lack : 0);
-}
-
 }  // namespace
 
 double HalfWidth::operator()(double c) const {
@@ -359,28 +347,6 @@ std::vector<Bound> bounds(const CutMesh& cut, std::span<const Aimed> of) {
   base::at_once(of.size(), base::Threads::allowed(),
                 [&] { return [&](std::size_t i) { found[i] = bound(of[i], taus[i]); }; });
   return found;
-}
-
-std::vector<double> norms_of_fluxes(const CutMesh& cut,
-                                    std::span<const std::vector<double>> reacting,
-                                    std::span<const std::vector<ForceOn>> units) {
-  const std::vector<double> none(2 * cut.faces.size(), 0.0);
-  const std::vector<FaceBounds> bounds(flux_lanes, FaceBounds{none, none});
-  std::vector<double> norms;
-  while (!reacting.empty()) {
-    const auto some = reacting.first(std::min(flux_lanes, reacting.size()));
-    std::vector<Balance> balances;
-    for (const std::vector<double>& one : some)
-      if (!one.empty()) balances.push_back({one, {}, {}});
-    const std::vector<EquilibratedFlux> taus = EquilibratedFlux::of_all(cut, balances, bounds);
-    auto tau = taus.begin();
-    for (std::size_t i = 0; i < some.size(); ++i)
-      norms.push_back(some[i].empty() ? std::numeric_limits<double>::infinity()
-                                      : norm(cut, *tau++, units[i]));
-    reacting = reacting.subspan(some.size());
-    units = units.subspan(some.size());
-  }
-  return norms;
 }
 
 }  // namespace anticrack::estimate

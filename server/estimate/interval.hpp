@@ -101,10 +101,4 @@ struct Aimed {
 /// z or tau leave the cone. O(m) each.
 std::vector<Bound> bounds(const CutMesh& cut, std::span<const Aimed> of);
 
-/// |tau| of fluxes tau for unit forces with all cracks free; infinite where `reacting` is empty.
-/// The bits of each are as if it were alone. `units`: Dual::unit of each. O(m) each.
-std::vector<double> norms_of_fluxes(const CutMesh& cut,
-                                    std::span<const std::vector<double>> reacting,
-                                    std::span<const std::vector<ForceOn>> units);
-
 }  // namespace anticrack::estimate

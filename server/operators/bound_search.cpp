@@ -120,7 +120,7 @@ void Search::weigh() {
     adjoints.ends = estimate::contact_ends(primal.cut, primal.flux, primal.load.oscillation);
   _weight = estimate::weight_about(primal.cut, primal.flux, *adjoints.ends, _inner, beta);
   if (!primal.load.oscillation.empty())
-    _unloaded = flux_norms(_parts, primal.cut, _target.goals)[_target.k];
+    _unloaded = mesh_duals(_parts, primal.cut, _target.goals)[_target.k].norm;
   _done = _weight->faces.empty() || !std::isfinite(_unloaded);
   if (!_done) _room = room_of(_parts, primal, adjoints.of.answer.closed, &*_weight);
 }

@@ -5,6 +5,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "estimate/bracket.hpp"
 #include "estimate/interval.hpp"
 #include "operators/mesh_parts.hpp"
 
@@ -26,6 +27,7 @@ std::vector<double> of_copies(const std::vector<contact::Field>& fields);
 struct Bounded {
   const LoadOnTraces& load;
   const estimate::Primal& primal;
+  const estimate::Bracket& bracket;
   contact::Answer& answer;
   const std::stop_token& stop;
   bool closely = false;  ///< as MeshOperator::Estimate
