@@ -9,43 +9,41 @@
 #include <vector>
 
 #include "contact/contact_problem.hpp"
-#include "contact/solve.hpp"
 
 namespace anticrack::contact {
 
-/// Adjoints of one answer of the active set method.
+/// Adjoints of one answer of the active set method. Where cracks cross, a contact that depends on
+/// others (ddm::Skeleton::dependent) has a jump and a force as they have. Keeps references.
 class Adjoint {
  public:
-  /// `possible` is false if the mesh has dependent contacts (ddm::Skeleton::dependent). O(n).
-  Adjoint(const TraceProblem& traces, const Answer& answer);
-  bool possible() const noexcept { return _possible; }
+  /// `closed`: Answer::closed.
+  Adjoint(const Conditions& conditions, const std::vector<char>& closed)
+      : _conditions(conditions), _closed(closed) {}
 
   /// z_0, the response to a unit force: the closed contacts stay closed, the others are open.
   struct Goal {
     const UnitForce* force;
-    Eigen::VectorXd jumps, reactions;
-    double compliance = 0;  ///< the goal's own displacement: |z_0|^2
+    Eigen::VectorXd jumps;      ///< per contact
+    Eigen::VectorXd reactions;  ///< per condition
+    double compliance = 0;      ///< the goal's own displacement: |z_0|^2
   };
   /// `opened`: from ContactProblem::solve_open for force.r and the answer's closed contacts.
   Goal aim(const UnitForce& force, const Opened& opened) const;
 
-  /// Per contact, the jumps of the answer and its forces lambda: what jumps and reactions of an
-  /// adjoint may be is a multiple of them. Both are 0 or more; lambda is 0 on open contacts, and
-  /// where cracks cross.
+  /// Per condition, what jumps and forces of an adjoint may be; 0 or more.
   struct Room {
     Eigen::VectorXd jumps, forces;
   };
-  const Room& room() const noexcept { return _room; }
-  /// Jumps of z: those of z_0, of which those of the sign of `sign` are clipped to `room`.
-  static Eigen::VectorXd jumps(const Goal& goal, double sign, const Room& room);
+  /// Jumps of z: those of z_0, of which those of the sign of `sign` are clipped to `room`. Where a
+  /// dependent contact would leave it, all jumps of its node are scaled down.
+  Eigen::VectorXd jumps(const Goal& goal, double sign, const Room& room) const;
   /// Load of z' on the contacts, all of which are open: r plus the reactions, of which those of the
   /// other sign are clipped to `room`.
-  static Eigen::VectorXd load(const Goal& goal, double sign, const Room& room);
+  Eigen::VectorXd load(const Goal& goal, double sign, const Room& room) const;
 
  private:
-  bool _possible = false;
-  std::vector<char> _open;  // of the contacts
-  Room _room;
+  const Conditions& _conditions;
+  const std::vector<char>& _closed;
 };
 
 }  // namespace anticrack::contact

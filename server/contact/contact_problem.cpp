@@ -26,6 +26,12 @@ UnitForce ContactProblem::unit_force(const ddm::Terms& on) const {
   return {&on, std::move(load.r), sum_of(on, w)};
 }
 
+std::vector<double> ContactProblem::compliances(std::span<const ddm::Terms* const> sums) const {
+  std::vector<double> result;
+  for (const ddm::Terms* sum : sums) result.push_back(unit_force(*sum).compliance);
+  return result;
+}
+
 std::unique_ptr<const OpenMembrane> ContactProblem::open_membrane() const { return nullptr; }
 
 VectorXd ContactProblem::values(const VectorXd& x, const VectorXd& d, const VectorXd& p) const {

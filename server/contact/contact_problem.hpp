@@ -109,6 +109,8 @@ class ContactProblem {
                  bool refined = false) const;
   /// The same for a unit force on a sum of unknowns. Cost as reduce().
   UnitForce unit_force(const ddm::Terms& on) const;
+  /// The compliance of each unit force. Cost as unit_force(); joined: half a solve.
+  virtual std::vector<double> compliances(std::span<const ddm::Terms* const> sums) const;
   /// The skeleton's values w. O(n).
   Eigen::VectorXd values(const Eigen::VectorXd& x, const Eigen::VectorXd& d,
                          const Eigen::VectorXd& p) const;

@@ -198,6 +198,16 @@ VectorXd JoinedMembrane::of_jumps(const VectorXd& d) const {
   return solve_once(_b.transpose() * d);
 }
 
+std::vector<double> JoinedMembrane::compliances(std::span<const ddm::Terms* const> sums) const {
+  MatrixXd force = MatrixXd::Zero(_factor.interior() + _factor.trace(), index(sums.size()));
+  for (Index k = 0; k < force.cols(); ++k)
+    force.col(k).head(size()) = spread(_traces.maps().vector_of(*sums[at(k)])).head(size());
+  std::vector<double> result;
+  for (const ddm::SubdomainFactor::Forward& one : _factor.forward(force))
+    result.push_back(one.z_interior.squaredNorm());
+  return result;
+}
+
 Reduced JoinedMembrane::reduce(const VectorXd& force, const VectorXd& p, bool refined) const {
   Reduced result;
   result.p = p;

@@ -39,6 +39,9 @@ class JoinedProblem final : public ContactProblem {
   std::vector<ddm::CondensedLoad> loads(
       std::size_t subdomain, const Eigen::Ref<const Eigen::MatrixXd>& of_nodes,
       const Eigen::Ref<const Eigen::MatrixXd>& dirichlet) const override;
+  std::vector<double> compliances(std::span<const ddm::Terms* const> sums) const override {
+    return _membrane.compliances(sums);
+  }
   Eigen::VectorXd solve(const Reduced& load, const Eigen::VectorXd& d) const override;
   Work work(std::span<const ddm::CondensedLoad> loads, const Reduced& reduced) const override;
   void fill(std::span<const ddm::CondensedLoad> loads, const Eigen::VectorXd& x,

@@ -2,6 +2,7 @@
 #include "contact/open_membrane.hpp"
 
 #include "base/at.hpp"
+#include "base/at_once.hpp"
 #include "ddm/elimination_order.hpp"
 
 namespace anticrack::contact {
@@ -17,7 +18,8 @@ constexpr double most_change = 1e-6;
 ddm::SubdomainFactor factor(const JoinedMembrane& membrane) {
   const Index all = membrane.size() + membrane.contacts();
   const Eigen::SparseMatrix<double> matrix = membrane.matrix().topLeftCorner(all, all);
-  return {matrix, all, ddm::elimination_order(matrix, all, membrane.places())};
+  return {matrix, all, ddm::elimination_order(matrix, all, membrane.places()),
+          base::Threads::allowed()};
 }
 
 }  // namespace
@@ -26,19 +28,24 @@ OpenMembrane::OpenMembrane(const JoinedMembrane& membrane)
     : _membrane(membrane), _factor(factor(membrane)) {}
 
 std::vector<std::vector<double>> OpenMembrane::fields(
-    std::span<const ddm::Terms* const> sums) const {
+    std::span<const ddm::Terms* const> sums, bool refined) const {
   MatrixXd left(_factor.interior(), static_cast<Index>(sums.size()));
   for (Index k = 0; k < left.cols(); ++k)
     left.col(k) =
         _membrane.spread(_membrane.traces().maps().vector_of(*sums[at(k)])).head(left.rows());
-  MatrixXd y(left.rows(), left.cols()), change(left.rows(), left.cols());
+  MatrixXd y(left.rows(), left.cols());
   _factor.solve(left, y);
   const auto x_of = [&](Index k) { return y.col(k).head(_membrane.size()); };
   const auto d_of = [&](Index k) { return y.col(k).tail(_membrane.contacts()); };
+  std::vector<std::vector<double>> fields(sums.size());
+  if (!refined) {
+    for (Index k = 0; k < y.cols(); ++k) fields[at(k)] = _membrane.field(x_of(k), d_of(k));
+    return fields;
+  }
   for (Index k = 0; k < left.cols(); ++k)
     left.col(k) -= _membrane.forces_of(x_of(k), d_of(k)).head(left.rows());
+  MatrixXd change(left.rows(), left.cols());
   _factor.solve(left, change);
-  std::vector<std::vector<double>> fields(sums.size());
   for (Index k = 0; k < left.cols(); ++k) {
     const double size = y.col(k).lpNorm<Eigen::Infinity>();
     if (!(change.col(k).lpNorm<Eigen::Infinity>() <= most_change * size)) continue;

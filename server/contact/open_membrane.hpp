@@ -10,15 +10,17 @@
 namespace anticrack::contact {
 
 /// The joined membrane with every contact open. It has a factor of K on [x d], so that each unit
-/// force takes two solves, of many forces at once. Keeps a reference.
+/// force takes one solve, of many forces at once. Keeps a reference.
 class OpenMembrane {
  public:
   /// Factorises K on [x d]. Throws as JoinedMembrane does.
   explicit OpenMembrane(const JoinedMembrane& membrane);
 
-  /// u of a unit force on each sum, laid out as by ContactProblem::fields_of; empty where rounding
-  /// errors dominate. The bits for a sum do not depend on the others.
-  std::vector<std::vector<double>> fields(std::span<const ddm::Terms* const> sums) const;
+  /// u of a unit force on each sum, laid out as by ContactProblem::fields_of. `refined`: takes a
+  /// second solve, and is empty where rounding errors dominate. The bits for a sum do not depend on
+  /// the others.
+  std::vector<std::vector<double>> fields(std::span<const ddm::Terms* const> sums,
+                                          bool refined) const;
 
  private:
   const JoinedMembrane& _membrane;

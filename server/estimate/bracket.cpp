@@ -59,7 +59,7 @@ Bracket bracket(const CutMesh& cut, const EquilibratedFlux& flux, const LoadBala
   result.indicator.assign(flux.distance().begin(), flux.distance().end());
   const bool varies = !cut.shapes.variation.empty();
   double half_distance = 0;  // eta^2 / 2; if T is known, without |w|^2 / 2, which cancels in Pi(v)
-  double squared = 0, work = 0, lift_energy = 0, lift_norm = 0;
+  double squared = 0, lift_energy = 0, lift_norm = 0;
   for (std::size_t t = 0; t < result.indicator.size(); ++t) {
     stop::look_at_turn(t, "computing bounds of the energy");
     double& one = result.indicator[t];
@@ -93,10 +93,10 @@ Bracket bracket(const CutMesh& cut, const EquilibratedFlux& flux, const LoadBala
   const std::vector<double> work_of_face = flux.work_of_pressure();
   for (std::size_t face = 0; face < work_of_face.size(); ++face) {
     if (!(work_of_face[face] > 0)) continue;
-    work += work_of_face[face];
+    result.work += work_of_face[face];
     result.indicator[at(cut.faces[face].side / 3)] += 2 * work_of_face[face];
   }
-  const double distance = std::sqrt(squared) + lack;
+  result.distance = std::sqrt(squared) + lack;
   half_distance += lack * (std::sqrt(squared) + lack / 2);
   // Allows for rounding without interval arithmetic: it is some 1e-14, also of products of u that
   // cancel, as in a membrane that is lifted. Means of T are less accurate.
@@ -104,10 +104,11 @@ Bracket bracket(const CutMesh& cut, const EquilibratedFlux& flux, const LoadBala
   for (const double value : u) largest = std::max(largest, std::abs(value));
   const double rounding = 1e-12 * (std::abs(energy) + flux.norm_squared()) +
                           1e-13 * cut.shapes.largest_tension * largest * largest + unknown;
-  result.lower = energy + lift_energy - half_distance - work - rounding;
+  result.lower = energy + lift_energy - half_distance - result.work - rounding;
   result.upper += energy + lift_energy + rounding;
-  result.error =
-      0.5 * (distance + std::sqrt(distance * distance + 4 * work)) + std::sqrt(lift_norm);
+  result.error = 0.5 * (result.distance + std::sqrt(result.distance * result.distance +
+                                                    4 * result.work)) +
+                 std::sqrt(lift_norm);
   result.error_relative = result.error > 0 ? result.error / std::sqrt(flux.norm_squared()) : 0;
   return result;
 }

@@ -46,6 +46,8 @@ struct Bracket {
   double upper = 0;
   double error = 0;           ///< >= |u - u_h|, |v|^2 = int T |grad v|^2
   double error_relative = 0;  ///< error / |u_h|
+  double distance = 0;        ///< >= eta, with what sigma lacks and does not balance
+  double work = 0;            ///< P
   /// (triangles of CutMesh) the part of each triangle in eta^2 + 2 P.
   std::vector<double> indicator;
 };

@@ -7,7 +7,6 @@
 #include "base/at.hpp"
 #include "base/at_once.hpp"
 #include "estimate/bracket.hpp"
-#include "estimate/flux_kernels.hpp"
 #include "fem/triangle_rules.hpp"
 #include "stop/stop.hpp"
 
@@ -207,9 +206,13 @@ struct FluxBounds {
 };
 
 /// What q has on the other side of 0 costs int q [v] in the middle. It needs no bound, but gets
-/// one but for closed nodes, whose reaction it has to carry.
-FluxBounds flux_bounds(const CutMesh& cut, const EquilibratedFlux& sigma, const Dual& dual) {
+/// one but for closed nodes, whose reaction it has to carry. Where cracks cross, a jump of rounding
+/// is one of 0.
+FluxBounds flux_bounds(const Primal& primal, const Dual& dual) {
   constexpr double unlimited = std::numeric_limits<double>::infinity();
+  const CutMesh& cut = primal.cut;
+  const EquilibratedFlux& sigma = primal.flux;
+  const double rounding = 1e-13 * largest_of(primal.u);
   FluxBounds bounds{std::vector<double>(2 * cut.faces.size()),
                     std::vector<double>(2 * cut.faces.size())};
   WeightOf weights(sigma, dual.weight);
@@ -218,7 +221,7 @@ FluxBounds flux_bounds(const CutMesh& cut, const EquilibratedFlux& sigma, const 
     const Weight::OnFace on = weights.on(f);
     const auto ends = cut.ends(cut.faces[f]), others = cut.ends(cut.faces[at(cut.faces[f].other)]);
     for (const std::size_t end : {0, 1}) {
-      const bool tip = ends[end] == others[1 - end], closed = !tip && !(sigma.jump(f, end) > 0);
+      const bool tip = ends[end] == others[1 - end], closed = !tip && !(sigma.jump(f, end) > rounding);
       const double bound = dual.c * on.bound[end], other = closed ? unlimited : bound;
       const bool upper = dual.side == Side::upper;
       bounds.most[2 * f + end] = upper ? bound : other;
@@ -233,14 +236,15 @@ Bound bound(const Aimed& aimed, const EquilibratedFlux& tau) {
   const Dual& dual = aimed.dual;
   const CutMesh& cut = primal.cut;
   const EquilibratedFlux& sigma = primal.flux;
-  if (!cut.shapes.variation.empty() && !primal.lifts.empty()) return {};
-  if (dual.weight != nullptr && !(cut.shapes.variation.empty() && primal.lifts.empty())) return {};
+  const bool varies = !cut.shapes.variation.empty();
+  if (dual.weight != nullptr && (varies || !primal.lifts.empty())) return {};
 
   const Sum sum(primal, dual, tau);
   Parts parts;
   if (aimed.parts) parts.primal = parts.dual = std::vector<double>(cut.triangle_count());
   const Products products = sum.products(parts);
-  double residual = 0, mixed = 0.5 * products.mixed, distance = products.distance, unknown = 0;
+  double residual = 0, mixed = 0.5 * products.mixed, distance = products.distance, unknown = 0,
+         of_lifts = 0;
   for (const Lift& lift : primal.lifts) {
     const auto side = at(cut.faces[at(lift.face)].side);
     const double through = sigma.flux_through(side, dual.z), lifted = sum.lifted(lift);
@@ -248,8 +252,17 @@ Bound bound(const Aimed& aimed, const EquilibratedFlux& tau) {
     mixed -= 0.5 * lift.mean * lifted;
     unknown += lift.unknown * (std::abs(through) + 0.5 * std::abs(lifted));
     const LiftIntegrals of = integrals_of(cut, sigma, primal.load, lift, primal.u);
-    distance += of.norm * of.norm - 2 * of.difference() + 2 * of.unknown;
+    if (!varies) {
+      distance += of.norm * of.norm - 2 * of.difference() + 2 * of.unknown;
+      continue;
+    }
+    const fem::Variation& variation = cut.shapes.variation[side / 3];
+    const double norm = variation.above * of.norm;
+    of_lifts += 3 * norm * norm;  // a triangle has no more sides
+    unknown += 1.5 * (variation.spread + variation.unknown) * norm *
+               std::sqrt(sigma.energy_of(side / 3, dual.z));
   }
+  if (of_lifts > 0) distance = std::pow(std::sqrt(distance) + std::sqrt(of_lifts), 2);
 
   const double sign = dual.side == Side::upper ? 1 : -1;
   double c = 0, work = 0, pressure = 0;
@@ -284,9 +297,11 @@ Bound bound(const Aimed& aimed, const EquilibratedFlux& tau) {
     if (!presses(face.condition)) continue;
     const Weight::OnFace on = weights.on(f);
     const auto ends = cut.ends(face), others = cut.ends(cut.faces[at(face.other)]);
-    for (const std::size_t end : {0, 1})
-      limit(jumps, dual.z[at(others[1 - end])] - dual.z[at(ends[end])],
-            on.least * sigma.jump(f, end));
+    for (const std::size_t end : {0, 1}) {
+      const double of_z = dual.z[at(others[1 - end])] - dual.z[at(ends[end])];
+      residual += sigma.through_faces()[2 * f + end] * of_z;
+      limit(jumps, of_z, on.least * sigma.jump(f, end));
+    }
     const auto through = [&](const EquilibratedFlux& flux) {
       return flux.through_faces()[2 * f] + flux.through_faces()[2 * f + 1];
     };
@@ -333,17 +348,6 @@ Bound bound(const Aimed& aimed, const EquilibratedFlux& tau) {
   return found;
 }
 
-double norm(const CutMesh& cut, const EquilibratedFlux& tau, std::span<const ForceOn> unit) {
-  const std::vector<double> nothing(cut.faces.size(), 0);
-  const double lack = lack_of(cut, tau, {}, unit, nothing).flux;
-  double distance = 0;
-  for (const double one : tau.distance()) distance += std::max(0.0, one);
-  double below = 1;
-  for (const fem::Variation& one : cut.shapes.variation) below = std::max(below, one.below);
-  return below * (std::sqrt(tau.norm_squared()) + std::sqrt(distance)) +
-         (std::isfinite(lack) ? lack : 0);
-}
-
 }  // namespace
 
 double HalfWidth::best(double c) const {
@@ -356,15 +360,15 @@ double HalfWidth::operator()(double c) const {
   return best(c) * primal + mixed + (dual > 0 ? dual / best(c) : 0);
 }
 
-EquilibratedFlux dual_flux(const CutMesh& cut, const EquilibratedFlux& sigma, const Dual& dual) {
-  return EquilibratedFlux(cut, {dual.reacting, {}, {}}, flux_bounds(cut, sigma, dual));
+EquilibratedFlux dual_flux(const Primal& primal, const Dual& dual) {
+  return EquilibratedFlux(primal.cut, {dual.reacting, {}, {}}, flux_bounds(primal, dual));
 }
 
 std::vector<Bound> bounds(const CutMesh& cut, std::span<const Aimed> of) {
   std::vector<FluxBounds> cones;
   std::vector<Balance> balances;
   for (const Aimed& one : of) {
-    cones.push_back(flux_bounds(cut, one.primal->flux, one.dual));
+    cones.push_back(flux_bounds(*one.primal, one.dual));
     balances.push_back({one.dual.reacting, {}, {}});
   }
   const std::vector<FaceBounds> of_faces(cones.begin(), cones.end());
@@ -373,28 +377,6 @@ std::vector<Bound> bounds(const CutMesh& cut, std::span<const Aimed> of) {
   base::at_once(of.size(), base::Threads::allowed(),
                 [&] { return [&](std::size_t i) { found[i] = bound(of[i], taus[i]); }; });
   return found;
-}
-
-std::vector<double> norms_of_fluxes(const CutMesh& cut,
-                                    std::span<const std::vector<double>> reacting,
-                                    std::span<const std::vector<ForceOn>> units) {
-  const std::vector<double> none(2 * cut.faces.size(), 0.0);
-  const std::vector<FaceBounds> bounds(flux_lanes, FaceBounds{none, none});
-  std::vector<double> norms;
-  while (!reacting.empty()) {
-    const auto some = reacting.first(std::min(flux_lanes, reacting.size()));
-    std::vector<Balance> balances;
-    for (const std::vector<double>& one : some)
-      if (!one.empty()) balances.push_back({one, {}, {}});
-    const std::vector<EquilibratedFlux> taus = EquilibratedFlux::of_all(cut, balances, bounds);
-    auto tau = taus.begin();
-    for (std::size_t i = 0; i < some.size(); ++i)
-      norms.push_back(some[i].empty() ? std::numeric_limits<double>::infinity()
-                                      : norm(cut, *tau++, units[i]));
-    reacting = reacting.subspan(some.size());
-    units = units.subspan(some.size());
-  }
-  return norms;
 }
 
 }  // namespace anticrack::estimate

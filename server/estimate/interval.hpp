@@ -21,15 +21,17 @@
 //   F = int |tau - T grad z|^2 / (4 h T).
 //
 // If T varies on triangles, eta and rho are bounded as in bracket.hpp, mid is computed with the
-// mean of T, and its error is added to R. This needs w = 0. A Weight needs both T constant and w =
-// 0.
+// mean of T, and its error is added to R; with w, |T grad w| is added to |sigma - T grad u_h|, and
+// spread |grad z|_h |w| to R for a(v, z), and half of it for mid. A Weight needs both T constant and
+// w = 0.
 //
 // The rest of the load, which sigma does not balance (LoadBalance: o, moments), moves the bound
 // outwards: |D| takes o/2 more on each triangle, M half of sum o |tau - T grad z|, and R what the
 // rest may be of l(z). In the triangles of a Weight it moves A by `unloaded` times its norm. So do
 // s and t, which sigma and tau lack of equilibrium (lack.hpp): eta + |t| and |sigma - T grad v| +
 // |s| take the place of eta and |sigma - T grad v|, and mid is computed from sigma and tau alone
-// with l(z) - a(u_h, z) = 0, which is wrong by at most
+// with l(z) - a(u_h, z) = sum of w [z] over the ends of minus faces, w the flux of sigma through
+// them, which is wrong by at most
 //   work max |z| + (eta |s| + |t| |sigma - T grad v| + |s| |t|) / 2.
 #pragma once
 
@@ -58,7 +60,7 @@ struct Primal {
 
 enum class Side : std::uint8_t { lower, upper };
 
-/// The dual solution. [z] = 0 where u_h is closed, so that l(z) - a(u_h, z) = 0.
+/// The dual solution. z and tau need not solve any equation.
 struct Dual {
   std::span<const double> z;         ///< (copies)
   std::span<const double> reacting;  ///< (copies) z', from which tau is made
@@ -88,7 +90,7 @@ struct Bound {
 };
 
 /// The tau of a Dual: on one side of 0, q is within c k p at each end of a face.
-EquilibratedFlux dual_flux(const CutMesh& cut, const EquilibratedFlux& sigma, const Dual& dual);
+EquilibratedFlux dual_flux(const Primal& primal, const Dual& dual);
 
 /// A dual for an answer. `unloaded`: |tau| of a tau with q = 0, for the oscillation in a weight's
 /// triangles.
@@ -100,13 +102,7 @@ struct Aimed {
 };
 
 /// The bounds by several duals at once; the bits of each are as if it were alone. There is none if
-/// z or tau leave the cone, or if T varies on triangles and w is not 0. O(m) each.
+/// z or tau leave the cone. O(m) each.
 std::vector<Bound> bounds(const CutMesh& cut, std::span<const Aimed> of);
-
-/// |tau| of fluxes tau for unit forces with all cracks free; infinite where `reacting` is empty.
-/// The bits of each are as if it were alone. `units`: Dual::unit of each. O(m) each.
-std::vector<double> norms_of_fluxes(const CutMesh& cut,
-                                    std::span<const std::vector<double>> reacting,
-                                    std::span<const std::vector<ForceOn>> units);
 
 }  // namespace anticrack::estimate

@@ -59,15 +59,10 @@ Lack lack_of(const CutMesh& cut, const EquilibratedFlux& flux, std::span<const d
     const double beyond = std::abs(own[0] + own[1] - kept[f]);
     sides += beyond;
     if (body != nullptr) body->beyond += beyond;
-    for (const std::size_t end : {0, 1})
-      if (flux.jump(f, end) > 0) lack.work += std::abs(own[end]);
     if (face.condition != Condition::crack_minus) continue;
     const double* other = &through[2 * at(face.other)];
     sides += std::abs(other[0] + other[1] + kept[f]);
-    for (const std::size_t end : {0, 1}) {
-      lack.work += std::abs(own[end] + other[1 - end]);
-      if (flux.jump(f, end) > 0) lack.work += std::abs(other[1 - end]);
-    }
+    for (const std::size_t end : {0, 1}) lack.work += std::abs(own[end] + other[1 - end]);
   }
   lack.flux = ways.triangle * sides;
   for (std::size_t b = 0; b < on.size(); ++b) {

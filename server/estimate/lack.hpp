@@ -29,7 +29,7 @@ struct ForceOn {
 struct Lack {
   /// >= |s|; not finite if Ways lead nowhere.
   double flux = 0;
-  /// |l(z) - a(u_h, z)| <= work max |z| for nodal values z with [z] = 0 where [u_h] = 0.
+  /// |l(z) - a(u_h, z) - sum of w [z] over the ends of minus faces| <= work max |z|, z linear.
   double work = 0;
 };
 

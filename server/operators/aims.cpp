@@ -2,11 +2,11 @@
 #include "operators/aims.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <memory>
 
+#include "base/at.hpp"
+#include "base/at_once.hpp"
 #include "contact/open_membrane.hpp"
-#include "estimate/interval.hpp"
 #include "stop/stop.hpp"
 
 namespace anticrack::operators {
@@ -95,27 +95,36 @@ std::vector<std::vector<double>> open_fields(const MeshOperator::Parts& parts,
 
 }  // namespace
 
-const std::vector<double>& flux_norms(const MeshOperator::Parts& parts,
-                                      const estimate::CutMesh& cut, std::span<const Aim> goals) {
-  constexpr std::size_t together = 16;  // fields in memory at once
-  constexpr std::size_t few = 8;        // another factor costs more than conjugate gradients
-  return parts.flux_norms.get([&] {
-    std::unique_ptr<const contact::OpenMembrane> open;
-    std::size_t bytes = together * sizeof(double) * cut.at.size();
+const std::vector<estimate::MeshDual>& mesh_duals(const MeshOperator::Parts& parts,
+                                                  const estimate::CutMesh& cut,
+                                                  std::span<const Aim> goals) {
+  constexpr std::size_t together = 8;  // fields in memory at once, for each thread
+  constexpr std::size_t few = 8;       // another factor costs more than conjugate gradients
+  return parts.mesh_duals.get([&] {
+    const int threads = base::Threads::allowed();
+    std::size_t bytes = at(threads) * together * sizeof(double) * cut.at.size();
     const bool factors = !parts.contact->condensed() && goals.size() > few;
     if (factors) bytes += parts.contact->bytes();  // as much as the first factor
     const Working counted(parts.at_work, bytes);
+    std::unique_ptr<const contact::OpenMembrane> open;
     if (factors) open = parts.contact->open_membrane();
-    std::vector<double> norms;
-    for (; !goals.empty(); goals = goals.subspan(std::min(together, goals.size()))) {
-      const std::span<const Aim> some = goals.first(std::min(together, goals.size()));
-      const std::vector<std::vector<double>> fields =
-          open ? open->fields(sums(some)) : open_fields(parts, some);
-      std::vector<std::vector<estimate::ForceOn>> units;
-      for (const Aim& aim : some) units.push_back(aim.unit(parts.mesh->inclusions.size()));
-      std::ranges::copy(estimate::norms_of_fluxes(cut, fields, units), std::back_inserter(norms));
-    }
-    return norms;
+    // Ways lead out what one solve leaves; without them it has to be known that it is rounding.
+    const bool refined = !std::isfinite(cut.ways.triangle);
+    std::vector<estimate::MeshDual> duals(goals.size());
+    base::at_once((goals.size() + together - 1) / together, threads, [&] {
+      return [&](std::size_t block) {
+        const std::size_t first = block * together;
+        const auto some = goals.subspan(first, std::min(together, goals.size() - first));
+        const std::vector<std::vector<double>> fields =
+            open ? open->fields(sums(some), refined) : open_fields(parts, some);
+        std::vector<std::vector<estimate::ForceOn>> units;
+        for (const Aim& aim : some) units.push_back(aim.unit(parts.mesh->inclusions.size()));
+        std::ranges::copy(
+            estimate::mesh_duals(cut, fields, parts.contact->compliances(sums(some)), units),
+            duals.begin() + static_cast<std::ptrdiff_t>(first));
+      };
+    });
+    return duals;
   });
 }
 

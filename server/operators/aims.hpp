@@ -12,6 +12,7 @@
 #include "contact/answer.hpp"
 #include "contact/contact_problem.hpp"
 #include "estimate/lack.hpp"
+#include "estimate/mesh_dual.hpp"
 #include "operators/mesh_parts.hpp"
 
 namespace anticrack::operators {
@@ -52,11 +53,11 @@ std::vector<Aim> aims(const MeshOperator::Parts& parts);
 std::vector<contact::UnitForce> unit_forces(const MeshOperator::Parts& parts,
                                             std::span<const Aim> goals);
 
-/// |tau| for each goal, where tau is a flux in equilibrium with the goal's unit force that passes
-/// nothing through contacts. Infinite if contact alone holds a part, 0 for a held inclusion. Made
-/// once for the mesh, at the cost of a linear solve, a field and a flux each; many goals on a
-/// joined membrane take a factorisation first.
-const std::vector<double>& flux_norms(const MeshOperator::Parts& parts,
-                                      const estimate::CutMesh& cut, std::span<const Aim> goals);
+/// The pair of each goal, of which none is known if contact alone holds a part. Made once for the
+/// mesh, on base::Threads, at the cost of a linear solve, half of another, a field and a flux each;
+/// many goals on a joined membrane take a factorisation first.
+const std::vector<estimate::MeshDual>& mesh_duals(const MeshOperator::Parts& parts,
+                                                  const estimate::CutMesh& cut,
+                                                  std::span<const Aim> goals);
 
 }  // namespace anticrack::operators

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
 
 #include "base/at.hpp"
 
@@ -17,53 +19,51 @@ constexpr double worth = 0.03;
 /// The exponent of weights: larger ones clip less and multiply energies more (THEORY.md).
 constexpr double beta = 0.6;
 
-/// Per copy, the contact it is the minus side of, or -1.
-std::vector<std::int32_t> contact_at(const MeshOperator::Parts& parts,
+/// Per copy, its entry of the skeleton's w; -1 off the interfaces.
+std::vector<std::int32_t> unknown_at(const MeshOperator::Parts& parts,
                                      const estimate::CutMesh& cut) {
-  std::vector<std::int32_t> contact(cut.at.size(), -1);
-  for (const ddm::NodePair& pair : parts.decomposition.pairs) {
-    const ddm::Subdomain& minus = parts.decomposition.subdomains[at(pair.minus)];
-    contact[at(cut.first_copy[at(pair.minus)]) + minus.interior + at(pair.minus_trace)] =
-        pair.contact;
+  std::vector<std::int32_t> unknown(cut.at.size(), -1);
+  for (std::size_t s = 0; s < parts.decomposition.subdomains.size(); ++s) {
+    const ddm::Subdomain& of = parts.decomposition.subdomains[s];
+    std::ranges::copy(
+        of.unknown, unknown.begin() + cut.first_copy[s] + static_cast<std::ptrdiff_t>(of.interior));
   }
-  return contact;
+  return unknown;
 }
 
 }  // namespace
 
 contact::Adjoint::Room room_of(const MeshOperator::Parts& parts, const estimate::Primal& primal,
-                               contact::Adjoint::Room room, const estimate::Weight& weight) {
+                               const std::vector<char>& closed, const estimate::Weight* weight) {
   const estimate::CutMesh& cut = primal.cut;
-  const std::vector<std::int32_t> contact = contact_at(parts, cut);
-  std::vector<char> weighed(at(room.jumps.size()), 0);
-  for (const estimate::Weight::OnFace& on : weight.faces)
-    for (const std::int32_t copy : cut.ends(cut.faces[on.face]))
-      if (contact[at(copy)] >= 0) weighed[at(contact[at(copy)])] = 1;
+  const std::vector<std::int32_t> unknown = unknown_at(parts, cut);
+  const std::vector<ddm::Contact>& contacts = parts.decomposition.skeleton.contacts;
+  std::map<std::pair<std::int32_t, std::int32_t>, Eigen::Index> condition;
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    condition[{contacts[i].plus, contacts[i].minus}] = static_cast<Eigen::Index>(i);
   // In a node the least weight of the faces beside it counts, and what both may carry.
-  Eigen::VectorXd least = Eigen::VectorXd::Constant(room.jumps.size(), weight.largest);
-  Eigen::VectorXd forces = Eigen::VectorXd::Zero(room.forces.size());
-  estimate::WeightOf weights(primal.flux, &weight);
+  const auto all = static_cast<Eigen::Index>(contacts.size());
+  contact::Adjoint::Room room{Eigen::VectorXd::Constant(all, estimate::Ways::none),
+                              Eigen::VectorXd::Zero(all)};
+  estimate::WeightOf weights(primal.flux, weight);
   for (std::size_t f = 0; f < cut.faces.size(); ++f) {
-    if (!estimate::presses(cut.faces[f].condition)) continue;
+    const estimate::Face& face = cut.faces[f];
+    if (!estimate::presses(face.condition)) continue;
     const estimate::Weight::OnFace on = weights.on(f);
-    const auto ends = cut.ends(cut.faces[f]);
+    const auto ends = cut.ends(face), others = cut.ends(cut.faces[at(face.other)]);
     for (const std::size_t end : {0, 1}) {
-      const std::int32_t own = contact[at(ends[end])];
-      if (own < 0) continue;
-      least[own] = std::min(least[own], on.least);
-      forces[own] += on.bound[end];
+      const auto found = condition.find({unknown[at(others[1 - end])], unknown[at(ends[end])]});
+      if (found == condition.end()) continue;
+      const Eigen::Index i = found->second;
+      room.jumps[i] = std::min(room.jumps[i], on.least * std::max(0.0, primal.flux.jump(f, end)));
+      if (closed[at(i)] != 0) room.forces[i] += on.bound[end];
     }
-  }
-  for (Eigen::Index i = 0; i < room.jumps.size(); ++i) {
-    if (weighed[at(i)] == 0) continue;
-    room.jumps[i] *= least[i];
-    if (room.forces[i] > 0) room.forces[i] = forces[i];
   }
   return room;
 }
 
 Search::Search(const MeshOperator::Parts& parts, Target& target, estimate::Side side)
-    : _parts(parts), _target(target), _side(side), _room(target.adjoints.adjoint.room()) {
+    : _parts(parts), _target(target), _side(side), _room(target.adjoints.room) {
   const double norm = std::sqrt(target.adjoints.of.primal.flux.norm_squared());
   _c = 2 * (norm > 0 ? std::sqrt(target.goal.compliance) / norm : 1);
   _best.value = sign() * std::numeric_limits<double>::infinity();
@@ -72,10 +72,10 @@ Search::Search(const MeshOperator::Parts& parts, Target& target, estimate::Side 
 contact::Adjoint::Room Search::room() const { return {_c * _room.jumps, _c * _room.forces}; }
 
 Eigen::VectorXd Search::load() const {
-  return contact::Adjoint::load(_target.goal, sign(), room());
+  return _target.adjoints.adjoint.load(_target.goal, sign(), room());
 }
 Eigen::VectorXd Search::jumps() const {
-  return contact::Adjoint::jumps(_target.goal, sign(), room());
+  return _target.adjoints.adjoint.jumps(_target.goal, sign(), room());
 }
 
 estimate::Aimed Search::aimed(std::span<const double> z, std::span<const double> reacting) const {
@@ -118,13 +118,13 @@ void Search::weigh() {
   const estimate::Primal& primal = _target.adjoints.of.primal;
   if (!_ends) {
     if (!primal.load.oscillation.empty())
-      _unloaded = flux_norms(_parts, primal.cut, _target.goals)[_target.k];
+      _unloaded = mesh_duals(_parts, primal.cut, _target.goals)[_target.k].norm;
     const double most = _unloaded > 0 ? of_width * off(_best) / _unloaded : 0;
     _ends = estimate::contact_ends(primal.cut, primal.flux, primal.load.oscillation, most);
   }
   _weight = estimate::weight_about(primal.cut, primal.flux, *_ends, _inner, beta);
   _done = _weight->faces.empty() || !std::isfinite(_unloaded);
-  if (!_done) _room = room_of(_parts, primal, _target.adjoints.adjoint.room(), *_weight);
+  if (!_done) _room = room_of(_parts, primal, _target.adjoints.of.answer.closed, &*_weight);
 }
 
 }  // namespace anticrack::operators

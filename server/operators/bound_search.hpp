@@ -17,6 +17,7 @@ namespace anticrack::operators {
 struct Adjoints {
   const Bounded& of;
   contact::Adjoint adjoint;
+  contact::Adjoint::Room room;
 };
 
 /// One displacement of an answer: the k-th of all goals.
@@ -29,9 +30,11 @@ struct Target {
   const Aim& aim() const { return goals[k]; }
 };
 
-/// The room of an answer, for a weight: jumps times w, and the forces k p.
+/// The room of an answer for c = 1: per condition w times the jump, and the force k p of sigma; 0
+/// if it is open. `closed`: Answer::closed; `weight`: null: 1. O(faces log contacts).
 contact::Adjoint::Room room_of(const MeshOperator::Parts& parts, const estimate::Primal& primal,
-                               contact::Adjoint::Room room, const estimate::Weight& weight);
+                               const std::vector<char>& closed,
+                               const estimate::Weight* weight = nullptr);
 
 /// Searches for the best bound from one side. Tries a few c, each larger than the last, then
 /// weights about the ends of contact zones, if bounds are to be close.

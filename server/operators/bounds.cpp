@@ -60,8 +60,10 @@ void find_bounds(const MeshOperator::Parts& parts, const estimate::CutMesh& cut,
   const std::vector<estimate::EquilibratedFlux> fluxes =
       estimate::EquilibratedFlux::of_all(cut, balances);
   std::vector<estimate::Primal> primals;
+  std::vector<estimate::Bracket> brackets;
   std::vector<Bounded> bounded;
   primals.reserve(materials.size());
+  brackets.reserve(materials.size());
   for (std::size_t i = 0; i < materials.size(); ++i) {
     const auto& [of, load, u, lifts, balance, parts_energy] = materials[i];
     contact::Answer& answer = *of.answer;
@@ -73,8 +75,8 @@ void find_bounds(const MeshOperator::Parts& parts, const estimate::CutMesh& cut,
       continue;
     }
     const estimate::Lack lack = lack_of(cut, fluxes[i], balance, load);
-    const estimate::Bracket bracket =
-        estimate::bracket(cut, fluxes[i], balance, lifts, u, answer.energy_mesh, lack.flux);
+    const estimate::Bracket& bracket = brackets.emplace_back(
+        estimate::bracket(cut, fluxes[i], balance, lifts, u, answer.energy_mesh, lack.flux));
     answer.energy_lower = bracket.lower;
     answer.energy_upper = bracket.upper;
     answer.error_bound = bracket.error;
@@ -82,8 +84,8 @@ void find_bounds(const MeshOperator::Parts& parts, const estimate::CutMesh& cut,
     of.indicator.resize(bracket.indicator.size());
     for (std::size_t t = 0; t < bracket.indicator.size(); ++t)
       of.indicator[at(cut.triangle[t])] = bracket.indicator[t];
-    bounded.push_back({load, primals.emplace_back(cut, fluxes[i], balance, lifts, u, lack), answer,
-                       of.stop, of.closely, of.of_largest, &of.indicator});
+    bounded.push_back({load, primals.emplace_back(cut, fluxes[i], balance, lifts, u, lack), bracket,
+                       answer, of.stop, of.closely, of.of_largest, &of.indicator});
   }
   bound_displacements(parts, bounded);
   for (const Bounded& one : bounded) contact::take_middles(one.answer);

@@ -123,9 +123,8 @@ class Slopes {
   double _upper, _gap;
 };
 
-/// A_h +- |tau| |u - u_h|, tau the flux of a unit force with every contact open: A - A_h is
-/// int tau . grad (u - u_h), as tau carries nothing through contacts.
-void bound_by_norms(const MeshOperator::Parts& parts, const std::vector<Aim>& goals,
+/// Bounds A by the pairs that the mesh keeps (estimate/mesh_dual.hpp).
+void bound_by_mesh_duals(const MeshOperator::Parts& parts, const std::vector<Aim>& goals,
                     std::span<const Bounded> answers) {
   // Goals times triangles: about a second, once for the mesh, after contact::OpenMembrane's factor.
   const std::size_t most_work = parts.contact->condensed() ? 30'000'000 : 20'000'000;
@@ -139,12 +138,14 @@ void bound_by_norms(const MeshOperator::Parts& parts, const std::vector<Aim>& go
           parts.mesh->inclusions.size(), cut.triangle_count(), most_work));
       continue;
     }
-    const std::vector<double>& norms = flux_norms(parts, cut, goals);
+    const std::vector<estimate::MeshDual>& duals = mesh_duals(parts, cut, goals);
+    const estimate::PrimalNorms norms = estimate::primal_norms(of.primal, of.bracket);
     for (std::size_t k = 0; k < goals.size(); ++k) {
-      const double value = goals[k].value_in(of.answer), half = norms[k] * *of.answer.error_bound;
+      const double value = goals[k].value_in(of.answer), norm = duals[k].norm,
+                   half = estimate::half_width(duals[k], norms);
       const double rounding = half > 0 ? 1e-12 * std::abs(value) : 0;
       if (!std::isfinite(half)) continue;
-      goals[k].set_scale(of.answer, norms[k] * norms[k], std::sqrt(of.primal.flux.norm_squared()));
+      goals[k].set_scale(of.answer, norm * norm, std::sqrt(of.primal.flux.norm_squared()));
       goals[k].set(of.answer, value - half - rounding, value + half + rounding);
     }
   }
@@ -187,11 +188,12 @@ void bound_by_adjoints(const MeshOperator::Parts& parts, const std::vector<Aim>&
   for (const Bounded& of : answers) {
     if (of.stop.stop_requested()) continue;
     stop::look(bounding_a);
-    Adjoints& own = adjoints.emplace_back(Adjoints{of, contact::Adjoint(parts.problem, of.answer)});
-    std::vector<contact::Opened> opened;
-    if (own.adjoint.possible()) opened = parts.contact->solve_open(of.answer.closed, r);
+    const std::vector<char>& closed = of.answer.closed;
+    Adjoints& own = adjoints.emplace_back(
+        Adjoints{of, {parts.contact->conditions(), closed}, room_of(parts, of.primal, closed)});
+    const std::vector<contact::Opened> opened = parts.contact->solve_open(closed, r);
     for (std::size_t k = 0; k < goals.size(); ++k) {
-      if (!own.adjoint.possible() || !opened[k].solved) {
+      if (!opened[k].solved) {
         by_energy.emplace_back(&of, &goals[k]);
         continue;
       }
@@ -274,7 +276,7 @@ void bound_displacements(const MeshOperator::Parts& parts, std::span<const Bound
   if (answers.empty() || parts.mesh->inclusions.empty()) return;
   const std::vector<Aim> goals = aims(parts);
   if (parts.mesh->inclusions.size() > most_inclusions)
-    bound_by_norms(parts, goals, answers);
+    bound_by_mesh_duals(parts, goals, answers);
   else
     bound_by_adjoints(parts, goals, answers);
 }

@@ -6,6 +6,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "estimate/bracket.hpp"
 #include "estimate/interval.hpp"
 #include "operators/mesh_parts.hpp"
 
@@ -27,6 +28,7 @@ std::vector<double> of_copies(const std::vector<contact::Field>& fields);
 struct Bounded {
   const LoadOnTraces& load;
   const estimate::Primal& primal;
+  const estimate::Bracket& bracket;
   contact::Answer& answer;
   const std::stop_token& stop;
   // As MeshOperator::Estimate.

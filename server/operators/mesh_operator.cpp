@@ -123,7 +123,8 @@ std::size_t MeshOperator::bytes() const noexcept {
   for (const ddm::SubdomainOperator& subdomain : _parts->operators) bytes += subdomain.bytes();
   bytes += _parts->contact->bytes();
   if (const estimate::CutMesh* cut = _parts->cut.known()) bytes += cut->bytes();
-  if (const std::vector<double>* norms = _parts->flux_norms.known()) bytes += bytes_of(*norms);
+  if (const auto* duals = _parts->mesh_duals.known())
+    bytes += duals->capacity() * sizeof(estimate::MeshDual);
   return bytes + _parts->sweep_geometry.bytes() + _parts->bases.bytes();
 }
 

@@ -19,6 +19,7 @@
 #include "ddm/neumann_boundary.hpp"
 #include "ddm/subdomain_operator.hpp"
 #include "estimate/cut_mesh.hpp"
+#include "estimate/mesh_dual.hpp"
 #include "operators/basis_cache.hpp"
 #include "operators/condense_loads.hpp"
 #include "operators/mesh_operator.hpp"
@@ -54,7 +55,7 @@ struct MeshOperator::Parts {
   std::vector<contact::TraceGeometry> geometry;
   mutable BasisCache bases;
   base::Lazy<estimate::CutMesh> cut;            // made for the first bounds; see cut_mesh()
-  base::Lazy<std::vector<double>> flux_norms;   // see aims.hpp
+  base::Lazy<std::vector<estimate::MeshDual>> mesh_duals;  // see aims.hpp
   mutable std::atomic<std::size_t> at_work{0};  // bytes of Working
 
   const estimate::CutMesh& cut_mesh() const;

@@ -19,6 +19,7 @@
 #include "estimate/bracket.hpp"
 #include "estimate/interval.hpp"
 #include "estimate/solved.hpp"
+#include "operators/bound_search.hpp"
 #include "support/random_seed.hpp"
 
 namespace anticrack::estimate {
@@ -103,9 +104,9 @@ void check_lack(const Nested& nested, const Trial& trial, double dual_off, unsig
   ++tally.energies;
   tally.broken_without += fine.answer.energy < without.lower - scale ? 1 : 0;
 
-  const contact::Adjoint adjoint(coarse.parts.problem, near);
   const contact::ContactProblem& problem = *coarse.parts.contact;
-  for (std::size_t j = 0; j < motions.size() && adjoint.possible(); ++j) {
+  const contact::Adjoint adjoint(problem.conditions(), near.closed);
+  for (std::size_t j = 0; j < motions.size(); ++j) {
     const ddm::Terms& aim = coarse.parts.decomposition.skeleton.motions[j].displacement;
     const contact::UnitForce force = problem.unit_force(aim);
     const contact::Opened kept = std::move(problem.solve_open(near.closed, {&force.r, 1}).front());
@@ -114,13 +115,14 @@ void check_lack(const Nested& nested, const Trial& trial, double dual_off, unsig
     for (const double c : {0.3, 3.0, 100.0}) {
       for (const Side side : {Side::lower, Side::upper}) {
         const double sign = side == Side::upper ? 1 : -1;
-        contact::Adjoint::Room room = adjoint.room();
+        contact::Adjoint::Room room = operators::room_of(
+            coarse.parts, {coarse.cut, sigma, load, none, trial.v}, near.closed);
         room.jumps *= c;
         room.forces *= c;
-        const VectorXd clipped = contact::Adjoint::load(goal, sign, room);
+        const VectorXd clipped = adjoint.load(goal, sign, room);
         const contact::Opened free = std::move(problem.solve_open({}, {&clipped, 1}).front());
         if (!free.solved) continue;
-        const contact::Displaced pair[] = {{&aim, contact::Adjoint::jumps(goal, sign, room)},
+        const contact::Displaced pair[] = {{&aim, adjoint.jumps(goal, sign, room)},
                                            {&aim, free.d}};
         std::vector<std::vector<double>> fields = problem.fields_of(pair);
         const std::vector<double> off =

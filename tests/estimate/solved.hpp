@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <span>
@@ -105,6 +106,15 @@ inline std::array<double, 3> barycentric(const Solved& in, std::size_t t, const 
   return result;
 }
 
+/// Multiplies the tension of each subdomain by a power of ten, so that they differ by up to so many
+/// decades.
+template <class Membrane>
+void add_contrast(Membrane& membrane, double decades, mesh::Mesh& mesh) {
+  if (decades == 0) return;
+  for (double& tension : mesh.tension)
+    tension *= std::pow(10, membrane.uniform(-decades / 2, decades / 2));
+}
+
 /// A random membrane and one cut into four of each triangle, loaded alike; none where nothing
 /// holds a part or nothing solves it.
 struct Nested {
@@ -112,10 +122,11 @@ struct Nested {
   fem::Load load;             // but for its force
   std::vector<double> force;  // on the coarse one
 
-  Nested(unsigned seed, bool rich) {
+  Nested(unsigned seed, bool rich, double decades = 0) {
     reference::RandomMembrane membrane(seed, rich);
     mesh::Mesh mesh = membrane.mesh();
-    if (seed % 3 == 0) reference::add_laws(membrane, false, mesh);
+    if (seed % 3 == 0 && decades == 0) reference::add_laws(membrane, false, mesh);
+    add_contrast(membrane, decades, mesh);
     const mesh::Mesh finer = mesh::refine_uniform(mesh);
     std::vector<double> finer_force;
     if (seed % 2 == 0) {

@@ -88,10 +88,11 @@ struct Pointwise {
 
 /// The terms of R(c) by samples of each triangle: those of a bound are at least as large, and not
 /// much larger.
-void check_terms(const Solved& in, const EquilibratedFlux& sigma, const Dual& dual,
+void check_terms(const Solved& in, const Primal& primal, const Dual& dual,
                  const ContactEnd& end, const Bound& found, Found& tally) {
   const Pointwise at_point(end, *dual.weight);
-  const EquilibratedFlux tau = dual_flux(in.cut, sigma, dual);
+  const EquilibratedFlux& sigma = primal.flux;
+  const EquilibratedFlux tau = dual_flux(primal, dual);
   std::vector<double> rest(dual.z.size());
   for (std::size_t i = 0; i < rest.size(); ++i) rest[i] = dual.reacting[i] - dual.z[i];
   HalfWidth sum;
@@ -187,7 +188,7 @@ void check(unsigned seed, Found& tally) {
   const std::vector<Lift> none;
   const Primal primal{coarse.cut, sigma, load, none, coarse.u};
   const contact::ContactProblem& problem = *coarse.parts.contact;
-  const contact::Adjoint adjoint(coarse.parts.problem, coarse.answer);
+  const contact::Adjoint adjoint(problem.conditions(), coarse.answer.closed);
   const ddm::Terms& aim = coarse.parts.decomposition.skeleton.motions.front().displacement;
   const contact::UnitForce force = problem.unit_force(aim);
   const contact::Opened kept =
@@ -204,7 +205,7 @@ void check(unsigned seed, Found& tally) {
             if (weight.faces.empty()) continue;
             const double sign = side == Side::upper ? 1 : -1;
             contact::Adjoint::Room room =
-                operators::room_of(coarse.parts, primal, adjoint.room(), weight);
+                operators::room_of(coarse.parts, primal, coarse.answer.closed, &weight);
             room.jumps *= c;
             room.forces *= c;
             contact::Adjoint::Goal own = goal;
@@ -212,9 +213,9 @@ void check(unsigned seed, Found& tally) {
               own.jumps.array() += sign * 1e6 * room.jumps.array();
               own.reactions.array() -= sign * 1e6 * room.forces.array();
             }
-            const Eigen::VectorXd clipped = contact::Adjoint::load(own, sign, room);
+            const Eigen::VectorXd clipped = adjoint.load(own, sign, room);
             const contact::Opened free = std::move(problem.solve_open({}, {&clipped, 1}).front());
-            const contact::Displaced pair[] = {{&aim, contact::Adjoint::jumps(own, sign, room)},
+            const contact::Displaced pair[] = {{&aim, adjoint.jumps(own, sign, room)},
                                                {&aim, free.d}};
             const std::vector<std::vector<double>> fields = problem.fields_of(pair);
             const Aimed aimed{&primal,
@@ -223,7 +224,7 @@ void check(unsigned seed, Found& tally) {
             const Bound found = bounds(coarse.cut, {&aimed, 1}).front();
             ASSERT_TRUE(std::isfinite(found.value));
             if (ends.size() == 1) {
-              check_terms(coarse, sigma, aimed.dual, ends.front(), found, tally);
+              check_terms(coarse, primal, aimed.dual, ends.front(), found, tally);
               check_faces(coarse, sigma, ends.front(), weight);
             }
             EXPECT_GT(sign * (found.value - truth), -doubt) << beta << " " << inner << " " << c;
