@@ -274,6 +274,8 @@ Plan plan(const Geometry& given, const MeshOptions& options, std::size_t max_tri
   if (options.chord_angle > 0) rule.turn = options.chord_angle * std::numbers::pi / 180;
   cut(lines, rule, curve_limit);
   const Layout layout = lay_parts(geometry, network);
+  for (const Stretch& part : layout.stretches)
+    network.lines[at(part.line)].parts.push_back({part.begin, part.end});
   cut(network, rule, curve_limit);
   balance_areas(network);
   if (options.chord_angle == 0) note_chords(network, plan.warnings);

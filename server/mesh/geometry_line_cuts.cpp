@@ -18,6 +18,12 @@ double turn(const Point& a, const Point& b) {
 
 }  // namespace
 
+double Tips::part(double k, double n) const noexcept {
+  const double x = k / n, y = 1 - x;
+  if (count() == 2) return x < 0.5 ? 2 * x * x : 1 - 2 * y * y;
+  return at_from ? x * x : at_to ? 1 - y * y : x;
+}
+
 double Line::along(double from, double to, double part) const {
   const auto wrapped = [&](double t) { return at(t >= _spans && _closed ? t - _spans : t); };
   std::vector<double> t{from};
@@ -57,16 +63,18 @@ double Line::chords_between(double from, double to, const ChordRule& rule) const
   return measure(from, to, rule, steps_at_least).back();
 }
 
-std::vector<double> Line::cuts_between(double from, double to, const ChordRule& rule) const {
+std::vector<double> Line::cuts_between(double from, double to, const ChordRule& rule,
+                                       Tips tips) const {
   const double expected = std::ceil(chords_between(from, to, rule));
   const int steps = steps_at_least + 4 * static_cast<int>(expected);
   const std::vector<double> sum = measure(from, to, rule, steps);
-  const auto pieces = static_cast<int>(std::ceil(sum.back() - 1e-6));
+  const double chords = (tips.count() > 0 ? 2 : 1) * sum.back();
+  const auto pieces = static_cast<int>(std::ceil(chords - 1e-6));
   std::vector<double> cuts;
   cuts.reserve(static_cast<std::size_t>(std::max(0, pieces)));
   std::size_t i = 1;
   for (int k = 1; k < pieces; ++k) {
-    const double wanted = sum.back() * k / pieces;
+    const double wanted = sum.back() * tips.part(k, pieces);
     while (sum[i] < wanted) ++i;
     const double part = (wanted - sum[i - 1]) / (sum[i] - sum[i - 1]);
     cuts.push_back(from + (to - from) * (static_cast<double>(i - 1) + part) / steps);

@@ -47,7 +47,7 @@ bool continues(const mesh::PlannedCurve& one, const mesh::PlannedCurve& next, bo
   const auto same = [](const mesh::PlannedCurve& c) {
     return std::tie(c.bend, c.role, c.left, c.right, c.kind, c.inclusion);
   };
-  return one.bend >= 0 && same(one) == same(next) && (reversed ? next.b == one.a : one.b == next.a);
+  return one.bends() && next.bends() && same(one) == same(next) && (reversed ? next.b == one.a : one.b == next.a);
 }
 
 std::vector<Run> runs_of(const mesh::Plan& plan) {
@@ -55,7 +55,7 @@ std::vector<Run> runs_of(const mesh::Plan& plan) {
   for (std::size_t i = 0; i < plan.curves.size(); ++i) {
     const mesh::PlannedCurve& curve = plan.curves[i];
     const bool more = !runs.empty() && runs.back().first + runs.back().count == i;
-    const bool reversed = curve.bend >= 0 && curve.from > curve.to;
+    const bool reversed = curve.bends() && curve.from > curve.to;
     if (more && runs.back().reversed == reversed &&
         continues(plan.curves[i - 1], curve, reversed)) {
       ++runs.back().count;
@@ -64,7 +64,7 @@ std::vector<Run> runs_of(const mesh::Plan& plan) {
       runs.push_back({.first = i, .reversed = reversed, .intervals = curve.intervals});
     }
     runs.back().length += mesh::length_of(plan, curve);
-    if (curve.bend >= 0) runs.back().turn += turn_of(plan, curve);
+    if (curve.bends()) runs.back().turn += turn_of(plan, curve);
   }
   return runs;
 }

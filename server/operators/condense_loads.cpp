@@ -162,6 +162,7 @@ class Block {
     parts.integrated.resize(_decomposition.subdomains.size());
     if (!load.traction.empty()) parts.traction.resize(_decomposition.subdomains.size());
     if (!fem::is_linear(load.boundary_value)) parts.boundary_value = load.boundary_value;
+    parts.beside_chords = load.boundary_value;
     if (placed.on_points) {
       parts.obstacle =
           "a point force in the membrane has an infinite energy, and no bound exists; spread it "
