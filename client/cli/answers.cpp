@@ -76,7 +76,9 @@ std::string probable_error(const v1::InclusionAnswer& inclusion) {
 }
 
 // ", chords +- 1.2e-05": what curves in place of their chords may change, by estimate.
-std::string of_chords(bool has, double error) { return has ? ", chords +- " + number(error, 2) : ""; }
+std::string of_chords(bool has, double error) {
+  return has ? ", chords +- " + number(error, 2) : "";
+}
 
 // A number with its bounds, if it has them, and of A with its relative error.
 std::string text_of(const v1::InclusionAnswer& inclusion, const std::string& number_name) {

@@ -30,8 +30,8 @@ bool has_curves(const v1::Geometry& geometry) {
          std::ranges::any_of(geometry.regions(), round);
 }
 
-// The chord angle for which chords change about a tenth of what is asked for: what they change falls
-// as the third power of the angle, and is about 1e-4 of the values with the default one.
+// The chord angle for which chords change about a tenth of what is asked for: what they change
+// falls as the third power of the angle, and is about 1e-4 of the values with the default one.
 double chord_angle_for(const v1::Accuracy& accuracy) {
   constexpr double default_angle = 5, is_for = 1e-3;
   double least = is_for;

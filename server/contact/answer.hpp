@@ -78,7 +78,7 @@ struct AnswerSummary {
   /// Empty if they were not asked for, or for the reason that `no_bracket` gives.
   std::optional<double> energy_lower, energy_upper, error_bound, error_bound_relative;
   std::string no_bracket;
-  double energy_mesh = 0;  ///< Pi of u on the mesh
+  double energy_mesh = 0;                       ///< Pi of u on the mesh
   std::optional<double> energy_geometry_error;  ///< as displacement_geometry_error, of Pi
 };
 ANTICRACK_FIELDS(AnswerSummary, reason, iterations, criterion, theta, theta_star, energy, kkt,

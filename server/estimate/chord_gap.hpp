@@ -7,11 +7,11 @@
 //
 //   g = T grad u.grad u / 2 - s u_n + s G_n - f u,   s = n.T grad u,  u_n = n.grad u,
 //
-// with G the function at which the side is held, where it is (g_D, or the motion of an inclusion),
-// and where g_N acts there is -g_N u times what the curve is longer. Chords of balanced areas have
-// int V = 0 on each, so the roughness of the chords counts as well: a wave V of the boundary changes
-// the energy by a part of 1/2 int T |grad u - grad G|^2 V |D| V, |D| the root of -d^2/ds^2. On chords
-// of length h with balanced areas V is a parabola, and this is
+// with G the function at which the side is held, where it is (g_D, or the motion of an inclusion);
+// g_N acts on the length of the curve anyhow. Chords of balanced areas have int V = 0 on each, so
+// the roughness of the chords counts as well: a wave V of the boundary changes the energy by a part
+// of 1/2 int T |grad u - grad G|^2 V |D| V, |D| the root of -d^2/ds^2. On chords of length h with
+// balanced areas V is a parabola, and this is
 //
 //   rho/2 int T |grad u - grad G|^2 V^2 / h,   rho = 180 zeta(3) / pi^3 = 6.98.
 //
@@ -28,8 +28,8 @@
 
 namespace anticrack::estimate {
 
-/// The derivative of g_D to the left of each of CutMesh::chords, in its middle; 0 where it is not on
-/// the Dirichlet boundary, or where g_D is not defined beside it. Empty: 0.
+/// The derivative of g_D to the left of each of CutMesh::chords, in its middle; 0 where it is not
+/// on the Dirichlet boundary, or where g_D is not defined beside it. Empty: 0.
 std::vector<double> slopes_across_chords(const CutMesh& cut, const std::string& boundary_value);
 
 /// A displacement by its values in the copies.

@@ -336,8 +336,8 @@ class Cutting {
 std::size_t CutMesh::bytes() const noexcept {
   const auto of = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
   return shapes.bytes() + of(first_triangle) + of(first_copy) + of(copy) + of(at) + of(triangle) +
-         of(faces) + of(chords) + of(ways_out) + of(first_corner) + of(corners) + of(first_stop) + of(stops) +
-         of(first_fan) + of(ways.bodies) + of(ways.of);
+         of(faces) + of(chords) + of(ways_out) + of(first_corner) + of(corners) + of(first_stop) +
+         of(stops) + of(first_fan) + of(ways.bodies) + of(ways.of);
 }
 
 CutMesh cut_mesh(const mesh::Mesh& mesh, const ddm::Decomposition& decomposition,

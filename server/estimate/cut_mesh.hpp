@@ -79,7 +79,7 @@ struct CutMesh {
 
   std::vector<Face> faces;
   std::vector<ChordEdge> chords;  ///< as Mesh::chords
-  std::vector<char> tilts;  ///< (inclusions) 1: the flux must balance its moment as well
+  std::vector<char> tilts;        ///< (inclusions) 1: the flux must balance its moment as well
 
   /// A fan has the corners about a node, counterclockwise from face to face or all round. It goes
   /// on across cracks, whose flux is the same on both faces. Spokes 0, ..., m are between its

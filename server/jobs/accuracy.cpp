@@ -176,8 +176,9 @@ double rate_between(double error_before, const records::StageRecord& before, dou
   return error_before < 1 && grew > 0 && fell > least * grew ? fell / grew : 0;
 }
 
-/// What to do if the estimate of chords leaves too little of an accuracy; empty if it does not.
-/// What chords change falls as the third power of their angle.
+/// What to do if the estimate of chords keeps an accuracy from being reached, as soon as the error
+/// is below it, or all of the accuracy that may be left; empty if it does not. What chords change
+/// falls as the third power of their angle.
 std::string too_coarse(const records::StageRecord& stage, const records::AccuracySpec& wanted,
                        double chord_angle) {
   constexpr double part = 0.2;  // of the accuracy, for the new chords
@@ -187,7 +188,9 @@ std::string too_coarse(const records::StageRecord& stage, const records::Accurac
                             std::optional<double> records::StageAnswer::*of_chords) {
     for (const records::StageAnswer& answer : stage.answers) {
       const double gap = (answer.*of_chords).value_or(0);
-      if (!asked || gap + error_of(answer) <= *asked || gap <= most * *asked) continue;
+      if (!asked || gap <= *asked / 2 || gap <= most * *asked) continue;
+      const double error = error_of(answer);
+      if (error + gap <= *asked || error > (gap < *asked ? *asked / 2 : gap)) continue;
       most = gap / *asked;
       found = fmt::format("{} by about {:.2g} %", name, 100 * gap);
     }
@@ -195,15 +198,17 @@ std::string too_coarse(const records::StageRecord& stage, const records::Accurac
   using Answer = records::StageAnswer;
   consider("energy", wanted.energy, relative_width, &Answer::energy_geometry_error);
   consider(
-      "A", wanted.displacement, [](const Answer& answer) { return *answer.displacement_error; },
+      "A", wanted.displacement,
+      [](const Answer& answer) { return answer.displacement_error.value_or(infinity); },
       &Answer::displacement_geometry_error);
   consider(
       "A", wanted.displacement_estimated,
-      [](const Answer& answer) { return *answer.displacement_error_probable; },
+      [](const Answer& answer) { return answer.displacement_error_probable.value_or(infinity); },
       &Answer::displacement_geometry_error);
   if (most == 0) return "";
   return fmt::format(
-      "curves in place of their chords of {:g} degrees may change {}: set mesh.chord_angle = {:.2g}",
+      "curves in place of their chords of {:g} degrees may change {}: set mesh.chord_angle = "
+      "{:.2g}",
       chord_angle, found, chord_angle * std::cbrt(part / most));
 }
 
@@ -431,10 +436,9 @@ Verdict judge(const std::vector<records::StageRecord>& stages,
     return one->status == contact::Status::converged ? stop(why) : Verdict{true, ""};
   }
   const Worst worst = worst_of(last, wanted);
-  if (worst.excess <= 1) {
-    const std::string chords = too_coarse(last, wanted, chord_angle);
-    return chords.empty() ? Verdict{true, ""} : stop(chords);
-  }
+  if (const std::string chords = too_coarse(last, wanted, chord_angle); !chords.empty())
+    return stop(chords);
+  if (worst.excess <= 1) return {true, ""};
   if ((wanted.displacement || wanted.displacement_estimated) &&
       !last.answers[worst.load].displacement_error) {
     return stop(cases[worst.load]->answer.inclusions.empty()

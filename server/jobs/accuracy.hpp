@@ -43,8 +43,8 @@ struct Verdict {
   bool fall_back = false;  ///< the answers of the stage before are better: they have bounds
 };
 /// `stages`: all, each ended; `cases`: those of the last; `seconds`: since the first began;
-/// `chord_angle`: of the meshes, degrees. An accuracy is reached if error and estimate of the chords
-/// together keep it.
+/// `chord_angle`: of the meshes, degrees. An accuracy is reached if error and estimate of the
+/// chords together keep it.
 Verdict judge(const std::vector<records::StageRecord>& stages,
               const std::vector<const records::CaseRecord*>& cases, const records::JobSpec& spec,
               std::uint64_t max_triangles, double seconds,

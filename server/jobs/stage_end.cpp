@@ -114,8 +114,7 @@ void end_stage(EngineCore& core, const JobPtr& job) {
   ended.forecast = forecast(records, *job->spec, most);
   const auto event = std::make_shared<const records::StageRecord>(ended);
   const double rate = rate_of(records, *job->spec->accuracy);
-  Verdict verdict =
-      judge(records, cases, *job->spec, most, ended.seconds, chord_angle(core, *job));
+  Verdict verdict = judge(records, cases, *job->spec, most, ended.seconds, chord_angle(core, *job));
   LiveStages::Complete complete;
   std::shared_ptr<void> use;
   std::string finer;   // id of the mesh that was made

@@ -17,8 +17,8 @@ namespace {
 
 // The first eight bytes name the kind of message and the version of the format.
 constexpr std::string_view mesh_tag = "ACMESH2\n";
-constexpr std::string_view moving_mesh_tag = "ACMESH3\n";     // motions follow
-constexpr std::string_view mesh_with_laws_tag = "ACMESH4\n";  // motions and tension laws follow
+constexpr std::string_view moving_mesh_tag = "ACMESH3\n";       // motions follow
+constexpr std::string_view mesh_with_laws_tag = "ACMESH4\n";    // motions and tension laws follow
 constexpr std::string_view mesh_with_chords_tag = "ACMESH5\n";  // motions, laws, chords follow
 constexpr std::string_view request_tag = "ACMREQ5\n";
 constexpr std::string_view reply_tag = "ACMREP4\n";

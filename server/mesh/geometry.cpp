@@ -239,8 +239,8 @@ void note_chords(const Network& network, std::vector<std::string>& warnings) {
   const auto curves = std::ranges::count_if(pieces, [](int count) { return count > 0; });
   warnings.push_back(fmt::format(
       "{} replaced by chords: {}{} by {}, up to {:.2g} off the curve; bounds are those of the "
-      "membrane with chords, and mesh.chord_angle = 1.25 (default 5) brings chords and curves 16 "
-      "times closer",
+      "membrane with chords, what curves would change is estimated beside them, and half the "
+      "mesh.chord_angle (default 5) makes it an eighth",
       curves == 1 ? "a curve is" : "curves are", network.lines[worst].field.shown,
       curves == 1 ? "" : fmt::format(", the coarsest of {} curves,", curves), pieces[worst], most));
 }

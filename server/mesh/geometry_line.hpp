@@ -22,8 +22,8 @@ struct ChordRule {
   double turn = default_chord_angle * std::numbers::pi / 180;  ///< radians
 };
 
-/// Which ends of a part of a line are tips, where u has no slope: there chords become shorter, as the
-/// square of their number from the tip.
+/// Which ends of a part of a line are tips, where u has no slope: there chords become shorter, as
+/// the square of their number from the tip.
 struct Tips {
   bool at_from = false, at_to = false;
   int count() const noexcept { return (at_from ? 1 : 0) + (at_to ? 1 : 0); }

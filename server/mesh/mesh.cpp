@@ -248,7 +248,8 @@ void check_chords(const Mesh& mesh, const EdgeTable& edges) {
     if (edges.find(a, b).empty())
       fail("edge ", i, " on a chord joins nodes ", a, " and ", b, ", which no triangle does");
     if (!std::isfinite(at_a + at_middle + at_b + stretch) || !(chord > 0))
-      fail("edge ", i, " on a chord, ", where_edge(mesh, a, b), ", has numbers that are not finite");
+      fail("edge ", i, " on a chord, ", where_edge(mesh, a, b),
+           ", has numbers that are not finite");
   }
 }
 

@@ -67,8 +67,8 @@ struct Mesh {
   std::vector<std::array<std::int32_t, 2>> dirichlet;  ///< edges of the boundary where u = g_D
   std::vector<std::string> warnings;                   ///< what was repaired or assumed
   std::vector<Bend> bends;                             ///< what is left of the curves of a geometry
-  std::vector<BentEdge> bent;      ///< for the mesher: edges beside these, see refine_uniform
-  std::vector<ChordEdge> chords;   ///< edges on chords of curves
+  std::vector<BentEdge> bent;     ///< for the mesher: edges beside these, see refine_uniform
+  std::vector<ChordEdge> chords;  ///< edges on chords of curves
   /// Lower bound, in degrees, of the angles of any bisection of the unrefined mesh. 0: not refined.
   double bisection_bound = 0;
 

@@ -47,7 +47,8 @@ bool continues(const mesh::PlannedCurve& one, const mesh::PlannedCurve& next, bo
   const auto same = [](const mesh::PlannedCurve& c) {
     return std::tie(c.bend, c.role, c.left, c.right, c.kind, c.inclusion);
   };
-  return one.bends() && next.bends() && same(one) == same(next) && (reversed ? next.b == one.a : one.b == next.a);
+  return one.bends() && next.bends() && same(one) == same(next) &&
+         (reversed ? next.b == one.a : one.b == next.a);
 }
 
 std::vector<Run> runs_of(const mesh::Plan& plan) {

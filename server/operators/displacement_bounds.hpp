@@ -28,7 +28,7 @@ struct Bounded {
   const estimate::Primal& primal;
   contact::Answer& answer;
   const std::stop_token& stop;
-  bool closely = false;  ///< as MeshOperator::Estimate
+  bool closely = false;                     ///< as MeshOperator::Estimate
   std::span<const double> across_chords{};  ///< estimate::slopes_across_chords of g_D
 };
 

@@ -207,6 +207,25 @@ TEST(Arrangement, ArcsAreCutIntoChordsOfEqualArea) {
   }
 }
 
+/// 18 chords of five degrees on each half of the arc, to its tip twice as many: the k-th from there
+/// turns by 2 k - 1 of the 36^2 parts of the quarter.
+TEST(Arrangement, ChordsBecomeShorterTowardsTips) {
+  Geometry geometry = square();
+  mesh::CrackSpec crack{"c", {}};
+  crack.line = mesh::LineSpec{Shape::arc, {{-0.5, 0}, {0, 0.5}, {0.5, 0}}};
+  geometry.cracks = {crack};
+  const Plan plan = plan_of(geometry, 1);
+  std::vector<double> turns;
+  for (const mesh::PlannedCurve& curve : plan.curves)
+    if (curve.bend >= 0) turns.push_back(std::abs(curve.to - curve.from));
+  double all = 0;
+  for (const double turn : turns) all += turn;
+  EXPECT_NEAR(all, 2, 1e-12) << "two spans";
+  EXPECT_NEAR(turns.front(), 1. / (36 * 36), 2e-5);
+  EXPECT_NEAR(turns.back(), turns.front(), 1e-9);
+  EXPECT_NEAR(std::ranges::max(turns), 71. / (36 * 36), 2e-4);
+}
+
 TEST(Arrangement, SplinesPassTheirPointsAndMayBeClosed) {
   Geometry geometry = square();
   const std::vector<Point> points = {{0.5, 0}, {0, 0.5}, {-0.5, 0}, {0, -0.5}};
