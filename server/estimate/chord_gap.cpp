@@ -14,8 +14,8 @@
 namespace anticrack::estimate {
 namespace {
 
-/// 180 zeta(3) / pi^3, and a quarter more for gradients of meshes with one edge on a chord.
-constexpr double rho = 1.25 * 6.978;
+/// 180 zeta(3) / pi^3, and two fifths more for gradients of meshes with one edge on a chord.
+constexpr double rho = 1.4 * 6.978;
 
 Vector offset_of(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1]}; }
 

@@ -43,7 +43,7 @@ TEST(AccuracySection, ShortensChordsOfCurves) {
   const auto angle = [](const std::string& lines) {
     return parse(sample_to(lines)).mesh.options().chord_angle();
   };
-  const std::string hole = "[[geometry.hole]]\ncenter = [0, 0.5]\nradius = 0.1\n";
+  const std::string hole = "[[geometry.hole]]\ncircle = { center = [0, 0.5], radius = 0.1 }\n";
   EXPECT_EQ(angle("A = 1e-5\n"), 0);
   EXPECT_EQ(angle("A = 1e-2\n" + hole), 5);
   EXPECT_NEAR(angle("A = 1e-2\nenergy = 1.25e-4\n" + hole), 2.5, 1e-12);
