@@ -75,6 +75,11 @@ std::string probable_error(const v1::InclusionAnswer& inclusion) {
              : "";
 }
 
+// ", chords +- 1.2e-05": what curves in place of their chords may change, by estimate.
+std::string of_chords(bool has, double error) {
+  return has ? ", chords +- " + number(error, 2) : "";
+}
+
 // A number with its bounds, if it has them, and of A with its relative error.
 std::string text_of(const v1::InclusionAnswer& inclusion, const std::string& number_name) {
   const double value = results::number_in(inclusion, number_name),
@@ -82,7 +87,10 @@ std::string text_of(const v1::InclusionAnswer& inclusion, const std::string& num
   if (!std::isfinite(lower)) return number(value);
   const bool of_a = number_name == "A" && inclusion.has_displacement_error_relative();
   return results::interval(value, lower, results::number_in(inclusion, number_name + "_upper")) +
-         (of_a ? error_of_a(inclusion) + probable_error(inclusion) : "");
+         (of_a ? error_of_a(inclusion) + probable_error(inclusion) +
+                     of_chords(inclusion.has_displacement_geometry_error(),
+                               inclusion.displacement_geometry_error())
+               : "");
 }
 
 // The numbers to show for an inclusion: only A, if it never tilts.
@@ -192,7 +200,8 @@ std::vector<std::string> row_of(const results::Load& load, const Told& inclusion
   inclusions.add(load, row);
   row.push_back(
       answered && answer.has_energy_lower()
-          ? results::interval(answer.energy(), answer.energy_lower(), answer.energy_upper())
+          ? results::interval(answer.energy(), answer.energy_lower(), answer.energy_upper()) +
+                of_chords(answer.has_energy_geometry_error(), answer.energy_geometry_error())
           : when_answered(answer.energy()));
   if (bounded) {
     const double error = results::number_in(answer, "error_bound_relative");

@@ -225,6 +225,11 @@ double probable_error_of(const InclusionAnswer& inclusion, double size) {
   return relative_error(inclusion, half, std::abs(inclusion.displacement) + half, size);
 }
 
+double geometry_error_of(const InclusionAnswer& inclusion, double size) {
+  const double half = inclusion.displacement_geometry_error.value_or(0);
+  return relative_error(inclusion, half, std::abs(inclusion.displacement) + half, size);
+}
+
 void take_middles(AnswerSummary& answer) {
   answer.energy = middle_or(answer.energy_mesh, answer.energy_lower, answer.energy_upper);
   for (InclusionAnswer& one : answer.inclusions) {

@@ -40,12 +40,15 @@ struct InclusionAnswer {
   std::optional<double> displacement_scale = {};
   /// Of displacement_mesh + displacement_estimated_error, no bound; see take_middles.
   std::optional<double> displacement_error_probable = {};
+  /// Estimate of how far A with curves is from A with their chords; see estimate/chord_gap.
+  std::optional<double> displacement_geometry_error = {};
 };
 ANTICRACK_FIELDS(InclusionAnswer, name, displacement, resultant, contact_length, slope_x, slope_y,
                  moment_x, moment_y, displacement_lower, displacement_upper,
                  displacement_estimated_error, slope_x_lower, slope_x_upper, slope_y_lower,
                  slope_y_upper, displacement_mesh, slope_x_mesh, slope_y_mesh,
-                 displacement_error_relative, displacement_scale, displacement_error_probable)
+                 displacement_error_relative, displacement_scale, displacement_error_probable,
+                 displacement_geometry_error)
 
 struct ContactInterval {
   std::string interface;  ///< its name
@@ -75,12 +78,13 @@ struct AnswerSummary {
   /// Empty if they were not asked for, or for the reason that `no_bracket` gives.
   std::optional<double> energy_lower, energy_upper, error_bound, error_bound_relative;
   std::string no_bracket;
-  double energy_mesh = 0;  ///< Pi of u on the mesh
+  double energy_mesh = 0;                       ///< Pi of u on the mesh
+  std::optional<double> energy_geometry_error;  ///< as displacement_geometry_error, of Pi
 };
 ANTICRACK_FIELDS(AnswerSummary, reason, iterations, criterion, theta, theta_star, energy, kkt,
                  kkt_relative, weakly_active, warnings, inclusions, contact_length,
                  contact_intervals, energy_lower, energy_upper, error_bound, error_bound_relative,
-                 no_bracket, energy_mesh, contact_length_error)
+                 no_bracket, energy_mesh, contact_length_error, energy_geometry_error)
 
 /// The number that users are told of a value: the middle of its bounds, or without bounds `mesh`,
 /// that of u on the mesh.
@@ -93,6 +97,9 @@ double middle_or(double mesh, const std::optional<double>& lower,
 double error_of(const InclusionAnswer& inclusion, double size);
 /// The same by displacement_error_probable, which it has.
 double probable_error_of(const InclusionAnswer& inclusion, double size);
+
+/// The same by displacement_geometry_error; 0 if it has none.
+double geometry_error_of(const InclusionAnswer& inclusion, double size);
 
 /// Sets the energy, A and B to the middles of their bounds, where they have bounds, and the error
 /// of A, which is over its own |A|. The probable error of displacement_mesh +

@@ -2,7 +2,9 @@
 #include "ddm/neumann_boundary.hpp"
 
 #include <algorithm>
+#include <map>
 #include <span>
+#include <utility>
 
 #include "base/at.hpp"
 #include "mesh/edges.hpp"
@@ -26,6 +28,15 @@ std::vector<std::size_t> places(const Decomposition& decomposition, std::size_t 
   return result;
 }
 
+using Ends = std::pair<std::int32_t, std::int32_t>;
+
+std::map<Ends, double> stretches(const mesh::Mesh& mesh) {
+  std::map<Ends, double> result;
+  for (const mesh::ChordEdge& edge : mesh.chords)
+    result[std::minmax(edge.a, edge.b)] = edge.stretch;
+  return result;
+}
+
 }  // namespace
 
 const NeumannBoundary::Edges& NeumannBoundary::of(std::size_t subdomain) const {
@@ -36,6 +47,7 @@ const NeumannBoundary::Edges& NeumannBoundary::of(std::size_t subdomain) const {
     std::vector<bool> held(_mesh.triangles.size(), false);
     for (const auto& [a, b] : _mesh.dirichlet)
       for (const mesh::EdgeUse& use : table.find(a, b)) held[corner(_mesh, use)] = true;
+    const std::map<Ends, double> stretch = stretches(_mesh);
     std::size_t turn = 0;
     table.each([&](std::span<const mesh::EdgeUse> uses) {
       stop::look_at_turn<stop::quick>(turn++, "finding the boundary that tractions act on");
@@ -43,7 +55,10 @@ const NeumannBoundary::Edges& NeumannBoundary::of(std::size_t subdomain) const {
       if (uses.size() != 1 || held[free]) return;
       const std::size_t s = at(_mesh.subdomain[free / 3]), k = free % 3;
       const std::int32_t* node = &_decomposition.subdomains[s].part.triangles[3 * local[free / 3]];
-      result[s].push_back({node[k], node[(k + 1) % 3]});
+      result[s].nodes.push_back({node[k], node[(k + 1) % 3]});
+      if (stretch.empty()) return;
+      const auto on_chord = stretch.find({uses[0].low(), uses[0].high()});
+      result[s].stretch.push_back(on_chord == stretch.end() ? 0 : on_chord->second);
     });
     return result;
   });
@@ -54,7 +69,8 @@ std::size_t NeumannBoundary::bytes() const noexcept {
   std::size_t bytes = 0;
   if (const std::vector<Edges>* edges = _edges.known())
     for (const Edges& on_subdomain : *edges)
-      bytes += on_subdomain.capacity() * sizeof(on_subdomain[0]);
+      bytes += on_subdomain.nodes.capacity() * sizeof(on_subdomain.nodes[0]) +
+               on_subdomain.stretch.capacity() * sizeof(double);
   return bytes;
 }
 

@@ -21,8 +21,11 @@ class NeumannBoundary {
   NeumannBoundary(const mesh::Mesh& mesh, const Decomposition& decomposition)
       : _mesh(mesh), _decomposition(decomposition) {}
 
-  using Edges = std::vector<std::array<std::int32_t, 2>>;
-  /// Edges of a subdomain as pairs of local nodes, counterclockwise about their triangle.
+  struct Edges {
+    std::vector<std::array<std::int32_t, 2>> nodes;  ///< local, counterclockwise about the triangle
+    std::vector<double> stretch;  ///< as mesh::ChordEdge::stretch; empty: the mesh has no chords
+  };
+  /// Edges of a subdomain.
   const Edges& of(std::size_t subdomain) const;
   std::size_t bytes() const noexcept;
 

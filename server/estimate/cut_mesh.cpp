@@ -35,6 +35,7 @@ class Cutting {
       _cut.centre.push_back(motion.centre);
     }
     find_faces();
+    find_chords();
     find_ways_out();
     find_fans();
     sort_fans(block);
@@ -110,6 +111,16 @@ class Cutting {
     for (const std::vector<std::int32_t>& of_subdomain : neumann)
       for (const std::int32_t side : of_subdomain)
         _cut.faces[at(add_face(side, Condition::given))].traction = number++;
+  }
+
+  void find_chords() {
+    for (const mesh::ChordEdge& edge : _mesh.chords) {
+      ChordEdge& found = _cut.chords.emplace_back(ChordEdge{edge, {}});
+      for (const mesh::EdgeUse& use : _edges.find(edge.a, edge.b)) {
+        const std::int32_t side = side_of(use), across = _across[at(side)];
+        found.beside[use.from == edge.a ? 0 : 1] = {side, across < 0 ? -1 - across : -1};
+      }
+    }
   }
 
   void find_ways_out() {
@@ -325,8 +336,8 @@ class Cutting {
 std::size_t CutMesh::bytes() const noexcept {
   const auto of = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
   return shapes.bytes() + of(first_triangle) + of(first_copy) + of(copy) + of(at) + of(triangle) +
-         of(faces) + of(ways_out) + of(first_corner) + of(corners) + of(first_stop) + of(stops) +
-         of(first_fan) + of(ways.bodies) + of(ways.of);
+         of(faces) + of(chords) + of(ways_out) + of(first_corner) + of(corners) + of(first_stop) +
+         of(stops) + of(first_fan) + of(ways.bodies) + of(ways.of);
 }
 
 CutMesh cut_mesh(const mesh::Mesh& mesh, const ddm::Decomposition& decomposition,

@@ -40,6 +40,18 @@ constexpr bool presses(Condition condition) noexcept {
   return condition == Condition::pressed || condition == Condition::crack_minus;
 }
 
+/// What is on one side of an edge on a chord.
+struct Beside {
+  std::int32_t side = -1;  ///< 3 T + i: the edge opposite to corner i of triangle T; -1: nothing
+  std::int32_t face = -1;  ///< its face; -1: the edge is inside the cut membrane
+};
+
+/// An edge on a chord of a curve, with what is on the left and on the right of it.
+struct ChordEdge {
+  mesh::ChordEdge edge;
+  std::array<Beside, 2> beside;
+};
+
 /// Where a fan meets a face, a flux x through spoke `spoke` is the flux w = sign x through the
 /// face.
 struct Stop {
@@ -66,7 +78,8 @@ struct CutMesh {
   std::vector<std::int32_t> triangle;        ///< (triangles) index into the mesh's triangles
 
   std::vector<Face> faces;
-  std::vector<char> tilts;  ///< (inclusions) 1: the flux must balance its moment as well
+  std::vector<ChordEdge> chords;  ///< as Mesh::chords
+  std::vector<char> tilts;        ///< (inclusions) 1: the flux must balance its moment as well
 
   /// A fan has the corners about a node, counterclockwise from face to face or all round. It goes
   /// on across cracks, whose flux is the same on both faces. Spokes 0, ..., m are between its

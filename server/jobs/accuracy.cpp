@@ -176,6 +176,42 @@ double rate_between(double error_before, const records::StageRecord& before, dou
   return error_before < 1 && grew > 0 && fell > least * grew ? fell / grew : 0;
 }
 
+/// What to do if the estimate of chords keeps an accuracy from being reached, as soon as the error
+/// is below it, or all of the accuracy that may be left; empty if it does not. What chords change
+/// falls as the third power of their angle.
+std::string too_coarse(const records::StageRecord& stage, const records::AccuracySpec& wanted,
+                       double chord_angle) {
+  constexpr double part = 0.2;  // of the accuracy, for the new chords
+  std::string found;
+  double most = 0;
+  const auto consider = [&](const char* name, const std::optional<double>& asked, auto error_of,
+                            std::optional<double> records::StageAnswer::*of_chords) {
+    for (const records::StageAnswer& answer : stage.answers) {
+      const double gap = (answer.*of_chords).value_or(0);
+      if (!asked || gap <= *asked / 2 || gap <= most * *asked) continue;
+      const double error = error_of(answer);
+      if (error + gap <= *asked || error > (gap < *asked ? *asked / 2 : gap)) continue;
+      most = gap / *asked;
+      found = fmt::format("{} by about {:.2g} %", name, 100 * gap);
+    }
+  };
+  using Answer = records::StageAnswer;
+  consider("energy", wanted.energy, relative_width, &Answer::energy_geometry_error);
+  consider(
+      "A", wanted.displacement,
+      [](const Answer& answer) { return answer.displacement_error.value_or(infinity); },
+      &Answer::displacement_geometry_error);
+  consider(
+      "A", wanted.displacement_estimated,
+      [](const Answer& answer) { return answer.displacement_error_probable.value_or(infinity); },
+      &Answer::displacement_geometry_error);
+  if (most == 0) return "";
+  return fmt::format(
+      "curves in place of their chords of {:g} degrees may change {}: set mesh.chord_angle = "
+      "{:.2g}",
+      chord_angle, found, chord_angle * std::cbrt(part / most));
+}
+
 /// What a proof needs, if its error goes on to fall at this rate.
 struct Need {
   const char* name = "";
@@ -262,8 +298,14 @@ records::StageAnswer stage_answer(const records::CaseRecord& ended_case, bool la
   const contact::AnswerSummary& answer = ended_case.answer;
   records::StageAnswer result{answer.energy, answer.energy_lower, answer.energy_upper,
                               answer.error_bound_relative};
-  if (const auto worst = worst_a(answer, largest, contact::error_of))
+  if (answer.energy_geometry_error && answer.energy != 0)
+    result.energy_geometry_error = *answer.energy_geometry_error / std::abs(answer.energy);
+  if (const auto worst = worst_a(answer, largest, contact::error_of)) {
     result.displacement_error = worst->error;
+    if (answer.energy_geometry_error)
+      result.displacement_geometry_error =
+          worst_a(answer, largest, contact::geometry_error_of)->error;
+  }
   const bool all_estimated =
       std::ranges::all_of(answer.inclusions, [](const contact::InclusionAnswer& one) {
         return one.displacement_error_probable.has_value();
@@ -276,20 +318,22 @@ records::StageAnswer stage_answer(const records::CaseRecord& ended_case, bool la
 
 double excess(const records::StageAnswer& answer, const records::AccuracySpec& wanted) {
   double result = 0;
-  const auto add = [&](double error, double asked) {
-    result = std::max(result, std::min(error, of_zero) / asked);
+  const auto add = [&](double error, double asked, const std::optional<double>& of_chords) {
+    const double left = std::max(asked - of_chords.value_or(0), asked / 2);
+    result = std::max(result, std::min(error, of_zero) / left);
   };
   if (wanted.energy) {
     if (!answer.energy_lower || !answer.energy_upper) return infinity;
-    add(relative_width(answer), *wanted.energy);
+    add(relative_width(answer), *wanted.energy, answer.energy_geometry_error);
   }
   if (wanted.displacement) {
     if (!answer.displacement_error) return infinity;
-    add(*answer.displacement_error, *wanted.displacement);
+    add(*answer.displacement_error, *wanted.displacement, answer.displacement_geometry_error);
   }
   if (wanted.displacement_estimated) {
     if (!answer.displacement_error_probable) return infinity;
-    add(*answer.displacement_error_probable, *wanted.displacement_estimated);
+    add(*answer.displacement_error_probable, *wanted.displacement_estimated,
+        answer.displacement_geometry_error);
   }
   return result;
 }
@@ -374,7 +418,7 @@ std::string limit_reached(const records::JobSpec& spec, std::uint64_t max_triang
 
 Verdict judge(const std::vector<records::StageRecord>& stages,
               const std::vector<const records::CaseRecord*>& cases, const records::JobSpec& spec,
-              std::uint64_t max_triangles, double seconds) {
+              std::uint64_t max_triangles, double seconds, double chord_angle) {
   const records::AccuracySpec& wanted = *spec.accuracy;
   const records::StageRecord& last = stages.back();
   const auto stop = [&](const std::string& why) {
@@ -392,6 +436,8 @@ Verdict judge(const std::vector<records::StageRecord>& stages,
     return one->status == contact::Status::converged ? stop(why) : Verdict{true, ""};
   }
   const Worst worst = worst_of(last, wanted);
+  if (const std::string chords = too_coarse(last, wanted, chord_angle); !chords.empty())
+    return stop(chords);
   if (worst.excess <= 1) return {true, ""};
   if ((wanted.displacement || wanted.displacement_estimated) &&
       !last.answers[worst.load].displacement_error) {

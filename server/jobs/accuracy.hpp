@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "mesh/geometry.hpp"
 #include "records/job_record.hpp"
 
 namespace anticrack::jobs {
@@ -25,8 +26,9 @@ void tighten(records::CaseRecord& answer, const records::CaseRecord& before);
 /// unset if an inclusion has no bounds.
 records::StageAnswer stage_answer(const records::CaseRecord& ended_case, bool largest = false);
 
-/// The largest ratio of an error to the accuracy asked for: at most 1 if all are reached, infinity
-/// without bounds. A relative error above 1e6 is that of a value that is 0, and counts as 1e6.
+/// The largest ratio of an error to the part of the accuracy that is left for it: what the estimate
+/// of chords leaves, at least half. At most 1 if finer meshes do not help, infinity without bounds.
+/// A relative error above 1e6 is that of a value that is 0, and counts as 1e6.
 double excess(const records::StageAnswer& answer, const records::AccuracySpec& wanted);
 
 /// The rate at which the largest excess fell in the last stage: as triangles^-rate. 1, that of
@@ -40,10 +42,13 @@ struct Verdict {
   std::string not_reached;
   bool fall_back = false;  ///< the answers of the stage before are better: they have bounds
 };
-/// `stages`: all, each ended; `cases`: those of the last; `seconds`: since the first began.
+/// `stages`: all, each ended; `cases`: those of the last; `seconds`: since the first began;
+/// `chord_angle`: of the meshes, degrees. An accuracy is reached if error and estimate of the
+/// chords together keep it.
 Verdict judge(const std::vector<records::StageRecord>& stages,
               const std::vector<const records::CaseRecord*>& cases, const records::JobSpec& spec,
-              std::uint64_t max_triangles, double seconds);
+              std::uint64_t max_triangles, double seconds,
+              double chord_angle = mesh::default_chord_angle);
 
 /// A message with the accuracy that is farthest from being reached and with `why` the job stops.
 /// `cases`: those of that stage, which tell what is 0 within its bounds; may be empty.

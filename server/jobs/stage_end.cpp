@@ -6,6 +6,7 @@
 #include <exception>
 #include <numeric>
 #include <utility>
+#include <variant>
 
 #include "estimate/marking.hpp"
 #include "jobs/accuracy.hpp"
@@ -35,6 +36,18 @@ std::uint64_t most_triangles(const EngineCore& core, const LiveJob& job) {
   const std::uint64_t asked = job.spec->accuracy->max_triangles;
   const std::uint64_t server = core.catalogue.max_triangles();
   return asked > 0 ? std::min(asked, server) : server;
+}
+
+/// The chord angle of the job's meshes; the default if the first of them was deleted.
+double chord_angle(const EngineCore& core, const LiveJob& job) {
+  double angle = 0;
+  try {
+    const records::MeshRecord mesh = core.catalogue.get(job.spec->mesh);
+    if (const auto* source = std::get_if<records::GeometrySource>(&mesh.definition))
+      angle = source->options.chord_angle;
+  } catch (const Error&) {
+  }
+  return angle > 0 ? angle : mesh::default_chord_angle;
 }
 
 /// Makes the mesh of the next stage, as fine as the accuracy asks for and the limit allows; errors
@@ -101,7 +114,7 @@ void end_stage(EngineCore& core, const JobPtr& job) {
   ended.forecast = forecast(records, *job->spec, most);
   const auto event = std::make_shared<const records::StageRecord>(ended);
   const double rate = rate_of(records, *job->spec->accuracy);
-  Verdict verdict = judge(records, cases, *job->spec, most, ended.seconds);
+  Verdict verdict = judge(records, cases, *job->spec, most, ended.seconds, chord_angle(core, *job));
   LiveStages::Complete complete;
   std::shared_ptr<void> use;
   std::string finer;   // id of the mesh that was made

@@ -37,4 +37,35 @@ Point Bend::derivative(double u) const noexcept {
   return d;
 }
 
+std::array<ChordEdge, 2> ChordEdge::halved(std::int32_t middle) const noexcept {
+  std::array<ChordEdge, 2> half{*this, *this};
+  half[0].b = half[1].a = middle;
+  half[0].at_b = half[1].at_a = at_middle;
+  half[0].at_middle = 0.375 * at_a + 0.75 * at_middle - 0.125 * at_b;
+  half[1].at_middle = 0.375 * at_b + 0.75 * at_middle - 0.125 * at_a;
+  return half;
+}
+
+ChordEdge chord_edge(const BentEdge& edge, const Bend& bend, const Point& a, const Point& b) {
+  const Point along{b[0] - a[0], b[1] - a[1]};
+  const double length = std::hypot(along[0], along[1]);
+  const auto left = [&](double u) {
+    const Point p = bend.at(u);
+    return (along[0] * (p[1] - a[1]) - along[1] * (p[0] - a[0])) / length;
+  };
+  constexpr double gauss = 0.5773502691896258;  // of two points
+  double curve = 0;
+  for (const double x : {-gauss, gauss}) {
+    const Point d = bend.derivative(edge.middle() + 0.5 * x * (edge.to - edge.from));
+    curve += 0.5 * std::abs(edge.to - edge.from) * std::hypot(d[0], d[1]);
+  }
+  return {edge.a,
+          edge.b,
+          left(edge.from),
+          left(edge.middle()),
+          left(edge.to),
+          edge.chord > 0 ? edge.chord : length,
+          curve / length - 1};
+}
+
 }  // namespace anticrack::mesh

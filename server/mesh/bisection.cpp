@@ -83,6 +83,7 @@ std::vector<bool> nodes_of_lines(const Mesh& mesh) {
     for (const std::int32_t node : line.nodes) found[at(node)] = true;
   for (const auto& edge : mesh.dirichlet)
     for (const std::int32_t node : edge) found[at(node)] = true;
+  for (const ChordEdge& edge : mesh.chords) found[at(edge.a)] = found[at(edge.b)] = true;
   return found;
 }
 
@@ -103,6 +104,28 @@ void each_piece(std::int32_t a, std::int32_t b, const Midpoints& midpoints,
       targets.pop_back();
     }
   }
+}
+
+/// Replaces edges on chords by their pieces.
+std::vector<ChordEdge> cut_chords(const std::vector<ChordEdge>& chords,
+                                  const Midpoints& midpoints) {
+  std::vector<ChordEdge> pieces, waiting;
+  for (const ChordEdge& chord : chords) {
+    waiting.assign(1, chord);
+    while (!waiting.empty()) {
+      const ChordEdge edge = waiting.back();
+      waiting.pop_back();
+      const std::int32_t middle = midpoints.find(edge.a, edge.b);
+      if (middle < 0) {
+        pieces.push_back(edge);
+      } else {
+        const auto [first, second] = edge.halved(middle);
+        waiting.push_back(second);
+        waiting.push_back(first);
+      }
+    }
+  }
+  return pieces;
 }
 
 /// Replaces the edges of all interfaces and of the Dirichlet boundary by their pieces, recursively.
@@ -267,8 +290,10 @@ Mesh Bisection::finish() && {
   mesh.dirichlet = _base.dirichlet;
   mesh.bisection_bound = bisection_bound(_base);
   stop::look(bisecting);
-  cut_lines(mesh, Midpoints(static_cast<std::int32_t>(_base.node_count()), _parents,
-                            nodes_of_lines(_base)));
+  const Midpoints midpoints(static_cast<std::int32_t>(_base.node_count()), _parents,
+                            nodes_of_lines(_base));
+  cut_lines(mesh, midpoints);
+  mesh.chords = cut_chords(_base.chords, midpoints);
   return mesh;
 }
 

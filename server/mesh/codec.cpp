@@ -17,10 +17,11 @@ namespace {
 
 // The first eight bytes name the kind of message and the version of the format.
 constexpr std::string_view mesh_tag = "ACMESH2\n";
-constexpr std::string_view moving_mesh_tag = "ACMESH3\n";     // motions follow
-constexpr std::string_view mesh_with_laws_tag = "ACMESH4\n";  // motions and tension laws follow
-constexpr std::string_view request_tag = "ACMREQ4\n";
-constexpr std::string_view reply_tag = "ACMREP3\n";
+constexpr std::string_view moving_mesh_tag = "ACMESH3\n";       // motions follow
+constexpr std::string_view mesh_with_laws_tag = "ACMESH4\n";    // motions and tension laws follow
+constexpr std::string_view mesh_with_chords_tag = "ACMESH5\n";  // motions, laws, chords follow
+constexpr std::string_view request_tag = "ACMREQ5\n";
+constexpr std::string_view reply_tag = "ACMREP4\n";
 
 constexpr auto last_reason = static_cast<std::int32_t>(errors::Reason::internal);
 
@@ -29,11 +30,11 @@ bool moves(const Mesh& mesh) {
   return std::ranges::any_of(mesh.motions, [](const Motion& m) { return m != Motion(); });
 }
 
-/// Fields that are not part of the hash of a mesh. Motions and laws are among them, as they were
-/// added later: a mesh without them keeps its hash. The bends leave the mesher only in its nodes.
+/// Fields that are not part of the hash of a mesh. Motions, laws and chords are among them, as they
+/// were added later: a mesh without them keeps its hash. The bends leave the mesher only as chords.
 bool is_beside(std::string_view field) {
   return field == "warnings" || field == "bisection_bound" || field == "motions" ||
-         field == "tension_laws" || field == "bends" || field == "bent";
+         field == "tension_laws" || field == "bends" || field == "bent" || field == "chords";
 }
 
 void put(Writer& out, const Mesh& mesh) {
@@ -133,21 +134,32 @@ static Choices choices_of(Preset) {
 }
 
 Bytes encode(const Mesh& mesh) {
-  const bool moving = moves(mesh), laws = !mesh.tension_laws.empty();
-  Writer out(laws ? mesh_with_laws_tag : moving ? moving_mesh_tag : mesh_tag, bytes_of(mesh));
+  const bool moving = moves(mesh), chords = !mesh.chords.empty(),
+             laws = chords || !mesh.tension_laws.empty();
+  Writer out(chords   ? mesh_with_chords_tag
+             : laws   ? mesh_with_laws_tag
+             : moving ? moving_mesh_tag
+                      : mesh_tag,
+             bytes_of(mesh));
   put(out, mesh);
   if (moving || laws) out.value(moving ? mesh.motions : std::vector<Motion>());
   if (laws) out.value(mesh.tension_laws);
+  if (chords) out.value(mesh.chords);
   return out.take();
 }
 
 Mesh decode_mesh(std::span<const std::byte> bytes) {
   const bool moving = Reader::begins(bytes, moving_mesh_tag),
-             laws = Reader::begins(bytes, mesh_with_laws_tag);
-  Reader in(bytes, laws ? mesh_with_laws_tag : moving ? moving_mesh_tag : mesh_tag);
+             chords = Reader::begins(bytes, mesh_with_chords_tag),
+             laws = chords || Reader::begins(bytes, mesh_with_laws_tag);
+  Reader in(bytes, chords   ? mesh_with_chords_tag
+                   : laws   ? mesh_with_laws_tag
+                   : moving ? moving_mesh_tag
+                            : mesh_tag);
   Mesh mesh = get_mesh(in);
   if (moving || laws) in.read(mesh.motions);
   if (laws) in.read(mesh.tension_laws);
+  if (chords) in.read(mesh.chords);
   in.end();
   return mesh;
 }
@@ -179,6 +191,7 @@ Bytes encode(const MesherReply& reply) {
     put(out, *mesh);
     out.value(mesh->motions);
     out.value(mesh->tension_laws);
+    out.value(mesh->chords);
     out.value(mesh->warnings);
     out.value(mesh->bisection_bound);
   } else {
@@ -197,6 +210,7 @@ MesherReply decode_reply(std::span<const std::byte> bytes) {
   Mesh mesh = get_mesh(in);
   in.read(mesh.motions);
   in.read(mesh.tension_laws);
+  in.read(mesh.chords);
   in.read(mesh.warnings);
   in.read(mesh.bisection_bound);
   in.end();

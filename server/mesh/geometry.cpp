@@ -239,8 +239,8 @@ void note_chords(const Network& network, std::vector<std::string>& warnings) {
   const auto curves = std::ranges::count_if(pieces, [](int count) { return count > 0; });
   warnings.push_back(fmt::format(
       "{} replaced by chords: {}{} by {}, up to {:.2g} off the curve; bounds are those of the "
-      "membrane with chords, and mesh.chord_angle = 1.25 (default 5) brings chords and curves 16 "
-      "times closer",
+      "membrane with chords, what curves would change is estimated beside them, and half the "
+      "mesh.chord_angle (default 5) makes it an eighth",
       curves == 1 ? "a curve is" : "curves are", network.lines[worst].field.shown,
       curves == 1 ? "" : fmt::format(", the coarsest of {} curves,", curves), pieces[worst], most));
 }
@@ -274,6 +274,8 @@ Plan plan(const Geometry& given, const MeshOptions& options, std::size_t max_tri
   if (options.chord_angle > 0) rule.turn = options.chord_angle * std::numbers::pi / 180;
   cut(lines, rule, curve_limit);
   const Layout layout = lay_parts(geometry, network);
+  for (const Stretch& part : layout.stretches)
+    network.lines[at(part.line)].parts.push_back({part.begin, part.end});
   cut(network, rule, curve_limit);
   balance_areas(network);
   if (options.chord_angle == 0) note_chords(network, plan.warnings);

@@ -129,6 +129,8 @@ constexpr bool graded(Preset preset) noexcept {
   return preset == Preset::graded || preset == Preset::coarse;
 }
 
+constexpr double default_chord_angle = 5;  ///< degrees
+
 struct MeshOptions {
   Preset preset = Preset::graded;
   double size = 0;       ///< edge length away from tips; 0: chosen, see MeshOptions of the API
@@ -142,7 +144,7 @@ struct MeshOptions {
   std::map<std::string, double> tension{};               ///< subdomain -> T
   std::map<std::string, Motion> inclusion_motions{};     ///< inclusion -> how it moves
   std::map<std::string, TensionLaw> tension_laws{};      ///< subdomain -> T, in place of a number
-  double chord_angle = 0;  ///< geometry: largest turn of a chord of a curve, degrees; 0: five
+  double chord_angle = 0;  ///< geometry: largest turn of a chord of a curve, degrees; 0: default
 };
 ANTICRACK_FIELDS(MeshOptions, preset, size, tip_size, grading, align, curve_groups, surface_groups,
                  tension, inclusion_motions, tension_laws, chord_angle)
@@ -162,11 +164,16 @@ struct PlannedCurve {
   Kind kind = Kind::glue;
   int inclusion = -1;
   // of a chord:
-  int bend = -1;    ///< index into Plan::bends; -1: the curve lies on a straight line
-  double from = 0;  ///< parameter of the bend at a
-  double to = 0;    ///< at b
+  int bend = -1;     ///< index into Plan::bends; -1: the curve lies on a straight line
+  double from = 0;   ///< parameter of the bend at a
+  double to = 0;     ///< at b
+  double chord = 0;  ///< of a part of a chord, which stays straight: length of the whole; else 0
+
+  /// Whether the curve is a whole chord, whose nodes may be put on its bend.
+  bool bends() const noexcept { return bend >= 0 && chord == 0; }
 };
-ANTICRACK_FIELDS(PlannedCurve, a, b, intervals, role, left, right, kind, inclusion, bend, from, to)
+ANTICRACK_FIELDS(PlannedCurve, a, b, intervals, role, left, right, kind, inclusion, bend, from, to,
+                 chord)
 
 /// A chain of curves from a to b, each beginning where the last ends; the plus side is on the left.
 struct PlannedInterface {

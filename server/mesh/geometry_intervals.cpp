@@ -241,13 +241,16 @@ void cut_near(Plan& plan, double size, double growth, std::size_t max_curves) {
     PlannedCurve piece = plan.curves[e];
     const Segment whole = segment_of(plan, piece);
     const int last = piece.b;
-    if (!cuts[e].empty()) piece.bend = -1;  // its nodes are to lie on the chord
-    const auto add = [&](int b, int intervals) {
+    const double first = piece.from, turn = piece.to - piece.from;
+    if (!cuts[e].empty()) piece.chord = length_of(plan, piece);
+    const auto add = [&](int b, double to, int intervals) {
       piece.b = b;
+      piece.to = first + to * turn;
       piece.intervals = intervals;
       pieces[e].push_back(static_cast<int>(curves.size()));
       curves.push_back(piece);
       piece.a = b;
+      piece.from = piece.to;
     };
     cuts[e].push_back(1);
     double from = 0;
@@ -256,7 +259,7 @@ void cut_near(Plan& plan, double size, double growth, std::size_t max_curves) {
       i += count;
       from = cuts[e][i - 1];
       if (i < cuts[e].size()) plan.points.push_back(point_on(whole, from));
-      add(i < cuts[e].size() ? static_cast<int>(plan.points.size()) - 1 : last,
+      add(i < cuts[e].size() ? static_cast<int>(plan.points.size()) - 1 : last, from,
           static_cast<int>(count));
     }
   }

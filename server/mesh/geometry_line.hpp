@@ -19,7 +19,18 @@ namespace anticrack::mesh {
 /// it.
 struct ChordRule {
   double size = 0;
-  double turn = std::numbers::pi / 36;  ///< radians
+  double turn = default_chord_angle * std::numbers::pi / 180;  ///< radians
+};
+
+/// Which ends of a part of a line are tips, where slopes of u are infinite. A chord there is 0.03
+/// as long as the rule lets it be, and those behind it grow by a fifth of their distance from the
+/// tip.
+struct Tips {
+  bool at_from = false, at_to = false;
+  /// How many chords take the place of `chords` of the rule.
+  double count(double chords) const noexcept;
+  /// Up to which of `chords` of the rule the first `k` of these go.
+  double reach(double k, double chords) const noexcept;
 };
 
 /// Span k of a line runs over the parameters [k, k+1]; the ends of the spans are its vertices.
@@ -62,8 +73,10 @@ class Line {
   double along(double from, double to, double part) const;
   /// How many chords the line needs by a rule between two parameters. Not for polylines.
   double chords_between(double from, double to, const ChordRule& rule) const;
-  /// The parameters, strictly between the two, that cut this part of the line into such chords.
-  std::vector<double> cuts_between(double from, double to, const ChordRule& rule) const;
+  /// The parameters, strictly between the two, that cut this part of the line into such chords,
+  /// towards tips into shorter ones.
+  std::vector<double> cuts_between(double from, double to, const ChordRule& rule,
+                                   Tips tips = {}) const;
 
  private:
   struct Sample {

@@ -16,7 +16,32 @@ double turn(const Point& a, const Point& b) {
   return std::abs(std::atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]));
 }
 
+// Towards a tip there are 1 / (first + growth c) chords for each of the rule, c of which lie
+// between, where that is above 1.
+constexpr double first = 0.03, growth = 0.2, graded = (1 - first) / growth;
+
+double count_from_tip(double c) {
+  const double near = std::log1p(growth * std::min(c, graded) / first) / growth;
+  return near + std::max(0.0, c - graded);
+}
+
+double reach_from_tip(double count) {
+  const double near = count_from_tip(graded);
+  return std::expm1(growth * std::min(count, near)) * first / growth + std::max(0.0, count - near);
+}
+
 }  // namespace
+
+double Tips::count(double chords) const noexcept {
+  if (at_from && at_to) return 2 * count_from_tip(chords / 2);
+  return at_from || at_to ? count_from_tip(chords) : chords;
+}
+
+double Tips::reach(double k, double chords) const noexcept {
+  const double all = count(chords);
+  if (at_from && (!at_to || k < all / 2)) return reach_from_tip(k);
+  return at_to ? chords - reach_from_tip(all - k) : k;
+}
 
 double Line::along(double from, double to, double part) const {
   const auto wrapped = [&](double t) { return at(t >= _spans && _closed ? t - _spans : t); };
@@ -57,16 +82,18 @@ double Line::chords_between(double from, double to, const ChordRule& rule) const
   return measure(from, to, rule, steps_at_least).back();
 }
 
-std::vector<double> Line::cuts_between(double from, double to, const ChordRule& rule) const {
+std::vector<double> Line::cuts_between(double from, double to, const ChordRule& rule,
+                                       Tips tips) const {
   const double expected = std::ceil(chords_between(from, to, rule));
   const int steps = steps_at_least + 4 * static_cast<int>(expected);
   const std::vector<double> sum = measure(from, to, rule, steps);
-  const auto pieces = static_cast<int>(std::ceil(sum.back() - 1e-6));
+  const double chords = tips.count(sum.back());
+  const auto pieces = static_cast<int>(std::ceil(chords - 1e-6));
   std::vector<double> cuts;
   cuts.reserve(static_cast<std::size_t>(std::max(0, pieces)));
   std::size_t i = 1;
   for (int k = 1; k < pieces; ++k) {
-    const double wanted = sum.back() * k / pieces;
+    const double wanted = tips.reach(chords * k / pieces, sum.back());
     while (sum[i] < wanted) ++i;
     const double part = (wanted - sum[i - 1]) / (sum[i] - sum[i - 1]);
     cuts.push_back(from + (to - from) * (static_cast<double>(i - 1) + part) / steps);

@@ -85,7 +85,8 @@ void cut_stretch(Network& network, std::size_t l, const Station& from, const Sta
                           shown(rule.size), shown(rule.turn * 180 / std::numbers::pi), max_chords)
           .at("options.size");
     }
-    for (const double t : line.cuts_between(from.t, to.t, rule)) {
+    const Tips tips = network.lines[l].tips(from.t, to.t);
+    for (const double t : line.cuts_between(from.t, to.t, rule, tips)) {
       network.points.push_back(line.at(t));
       add(t, static_cast<int>(network.points.size()) - 1);
     }
@@ -137,6 +138,20 @@ void check_inside(const Network& network) {
 }
 
 }  // namespace
+
+Tips NetworkLine::tips(double from, double to) const noexcept {
+  constexpr double same = 1e-9;
+  Tips found;
+  for (const auto& [begin, end] : parts) {
+    for (const double turn : {0.0, static_cast<double>(line.spans())}) {
+      if (turn > 0 && !line.closed()) break;
+      if (from < begin - turn - same || to > end - turn + same) continue;
+      found.at_from |= std::abs(from - (begin - turn)) < same;
+      found.at_to |= std::abs(to - (end - turn)) < same;
+    }
+  }
+  return found;
+}
 
 void check_meetings(std::size_t count, std::size_t most) {
   if (count <= most) return;

@@ -27,6 +27,10 @@ struct NetworkLine {
   Role role = Role::interface;
   Line line;
   std::vector<Station> stations;  ///< in order; the first of a closed line is not repeated
+  std::vector<std::array<double, 2>> parts{};  ///< parameters of ends of inclusions and cracks
+
+  /// Which of two stations, one behind the other, are tips of what lies between them.
+  Tips tips(double from, double to) const noexcept;
 };
 
 /// A chord from points[a] to points[b] along a line, in its direction.

@@ -242,6 +242,17 @@ void check_boundary(const Mesh& mesh, const EdgeTable& edges) {
   sort_once(mesh, seen, " is listed as dirichlet twice");
 }
 
+void check_chords(const Mesh& mesh, const EdgeTable& edges) {
+  for (std::size_t i = 0; i < mesh.chords.size(); ++i) {
+    const auto& [a, b, at_a, at_middle, at_b, chord, stretch] = mesh.chords[i];
+    if (edges.find(a, b).empty())
+      fail("edge ", i, " on a chord joins nodes ", a, " and ", b, ", which no triangle does");
+    if (!std::isfinite(at_a + at_middle + at_b + stretch) || !(chord > 0))
+      fail("edge ", i, " on a chord, ", where_edge(mesh, a, b),
+           ", has numbers that are not finite");
+  }
+}
+
 }  // namespace
 
 std::string fault_of(const TensionLaw& law) {
@@ -285,6 +296,7 @@ void validate(const Mesh& mesh) {
   const EdgeTable edges(mesh.triangles);
   check_edges(mesh, edges, check_interfaces(mesh, edges));
   check_boundary(mesh, edges);
+  check_chords(mesh, edges);
 }
 
 Mesh without_triangles(const Mesh& mesh) {

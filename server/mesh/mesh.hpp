@@ -67,7 +67,8 @@ struct Mesh {
   std::vector<std::array<std::int32_t, 2>> dirichlet;  ///< edges of the boundary where u = g_D
   std::vector<std::string> warnings;                   ///< what was repaired or assumed
   std::vector<Bend> bends;                             ///< what is left of the curves of a geometry
-  std::vector<BentEdge> bent;  ///< chords of these, any number; refinement puts nodes on the bend
+  std::vector<BentEdge> bent;     ///< for the mesher: edges beside these, see refine_uniform
+  std::vector<ChordEdge> chords;  ///< edges on chords of curves
   /// Lower bound, in degrees, of the angles of any bisection of the unrefined mesh. 0: not refined.
   double bisection_bound = 0;
 
@@ -76,7 +77,7 @@ struct Mesh {
   std::size_t triangle_count() const noexcept { return triangles.size() / 3; }
 };
 ANTICRACK_FIELDS(Mesh, xy, triangles, subdomain, subdomains, tension, tension_laws, inclusions,
-                 motions, interfaces, dirichlet, warnings, bends, bent, bisection_bound)
+                 motions, interfaces, dirichlet, warnings, bends, bent, chords, bisection_bound)
 
 /// Throws errors::Error (mesh_invalid) naming the first invariant violated and where. O(m log m).
 void validate(const Mesh& mesh);

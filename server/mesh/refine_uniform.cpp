@@ -50,20 +50,28 @@ class Midpoints {
             std::array{ca, bc, corner[2]}, std::array{ab, bc, ca}};
   }
 
-  /// Moves the midpoints of bent edges onto their bends, where triangles keep their shape. Returns
-  /// the halves of the edges whose midpoints were moved.
+  /// Moves the midpoints of chords onto their bends, where triangles keep their shape. Returns the
+  /// halves of all bent edges; those whose midpoints were not moved remain parts of a chord.
   std::vector<BentEdge> bend() {
-    std::vector<BentEdge> halves;
-    std::vector<BentEdge> bent = _base.bent;
+    std::vector<BentEdge> halves, bent = _base.bent;
+    std::erase_if(bent, [](const BentEdge& edge) { return edge.chord > 0; });
     for (const BentEdge& edge : bent) put(edge, _base.bends[at(edge.bend)].at(edge.middle()));
     // where one goes back, a triangle beside it may lose what another needs: until none goes back
     while (std::erase_if(bent, [this](const BentEdge& edge) { return put_back(edge); }) > 0) {
     }
-    halves.reserve(2 * bent.size());
-    for (const auto& [a, b, bend, from, to] : bent) {
-      const double middle = 0.5 * (from + to);
-      halves.push_back({a, between(a, b), bend, from, middle});
-      halves.push_back({between(a, b), b, bend, middle, to});
+    halves.reserve(2 * _base.bent.size());
+    auto moved = bent.begin();
+    for (const BentEdge& edge : _base.bent) {
+      const std::int32_t node = between(edge.a, edge.b);
+      BentEdge first = edge, second = edge;
+      if (moved != bent.end() && *moved == edge)
+        ++moved;
+      else if (edge.chord == 0)
+        first.chord = second.chord = distance(position(_base, edge.a), position(_base, edge.b));
+      first.b = second.a = node;
+      first.to = second.from = edge.middle();
+      halves.push_back(first);
+      halves.push_back(second);
     }
     return halves;
   }
@@ -146,6 +154,10 @@ Mesh refine_uniform(const Mesh& base) {
   }
   for (const Interface& interface : base.interfaces)
     fine.interfaces.push_back(cut(interface, midpoint));
+  for (const ChordEdge& edge : base.chords) {
+    const auto halves = edge.halved(midpoint.between(edge.a, edge.b));
+    fine.chords.insert(fine.chords.end(), halves.begin(), halves.end());
+  }
   fine.dirichlet.reserve(2 * base.dirichlet.size());
   for (const auto& [a, b] : base.dirichlet) {
     const std::int32_t middle = midpoint.between(a, b);

@@ -30,10 +30,8 @@ struct Run {
   std::size_t count = 1;  ///< curves, in the order of their indices
   bool reversed = false;  ///< the walk along the chords begins with the last of them
   int intervals = 1;      ///< of all curves
-  double length = 0;
-  double turn = 0;  ///< radians; 0: a straight line
-
-  double interval() const { return length / intervals; }
+  double interval = 0;    ///< length of the longest one
+  double turn = 0;        ///< radians; 0: a straight line
 };
 
 double turn_of(const mesh::Plan& plan, const mesh::PlannedCurve& chord) {
@@ -47,7 +45,8 @@ bool continues(const mesh::PlannedCurve& one, const mesh::PlannedCurve& next, bo
   const auto same = [](const mesh::PlannedCurve& c) {
     return std::tie(c.bend, c.role, c.left, c.right, c.kind, c.inclusion);
   };
-  return one.bend >= 0 && same(one) == same(next) && (reversed ? next.b == one.a : one.b == next.a);
+  return one.bends() && next.bends() && same(one) == same(next) &&
+         (reversed ? next.b == one.a : one.b == next.a);
 }
 
 std::vector<Run> runs_of(const mesh::Plan& plan) {
@@ -55,7 +54,7 @@ std::vector<Run> runs_of(const mesh::Plan& plan) {
   for (std::size_t i = 0; i < plan.curves.size(); ++i) {
     const mesh::PlannedCurve& curve = plan.curves[i];
     const bool more = !runs.empty() && runs.back().first + runs.back().count == i;
-    const bool reversed = curve.bend >= 0 && curve.from > curve.to;
+    const bool reversed = curve.bends() && curve.from > curve.to;
     if (more && runs.back().reversed == reversed &&
         continues(plan.curves[i - 1], curve, reversed)) {
       ++runs.back().count;
@@ -63,15 +62,16 @@ std::vector<Run> runs_of(const mesh::Plan& plan) {
     } else {
       runs.push_back({.first = i, .reversed = reversed, .intervals = curve.intervals});
     }
-    runs.back().length += mesh::length_of(plan, curve);
-    if (curve.bend >= 0) runs.back().turn += turn_of(plan, curve);
+    runs.back().interval =
+        std::max(runs.back().interval, mesh::length_of(plan, curve) / curve.intervals);
+    if (curve.bends()) runs.back().turn += turn_of(plan, curve);
   }
   return runs;
 }
 
 double longest_interval(const std::vector<Run>& runs) {
   double longest = 0;
-  for (const Run& run : runs) longest = std::max(longest, run.interval());
+  for (const Run& run : runs) longest = std::max(longest, run.interval);
   return longest;
 }
 
@@ -80,7 +80,7 @@ double longest_interval(const std::vector<Run>& runs) {
 /// within a quarter of the shorter ones' length of the bend: what shares no point with these is
 /// further off than half their length.
 int coarse_intervals(const Run& run, double longest, int parts) {
-  if (run.interval() < longest / 2) return run.intervals;
+  if (run.interval < longest / 2) return run.intervals;
   const auto least = static_cast<int>(
       std::ceil(std::max(run.turn / most_turn, std::sqrt(run.turn * run.intervals / 2))));
   return std::clamp((run.intervals + parts - 1) / parts, std::min(least, run.intervals),

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "mesh/edges.hpp"
+#include "mesh/geometry_steps.hpp"
 #include "mesh/refine_uniform.hpp"
 #include "mesher/coarsening.hpp"
 #include "mesher/messages.hpp"
@@ -332,7 +333,12 @@ mesh::Mesh read_mesh(const Plan& plan, const Frame& frame) {
   for (std::size_t i = 0; i < plan.curves.size(); ++i) {
     const PlannedCurve& curve = plan.curves[i];
     if (curve.bend < 0) continue;
-    mesh.bent.push_back({chains[i].front(), chains[i].back(), curve.bend, curve.from, curve.to});
+    const bool whole = curve.bends() && curve.intervals == 1;
+    const double chord = whole ? 0 : curve.chord > 0 ? curve.chord : mesh::length_of(plan, curve);
+    const double turn = (curve.to - curve.from) / curve.intervals;
+    for (int k = 0; k < curve.intervals; ++k)
+      mesh.bent.push_back({chains[i][at(k)], chains[i][at(k + 1)], curve.bend,
+                           curve.from + k * turn, curve.from + (k + 1) * turn, chord});
   }
   const std::vector<std::int32_t> subdomain_of = name_subdomains(plan, mesh);
   for (std::size_t i = 0; i < plan.faces.size(); ++i)
@@ -383,6 +389,10 @@ mesh::Mesh generate(const Gmsh& /*its presence is needed*/, const mesh::Generate
         .at("options.size");
   }
   for (int i = 0; i < halvings; ++i) mesh = mesh::refine_uniform(mesh);
+  for (const mesh::BentEdge& edge : mesh.bent)
+    mesh.chords.push_back(mesh::chord_edge(edge, mesh.bends[at(edge.bend)],
+                                           mesh::position(mesh, edge.a),
+                                           mesh::position(mesh, edge.b)));
   return mesh;
 }
 

@@ -8,6 +8,7 @@
 #include "base/at.hpp"
 #include "contact/answer.hpp"
 #include "estimate/bracket.hpp"
+#include "estimate/chord_gap.hpp"
 #include "operators/displacement_bounds.hpp"
 #include "operators/load_bounds.hpp"
 #include "stop/stop.hpp"
@@ -49,6 +50,7 @@ struct Material {
   std::vector<double> u;
   std::vector<estimate::Lift> lifts;
   estimate::LoadBalance balance;
+  std::vector<double> across_chords;
   double parts_energy = 0;
 };
 
@@ -65,7 +67,7 @@ void find_bounds(const MeshOperator::Parts& parts, const estimate::CutMesh& cut,
   primals.reserve(materials.size());
   brackets.reserve(materials.size());
   for (std::size_t i = 0; i < materials.size(); ++i) {
-    const auto& [of, load, u, lifts, balance, parts_energy] = materials[i];
+    const auto& [of, load, u, lifts, balance, across, parts_energy] = materials[i];
     contact::Answer& answer = *of.answer;
     constexpr double most_cancelled = 1e3;  // beyond, rounding exceeds the bracket's
     if (parts_energy > most_cancelled * (std::abs(answer.energy_mesh) + fluxes[i].norm_squared())) {
@@ -81,11 +83,15 @@ void find_bounds(const MeshOperator::Parts& parts, const estimate::CutMesh& cut,
     answer.energy_upper = bracket.upper;
     answer.error_bound = bracket.error;
     answer.error_bound_relative = bracket.error_relative;
+    if (!cut.chords.empty()) {
+      answer.energy_geometry_error =
+          estimate::chord_gap(cut, parts.decomposition.subdomains, balance, {u, across});
+    }
     of.indicator.resize(bracket.indicator.size());
     for (std::size_t t = 0; t < bracket.indicator.size(); ++t)
       of.indicator[at(cut.triangle[t])] = bracket.indicator[t];
     bounded.push_back({load, primals.emplace_back(cut, fluxes[i], balance, lifts, u, lack), bracket,
-                       answer, of.stop, of.closely, of.of_largest, &of.indicator});
+                       answer, of.stop, of.closely, of.of_largest, &of.indicator, across});
   }
   bound_displacements(parts, bounded);
   for (const Bounded& one : bounded) contact::take_middles(one.answer);
@@ -130,7 +136,7 @@ void MeshOperator::estimate(std::span<Estimate> all) const {
       if (!answer.no_bracket.empty()) continue;
       const bool recovered = answer.fields.empty();
       if (recovered) recover_fields({&one.load, 1}, {&one.answer, 1});
-      Material material{one, load, of_copies(answer.fields), {}, {}};
+      Material material{one, load, of_copies(answer.fields), {}, {}, {}};
       if (recovered) answer.fields.clear();
       if (material.u.size() != cut.at.size()) {  // its solution was stopped
         throw errors::Error(errors::Reason::cancelled, "stopped while {}", bounding);
@@ -145,6 +151,7 @@ void MeshOperator::estimate(std::span<Estimate> all) const {
       if (!of_load.boundary.empty())
         material.lifts = estimate::lifts(cut, of_load.boundary, material.u);
       material.balance = std::move(of_load.balance);
+      material.across_chords = std::move(of_load.across_chords);
       material.parts_energy = data.parts_energy;
       materials.push_back(std::move(material));
     } catch (...) {

@@ -162,6 +162,7 @@ class Block {
     parts.integrated.resize(_decomposition.subdomains.size());
     if (!load.traction.empty()) parts.traction.resize(_decomposition.subdomains.size());
     if (!fem::is_linear(load.boundary_value)) parts.boundary_value = load.boundary_value;
+    parts.beside_chords = load.boundary_value;
     if (placed.on_points) {
       parts.obstacle =
           "a point force in the membrane has an infinite energy, and no bound exists; spread it "
@@ -245,7 +246,7 @@ class Block {
   void require_traction_acts(const fem::Load& load) const {
     if (load.traction.empty() || load.traction == "0") return;
     for (std::size_t s = 0; s < _decomposition.subdomains.size(); ++s)
-      if (!_neumann.of(s).empty()) return;
+      if (!_neumann.of(s).nodes.empty()) return;
     throw errors::Error(errors::Reason::invalid_argument,
                         "nothing has a traction, as no part of the boundary is a Neumann boundary; "
                         "name its sides or holes in the geometry's neumann, or the curves of an "
@@ -253,15 +254,29 @@ class Block {
         .at("traction");
   }
 
+  /// Lets a traction act on the length of the curve of which an edge is a chord.
+  static void stretch(double by, const std::array<std::int32_t, 2>& nodes, std::size_t edge,
+                      fem::TractionParts& parts, Eigen::Ref<Eigen::VectorXd> of_nodes) {
+    for (const std::size_t end : {0, 1}) {
+      of_nodes[nodes[end]] += by * parts.load[2 * edge + end];
+      parts.load[2 * edge + end] *= 1 + by;
+    }
+    for (std::vector<double>* unknown : {&parts.beyond, &parts.unknown})
+      if (!unknown->empty()) (*unknown)[edge] *= 1 + by;
+  }
+
   /// Adds traction and point forces.
   void add_rest(std::size_t i, std::size_t s, LoadOnTraces& result,
                 Eigen::Ref<Eigen::VectorXd> of_nodes) const {
     const ddm::Subdomain& subdomain = _decomposition.subdomains[s];
     const fem::Load& load = *_loads[i];
-    if (!load.traction.empty() && !_neumann.of(s).empty()) {
+    if (!load.traction.empty() && !_neumann.of(s).nodes.empty()) {
+      const ddm::NeumannBoundary::Edges& edges = _neumann.of(s);
+      fem::TractionParts own, &parts = _parts ? result.parts.traction[s] : own;
       const fem::TractionReport report =
-          fem::add_traction(subdomain.part, _neumann.of(s), load.traction, of_nodes,
-                            _parts ? &result.parts.traction[s] : nullptr);
+          fem::add_traction(subdomain.part, edges.nodes, load.traction, of_nodes, &parts);
+      for (std::size_t e = 0; e < edges.stretch.size(); ++e)
+        stretch(edges.stretch[e], edges.nodes[e], e, parts, of_nodes);
       constexpr double enough = 1e-4;
       judge({"the traction", subdomain.name, report.relative_error_estimate,
              fem::traction_tolerance, report.proof, enough},

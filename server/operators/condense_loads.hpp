@@ -26,6 +26,7 @@ struct LoadParts {
   std::vector<fem::ForceParts> integrated;   ///< per subdomain; empty: from fem::linear_parts
   std::vector<fem::TractionParts> traction;  ///< per subdomain; empty: no traction
   std::string boundary_value;                ///< g_D; empty: linear along edges
+  std::string beside_chords;                 ///< g_D, whatever it is
   std::string obstacle;                      ///< why there are no bounds, with the cure
 };
 

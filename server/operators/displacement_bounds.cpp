@@ -12,6 +12,7 @@
 #include "base/at.hpp"
 #include "contact/trace_state.hpp"
 #include "estimate/bracket.hpp"
+#include "estimate/chord_gap.hpp"
 #include "estimate/interval.hpp"
 #include "operators/aims.hpp"
 #include "operators/bound_search.hpp"
@@ -125,7 +126,7 @@ class Slopes {
 
 /// Bounds A by the pairs that the mesh keeps (estimate/mesh_dual.hpp).
 void bound_by_mesh_duals(const MeshOperator::Parts& parts, const std::vector<Aim>& goals,
-                    std::span<const Bounded> answers) {
+                         std::span<const Bounded> answers) {
   // Goals times triangles: about a second, once for the mesh, after contact::OpenMembrane's factor.
   const std::size_t most_work = parts.contact->condensed() ? 30'000'000 : 20'000'000;
   const estimate::CutMesh& cut = answers.front().primal.cut;
@@ -173,6 +174,20 @@ void indicate(const Bounded& of, const estimate::CutMesh& cut, const std::deque<
   for (std::size_t t = 0; any && t < sum.size(); ++t) (*of.indicator)[at(cut.triangle[t])] = sum[t];
 }
 
+/// Estimates what chords do to A, by z_0 of each target.
+void estimate_chord_gaps(const MeshOperator::Parts& parts, const estimate::CutMesh& cut,
+                         const std::deque<Target>& targets) {
+  for (const Target& target : targets) {
+    const Bounded& of = target.adjoints.of;
+    if (target.aim().estimate == nullptr || of.stop.stop_requested()) continue;
+    const contact::Displaced z_0{&target.aim().goal, target.goal.jumps};
+    const std::vector<double> z = parts.contact->fields_of({&z_0, 1}).front();
+    of.answer.inclusions[target.aim().inclusion].displacement_geometry_error =
+        estimate::chord_gap(cut, parts.decomposition.subdomains, of.primal.load,
+                            {of.primal.u, of.across_chords}, {z, {}});
+  }
+}
+
 void bound_by_adjoints(const MeshOperator::Parts& parts, const std::vector<Aim>& goals,
                        std::span<const Bounded> answers) {
   constexpr std::size_t together = 4;
@@ -211,6 +226,7 @@ void bound_by_adjoints(const MeshOperator::Parts& parts, const std::vector<Aim>&
         searches.emplace_back(parts, target, side);
     }
   }
+  if (!cut.chords.empty()) estimate_chord_gaps(parts, cut, targets);
   std::vector<Search*> active;
   auto next = searches.begin();
   for (;;) {
@@ -279,6 +295,13 @@ void bound_displacements(const MeshOperator::Parts& parts, std::span<const Bound
     bound_by_mesh_duals(parts, goals, answers);
   else
     bound_by_adjoints(parts, goals, answers);
+  if (answers.front().primal.cut.chords.empty()) return;
+  for (const Bounded& of : answers)
+    for (contact::InclusionAnswer& one : of.answer.inclusions)
+      if (one.displacement_scale && !one.displacement_geometry_error)
+        one.displacement_geometry_error = *one.displacement_scale * 2 *
+                                          *of.answer.energy_geometry_error /
+                                          of.primal.flux.norm_squared();
 }
 
 }  // namespace anticrack::operators

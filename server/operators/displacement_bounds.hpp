@@ -35,6 +35,7 @@ struct Bounded {
   bool closely = false;
   std::optional<bool> of_largest{};
   std::vector<double>* indicator = nullptr;
+  std::span<const double> across_chords{};  ///< estimate::slopes_across_chords of g_D
 };
 
 /// Bounds A, and the slopes if it tilts, of each inclusion that moves. estimate/interval.hpp gives
@@ -43,7 +44,8 @@ struct Bounded {
 /// inclusions the error bound and a norm that the mesh keeps give them, O(h) wide too; for very
 /// many inclusions on very many triangles there are none, but a warning. Takes several answers at
 /// once; the bits of each are as if it were alone. An answer that is stopped keeps its bounds so
-/// far.
+/// far. Where the mesh has chords, estimates what they do to A: by the adjoint, or where there is
+/// none as if chords changed the energy of the unit force as much, for its size, as that of u.
 void bound_displacements(const MeshOperator::Parts& parts, std::span<const Bounded> answers);
 
 }  // namespace anticrack::operators

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/at.hpp"
+#include "estimate/chord_gap.hpp"
 
 namespace anticrack::operators {
 namespace {
@@ -24,7 +25,8 @@ void add(std::vector<double>& sum, const std::vector<double>& values, double fac
 std::size_t BalancedLoad::bytes() const noexcept {
   return sizeof(double) *
          (balance.force.capacity() + balance.traction.capacity() + balance.oscillation.capacity() +
-          balance.moments.capacity() + boundary.values.capacity() + boundary.unknown.capacity());
+          balance.moments.capacity() + boundary.values.capacity() + boundary.unknown.capacity() +
+          across_chords.capacity());
 }
 
 BalancedLoad balanced(const LoadParts& parts, const std::vector<ddm::Subdomain>& subdomains,
@@ -39,6 +41,7 @@ BalancedLoad balanced(const LoadParts& parts, const std::vector<ddm::Subdomain>&
           "continuous, or the mesh finer";
     }
   }
+  result.across_chords = estimate::slopes_across_chords(cut, parts.beside_chords);
   std::vector<fem::ForceParts> force = parts.integrated;
   for (std::size_t s = 0; s < force.size(); ++s) {
     if (auto linear = fem::linear_parts(subdomains[s].part, parts.force, subdomains[s].name,
@@ -90,6 +93,7 @@ BalancedLoad combine(std::span<const BalancedLoad> loads, std::span<const double
     add(sum.balance.moments, loads[j].balance.moments, std::abs(c));
     add(sum.boundary.values, loads[j].boundary.values, c);
     add(sum.boundary.unknown, loads[j].boundary.unknown, std::abs(c));
+    add(sum.across_chords, loads[j].across_chords, c);
     sum.linear_along_edges = sum.linear_along_edges && loads[j].linear_along_edges;
     if (sum.obstacle.empty()) sum.obstacle = loads[j].obstacle;
   }

@@ -19,6 +19,7 @@ struct BalancedLoad {
   estimate::LoadBalance balance;
   estimate::BoundarySamples boundary;  ///< of g_D; may be empty if it is linear along edges
   bool linear_along_edges = true;      ///< whether g_D is
+  std::vector<double> across_chords;   ///< estimate::slopes_across_chords of g_D
   std::string obstacle;                ///< why there are no bounds, with the cure
 
   /// Memory of the arrays in bytes.

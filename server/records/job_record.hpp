@@ -50,9 +50,13 @@ struct StageAnswer {
   std::optional<double> error_bound_relative{};
   std::optional<double> displacement_error{};  ///< largest of all inclusions, as in AccuracySpec
   std::optional<double> displacement_error_probable{};  ///< the same by estimate
+  /// What curves in place of chords may change, by estimate: over |energy|, and as
+  /// displacement_error. Empty: there are no chords.
+  std::optional<double> energy_geometry_error{}, displacement_geometry_error{};
 };
 ANTICRACK_FIELDS(StageAnswer, energy, energy_lower, energy_upper, error_bound_relative,
-                 displacement_error, displacement_error_probable)
+                 displacement_error, displacement_error_probable, energy_geometry_error,
+                 displacement_geometry_error)
 
 struct StageRecord {
   std::string mesh;  ///< id

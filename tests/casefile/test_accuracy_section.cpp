@@ -38,6 +38,19 @@ largest = true
   EXPECT_EQ(locate(the_case, "spec.accuracy.displacement")->line, 21U);
 }
 
+/// Chords of a tenth of what is asked for, unless the case has no curve or an angle of its own.
+TEST(AccuracySection, ShortensChordsOfCurves) {
+  const auto angle = [](const std::string& lines) {
+    return parse(sample_to(lines)).mesh.options().chord_angle();
+  };
+  const std::string hole = "[[geometry.hole]]\ncircle = { center = [0, 0.5], radius = 0.1 }\n";
+  EXPECT_EQ(angle("A = 1e-5\n"), 0);
+  EXPECT_EQ(angle("A = 1e-2\n" + hole), 5);
+  EXPECT_NEAR(angle("A = 1e-2\nenergy = 1.25e-4\n" + hole), 2.5, 1e-12);
+  EXPECT_NEAR(angle("A_estimated = 1e-6\n" + hole), 0.5, 1e-12);
+  EXPECT_EQ(angle("A = 1e-6\n" + hole + "[mesh]\nchord_angle = 4\n"), 4);
+}
+
 TEST(OutputSection, HasIndicatorsBesideFieldsThatAreBounded) {
   const std::string output = "[output]\nfields = true\n";
   EXPECT_THAT(parse(sample_text + output).spec.outputs(), ElementsAre(v1::OUTPUT_FIELDS));

@@ -116,8 +116,8 @@ TEST(Slit, AtTheNeumannBoundaryIsOpenThere) {
   EXPECT_EQ(result.skeleton.contacts.size(), 3U);
   EXPECT_EQ(result.interface_sides[0][0].kind, Kind::crack);
   const NeumannBoundary neumann(grid.mesh, result);
-  EXPECT_EQ(neumann.of(0).size(), 4U);
-  for (const auto& edge : neumann.of(0)) {
+  EXPECT_EQ(neumann.of(0).nodes.size(), 4U);
+  for (const auto& edge : neumann.of(0).nodes) {
     const Subdomain& membrane = result.subdomains[0];
     const std::vector<double>& xy = membrane.part.xy;
     const auto from = static_cast<std::size_t>(edge[0]), to = static_cast<std::size_t>(edge[1]);

@@ -103,6 +103,35 @@ TEST(Accuracy, ByEstimateIsReachedBeforeTheProof) {
   EXPECT_NEAR(*stage_answer(record).displacement_error_probable, 0.0005, 1e-12) << "of its scale";
 }
 
+TEST(Accuracy, IsReachedWithWhatChordsMayChange) {
+  JobSpec spec = energy_to(0.1);
+  spec.accuracy->displacement = 0.01;
+  CaseRecord record = answer_between(-1, -0.98);
+  record.answer.energy_geometry_error = 0.00098;
+  record.answer.inclusions = {inclusion(2, 1.99, 2.01)};
+  record.answer.inclusions[0].displacement_geometry_error = 0.008;
+  EXPECT_NEAR(*stage_answer(record).energy_geometry_error, 0.001, 1e-12);
+  EXPECT_NEAR(*stage_answer(record).displacement_geometry_error, 0.004, 1e-12);
+  EXPECT_NEAR(excess(stage_answer(record), *spec.accuracy), 0.005 / (0.01 - 0.004), 1e-12);
+  EXPECT_EQ(judge_one(record, spec).not_reached, "");
+  record.answer.inclusions[0] = inclusion(2, 1.986, 2.014);
+  record.answer.inclusions[0].displacement_geometry_error = 0.008;
+  EXPECT_FALSE(judge_one(record, spec).over) << "0.7 % and 0.4 % are more than 1 %";
+  record.answer.inclusions[0] = inclusion(2, 1.991, 2.009);
+  record.answer.inclusions[0].displacement_geometry_error = 0.016;
+  const Verdict verdict = judge_one(record, spec);
+  EXPECT_TRUE(verdict.over);
+  // a fifth of the accuracy in place of 0.8 of it: a quarter, the third power of 0.63
+  EXPECT_THAT(verdict.not_reached,
+              HasSubstr("A 0.45 % (asked 1 %) on 100 triangles: curves in place of their chords of "
+                        "5 degrees may change A by about 0.8 %: set mesh.chord_angle = 3.1"));
+  record.answer.inclusions[0].displacement_geometry_error = 0.2;
+  record.answer.inclusions[0].displacement_upper = 2.11;
+  EXPECT_TRUE(judge_one(record, spec).over) << "no finer mesh helps";
+  record.answer.inclusions[0].displacement_upper = 2.5;
+  EXPECT_FALSE(judge_one(record, spec).over) << "an estimate on so coarse a mesh says little";
+}
+
 TEST(Accuracy, SaysEarlyWhatCannotBeProved) {
   JobSpec spec = energy_to(1);
   spec.accuracy->displacement = 0.01;

@@ -177,16 +177,20 @@ TEST(Arrangement, ArcsAreCutIntoChordsOfEqualArea) {
     const Plan plan = plan_of(geometry, size);
     expect_consistent(plan, 4);
     ASSERT_EQ(plan.faces.size(), 2U);
-    double before = 0;
+    double before = 0, longest = 0;
     bool first = true;
     bool tip = false;
+    for (const int i : plan.interfaces.at(0).curves)
+      longest = std::max(longest, length(plan, testing::curve(plan, i)));
     for (const int i : plan.interfaces.at(0).curves) {
       const auto& c = testing::curve(plan, i);
       const Point& a = point(plan, c.a);
       const Point& b = point(plan, c.b);
       // beyond the arc by twice the third of its height over a chord, the end of the last but one
-      const double height = std::pow(length(plan, c), 2) / (8 * 1.25);
-      EXPECT_GE(std::hypot(b[0], b[1] + 0.75), 1.25 - 1e-12);
+      const double height = longest * longest / (8 * 1.25);
+      if (c.chord == 0) {
+        EXPECT_GE(std::hypot(b[0], b[1] + 0.75), 1.25 - 1e-12);
+      }
       EXPECT_LE(std::hypot(b[0], b[1] + 0.75), 1.25 + 1.5 * height);
       EXPECT_EQ(c.intervals, 1);
       EXPECT_LE(length(plan, c), size * (1 + 1e-3));
@@ -205,6 +209,28 @@ TEST(Arrangement, ArcsAreCutIntoChordsOfEqualArea) {
     }
     EXPECT_TRUE(tip);
   }
+}
+
+/// 18 chords of five degrees on each half of an arc, and about 13 more towards its tip, where they
+/// grow by a fifth of their distance from it.
+TEST(Arrangement, ChordsBecomeShorterTowardsTips) {
+  Geometry geometry = square();
+  mesh::CrackSpec crack{"c", {}};
+  crack.line = mesh::LineSpec{Shape::arc, {{-0.5, 0}, {0, 0.5}, {0.5, 0}}};
+  geometry.cracks = {crack};
+  const Plan plan = plan_of(geometry, 1);
+  std::vector<double> turns;
+  for (const mesh::PlannedCurve& curve : plan.curves)
+    if (curve.bend >= 0) turns.push_back(90. / 5 * std::abs(curve.to - curve.from));
+  EXPECT_NEAR(static_cast<double>(turns.size()), 2 * (18 + 12.7), 2);
+  double from_tip = 0;
+  for (std::size_t k = 0; 2 * k < turns.size(); ++k) {
+    EXPECT_NEAR(turns[k], turns[turns.size() - 1 - k], 1e-3) << "symmetric";
+    EXPECT_LE(turns[k], std::min(1.001, 1.15 * (0.03 + 0.2 * from_tip))) << k;
+    EXPECT_GE(turns[k], std::min(0.93, 0.95 * (0.03 + 0.2 * from_tip))) << k;
+    from_tip += turns[k];
+  }
+  EXPECT_NEAR(from_tip, 18, 1e-9);
 }
 
 TEST(Arrangement, SplinesPassTheirPointsAndMayBeClosed) {

@@ -38,6 +38,7 @@ void expect_equal(const Mesh& a, const Mesh& b) {
   EXPECT_EQ(a.inclusions, b.inclusions);
   EXPECT_EQ(a.motions, b.motions);
   EXPECT_EQ(a.dirichlet, b.dirichlet);
+  EXPECT_EQ(a.chords, b.chords);
   ASSERT_EQ(a.interfaces.size(), b.interfaces.size());
   for (std::size_t i = 0; i < a.interfaces.size(); ++i) {
     EXPECT_EQ(a.interfaces[i].name, b.interfaces[i].name);
@@ -60,6 +61,14 @@ Mesh varying_mesh() {
   Mesh mesh = small_mesh();
   mesh.tension_laws.resize(mesh.subdomains.size());
   mesh.tension_laws.back() = {"1 + x^2", "2", 30};
+  return mesh;
+}
+
+/// One with an edge on a chord.
+Mesh curved_mesh() {
+  Mesh mesh = small_mesh();
+  const auto [a, b] = mesh.dirichlet[0];
+  mesh.chords = {{a, b, -0.01, 0.005, -0.02, 0.5, 1e-3}};
   return mesh;
 }
 
@@ -97,7 +106,7 @@ errors::Error full_error() {
 }
 
 TEST(Codec, MeshComesBack) {
-  for (const Mesh& mesh : {small_mesh(), moving_mesh(), varying_mesh()}) {
+  for (const Mesh& mesh : {small_mesh(), moving_mesh(), varying_mesh(), curved_mesh()}) {
     const Mesh back = mesh::decode_mesh(mesh::encode(mesh));
     expect_equal(mesh, back);
     EXPECT_TRUE(back.warnings.empty());
@@ -222,6 +231,7 @@ TEST(Codec, ImportRequestComesBack) {
 TEST(Codec, ReplyCarriesWarnings) {
   Mesh sent_mesh = moving_mesh();
   sent_mesh.tension_laws = varying_mesh().tension_laws;
+  sent_mesh.chords = curved_mesh().chords;
   const mesh::MesherReply reply = sent_mesh;
   const Mesh back = std::get<Mesh>(mesh::decode_reply(mesh::encode(reply)));
   expect_equal(std::get<Mesh>(reply), back);
@@ -244,6 +254,7 @@ TEST(Codec, TruncationAtEveryByteIsRefused) {
   expect_exact(mesh::encode(small_mesh()), [](const Bytes& b) { mesh::decode_mesh(b); });
   expect_exact(mesh::encode(moving_mesh()), [](const Bytes& b) { mesh::decode_mesh(b); });
   expect_exact(mesh::encode(varying_mesh()), [](const Bytes& b) { mesh::decode_mesh(b); });
+  expect_exact(mesh::encode(curved_mesh()), [](const Bytes& b) { mesh::decode_mesh(b); });
   const auto request = [](const Bytes& b) { mesh::decode_request(b); };
   expect_exact(mesh::encode(mesh::MesherRequest(generate_request())), request);
   expect_exact(mesh::encode(import_request()), request);

@@ -89,7 +89,10 @@ TEST(RefineUniform, LeavesAChordWhereItsBendSpoilsATriangle) {
   mesh.xy[6] = mesh.xy[7] = 0.75;
   const Mesh fine = refine_uniform(mesh);
   ASSERT_NO_THROW(validate(fine));
-  EXPECT_TRUE(fine.bent.empty());
+  ASSERT_EQ(fine.bent.size(), 2U);
+  for (const BentEdge& half : fine.bent)
+    EXPECT_NEAR(half.chord, std::numbers::sqrt2, 1e-15) << "a part of it";
+  EXPECT_EQ(refine_uniform(fine).bent.size(), 4U);
   EXPECT_EQ(fine.bends, mesh.bends);
   EXPECT_NEAR(quality(fine).minimum_angle, quality(mesh).minimum_angle, 1e-12);
 }
