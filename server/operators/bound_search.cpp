@@ -25,8 +25,8 @@ std::vector<std::int32_t> unknown_at(const MeshOperator::Parts& parts,
   std::vector<std::int32_t> unknown(cut.at.size(), -1);
   for (std::size_t s = 0; s < parts.decomposition.subdomains.size(); ++s) {
     const ddm::Subdomain& of = parts.decomposition.subdomains[s];
-    std::ranges::copy(of.unknown, unknown.begin() + cut.first_copy[s] +
-                                      static_cast<std::ptrdiff_t>(of.interior));
+    std::ranges::copy(
+        of.unknown, unknown.begin() + cut.first_copy[s] + static_cast<std::ptrdiff_t>(of.interior));
   }
   return unknown;
 }
@@ -52,12 +52,10 @@ contact::Adjoint::Room room_of(const MeshOperator::Parts& parts, const estimate:
     const estimate::Weight::OnFace on = weights.on(f);
     const auto ends = cut.ends(face), others = cut.ends(cut.faces[at(face.other)]);
     for (const std::size_t end : {0, 1}) {
-      const auto found =
-          condition.find({unknown[at(others[1 - end])], unknown[at(ends[end])]});
+      const auto found = condition.find({unknown[at(others[1 - end])], unknown[at(ends[end])]});
       if (found == condition.end()) continue;
       const Eigen::Index i = found->second;
-      room.jumps[i] =
-          std::min(room.jumps[i], on.least * std::max(0.0, primal.flux.jump(f, end)));
+      room.jumps[i] = std::min(room.jumps[i], on.least * std::max(0.0, primal.flux.jump(f, end)));
       if (closed[at(i)] != 0) room.forces[i] += on.bound[end];
     }
   }
@@ -76,6 +74,7 @@ contact::Adjoint::Room Search::room() const { return {_c * _room.jumps, _c * _ro
 Eigen::VectorXd Search::load() const {
   return _target.adjoints.adjoint.load(_target.goal, sign(), room());
 }
+Eigen::VectorXd Search::reactions() const { return load() - _target.goal.force->r; }
 Eigen::VectorXd Search::jumps() const {
   return _target.adjoints.adjoint.jumps(_target.goal, sign(), room());
 }

@@ -54,9 +54,9 @@ struct MeshOperator::Parts {
   contact::SweepGeometry sweep_geometry;
   std::vector<contact::TraceGeometry> geometry;
   mutable BasisCache bases;
-  base::Lazy<estimate::CutMesh> cut;            // made for the first bounds; see cut_mesh()
+  base::Lazy<estimate::CutMesh> cut;  // made for the first bounds; see cut_mesh()
   base::Lazy<std::vector<estimate::MeshDual>> mesh_duals;  // see aims.hpp
-  mutable std::atomic<std::size_t> at_work{0};  // bytes of Working
+  mutable std::atomic<std::size_t> at_work{0};             // bytes of Working
 
   const estimate::CutMesh& cut_mesh() const;
   /// The function that condenses the loads of a subdomain.
