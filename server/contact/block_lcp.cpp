@@ -230,12 +230,13 @@ class BlockLcp::Steps {
   MatrixXd _hat_factor;
 };
 
-Opened BlockLcp::solve_open(const VectorXd& r, const std::vector<char>& closed) const {
+Opened BlockLcp::solve_open(const VectorXd& r, const std::vector<char>& closed,
+                            double tolerance) const {
   const double factor =
       r.size() == 0 ? 1
                     : factor_for(_scale.head(r.size()).cwiseProduct(r).lpNorm<Eigen::Infinity>());
   if (factor != 1) {
-    Opened opened = solve_open(factor * r, closed);
+    Opened opened = solve_open(factor * r, closed, tolerance);
     opened.d /= factor;
     opened.residual /= factor;
     return opened;
@@ -246,6 +247,10 @@ Opened BlockLcp::solve_open(const VectorXd& r, const std::vector<char>& closed) 
     steps.closed.assign(steps.closed.size(), 0);
   else
     steps.closed = closed;
+  if (tolerance > 0) {
+    steps.solve_open(tolerance, size);
+    return {std::move(steps.d), std::move(steps.residual), true};
+  }
   steps.solve_to_rounding(r, size);
   const auto largest = [scale = _scale.head(r.size())](const VectorXd& of) {
     return of.size() == 0 ? 0 : scale.cwiseProduct(of).lpNorm<Eigen::Infinity>();

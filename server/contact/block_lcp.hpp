@@ -33,7 +33,8 @@ class BlockLcp {
                   const LcpOptions& options, std::span<const char> start,
                   const OnStep& on_step = {}) const;
   /// As ContactProblem::solve_open.
-  Opened solve_open(const Eigen::VectorXd& r, const std::vector<char>& closed) const;
+  Opened solve_open(const Eigen::VectorXd& r, const std::vector<char>& closed,
+                    double tolerance = 0) const;
 
  private:
   class Steps;

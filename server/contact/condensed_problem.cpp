@@ -168,7 +168,8 @@ LcpAnswer CondensedProblem::solve_contact(const Reduced& load, const LcpOptions&
 }
 
 std::vector<Opened> CondensedProblem::solve_open(const std::vector<char>& closed,
-                                                 std::span<const VectorXd> r) const {
+                                                 std::span<const VectorXd> r,
+                                                 double /*tolerance*/) const {
   return _contact.solve_open(closed, r);
 }
 

@@ -134,9 +134,11 @@ class ContactProblem {
                                   std::span<const char> start, const OnStep& on_step) const = 0;
   /// Solves with a given set of closed conditions; the bits for an r do not depend on the others.
   /// `closed`: one per condition, as in LcpStep; empty: none, for which a CondensedProblem keeps a
-  /// factor: O(c^3), then O(c^2) each.
+  /// factor: O(c^3), then O(c^2) each. `tolerance`: conjugate gradients stop there, relative in the
+  /// norm of energy; 0: at rounding.
   virtual std::vector<Opened> solve_open(const std::vector<char>& closed,
-                                         std::span<const Eigen::VectorXd> r) const = 0;
+                                         std::span<const Eigen::VectorXd> r,
+                                         double tolerance = 0) const = 0;
   /// A solver for rows of a sweep. `start`: closed contacts, empty: all; `motions`: sums of
   /// unknowns that RowContact::motion reports. Keeps references.
   virtual std::unique_ptr<RowContact> rows(const LcpOptions& options, std::span<const char> start,

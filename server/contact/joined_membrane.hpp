@@ -56,7 +56,8 @@ class JoinedMembrane {
   /// x for forces on x and jumps d, column by column. Two solves, the second for the residual by
   /// forces_of.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& force, const Eigen::MatrixXd& d) const;
-  /// The displacement of each sum under a unit force on it, every contact closed. Half a solve each.
+  /// The displacement of each sum under a unit force on it, every contact closed. Half a solve
+  /// each.
   std::vector<double> compliances(std::span<const ddm::Terms* const> sums) const;
   /// A^-1 B'd, what jumps d take off x. One solve.
   Eigen::VectorXd of_jumps(const Eigen::VectorXd& d) const;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/at.hpp"
+#include "base/at_once.hpp"
 #include "contact/answer.hpp"
 #include "contact/open_membrane.hpp"
 
@@ -93,10 +94,12 @@ LcpAnswer JoinedProblem::solve_contact(const Reduced& load, const LcpOptions& op
 }
 
 std::vector<Opened> JoinedProblem::solve_open(const std::vector<char>& closed,
-                                              std::span<const VectorXd> r) const {
+                                              std::span<const VectorXd> r, double tolerance) const {
   if (_dense) return _dense->solve_open(closed, r);
-  std::vector<Opened> result;
-  for (const VectorXd& one : r) result.push_back(_by_blocks->lcp.solve_open(one, closed));
+  std::vector<Opened> result(r.size());
+  base::at_once(r.size(), base::Threads::allowed(), [&] {
+    return [&](std::size_t k) { result[k] = _by_blocks->lcp.solve_open(r[k], closed, tolerance); };
+  });
   return result;
 }
 

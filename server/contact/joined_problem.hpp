@@ -51,7 +51,8 @@ class JoinedProblem final : public ContactProblem {
   LcpAnswer solve_contact(const Reduced& load, const LcpOptions& options,
                           std::span<const char> start, const OnStep& on_step) const override;
   std::vector<Opened> solve_open(const std::vector<char>& closed,
-                                 std::span<const Eigen::VectorXd> r) const override;
+                                 std::span<const Eigen::VectorXd> r,
+                                 double tolerance) const override;
   std::unique_ptr<RowContact> rows(const LcpOptions& options, std::span<const char> start,
                                    std::vector<ddm::Terms> motions) const override;
   void recover_fields(std::span<const SolvedCase> cases) const override;

@@ -27,12 +27,15 @@ ddm::SubdomainFactor factor(const JoinedMembrane& membrane) {
 OpenMembrane::OpenMembrane(const JoinedMembrane& membrane)
     : _membrane(membrane), _factor(factor(membrane)) {}
 
-std::vector<std::vector<double>> OpenMembrane::fields(
-    std::span<const ddm::Terms* const> sums, bool refined) const {
+std::vector<std::vector<double>> OpenMembrane::fields(std::span<const ddm::Terms* const> sums,
+                                                      bool refined,
+                                                      std::span<const VectorXd> on_contacts) const {
   MatrixXd left(_factor.interior(), static_cast<Index>(sums.size()));
   for (Index k = 0; k < left.cols(); ++k)
     left.col(k) =
         _membrane.spread(_membrane.traces().maps().vector_of(*sums[at(k)])).head(left.rows());
+  for (std::size_t k = 0; k < on_contacts.size(); ++k)
+    left.col(static_cast<Index>(k)).tail(_membrane.contacts()) += on_contacts[k];
   MatrixXd y(left.rows(), left.cols());
   _factor.solve(left, y);
   const auto x_of = [&](Index k) { return y.col(k).head(_membrane.size()); };

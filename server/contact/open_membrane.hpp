@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Core>
 #include <span>
 #include <vector>
 
@@ -17,10 +18,10 @@ class OpenMembrane {
   explicit OpenMembrane(const JoinedMembrane& membrane);
 
   /// u of a unit force on each sum, laid out as by ContactProblem::fields_of. `refined`: takes a
-  /// second solve, and is empty where rounding errors dominate. The bits for a sum do not depend on
-  /// the others.
-  std::vector<std::vector<double>> fields(std::span<const ddm::Terms* const> sums,
-                                          bool refined) const;
+  /// second solve, and is empty where rounding errors dominate. `on_contacts`: forces that press
+  /// the contacts, for each sum; empty: none. The bits for a sum do not depend on the others.
+  std::vector<std::vector<double>> fields(std::span<const ddm::Terms* const> sums, bool refined,
+                                          std::span<const Eigen::VectorXd> on_contacts = {}) const;
 
  private:
   const JoinedMembrane& _membrane;

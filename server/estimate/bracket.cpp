@@ -106,9 +106,9 @@ Bracket bracket(const CutMesh& cut, const EquilibratedFlux& flux, const LoadBala
                           1e-13 * cut.shapes.largest_tension * largest * largest + unknown;
   result.lower = energy + lift_energy - half_distance - result.work - rounding;
   result.upper += energy + lift_energy + rounding;
-  result.error = 0.5 * (result.distance + std::sqrt(result.distance * result.distance +
-                                                    4 * result.work)) +
-                 std::sqrt(lift_norm);
+  result.error =
+      0.5 * (result.distance + std::sqrt(result.distance * result.distance + 4 * result.work)) +
+      std::sqrt(lift_norm);
   result.error_relative = result.error > 0 ? result.error / std::sqrt(flux.norm_squared()) : 0;
   return result;
 }

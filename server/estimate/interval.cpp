@@ -221,7 +221,8 @@ FluxBounds flux_bounds(const Primal& primal, const Dual& dual) {
     const Weight::OnFace on = weights.on(f);
     const auto ends = cut.ends(cut.faces[f]), others = cut.ends(cut.faces[at(cut.faces[f].other)]);
     for (const std::size_t end : {0, 1}) {
-      const bool tip = ends[end] == others[1 - end], closed = !tip && !(sigma.jump(f, end) > rounding);
+      const bool tip = ends[end] == others[1 - end],
+                 closed = !tip && !(sigma.jump(f, end) > rounding);
       const double bound = dual.c * on.bound[end], other = closed ? unlimited : bound;
       const bool upper = dual.side == Side::upper;
       bounds.most[2 * f + end] = upper ? bound : other;

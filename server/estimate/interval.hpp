@@ -22,8 +22,8 @@
 //
 // If T varies on triangles, eta and rho are bounded as in bracket.hpp, mid is computed with the
 // mean of T, and its error is added to R; with w, |T grad w| is added to |sigma - T grad u_h|, and
-// spread |grad z|_h |w| to R for a(v, z), and half of it for mid. A Weight needs both T constant and
-// w = 0.
+// spread |grad z|_h |w| to R for a(v, z), and half of it for mid. A Weight needs both T constant
+// and w = 0.
 //
 // The rest of the load, which sigma does not balance (LoadBalance: o, moments), moves the bound
 // outwards: |D| takes o/2 more on each triangle, M half of sum o |tau - T grad z|, and R what the

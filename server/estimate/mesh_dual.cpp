@@ -47,10 +47,9 @@ MeshDual mesh_dual(const CutMesh& cut, const EquilibratedFlux& tau, std::span<co
   const double energy = tau.norm_squared() + 2 * lacking + 2 * lack.flux * dual.open;
   const double off = distance + energy - closed + 2 * lack.flux * dual.closed + rounding * energy;
   dual.norm = variation.below * std::sqrt(distance + energy) + lack.flux;
-  dual.mismatch =
-      variation.below * std::sqrt(distance) + variation.spread * dual.open + lack.flux;
-  dual.off = variation.below * std::sqrt(std::max(0.0, off)) + variation.spread * dual.closed +
-             lack.flux;
+  dual.mismatch = variation.below * std::sqrt(distance) + variation.spread * dual.open + lack.flux;
+  dual.off =
+      variation.below * std::sqrt(std::max(0.0, off)) + variation.spread * dual.closed + lack.flux;
   return dual;
 }
 
@@ -86,8 +85,8 @@ PrimalNorms primal_norms(const Primal& primal, const Bracket& bracket) {
   for (const double o : primal.load.oscillation) of.rest += o * o;
   of.rest = std::sqrt(of.rest);
   for (const Lift& lift : primal.lifts)  // no more than three in a triangle
-    of.lift += 3 * primal.flux.tension(at(cut.faces[at(lift.face)].side / 3)) *
-               lift.gradient_squared;
+    of.lift +=
+        3 * primal.flux.tension(at(cut.faces[at(lift.face)].side / 3)) * lift.gradient_squared;
   of.lift = variation.above * std::sqrt(of.lift);
   of.unknown = variation.unknown * std::sqrt(primal.flux.norm_squared());
   if (std::isfinite(cut.ways.triangle)) {

@@ -26,12 +26,12 @@ namespace anticrack::estimate {
 /// Norms of a pair; those of fluxes in the norm of 1/T.
 struct MeshDual {
   double norm = std::numeric_limits<double>::infinity();  ///< >= |tau|; not finite: none is known
-  double off = 0;       ///< >= |tau - T grad z|
-  double mismatch = 0;  ///< >= |tau - T grad z'|
-  double closed = 0;    ///< |z|
-  double open = 0;      ///< |z'|
-  double largest = 0;   ///< max |z'|
-  double change = 0;    ///< root of the sum of ([z']_0 - [z']_1)^2
+  double off = 0;                                         ///< >= |tau - T grad z|
+  double mismatch = 0;                                    ///< >= |tau - T grad z'|
+  double closed = 0;                                      ///< |z|
+  double open = 0;                                        ///< |z'|
+  double largest = 0;                                     ///< max |z'|
+  double change = 0;  ///< root of the sum of ([z']_0 - [z']_1)^2
 };
 
 /// What of an answer the bounds need.

@@ -74,6 +74,7 @@ contact::Adjoint::Room Search::room() const { return {_c * _room.jumps, _c * _ro
 Eigen::VectorXd Search::load() const {
   return _target.adjoints.adjoint.load(_target.goal, sign(), room());
 }
+Eigen::VectorXd Search::reactions() const { return load() - _target.goal.force->r; }
 Eigen::VectorXd Search::jumps() const {
   return _target.adjoints.adjoint.jumps(_target.goal, sign(), room());
 }

@@ -48,6 +48,7 @@ class Search {
 
   /// What the present try solves: the loads of z' and the jumps of z.
   Eigen::VectorXd load() const;
+  Eigen::VectorXd reactions() const;  ///< the load without that of the unit force
   Eigen::VectorXd jumps() const;
   estimate::Aimed aimed(std::span<const double> z, std::span<const double> reacting) const;
   void take(const estimate::Bound& one);

@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <utility>
 
 #include "base/at.hpp"
+#include "contact/open_membrane.hpp"
 #include "contact/trace_state.hpp"
 #include "estimate/bracket.hpp"
 #include "estimate/chord_gap.hpp"
@@ -23,29 +25,53 @@ namespace {
 
 constexpr const char* bounding_a = "computing bounds of A";
 
+/// Fields of z and of z', without which there is no field of z either.
+struct Fields {
+  std::vector<std::vector<double>> z, reacting;
+};
+
+/// z' by a factor with every contact open, or by solves for the contacts.
+Fields fields_of(const MeshOperator::Parts& parts, const contact::OpenMembrane* open,
+                 std::span<Search* const> searches) {
+  std::vector<const ddm::Terms*> forces;
+  std::vector<Eigen::VectorXd> loads;
+  std::vector<contact::Displaced> displaced;
+  for (const Search* search : searches) {
+    forces.push_back(&search->target().aim().goal);
+    loads.push_back(open != nullptr ? search->reactions() : search->load());
+    displaced.push_back({forces.back(), search->jumps()});
+  }
+  Fields fields;
+  if (open != nullptr) {
+    fields.reacting = open->fields(forces, false, loads);
+    fields.z = parts.contact->fields_of(displaced);
+    return fields;
+  }
+  const std::vector<contact::Opened> opened = parts.contact->solve_open({}, loads);
+  for (std::size_t i = 0; i < searches.size(); ++i) displaced.push_back({forces[i], opened[i].d});
+  fields.z = parts.contact->fields_of(displaced);
+  for (std::size_t i = 0; i < searches.size(); ++i) {
+    fields.reacting.push_back(std::move(fields.z[searches.size() + i]));
+    if (!opened[i].solved) fields.reacting.back().clear();
+  }
+  return fields;
+}
+
 /// Tries the present cone of each search.
 void advance(const MeshOperator::Parts& parts, const estimate::CutMesh& cut,
-             std::span<Search* const> searches) {
-  std::vector<Eigen::VectorXd> loads;
+             const contact::OpenMembrane* open, std::span<Search* const> searches) {
   stop::look(bounding_a);
-  for (const Search* search : searches) loads.push_back(search->load());
-  const std::vector<contact::Opened> opened = parts.contact->solve_open({}, loads);
-  std::vector<contact::Displaced> displaced;
+  const Fields fields = fields_of(parts, open, searches);
+  std::vector<estimate::Aimed> aimed;
   std::vector<Search*> solved;
   for (std::size_t i = 0; i < searches.size(); ++i) {
-    if (!opened[i].solved) {
+    if (fields.reacting[i].empty()) {
       searches[i]->give_up();
       continue;
     }
     solved.push_back(searches[i]);
-    const ddm::Terms& force = searches[i]->target().aim().goal;
-    displaced.push_back({&force, searches[i]->jumps()});
-    displaced.push_back({&force, opened[i].d});
+    aimed.push_back(searches[i]->aimed(fields.z[i], fields.reacting[i]));
   }
-  const std::vector<std::vector<double>> fields = parts.contact->fields_of(displaced);
-  std::vector<estimate::Aimed> aimed;
-  for (std::size_t i = 0; i < solved.size(); ++i)
-    aimed.push_back(solved[i]->aimed(fields[2 * i], fields[2 * i + 1]));
   const std::vector<estimate::Bound> found = estimate::bounds(cut, aimed);
   for (std::size_t i = 0; i < found.size(); ++i) solved[i]->take(found[i]);
 }
@@ -191,11 +217,18 @@ void estimate_chord_gaps(const MeshOperator::Parts& parts, const estimate::CutMe
 void bound_by_adjoints(const MeshOperator::Parts& parts, const std::vector<Aim>& goals,
                        std::span<const Bounded> answers) {
   constexpr std::size_t together = 4;
+  constexpr std::size_t few = 8;  // another factor costs more than conjugate gradients
   const estimate::CutMesh& cut = answers.front().primal.cut;
   const std::vector<contact::UnitForce> forces = unit_forces(parts, goals);
   std::vector<Eigen::VectorXd> r;
   r.reserve(forces.size());
   for (const contact::UnitForce& force : forces) r.push_back(force.r);
+  std::unique_ptr<const contact::OpenMembrane> open;
+  // Ways lead out what one solve leaves.
+  const bool factors =
+      !parts.contact->condensed() && goals.size() > few && std::isfinite(cut.ways.triangle);
+  const Working counted(parts.at_work, factors ? parts.contact->bytes() : 0);
+  if (factors) open = parts.contact->open_membrane();
   std::deque<Adjoints> adjoints;
   std::deque<Target> targets;
   std::deque<Search> searches;
@@ -206,7 +239,9 @@ void bound_by_adjoints(const MeshOperator::Parts& parts, const std::vector<Aim>&
     const std::vector<char>& closed = of.answer.closed;
     Adjoints& own = adjoints.emplace_back(
         Adjoints{of, {parts.contact->conditions(), closed}, room_of(parts, of.primal, closed)});
-    const std::vector<contact::Opened> opened = parts.contact->solve_open(closed, r);
+    // z_0 need not be exact where there are many.
+    const std::vector<contact::Opened> opened =
+        parts.contact->solve_open(closed, r, factors ? 1e-4 : 0);
     for (std::size_t k = 0; k < goals.size(); ++k) {
       if (!opened[k].solved) {
         by_energy.emplace_back(&of, &goals[k]);
@@ -234,7 +269,7 @@ void bound_by_adjoints(const MeshOperator::Parts& parts, const std::vector<Aim>&
     for (; active.size() < together && next != searches.end(); ++next)
       if (!next->done()) active.push_back(&*next);
     if (active.empty()) break;
-    advance(parts, cut, active);
+    advance(parts, cut, open.get(), active);
   }
   for (std::size_t i = 0; i < searches.size(); i += 2) {
     const Search &lower = searches[i], &upper = searches[i + 1];
@@ -288,13 +323,20 @@ std::vector<double> of_copies(const std::vector<contact::Field>& fields) {
 }
 
 void bound_displacements(const MeshOperator::Parts& parts, std::span<const Bounded> answers) {
-  constexpr std::size_t most_inclusions = 16;  // a few solves each for every load
+  // Adjoints take a few solves for each displacement and load: some 10 s of one core for the most
+  // goals times triangles, if A is to be close, otherwise 1 s.
+  constexpr std::size_t most_inclusions = 16, most_work = 1'500'000, most_close = 16'000'000;
   if (answers.empty() || parts.mesh->inclusions.empty()) return;
   const std::vector<Aim> goals = aims(parts);
-  if (parts.mesh->inclusions.size() > most_inclusions)
-    bound_by_mesh_duals(parts, goals, answers);
-  else
-    bound_by_adjoints(parts, goals, answers);
+  const std::size_t work = goals.size() * answers.front().primal.cut.triangle_count();
+  std::vector<Bounded> closely, others;
+  for (const Bounded& of : answers) {
+    const bool few = parts.mesh->inclusions.size() <= most_inclusions ||
+                     work <= (of.closely ? most_close : most_work);
+    (few ? closely : others).push_back(of);
+  }
+  if (!closely.empty()) bound_by_adjoints(parts, goals, closely);
+  if (!others.empty()) bound_by_mesh_duals(parts, goals, others);
   if (answers.front().primal.cut.chords.empty()) return;
   for (const Bounded& of : answers)
     for (contact::InclusionAnswer& one : of.answer.inclusions)

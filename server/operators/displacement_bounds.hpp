@@ -39,13 +39,14 @@ struct Bounded {
 };
 
 /// Bounds A, and the slopes if it tilts, of each inclusion that moves. estimate/interval.hpp gives
-/// bounds O(h^2) wide for a few solves each. If contact::Adjoint is not possible or leaves the
-/// cone, bounds of the energy give them, O(h) wide, for three load cases each. For more than 16
-/// inclusions the error bound and a norm that the mesh keeps give them, O(h) wide too; for very
-/// many inclusions on very many triangles there are none, but a warning. Takes several answers at
-/// once; the bits of each are as if it were alone. An answer that is stopped keeps its bounds so
-/// far. Where the mesh has chords, estimates what they do to A: by the adjoint, or where there is
-/// none as if chords changed the energy of the unit force as much, for its size, as that of u.
+/// bounds O(h^2) wide for a few solves each. If contact alone holds a part, or contact::Adjoint
+/// leaves the cone, bounds of the energy give them, O(h) wide, for three load cases each. For more
+/// than 16 inclusions on many triangles, pairs that the mesh keeps give them
+/// (estimate/mesh_dual.hpp), O(h) wide too; for very many inclusions on very many triangles there
+/// are none, but a warning. Takes several answers at once; the bits of each are as if it were
+/// alone. An answer that is stopped keeps its bounds so far. Where the mesh has
+/// chords, estimates what they do to A: by the adjoint, or where there is none as if chords changed
+/// the energy of the unit force as much, for its size, as that of u.
 void bound_displacements(const MeshOperator::Parts& parts, std::span<const Bounded> answers);
 
 }  // namespace anticrack::operators

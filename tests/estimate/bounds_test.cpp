@@ -3,7 +3,6 @@
 // Bounds on random membranes of all kinds: they hold for every finer mesh as for the membrane
 // itself, so the answers of a mesh two levels finer lie in them.
 #include <gmock/gmock.h>
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +15,6 @@
 #include <type_traits>
 #include <vector>
 
-#include "base/at.hpp"
 #include "estimate/solved.hpp"
 #include "mesh/refine_uniform.hpp"
 #include "operators/mesh_operator.hpp"
@@ -102,20 +100,6 @@ struct Variant {
   double decades = 0;  // of the tension
 };
 
-/// 0 but on one side of a line through the middles of two edges of the Dirichlet boundary: linear
-/// along the edges of finer meshes, and not along these two.
-std::string kink(const mesh::Mesh& mesh) {
-  const auto middle = [&](std::size_t k, std::size_t axis) {
-    const auto& [a, b] = mesh.dirichlet[k];
-    return (mesh.xy[2 * at(a) + axis] + mesh.xy[2 * at(b) + axis]) / 2;
-  };
-  const std::size_t last = mesh.dirichlet.size() / 2;
-  const double x = middle(0, 0), y = middle(0, 1), along_x = middle(last, 0) - x,
-               along_y = middle(last, 1) - y;
-  return fmt::format(" + max(0, {:.17g}*(x - {:.17g}) - {:.17g}*(y - {:.17g}))", along_y / 9, x,
-                     along_x / 9, y);
-}
-
 template <class Membrane>
 void check_bounds(Membrane membrane, const Variant& variant, Contained& tally) {
   mesh::Mesh mesh = membrane.mesh();
@@ -180,8 +164,8 @@ TEST_P(Bounds, ContainTheAnswersOfAMeshTwoLevelsFiner) {
   EXPECT_GT(tally.displacements, static_cast<int>(count) / 4);
 }
 
-/// Fibres that cross each other and cracks, on either problem; more than 16 have pairs that the mesh
-/// keeps.
+/// Fibres that cross each other and cracks, on either problem; more than 16 have pairs that the
+/// mesh keeps.
 TEST(Fibres, HaveBoundsThatContainTheAnswersOfAMeshTwoLevelsFiner) {
   Contained tally;
   int many = 0;
@@ -287,14 +271,14 @@ TEST_P(Bounds, HaveTheSameBitsAloneAndWithOthers) {
   EXPECT_GT(bounded, 60);
 }
 
-INSTANTIATE_TEST_SUITE_P(Random, Bounds,
-                         ::testing::Values(
-                             Variant{"Plain"}, Variant{"Rich", true},
-                             Variant{"Joined", true, true, 0}, Variant{"Contacts", true, false, 1},
-                             Variant{"Laws", true, true, operators::default_condensed_up_to, true},
-                             Variant{"Contrast", true, false, operators::default_condensed_up_to,
-                                     false, 16}),
-                         [](const auto& one) { return one.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Random, Bounds,
+    ::testing::Values(Variant{"Plain"}, Variant{"Rich", true}, Variant{"Joined", true, true, 0},
+                      Variant{"Contacts", true, false, 1},
+                      Variant{"Laws", true, true, operators::default_condensed_up_to, true},
+                      Variant{"Contrast", true, false, operators::default_condensed_up_to, false,
+                              16}),
+    [](const auto& one) { return one.param.name; });
 
 }  // namespace
 }  // namespace anticrack::estimate

@@ -115,15 +115,14 @@ void check_lack(const Nested& nested, const Trial& trial, double dual_off, unsig
     for (const double c : {0.3, 3.0, 100.0}) {
       for (const Side side : {Side::lower, Side::upper}) {
         const double sign = side == Side::upper ? 1 : -1;
-        contact::Adjoint::Room room = operators::room_of(
-            coarse.parts, {coarse.cut, sigma, load, none, trial.v}, near.closed);
+        contact::Adjoint::Room room =
+            operators::room_of(coarse.parts, {coarse.cut, sigma, load, none, trial.v}, near.closed);
         room.jumps *= c;
         room.forces *= c;
         const VectorXd clipped = adjoint.load(goal, sign, room);
         const contact::Opened free = std::move(problem.solve_open({}, {&clipped, 1}).front());
         if (!free.solved) continue;
-        const contact::Displaced pair[] = {{&aim, adjoint.jumps(goal, sign, room)},
-                                           {&aim, free.d}};
+        const contact::Displaced pair[] = {{&aim, adjoint.jumps(goal, sign, room)}, {&aim, free.d}};
         std::vector<std::vector<double>> fields = problem.fields_of(pair);
         const std::vector<double> off =
             moved(coarse, dual_off, random);  // z' solves nothing either

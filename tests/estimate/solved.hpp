@@ -3,6 +3,8 @@
 // A solved random membrane as a flux sees it, and the same twice as fine.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <memory>
@@ -104,6 +106,20 @@ inline std::array<double, 3> barycentric(const Solved& in, std::size_t t, const 
     result[i] = -(normal[0] * (x[0] - p[0]) + normal[1] * (x[1] - p[1])) / (2 * in.area(t));
   }
   return result;
+}
+
+/// 0 but on one side of a line through the middles of two edges of the Dirichlet boundary: linear
+/// along the edges of finer meshes, and not along these two.
+inline std::string kink(const mesh::Mesh& mesh) {
+  const auto middle = [&](std::size_t k, std::size_t axis) {
+    const auto& [a, b] = mesh.dirichlet[k];
+    return (mesh.xy[2 * at(a) + axis] + mesh.xy[2 * at(b) + axis]) / 2;
+  };
+  const std::size_t last = mesh.dirichlet.size() / 2;
+  const double x = middle(0, 0), y = middle(0, 1), along_x = middle(last, 0) - x,
+               along_y = middle(last, 1) - y;
+  return fmt::format(" + max(0, {:.17g}*(x - {:.17g}) - {:.17g}*(y - {:.17g}))", along_y / 9, x,
+                     along_x / 9, y);
 }
 
 /// Multiplies the tension of each subdomain by a power of ten, so that they differ by up to so many

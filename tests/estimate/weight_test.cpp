@@ -88,8 +88,8 @@ struct Pointwise {
 
 /// The terms of R(c) by samples of each triangle: those of a bound are at least as large, and not
 /// much larger.
-void check_terms(const Solved& in, const Primal& primal, const Dual& dual,
-                 const ContactEnd& end, const Bound& found, Found& tally) {
+void check_terms(const Solved& in, const Primal& primal, const Dual& dual, const ContactEnd& end,
+                 const Bound& found, Found& tally) {
   const Pointwise at_point(end, *dual.weight);
   const EquilibratedFlux& sigma = primal.flux;
   const EquilibratedFlux tau = dual_flux(primal, dual);
