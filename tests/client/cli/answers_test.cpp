@@ -91,8 +91,8 @@ TEST(AnswersTable, NamesTheCureOfAnErrorAboveOnePerCentThatNobodyChose) {
 }
 
 TEST(AnswersTable, TellsTheRelativeErrorOfEachAAndOfOneNear0AgainstWhat) {
-  const auto told = [](double a, double half, double error) {
-    results::Result result = two_loads();
+  results::Result result = two_loads();
+  const auto told = [&result](double a, double half, double error) {
     v1::InclusionAnswer& fibre = *result.loads[0].answer.mutable_inclusions(0);
     fibre.set_displacement(a);
     fibre.set_displacement_mesh(0.086569);
@@ -107,6 +107,14 @@ TEST(AnswersTable, TellsTheRelativeErrorOfEachAAndOfOneNear0AgainstWhat) {
   EXPECT_THAT(told(0.125, 0.0125, 0.055),
               ::testing::HasSubstr("  0.125 +- 0.013 (10 %; 5.5 % of 2)  "));
   EXPECT_THAT(told(0, 0, 0), ::testing::HasSubstr("  0 +- 0  ")) << "it is held";
+  v1::LoadCaseAnswer& answer = result.loads[0].answer;
+  answer.mutable_inclusions(0)->set_displacement_geometry_error(0.00123);
+  answer.set_energy_lower(-2);
+  answer.set_energy_upper(-1.5);
+  answer.set_energy_geometry_error(4.5e-6);
+  EXPECT_THAT(told(0.5, 0.03125, 0.0625),
+              ::testing::HasSubstr("  0.500 +- 0.032 (6.2 %), chords +- 0.0012  "));
+  EXPECT_THAT(answers_table(result), ::testing::HasSubstr(", chords +- 4.5e-06  "));
 }
 
 TEST(AnswersTable, SaysThatUOf0HasNoRelativeError) {
@@ -219,8 +227,8 @@ TEST(AnswersCsv, HasALineForEachAndQuotesNames) {
   EXPECT_EQ(answers_csv(result),
             "load,inclusion,A,resultant,contact_length,Bx,By,Mx,My,A_lower,A_upper,A_estimated_"
             "error,Bx_lower,Bx_upper,By_lower,By_upper,A_mesh,Bx_mesh,By_mesh,A_error_relative,"
-            "A_scale,A_error_probable\n"
-            "\"a \"\"b\"\", c\",fibre,0.1,1e-16,0,0,0,0,0,,,,,,,,0,0,0,,,\n");
+            "A_scale,A_error_probable,A_geometry_error\n"
+            "\"a \"\"b\"\", c\",fibre,0.1,1e-16,0,0,0,0,0,,,,,,,,0,0,0,,,,\n");
 }
 
 TEST(NumbersTable, HasEveryNumberWithItsUnitAndMeaning) {
