@@ -18,7 +18,7 @@ from .entries import NAN
 from .errors import Error, package
 from .names import Named, Parts
 from .text import counted, harmless, html_table, lines, listed, short_length, with_bounds
-from .v1 import mesh_pb2, solve_pb2
+from .v1 import job_pb2, mesh_pb2, solve_pb2
 
 FORMAT = "anticrack-result/2"
 Arrays = dict[str, Array]
@@ -186,7 +186,7 @@ class Load(_walked(solve_pb2.LoadCaseAnswer, ("name", "status"))):  # type: igno
     contact_intervals: list[tuple[int, float, float]] = field(default_factory=list)
     fields: Parts[Field] = field(default_factory=lambda: Parts("subdomain"))
     indicator: Array | None = None
-    units, solver = Units(), solve_pb2.Solver()  # of the result
+    units, solver = Units(), job_pb2.Solver()  # of the result
 
     @property
     def converged(self) -> bool:
@@ -314,7 +314,7 @@ class Result:
     server_version: str = ""
     total_seconds: float = NAN
     units: Units = field(default_factory=Units)
-    solver: solve_pb2.Solver = field(default_factory=solve_pb2.Solver)  # with defaults, as the server filled them in
+    solver: job_pb2.Solver = field(default_factory=job_pb2.Solver)  # with defaults, as the server filled them in
     traction: bool | None = None  # whether a load has a traction; None if not known
 
     @property
@@ -577,7 +577,7 @@ def _of_file(file: Any) -> Result:
                     Parts("interface", [Interface(name, **_arrays(line)) for name, line in zip(names, lines_in)]),
                     Named("load", ((name, _load_in(item, names, mesh)) for name, item in groups)), None,
                     told["not_reached"], told["case"], told["server_version"], float(told["total_seconds"]),
-                    Units(**file["units"].attrs), _message_in(file["solver"], solve_pb2.Solver()))
+                    Units(**file["units"].attrs), _message_in(file["solver"], job_pb2.Solver()))
     if result.case:
         result.traction = re.search("""traction[ \\t"']*=""", result.case) is not None
     if "sweep" in file:
