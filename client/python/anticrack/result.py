@@ -6,7 +6,7 @@ from __future__ import annotations
 import os
 import re
 import warnings
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, make_dataclass
 from typing import Any
 
@@ -17,7 +17,7 @@ from .arrays import Array
 from .entries import NAN
 from .errors import Error, package
 from .names import Named, Parts
-from .text import counted, harmless, html_table, lines, listed, short_length, with_bounds
+from .text import counted, harmless, html_table, lines, listed, short_length, suggestion, with_bounds
 from .v1 import job_pb2, mesh_pb2, solve_pb2
 
 FORMAT = "anticrack-result/2"
@@ -540,6 +540,23 @@ def _load_of(job: solve_pb2.Job, index: int, arrays: Mapping[str, Array], result
         rows = [entries.values_of(stage) | entries.values_of(stage.answers[index]) for stage in stages]
         load.stages = {name: np.array([row[name] for row in rows]) for name in rows[0]}
     return load
+
+
+def chosen(result: Result, names: Sequence[str]) -> list[Load]:
+    """The loads of these names, or all. Raises Error if one does not exist."""
+    for name in names:
+        if name not in result.loads:
+            cure = suggestion(name, result.loads) if result.loads else (
+                "it keeps traces of no row; run the sweep with --traces")
+            raise Error(f"there is no load {harmless(name)}; {cure}")
+    return [result.loads[name] for name in names] or list(result.loads.values())
+
+
+def fields_cure(result: Result) -> str:
+    """Says how to get the missing fields of a result."""
+    anew = "run the case again with [output] fields = true"
+    return (f"to have them: anticrack job fetch {harmless(result.job)} --fields -o fields.h5, while the server keeps "
+            f"the job; else {anew}" if result.job else anew)
 
 
 def _arrays(group: Any, *but: str) -> Arrays:
