@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "anticrack/v1/case.pb.h"
+#include "anticrack/v1/job.pb.h"
 #include "anticrack/v1/mesh.pb.h"
-#include "anticrack/v1/solve.pb.h"
 #include "cli/case_error.hpp"
 #include "cli/session.hpp"
 

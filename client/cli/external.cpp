@@ -112,7 +112,7 @@ int code_of(pid_t process) {
   int status = 0;
   while (waitpid(process, &status, 0) < 0)
     if (errno != EINTR)
-      throw FiguresError("cannot wait for what draws: " + std::generic_category().message(errno));
+      throw FiguresError("cannot wait for Python: " + std::generic_category().message(errno));
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
@@ -137,7 +137,8 @@ int run_in_python(std::vector<std::string> words, std::string_view input, const 
   const std::string python = interpreter();
   if (python.empty())
     throw FiguresError(
-        "figures are drawn in Python, and there is no python3; install python3-anticrack");
+        "figures and files for ParaView are made in Python, and there is no python3; install "
+        "python3-anticrack");
   words.insert(words.begin() + 1, "--json");
   words.insert(words.begin(), {python, "-P", "-c", bootstrap});
   Pipe in, out;
@@ -150,13 +151,14 @@ int run_in_python(std::vector<std::string> words, std::string_view input, const 
   const std::string answer = read_all(out.reading());
   const int code = code_of(process);
   if (code == missing) {
-    throw FiguresError("figures are drawn by the Python package anticrack, which " + python +
-                       " lacks, or a package that it takes; install python3-anticrack and "
-                       "python3-matplotlib, or name another Python in ANTICRACK_PYTHON");
+    throw FiguresError(
+        "figures and files for ParaView are made by the Python package anticrack, which " + python +
+        " lacks, or a package that it takes; install python3-anticrack and "
+        "python3-matplotlib, or name another Python in ANTICRACK_PYTHON");
   }
   const Json document = Json::parse(answer, nullptr, false);
   if (!document.is_object())
-    throw FiguresError(fmt::format("what draws ended with code {} and no answer", code));
+    throw FiguresError(fmt::format("Python ended with code {} and no answer", code));
   if (with_document && globals.json) {
     print_document(to_text(document));
   } else {

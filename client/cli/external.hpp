@@ -14,7 +14,7 @@
 
 namespace anticrack::cli {
 
-/// The error if the program that draws is missing, or ended without an answer.
+/// The error if Python or the package is missing, or ended without an answer.
 class FiguresError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -28,7 +28,7 @@ std::filesystem::path external_command(const std::string& name);
 [[noreturn]] void become(const std::filesystem::path& program, std::vector<std::string> words);
 
 /// Runs a command of the Python package with `input` as its standard input, waits for it, and tells
-/// what it has drawn, as files and notes or as the document of --json. Returns its exit code.
+/// what it has made, as files and notes or as the document of --json. Returns its exit code.
 /// Python is that of ANTICRACK_PYTHON, else /usr/bin/python3, else the first on PATH. It imports
 /// nothing from the current folder, and in a build it imports the package beside the folder of this
 /// executable. Throws FiguresError.

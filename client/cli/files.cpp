@@ -23,7 +23,6 @@
 #include "output/file.hpp"
 #include "results/error.hpp"
 #include "results/file.hpp"
-#include "vtk/export.hpp"
 #include "words/nearest.hpp"
 
 namespace anticrack::cli {
@@ -87,9 +86,9 @@ int show_file(const FileOptions& options, const Globals& given) {
   }
   std::string head;
   if (!result.title.empty()) head += sanitise(result.title) + "\n";
-  head += fmt::format("{} triangles, {} nodes ({}), solved by {}\n\n", result.mesh.triangle_count(),
-                      result.mesh.node_count(), sanitise(result.mesh.info.name()),
-                      sanitise(result.job_name));
+  head += fmt::format("{} triangles, {} nodes ({}), solved by {}\n\n",
+                      result.mesh.info.triangle_count(), result.mesh.info.node_count(),
+                      sanitise(result.mesh.info.name()), sanitise(result.job_name));
   std::string foot;
   if (!result.not_reached.empty()) foot = "not reached: " + sanitise(result.not_reached) + "\n";
   if (result.loads.size() == 1 || !options.loads.empty())
@@ -97,20 +96,6 @@ int show_file(const FileOptions& options, const Globals& given) {
   print_answer(globals,
                head + (options.inclusions ? inclusions_table(result) : answers_table(result)) +
                    (options.all ? numbers_table(result) : "") + foot);
-  return exit_ok;
-}
-
-// Tells the files that were made, and what was left out.
-int tell_made(const std::vector<std::filesystem::path>& files,
-              const std::vector<std::string>& notes, const Globals& globals) {
-  if (globals.json) {
-    Json made{{"files", Json::array()}, {"notes", notes}};
-    for (const auto& file : files) made["files"].push_back(file.string());
-    print_document(to_text(made));
-    return exit_ok;
-  }
-  for (const auto& file : files) say(globals, file.string());
-  for (const std::string& note : notes) say(globals, note);
   return exit_ok;
 }
 
@@ -130,9 +115,10 @@ int plot(const PlotOptions& options, const Globals& globals) {
 }
 
 int export_file(const FileOptions& options, const Globals& globals) {
-  const vtk::Exported exported =
-      vtk::export_result(read_result(options), options.file, options.folder);
-  return tell_made(exported.files, exported.notes, globals);
+  std::vector<std::string> words{"export", "--output=" + options.folder};
+  for (const std::string& load : options.loads) words.push_back("--load=" + load);
+  words.insert(words.end(), {"--", options.file});
+  return run_in_python(std::move(words), {}, globals, true);
 }
 
 void add_plot(CLI::App& app, const Globals& globals, Command& chosen) {
@@ -218,7 +204,8 @@ void add_files(CLI::App& app, const Globals& globals, Command& chosen) {
       "The membrane needs u on every node: run the case with [output] fields = true, or fetch its\n"
       "job with --fields (anticrack job fetch). To see it deformed, apply the filter Warp By "
       "Scalar\n"
-      "to u. Where the result has them, each triangle has its error_indicator.\n\n"
+      "to u. Where the result has them, each triangle has its error_indicator.\n"
+      "The Python package anticrack writes the files.\n\n"
       "Example:\n  anticrack export paper.h5 -o paraview");
   export_command->callback([options, &globals, &chosen] {
     chosen = [options, &globals] { return export_file(*options, globals); };

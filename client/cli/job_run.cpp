@@ -33,9 +33,9 @@ std::string summary(const results::Result& result, const fs::path& file) {
   return fmt::format(
       "Results: {} ({} triangles, {} nodes; meshing {} s, factorising {} s, solving {} s, {} s in "
       "all)",
-      file.string(), result.mesh.triangle_count(), result.mesh.node_count(),
-      seconds(mesh.mesh_seconds()), seconds(mesh.factorize_seconds()),
-      seconds(results::solve_seconds(result)), seconds(result.total_seconds));
+      file.string(), mesh.triangle_count(), mesh.node_count(), seconds(mesh.mesh_seconds()),
+      seconds(mesh.factorize_seconds()), seconds(results::solve_seconds(result)),
+      seconds(result.total_seconds));
 }
 
 // The reasons why a job has no answers, line by line, in terms of its case.

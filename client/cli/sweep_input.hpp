@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "anticrack/v1/job.pb.h"
 #include "anticrack/v1/server.pb.h"
-#include "anticrack/v1/solve.pb.h"
 #include "cli/case.hpp"
 
 namespace anticrack::cli {

@@ -8,26 +8,9 @@ namespace {
 
 constexpr double window = 10;  // seconds over which the rate is measured
 constexpr double spacing = 0.25;
+constexpr std::uint64_t most_counted = std::uint64_t{1} << 28;  // rows
 
 }  // namespace
-
-std::vector<RowSet::Interval> RowSet::add(std::uint64_t begin, std::uint64_t end) {
-  std::vector<Interval> added;
-  if (begin >= end) return added;
-  std::uint64_t from = begin, joined_begin = begin, joined_end = end;
-  auto it = _ends.upper_bound(begin);
-  if (it != _ends.begin() && std::prev(it)->second >= begin) --it;
-  while (it != _ends.end() && it->first <= end) {
-    if (it->first > from) added.emplace_back(from, it->first);
-    from = std::max(from, it->second);
-    joined_begin = std::min(joined_begin, it->first);
-    joined_end = std::max(joined_end, it->second);
-    it = _ends.erase(it);
-  }
-  if (from < end) added.emplace_back(from, end);
-  _ends.emplace(joined_begin, joined_end);
-  return added;
-}
 
 double SweepProgress::rate() const noexcept {
   if (_samples.empty() || !(_now > _samples.front().seconds))
@@ -43,15 +26,6 @@ double SweepProgress::seconds_left() const noexcept {
   return static_cast<double>(total - _counts.done) / rows_a_second;
 }
 
-void SweepProgress::count(const v1::SweepRows& rows, const RowSet::Interval& interval) {
-  for (std::uint64_t row = interval.first; row < interval.second; ++row) {
-    const int status = rows.status(static_cast<int>(row - rows.first_row()));
-    _seen.not_converged += status == v1::LoadCaseAnswer::STATUS_NOT_CONVERGED ? 1U : 0U;
-    _seen.failed += status == v1::LoadCaseAnswer::STATUS_FAILED ? 1U : 0U;
-  }
-  _seen.done += interval.second - interval.first;
-}
-
 void SweepProgress::raise(const Counts& counts) {
   _counts.done = std::max(_counts.done, counts.done);
   _counts.not_converged = std::max(_counts.not_converged, counts.not_converged);
@@ -59,12 +33,20 @@ void SweepProgress::raise(const Counts& counts) {
 }
 
 void SweepProgress::apply(const v1::SweepRows& rows, double seconds) {
-  const auto count_of_rows = static_cast<std::uint64_t>(rows.status_size());
-  const std::uint64_t limit = total > 0 ? total : std::numeric_limits<std::uint64_t>::max();
-  if (rows.first_row() >= limit) return;
+  const std::uint64_t first = rows.first_row(),
+                      limit = std::min(total > 0 ? total : most_counted, most_counted);
+  if (first >= limit) return;
   if (_samples.empty()) _samples.push_back({seconds, _counts.done});
-  const std::uint64_t end = rows.first_row() + std::min(count_of_rows, limit - rows.first_row());
-  for (const RowSet::Interval& interval : _rows.add(rows.first_row(), end)) count(rows, interval);
+  const auto count = std::min(static_cast<std::uint64_t>(rows.status_size()), limit - first);
+  _ended.resize(std::max<std::size_t>(_ended.size(), first + count));
+  for (std::uint64_t i = 0; i < count; ++i) {
+    if (_ended[first + i]) continue;  // a new watch repeats rows
+    _ended[first + i] = true;
+    const int status = rows.status(static_cast<int>(i));
+    ++_seen.done;
+    _seen.not_converged += status == v1::LoadCaseAnswer::STATUS_NOT_CONVERGED ? 1U : 0U;
+    _seen.failed += status == v1::LoadCaseAnswer::STATUS_FAILED ? 1U : 0U;
+  }
   raise(_seen);
   _now = seconds;
   if (seconds - _samples.back().seconds >= spacing) _samples.push_back({seconds, _counts.done});

@@ -6,24 +6,12 @@
 #include <cstdint>
 #include <deque>
 #include <limits>
-#include <map>
 #include <utility>
 #include <vector>
 
 #include "anticrack/v1/solve.pb.h"
 
 namespace anticrack::cli {
-
-/// A set of rows as k disjoint intervals. O(log k) per interval.
-class RowSet {
- public:
-  using Interval = std::pair<std::uint64_t, std::uint64_t>;  ///< end excluded
-  /// Adds [begin, end) and returns the parts that are new.
-  std::vector<Interval> add(std::uint64_t begin, std::uint64_t end);
-
- private:
-  std::map<std::uint64_t, std::uint64_t> _ends;  // begin -> end, disjoint
-};
 
 class SweepProgress {
  public:
@@ -54,12 +42,11 @@ class SweepProgress {
     double seconds = 0;
     std::uint64_t done = 0;
   };
-  void count(const v1::SweepRows& rows, const RowSet::Interval& interval);
   void raise(const Counts& counts);
 
-  RowSet _rows;
-  Counts _seen;    // counted from rows
-  Counts _counts;  // the larger of rows' and server's
+  std::vector<bool> _ended;  // rows seen; a bit each
+  Counts _seen;              // counted from rows
+  Counts _counts;            // the larger of rows' and server's
   std::deque<Sample> _samples;
   double _now = std::numeric_limits<double>::quiet_NaN();
 };

@@ -2,6 +2,7 @@
 #include "client/error.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "anticrack/v1/error.pb.h"
@@ -9,13 +10,18 @@
 namespace anticrack::client {
 namespace {
 
-constexpr int largest_code = 16;
+constexpr std::array<std::string_view, 17> code_names{
+    "OK",        "CANCELLED",      "UNKNOWN",           "INVALID_ARGUMENT",   "DEADLINE_EXCEEDED",
+    "NOT_FOUND", "ALREADY_EXISTS", "PERMISSION_DENIED", "RESOURCE_EXHAUSTED", "FAILED_PRECONDITION",
+    "ABORTED",   "OUT_OF_RANGE",   "UNIMPLEMENTED",     "INTERNAL",           "UNAVAILABLE",
+    "DATA_LOSS", "UNAUTHENTICATED"};
 
 Code to_code(int code) {
-  return code >= 0 && code <= largest_code ? static_cast<Code>(code) : Code::unknown;
+  return code >= 0 && static_cast<std::size_t>(code) < code_names.size() ? static_cast<Code>(code)
+                                                                         : Code::unknown;
 }
 
-// Compares type names: details have those of google.rpc, with the same fields as our messages.
+// Compares names of types: details have those of google.rpc, with the same fields as our messages.
 bool is(const google::protobuf::Any& detail, std::string_view type) {
   const std::string& url = detail.type_url();
   const std::size_t slash = url.rfind('/');
@@ -55,43 +61,8 @@ Details decode_details(const v1::Status& status) {
 }  // namespace
 
 std::string_view name(Code code) noexcept {
-  switch (code) {
-    case Code::ok:
-      return "OK";
-    case Code::cancelled:
-      return "CANCELLED";
-    case Code::unknown:
-      return "UNKNOWN";
-    case Code::invalid_argument:
-      return "INVALID_ARGUMENT";
-    case Code::deadline_exceeded:
-      return "DEADLINE_EXCEEDED";
-    case Code::not_found:
-      return "NOT_FOUND";
-    case Code::already_exists:
-      return "ALREADY_EXISTS";
-    case Code::permission_denied:
-      return "PERMISSION_DENIED";
-    case Code::resource_exhausted:
-      return "RESOURCE_EXHAUSTED";
-    case Code::failed_precondition:
-      return "FAILED_PRECONDITION";
-    case Code::aborted:
-      return "ABORTED";
-    case Code::out_of_range:
-      return "OUT_OF_RANGE";
-    case Code::unimplemented:
-      return "UNIMPLEMENTED";
-    case Code::internal:
-      return "INTERNAL";
-    case Code::unavailable:
-      return "UNAVAILABLE";
-    case Code::data_loss:
-      return "DATA_LOSS";
-    case Code::unauthenticated:
-      return "UNAUTHENTICATED";
-  }
-  return "UNKNOWN";
+  const auto index = static_cast<std::size_t>(code);
+  return code_names[index < code_names.size() ? index : static_cast<std::size_t>(Code::unknown)];
 }
 
 Error decode_error(int code, const std::string& message, std::string_view details_bin) {

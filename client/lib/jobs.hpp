@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Jobs on the server: submit them, watch them, read their results (SolveService and ServerService;
-// requests and answers, with units, are those of anticrack/v1/solve.proto and server.proto).
+// requests and answers, with units, are those of anticrack/v1/job.proto, solve.proto and
+// server.proto).
 //
 // Every function may be called from any thread. It returns when the server has answered, or throws:
 //   Error        the server refused; each call lists its codes. A lost connection is first retried

@@ -113,9 +113,7 @@ void add_sweep(const Block& block, Result& result) {
   get_arrays(block, folder, sweep, arrays::sweep_rows<Sweep>);
   get_arrays(block, folder, sweep, arrays::sweep_contacts<Sweep>);
   get_arrays(block, folder, sweep, arrays::sweep_matrices<Sweep>, sweep.rows());
-  std::vector<std::size_t> nodes;
-  for (const Interface& interface : result.interfaces) nodes.push_back(interface.node_count());
-  block.require(first_fault(sweep, nodes));
+  block.require(first_fault(sweep));
 
   std::vector<std::int32_t> kept;
   for (const std::int32_t row : sweep.kept) {

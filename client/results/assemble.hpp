@@ -26,8 +26,8 @@ struct BlockView {
 /// For a sweep `answers` has no loads, but sweep.loads, inclusions, kept and answer; the columns
 /// are filled in, and a load is added for every kept row (see Sweep::kept).
 ///
-/// Throws Error for a missing array, wrong types and shapes, arrays outside their block, indices
-/// out of range and sizes that disagree. Unknown arrays are ignored.
+/// Throws Error for a missing array, wrong types and shapes, arrays outside their block, and what
+/// first_fault finds. Unknown arrays are ignored.
 Result assemble(Result answers, const BlockView& mesh_block, const BlockView& result_block);
 
 }  // namespace anticrack::results

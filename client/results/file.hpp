@@ -22,8 +22,10 @@ inline constexpr std::string_view format = "anticrack-result/2";
 /// sentence that says so, or an empty text if no file was kept.
 std::string write(const std::filesystem::path& path, const Result& result);
 
-/// Reads a file of `format`. Throws Error for a file that is not HDF5, truncated, not a result, of
-/// another format version or inconsistent. Sizes are checked before memory is allocated.
+/// Reads of a file of `format` what can be shown: values, sweeps, and u for the notes on it, but no
+/// interfaces, histories, indicators and triangles. Throws Error for a file that is not HDF5,
+/// truncated, not a result, of another format version or inconsistent. Sizes are checked before
+/// memory is allocated.
 Result read(const std::filesystem::path& path);
 
 }  // namespace anticrack::results

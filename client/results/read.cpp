@@ -56,18 +56,16 @@ std::vector<v1::Stage> get_stages(const Handle& group, std::uint64_t budget) {
 Load get_load(const Handle& group, std::uint64_t budget) {
   Load load;
   hdf5::get_message(group, budget, load.answer);
-  get_arrays(group, budget, load, tables::indicator);
   load.traces = list_of(group, "traces", [budget](const Handle& at) {
     Trace trace;
     get_arrays(at, budget, trace, arrays::trace<Trace>);
     return trace;
   });
-  get_arrays(open_group(group, "history"), budget, load.history, arrays::history<History>);
   if (hdf5::has(group, "stages")) load.stages = get_stages(open_group(group, "stages"), budget);
   if (!hdf5::has(group, "fields")) return load;
   load.fields = list_of(group, "fields", [budget](const Handle& at) {
     Field field;
-    get_arrays(at, budget, field, arrays::subdomain<Field>, arrays::field<Field>);
+    get_arrays(at, budget, field, arrays::field<Field>);
     return field;
   });
   return load;
@@ -102,12 +100,7 @@ Result get_result(const Handle& root, std::uint64_t budget) {
   get_values(root, result, tables::result);
   get_message("units", result.units);
   get_message("solver", result.solver);
-  get_arrays(get_message("mesh", result.mesh.info), budget, result.mesh, tables::mesh);
-  result.interfaces = list_of(root, "interfaces", [budget](const Handle& group) {
-    Interface interface;
-    get_arrays(group, budget, interface, arrays::interface_nodes<Interface>, tables::edges);
-    return interface;
-  });
+  hdf5::get_array(get_message("mesh", result.mesh.info), "nodes", budget, {2}, result.mesh.xy);
   result.loads = get_loads(root, budget);
   if (hdf5::has(root, "sweep")) {
     Sweep& sweep = result.sweep.emplace();

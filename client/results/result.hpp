@@ -27,10 +27,6 @@ struct Mesh {
   std::vector<std::int32_t> triangles;  ///< (m,3) row-major, counterclockwise
   std::vector<std::int32_t> subdomain;  ///< (m) index into info.subdomains
   std::vector<std::int32_t> boundary;   ///< (b,2) row-major, edges where u is prescribed
-
-  /// n and m of the shapes above.
-  std::size_t node_count() const noexcept { return xy.size() / 2; }
-  std::size_t triangle_count() const noexcept { return triangles.size() / 3; }
 };
 
 /// A chain of k nodes; a closed one repeats its first node at the end.
@@ -142,15 +138,9 @@ double solve_seconds(const Result& result);
 /// The name of the method: "active-set" or "uzawa".
 std::string method_of(const v1::Solver& solver);
 
-/// Describes the first invariant that does not hold (shapes, index ranges, names, enums, finite
-/// coordinates): "loads[1].traces[0].jump has 160 entries for 161 nodes"; empty if none. O(size).
+/// Describes the first invariant of what this program looks at that does not hold (names, enums,
+/// columns of a sweep): "sweep.steps has 20 entries instead of 21"; empty if all hold. Arrays of
+/// the mesh and of load cases go from the server into the file as they are. O(size).
 std::string first_fault(const Result& result);
-
-/// Says how to get the missing fields of a result: from the job while the server keeps it, or by
-/// a new run.
-std::string fields_cure(const Result& result);
-
-/// Whether a load may have this name, which becomes the name of a group in the file.
-bool is_load_name(std::string_view name) noexcept;
 
 }  // namespace anticrack::results

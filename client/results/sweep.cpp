@@ -58,17 +58,6 @@ std::string length_fault(const Sweep& sweep) {
   return fault;
 }
 
-std::string entry(const char* name, std::size_t index) {
-  return fmt::format("sweep.{}[{}]", name, index);
-}
-
-bool is_node(std::int32_t interface, std::int32_t node,
-             const std::vector<std::size_t>& interface_nodes) {
-  return interface >= 0 && static_cast<std::size_t>(interface) < interface_nodes.size() &&
-         node >= 0 &&
-         static_cast<std::size_t>(node) < interface_nodes[static_cast<std::size_t>(interface)];
-}
-
 std::string counts_fault(const Sweep& sweep) {
   const v1::SweepAnswer& answer = sweep.answer;
   std::uint64_t left = sweep.rows();
@@ -90,20 +79,15 @@ std::string bounds_fault(const Sweep& sweep) {
   return whole ? "" : "sweep has some of its bounds without the others";
 }
 
-std::string range_fault(const Sweep& sweep, const std::vector<std::size_t>& interface_nodes) {
+std::string range_fault(const Sweep& sweep) {
   for (std::size_t i = 0; i < sweep.rows(); ++i)
     if (!v1::LoadCaseAnswer::Status_IsValid(sweep.status[i]))
-      return fmt::format("{} is {}, no status", entry("status", i), sweep.status[i]);
-  for (std::size_t i = 0; i < sweep.contacts(); ++i)
-    if (!is_node(sweep.contact_nodes[2 * i], sweep.contact_nodes[2 * i + 1], interface_nodes))
-      return entry("contact_nodes", i) + " is not a node of an interface";
-  if (std::ranges::any_of(sweep.contact, [](std::uint8_t value) { return value > 1; }))
-    return "sweep.contact has a value other than 0 and 1";
+      return fmt::format("sweep.status[{}] is {}, no status", i, sweep.status[i]);
   for (std::size_t i = 0; i < sweep.kept.size(); ++i) {
     const std::int32_t row = sweep.kept[i];
     if (row < 0 || static_cast<std::size_t>(row) >= sweep.rows() ||
         (i > 0 && row <= sweep.kept[i - 1])) {
-      return fmt::format("{} is {}, out of order or no row of the sweep", entry("kept", i), row);
+      return fmt::format("sweep.kept[{}] is {}, out of order or no row of the sweep", i, row);
     }
   }
   return {};
@@ -151,11 +135,11 @@ SweepSummary summary(const Sweep& sweep) {
 
 std::string row_name(std::int64_t row) { return fmt::format("row-{}", row); }
 
-std::string first_fault(const Sweep& sweep, const std::vector<std::size_t>& interface_nodes) {
+std::string first_fault(const Sweep& sweep) {
   std::string fault = length_fault(sweep);
   if (fault.empty()) fault = counts_fault(sweep);
   if (fault.empty()) fault = bounds_fault(sweep);
-  return fault.empty() ? range_fault(sweep, interface_nodes) : fault;
+  return fault.empty() ? range_fault(sweep) : fault;
 }
 
 }  // namespace anticrack::results

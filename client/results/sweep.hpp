@@ -94,8 +94,8 @@ SweepSummary summary(const Sweep& sweep);
 /// The name of a row's load: "row-17".
 std::string row_name(std::int64_t row);
 
-/// Describes the first invariant that does not hold (lengths, ranges, enums); empty if all hold.
-/// `interface_nodes` has the number of nodes of each interface. O(size).
-std::string first_fault(const Sweep& sweep, const std::vector<std::size_t>& interface_nodes);
+/// Describes the first invariant that does not hold (lengths, counts, enums, kept rows); empty if
+/// all hold. O(rows).
+std::string first_fault(const Sweep& sweep);
 
 }  // namespace anticrack::results

@@ -5,8 +5,10 @@
 #include <utility>
 #include <variant>
 
+#include "anticrack/v1/solve.pb.h"
 #include "api/names.hpp"
 #include "api/translations.hpp"
+#include "records/case_record.hpp"
 
 namespace anticrack::api {
 

@@ -9,8 +9,8 @@
 #include <cstddef>
 #include <string>
 
+#include "anticrack/v1/job.pb.h"
 #include "anticrack/v1/mesh.pb.h"
-#include "anticrack/v1/solve.pb.h"
 #include "errors/errors.hpp"
 #include "records/job_spec.hpp"
 #include "records/mesh_record.hpp"

@@ -11,12 +11,18 @@
 #include <vector>
 
 #include "anticrack/v1/error.pb.h"
+#include "anticrack/v1/job.pb.h"
 #include "anticrack/v1/mesh.pb.h"
-#include "anticrack/v1/solve.pb.h"
 #include "api/translation.hpp"
 #include "records/block.hpp"
 #include "records/job_record.hpp"
 #include "records/mesh_record.hpp"
+
+namespace anticrack::v1 {
+class Job;
+class LoadCaseAnswer;
+class Stage;
+}  // namespace anticrack::v1
 
 namespace anticrack::api {
 

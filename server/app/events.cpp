@@ -43,7 +43,7 @@ void log_job(const records::JobRecord& job) {
                           {"reason", reason(job.error)},
                           {"message", message(job.error)},
                           {"attempt", job.attempt},
-                          {"load_cases", job.cases.size()},
+                          {"load_cases", job.spec.sweep ? 0 : job.spec.loads.size()},
                           {"result_bytes", job.result_bytes},
                           {"queued_seconds", in(Phase::queued)},
                           {"waiting_seconds", in(Phase::waiting)},

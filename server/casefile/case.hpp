@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "anticrack/v1/job.pb.h"
 #include "anticrack/v1/mesh.pb.h"
-#include "anticrack/v1/solve.pb.h"
 #include "casefile/error.hpp"
 
 namespace anticrack::casefile {

@@ -8,8 +8,8 @@
 #include <limits>
 #include <variant>
 
-#include "contact/answer.hpp"
 #include "errors/errors.hpp"
+#include "records/case_record.hpp"
 
 namespace anticrack::jobs {
 

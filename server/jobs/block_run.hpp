@@ -17,12 +17,6 @@
 
 namespace anticrack::jobs {
 
-/// A load case that has ended; a thread reports it after its work without the lock.
-struct EndedCase {
-  Task task;
-  CaseOutcome outcome;
-};
-
 /// A block of columns. While it is `iterating` it belongs to the thread that works on it. At other
 /// times (put down, or while its thread condenses loads for it) any thread that holds the engine's
 /// mutex can abandon columns, so that their jobs need not wait for the next iteration.

@@ -8,9 +8,9 @@
 #include <string>
 #include <utility>
 
-#include "contact/answer.hpp"
 #include "errors/errors.hpp"
 #include "jobs/result_block.hpp"
+#include "records/case_record.hpp"
 
 namespace anticrack::jobs {
 

@@ -26,6 +26,12 @@ struct CaseOutcome {
   std::vector<double> indicator{};     ///< (triangles), only for a job with an accuracy
 };
 
+/// A load case that has ended; a thread reports it after its work without the lock.
+struct EndedCase {
+  Task task;
+  CaseOutcome outcome;
+};
+
 /// Keeps a load case's history, and stops the case when its job must stop. One object belongs to
 /// the thread that solves.
 class History : public contact::Observer {

@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include "jobs/block_run.hpp"
 #include "jobs/engine_core.hpp"
 
 namespace anticrack::jobs {

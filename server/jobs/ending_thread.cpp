@@ -12,6 +12,7 @@
 #include "fields/walk.hpp"
 #include "jobs/result_block.hpp"
 #include "jobs/sweep_result.hpp"
+#include "records/case_record.hpp"
 #include "stop/stop.hpp"
 
 namespace anticrack::jobs {

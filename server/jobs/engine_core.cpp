@@ -8,7 +8,9 @@
 
 #include "fields/walk.hpp"
 #include "jobs/accuracy.hpp"
+#include "jobs/block_run.hpp"
 #include "operators/freed_memory.hpp"
+#include "records/case_record.hpp"
 
 namespace anticrack::jobs {
 

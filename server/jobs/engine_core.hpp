@@ -29,7 +29,7 @@
 #include "access/turn_queue.hpp"
 #include "errors/errors.hpp"
 #include "jobs/admission.hpp"
-#include "jobs/block_run.hpp"
+#include "jobs/case_outcome.hpp"
 #include "jobs/deadlines.hpp"
 #include "jobs/ended_logs.hpp"
 #include "jobs/job_engine.hpp"
@@ -38,8 +38,11 @@
 #include "jobs/retention.hpp"
 #include "jobs/schedule.hpp"
 #include "jobs/sweep_chunk.hpp"
+#include "operators/mesh_operator.hpp"
 
 namespace anticrack::jobs {
+
+class BlockRun;
 
 /// A load case that is condensed for the active set; any thread may solve it.
 struct PreparedCase {

@@ -15,6 +15,7 @@
 #include "errors/errors.hpp"
 #include "fields/walk.hpp"
 #include "jobs/sample_queue.hpp"
+#include "records/case_record.hpp"
 #include "records/job_record.hpp"
 
 namespace anticrack::jobs {

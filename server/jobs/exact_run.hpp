@@ -6,7 +6,6 @@
 #include <deque>
 #include <vector>
 
-#include "jobs/block_run.hpp"
 #include "jobs/engine_core.hpp"
 
 namespace anticrack::jobs {

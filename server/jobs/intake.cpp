@@ -13,6 +13,7 @@
 #include "jobs/job_start.hpp"
 #include "jobs/result_block.hpp"
 #include "jobs/sweep_check.hpp"
+#include "records/case_record.hpp"
 #include "records/mesh_record.hpp"
 
 namespace anticrack::jobs {

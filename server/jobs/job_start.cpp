@@ -12,6 +12,7 @@
 #include "jobs/sweep_chunk.hpp"
 #include "jobs/sweep_plan.hpp"
 #include "operators/mesh_operator.hpp"
+#include "records/case_record.hpp"
 #include "stop/stop.hpp"
 #include "store/files.hpp"
 

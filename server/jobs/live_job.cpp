@@ -10,6 +10,7 @@
 
 #include "fields/walk.hpp"
 #include "jobs/ended_logs.hpp"
+#include "records/case_record.hpp"
 
 namespace anticrack::jobs {
 

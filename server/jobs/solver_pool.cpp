@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/at_once.hpp"
+#include "jobs/block_run.hpp"
 #include "jobs/condensing.hpp"
 #include "jobs/exact_run.hpp"
 #include "jobs/job_start.hpp"

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "contact/sweep_columns.hpp"
+#include "contact/traces.hpp"
 #include "errors/errors.hpp"
 #include "operators/mesh_operator.hpp"
 

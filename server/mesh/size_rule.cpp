@@ -105,33 +105,12 @@ SizeRule::SizeRule(const Mesh& mesh, std::span<const std::int32_t> centres, cons
     _tip_size = std::min(_tip_size, tip_size);
     _centres.push_back({position(mesh, node), reach, tip_size});
   }
-  build(0, _centres.size());
-}
-
-std::size_t SizeRule::build(std::size_t begin, std::size_t end) {
-  const std::size_t index = _boxes.size();
-  Box box{_centres[begin].at, _centres[begin].at, 0, begin, end, 0, 0};
-  for (std::size_t i = begin; i < end; ++i) {
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-      box.low[axis] = std::min(box.low[axis], _centres[i].at[axis]);
-      box.high[axis] = std::max(box.high[axis], _centres[i].at[axis]);
-    }
-    box.reach = std::max(box.reach, _centres[i].reach);
-  }
-  _boxes.push_back(box);
-  if (end - begin <= centres_in_a_leaf) return index;
-  const std::size_t axis = box.high[0] - box.low[0] > box.high[1] - box.low[1] ? 0 : 1;
-  const std::size_t middle = begin + (end - begin) / 2;
-  const auto place = [&](std::size_t i) {
-    return _centres.begin() + static_cast<std::ptrdiff_t>(i);
-  };
-  std::nth_element(place(begin), place(middle), place(end),
-                   [axis](const Centre& c, const Centre& d) { return c.at[axis] < d.at[axis]; });
-  const std::size_t left = build(begin, middle);
-  const std::size_t right = build(middle, end);
-  _boxes[index].left = left;
-  _boxes[index].right = right;
-  return index;
+  _boxes = boxes_of(
+      _centres, centres_in_a_leaf,
+      [](const Centre& c) {
+        return std::array{c.at, c.at};
+      },
+      [](const Centre& c) { return c.reach; }, [](double a, double b) { return std::max(a, b); });
 }
 
 bool SizeRule::search(std::size_t index, const std::array<Point, 3>& triangle, double diameter,
@@ -142,7 +121,7 @@ bool SizeRule::search(std::size_t index, const std::array<Point, 3>& triangle, d
     const auto [low, high] = std::minmax({triangle[0][axis], triangle[1][axis], triangle[2][axis]});
     gap[axis] = std::max({box.low[axis] - high, 0.0, low - box.high[axis]});
   }
-  const double farthest = box.reach * part;
+  const double farthest = box.value * part;
   if (squared(gap) > farthest * farthest) return false;
   if (box.left > 0)
     return search(box.left, triangle, diameter, part) ||

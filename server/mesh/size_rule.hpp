@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "mesh/box_tree.hpp"
 #include "mesh/refine.hpp"
 
 namespace anticrack::mesh {
@@ -30,17 +31,7 @@ class SizeRule {
     double reach = 0;     ///< R of the tip
     double tip_size = 0;  ///< h_tip
   };
-  struct Box {
-    Point low{};
-    Point high{};
-    double reach = 0;  ///< the largest inside the box
-    std::size_t begin = 0;
-    std::size_t end = 0;   ///< end of the range of its centres
-    std::size_t left = 0;  ///< index of its two parts; 0: none
-    std::size_t right = 0;
-  };
 
-  std::size_t build(std::size_t begin, std::size_t end);
   bool search(std::size_t box, const std::array<Point, 3>& triangle, double diameter,
               double part) const noexcept;
 
@@ -48,7 +39,7 @@ class SizeRule {
   double _exponent = 1;  ///< 1/(1-m)
   double _tip_size;      ///< the smallest of all
   std::vector<Centre> _centres;
-  std::vector<Box> _boxes;
+  std::vector<Box> _boxes;  ///< value: the largest reach
 };
 
 }  // namespace anticrack::mesh

@@ -2,6 +2,7 @@
 #include "mesher/size_field.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -17,46 +18,23 @@ constexpr std::size_t curves_in_a_leaf = 4;
 SizeField::SizeField(std::vector<SizedCurve> curves, double growth)
     : _curves(std::move(curves)), _growth(growth) {
   for (const SizedCurve& curve : _curves) _longest = std::max(_longest, curve.size);
-  _boxes.reserve(2 * _curves.size());
-  build(0, _curves.size());
+  _boxes = mesh::boxes_of(
+      _curves, curves_in_a_leaf,
+      [](const SizedCurve& c) {
+        return std::array{c.a, c.b};
+      },
+      [](const SizedCurve& c) { return c.size; },
+      [](double a, double b) { return std::min(a, b); });
 }
 
-std::size_t SizeField::build(std::size_t begin, std::size_t end) {
-  const std::size_t index = _boxes.size();
-  Box box{_curves[begin].a, _curves[begin].a, _curves[begin].size, begin, end, 0, 0};
-  for (std::size_t i = begin; i < end; ++i) {
-    for (const mesh::Point& p : {_curves[i].a, _curves[i].b}) {
-      for (std::size_t axis = 0; axis < 2; ++axis) {
-        box.low[axis] = std::min(box.low[axis], p[axis]);
-        box.high[axis] = std::max(box.high[axis], p[axis]);
-      }
-    }
-    box.least = std::min(box.least, _curves[i].size);
-  }
-  _boxes.push_back(box);
-  if (end - begin <= curves_in_a_leaf) return index;
-  const std::size_t axis = box.high[0] - box.low[0] > box.high[1] - box.low[1] ? 0 : 1;
-  const std::size_t middle = begin + (end - begin) / 2;
-  const auto at = [&](std::size_t i) { return _curves.begin() + static_cast<std::ptrdiff_t>(i); };
-  std::nth_element(at(begin), at(middle), at(end),
-                   [axis](const SizedCurve& c, const SizedCurve& d) {
-                     return c.a[axis] + c.b[axis] < d.a[axis] + d.b[axis];
-                   });
-  const std::size_t left = build(begin, middle);
-  const std::size_t right = build(middle, end);
-  _boxes[index].left = left;
-  _boxes[index].right = right;
-  return index;
-}
-
-double SizeField::bound(const Box& box, const mesh::Point& p) const {
+double SizeField::bound(const mesh::Box& box, const mesh::Point& p) const {
   const double dx = std::max({box.low[0] - p[0], 0.0, p[0] - box.high[0]});
   const double dy = std::max({box.low[1] - p[1], 0.0, p[1] - box.high[1]});
-  return box.least + _growth * std::hypot(dx, dy);
+  return box.value + _growth * std::hypot(dx, dy);
 }
 
 void SizeField::search(std::size_t index, const mesh::Point& p, double& best) const {
-  const Box& box = _boxes[index];
+  const mesh::Box& box = _boxes[index];
   if (box.left == 0) {
     for (std::size_t i = box.begin; i < box.end; ++i) {
       const SizedCurve& c = _curves[i];

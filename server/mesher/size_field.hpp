@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "mesh/box_tree.hpp"
 #include "mesh/geometry.hpp"
 
 namespace anticrack::mesher {
@@ -27,24 +28,13 @@ class SizeField {
   double operator()(const mesh::Point& p) const;
 
  private:
-  struct Box {
-    mesh::Point low{};
-    mesh::Point high{};
-    double least = 0;  ///< smallest size inside the box
-    std::size_t begin = 0;
-    std::size_t end = 0;   ///< end of the range of its curves
-    std::size_t left = 0;  ///< index of its two parts; 0: none
-    std::size_t right = 0;
-  };
-
-  std::size_t build(std::size_t begin, std::size_t end);
-  double bound(const Box& box, const mesh::Point& p) const;
+  double bound(const mesh::Box& box, const mesh::Point& p) const;
   void search(std::size_t box, const mesh::Point& p, double& best) const;
 
   std::vector<SizedCurve> _curves;
   double _growth;
   double _longest = 0;
-  std::vector<Box> _boxes;
+  std::vector<mesh::Box> _boxes;  ///< value: the smallest size
 };
 
 }  // namespace anticrack::mesher

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the server remembers of jobs. The numbers of enums are those of the API. A new number of an
-// answer changes this, so headers that only name a record declare it and do not include this.
+// What the server remembers of jobs. The numbers of enums are those of the API. Who looks at the
+// answers of a job includes records/case_record.hpp, which every new number of an answer changes.
 #pragma once
 
 #include <chrono>
@@ -10,8 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "contact/answer.hpp"
-#include "contact/status.hpp"
 #include "errors/errors.hpp"
 #include "fields/fields.hpp"
 #include "records/clock.hpp"
@@ -20,14 +18,7 @@
 
 namespace anticrack::records {
 
-/// A load case's answer without its arrays, which are in the result block.
-struct CaseRecord {
-  contact::Status status = contact::Status::pending;
-  std::optional<errors::Error> error;  ///< when failed
-  contact::AnswerSummary answer;
-  std::chrono::nanoseconds solve_time{0};
-};
-ANTICRACK_FIELDS(CaseRecord, status, error, answer, solve_time)
+struct CaseRecord;
 
 /// The summary of a sweep; its columns are in the result block.
 struct SweepRecord {
@@ -76,6 +67,13 @@ struct Step {
 ANTICRACK_FIELDS(Step, time, state, detail)
 
 struct JobRecord {
+  JobRecord();
+  JobRecord(const JobRecord& other);
+  JobRecord(JobRecord&& other) noexcept;
+  JobRecord& operator=(const JobRecord& other);
+  JobRecord& operator=(JobRecord&& other) noexcept;
+  ~JobRecord();
+
   std::string id;
   std::string owner;       ///< as MeshRecord::owner
   std::string request_id;  ///< empty: none

@@ -9,6 +9,7 @@
 #include "api/translations.hpp"
 #include "contact/sweep_columns.hpp"
 #include "jobs/sample_run.hpp"
+#include "records/case_record.hpp"
 #include "records/job_record.hpp"
 #include "records/mesh_record.hpp"
 #include "rpc/error_table.hpp"

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "anticrack/v1/solve.pb.h"
+#include "anticrack/v1/job.pb.h"
 #include "store/store.hpp"
 
 namespace anticrack::rpc {

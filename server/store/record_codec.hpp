@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "errors/errors.hpp"
 #include "records/clock.hpp"
 
 namespace anticrack::records {

@@ -91,11 +91,6 @@ double energy_error(const mesh::Mesh& mesh, const contact::Answer& answer,
   });
 }
 
-double energy_norm(const mesh::Mesh& mesh, const testing::ExactSolution& exact) {
-  return energy_distance(mesh, exact,
-                         [](std::size_t, const std::array<Complex, 3>&) { return Complex(0); });
-}
-
 JumpError jump_error(const mesh::Mesh& mesh, const contact::Answer& answer,
                      const testing::ExactSolution& exact) {
   const mesh::Interface& line = mesh.interfaces.at(0);

@@ -15,9 +15,6 @@ namespace anticrack::accuracy {
 double energy_error(const mesh::Mesh& mesh, const contact::Answer& answer,
                     const testing::ExactSolution& exact);
 
-/// Energy norm of the exact solution itself, by the same quadrature.
-double energy_norm(const mesh::Mesh& mesh, const testing::ExactSolution& exact);
-
 struct JumpError {
   double largest = 0;  ///< over the nodes of the crack
   double l2 = 0;       ///< of the piecewise linear [u_h], (int ([u] - [u_h])^2 ds)^{1/2}

@@ -6,6 +6,7 @@
 #include "errors/errors.hpp"
 #include "fuzz/input.hpp"
 #include "fuzz/quiet_protobuf.hpp"
+#include "records/case_record.hpp"
 #include "records/job_record.hpp"
 #include "records/mesh_record.hpp"
 #include "store/record_codec.hpp"

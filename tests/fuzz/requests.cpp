@@ -22,6 +22,7 @@
 #include "fuzz/input.hpp"
 #include "fuzz/quiet_protobuf.hpp"
 #include "mesh/codec.hpp"
+#include "records/case_record.hpp"
 #include "records/job_record.hpp"
 #include "records/mesh_record.hpp"
 #include "rpc/pages.hpp"

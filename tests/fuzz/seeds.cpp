@@ -24,6 +24,7 @@
 #include "mesher/grading.hpp"
 #include "mesher/import.hpp"
 #include "mesher/msh_writer.hpp"
+#include "records/case_record.hpp"
 #include "records/job_record.hpp"
 #include "records/mesh_record.hpp"
 #include "store/record_codec.hpp"

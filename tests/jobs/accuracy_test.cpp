@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "records/case_record.hpp"
 #include "support/errors.hpp"
 
 namespace anticrack::jobs {

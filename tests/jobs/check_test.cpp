@@ -92,12 +92,7 @@ TEST_F(Check, NamesTheExpressionAtFault) {
 }
 
 TEST_F(Check, NamesTheLoadAtFault) {
-  const double nan = std::nan("");
-  EXPECT_TRUE(refuses([](JobSpec& spec) { spec.loads[3].traction = "1 +"; },
-                      "load_cases[3].traction", Reason::expression_invalid));
-  EXPECT_TRUE(refuses([&](JobSpec& spec) { spec.loads[3].point_forces[0].value = nan; },
-                      "load_cases[3].point_forces[0].value"));
-  EXPECT_TRUE(refuses([&](JobSpec& spec) { spec.loads[3].inclusion_forces["fibre"] = nan; },
+  EXPECT_TRUE(refuses([](JobSpec& spec) { spec.loads[3].inclusion_forces["fibre"] = std::nan(""); },
                       "load_cases[3].inclusion_forces[fibre]"));
   EXPECT_TRUE(
       refuses([](JobSpec& spec) { spec.loads[3].point_forces.resize(fem::max_point_forces + 1); },
@@ -106,18 +101,8 @@ TEST_F(Check, NamesTheLoadAtFault) {
 
 TEST_F(Check, NamesTheParameterAtFault) {
   EXPECT_TRUE(refuses([](JobSpec& spec) { uzawa(spec).theta = 0; }, "solver.uzawa.theta"));
-  EXPECT_TRUE(
-      refuses([](JobSpec& spec) { uzawa(spec).theta = std::nan(""); }, "solver.uzawa.theta"));
-  EXPECT_TRUE(refuses([](JobSpec& spec) { uzawa(spec).epsilon = 0; }, "solver.uzawa.epsilon"));
-  EXPECT_TRUE(refuses([](JobSpec& spec) { uzawa(spec).p = -1; }, "solver.uzawa.p"));
-  EXPECT_TRUE(refuses([](JobSpec& spec) { uzawa(spec).max_iterations = 0; },
-                      "solver.uzawa.max_iterations"));
-  EXPECT_TRUE(
-      refuses([](JobSpec& spec) { uzawa(spec).kkt_tolerance = 0; }, "solver.uzawa.kkt_tolerance"));
   EXPECT_TRUE(refuses([](JobSpec& spec) { active_set(spec).tolerance = -1; },
                       "solver.active_set.tolerance"));
-  EXPECT_TRUE(refuses([](JobSpec& spec) { active_set(spec).max_steps = -1; },
-                      "solver.active_set.max_steps"));
 }
 
 TEST_F(Check, HoldsTheLimits) {

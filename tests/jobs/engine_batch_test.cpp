@@ -8,6 +8,7 @@
 #include <map>
 
 #include "jobs/engine_support.hpp"
+#include "records/case_record.hpp"
 #include "support/errors.hpp"
 
 namespace anticrack::jobs {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "jobs/engine_support.hpp"
+#include "records/case_record.hpp"
 #include "support/errors.hpp"
 
 namespace anticrack::jobs {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "jobs/engine_support.hpp"
+#include "records/case_record.hpp"
 #include "support/errors.hpp"
 
 namespace anticrack::jobs {

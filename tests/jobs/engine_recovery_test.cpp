@@ -10,6 +10,7 @@
 
 #include "jobs/engine_support.hpp"
 #include "jobs/failing_store.hpp"
+#include "records/case_record.hpp"
 #include "support/errors.hpp"
 
 namespace anticrack::jobs {

@@ -8,6 +8,7 @@
 
 #include "digest/digest.hpp"
 #include "jobs/engine_support.hpp"
+#include "records/case_record.hpp"
 #include "support/errors.hpp"
 
 namespace anticrack::jobs {

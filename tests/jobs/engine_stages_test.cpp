@@ -11,6 +11,7 @@
 
 #include "jobs/engine_support.hpp"
 #include "jobs/failing_store.hpp"
+#include "records/case_record.hpp"
 
 namespace anticrack::jobs {
 namespace {

@@ -11,6 +11,7 @@
 
 #include "contact/sweep_columns.hpp"
 #include "jobs/sweep_support.hpp"
+#include "records/case_record.hpp"
 
 namespace anticrack::jobs {
 namespace {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "jobs/engine_support.hpp"
+#include "records/case_record.hpp"
 
 namespace anticrack::jobs {
 namespace {

@@ -11,6 +11,7 @@
 
 #include "contact/sweep_columns.hpp"
 #include "jobs/event_log_support.hpp"
+#include "records/case_record.hpp"
 #include "support/errors.hpp"
 
 namespace anticrack::jobs {

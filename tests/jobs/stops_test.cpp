@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "jobs/sweep_support.hpp"
+#include "records/case_record.hpp"
 #include "support/every_look.hpp"
 
 namespace anticrack::jobs {

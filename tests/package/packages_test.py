@@ -41,7 +41,7 @@ FILES = {
                   for part in ("config", "config-version", "targets", "targets-release")),
                 *(f"usr/include/anticrack/client/{part}.hpp" for part in
                   ("block", "cases", "connection", "credentials", "error", "jobs", "meshes", "retry", "uuid")),
-                *(f"usr/include/anticrack/v1/{part}.{kind}.h" for part in ("case", "error", "mesh", "server", "solve", "upload")
+                *(f"usr/include/anticrack/v1/{part}.{kind}.h" for part in ("case", "error", "job", "mesh", "server", "solve", "upload")
                   for kind in ("pb", "grpc.pb")),
                 f"{SHARE}/anticrack/examples/library/CMakeLists.txt", f"{SHARE}/anticrack/examples/library/main.cpp",
                 f"{DOC}/libanticrack-dev/copyright", f"{DOC}/libanticrack-dev/changelog.gz"],

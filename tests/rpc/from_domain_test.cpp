@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "rpc/from_domain.hpp"
-#include "records/job_record.hpp"
-#include "records/mesh_record.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,6 +9,9 @@
 
 #include "jobs/result_block.hpp"
 #include "jobs/sample_run.hpp"
+#include "records/case_record.hpp"
+#include "records/job_record.hpp"
+#include "records/mesh_record.hpp"
 #include "support/errors.hpp"
 
 namespace anticrack::rpc {
@@ -41,19 +42,6 @@ TEST(FromDomain, CountsTheAttemptsOfATimeline) {
   EXPECT_EQ(job.status().timeline(3).attempt(), 2);
   EXPECT_EQ(job.status().timeline(4).attempt(), 2);
   EXPECT_EQ(job.status().timeline(4).detail(), "writing?the result");
-}
-
-TEST(FromDomain, RepeatsWhatWasAskedFor) {
-  records::JobRecord record;
-  record.owner = "ada";
-  record.spec.priority = records::Priority::interactive;
-  record.spec.run_time_limit = std::chrono::milliseconds(2'500);
-  const v1::Job job = from_domain(record);
-  EXPECT_EQ(job.owner(), "ada");
-  EXPECT_EQ(job.spec().priority(), v1::JobSpec::PRIORITY_INTERACTIVE);
-  EXPECT_FALSE(job.spec().has_queue_timeout());
-  EXPECT_EQ(job.spec().run_timeout().seconds(), 2);
-  EXPECT_EQ(job.spec().run_timeout().nanos(), 500'000'000);
 }
 
 TEST(FromDomain, AJobThatIsTakenFitsInAMessage) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/sweep_columns.hpp"
-#include "records/job_record.hpp"
 #include "rpc/from_domain.hpp"
 
 #include <gmock/gmock.h>
@@ -91,39 +90,6 @@ TEST(FromSweep, TellsHowARowEnded) {
   EXPECT_THAT(rows.status(), ElementsAre(v1::LoadCaseAnswer::STATUS_CONVERGED,
                                          v1::LoadCaseAnswer::STATUS_NOT_CONVERGED,
                                          v1::LoadCaseAnswer::STATUS_CANCELLED));
-}
-
-TEST(FromSweep, TellsTheSweepOfAJobAndHowItEnded) {
-  records::JobRecord record;
-  EXPECT_FALSE(from_domain(record).spec().has_sweep());
-  EXPECT_FALSE(from_domain(record).status().has_sweep_answer());
-  record.spec.sweep.emplace();
-  record.spec.sweep->upload = std::string(64, 'a');
-  record.spec.sweep->rows = 7;
-  record.spec.sweep->traces = {2, 5};
-  record.sweep.converged = 4;
-  record.sweep.not_converged = 2;
-  record.sweep.failed = 1;
-  record.sweep.most_steps = 9;
-  record.sweep.worst_kkt = 1e-13;
-  record.sweep.solve_time = std::chrono::milliseconds(1'500);
-  record.sweep.warnings = {"rough"};
-  const v1::Job job = from_domain(record);
-  EXPECT_EQ(job.spec().sweep().coefficients().upload(), "uploads/" + std::string(64, 'a'));
-  EXPECT_THAT(job.spec().sweep().traces(), ElementsAre(2u, 5u));
-  EXPECT_EQ(job.status().sweep_answer().rows(), 7u);
-  EXPECT_EQ(job.status().sweep_answer().converged(), 4u);
-  EXPECT_EQ(job.status().sweep_answer().not_converged(), 2u);
-  EXPECT_EQ(job.status().sweep_answer().failed(), 1u);
-  EXPECT_EQ(job.status().sweep_answer().most_steps(), 9);
-  EXPECT_EQ(job.status().sweep_answer().worst_kkt(), 1e-13);
-  EXPECT_THAT(job.status().sweep_answer().warnings(), ElementsAre("rough"));
-  EXPECT_EQ(job.status().sweep_answer().solve_time().seconds(), 1);
-  EXPECT_EQ(job.status().sweep_answer().solve_time().nanos(), 500'000'000);
-
-  record.spec.sweep->cases = records::SweepSpec::Cases::nodal_forces;
-  EXPECT_EQ(from_domain(record).spec().sweep().nodal_forces().upload(),
-            "uploads/" + std::string(64, 'a'));
 }
 
 TEST(FromSweep, TellsArraysOfBytes) {

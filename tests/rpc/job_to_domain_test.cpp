@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "api/requests.hpp"
+#include "records/case_record.hpp"
 #include "records/job_record.hpp"
 #include "rpc/from_domain.hpp"
 #include "rpc/refusals.hpp"

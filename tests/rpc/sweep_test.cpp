@@ -21,7 +21,6 @@ using anticrack::testing::expect_error;
 using anticrack::testing::opening_job;
 using anticrack::testing::packed;
 using anticrack::testing::paper_mesh;
-using anticrack::testing::read_mesh;
 using anticrack::testing::read_result;
 using anticrack::testing::Received;
 using anticrack::testing::row_alone;
@@ -87,11 +86,9 @@ v1::Job solve_alone(RunningServer& server, const std::string& mesh, Received& bl
 
 /// The columns of the block against the answers of the plain job, and the contact of each row
 /// against its traces.
-/// `of_mesh`: the ending of the names of what is of u on the mesh, "_mesh" with bounds.
-void expect_columns(const Received& sweep, const v1::Job& alone, const Received& traces,
-                    const std::string& of_mesh = "") {
-  const auto displacement = doubles(sweep, "sweep/displacement" + of_mesh);
-  const auto energy = doubles(sweep, "sweep/energy" + of_mesh);
+void expect_columns(const Received& sweep, const v1::Job& alone, const Received& traces) {
+  const auto displacement = doubles(sweep, "sweep/displacement");
+  const auto energy = doubles(sweep, "sweep/energy");
   const auto contact_length = doubles(sweep, "sweep/contact_length");
   std::vector<std::uint64_t> shape;
   const auto contact =
@@ -167,45 +164,6 @@ TEST(Sweep, AnswersEveryRowAsAJobOfItsOwn) {
   }
 }
 
-TEST(Sweep, HasBoundsOfEveryRowWhereItIsAskedForThem) {
-  RunningServer server;
-  const std::string mesh = server.create(paper_mesh()).name();
-  v1::CreateJobRequest request = sweep_job(mesh, matrix);
-  request.mutable_spec()->mutable_sweep()->set_bounds(true);
-  const v1::Job swept = server.finish(server.create(request).name());
-  ASSERT_EQ(swept.status().state(), v1::JobStatus::STATE_SUCCEEDED)
-      << swept.status().error().message();
-  EXPECT_TRUE(swept.spec().sweep().bounds());
-  EXPECT_EQ(swept.status().sweep_answer().warnings_size(), 0);
-  Received block, traces;
-  ASSERT_TRUE(read_result(server, swept.name(), 0, block).ok());
-  const v1::Job alone = solve_alone(server, mesh, traces);
-  expect_columns(block, alone, traces, "_mesh");
-  std::vector<double> energy, lower, upper, a, a_lower, a_upper;
-  for (const v1::LoadCaseAnswer& answer : alone.status().answers()) {
-    energy.push_back(answer.energy());
-    a.push_back(answer.inclusions(0).displacement());
-    lower.push_back(answer.energy_lower());
-    upper.push_back(answer.energy_upper());
-    a_lower.push_back(answer.inclusions(0).displacement_lower());
-    a_upper.push_back(answer.inclusions(0).displacement_upper());
-  }
-  constexpr double of_integrals = 1e-6;  // f jumps: its oscillation is rounding
-  const auto near = [&](const char* name, const std::vector<double>& expected) {
-    EXPECT_THAT(doubles(block, name),
-                ::testing::Pointwise(::testing::DoubleNear(of_integrals), expected));
-  };
-  near("sweep/energy", energy);
-  near("sweep/displacement", a);
-  near("sweep/energy_lower", lower);
-  near("sweep/energy_upper", upper);
-  near("sweep/displacement_lower", a_lower);
-  near("sweep/displacement_upper", a_upper);
-  request.mutable_spec()->set_without_bounds(true);
-  expect_error(server.try_create(request), grpc::StatusCode::INVALID_ARGUMENT, "INVALID_ARGUMENT",
-               "spec.sweep.bounds");
-}
-
 TEST(Sweep, OfAnUploadIsTheSame) {
   RunningServer server;
   const std::string mesh = server.create(paper_mesh()).name();
@@ -219,45 +177,6 @@ TEST(Sweep, OfAnUploadIsTheSame) {
   request.mutable_spec()->mutable_sweep()->mutable_coefficients()->set_packed(packed({1, 2, 3}));
   expect_error(server.try_create(request), grpc::StatusCode::INVALID_ARGUMENT, "REQUEST_ID_REUSED",
                "request_id");
-}
-
-/// f = c0 + c1 x + c2 y is linear, so that its values on the nodes say all of it.
-TEST(Sweep, OverNodalForcesIsTheSweepOverTheFunctionsTheyAreOf) {
-  RunningServer server;
-  const v1::Mesh mesh = server.settle(server.create(paper_mesh()).name());
-  Received triangulation;
-  ASSERT_TRUE(read_mesh(server, mesh.name(), 0, triangulation).ok());
-  const auto nodes = doubles(triangulation, "nodes");
-  const double cases[][3] = {{1, 0, 0}, {0, 1, 2}, {0.1, -2, 1}, {-1, 0.5, -3}};
-  std::vector<double> forces;
-  v1::CreateJobRequest alone = opening_job(mesh.name());
-  alone.mutable_spec()->clear_load_cases();
-  for (const auto& c : cases) {
-    for (std::size_t node = 0; node < nodes.size() / 2; ++node) {
-      forces.push_back(c[0] + c[1] * nodes[2 * node] + c[2] * nodes[2 * node + 1]);
-    }
-    v1::LoadCase& load = *alone.mutable_spec()->add_load_cases();
-    load.set_name("case " + std::to_string(alone.spec().load_cases_size()));
-    load.mutable_force()->set_expression(std::to_string(c[0]) + " + x * (" + std::to_string(c[1]) +
-                                         ") + y * (" + std::to_string(c[2]) + ")");
-  }
-  v1::CreateJobRequest request = sweep_job(mesh.name(), {});
-  request.mutable_spec()->clear_load_cases();
-  request.mutable_spec()->mutable_sweep()->mutable_nodal_forces()->set_packed(packed(forces));
-  const v1::Job swept = server.finish(server.create(request).name());
-  ASSERT_EQ(swept.status().state(), v1::JobStatus::STATE_SUCCEEDED)
-      << swept.status().error().message();
-  EXPECT_EQ(swept.status().sweep_answer().converged(), std::size(cases));
-  Received block;
-  ASSERT_TRUE(read_result(server, swept.name(), 0, block).ok());
-  const v1::Job plain = server.finish(server.create(alone).name());
-  std::vector<double> displacement, energy;
-  for (const v1::LoadCaseAnswer& answer : plain.status().answers()) {
-    displacement.push_back(answer.inclusions(0).displacement_mesh());
-    energy.push_back(answer.energy_mesh());
-  }
-  expect_near(doubles(block, "sweep/displacement"), displacement);
-  expect_near(doubles(block, "sweep/energy"), energy);
 }
 
 }  // namespace

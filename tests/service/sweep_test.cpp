@@ -6,7 +6,6 @@
 #include <hdf5.h>
 
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <sstream>
 #include <string>
@@ -19,7 +18,6 @@ namespace {
 
 using anticrack::testing::TemporaryFolder;
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 
 constexpr int ratio_rows = 81;
 
@@ -104,30 +102,6 @@ TEST(Sweep, GivesForEachRowWhatItsLoadGivesAlone) {
   // Pressed shut at one end of the sweep, open at the other.
   EXPECT_NEAR(std::stod(rows.front().at("contact_length")), 1, 0.1);
   EXPECT_EQ(std::stod(rows.back().at("contact_length")), 0);
-}
-
-TEST(Sweep, IsShownAndDrawnFromItsFile) {
-  const Server server;
-  const TemporaryFolder folder;
-  const Ended sweep =
-      server.client(with(ratio_sweep(), {"-o", folder / "r.h5", "--traces", "0,40"}));
-  ASSERT_EQ(sweep.code, 0) << sweep.output << sweep.error;
-  EXPECT_THAT(sweep.output, HasSubstr("81 rows of "));
-  EXPECT_THAT(sweep.output, HasSubstr("81 converged"));
-
-  const Ended show = server.client({"show", folder / "r.h5"});
-  ASSERT_EQ(show.code, 0) << show.error;
-  EXPECT_THAT(show.output, HasSubstr("81 converged"));
-  EXPECT_THAT(show.output, HasSubstr("traces of 2 rows"));
-
-  const Ended plot = server.client({"plot", folder / "r.h5", "-o", folder / "figures"});
-  ASSERT_EQ(plot.code, 0) << plot.error;
-  for (const char* name : {"sweep.png", "sweep-contact.png", "row-0-traces.png"}) {
-    EXPECT_TRUE(std::filesystem::exists(folder / (std::string("figures/") + name))) << name;
-  }
-  const Ended exported = server.client({"export", folder / "r.h5", "-o", folder / "paraview"});
-  ASSERT_EQ(exported.code, 0) << exported.error;
-  EXPECT_TRUE(std::filesystem::exists(folder / "paraview/row-40-interfaces.vtu"));
 }
 
 TEST(Sweep, CanBeSubmittedWatchedAndFetchedSeparately) {
@@ -232,24 +206,6 @@ TEST(Sweep, TakesForcesOnTheNodes) {
   ASSERT_EQ(rows.size(), 2U);
   expect_same(rows[0], parse_json(alone.output), 0);
   expect_same(rows[1], parse_json(alone.output), 1);
-}
-
-TEST(Sweep, OfBadInputSubmitsNothing) {
-  const Server server({"--max-sweep-rows", "80"});
-  const TemporaryFolder folder;
-  const std::string two = write_file(folder, "two.csv", "1,2\n3,4\n");
-  const std::vector<std::pair<std::vector<std::string>, std::string>> table{
-      {{"--coefficients", example("load-ratio.csv")}, "it has 81 rows, the server takes 80"},
-      {{"--coefficients", two, "--traces", "2"}, "there is no row 2"},
-      {{"--coefficients", write_file(folder, "x.csv", "1,2\n3,four\n")}, "x.csv:2: column 2"},
-  };
-  for (const auto& [arguments, said] : table) {
-    const Ended sweep = server.client(
-        with({"sweep", example("load-ratio.toml"), "-o", folder / "a.h5"}, arguments));
-    EXPECT_EQ(sweep.code, 2) << sweep.output;
-    EXPECT_THAT(sweep.error, HasSubstr(said));
-  }
-  EXPECT_THAT(server.jobs(), IsEmpty());
 }
 
 }  // namespace

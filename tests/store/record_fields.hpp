@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "fields/fields.hpp"
+#include "records/case_record.hpp"
 #include "records/job_record.hpp"
 #include "records/mesh_record.hpp"
 

@@ -7,6 +7,7 @@
 
 #include "digest/digest.hpp"
 #include "mesh/codec.hpp"
+#include "records/case_record.hpp"
 #include "records/job_record.hpp"
 #include "records/mesh_record.hpp"
 #include "store/store.hpp"

@@ -64,6 +64,8 @@ inline results::Mesh sample_mesh(int n) {
       mesh.subdomain.insert(mesh.subdomain.end(), 2, j < n ? 0 : 1);
     }
   }
+  mesh.info.set_node_count(mesh.xy.size() / 2);
+  mesh.info.set_triangle_count(mesh.subdomain.size());
   for (int i = 0; i + 1 < side; ++i) {
     const int top = side * (side - 1);
     for (const int node : {i, i + 1, top + i, top + i + 1, i * side, (i + 1) * side,
@@ -157,7 +159,7 @@ inline results::Load sample_load(const std::string& name, const results::Mesh& m
 
   for (const bool plus : {false, true}) {
     results::Field field;
-    for (std::size_t i = 0; i < mesh.node_count(); ++i) {
+    for (std::size_t i = 0; 2 * i < mesh.xy.size(); ++i) {
       const double x = mesh.xy[2 * i];
       const double y = mesh.xy[2 * i + 1];
       if (plus ? y < -1e-12 : y > 1e-12) continue;
@@ -222,41 +224,11 @@ inline std::vector<v1::Stage> sample_stages(std::size_t triangles) {
 /// The same result of a job with an accuracy, which it did not reach.
 inline results::Result with_stages(results::Result result) {
   result.not_reached = "energy to 0.0001: the mesh has max_triangles";
-  const std::size_t triangles = result.mesh.triangle_count();
+  const std::size_t triangles = result.mesh.subdomain.size();
   for (results::Load& load : result.loads) {
     load.stages = sample_stages(triangles);
     for (std::size_t t = 0; t < triangles; ++t) {
       load.indicator.push_back(1e-3 / static_cast<double>(t + 1));
-    }
-  }
-  return result;
-}
-
-/// Edges first <= e < end of an interface.
-inline void set_edges(results::Interface& interface, std::size_t first, std::size_t end,
-                      v1::InterfaceKind kind, std::int32_t inclusion) {
-  for (std::size_t e = first; e < end; ++e) {
-    interface.edge_kind[e] = kind;
-    interface.edge_inclusion[e] = inclusion;
-  }
-}
-
-/// As sample_result, with the inclusions "left" and "right" of one A where "fibre" lay: two that
-/// lie symmetrically under a symmetric load. They touch at x = 0, which no server allows.
-inline results::Result sample_pair(int n = 20) {
-  results::Result result = sample_result(n);
-  result.mesh.info.set_inclusions(0, "right");
-  result.mesh.info.add_inclusions("left");
-  const auto first = static_cast<std::size_t>(n) / 2;
-  const auto middle = static_cast<std::size_t>(n);
-  set_edges(result.interfaces[0], first, middle, v1::INTERFACE_KIND_DELAMINATED, 1);
-  set_edges(result.interfaces[0], middle, middle + first, v1::INTERFACE_KIND_DELAMINATED, 0);
-  for (results::Load& load : result.loads) {
-    load.answer.clear_inclusions();
-    for (const char* name : {"right", "left"}) {
-      v1::InclusionAnswer& inclusion = *load.answer.add_inclusions();
-      inclusion.set_name(name);
-      inclusion.set_displacement(0.0863);
     }
   }
   return result;

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs python3 -m anticrack, which the commands `anticrack plot` and `anticrack mesh show` call to draw."""
+"""Runs python3 -m anticrack, which the commands `anticrack plot`, `anticrack mesh show` and `anticrack export` call."""
 import sys
 
 from .commands import main

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The commands that draw. `anticrack` has the same options, for its help and completion, and runs these commands."""
+"""The commands that draw and export. `anticrack` has the same options, for its help and completion, and runs these
+commands."""
 from __future__ import annotations
 
 import argparse
@@ -65,8 +66,6 @@ def _parser() -> _Parser:
     parser = _Parser("anticrack", description="Draws results and meshes of anticrack.", allow_abbrev=False)
     commands = parser.add_subparsers(dest="command", required=True, parser_class=_Parser)
     plot = commands.add_parser("plot", allow_abbrev=False, help="draw the figures of a result file")
-    plot.add_argument("file", metavar="RESULT", help="result file, HDF5")
-    plot.add_argument("--load", action="append", default=[], help="this load only, of a sweep row-K; again for more")
     plot.add_argument("--together", action="store_true", help="up to 8 loads over each other on one interface")
     plot.add_argument("--only", type=_some(FIGURES, "{} is none of " + ", ".join(FIGURES)),
                       action="extend", default=[], metavar="LIST",
@@ -80,6 +79,12 @@ def _parser() -> _Parser:
                                "little-endian) before each")
     mesh.add_argument("--unit", default="", help="of length")
     mesh.add_argument("--free", action="store_true", help="no traction acts where u is not given")
+    exports = commands.add_parser("export", allow_abbrev=False, help="export a result file for ParaView")
+    exports.add_argument("-o", "--output", required=True, metavar="DIR", help="folder of the files")
+    for command in (plot, exports):
+        command.add_argument("file", metavar="RESULT", help="result file, HDF5")
+        command.add_argument("--load", action="append", default=[],
+                             help="this load only, of a sweep row-K; again for more")
     for command in (plot, mesh):
         command.add_argument("-o", "--output", default="figures", metavar="DIR", help="folder of the figures")
         command.add_argument("--format", metavar="LIST", help="of png, svg and pdf those to write",
@@ -89,12 +94,28 @@ def _parser() -> _Parser:
         command.add_argument("--width", type=_number(40, 400, float), default=85.0, metavar="MM", help="of a panel")
         command.add_argument("--font", default="", metavar="NAME", help="family of the letters")
         command.add_argument("--no-titles", action="store_true", help="no titles of case, load and panels")
+    for command in (plot, mesh, exports):
         command.add_argument("--json", action="store_true", help="one JSON document on standard output")
         command.add_argument("--quiet", action="store_true", help="nothing but errors")
     return parser
 
 
-def _draw(given: argparse.Namespace) -> Any:
+def _made(given: argparse.Namespace) -> Any:
+    try:
+        return _exported(given) if given.command == "export" else _drawn(given)
+    except (IndexError, ValueError, KeyError) as error:
+        if isinstance(error, Error) or given.command == "mesh":
+            raise
+        raise Error(f"{given.file} cannot be {'exported' if given.command == 'export' else 'drawn'}, as if it were "
+                    f"damaged: {error}") from error
+
+
+def _exported(given: argparse.Namespace) -> Any:
+    from . import vtk
+    return vtk.export(Result.read(given.file), given.file, given.output, given.load)
+
+
+def _drawn(given: argparse.Namespace) -> Any:
     package("matplotlib").use("Agg")
     from .draw import files
     from .draw.sheet import Look
@@ -106,13 +127,7 @@ def _draw(given: argparse.Namespace) -> Any:
         raise _Usage("--together and --only exclude each other; leave one out; see anticrack plot --help")
     result = Result.read(given.file)
     wanted = files.Wanted(given.only, given.interface, given.load, given.all)
-    draw = files.draw_together if given.together else files.draw_figures
-    try:
-        return draw(result, given.output, wanted, look)
-    except (IndexError, ValueError, KeyError) as error:
-        if isinstance(error, Error):
-            raise
-        raise Error(f"{given.file} cannot be drawn, as if it were damaged: {error}") from error
+    return (files.draw_together if given.together else files.draw_figures)(result, given.output, wanted, look)
 
 
 def _read_mesh(given: argparse.Namespace) -> Any:
@@ -140,9 +155,9 @@ def main(words: Sequence[str]) -> int:
     code, document, lines = 0, {}, []
     try:
         given = _parser().parse_args(words)
-        drawn = _draw(given)
-        document = {"files": drawn.files, "notes": drawn.notes}
-        lines = [] if given.quiet else [*drawn.files, *drawn.notes]
+        made = _made(given)
+        document = {"files": made.files, "notes": made.notes}
+        lines = [] if given.quiet else [*made.files, *made.notes]
     except Error as error:
         code, kind = USAGE, "USAGE" if isinstance(error, _Usage) else "FIGURES"
         document = {"error": {"code": kind, "reason": "", "message": str(error), "fields": []}}

@@ -9,6 +9,7 @@ import os
 import re
 import stat
 import sys
+from collections.abc import Iterable
 
 from .errors import Error
 
@@ -62,6 +63,35 @@ def make_folder(path: str) -> None:
         raise Error(f"{path}: cannot be made a folder: {what.strerror}; choose another folder") from None
     if not os.access(path, os.W_OK | os.X_OK):
         raise Error(f"{path}: Permission denied; make the folder writable, or choose another one")
+
+
+class Made:
+    """Files of a result, each written whole or not at all. files: in the order of the loads; notes: what was left out
+    and why."""
+
+    def __init__(self, folder: str) -> None:
+        self.folder, self.files, self.notes = folder, list[str](), list[str]()
+
+    def add(self, stem: str, files: dict[str, bytes]) -> None:
+        for kind, content in files.items():
+            self.files.append(os.path.join(self.folder, f"{stem}.{kind}"))
+            write(self.files[-1], content)
+
+
+def stems(names: Iterable[str], suffixes: list[str]) -> list[str]:
+    """Makes a file name [A-Za-z0-9][A-Za-z0-9_.-]* for each name. No two of them, with any of the suffixes or none, are
+    equal, even if case is ignored."""
+    taken: set[str] = set()
+    found = []
+    for name in names:
+        base = re.sub("[^A-Za-z0-9.-]", "_", name)
+        base = base if re.match("[A-Za-z0-9]", base) else f"load{base}"
+        stem, copy = base, 2
+        while taken & (files := {(stem + suffix).lower() for suffix in ("", *suffixes)}):
+            stem, copy = f"{base}-{copy}", copy + 1
+        taken |= files
+        found.append(stem)
+    return found
 
 
 def _descriptor(path: str) -> int | None:

@@ -11,7 +11,7 @@ import numpy as np
 
 from . import entries
 from .text import harmless
-from .v1 import solve_pb2
+from .v1 import job_pb2, solve_pb2
 
 WIDTH = 20
 PAUSE = 0.1  # between two updates of a bar [s]
@@ -88,7 +88,7 @@ def _word(name: str) -> str:
     return {"waiting for mesh": "waiting for the mesh", "succeeded": "done"}.get(word, word)
 
 
-def _errors(stage: solve_pb2.Stage, asked: solve_pb2.Accuracy) -> str:
+def _errors(stage: solve_pb2.Stage, asked: job_pb2.Accuracy) -> str:
     """The largest errors over all load cases, as the command prints them: "energy 0.21 % (asked 0.1 %)", with "-" for
     an unknown one."""
     def text(error: float, most: float) -> str:

@@ -20,7 +20,7 @@ from .arrays import Array, array_of, is_number, plain
 from .case import Case, tables_of
 from .errors import CaseError, ServerError, package
 from .text import harmless, shown
-from .v1 import case_pb2, mesh_pb2, solve_pb2
+from .v1 import case_pb2, job_pb2, mesh_pb2
 
 Places = Mapping[str, case_pb2.CasePlace]
 
@@ -171,7 +171,7 @@ def _nearest(places: Places, field: str) -> case_pb2.CasePlace | None:
     return places[field] if field else None
 
 
-def places_of(spec: solve_pb2.JobSpec) -> Places:
+def places_of(spec: job_pb2.JobSpec) -> Places:
     """The places that can be known from a job without its case."""
     return {f"load_cases[{i}]{field}": case_pb2.CasePlace(key=f"load.{load.name}{key}")
             for i, load in enumerate(spec.load_cases) for field, key in (("", ""), (".force", ".f"))}

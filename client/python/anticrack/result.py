@@ -6,7 +6,7 @@ from __future__ import annotations
 import os
 import re
 import warnings
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, make_dataclass
 from typing import Any
 
@@ -17,8 +17,8 @@ from .arrays import Array
 from .entries import NAN
 from .errors import Error, package
 from .names import Named, Parts
-from .text import counted, harmless, html_table, lines, listed, short_length, with_bounds
-from .v1 import mesh_pb2, solve_pb2
+from .text import counted, harmless, html_table, lines, listed, short_length, suggestion, with_bounds
+from .v1 import job_pb2, mesh_pb2, solve_pb2
 
 FORMAT = "anticrack-result/2"
 Arrays = dict[str, Array]
@@ -186,7 +186,7 @@ class Load(_walked(solve_pb2.LoadCaseAnswer, ("name", "status"))):  # type: igno
     contact_intervals: list[tuple[int, float, float]] = field(default_factory=list)
     fields: Parts[Field] = field(default_factory=lambda: Parts("subdomain"))
     indicator: Array | None = None
-    units, solver = Units(), solve_pb2.Solver()  # of the result
+    units, solver = Units(), job_pb2.Solver()  # of the result
 
     @property
     def converged(self) -> bool:
@@ -314,7 +314,7 @@ class Result:
     server_version: str = ""
     total_seconds: float = NAN
     units: Units = field(default_factory=Units)
-    solver: solve_pb2.Solver = field(default_factory=solve_pb2.Solver)  # with defaults, as the server filled them in
+    solver: job_pb2.Solver = field(default_factory=job_pb2.Solver)  # with defaults, as the server filled them in
     traction: bool | None = None  # whether a load has a traction; None if not known
 
     @property
@@ -542,6 +542,23 @@ def _load_of(job: solve_pb2.Job, index: int, arrays: Mapping[str, Array], result
     return load
 
 
+def chosen(result: Result, names: Sequence[str]) -> list[Load]:
+    """The loads of these names, or all. Raises Error if one does not exist."""
+    for name in names:
+        if name not in result.loads:
+            cure = suggestion(name, result.loads) if result.loads else (
+                "it keeps traces of no row; run the sweep with --traces")
+            raise Error(f"there is no load {harmless(name)}; {cure}")
+    return [result.loads[name] for name in names] or list(result.loads.values())
+
+
+def fields_cure(result: Result) -> str:
+    """Says how to get the missing fields of a result."""
+    anew = "run the case again with [output] fields = true"
+    return (f"to have them: anticrack job fetch {harmless(result.job)} --fields -o fields.h5, while the server keeps "
+            f"the job; else {anew}" if result.job else anew)
+
+
 def _arrays(group: Any, *but: str) -> Arrays:
     return {name: item[()] for name, item in group.items() if hasattr(item, "shape") and name not in but}
 
@@ -577,7 +594,7 @@ def _of_file(file: Any) -> Result:
                     Parts("interface", [Interface(name, **_arrays(line)) for name, line in zip(names, lines_in)]),
                     Named("load", ((name, _load_in(item, names, mesh)) for name, item in groups)), None,
                     told["not_reached"], told["case"], told["server_version"], float(told["total_seconds"]),
-                    Units(**file["units"].attrs), _message_in(file["solver"], solve_pb2.Solver()))
+                    Units(**file["units"].attrs), _message_in(file["solver"], job_pb2.Solver()))
     if result.case:
         result.traction = re.search("""traction[ \\t"']*=""", result.case) is not None
     if "sweep" in file:

@@ -13,13 +13,13 @@ import numpy as np
 from . import entries, output
 from .names import Parts
 from .result import FORMAT, KKT, Interface, Load, Result, Sweep, Units
-from .v1 import mesh_pb2, solve_pb2
+from .v1 import job_pb2, mesh_pb2, solve_pb2
 
 _TEXT = h5py.string_dtype()
 _HISTORY = {"iteration": "i4", "contact_count": "i4", "criterion": "f8", "energy": "f8",
             **{f"kkt_{name}": "f8" for name in KKT}}
 
-_MEANINGS = [*entries.meanings(solve_pb2.Solver.DESCRIPTOR, "solver"),
+_MEANINGS = [*entries.meanings(job_pb2.Solver.DESCRIPTOR, "solver"),
              *entries.meanings(mesh_pb2.Mesh.DESCRIPTOR, "mesh"),
              *entries.meanings(solve_pb2.LoadCaseAnswer.DESCRIPTOR, "loads"),
              *entries.meanings(solve_pb2.Stage.DESCRIPTOR, "stages"),

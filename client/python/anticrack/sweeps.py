@@ -9,10 +9,10 @@ from typing import Any, cast
 from .arrays import Array, array_of, is_array
 from .errors import CaseError
 from .text import shown
-from .v1 import solve_pb2
+from .v1 import job_pb2
 
 
-def sweep_of(spec: solve_pb2.JobSpec, coefficients: Any, nodal_forces: Any, traces: Sequence[int],
+def sweep_of(spec: job_pb2.JobSpec, coefficients: Any, nodal_forces: Any, traces: Sequence[int],
              bounds: bool) -> bytes | None:
     """Makes a job a sweep; returns the matrix to upload, or None if neither coefficients nor nodal_forces are given.
 

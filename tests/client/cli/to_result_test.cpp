@@ -105,7 +105,7 @@ TEST(ToResult, KeepsWhatTheServerSaid) {
   EXPECT_EQ(result.title, "A plate");
   EXPECT_EQ(result.server_version, "9.8");
   EXPECT_FALSE(result.client_version.empty());
-  EXPECT_EQ(result.mesh.node_count(), 4U);
+  EXPECT_EQ(result.mesh.xy.size(), 8U);
   EXPECT_EQ(result.mesh.info.SerializeAsString(), fetched().mesh.SerializeAsString());
   EXPECT_EQ(result.interfaces[0].edge_kind, Integers{3});
   EXPECT_EQ(result.interfaces[0].edge_inclusion, Integers{0});
@@ -150,17 +150,6 @@ TEST(ToResult, KeepsALoadThatFailedWithoutArrays) {
   EXPECT_EQ(result.loads[1].answer.error().message(), "not finite");
   EXPECT_TRUE(std::isnan(result.loads[1].answer.energy()));
   EXPECT_TRUE(result.loads[1].traces.empty());
-}
-
-TEST(ToResult, RefusesContactOnAnUnknownInterface) {
-  Fetched odd = fetched();
-  odd.job.mutable_status()->mutable_answers(0)->mutable_contact_intervals(0)->set_interface("tau");
-  try {
-    to_result(odd);
-    FAIL();
-  } catch (const results::Error& error) {
-    EXPECT_THAT(error.what(), ::testing::HasSubstr("tau"));
-  }
 }
 
 TEST(ToResult, RefusesArraysOutsideTheirBlock) {

@@ -157,7 +157,7 @@ COMMANDS = [
     ("export no-fields.h5 -o paraview", 2,
      'no-fields.h5: load "opening": the result has no fields: u is known only along the interfaces; to have '
      "them: anticrack job fetch jobs/ID --fields -o fields.h5, while the server keeps the job; else run the case again "
-     "with --set output.fields=true"),
+     "with [output] fields = true"),
     # Sweeps.
     ("sweep two.toml --coefficients no.csv", 2,
      "no.csv: cannot be read; name a .csv file, or a dataset as FILE.h5:/PATH"),

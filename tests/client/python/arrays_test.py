@@ -16,7 +16,7 @@ import pandas
 import anticrack
 from anticrack import Case, Geometry, Inclusion, Interface, Load, Mesh, Msh, Region
 from anticrack.sweeps import sweep_of
-from anticrack.v1 import solve_pb2
+from anticrack.v1 import job_pb2
 from cases import read
 from processes import FolderTest
 
@@ -174,7 +174,7 @@ def load_of(per):
 
 
 def spec_of(*names):
-    return solve_pb2.JobSpec(load_cases=[solve_pb2.LoadCase(name=name) for name in names])
+    return job_pb2.JobSpec(load_cases=[job_pb2.LoadCase(name=name) for name in names])
 
 
 def sweep(**arrays):

@@ -10,7 +10,7 @@ import anticrack
 from anticrack import Case, Crack, Geometry, Hole, Inclusion, Interface, Load, Mesh, Region, Side
 from anticrack.errors import ServerError
 from anticrack.reading import in_terms_of, places_of
-from anticrack.v1 import case_pb2, solve_pb2
+from anticrack.v1 import case_pb2, job_pb2
 from cases import read
 from processes import ANTICRACK, ANTICRACKD, Daemon, FolderTest, run
 
@@ -239,7 +239,7 @@ class Answers(unittest.TestCase):
                 ((("solver", "no"), ("solver.theta", "no")), "solver: no\nsolver.theta: no"),
                 ((("solver.theta", "no"), ("solver", "nor this")), "solver.theta: no\nsolver: nor this")):
             self.assertEqual(str(in_terms_of(places, ServerError("INVALID_ARGUMENT", "all", fields=fields))), said)
-        spec = solve_pb2.JobSpec(load_cases=[{"name": "up"}])
+        spec = job_pb2.JobSpec(load_cases=[{"name": "up"}])
         error = ServerError("INVALID_ARGUMENT", "all", fields=(("spec.load_cases[0].force.constant", "no"),))
         self.assertEqual(str(in_terms_of(places_of(spec), error)), "load.up.f: no")
 

@@ -10,7 +10,7 @@ from anticrack.errors import ServerError
 from anticrack.retry import Backoff
 from anticrack.session import Session
 from anticrack.transport import each, finished
-from anticrack.v1 import case_pb2, mesh_pb2, solve_pb2
+from anticrack.v1 import case_pb2, job_pb2, mesh_pb2, solve_pb2
 
 LOST = ServerError("UNAVAILABLE", "Socket closed")
 BUSY = ServerError("RESOURCE_EXHAUSTED", "busy", retry_delay=0.5)
@@ -112,7 +112,7 @@ class Calls(unittest.TestCase):
         from anticrack import Case
         newer = b"\xb8\xa6\x02\x01"  # field 4711 is 1
         read = case_pb2.ReadCaseResponse(mesh=mesh_pb2.CreateMeshRequest.FromString(newer),
-                                         spec=solve_pb2.JobSpec.FromString(newer))
+                                         spec=job_pb2.JobSpec.FromString(newer))
         ours, played = session(read, mesh_pb2.Mesh(name="meshes/1"), solve_pb2.Job())
         finished(ours.submit(Case.parse("key-of-tomorrow = 1")))
         self.assertEqual(played.requests[0].toml, b"key-of-tomorrow = 1")

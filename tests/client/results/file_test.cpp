@@ -28,7 +28,6 @@ namespace anticrack::results {
 namespace {
 
 namespace fs = std::filesystem;
-using anticrack::testing::sample_pair;
 using anticrack::testing::sample_result;
 using anticrack::testing::TemporaryFolder;
 using anticrack::testing::with_stages;
@@ -47,7 +46,8 @@ std::size_t files_in(const std::string& folder) {
 /// The same bits, of NaN too.
 std::string bits(const google::protobuf::Message& message) { return message.SerializeAsString(); }
 
-/// Each number and array on its own for the message.
+/// What is read, each number and array on its own for the message. Python's tests compare the rest
+/// of a file with what the server tells.
 void expect_same(const Result& a, const Result& b) {
   const auto expect_same_rows = [](const auto& x, const auto& y, const auto&... table) {
     arrays::for_each(
@@ -60,17 +60,15 @@ void expect_same(const Result& a, const Result& b) {
   expect_same_rows(a, b, tables::result);
   EXPECT_EQ(a.mesh.info.DebugString(), b.mesh.info.DebugString());
   EXPECT_EQ(a.solver.DebugString(), b.solver.DebugString());
-  expect_same_rows(a.mesh, b.mesh, tables::mesh);
-  EXPECT_TRUE(a.interfaces == b.interfaces);
+  EXPECT_EQ(a.mesh.xy, b.mesh.xy);
   ASSERT_EQ(a.loads.size(), b.loads.size());
   for (std::size_t i = 0; i < a.loads.size(); ++i) {
     const Load &one = a.loads[i], &other = b.loads[i];
     EXPECT_EQ(bits(one.answer), bits(other.answer))
         << one.answer.DebugString() << other.answer.DebugString();
-    expect_same_rows(one, other, tables::indicator);
     EXPECT_TRUE(one.traces == other.traces);
-    EXPECT_TRUE(one.history == other.history);
-    EXPECT_TRUE(one.fields == other.fields);
+    const auto u = [](const Field& field) { return field.u; };
+    EXPECT_TRUE(std::ranges::equal(one.fields, other.fields, {}, u, u));
     EXPECT_TRUE(std::ranges::equal(one.stages, other.stages, {}, bits, bits));
   }
   EXPECT_EQ(a.sweep.has_value(), b.sweep.has_value());
@@ -82,13 +80,6 @@ TEST(File, comes_back_as_it_was_written) {
   write(folder / "a.h5", result);
   expect_same(read(folder / "a.h5"), result);
   EXPECT_EQ(files_in(folder.path()), 1u);
-}
-
-TEST(File, keeps_which_inclusion_lies_where) {
-  const TemporaryFolder folder;
-  const Result result = sample_pair(4);
-  write(folder / "a.h5", result);
-  expect_same(read(folder / "a.h5"), result);
 }
 
 TEST(File, keeps_the_order_of_the_loads) {
@@ -119,30 +110,6 @@ TEST(File, holds_a_failed_load_and_an_empty_result) {
   expect_same(read(folder / "b.h5"), Result{});
 }
 
-/// The upper half of the sample with one node of the interface there twice, as inside a slit.
-Result with_a_doubled_node() {
-  Result result = sample_result(4);
-  for (Load& load : result.loads) {
-    Field& field = load.fields[1];
-    field.nodes.push_back(field.nodes[4]);
-    field.u.push_back(field.u[4] + 1);
-    for (std::int32_t& corner : field.triangles) {
-      if (corner == 4) {
-        corner = static_cast<std::int32_t>(field.nodes.size()) - 1;
-        break;
-      }
-    }
-  }
-  return result;
-}
-
-TEST(File, keeps_both_faces_of_a_slit) {
-  const TemporaryFolder folder;
-  const Result result = with_a_doubled_node();
-  write(folder / "a.h5", result);
-  expect_same(read(folder / "a.h5"), result);
-}
-
 TEST(File, keeps_how_inclusions_tilt) {
   const TemporaryFolder folder;
   Result result = sample_result(2);
@@ -154,11 +121,10 @@ TEST(File, keeps_how_inclusions_tilt) {
   expect_same(read(folder / "a.h5"), result);
 }
 
-TEST(File, keeps_stages_and_indicators) {
+TEST(File, keeps_stages) {
   const TemporaryFolder folder;
   Result result = with_stages(sample_result(40));
   result.loads[1].stages = {};
-  result.loads[1].indicator.clear();
   result.loads[0].stages.back().set_triangles(std::uint64_t{1} << 40);
   result.loads[0].stages[1].mutable_answers(0)->clear_displacement_error();
   write(folder / "a.h5", result);
@@ -195,9 +161,6 @@ TEST(File, has_the_permissions_of_the_umask) {
 TEST(File, is_not_written_from_an_inconsistent_result) {
   const TemporaryFolder folder;
   Result result = sample_result(2);
-  result.loads[1].traces[0].jump.pop_back();
-  EXPECT_THROW(write(folder / "a.h5", result), Error);
-  result = sample_result(2);
   result.loads[1].answer.set_name("../x");
   EXPECT_THROW(write(folder / "a.h5", result), Error);
   result.loads[1].answer.set_name(result.loads[0].name());
@@ -205,11 +168,6 @@ TEST(File, is_not_written_from_an_inconsistent_result) {
   result = with_stages(sample_result(2));
   result.loads[1].stages.back().clear_answers();
   EXPECT_EQ(first_fault(result), "loads[1].stages has one without an answer");
-  EXPECT_THROW(write(folder / "a.h5", result), Error);
-  result = sample_result(2);
-  result.loads[1].answer.mutable_contact_intervals(0)->set_interface("tau");
-  EXPECT_EQ(first_fault(result),
-            "loads[1].contact_intervals[0].interface is \"tau\", no such interface");
   EXPECT_THROW(write(folder / "a.h5", result), Error);
   EXPECT_EQ(files_in(folder.path()), 0u);
 }

@@ -2,9 +2,6 @@
 """Chooses the figures of a result that are drawn, and writes their files."""
 from __future__ import annotations
 
-import os
-import re
-from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -12,7 +9,8 @@ import numpy as np
 
 from .. import output
 from ..errors import Error
-from ..result import Load, Result
+from ..output import Made
+from ..result import Load, Result, chosen, fields_cure
 from ..text import harmless, suggestion
 from . import pictures
 from .along import can_open, eventful
@@ -39,35 +37,6 @@ class Wanted:
         return not self.only or figure in self.only
 
 
-class Drawn:
-    """What was drawn. files: in the order of the loads, each written whole or not at all; notes: what was left out and
-    why."""
-
-    def __init__(self, folder: str) -> None:
-        self.folder, self.files, self.notes = folder, list[str](), list[str]()
-
-    def add(self, stem: str, files: dict[str, bytes]) -> None:
-        for kind, content in files.items():
-            self.files.append(os.path.join(self.folder, f"{stem}.{kind}"))
-            output.write(self.files[-1], content)
-
-
-def stems(names: Iterable[str], suffixes: list[str]) -> list[str]:
-    """Makes a file name [A-Za-z0-9][A-Za-z0-9_.-]* for each name. No two of them, with any of the suffixes or none, are
-    equal, even if case is ignored."""
-    taken: set[str] = set()
-    found = []
-    for name in names:
-        base = re.sub("[^A-Za-z0-9.-]", "_", name)
-        base = base if re.match("[A-Za-z0-9]", base) else f"load{base}"
-        stem, copy = base, 2
-        while taken & (files := {(stem + suffix).lower() for suffix in ("", *suffixes)}):
-            stem, copy = f"{base}-{copy}", copy + 1
-        taken |= files
-        found.append(stem)
-    return found
-
-
 def _traces_suffix(index: int) -> str:
     return "-traces" if index == 0 else f"-traces-{index + 1}"
 
@@ -86,17 +55,12 @@ class _Drawing:
             raise Error(f"there is no interface {harmless(wanted.interface)}; {suggestion(wanted.interface, names)}")
         self.asked = names.index(wanted.interface) if wanted.interface else None
         self.opening = [i for i, line in enumerate(result.interfaces) if can_open(line)]
-        for name in wanted.loads:
-            if name not in result.loads:
-                cure = suggestion(name, result.loads) if result.loads else (
-                    "it keeps traces of no row; run the sweep with --traces")
-                raise Error(f"there is no load {harmless(name)}; {cure}")
-        self.loads = [result.loads[name] for name in wanted.loads] or list(result.loads.values())
+        self.loads = chosen(result, wanted.loads)
         # Only the most eventful of the interfaces that can open is drawn.
         self.chooses = (not wanted.all and self.asked is None and "traces" not in wanted.only
                         and len(self.opening) > _MANY)
         self.fewest = 2 if "convergence" in wanted.only else 3  # steps that a convergence must have
-        self.drawn = Drawn(folder)
+        self.drawn = Made(folder)
 
     def note(self, text: str) -> None:
         self.drawn.notes.append(text)
@@ -119,7 +83,7 @@ class _Drawing:
         suffixes = ["-membrane", "-plan", "-convergence", "-accuracy",
                     *(_traces_suffix(i) for i in range(len(self.result.interfaces)))]
         # Stems of all loads, so that a load's file has the same name however many are drawn.
-        for load, stem in zip(self.shown("loads", "NAME"), stems((load.name for load in self.loads), suffixes)):
+        for load, stem in zip(self.shown("loads", "NAME"), output.stems((load.name for load in self.loads), suffixes)):
             self.draw_load(load, stem)
         self.note_interfaces()
         few = sum(1 for load in self.loads if load.traces and _steps(load) < self.fewest)
@@ -140,9 +104,7 @@ class _Drawing:
                 if has(figure):
                     self.drawn.add(f"{stem}-{figure}", pictures.picture(draw, look, result, load))
         elif any(map(has, ("overview", "membrane", "plan"))):
-            self.note(f"{told}: no membrane and no plan drawn, it has no fields; to have them: anticrack job fetch "
-                      f"{harmless(result.job)} --fields -o fields.h5, while the server keeps the job; else run the "
-                      "case again with [output] fields = true")
+            self.note(f"{told}: no membrane and no plan drawn, it has no fields; {fields_cure(result)}")
         self.draw_traces(load, stem)
         if has("convergence") and _steps(load) >= self.fewest:
             self.drawn.add(f"{stem}-convergence", pictures.picture(pictures.draw_convergence, look, result, load))
@@ -199,7 +161,7 @@ class _Drawing:
                                pictures.contact_picture(self.look, result, index))
 
 
-def draw_figures(result: Result, folder: str, wanted: Wanted, look: Look) -> Drawn:
+def draw_figures(result: Result, folder: str, wanted: Wanted, look: Look) -> Made:
     """Draws LOAD-membrane, LOAD-plan, LOAD-traces (-2 and so on for further interfaces), LOAD-convergence,
     LOAD-accuracy and the overview LOAD for every load with traces; for a sweep, sweep, sweep-slope, sweep-contact and
     the traces of kept rows. Makes the folder. Raises Error if it cannot be written or a name does not exist."""
@@ -216,7 +178,7 @@ def draw_figures(result: Result, folder: str, wanted: Wanted, look: Look) -> Dra
     return drawing.drawn
 
 
-def draw_together(result: Result, folder: str, wanted: Wanted, look: Look) -> Drawn:
+def draw_together(result: Result, folder: str, wanted: Wanted, look: Look) -> Made:
     """Draws "together": [u], u-, u+ and the contact pressure of the first eight loads with traces on one interface."""
     drawing = _Drawing(result, folder, wanted, look)
     loads = [load for load in drawing.loads if load.traces]
@@ -231,12 +193,12 @@ def draw_together(result: Result, folder: str, wanted: Wanted, look: Look) -> Dr
     return drawing.drawn
 
 
-def draw_mesh(plan: Plan, folder: str, look: Look) -> Drawn:
+def draw_mesh(plan: Plan, folder: str, look: Look) -> Made:
     """Draws the picture "mesh-ID" of a mesh."""
-    drawn = Drawn(folder)
+    drawn = Made(folder)
     output.make_folder(folder)
     with look.applied():
         files, notes = pictures.mesh_picture(look, plan)
-    drawn.add(stems(["mesh-" + plan.message.name.removeprefix("meshes/")], [])[0], files)
+    drawn.add(output.stems(["mesh-" + plan.message.name.removeprefix("meshes/")], [])[0], files)
     drawn.notes += notes
     return drawn

@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Files for ParaView: a .vtu is VTK's XML around raw little-endian arrays, a .pvd lists the .vtu of a result. Written
+here, as the VTK library is many times as large as this package."""
+from __future__ import annotations
+
+import struct
+from collections.abc import Mapping, Sequence
+from xml.sax.saxutils import escape, quoteattr
+
+import numpy as np
+
+from . import output
+from .arrays import Array
+from .errors import Error
+from .result import Load, Mesh, Result, chosen, fields_cure
+from .text import harmless
+
+_LINE, _TRIANGLE = 3, 5  # VTK's numbers of cells, by their corners below
+_HEAD = '<?xml version="1.0"?>\n<VTKFile type="{}" version="1.0" byte_order="LittleEndian" header_type="UInt64">\n'
+_TYPES = {"float64": "Float64", "int32": "Int32", "int64": "Int64", "uint8": "UInt8"}
+Data = Mapping[str, tuple[Array, str]]  # arrays with their units; "": none
+
+
+def vtu(points: Array, corners: Array, point_data: Data, cell_data: Data) -> bytes:
+    """The bytes of a file. points (n, 2) lie in the plane z = 0; corners (m, 3) of triangles or (m, 2) of lines are
+    indices of points; data have an entry for each point or cell."""
+    blocks: list[bytes] = []
+
+    def element(name: str, values: Array, unit: str = "", components: int = 1) -> str:
+        offset = sum(map(len, blocks))
+        raw = values.astype(values.dtype.newbyteorder("<")).tobytes()
+        blocks.extend([struct.pack("<Q", len(raw)), raw])
+        kind = _TYPES[values.dtype.name]
+        return (f'        <DataArray type="{kind}" Name="{name}" NumberOfComponents="{components}" '
+                f'format="appended" offset="{offset}">\n' + (
+                    '          <InformationKey name="UNITS_LABEL" location="vtkDataArray">'
+                    f"{escape(unit)}</InformationKey>\n" if unit else "") + "        </DataArray>\n")
+
+    def data_of(data: Data, count: int) -> str:
+        assert all(len(values) == count for values, _ in data.values())
+        return "".join(element(name, values, unit) for name, (values, unit) in data.items())
+
+    width = corners.shape[1]
+    shape = {2: _LINE, 3: _TRIANGLE}[width]
+    parts = {"PointData": data_of(point_data, len(points)), "CellData": data_of(cell_data, len(corners)),
+             "Points": element("Points", np.column_stack([points, np.zeros(len(points))]), components=3),
+             "Cells": (element("connectivity", corners.astype(np.int64))
+                       + element("offsets", width * np.arange(1, len(corners) + 1, dtype=np.int64))
+                       + element("types", np.full(len(corners), shape, np.uint8)))}
+    sections = "".join(f"      <{name}>\n{text}      </{name}>\n" for name, text in parts.items())
+    head = (f'{_HEAD.format("UnstructuredGrid")}  <UnstructuredGrid>\n    <Piece NumberOfPoints="{len(points)}" '
+            f'NumberOfCells="{len(corners)}">\n{sections}    </Piece>\n  </UnstructuredGrid>\n'
+            '  <AppendedData encoding="raw">\n_')
+    return b"".join([head.encode(), *blocks, b"\n  </AppendedData>\n</VTKFile>\n"])
+
+
+def pvd(members: Sequence[tuple[str, str, int, int]]) -> bytes:
+    """The bytes of a file that lists members (name for people, file, step, part); ParaView shows the step as time."""
+    lines = [f'    <DataSet timestep="{step}" part="{part}" name={quoteattr(name)} file={quoteattr(file)}/>\n'
+             for name, file, step, part in members]
+    return f'{_HEAD.format("Collection")}  <Collection>\n{"".join(lines)}  </Collection>\n</VTKFile>\n'.encode()
+
+
+def _indicators(mesh: Mesh, indicator: Array, triangles: Array) -> Array:
+    """The indicator of each triangle, which may have its corners in another order than the mesh has them; NaN for one
+    that is not in the mesh."""
+    _, number = np.unique(np.sort(np.concatenate([mesh.triangles, triangles]), axis=1), axis=0, return_inverse=True)
+    known: Array = np.full(len(number), np.nan)
+    known[number[:len(indicator)]] = indicator
+    found: Array = known[number[len(indicator):]]
+    return found
+
+
+def _unit(result: Result, dimension: str) -> str:
+    return result.units.behind(dimension).strip()
+
+
+def membrane(result: Result, load: Load) -> bytes:
+    """The .vtu of the membrane. Subdomains share no points, which keeps both faces of cracks and slits. Points have u
+    and node, cells tension, subdomain and, where the load has it, error_indicator."""
+    parts = list(load.fields)
+    node = np.concatenate([part.nodes for part in parts])
+    first = np.cumsum([0, *(len(part.nodes) for part in parts)])
+    corners = np.concatenate([part.triangles + start for part, start in zip(parts, first)])
+    subdomain = np.repeat(np.arange(len(parts), dtype=np.int32), [len(part.triangles) for part in parts])
+    cells = {"tension": (result.mesh.tension[subdomain], _unit(result, "F/L")), "subdomain": (subdomain, "")}
+    if load.indicator is not None:
+        cells["error_indicator"] = (_indicators(result.mesh, load.indicator, node[corners]), _unit(result, "F L"))
+    points = {"u": (np.concatenate([part.u for part in parts]), _unit(result, "L")), "node": (node, "")}
+    return vtu(result.mesh.nodes[node], corners, points, cells)
+
+
+def interfaces(result: Result, load: Load) -> bytes:
+    """The .vtu of the interfaces as lines. Points have u_minus, u_plus, jump, pressure, s (arc length), kind and
+    contact, cells the index of their interface, and that of their inclusion or -1."""
+    lines, length = list(result.interfaces), _unit(result, "L")
+    counts = [len(line.s) for line in lines]
+    first = np.cumsum([0, *counts])
+    starts = np.concatenate([start + np.arange(count - 1) for start, count in zip(first, counts)])
+    points = {name: (np.concatenate([getattr(trace, name) for trace in load.traces]), unit) for name, unit in
+              (("u_minus", length), ("u_plus", length), ("jump", length), ("pressure", _unit(result, "F/L")))}
+    points["s"] = np.concatenate([line.s for line in lines]), length
+    points["kind"] = np.concatenate([line.kind for line in lines]), ""
+    points["contact"] = np.concatenate([trace.contact for trace in load.traces]), ""
+    cells = {"interface": (np.repeat(np.arange(len(lines), dtype=np.int32), [count - 1 for count in counts]), ""),
+             "inclusion": (np.concatenate([line.edge_inclusion for line in lines]), "")}
+    return vtu(np.concatenate([np.column_stack([line.x, line.y]) for line in lines]),
+               np.column_stack([starts, starts + 1]), points, cells)
+
+
+def export(result: Result, source: str, folder: str, names: Sequence[str] = ()) -> output.Made:
+    """Writes LOAD.vtu, the membrane, and LOAD-interfaces.vtu for every load with an answer, or those of these names,
+    and result.pvd, which shows load i at time i. Makes the folder. A sweep has no fields, so only the interfaces of
+    kept rows are written. source: the name of the result in messages."""
+    made = output.Made(folder)
+    answered = []
+    loads = chosen(result, names)
+    for step, (load, stem) in enumerate(zip(loads, output.stems((load.name for load in loads), ["-interfaces"]))):
+        if load.traces or load.fields:
+            answered.append((step, load, stem))
+        else:
+            made.notes.append(f'load "{harmless(load.name)}" has no answer ({load.status.replace("_", " ")}): nothing '
+                              "to export")
+        if load.traces and not load.fields and result.sweep is None:
+            raise Error(f'{source}: load "{harmless(load.name)}": the result has no fields: u is known only along the '
+                        f"interfaces; {fields_cure(result)}")
+    if not answered:
+        cure = "keep the traces of some rows, with --traces" if result.sweep is not None else "solve the case first"
+        raise Error(f"{source}: no load has an answer to export; {cure}")
+    output.make_folder(folder)
+    members = []
+    for step, load, stem in answered:
+        if load.fields:
+            made.add(stem, {"vtu": membrane(result, load)})
+            members.append((load.name, f"{stem}.vtu", step, 0))
+        if load.traces:
+            made.add(f"{stem}-interfaces", {"vtu": interfaces(result, load)})
+            members.append((f"{load.name}, interfaces", f"{stem}-interfaces.vtu", step, 1))
+    made.add("result", {"pvd": pvd(members)})
+    return made
