@@ -20,6 +20,7 @@
 #include "cli/progress.hpp"
 #include "cli/sweep_text.hpp"
 #include "cli/text.hpp"
+#include "cli/tips_text.hpp"
 #include "results/entries.hpp"
 #include "results/interval.hpp"
 #include "results/notes.hpp"
@@ -247,6 +248,7 @@ Json load_json(const results::Load& load, const std::string& method) {
   json["method"] = method;
   json["worst_kkt"] = load.has_answer() ? results::largest_kkt(load.answer) : results::unknown;
   json["inclusions"] = json_list(load.answer.inclusions());
+  json["tips"] = json_list(load.answer.tips());
   json["contact_intervals"] = json_list(load.answer.contact_intervals());
   json["stages"] = Json::array();
   for (const v1::Stage& stage : load.stages)
@@ -299,7 +301,7 @@ std::string answers_table(const results::Result& result) {
                                   : answers_table(result.loads, result.units);
   for (const std::string& note : results::notes_on(result))
     text += "note: " + sanitise(note) + "\n";
-  return text;
+  return text + tips_table(result.loads, result.units, false);
 }
 
 std::string inclusions_table(const results::Result& result) {

@@ -4,6 +4,7 @@
 // changes this header, so headers that only name an answer declare it and do not include this.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -54,6 +55,31 @@ struct ContactInterval {
 };
 ANTICRACK_FIELDS(ContactInterval, interface, begin, end)
 
+/// The kind of a tip. The numbers are those of the API's TipKind.
+enum class TipKind : std::int32_t {
+  delaminated_end = 1,  ///< end of a delaminated inclusion: one face held, the other free
+  front,                ///< bonded ahead, delaminated behind
+  crack_tip,
+  bonded_end,  ///< end of a bonded inclusion
+  other,       ///< where several lines or conditions meet
+};
+
+/// A tip of a crack or an inclusion. Empty: it has no such number, or `reason` says why not.
+struct TipAnswer {
+  double x = 0, y = 0;
+  std::string interface;
+  TipKind kind = TipKind::other;
+  bool closed = false;                ///< the faces touch right behind it
+  std::optional<double> exponent;     ///< of the distance from it in u, while it is open
+  std::optional<double> intensity;    ///< factor c of the singular part, see tips/singular.hpp
+  std::optional<double> k_iii;        ///< lim (2 pi r)^1/2 T du/dn ahead of a crack tip
+  std::optional<double> energy_release_rate;         ///< -dPi/da when it moves ahead by a
+  std::optional<double> energy_release_rate_spread;  ///< largest less least of three radii
+  std::string reason;
+};
+ANTICRACK_FIELDS(TipAnswer, x, y, interface, kind, closed, exponent, intensity, k_iii,
+                 energy_release_rate, energy_release_rate_spread, reason)
+
 /// The numbers of an answer, without its status and arrays.
 struct AnswerSummary {
   std::string reason;  ///< for not_converged: what happened and what to change
@@ -76,11 +102,12 @@ struct AnswerSummary {
   std::optional<double> energy_lower, energy_upper, error_bound, error_bound_relative;
   std::string no_bracket;
   double energy_mesh = 0;  ///< Pi of u on the mesh
+  std::vector<TipAnswer> tips;  ///< one per mesh::tips; empty where fields were not recovered
 };
 ANTICRACK_FIELDS(AnswerSummary, reason, iterations, criterion, theta, theta_star, energy, kkt,
                  kkt_relative, weakly_active, warnings, inclusions, contact_length,
                  contact_intervals, energy_lower, energy_upper, error_bound, error_bound_relative,
-                 no_bracket, energy_mesh, contact_length_error)
+                 no_bracket, energy_mesh, contact_length_error, tips)
 
 /// The number that users are told of a value: the middle of its bounds, or without bounds `mesh`,
 /// that of u on the mesh.

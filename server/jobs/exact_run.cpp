@@ -43,8 +43,10 @@ bool all_stopped(const std::vector<PreparedCase>& cases) {
       cases, [](const PreparedCase& one) { return one.task.job->stop.stop_requested(); });
 }
 
+/// Bounds and tips are computed from fields.
 bool wants_fields(const PreparedCase& prepared) {
-  return spec_of(prepared).fields || !spec_of(prepared).without_bounds;
+  return spec_of(prepared).fields || !spec_of(prepared).without_bounds ||
+         !prepared.task.job->mesh_operator->mesh().interfaces.empty();
 }
 
 void recover_fields(const std::vector<PreparedCase>& cases, std::vector<Solved>& solved) {
@@ -68,7 +70,19 @@ void recover_fields(const std::vector<PreparedCase>& cases, std::vector<Solved>&
   }
 }
 
-/// Computes the bounds from the fields, and drops the fields of cases that do not ask for them.
+void find_tips(const std::vector<PreparedCase>& cases, std::vector<Solved>& solved) {
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    if (solved[i].failure || solved[i].answer.fields.empty()) continue;
+    const auto& job = *cases[i].task.job;
+    try {
+      job.mesh_operator->find_tips(cases[i].load, solved[i].answer, job.stop.get_token());
+    } catch (...) {
+      solved[i].failure = std::current_exception();
+    }
+  }
+}
+
+/// Computes the bounds from the fields.
 void add_bounds(const std::vector<PreparedCase>& cases, std::vector<Solved>& solved) {
   std::vector<operators::MeshOperator::Estimate> estimates;
   std::vector<Solved*> of_estimates;
@@ -90,9 +104,12 @@ void add_bounds(const std::vector<PreparedCase>& cases, std::vector<Solved>& sol
     of_estimates[i]->failure = estimates[i].failure;
     of_estimates[i]->indicator = std::move(estimates[i].indicator);
   }
+}
+
+/// Drops what was computed on the way and not asked for.
+void drop_unwanted(const std::vector<PreparedCase>& cases, std::vector<Solved>& solved) {
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const records::JobSpec& spec = spec_of(cases[i]);
-    if (solved[i].failure || spec.without_bounds) continue;
     if (!spec.fields) solved[i].answer.fields.clear();
     if (!spec.indicators && !spec.accuracy) solved[i].indicator = {};
   }
@@ -119,7 +136,9 @@ std::vector<EndedCase> solve_exactly(const std::vector<PreparedCase>& cases,
   solved.reserve(cases.size());
   for (const PreparedCase& prepared : cases) solved.push_back(solve(prepared, iterations));
   recover_fields(cases, solved);
+  find_tips(cases, solved);
   add_bounds(cases, solved);
+  drop_unwanted(cases, solved);
   std::vector<EndedCase> ended;
   ended.reserve(cases.size());
   for (std::size_t i = 0; i < cases.size(); ++i) {

@@ -129,6 +129,7 @@ std::size_t MeshOperator::bytes() const noexcept {
   bytes += _parts->contact->bytes();
   if (const estimate::CutMesh* cut = _parts->cut.known()) bytes += cut->bytes();
   if (const std::vector<double>* norms = _parts->flux_norms.known()) bytes += bytes_of(*norms);
+  if (const tips::Tips* tips = _parts->tips.known()) bytes += tips->bytes();
   return bytes + _parts->sweep_geometry.bytes() + _parts->bases.bytes();
 }
 

@@ -73,6 +73,8 @@ v1::Job from_domain(const records::JobRecord& record) {
   status.set_load_case_count(job.spec().load_cases_size());
   status.set_load_cases_ended(load_cases_ended(record));
   if (job.ByteSizeLong() > max_job_message_bytes)
+    for (v1::LoadCaseAnswer& answer : *status.mutable_answers()) answer.clear_tips();
+  if (job.ByteSizeLong() > max_job_message_bytes)
     for (v1::LoadCaseAnswer& answer : *status.mutable_answers()) answer.clear_contact_intervals();
   if (job.ByteSizeLong() > max_job_message_bytes)
     for (v1::LoadCaseAnswer& answer : *status.mutable_answers()) answer.clear_warnings();
