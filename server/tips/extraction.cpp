@@ -10,9 +10,6 @@
 namespace anticrack::tips {
 namespace {
 
-/// Where chi begins to fall, over where it is 0.
-constexpr double chi_falls_from = 0.25;
-
 /// The largest |x| at r = 1, x in (s, d), is this root: r^2 = D x.T0^-1 x.
 double longest(const Tensor& t) {
   const double mean = 0.5 * (t[0] + t[2]), half = std::hypot(0.5 * (t[0] - t[2]), t[1]);
@@ -38,11 +35,9 @@ Extraction::Extraction(const Course& course, const Singular& singular,
 }
 
 Extraction::Cutoff Extraction::cutoff(double r) const {
-  const double width = _outer * (1 - chi_falls_from), x = (r - chi_falls_from * _outer) / width;
-  if (x <= 0) return {1, 0, 0};
-  if (x >= 1) return {0, 0, 0};
-  return {1 - x * x * x * (10 + x * (6 * x - 15)), -30 * x * x * (1 - x) * (1 - x) / width,
-          -60 * x * (1 - x) * (1 - 2 * x) / (width * width)};
+  const double x = std::min(1.0, r / _outer);
+  return {1 - x * x * x * (10 + x * (6 * x - 15)), -30 * x * x * (1 - x) * (1 - x) / _outer,
+          -60 * x * (1 - x) * (1 - 2 * x) / (_outer * _outer)};
 }
 
 void Extraction::add(const Corners& at, const Tensor& tension, std::size_t side,

@@ -4,7 +4,7 @@
 //
 // With (s, d) along and across the course, T' = J T J'/det J in them, T0 = T' at the tip, and per
 // side X = s - (T0sd/T0dd) d, Y = (D/T0dd) d, which turn T0 into the number D, r and theta polar
-// coordinates of (X, Y), w = chi(r) s*, chi falling from 1 to 0 within R, u0 the value of the
+// coordinates of (X, Y), w = chi(r) s*, chi = 1 - x^3 (10 - 15 x + 6 x^2), x = r/R, u0 the value of the
 // inclusion along the course at X (of a crack: of its tip),
 //
 //   2 alpha N c = int f w + int (u - u0) D s* (chi'' + (1 - 2 alpha) chi'/r) dX dY

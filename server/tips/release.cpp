@@ -7,8 +7,7 @@
 namespace anticrack::tips {
 namespace {
 
-/// Radii over the largest, and where theta begins to fall, over its radius.
-constexpr std::array<double, radii> shares{1, 0.75, 0.5};
+/// Where theta begins to fall, over its radius.
 constexpr double theta_falls_from = 0.25;
 
 }  // namespace
@@ -44,9 +43,8 @@ void Moved::add(const Corners& at, const std::array<double, 3>& u, const Tensor&
   }
   const double changed = change == nullptr ? 0 : at.area * dot(product(*change, g), g) / 6;
   for (std::size_t r = 0; r < radii; ++r) {
-    const double outer = shares[r] * _radius;
     for (std::size_t i = 0; i < 3; ++i) {
-      const double theta = std::clamp((1 - distance[i] / outer) / (1 - theta_falls_from), 0.0, 1.0);
+      const double theta = std::clamp((1 - distance[i] / _radii[r]) / (1 - theta_falls_from), 0.0, 1.0);
       sum[r] += theta * (worth[i] - changed);
     }
   }

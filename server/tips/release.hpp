@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -30,10 +31,13 @@ Corners corners_of(const std::array<Point, 3>& x);
 constexpr std::size_t radii = 3;
 
 /// V = theta(r) t, t the tangent, theta 1 up to a part of the radius and linear to 0 at it,
-/// interpolated in the nodes. The radii are `radius` times 1, 0.75 and 0.5.
+/// interpolated in the nodes. The radii lie in geometric progression between two. On a mesh that is
+/// graded towards the tip the smallest gives the best rate, and its difference from the others is
+/// more than its error.
 class Moved {
  public:
-  Moved(const Course& course, double radius) : _course(course), _radius(radius) {}
+  Moved(const Course& course, double outer, double inner)
+      : _course(course), _radii{outer, std::sqrt(outer * inner), inner} {}
 
   /// Adds what a triangle has in
   ///
@@ -47,7 +51,7 @@ class Moved {
 
  private:
   const Course& _course;
-  double _radius;
+  std::array<double, radii> _radii;
 };
 
 }  // namespace anticrack::tips

@@ -81,6 +81,10 @@ Support Surroundings::of(const Place& place) const {
         if (use.triangle != triangle) add(use.triangle, std::max(nearest, distance));
     }
   }
+  if (found.empty()) return support;
+  constexpr std::size_t enough = 200;  // triangles, about a radius of five edges
+  const std::size_t quarter = std::min(std::max(found.size() / 4, enough), found.size() - 1);
+  support.inner = std::min(found[quarter].first, support.radius / 2);
   for (const auto& [distance, triangle] : found)
     if (distance < support.radius) support.triangles.push_back(triangle);
   std::ranges::sort(support.triangles);

@@ -17,11 +17,12 @@ namespace anticrack::tips {
 /// its condition or curvature and no boundary is nearer.
 struct Support {
   double radius = 0;
+  double inner = 0;  ///< a quarter of the triangles, but not too few, are nearer; at most radius / 2
   std::vector<std::int32_t> triangles;  ///< of the mesh, ascending
 };
 
 /// Most triangles of a support: more make its numbers no better than the mesh is elsewhere.
-constexpr std::size_t most_triangles = 20'000;
+constexpr std::size_t most_triangles = 60'000;
 
 /// Finds supports on one mesh. Keeps references to its arguments.
 class Surroundings {

@@ -76,7 +76,7 @@ Tips::Tips(const mesh::Mesh& mesh, const ddm::Decomposition& decomposition)
   const std::vector<Cell> cells = cells_of(mesh, decomposition);
   for (Place& place : find_places(mesh, edges, ends)) {
     stop::look(measuring, _tips.size());
-    Tip& tip = _tips.emplace_back(Tip{std::move(place), 0, {}});
+    Tip& tip = _tips.emplace_back(Tip{std::move(place), 0, 0, {}});
     if (!tip.place.reason.empty()) continue;
     try {
       prepare(mesh, cells, around, laws, tip);
@@ -93,6 +93,7 @@ void Tips::prepare(const mesh::Mesh& mesh, std::span<const Cell> local, const Su
   Place& place = tip.place;
   const Support support = around.of(place);
   tip.radius = support.radius;
+  tip.inner = support.inner;
   if (support.triangles.size() < fewest_triangles) {
     place.reason = fmt::format(
         "its interface bends or ends, or something else is, {:.3g} from it, and the mesh has only "
@@ -229,7 +230,7 @@ Integrals Tips::integrals(const Tip& tip, const Solved& solved) const {
     return u;
   };
   const double at_tip = corners_u(tip.cells[tip.tip_cell])[tip.tip_corner];
-  const Moved moved(place.course, tip.radius);
+  const Moved moved(place.course, tip.radius, tip.inner);
   Integrals result;
   double sum = -extraction.part_of_slope(slope);
   for (std::size_t k = 0; k < tip.cells.size(); ++k) {
@@ -256,7 +257,7 @@ void Tips::measure(const Tip& tip, const Solved& solved, TipAnswer& row) const {
   const auto [least, most] = std::ranges::minmax(rates);
   const bool grows = place.kind == TipKind::front || place.kind == TipKind::crack_tip;
   if (grows) {
-    row.energy_release_rate = row.closed ? 0 : std::max(0.0, rates[0]);
+    row.energy_release_rate = row.closed ? 0 : std::max(0.0, rates.back());
     row.energy_release_rate_spread = most - least;
   }
   if (row.closed)
@@ -264,7 +265,7 @@ void Tips::measure(const Tip& tip, const Solved& solved, TipAnswer& row) const {
   else if (place.kind == TipKind::delaminated_end)
     row.intensity = dual;
   else
-    row.intensity = std::copysign(singular.intensity_of(rates[0]), dual);
+    row.intensity = std::copysign(singular.intensity_of(rates.back()), dual);
   if (place.kind == TipKind::crack_tip) row.k_iii = singular.k_iii(*row.intensity);
 }
 

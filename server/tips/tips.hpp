@@ -59,7 +59,7 @@ class Tips {
  private:
   struct Tip {
     Place place;
-    double radius = 0;
+    double radius = 0, inner = 0;  ///< of its support
     std::vector<Cell> cells;       ///< of its support; empty: nothing can be computed
     std::vector<Tensor> change{};  ///< (cells) derivative of T along the course; empty: 0
     std::vector<Singular> singular{};      ///< one, or none
