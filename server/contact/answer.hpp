@@ -4,7 +4,6 @@
 // changes this header, so headers that only name an answer declare it and do not include this.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +12,7 @@
 #include "contact/status.hpp"
 #include "contact/traces.hpp"
 #include "fields/fields.hpp"
+#include "mesh/tip_kind.hpp"
 
 namespace anticrack::contact {
 
@@ -55,20 +55,11 @@ struct ContactInterval {
 };
 ANTICRACK_FIELDS(ContactInterval, interface, begin, end)
 
-/// The kind of a tip. The numbers are those of the API's TipKind.
-enum class TipKind : std::int32_t {
-  delaminated_end = 1,  ///< end of a delaminated inclusion: one face held, the other free
-  front,                ///< bonded ahead, delaminated behind
-  crack_tip,
-  bonded_end,  ///< end of a bonded inclusion
-  other,       ///< where several lines or conditions meet
-};
-
 /// A tip of a crack or an inclusion. Empty: it has no such number, or `reason` says why not.
 struct TipAnswer {
   double x = 0, y = 0;
   std::string interface;
-  TipKind kind = TipKind::other;
+  mesh::TipKind kind = mesh::TipKind::other;
   bool closed = false;                ///< the faces touch right behind it
   std::optional<double> exponent;     ///< of the distance from it in u, while it is open
   std::optional<double> intensity;    ///< factor c of the singular part, see tips/singular.hpp
@@ -102,7 +93,7 @@ struct AnswerSummary {
   std::optional<double> energy_lower, energy_upper, error_bound, error_bound_relative;
   std::string no_bracket;
   double energy_mesh = 0;  ///< Pi of u on the mesh
-  std::vector<TipAnswer> tips;  ///< one per mesh::tips; empty where fields were not recovered
+  std::vector<TipAnswer> tips;  ///< one per mesh::tips
 };
 ANTICRACK_FIELDS(AnswerSummary, reason, iterations, criterion, theta, theta_star, energy, kkt,
                  kkt_relative, weakly_active, warnings, inclusions, contact_length,

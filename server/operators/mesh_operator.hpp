@@ -92,7 +92,7 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
 
   /// Fills the tips of an answer to this load (contact::TipAnswer), for which it recovers the
   /// fields if it has none, and drops them again. O(triangles near tips), and O(m) for the load.
-  /// Throws errors::Error (cancelled).
+  /// Throws errors::Error (cancelled, limit_exceeded without memory).
   void find_tips(const PreparedLoad& load, contact::Answer& answer,
                  const std::stop_token& stop = {}) const;
 

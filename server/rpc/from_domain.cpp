@@ -59,6 +59,7 @@ v1::LoadCaseAnswer from_domain(const records::CaseRecord& record, const std::str
   v1::LoadCaseAnswer answer = api::message(record);
   answer.set_name(name);
   present(record, answer);
+  if (answer.ByteSizeLong() > max_job_message_bytes) answer.clear_tips();
   return answer;
 }
 

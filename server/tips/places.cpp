@@ -14,7 +14,7 @@
 namespace anticrack::tips {
 namespace {
 
-using contact::TipKind;
+using mesh::TipKind;
 using mesh::EdgeEnd;
 using mesh::Kind;
 
@@ -149,10 +149,8 @@ void take_edges(const Arm& arm, Place& place) {
         {std::min(arm.nodes[i], arm.nodes[i + 1]), std::max(arm.nodes[i], arm.nodes[i + 1])});
 }
 
-std::string take_course(const mesh::Mesh& mesh, const EdgeEnd& behind, const Arm& arm,
-                        const Arm* ahead, Place& place) {
+std::string take_course(const EdgeEnd& behind, const Arm& arm, const Arm* ahead, Place& place) {
   const Point d = arm.direction;
-  place.course.tip = position(mesh, place.node);
   place.course.ahead = {-d[0], -d[1]};
   place.course.normal = behind.forward ? Point{-d[1], d[0]} : Point{d[1], -d[0]};
   if (!arm.fault.empty()) return arm.fault;
@@ -184,16 +182,22 @@ std::vector<Place> find_places(const mesh::Mesh& mesh, const mesh::EdgeTable& ed
     const EdgeEnd& behind = here[met.behind];
     Place place;
     place.node = node;
+    place.course.tip = position(mesh, node);
     place.interface = behind.interface;
     place.inclusion = behind.inclusion;
     place.kind = met.kind;
+    for (const mesh::EdgeUse& use : edges.find(node, behind.other)) {
+      // A triangle is on the left of its edges, and so is the plus side of the chain.
+      const bool plus = (use.from == node) == behind.forward;
+      place.subdomain[plus ? 1 : 0] = mesh.subdomain[at(use.triangle)];
+    }
     place.reason = on_boundary[at(node)] ? "it lies on the boundary" : met.reason;
     place.unilateral = behind.kind == Kind::crack || behind.kind == Kind::delaminated;
     if (place.reason.empty()) {
       const Arm arm = walker.walk(behind);
       std::optional<Arm> ahead;
       if (here.size() == 2) ahead = walker.walk(here[1 - met.behind]);
-      place.reason = take_course(mesh, behind, arm, ahead ? &*ahead : nullptr, place);
+      place.reason = take_course(behind, arm, ahead ? &*ahead : nullptr, place);
       place.behind.assign(arm.nodes.begin() + 1, arm.nodes.end());
       for (const Arm* one : std::initializer_list<const Arm*>{&arm, ahead ? &*ahead : nullptr}) {
         if (one == nullptr) continue;

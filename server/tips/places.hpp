@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "contact/answer.hpp"
 #include "mesh/edge_ends.hpp"
 #include "mesh/edges.hpp"
 #include "mesh/mesh.hpp"
+#include "mesh/tip_kind.hpp"
 #include "tips/course.hpp"
 
 namespace anticrack::tips {
@@ -23,7 +23,8 @@ struct Place {
   std::int32_t node = 0;
   std::int32_t interface = 0;   ///< index into Mesh::interfaces
   std::int32_t inclusion = -1;  ///< index into Mesh::inclusions
-  contact::TipKind kind = contact::TipKind::other;
+  std::array<std::int32_t, 2> subdomain{};  ///< on the minus and the plus side behind the tip
+  mesh::TipKind kind = mesh::TipKind::other;
   bool unilateral = false;  ///< its faces touch but do not penetrate each other: it may be closed
   std::string reason;       ///< why nothing can be computed there; empty if it can
   Course course{};

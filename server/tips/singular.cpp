@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tips/singular.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
+
+#include "base/at.hpp"
 
 namespace anticrack::tips {
 namespace {
 
-using contact::TipKind;
+using mesh::TipKind;
 using std::numbers::pi;
 
 }  // namespace
@@ -67,6 +71,36 @@ double Singular::intensity_of(double rate) const {
 
 double Singular::k_iii(double intensity) const {
   return intensity * _theta_mean * std::sqrt(pi / 2);
+}
+
+std::array<Tensor, 2> tensors_at(const Place& place, std::span<const Law> laws) {
+  std::array<Tensor, 2> result{};
+  for (std::size_t side = 0; side < 2; ++side) {
+    const Tensor t = laws[at(place.subdomain[side])].at(place.course.tip);
+    const Point a = product(t, place.course.ahead), b = product(t, place.course.normal);
+    result[side] = {dot(a, place.course.ahead), dot(a, place.course.normal),
+                    dot(b, place.course.normal)};
+  }
+  return result;
+}
+
+Singular singular_at(const Place& place, std::span<const Law> laws) {
+  const auto [minus, plus] = tensors_at(place, laws);
+  return {place.kind, minus, plus};
+}
+
+double least_exponent(const mesh::Mesh& mesh) {
+  double least = 0.25;
+  const bool one_tension =
+      mesh.tension_laws.empty() && std::ranges::adjacent_find(mesh.tension, std::not_equal_to<>()) ==
+                                       mesh.tension.end();
+  if (one_tension) return least;
+  const mesh::EdgeTable edges(mesh.triangles);
+  const std::vector<Law> laws = laws_of(mesh);
+  for (const Place& place : find_places(mesh, edges, mesh::edge_ends(mesh, edges)))
+    if (place.kind == TipKind::delaminated_end && place.reason.empty())
+      least = std::min(least, singular_at(place, laws).exponent());
+  return least;
 }
 
 }  // namespace anticrack::tips

@@ -13,8 +13,10 @@
 #pragma once
 
 #include <array>
+#include <span>
 
-#include "contact/answer.hpp"
+#include "mesh/tip_kind.hpp"
+#include "tips/places.hpp"
 #include "tips/tensor.hpp"
 
 namespace anticrack::tips {
@@ -23,7 +25,7 @@ class Singular {
  public:
   /// `minus`, `plus`: T at the tip on both sides, in coordinates (s, d) along and across. The kind
   /// is not `other`.
-  Singular(contact::TipKind kind, const Tensor& minus, const Tensor& plus);
+  Singular(mesh::TipKind kind, const Tensor& minus, const Tensor& plus);
 
   double exponent() const noexcept { return _exponent; }
   /// int D phi^2 over the angle, phi = s*/r^-alpha.
@@ -41,9 +43,18 @@ class Singular {
   double k_iii(double intensity) const;
 
  private:
-  contact::TipKind _kind;
+  mesh::TipKind _kind;
   std::array<double, 2> _root;  ///< D of the minus and the plus side
   double _exponent = 0.5, _norm = 0, _jump = 0, _sign = 1, _theta_mean = 0;
 };
+
+/// Of a place whose kind is not `other`.
+Singular singular_at(const Place& place, std::span<const Law> laws);
+/// T at the tip on the minus and the plus side, in coordinates along and across the course.
+std::array<Tensor, 2> tensors_at(const Place& place, std::span<const Law> laws);
+
+/// The least exponent of the ends of delaminated inclusions: 1/4, but for where the tensions of the
+/// sides differ. Throws errors::Error (expression_invalid). O(m log m) where they do.
+double least_exponent(const mesh::Mesh& mesh);
 
 }  // namespace anticrack::tips

@@ -19,18 +19,12 @@ namespace anticrack::tips {
 namespace {
 
 using contact::TipAnswer;
-using contact::TipKind;
+using mesh::TipKind;
 
 constexpr const char* measuring = "measuring tips";
 
 /// With fewer triangles about the tip a number means nothing.
 constexpr std::size_t fewest_triangles = 60;
-
-/// T in coordinates along and across the course at the tip.
-Tensor turned(const Tensor& t, const Course& course) {
-  const Point a = product(t, course.ahead), b = product(t, course.normal);
-  return {dot(a, course.ahead), dot(a, course.normal), dot(b, course.normal)};
-}
 
 /// The numbers of all triangles of the mesh in the decomposition.
 std::vector<Cell> cells_of(const mesh::Mesh& mesh, const ddm::Decomposition& decomposition) {
@@ -115,7 +109,6 @@ void Tips::prepare(const mesh::Mesh& mesh, std::span<const Cell> local, const Su
 
   const std::unordered_set<std::int32_t> behind(place.behind.begin(), place.behind.end());
   std::vector<std::size_t> side;
-  std::array<Tensor, 2> at_tip{};
   bool any_varies = false;
   for (std::size_t k = 0; k < tip.cells.size(); ++k) {
     const Cell& cell = tip.cells[k];
@@ -124,19 +117,17 @@ void Tips::prepare(const mesh::Mesh& mesh, std::span<const Cell> local, const Su
     for (const Point& x : corner.x) d += place.course.at(x).d;
     side.push_back(d > 0 ? 1 : 0);
     const ddm::Subdomain& subdomain = _decomposition.subdomains[at(cell.subdomain)];
-    const Law& law = laws[at(cell.subdomain)];
-    any_varies = any_varies || law.varies();
+    any_varies = any_varies || laws[at(cell.subdomain)].varies();
     for (std::size_t i = 0; i < 3; ++i) {
       if (subdomain.node[at(subdomain.part.triangles[3 * at(cell.triangle) + i])] != place.node)
         continue;
       tip.tip_cell = k;
       tip.tip_corner = i;
-      at_tip[side.back()] = turned(law.at(place.course.tip), place.course);
     }
   }
-  const Singular& singular = tip.singular.emplace_back(place.kind, at_tip[0], at_tip[1]);
-  Extraction& extraction =
-      tip.extraction.emplace_back(place.course, singular, at_tip, support.radius);
+  const Singular& singular = tip.singular.emplace_back(singular_at(place, laws));
+  Extraction& extraction = tip.extraction.emplace_back(place.course, singular,
+                                                       tensors_at(place, laws), support.radius);
   for (std::size_t k = 0; k < tip.cells.size(); ++k) {
     stop::look_at_turn<1024>(k, measuring);
     const Cell& cell = tip.cells[k];

@@ -13,7 +13,7 @@ namespace anticrack::testing {
 namespace {
 
 using contact::TipAnswer;
-using contact::TipKind;
+using mesh::TipKind;
 using mesh::Kind;
 using std::numbers::pi;
 
@@ -147,6 +147,27 @@ TEST(TipsOfFronts, HaveTheRateOfHalfACrack) {
       expect_near(*tip->energy_release_rate, g, 1e-3);
       expect_near(*tip->intensity, shear, 1e-3);
     }
+  }
+}
+
+/// Without the slope of the inclusion the rate, and the value it gives the faces, are wrong.
+TEST(TipsOfFronts, ThatTiltNeedTheSlope) {
+  const double g = pi * shear * shear / 8;
+  Front front(0.7);
+  const Prepared prepared(front.measured.op->mesh());
+  for (std::size_t i = 0; i < 2; ++i) {
+    const tips::Integrals whole = prepared.integrals(i, front.measured.answer, 0.0);
+    for (const double rate : whole.rates) expect_near(rate, g, 2e-3);
+    expect_near(whole.intensity, shear, 3e-3);
+  }
+  for (contact::InclusionAnswer& body : front.measured.answer.inclusions) body.slope_x_mesh = 0;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const tips::Integrals mutant = prepared.integrals(i, front.measured.answer, 0.0);
+    std::printf("[ figures  ] without the slope: G %.1f %%, %.1f %%, %.1f %%, intensity %.1f %%\n",
+                100 * (mutant.rates[0] / g - 1), 100 * (mutant.rates[1] / g - 1),
+                100 * (mutant.rates[2] / g - 1), 100 * (mutant.intensity / shear - 1));
+    for (const double rate : mutant.rates) EXPECT_GT(std::abs(rate - g), 0.02 * g);
+    EXPECT_GT(std::abs(mutant.intensity - shear), 0.02 * shear);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "contact/options.hpp"
+#include "fem/load_parts.hpp"
 #include "mesh/refine.hpp"
 #include "support/silent_observer.hpp"
 #include "support/structured_mesh.hpp"
@@ -63,6 +64,25 @@ Measured measure(mesh::Mesh mesh, const fem::Load& load, bool fields) {
   return measure(operators::MeshOperator::factorise(
                      std::make_shared<const mesh::Mesh>(std::move(mesh)), 2, {}),
                  load, fields);
+}
+
+Prepared::Prepared(mesh::Mesh mesh, const mesh::Mesh& believed)
+    : _mesh(std::move(mesh)), _decomposition(ddm::cut(_mesh)), _tips(believed, _decomposition) {}
+
+tips::Integrals Prepared::integrals(std::size_t tip, const contact::Answer& answer,
+                                    const fem::Force& force) const {
+  std::vector<fem::ForceParts> parts(_decomposition.subdomains.size());
+  std::vector<std::span<const double>> loads;
+  for (std::size_t s = 0; s < parts.size(); ++s) {
+    const ddm::Subdomain& one = _decomposition.subdomains[s];
+    const fem::LoadContext context{one.node, one.triangle, nullptr, &parts[s]};
+    if (auto linear = fem::linear_parts(one.part, force, one.name, context))
+      parts[s] = std::move(*linear);
+    else
+      fem::load_vector(one.part, force, one.name, context);
+    loads.emplace_back(parts[s].load);
+  }
+  return _tips.integrals(tip, {answer, loads, {}});
 }
 
 fem::Load with_boundary(const std::string& text) {

@@ -10,9 +10,11 @@
 #include <vector>
 
 #include "contact/answer.hpp"
+#include "ddm/decomposition.hpp"
 #include "fem/load.hpp"
 #include "mesh/mesh.hpp"
 #include "operators/mesh_operator.hpp"
+#include "tips/tips.hpp"
 
 namespace anticrack::testing {
 
@@ -39,6 +41,22 @@ struct Measured {
 Measured measure(std::shared_ptr<const operators::MeshOperator> op, const fem::Load& load,
                  bool fields = false);
 Measured measure(mesh::Mesh mesh, const fem::Load& load, bool fields = false);
+/// The integrals of tips of an answer with fields.
+class Prepared {
+ public:
+  explicit Prepared(const mesh::Mesh& mesh) : Prepared(mesh, mesh) {}
+  /// A mutant, which takes for the tension what `believed` has, but in the triangles what `mesh` has.
+  Prepared(mesh::Mesh mesh, const mesh::Mesh& believed);
+
+  tips::Integrals integrals(std::size_t tip, const contact::Answer& answer,
+                            const fem::Force& force) const;
+
+ private:
+  mesh::Mesh _mesh;
+  ddm::Decomposition _decomposition;
+  tips::Tips _tips;
+};
+
 /// f = 0.
 fem::Load with_boundary(const std::string& text);
 

@@ -13,7 +13,7 @@ namespace anticrack::testing {
 namespace {
 
 using contact::TipAnswer;
-using contact::TipKind;
+using mesh::TipKind;
 using mesh::Kind;
 
 /// What all tips of a mesh are, under f = 1.
