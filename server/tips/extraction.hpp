@@ -2,13 +2,13 @@
 //
 // The intensity of the singular part of u at a tip, by the dual singular function.
 //
-// With (s, d) along and across the course, T' = J T J'/det J in them, T0 = T' at the tip, and per
-// side X = s - (T0sd/T0dd) d, Y = (D/T0dd) d, which turn T0 into the number D, r and theta polar
-// coordinates of (X, Y), w = chi(r) s*, chi = 1 - x^3 (10 - 15 x + 6 x^2), x = r/R, u0 the value of the
-// inclusion along the course at X (of a crack: of its tip),
+// With (s, d) along and across the course, T0 = T at the tip, and per side X = s - (T0sd/T0dd) d,
+// Y = (D/T0dd) d, which turn T0 into the number D, r and theta polar coordinates of (X, Y),
+// w = chi(r) s*, chi = 1 - x^3 (10 - 15 x + 6 x^2), x = r/R, u0 the value of the inclusion at X (of a
+// crack: of its tip),
 //
 //   2 alpha N c = int f w + int (u - u0) D s* (chi'' + (1 - 2 alpha) chi'/r) dX dY
-//                 + sum of lambda_a [w]_a - int (T' - T0) grad'u.grad'w - int D u0' d_X w dX dY
+//                 + sum of lambda_a [w]_a - int (T - T0) grad u.grad w
 //
 // and lambda_a, what presses the faces apart in node a, is int f hat_a - a(u, hat_a) on the minus
 // side. So c is linear in u and f: a sum over triangles with numbers that depend on the mesh only.
@@ -48,7 +48,7 @@ class Extraction {
   /// What triangle `cell`, in the order of add(), has in 2 alpha N c; u less its value at the tip.
   double part(std::size_t cell, const std::array<double, 3>& u, const double* force) const;
   /// What an inclusion that tilts by `slope` takes from the sum of these parts.
-  double part_of_slope(const Point& slope) const { return dot(_of_slope, slope); }
+  double part_of_slope(const Point& slope) const { return _of_slope * dot(_course.ahead, slope); }
   std::size_t bytes() const noexcept { return _weights.capacity() * sizeof(_weights[0]); }
 
  private:
@@ -65,7 +65,7 @@ class Extraction {
   std::array<Flattened, 2> _sides;
   double _outer = 0;  ///< chi is 0 from this r on
   std::vector<Weights> _weights;
-  Point _of_slope{};
+  double _of_slope = 0;
 };
 
 }  // namespace anticrack::tips

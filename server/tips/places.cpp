@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
-#include <optional>
 #include <span>
 
 #include "base/at.hpp"
@@ -26,93 +24,39 @@ constexpr double same_direction = 1e-6;
 
 double length(const Point& p) { return std::hypot(p[0], p[1]); }
 
-/// What begins at a tip and goes on with the same condition.
+/// What begins at a tip and goes on straight with the same condition.
 struct Arm {
-  Point direction{};     ///< from the tip, unit
-  Point centre{};        ///< of its arc
-  double radius = 0;     ///< 0: straight
-  std::string fault;     ///< why it is neither straight nor an arc
+  Point direction{};                ///< from the tip, unit
   std::vector<std::int32_t> nodes;  ///< from the tip on
 };
 
-class Walker {
- public:
-  Walker(const mesh::Mesh& mesh, const std::vector<EdgeEnd>& ends) : _mesh(mesh), _ends(ends) {
-    for (const mesh::BentEdge& edge : mesh.bent) _bent.push_back(&edge);
-    std::ranges::sort(_bent, {}, [](const mesh::BentEdge* e) { return key(e->a, e->b); });
-    for (const double x : mesh.xy) _size = std::max(_size, std::abs(x));
+/// `size`: the largest coordinate of the mesh.
+Arm walk(const mesh::Mesh& mesh, const std::vector<EdgeEnd>& ends, const EdgeEnd& first,
+         double size) {
+  Arm arm;
+  arm.nodes.push_back(first.node);
+  const Point tip = position(mesh, first.node), reference = minus(position(mesh, first.other), tip);
+  // The angles from the reference in which all nodes so far lie.
+  double low = -1, high = 1;
+  for (EdgeEnd here = first;;) {
+    stop::look_at_turn<stop::quick>(arm.nodes.size(), "following cracks from their tips");
+    const Point to = minus(position(mesh, here.other), tip);
+    const double far = length(to), slack = straightness + rounding * size / far,
+                 angle = std::atan2(reference[0] * to[1] - reference[1] * to[0],
+                                    dot(reference, to));
+    if (angle + slack < low || angle - slack > high) break;
+    low = std::max(low, angle - slack);
+    high = std::min(high, angle + slack);
+    arm.direction = {to[0] / far, to[1] / far};
+    arm.nodes.push_back(here.other);
+    const auto next = mesh::ends_at(ends, here.other);
+    if (next.size() != 2 || here.other == first.node) break;
+    const EdgeEnd& on = next[next[0].other == here.node ? 1 : 0];
+    if (on.kind != here.kind || on.inclusion != here.inclusion) break;
+    here = on;
   }
-
-  Arm walk(const EdgeEnd& first) const {
-    Arm arm;
-    arm.nodes.push_back(first.node);
-    const mesh::BentEdge* const bent = bent_edge(first);
-    if (bent != nullptr) {
-      const mesh::Bend& bend = _mesh.bends[at(bent->bend)];
-      if (bend.radius == 0) arm.fault = "it lies on a curve that is neither straight nor an arc";
-      const bool from_a = bent->a == first.node;
-      const Point d = bend.derivative(from_a ? bent->from : bent->to);
-      const double sign = (bent->to > bent->from) == from_a ? 1 / length(d) : -1 / length(d);
-      arm.direction = {sign * d[0], sign * d[1]};
-      arm.centre = bend.centre;
-      arm.radius = bend.radius;
-    }
-    const Point tip = position(_mesh, first.node);
-    // Directions in which all nodes so far lie: from a reference, in radians.
-    const Point reference = bent != nullptr ? arm.direction : towards(tip, first.other);
-    double low = -1, high = 1;
-    for (EdgeEnd here = first;;) {
-      stop::look_at_turn<stop::quick>(arm.nodes.size(), "following cracks from their tips");
-      if (bent == nullptr) {
-        const Point to = minus(position(_mesh, here.other), tip);
-        const double far = length(to), slack = straightness + rounding * _size / far,
-                     angle = std::atan2(reference[0] * to[1] - reference[1] * to[0],
-                                        dot(reference, to));
-        if (bent_edge(here) != nullptr || angle + slack < low || angle - slack > high) break;
-        low = std::max(low, angle - slack);
-        high = std::min(high, angle + slack);
-        arm.direction = {to[0] / far, to[1] / far};
-      } else if (!on_arc(here, arm)) {
-        break;
-      }
-      arm.nodes.push_back(here.other);
-      const auto next = mesh::ends_at(_ends, here.other);
-      if (next.size() != 2 || here.other == first.node) break;
-      const EdgeEnd& on = next[next[0].other == here.node ? 1 : 0];
-      if (on.kind != here.kind || on.inclusion != here.inclusion) break;
-      here = on;
-    }
-    return arm;
-  }
-
- private:
-  static std::array<std::int32_t, 2> key(std::int32_t a, std::int32_t b) {
-    return {std::min(a, b), std::max(a, b)};
-  }
-  const mesh::BentEdge* bent_edge(const EdgeEnd& end) const {
-    const auto wanted = key(end.node, end.other);
-    const auto found = std::ranges::lower_bound(
-        _bent, wanted, {}, [](const mesh::BentEdge* e) { return key(e->a, e->b); });
-    return found != _bent.end() && key((*found)->a, (*found)->b) == wanted ? *found : nullptr;
-  }
-  Point towards(const Point& tip, std::int32_t node) const {
-    const Point to = minus(position(_mesh, node), tip);
-    const double far = length(to);
-    return {to[0] / far, to[1] / far};
-  }
-  bool on_arc(const EdgeEnd& edge, const Arm& arm) const {
-    const mesh::BentEdge* const bent = bent_edge(edge);
-    if (bent == nullptr) return false;
-    const mesh::Bend& bend = _mesh.bends[at(bent->bend)];
-    return length(minus(bend.centre, arm.centre)) + std::abs(bend.radius - arm.radius) <=
-           straightness * _size;
-  }
-
-  const mesh::Mesh& _mesh;
-  const std::vector<EdgeEnd>& _ends;
-  std::vector<const mesh::BentEdge*> _bent;
-  double _size = 0;  ///< the largest coordinate
-};
+  return arm;
+}
 
 bool is_crack(Kind kind) { return kind == Kind::crack || kind == Kind::free; }
 
@@ -149,31 +93,17 @@ void take_edges(const Arm& arm, Place& place) {
         {std::min(arm.nodes[i], arm.nodes[i + 1]), std::max(arm.nodes[i], arm.nodes[i + 1])});
 }
 
-std::string take_course(const EdgeEnd& behind, const Arm& arm, const Arm* ahead, Place& place) {
-  const Point d = arm.direction;
+void take_course(const EdgeEnd& behind, const Point& d, Place& place) {
   place.course.ahead = {-d[0], -d[1]};
   place.course.normal = behind.forward ? Point{-d[1], d[0]} : Point{d[1], -d[0]};
-  if (!arm.fault.empty()) return arm.fault;
-  if (arm.radius > 0) {
-    const double side = dot(minus(arm.centre, place.course.tip), place.course.normal);
-    place.course.radius = side > 0 ? arm.radius : -arm.radius;
-  }
-  if (ahead == nullptr) return "";
-  if (!ahead->fault.empty()) return ahead->fault;
-  const Point e = ahead->direction;
-  if (std::hypot(d[0] + e[0], d[1] + e[1]) > same_direction) return "the interface bends there";
-  if (arm.radius != ahead->radius ||
-      (arm.radius > 0 &&
-       length(minus(arm.centre, ahead->centre)) > straightness * length(arm.centre) + rounding))
-    return "the curvature of the interface changes there";
-  return "";
 }
 
 }  // namespace
 
 std::vector<Place> find_places(const mesh::Mesh& mesh, const mesh::EdgeTable& edges,
                                const std::vector<EdgeEnd>& ends) {
-  const Walker walker(mesh, ends);
+  double size = 0;
+  for (const double x : mesh.xy) size = std::max(size, std::abs(x));
   const std::vector<bool> on_boundary = edges.boundary_nodes(mesh.node_count());
   std::vector<Place> places;
   for (const std::int32_t node : mesh::tips(mesh)) {
@@ -194,16 +124,19 @@ std::vector<Place> find_places(const mesh::Mesh& mesh, const mesh::EdgeTable& ed
     place.reason = on_boundary[at(node)] ? "it lies on the boundary" : met.reason;
     place.unilateral = behind.kind == Kind::crack || behind.kind == Kind::delaminated;
     if (place.reason.empty()) {
-      const Arm arm = walker.walk(behind);
-      std::optional<Arm> ahead;
-      if (here.size() == 2) ahead = walker.walk(here[1 - met.behind]);
-      place.reason = take_course(behind, arm, ahead ? &*ahead : nullptr, place);
-      place.behind.assign(arm.nodes.begin() + 1, arm.nodes.end());
-      for (const Arm* one : std::initializer_list<const Arm*>{&arm, ahead ? &*ahead : nullptr}) {
-        if (one == nullptr) continue;
-        take_edges(*one, place);
+      std::vector<Arm> arms{walk(mesh, ends, behind, size)};
+      take_course(behind, arms[0].direction, place);
+      place.behind.assign(arms[0].nodes.begin() + 1, arms[0].nodes.end());
+      if (here.size() == 2) {
+        arms.push_back(walk(mesh, ends, here[1 - met.behind], size));
+        const Point off = minus(arms[1].direction, place.course.ahead);
+        if (length(off) > same_direction)
+          place.reason = "the interface bends there, as where chords of a curve meet";
+      }
+      for (const Arm& arm : arms) {
+        take_edges(arm, place);
         place.reach = std::min(
-            place.reach, length(minus(position(mesh, one->nodes.back()), place.course.tip)));
+            place.reach, length(minus(position(mesh, arm.nodes.back()), place.course.tip)));
       }
       std::ranges::sort(place.edges);
     }

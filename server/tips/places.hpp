@@ -17,8 +17,8 @@
 
 namespace anticrack::tips {
 
-/// A tip, and the piece of interface on which it lies as far as the piece is straight, or one arc,
-/// of one condition on either side of the tip.
+/// A tip, and the piece of interface on which it lies, as far as the piece is straight and of one
+/// condition on either side of the tip.
 struct Place {
   std::int32_t node = 0;
   std::int32_t interface = 0;   ///< index into Mesh::interfaces

@@ -32,14 +32,13 @@ void Moved::add(const Corners& at, const std::array<double, 3>& u, const Tensor&
     for (std::size_t k = 0; k < 2; ++k) g[k] += (u[i] - u[0]) * at.hat[i][k];
   const Point flux = product(tension, g), rest = minus(g, slope);
   const double density = dot(flux, g) / 2;
-  std::array<double, 3> distance{}, along{}, worth{}, spread{};
+  const double along = dot(_course.ahead, rest);
+  std::array<double, 3> distance{}, worth{};
+  const Point& t = _course.ahead;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Point t = _course.tangent(at.x[i]);
     distance[i] = std::hypot(at.x[i][0] - _course.tip[0], at.x[i][1] - _course.tip[1]);
-    along[i] = dot(t, rest);
-    spread[i] = dot(t, at.hat[i]);
-    worth[i] = at.area * (dot(flux, at.hat[i]) * along[i] - density * spread[i]) -
-               force[i] * along[i];
+    worth[i] = at.area * (dot(flux, at.hat[i]) * along - density * dot(t, at.hat[i])) -
+               force[i] * along;
   }
   const double changed = change == nullptr ? 0 : at.area * dot(product(*change, g), g) / 6;
   for (std::size_t r = 0; r < radii; ++r) {

@@ -30,7 +30,7 @@ Corners corners_of(const std::array<Point, 3>& x);
 /// The number of radii with which an integral is computed.
 constexpr std::size_t radii = 3;
 
-/// V = theta(r) t, t the tangent, theta 1 up to a part of the radius and linear to 0 at it,
+/// V = theta(r) t, t along the course, theta 1 up to a part of the radius and linear to 0 at it,
 /// interpolated in the nodes. The radii lie in geometric progression between two. On a mesh that is
 /// graded towards the tip the smallest gives the best rate, and its difference from the others is
 /// more than its error.

@@ -40,8 +40,6 @@ Support Surroundings::of(const Place& place) const {
   const Point& tip = place.course.tip;
   Support support;
   support.radius = place.reach;
-  if (place.course.radius != 0)  // beyond, what is at right angles to an arc meets in its centre
-    support.radius = std::min(support.radius, 0.7 * std::abs(place.course.radius));
   using Near = std::pair<double, std::int32_t>;
   std::priority_queue<Near, std::vector<Near>, std::greater<>> waiting;
   std::unordered_set<std::int32_t> seen;

@@ -13,8 +13,8 @@
 
 namespace anticrack::tips {
 
-/// Triangles that are nearer to a tip than `radius`. No other part of an interface, no change of
-/// its condition or curvature and no boundary is nearer.
+/// Triangles that are nearer to a tip than `radius`. No other part of an interface, no bend or
+/// change of its own and no boundary is nearer.
 struct Support {
   double radius = 0;
   double inner = 0;  ///< a quarter of the triangles, but not too few, are nearer; at most radius / 2

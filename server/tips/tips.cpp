@@ -47,7 +47,7 @@ Tensor change_of(const Law& law, const Course& course, const Corners& at, double
     size = std::max(size, std::hypot(side[0], side[1]));
   }
   const double step = std::max(0.25 * size, 1e-6 * radius);
-  const Point t = course.tangent(centre);
+  const Point& t = course.ahead;
   const auto moved = [&](double by) {
     return law.at({centre[0] + by * t[0], centre[1] + by * t[1]});
   };
@@ -73,6 +73,7 @@ Tips::Tips(const mesh::Mesh& mesh, const ddm::Decomposition& decomposition)
     Tip& tip = _tips.emplace_back(Tip{std::move(place), 0, 0, {}});
     if (!tip.place.reason.empty()) continue;
     try {
+      tip.singular.emplace_back(singular_at(tip.place, laws));
       prepare(mesh, cells, around, laws, tip);
     } catch (const errors::Error& error) {
       if (error.reason() == errors::Reason::cancelled) throw;
@@ -90,9 +91,9 @@ void Tips::prepare(const mesh::Mesh& mesh, std::span<const Cell> local, const Su
   tip.inner = support.inner;
   if (support.triangles.size() < fewest_triangles) {
     place.reason = fmt::format(
-        "its interface bends or ends, or something else is, {:.3g} from it, and the mesh has only "
-        "{} triangles that near; take a smaller mesh.size",
-        support.radius, support.triangles.size());
+        "only {} triangles lie between it and the next bend, end, line or boundary, {:.3g} away; "
+        "take a smaller mesh.size",
+        support.triangles.size(), support.radius);
     return;
   }
   for (const std::int32_t t : support.triangles) {
@@ -114,7 +115,7 @@ void Tips::prepare(const mesh::Mesh& mesh, std::span<const Cell> local, const Su
     const Cell& cell = tip.cells[k];
     const Corners corner = corners(cell);
     double d = 0;
-    for (const Point& x : corner.x) d += place.course.at(x).d;
+    for (const Point& x : corner.x) d += place.course.across(x);
     side.push_back(d > 0 ? 1 : 0);
     const ddm::Subdomain& subdomain = _decomposition.subdomains[at(cell.subdomain)];
     any_varies = any_varies || laws[at(cell.subdomain)].varies();
@@ -125,8 +126,7 @@ void Tips::prepare(const mesh::Mesh& mesh, std::span<const Cell> local, const Su
       tip.tip_corner = i;
     }
   }
-  const Singular& singular = tip.singular.emplace_back(singular_at(place, laws));
-  Extraction& extraction = tip.extraction.emplace_back(place.course, singular,
+  Extraction& extraction = tip.extraction.emplace_back(place.course, tip.singular.front(),
                                                        tensors_at(place, laws), support.radius);
   for (std::size_t k = 0; k < tip.cells.size(); ++k) {
     stop::look_at_turn<1024>(k, measuring);
