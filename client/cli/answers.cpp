@@ -293,7 +293,7 @@ std::string answers_table(const std::vector<results::Load>& loads, const v1::Uni
     for (const std::string& remark : remarks_on(load))
       remarks += sanitise(load.name()) + ": " + sanitise(remark) + "\n";
   }
-  return table(rows, left) + inclusions.hint() + remarks;
+  return table(rows, left) + inclusions.hint() + remarks + tips_table(loads, units, false);
 }
 
 std::string answers_table(const results::Result& result) {
@@ -301,7 +301,7 @@ std::string answers_table(const results::Result& result) {
                                   : answers_table(result.loads, result.units);
   for (const std::string& note : results::notes_on(result))
     text += "note: " + sanitise(note) + "\n";
-  return text + tips_table(result.loads, result.units, false);
+  return text;
 }
 
 std::string inclusions_table(const results::Result& result) {

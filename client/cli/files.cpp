@@ -95,12 +95,11 @@ int show_file(const FileOptions& options, const Globals& given) {
   if (!result.not_reached.empty()) foot = "not reached: " + sanitise(result.not_reached) + "\n";
   if (result.loads.size() == 1 || !options.loads.empty())
     for (const results::Load& load : result.loads) foot += stages_table(load);
-  print_answer(globals,
-               head +
-                   (options.tips         ? tips_table(result.loads, result.units, true)
-                    : options.inclusions ? inclusions_table(result)
-                                         : answers_table(result)) +
-                   (options.all ? numbers_table(result) : "") + foot);
+  print_answer(globals, head +
+                            (options.tips         ? tips_table(result.loads, result.units, true)
+                             : options.inclusions ? inclusions_table(result)
+                                                  : answers_table(result)) +
+                            (options.all ? numbers_table(result) : "") + foot);
   return exit_ok;
 }
 

@@ -37,8 +37,7 @@ std::string spread_of(const v1::Tip& tip) {
 
 std::string tips_table(const std::vector<results::Load>& loads, const v1::Units& units, bool all) {
   const auto unit = [&](const char* name) {
-    return sanitise(
-        results::unit_of(units, results::entry_of(*v1::Tip::descriptor(), name)->unit));
+    return sanitise(results::unit_of(units, results::entry_of(*v1::Tip::descriptor(), name)->unit));
   };
   std::vector<std::vector<std::string>> rows{
       {"load", "x", "y", "tip", "exponent", "intensity", "K_III", "G", "spread of G"},

@@ -54,12 +54,11 @@ bool has_lists(const Descriptor& type) {
 }
 
 std::string name_of(const FieldDescriptor& field) {
-  static const std::pair<std::string, std::string> shorter[]{
-      {"displacement", "A"},
-      {"slope_", "B"},
-      {"moment_", "M"},
-      {"k_iii", "K_III"},
-      {"energy_release_rate", "G"}};
+  static const std::pair<std::string, std::string> shorter[]{{"displacement", "A"},
+                                                             {"slope_", "B"},
+                                                             {"moment_", "M"},
+                                                             {"k_iii", "K_III"},
+                                                             {"energy_release_rate", "G"}};
   std::string name = field.name();
   if (is_duration(field)) return name.replace(name.rfind("time"), 4, "seconds");
   if (field.containing_type() != v1::InclusionAnswer::descriptor() &&

@@ -60,10 +60,10 @@ struct TipAnswer {
   double x = 0, y = 0;
   std::string interface;
   mesh::TipKind kind = mesh::TipKind::other;
-  bool closed = false;                ///< the faces touch right behind it
-  std::optional<double> exponent;     ///< of the distance from it in u, while it is open
-  std::optional<double> intensity;    ///< factor c of the singular part, see tips/singular.hpp
-  std::optional<double> k_iii;        ///< lim (2 pi r)^1/2 T du/dn ahead of a crack tip
+  bool closed = false;              ///< the faces touch right behind it
+  std::optional<double> exponent;   ///< of the distance from it in u, while it is open
+  std::optional<double> intensity;  ///< factor c of the singular part, see tips/singular.hpp
+  std::optional<double> k_iii;      ///< lim (2 pi r)^1/2 T du/dn ahead of a crack tip
   std::optional<double> energy_release_rate;         ///< -dPi/da when it moves ahead by a
   std::optional<double> energy_release_rate_spread;  ///< largest less least of three radii
   std::string reason;
@@ -92,7 +92,7 @@ struct AnswerSummary {
   /// Empty if they were not asked for, or for the reason that `no_bracket` gives.
   std::optional<double> energy_lower, energy_upper, error_bound, error_bound_relative;
   std::string no_bracket;
-  double energy_mesh = 0;  ///< Pi of u on the mesh
+  double energy_mesh = 0;       ///< Pi of u on the mesh
   std::vector<TipAnswer> tips;  ///< one per mesh::tips
 };
 ANTICRACK_FIELDS(AnswerSummary, reason, iterations, criterion, theta, theta_star, energy, kkt,

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "contact/answer.hpp"
+#include "errors/errors.hpp"
 #include "operators/mesh_operator.hpp"
 #include "stop/stop.hpp"
 
@@ -79,6 +80,11 @@ void find_tips(const std::vector<PreparedCase>& cases, std::vector<Solved>& solv
     } catch (...) {
       solved[i].failure = std::current_exception();
     }
+  }
+  for (std::size_t i = 0; i < cases.size(); ++i) {  // bounds are not begun
+    if (!solved[i].failure && cases[i].task.job->stop.stop_requested())
+      solved[i].failure = std::make_exception_ptr(
+          errors::Error(errors::Reason::cancelled, "stopped while measuring tips"));
   }
 }
 

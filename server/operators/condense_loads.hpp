@@ -76,7 +76,7 @@ struct NodalForce {
 struct PlacedForces {
   std::vector<std::vector<NodalForce>> subdomains;  ///< one list per subdomain
   std::vector<contact::InclusionForce> inclusions;  ///< as LoadOnTraces::inclusion_forces
-  std::vector<mesh::Point> points;  ///< where one acts on the membrane itself
+  std::vector<mesh::Point> points;                  ///< where one acts on the membrane itself
 };
 
 /// Distance, as a fraction of the diagonal of the membrane's bounding box, within which a point

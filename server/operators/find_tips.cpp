@@ -12,9 +12,13 @@ const tips::Tips& MeshOperator::Parts::all_tips() const {
 void MeshOperator::find_tips(const PreparedLoad& load, contact::Answer& answer,
                              const std::stop_token& stop) const {
   const stop::Scope scope(stop);
-  require_prepared(load, true);
+  require_prepared(load, false);
   const tips::Tips& tips = _parts->all_tips();
   if (tips.empty()) return;
+  if (!load._data->has_interior || load._data->balanced) {  // which lacks f
+    answer.tips = tips.without_numbers("rows of a sweep have no numbers of tips");
+    return;
+  }
   if (answer.status != contact::Status::converged) {
     answer.tips = tips.without_numbers("the load case did not converge");
     return;

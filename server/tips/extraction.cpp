@@ -42,7 +42,7 @@ void Extraction::add(const Corners& at, const Tensor& tension, std::size_t side,
   const Flattened& flat = _sides[side];
   const double alpha = _singular.exponent();
   Weights weights;
-  Point on_gradient{};  // what multiplies grad u
+  Point on_gradient{};              // what multiplies grad u
   std::array<double, 3> moments{};  // int w hat_i
   constexpr const auto& rule = fem::rule_5;
   for (std::size_t q = 0; q < rule.size; ++q) {
@@ -58,8 +58,8 @@ void Extraction::add(const Corners& at, const Tensor& tension, std::size_t side,
     const auto [phi, phi_1] = _singular.phi(theta, side);
     const double power = std::pow(r, -alpha), w = chi * power * phi;
     // dX dY = stretch ds dd
-    const double on_u = weight * flat.stretch * flat.root * power * phi *
-                        (chi_2 + (1 - 2 * alpha) * chi_1 / r);
+    const double on_u =
+        weight * flat.stretch * flat.root * power * phi * (chi_2 + (1 - 2 * alpha) * chi_1 / r);
     for (std::size_t i = 0; i < 3; ++i) {
       weights.u[i] += on_u * hat[i];
       moments[i] += weight * w * hat[i];
@@ -83,8 +83,7 @@ void Extraction::add(const Corners& at, const Tensor& tension, std::size_t side,
   for (std::size_t i = 0; i < 3; ++i) {
     weights.u[i] -= dot(on_gradient, at.hat[i]);
     // int f w by int f hat_i: the linear function with the moments of w.
-    weights.force[i] =
-        3 / at.area * (4 * moments[i] - (moments[0] + moments[1] + moments[2]));
+    weights.force[i] = 3 / at.area * (4 * moments[i] - (moments[0] + moments[1] + moments[2]));
     if (!jumps[i] || side != 0) continue;
     const double r = std::abs(_course.along(at.x[i]));
     if (r >= _outer || r == 0) continue;

@@ -4,8 +4,8 @@
 //
 // With (s, d) along and across the course, T0 = T at the tip, and per side X = s - (T0sd/T0dd) d,
 // Y = (D/T0dd) d, which turn T0 into the number D, r and theta polar coordinates of (X, Y),
-// w = chi(r) s*, chi = 1 - x^3 (10 - 15 x + 6 x^2), x = r/R, u0 the value of the inclusion at X (of a
-// crack: of its tip),
+// w = chi(r) s*, chi = 1 - x^3 (10 - 15 x + 6 x^2), x = r/R, u0 the value of the inclusion at X (of
+// a crack: of its tip),
 //
 //   2 alpha N c = int f w + int (u - u0) D s* (chi'' + (1 - 2 alpha) chi'/r) dX dY
 //                 + sum of lambda_a [w]_a - int (T - T0) grad u.grad w
@@ -27,10 +27,10 @@ namespace anticrack::tips {
 
 /// X, Y of one side of a tip.
 struct Flattened {
-  double slant = 0;      ///< X = s - slant d
-  double stretch = 1;    ///< Y = stretch d
-  double root = 1;       ///< D
-  Tensor tip{1, 0, 1};   ///< T0
+  double slant = 0;     ///< X = s - slant d
+  double stretch = 1;   ///< Y = stretch d
+  double root = 1;      ///< D
+  Tensor tip{1, 0, 1};  ///< T0
   explicit Flattened(const Tensor& at_tip);
 };
 

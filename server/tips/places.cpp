@@ -12,9 +12,9 @@
 namespace anticrack::tips {
 namespace {
 
-using mesh::TipKind;
 using mesh::EdgeEnd;
 using mesh::Kind;
+using mesh::TipKind;
 
 /// Nodes of a straight piece are this far from it at most, as a fraction of their distance from the
 /// tip. Coordinates are known to `rounding`, which decides near the tip.
@@ -42,8 +42,8 @@ Arm walk(const mesh::Mesh& mesh, const std::vector<EdgeEnd>& ends, const EdgeEnd
     stop::look_at_turn<stop::quick>(arm.nodes.size(), "following cracks from their tips");
     const Point to = minus(position(mesh, here.other), tip);
     const double far = length(to), slack = straightness + rounding * size / far,
-                 angle = std::atan2(reference[0] * to[1] - reference[1] * to[0],
-                                    dot(reference, to));
+                 angle =
+                     std::atan2(reference[0] * to[1] - reference[1] * to[0], dot(reference, to));
     if (angle + slack < low || angle - slack > high) break;
     low = std::max(low, angle - slack);
     high = std::min(high, angle + slack);
@@ -135,8 +135,8 @@ std::vector<Place> find_places(const mesh::Mesh& mesh, const mesh::EdgeTable& ed
       }
       for (const Arm& arm : arms) {
         take_edges(arm, place);
-        place.reach = std::min(
-            place.reach, length(minus(position(mesh, arm.nodes.back()), place.course.tip)));
+        place.reach = std::min(place.reach,
+                               length(minus(position(mesh, arm.nodes.back()), place.course.tip)));
       }
       std::ranges::sort(place.edges);
     }

@@ -21,8 +21,8 @@ namespace anticrack::tips {
 /// condition on either side of the tip.
 struct Place {
   std::int32_t node = 0;
-  std::int32_t interface = 0;   ///< index into Mesh::interfaces
-  std::int32_t inclusion = -1;  ///< index into Mesh::inclusions
+  std::int32_t interface = 0;               ///< index into Mesh::interfaces
+  std::int32_t inclusion = -1;              ///< index into Mesh::inclusions
   std::array<std::int32_t, 2> subdomain{};  ///< on the minus and the plus side behind the tip
   mesh::TipKind kind = mesh::TipKind::other;
   bool unilateral = false;  ///< its faces touch but do not penetrate each other: it may be closed

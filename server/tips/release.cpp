@@ -37,13 +37,14 @@ void Moved::add(const Corners& at, const std::array<double, 3>& u, const Tensor&
   const Point& t = _course.ahead;
   for (std::size_t i = 0; i < 3; ++i) {
     distance[i] = std::hypot(at.x[i][0] - _course.tip[0], at.x[i][1] - _course.tip[1]);
-    worth[i] = at.area * (dot(flux, at.hat[i]) * along - density * dot(t, at.hat[i])) -
-               force[i] * along;
+    worth[i] =
+        at.area * (dot(flux, at.hat[i]) * along - density * dot(t, at.hat[i])) - force[i] * along;
   }
   const double changed = change == nullptr ? 0 : at.area * dot(product(*change, g), g) / 6;
   for (std::size_t r = 0; r < radii; ++r) {
     for (std::size_t i = 0; i < 3; ++i) {
-      const double theta = std::clamp((1 - distance[i] / _radii[r]) / (1 - theta_falls_from), 0.0, 1.0);
+      const double theta =
+          std::clamp((1 - distance[i] / _radii[r]) / (1 - theta_falls_from), 0.0, 1.0);
       sum[r] += theta * (worth[i] - changed);
     }
   }

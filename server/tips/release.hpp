@@ -43,8 +43,8 @@ class Moved {
   ///
   ///   -dPi/da = int (T g).(DV' (g - B)) - div V (T g).g/2 - (V.grad)T g.g/2 - f V.(g - B)
   ///
-  /// with g = grad u, B the slope of the inclusion (0 where it does not tilt), f by int f hat_i, and
-  /// `change` the derivative of T along t.
+  /// with g = grad u, B the slope of the inclusion (0 where it does not tilt), f by int f hat_i,
+  /// and `change` the derivative of T along t.
   void add(const Corners& at, const std::array<double, 3>& u, const Tensor& tension,
            const double* force, const Point& slope, const Tensor* change,
            std::array<double, radii>& sum) const;

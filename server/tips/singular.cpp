@@ -92,8 +92,8 @@ Singular singular_at(const Place& place, std::span<const Law> laws) {
 double least_exponent(const mesh::Mesh& mesh) {
   double least = 0.25;
   const bool one_tension =
-      mesh.tension_laws.empty() && std::ranges::adjacent_find(mesh.tension, std::not_equal_to<>()) ==
-                                       mesh.tension.end();
+      mesh.tension_laws.empty() &&
+      std::ranges::adjacent_find(mesh.tension, std::not_equal_to<>()) == mesh.tension.end();
   if (one_tension) return least;
   const mesh::EdgeTable edges(mesh.triangles);
   const std::vector<Law> laws = laws_of(mesh);

@@ -65,10 +65,9 @@ Support Surroundings::of(const Place& place) const {
     for (std::size_t i = 0; i < 3; ++i) {
       const std::int32_t a = _mesh.triangles[3 * at(triangle) + i],
                          b = _mesh.triangles[3 * at(triangle) + (i + 1) % 3];
-      const double distance =
-          a == place.node || b == place.node
-              ? 0
-              : distance_to_edge(tip, position(_mesh, a), position(_mesh, b));
+      const double distance = a == place.node || b == place.node
+                                  ? 0
+                                  : distance_to_edge(tip, position(_mesh, a), position(_mesh, b));
       if (distance >= support.radius) continue;
       const auto uses = _edges.find(a, b);
       if (uses.size() < 2 || is_obstacle(a, b, place)) {

@@ -17,7 +17,8 @@ namespace anticrack::tips {
 /// change of its own and no boundary is nearer.
 struct Support {
   double radius = 0;
-  double inner = 0;  ///< a quarter of the triangles, but not too few, are nearer; at most radius / 2
+  double inner =
+      0;  ///< a quarter of the triangles, but not too few, are nearer; at most radius / 2
   std::vector<std::int32_t> triangles;  ///< of the mesh, ascending
 };
 

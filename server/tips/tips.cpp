@@ -106,7 +106,8 @@ void Tips::prepare(const mesh::Mesh& mesh, std::span<const Cell> local, const Su
     }
     tip.cells.push_back(local[at(t)]);
   }
-  std::ranges::sort(tip.cells, {}, [](const Cell& c) { return std::pair(c.subdomain, c.triangle); });
+  std::ranges::sort(tip.cells, {},
+                    [](const Cell& c) { return std::pair(c.subdomain, c.triangle); });
 
   const std::unordered_set<std::int32_t> behind(place.behind.begin(), place.behind.end());
   std::vector<std::size_t> side;
@@ -134,8 +135,8 @@ void Tips::prepare(const mesh::Mesh& mesh, std::span<const Cell> local, const Su
     const ddm::Subdomain& subdomain = _decomposition.subdomains[at(cell.subdomain)];
     std::array<bool, 3> jumps{};
     for (std::size_t i = 0; i < 3; ++i)
-      jumps[i] = behind.contains(
-          subdomain.node[at(subdomain.part.triangles[3 * at(cell.triangle) + i])]);
+      jumps[i] =
+          behind.contains(subdomain.node[at(subdomain.part.triangles[3 * at(cell.triangle) + i])]);
     const Corners corner = corners(cell);
     extraction.add(corner, tension(cell), side[k], jumps);
     if (any_varies)
@@ -216,8 +217,8 @@ Integrals Tips::integrals(const Tip& tip, const Solved& solved) const {
     const fem::Triangulation& part = _decomposition.subdomains[at(cell.subdomain)].part;
     std::array<double, 3> u{};
     for (std::size_t i = 0; i < 3; ++i)
-      u[i] = solved.answer.fields[at(cell.subdomain)]
-                 .u[at(part.triangles[3 * at(cell.triangle) + i])];
+      u[i] =
+          solved.answer.fields[at(cell.subdomain)].u[at(part.triangles[3 * at(cell.triangle) + i])];
     return u;
   };
   const double at_tip = corners_u(tip.cells[tip.tip_cell])[tip.tip_corner];

@@ -26,10 +26,10 @@ namespace anticrack::tips {
 
 /// An answer with its fields and its load.
 struct Solved {
-  const contact::Answer& answer;          ///< with fields, one per subdomain
+  const contact::Answer& answer;  ///< with fields, one per subdomain
   /// Per subdomain (m,3): int f hat_i for the corners i of each triangle.
   std::span<const std::span<const double>> force;
-  std::span<const Point> point_forces;     ///< where they act
+  std::span<const Point> point_forces;  ///< where they act
 };
 
 /// What integrals about a tip give, whatever its kind, and whether it is closed or not.
@@ -59,20 +59,20 @@ class Tips {
  private:
   struct Tip {
     Place place;
-    double radius = 0, inner = 0;  ///< of its support
-    std::vector<Cell> cells;       ///< of its support; empty: nothing can be computed
-    std::vector<Tensor> change{};  ///< (cells) derivative of T along the course; empty: 0
+    double radius = 0, inner = 0;          ///< of its support
+    std::vector<Cell> cells;               ///< of its support; empty: nothing can be computed
+    std::vector<Tensor> change{};          ///< (cells) derivative of T along the course; empty: 0
     std::vector<Singular> singular{};      ///< one, or none
     std::vector<Extraction> extraction{};  ///< one, or none
     std::size_t tip_cell = 0, tip_corner = 0;  ///< where u of the tip is read
-    std::size_t first_behind = 0;  ///< index of the next node behind, in its interface
+    std::size_t first_behind = 0;              ///< index of the next node behind, in its interface
   };
 
   contact::TipAnswer row_of(const Tip& tip) const;
   Integrals integrals(const Tip& tip, const Solved& solved) const;
   void measure(const Tip& tip, const Solved& solved, contact::TipAnswer& row) const;
-  void prepare(const mesh::Mesh& mesh, std::span<const Cell> local, const class Surroundings& around,
-               std::span<const Law> laws, Tip& tip) const;
+  void prepare(const mesh::Mesh& mesh, std::span<const Cell> local,
+               const class Surroundings& around, std::span<const Law> laws, Tip& tip) const;
   Corners corners(const Cell& cell) const;
   Tensor tension(const Cell& cell) const;
 

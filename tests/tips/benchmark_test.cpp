@@ -39,9 +39,7 @@ struct Arc {
     return (z - left) * std::sqrt(v) * std::polar(1.0, (turn - pi) / 2);
   }
   Complex pull() const { return {sx, -sy}; }
-  Complex residue() const {
-    return (rigid ? 1.0 : -1.0) * std::conj(pull()) / (2.0 * root(0));
-  }
+  Complex residue() const { return (rigid ? 1.0 : -1.0) * std::conj(pull()) / (2.0 * root(0)); }
   double factor(Complex end) const {
     return std::sqrt(2 * std::sin(half)) * std::abs(pull() / 2.0 + residue() / end);
   }
@@ -58,10 +56,9 @@ struct Arc {
                       mr = "(" + from_right_x + "*" + from_left_x + " + " + from_y + "^2)",
                       mi = "(" + from_y + "*(" + from_left_x + " - " + from_right_x + "))",
                       c = n(std::cos(turn)), s = n(std::sin(turn));
-    const std::string angle =
-        "(atan2(" + from_y + ", " + from_left_x + ") + 0.5*atan2(" + s + "*" + mr + " - " + c +
-        "*" + mi + ", 0 - " + c + "*" + mr + " - " + s + "*" + mi + ") + " + n((turn - pi) / 2) +
-        ")";
+    const std::string angle = "(atan2(" + from_y + ", " + from_left_x + ") + 0.5*atan2(" + s + "*" +
+                              mr + " - " + c + "*" + mi + ", 0 - " + c + "*" + mr + " - " + s +
+                              "*" + mi + ") + " + n((turn - pi) / 2) + ")";
     const std::string size = "(((" + from_right_x + "^2 + " + from_y + "^2)*(" + from_left_x +
                              "^2 + " + from_y + "^2))^0.25)";
     const Complex t = pull(), r = residue();
@@ -69,9 +66,9 @@ struct Arc {
                            "*y)/" + square + ")",
                       qi = "(" + n(t.imag() / 2) + " + (" + n(r.imag()) + "*x - " + n(r.real()) +
                            "*y)/" + square + ")";
-    return "0.5*(" + n(t.real()) + "*x - " + n(t.imag()) + "*y)*(1 " + (rigid ? "-" : "+") +
-           " 1/" + square + ") + " + size + "*(cos(" + angle + ")*" + qr + " - sin(" + angle +
-           ")*" + qi + ")";
+    return "0.5*(" + n(t.real()) + "*x - " + n(t.imag()) + "*y)*(1 " + (rigid ? "-" : "+") + " 1/" +
+           square + ") + " + size + "*(cos(" + angle + ")*" + qr + " - sin(" + angle + ")*" + qi +
+           ")";
   }
   Measured measured() const {
     mesh::Geometry geometry;
@@ -93,8 +90,8 @@ struct Arc {
   }
 };
 
-/// A mesh has chords, whose tips come near those of the arc with the square of the angle. The factor
-/// at one end of a rigid arc is small beside that of the other, which measures the error.
+/// A mesh has chords, whose tips come near those of the arc with the square of the angle. The
+/// factor at one end of a rigid arc is small beside that of the other, which measures the error.
 TEST(TipsOnArcs, ComeNearTheFactorsOfAnInfiniteSheet) {
   for (const bool rigid : {false, true}) {
     double coarse = 0;
@@ -131,8 +128,7 @@ TEST(TipsOnArcs, ComeNearTheFactorsOfAnInfiniteSheet) {
 /// sn(u | m) by descending Landen transformations.
 double sn(double u, double m) {
   if (m < 1e-30) return std::sin(u);
-  const double low = (1 - std::sqrt(1 - m)) / (1 + std::sqrt(1 - m)),
-               v = u / (1 + low);
+  const double low = (1 - std::sqrt(1 - m)) / (1 + std::sqrt(1 - m)), v = u / (1 + low);
   const double below = sn(v, low * low);
   return (1 + low) * below / (1 + low * below * below);
 }
@@ -148,9 +144,8 @@ double energy(double a) {
 
 TEST(TipsOfCracks, BetweenFreeEdges) {
   for (const double a : {0.25, 0.5, 0.75}) {
-    mesh::Mesh base = cut_square([a](double x) {
-      return std::abs(x) < a ? Kind::crack : Kind::glue;
-    });
+    mesh::Mesh base =
+        cut_square([a](double x) { return std::abs(x) < a ? Kind::crack : Kind::glue; });
     std::erase_if(base.dirichlet, [&](const auto& edge) {
       return std::abs(mesh::position(base, edge[0])[0]) == 1 &&
              std::abs(mesh::position(base, edge[1])[0]) == 1;

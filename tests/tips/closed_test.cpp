@@ -13,8 +13,8 @@ namespace anticrack::testing {
 namespace {
 
 using contact::TipAnswer;
-using mesh::TipKind;
 using mesh::Kind;
+using mesh::TipKind;
 
 /// Pushes the faces together over the middle, apart elsewhere.
 fem::Load partly_closing() {
@@ -33,7 +33,8 @@ TEST(Tips, OfTwiceTheLoadHaveTwiceTheIntensity) {
   for (const mesh::Mesh& mesh : meshes()) {
     fem::Load load = partly_closing();
     const Measured once = measure(mesh, load);
-    std::get<fem::Expression>(load.force).text = "2*(" + std::get<fem::Expression>(load.force).text + ")";
+    std::get<fem::Expression>(load.force).text =
+        "2*(" + std::get<fem::Expression>(load.force).text + ")";
     const Measured twice = measure(once.op, load);
     ASSERT_FALSE(once.answer.tips.empty());
     for (std::size_t i = 0; i < once.answer.tips.size(); ++i) {
@@ -58,10 +59,11 @@ TEST(Tips, OfPartlyClosedCracksAgreeBetweenTheIntegrals) {
     for (std::size_t i = 0; i < measured.answer.tips.size(); ++i) {
       const TipAnswer& tip = measured.answer.tips[i];
       const tips::Integrals found = prepared.integrals(i, measured.answer, load.force);
-      std::printf("[ figures  ] partly closed: contact %.3f, rates %.5f %.5f %.5f, intensity %.5f by "
-                  "G, %.5f by the dual function, %s\n",
-                  measured.answer.contact_length, found.rates[0], found.rates[1], found.rates[2],
-                  *tip.intensity, found.intensity, tip.closed ? "closed" : "open");
+      std::printf(
+          "[ figures  ] partly closed: contact %.3f, rates %.5f %.5f %.5f, intensity %.5f by "
+          "G, %.5f by the dual function, %s\n",
+          measured.answer.contact_length, found.rates[0], found.rates[1], found.rates[2],
+          *tip.intensity, found.intensity, tip.closed ? "closed" : "open");
       EXPECT_FALSE(tip.closed);
       EXPECT_NEAR(found.intensity, *tip.intensity, 5e-3 * *tip.intensity);
       EXPECT_LT(*tip.energy_release_rate_spread, 4e-2 * *tip.energy_release_rate);

@@ -13,8 +13,8 @@ namespace anticrack::testing {
 namespace {
 
 using contact::TipAnswer;
-using mesh::TipKind;
 using mesh::Kind;
+using mesh::TipKind;
 using std::numbers::pi;
 
 /// R = (z^2 - a^2)^(1/2); near the right tip (2a)^(1/2) r^(1/2) e^(i theta/2), and 2a = 1.
@@ -91,8 +91,8 @@ TEST(TipsOfDelaminatedEnds, HaveTheFactorOfTheExactSolution) {
   EXPECT_LT(*measured.left().intensity, 3e-3);
 
   const Power image(0.75, 0.25, "(0-x)");  // left ends reflect
-  const Measured mirrored = measure(fine(cut_square(Kind::delaminated)),
-                                    with_boundary("0.3 - " + image.turned(pi / 4)));
+  const Measured mirrored =
+      measure(fine(cut_square(Kind::delaminated)), with_boundary("0.3 - " + image.turned(pi / 4)));
   expect_near(*mirrored.left().intensity, 1, 3e-3);
   EXPECT_LT(*mirrored.right().intensity, 3e-3);
 }
@@ -129,9 +129,10 @@ struct Front {
   explicit Front(double slope) : b(slope) {
     mesh::Mesh mesh = fine(cut_square(Kind::delaminated, Kind::inclusion));
     if (b != 0) mesh = tilting(std::move(mesh));
-    measured = measure(std::move(mesh), with_boundary(text_of(b) + "*x + (y < 0 ? " +
-                                                      text_of(shear) + "*" + root.imaginary() +
-                                                      " : 0)"), true);
+    measured = measure(std::move(mesh),
+                       with_boundary(text_of(b) + "*x + (y < 0 ? " + text_of(shear) + "*" +
+                                     root.imaginary() + " : 0)"),
+                       true);
   }
 };
 

@@ -45,7 +45,8 @@ Measured measure(mesh::Mesh mesh, const fem::Load& load, bool fields = false);
 class Prepared {
  public:
   explicit Prepared(const mesh::Mesh& mesh) : Prepared(mesh, mesh) {}
-  /// A mutant, which takes for the tension what `believed` has, but in the triangles what `mesh` has.
+  /// A mutant, which takes for the tension what `believed` has, but in the triangles what `mesh`
+  /// has.
   Prepared(mesh::Mesh mesh, const mesh::Mesh& believed);
 
   tips::Integrals integrals(std::size_t tip, const contact::Answer& answer,
@@ -63,7 +64,8 @@ fem::Load with_boundary(const std::string& text);
 /// A text with values in it: numbers in parentheses, to all digits.
 std::string text_of(double value);
 
-/// (z + a)^p (z - a)^q of z = x + iy as texts of x and y, cut between -a and a where p + q is whole.
+/// (z + a)^p (z - a)^q of z = x + iy as texts of x and y, cut between -a and a where p + q is
+/// whole.
 struct Power {
   Power(double p, double q, const std::string& x = "x", const std::string& y = "y");
   /// Real part of e^(i angle) times it.

@@ -13,8 +13,8 @@ namespace anticrack::testing {
 namespace {
 
 using contact::TipAnswer;
-using mesh::TipKind;
 using mesh::Kind;
+using mesh::TipKind;
 
 /// What all tips of a mesh are, under f = 1.
 Measured pressed(const mesh::Mesh& mesh) {
@@ -85,8 +85,8 @@ TEST(TipPlaces, WithoutRoomHaveAReason) {
   EXPECT_EQ(measured.tip(4, 8).reason, "");
 }
 
-/// A short straight piece: the radius shrinks to it, and the number stays that of the tip. Both tips
-/// of a crack that is bent once.
+/// A short straight piece: the radius shrinks to it, and the number stays that of the tip. Both
+/// tips of a crack that is bent once.
 TEST(TipPlaces, OfABentCrackHaveTheRadiusOfTheirPiece) {
   const mesh::Mesh mesh = fine(grid({{5, 8}, {11, 8}, {11, 10}}, std::vector<Kind>(8, Kind::free)));
   fem::Load load = with_boundary("y");

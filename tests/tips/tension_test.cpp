@@ -30,11 +30,11 @@ struct Sheet {
     return {along * c * c + across * s * s, (along - across) * c * s,
             along * s * s + across * c * c};
   }
-  std::string x() const {
-    return "(x - " + text_of(matrix()[1] / matrix()[2]) + "*y)";
-  }
+  std::string x() const { return "(x - " + text_of(matrix()[1] / matrix()[2]) + "*y)"; }
   std::string y() const { return "(" + text_of(root() / matrix()[2]) + "*y)"; }
-  mesh::TensionLaw law() const { return {fmt::format("{}", along), fmt::format("{}", across), angle}; }
+  mesh::TensionLaw law() const {
+    return {fmt::format("{}", along), fmt::format("{}", across), angle};
+  }
 };
 
 mesh::Mesh with_laws(mesh::Mesh mesh, const mesh::TensionLaw& below,
@@ -85,8 +85,8 @@ struct OpenEnd {
     beta = std::sqrt(above.root() / below.root());
     alpha = std::atan(beta) / pi;
     boundary = "0.3 + (y > 0 ? " +
-               Power(1 - alpha, alpha, above.x(), above.y()).turned(-alpha * pi - pi / 2) +
-               " : " + text_of(-beta) + "*" +
+               Power(1 - alpha, alpha, above.x(), above.y()).turned(-alpha * pi - pi / 2) + " : " +
+               text_of(-beta) + "*" +
                Power(1 - alpha, alpha, below.x(), below.y()).turned(alpha * pi) + ")";
   }
 };
@@ -109,10 +109,10 @@ double measured_exponent(const Measured& measured) {
 TEST(TipsOfDelaminatedEnds, BetweenTwoTensions) {
   for (const auto& [name, below, above] : pairs) {
     const OpenEnd end(below, above);
-    const Measured measured = measure(
-        with_laws(fine(cut_square(Kind::delaminated), std::min(0.2, 0.8 * end.alpha)), below.law(),
-                  above.law()),
-        with_boundary(end.boundary));
+    const Measured measured =
+        measure(with_laws(fine(cut_square(Kind::delaminated), std::min(0.2, 0.8 * end.alpha)),
+                          below.law(), above.law()),
+                with_boundary(end.boundary));
     const TipAnswer& tip = measured.right();
     ASSERT_EQ(tip.reason, "");
     std::printf("[ figures  ] delaminated end, %s: exponent %.5f, of u %.5f, factor %.3f %%\n",
@@ -154,8 +154,8 @@ TEST(TipsOfCracks, WhereTheTensionVaries) {
   }
 }
 
-/// Without the change of T along the crack the rate is wrong, more so on larger discs; without T - T0
-/// the factor is.
+/// Without the change of T along the crack the rate is wrong, more so on larger discs; without T -
+/// T0 the factor is.
 TEST(TipsOfCracks, WhereTheTensionVariesNeedItsChange) {
   const Varying varying;
   const Measured measured = measure(varying.mesh, varying.load, true);
@@ -171,11 +171,12 @@ TEST(TipsOfCracks, WhereTheTensionVariesNeedItsChange) {
       Prepared(varying.mesh, flat).integrals(right, measured.answer, varying.load.force);
   const tips::Integrals without_law =
       Prepared(flat).integrals(right, measured.answer, varying.load.force);
-  std::printf("[ figures  ] varying tension: intensity %.3f %%; without its change G %.2f %%, %.2f %%, "
-              "%.2f %%; without T - T0 intensity %.2f %%\n",
-              100 * (whole.intensity / shear - 1), 100 * (without_change.rates[0] / g - 1),
-              100 * (without_change.rates[1] / g - 1), 100 * (without_change.rates[2] / g - 1),
-              100 * (without_law.intensity / shear - 1));
+  std::printf(
+      "[ figures  ] varying tension: intensity %.3f %%; without its change G %.2f %%, %.2f %%, "
+      "%.2f %%; without T - T0 intensity %.2f %%\n",
+      100 * (whole.intensity / shear - 1), 100 * (without_change.rates[0] / g - 1),
+      100 * (without_change.rates[1] / g - 1), 100 * (without_change.rates[2] / g - 1),
+      100 * (without_law.intensity / shear - 1));
   EXPECT_GT(std::abs(without_change.rates[0] - g), 0.02 * g);
   EXPECT_GT(std::abs(without_law.intensity - shear), 0.01 * shear);
 }

@@ -167,8 +167,9 @@ class Inclusion(_walked(solve_pb2.InclusionAnswer, ("name",), Bx=0.0, By=0.0)): 
 
 @dataclass(repr=False)
 class Tip(_walked(solve_pb2.Tip, ())):  # type: ignore[misc]
-    """The values of Tip in solve.proto under shorter names: where a crack or an inclusion ends or its condition changes,
-    what kind of tip that is, whether it is closed, and intensity, K_III and G with G_spread, NaN where it has none."""
+    """The values of Tip in solve.proto under shorter names: where a crack or an inclusion ends or its condition
+    changes, what kind of tip that is, whether it is closed, and intensity, K_III and G with G_spread, NaN where it has
+    none."""
 
     def __repr__(self) -> str:
         told = f"{self.kind.replace('_', ' ')} at ({self.x:.6g}, {self.y:.6g})"

@@ -256,13 +256,13 @@ TEST(AnswersTable, ShowsTheTipsBelow) {
   other.set_reason("two cracks meet there");
   const std::string table =
       "\nload       x   y  tip        exponent  intensity       K_III    G  spread of G\n"
-      "          mm  mm                                 N/mm^(1/2)    N            %\n"
+      "          mm  mm                                  N/mm^(1/2)    N            %\n"
       "opening  0.5   0  crack tip       0.5        0.8      1.0026  0.5          0.2\n"
       "opening    0   0  other             -          -           -    -            -\n"
       "tip at 0, 0: two cracks meet there\n";
-  EXPECT_THAT(answers_table(result), ::testing::EndsWith(table));
+  EXPECT_THAT(answers_table(result.loads, result.units), ::testing::EndsWith(table));
   for (int i = 0; i < 20; ++i) *result.loads[0].answer.add_tips() = tip;
-  EXPECT_THAT(answers_table(result),
+  EXPECT_THAT(answers_table(result.loads, result.units),
               ::testing::EndsWith("\nall 22 rows of tips: anticrack show RESULT --tips\n"));
   EXPECT_THAT(tips_table(result.loads, result.units, true), ::testing::StartsWith("\nload"));
 }
