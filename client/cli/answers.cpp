@@ -20,6 +20,7 @@
 #include "cli/progress.hpp"
 #include "cli/sweep_text.hpp"
 #include "cli/text.hpp"
+#include "cli/tips_text.hpp"
 #include "results/entries.hpp"
 #include "results/interval.hpp"
 #include "results/notes.hpp"
@@ -256,6 +257,7 @@ Json load_json(const results::Load& load, const std::string& method) {
   json["method"] = method;
   json["worst_kkt"] = load.has_answer() ? results::largest_kkt(load.answer) : results::unknown;
   json["inclusions"] = json_list(load.answer.inclusions());
+  json["tips"] = json_list(load.answer.tips());
   json["contact_intervals"] = json_list(load.answer.contact_intervals());
   json["stages"] = Json::array();
   for (const v1::Stage& stage : load.stages)
@@ -300,7 +302,7 @@ std::string answers_table(const std::vector<results::Load>& loads, const v1::Uni
     for (const std::string& remark : remarks_on(load))
       remarks += sanitise(load.name()) + ": " + sanitise(remark) + "\n";
   }
-  return table(rows, left) + inclusions.hint() + remarks;
+  return table(rows, left) + inclusions.hint() + remarks + tips_table(loads, units, false);
 }
 
 std::string answers_table(const results::Result& result) {

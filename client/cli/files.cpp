@@ -20,6 +20,7 @@
 #include "cli/options.hpp"
 #include "cli/stages_text.hpp"
 #include "cli/text.hpp"
+#include "cli/tips_text.hpp"
 #include "output/file.hpp"
 #include "results/error.hpp"
 #include "results/file.hpp"
@@ -33,7 +34,7 @@ struct FileOptions {
   std::string folder;
   std::vector<std::string> loads;  ///< empty: all
   std::string csv;
-  bool inclusions = false, all = false;
+  bool inclusions = false, tips = false, all = false;
 };
 
 struct PlotOptions {
@@ -93,9 +94,11 @@ int show_file(const FileOptions& options, const Globals& given) {
   if (!result.not_reached.empty()) foot = "not reached: " + sanitise(result.not_reached) + "\n";
   if (result.loads.size() == 1 || !options.loads.empty())
     for (const results::Load& load : result.loads) foot += stages_table(load);
-  print_answer(globals,
-               head + (options.inclusions ? inclusions_table(result) : answers_table(result)) +
-                   (options.all ? numbers_table(result) : "") + foot);
+  print_answer(globals, head +
+                            (options.tips         ? tips_table(result.loads, result.units, true)
+                             : options.inclusions ? inclusions_table(result)
+                                                  : answers_table(result)) +
+                            (options.all ? numbers_table(result) : "") + foot);
   return exit_ok;
 }
 
@@ -176,6 +179,9 @@ void add_files(CLI::App& app, const Globals& globals, Command& chosen) {
   add_file(*show_command, options->file, options->loads, "Result file, HDF5");
   show_command->add_flag("--inclusions", options->inclusions,
                          "A row for each inclusion of each load case, also of many");
+  show_command->add_flag("--tips", options->tips,
+                         "A row for each tip of a crack or an inclusion of each load case, also of "
+                         "many");
   show_command->add_flag(
       "--all", options->all,
       "Also every number of the mesh, a sweep and each load case, with its unit and what it is");

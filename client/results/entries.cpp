@@ -54,11 +54,16 @@ bool has_lists(const Descriptor& type) {
 }
 
 std::string name_of(const FieldDescriptor& field) {
-  static const std::pair<std::string, std::string> shorter[]{
-      {"displacement", "A"}, {"slope_", "B"}, {"moment_", "M"}};
+  static const std::pair<std::string, std::string> shorter[]{{"displacement", "A"},
+                                                             {"slope_", "B"},
+                                                             {"moment_", "M"},
+                                                             {"k_iii", "K_III"},
+                                                             {"energy_release_rate", "G"}};
   std::string name = field.name();
   if (is_duration(field)) return name.replace(name.rfind("time"), 4, "seconds");
-  if (field.containing_type() != v1::InclusionAnswer::descriptor()) return name;
+  if (field.containing_type() != v1::InclusionAnswer::descriptor() &&
+      field.containing_type() != v1::Tip::descriptor())
+    return name;
   for (const auto& [long_name, symbol] : shorter)
     if (name.starts_with(long_name)) return symbol + name.substr(long_name.size());
   return name;

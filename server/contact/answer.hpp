@@ -12,6 +12,7 @@
 #include "contact/status.hpp"
 #include "contact/traces.hpp"
 #include "fields/fields.hpp"
+#include "mesh/tip_kind.hpp"
 
 namespace anticrack::contact {
 
@@ -57,6 +58,22 @@ struct ContactInterval {
 };
 ANTICRACK_FIELDS(ContactInterval, interface, begin, end)
 
+/// A tip of a crack or an inclusion. Empty: it has no such number, or `reason` says why not.
+struct TipAnswer {
+  double x = 0, y = 0;
+  std::string interface;
+  mesh::TipKind kind = mesh::TipKind::other;
+  bool closed = false;              ///< the faces touch right behind it
+  std::optional<double> exponent;   ///< of the distance from it in u, while it is open
+  std::optional<double> intensity;  ///< factor c of the singular part, see tips/singular.hpp
+  std::optional<double> k_iii;      ///< lim (2 pi r)^1/2 T du/dn ahead of a crack tip
+  std::optional<double> energy_release_rate;         ///< -dPi/da when it moves ahead by a
+  std::optional<double> energy_release_rate_spread;  ///< largest less least of three radii
+  std::string reason;
+};
+ANTICRACK_FIELDS(TipAnswer, x, y, interface, kind, closed, exponent, intensity, k_iii,
+                 energy_release_rate, energy_release_rate_spread, reason)
+
 /// The numbers of an answer, without its status and arrays.
 struct AnswerSummary {
   std::string reason;  ///< for not_converged: what happened and what to change
@@ -80,11 +97,12 @@ struct AnswerSummary {
   std::string no_bracket;
   double energy_mesh = 0;                       ///< Pi of u on the mesh
   std::optional<double> energy_geometry_error;  ///< as displacement_geometry_error, of Pi
+  std::vector<TipAnswer> tips;                  ///< one per mesh::tips
 };
 ANTICRACK_FIELDS(AnswerSummary, reason, iterations, criterion, theta, theta_star, energy, kkt,
                  kkt_relative, weakly_active, warnings, inclusions, contact_length,
                  contact_intervals, energy_lower, energy_upper, error_bound, error_bound_relative,
-                 no_bracket, energy_mesh, contact_length_error, energy_geometry_error)
+                 no_bracket, energy_mesh, contact_length_error, energy_geometry_error, tips)
 
 /// The number that users are told of a value: the middle of its bounds, or without bounds `mesh`,
 /// that of u on the mesh.

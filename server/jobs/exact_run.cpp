@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "contact/answer.hpp"
+#include "errors/errors.hpp"
 #include "operators/mesh_operator.hpp"
 #include "stop/stop.hpp"
 
@@ -43,8 +44,10 @@ bool all_stopped(const std::vector<PreparedCase>& cases) {
       cases, [](const PreparedCase& one) { return one.task.job->stop.stop_requested(); });
 }
 
+/// Bounds and tips are computed from fields.
 bool wants_fields(const PreparedCase& prepared) {
-  return spec_of(prepared).fields || !spec_of(prepared).without_bounds;
+  return spec_of(prepared).fields || !spec_of(prepared).without_bounds ||
+         !prepared.task.job->mesh_operator->mesh().interfaces.empty();
 }
 
 void recover_fields(const std::vector<PreparedCase>& cases, std::vector<Solved>& solved) {
@@ -68,7 +71,24 @@ void recover_fields(const std::vector<PreparedCase>& cases, std::vector<Solved>&
   }
 }
 
-/// Computes the bounds from the fields, and drops the fields of cases that do not ask for them.
+void find_tips(const std::vector<PreparedCase>& cases, std::vector<Solved>& solved) {
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    if (solved[i].failure || solved[i].answer.fields.empty()) continue;
+    const auto& job = *cases[i].task.job;
+    try {
+      job.mesh_operator->find_tips(cases[i].load, solved[i].answer, job.stop.get_token());
+    } catch (...) {
+      solved[i].failure = std::current_exception();
+    }
+  }
+  for (std::size_t i = 0; i < cases.size(); ++i) {  // bounds are not begun
+    if (!solved[i].failure && cases[i].task.job->stop.stop_requested())
+      solved[i].failure = std::make_exception_ptr(
+          errors::Error(errors::Reason::cancelled, "stopped while measuring tips"));
+  }
+}
+
+/// Computes the bounds from the fields.
 void add_bounds(const std::vector<PreparedCase>& cases, std::vector<Solved>& solved) {
   std::vector<operators::MeshOperator::Estimate> estimates;
   std::vector<Solved*> of_estimates;
@@ -95,9 +115,12 @@ void add_bounds(const std::vector<PreparedCase>& cases, std::vector<Solved>& sol
     of_estimates[i]->failure = estimates[i].failure;
     of_estimates[i]->indicator = std::move(estimates[i].indicator);
   }
+}
+
+/// Drops what was computed on the way and not asked for.
+void drop_unwanted(const std::vector<PreparedCase>& cases, std::vector<Solved>& solved) {
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const records::JobSpec& spec = spec_of(cases[i]);
-    if (solved[i].failure || spec.without_bounds) continue;
     if (!spec.fields) solved[i].answer.fields.clear();
     if (!spec.indicators && !spec.accuracy) solved[i].indicator = {};
   }
@@ -124,7 +147,9 @@ std::vector<EndedCase> solve_exactly(const std::vector<PreparedCase>& cases,
   solved.reserve(cases.size());
   for (const PreparedCase& prepared : cases) solved.push_back(solve(prepared, iterations));
   recover_fields(cases, solved);
+  find_tips(cases, solved);
   add_bounds(cases, solved);
+  drop_unwanted(cases, solved);
   std::vector<EndedCase> ended;
   ended.reserve(cases.size());
   for (std::size_t i = 0; i < cases.size(); ++i) {

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
 #include <utility>
 
 #include "base/at.hpp"
 #include "errors/errors.hpp"
 #include "mesh/bisection.hpp"
+#include "mesh/edge_ends.hpp"
 #include "mesh/edges.hpp"
 #include "mesh/size_rule.hpp"
 #include "stop/stop.hpp"
@@ -30,41 +30,6 @@ constexpr double few_tips = 16;
       "h0 (twice the size takes a quarter of the triangles), m or tip_size, or the limit",
       base.triangle_count(), grading.h0, grading.m, limit)
       .at("h0");
-}
-
-/// An interface edge as one of its ends sees it.
-struct EdgeEnd {
-  std::int32_t node = 0;
-  std::int32_t other = 0;
-  Kind kind = Kind::glue;
-  std::int32_t inclusion = -1;
-};
-
-std::vector<EdgeEnd> interface_edge_ends(const Mesh& mesh) {
-  std::vector<EdgeEnd> ends;
-  for (const Interface& line : mesh.interfaces) {
-    for (std::size_t i = 0; i + 1 < line.nodes.size(); ++i) {
-      const std::int32_t a = line.nodes[i];
-      const std::int32_t b = line.nodes[i + 1];
-      ends.push_back({a, b, line.kind[i], line.inclusion[i]});
-      ends.push_back({b, a, line.kind[i], line.inclusion[i]});
-    }
-  }
-  std::sort(ends.begin(), ends.end(), [](const EdgeEnd& p, const EdgeEnd& q) {
-    return std::tuple(p.node, p.other) < std::tuple(q.node, q.other);
-  });
-  return ends;
-}
-
-/// Whether an edge is glue between subdomains of the same tension, across which nothing changes.
-bool is_seam(const Mesh& mesh, const EdgeTable& edges, const EdgeEnd& end) {
-  if (end.kind != Kind::glue) return false;
-  const auto uses = edges.find(end.node, end.other);
-  if (uses.size() != 2) return false;
-  const std::size_t one = at(mesh.subdomain[at(uses[0].triangle)]),
-                    other = at(mesh.subdomain[at(uses[1].triangle)]);
-  return (mesh.tension.empty() || mesh.tension[one] == mesh.tension[other]) &&
-         (mesh.tension_laws.empty() || mesh.tension_laws[one] == mesh.tension_laws[other]);
 }
 
 }  // namespace
@@ -90,8 +55,7 @@ double smallest_tip_size(const Mesh& mesh, std::span<const std::int32_t> centres
 
 std::vector<std::int32_t> tips(const Mesh& mesh) {
   const EdgeTable edges(mesh.triangles);
-  std::vector<EdgeEnd> ends = interface_edge_ends(mesh);
-  std::erase_if(ends, [&](const EdgeEnd& end) { return is_seam(mesh, edges, end); });
+  const std::vector<EdgeEnd> ends = edge_ends(mesh, edges);
   const std::vector<bool> on_boundary = edges.boundary_nodes(mesh.node_count());
   const auto free_end = [&](const EdgeEnd& end) {
     if (end.kind == Kind::glue) return false;

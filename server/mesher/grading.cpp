@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "mesh/quality.hpp"
 #include "mesh/refine.hpp"
 #include "mesher/messages.hpp"
+#include "tips/singular.hpp"
 
 namespace anticrack::mesher {
 namespace {
@@ -19,6 +21,10 @@ constexpr double sound_angle = 10;
 
 /// How far rounding of midpoints may push an angle below the bound at the smallest tip size.
 constexpr double angle_slack = 0.05;
+
+/// The default grading is this part of the least exponent of the solution at a tip, 0.2 of 1/4; but
+/// not below `least_grading`, where the smallest triangles decide.
+constexpr double below_exponent = 0.8, least_grading = 0.05;
 
 /// The mesh option of a field of mesh::Grading.
 std::string option_of(const std::string& field) {
@@ -71,8 +77,11 @@ mesh::Mesh bisected(const mesh::Mesh& base, const std::vector<std::int32_t>& tip
 
 }  // namespace
 
-mesh::Mesh graded(mesh::Mesh base, const mesh::GradingSpec& spec, std::size_t max_triangles) {
-  if (spec.h0 == 0) return base;
+mesh::Mesh graded(mesh::Mesh base, const mesh::GradingSpec& asked, std::size_t max_triangles) {
+  if (asked.h0 == 0) return base;
+  mesh::GradingSpec spec = asked;
+  if (spec.m == mesh::GradingSpec().m)
+    spec.m = std::clamp(below_exponent * tips::least_exponent(base), least_grading, spec.m);
   const double bound = mesh::bisection_bound(base);
   const std::vector<std::int32_t> tips =
       spec.m < 1 ? mesh::tips(base) : std::vector<std::int32_t>();

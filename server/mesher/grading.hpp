@@ -10,7 +10,9 @@
 
 namespace anticrack::mesher {
 
-/// The base graded towards its tips, with `bisection_bound` set; unchanged if spec.h0 is 0.
+/// The base graded towards its tips, with `bisection_bound` set; unchanged if spec.h0 is 0. The
+/// default exponent m becomes less where tensions differ at the end of a delaminated inclusion, so
+/// that it stays below the exponent of the solution there (tips::least_exponent).
 /// tip_size = 0 means mesh::smallest_tip_size, or more if the bound is below 10 degrees: the
 /// shortest side of such a triangle would be lost in rounding. Throws errors::Error:
 /// invalid_argument at "options.size", "options.grading" or "options.tip_size"; limit_exceeded at

@@ -163,7 +163,8 @@ class Block {
     if (!load.traction.empty()) parts.traction.resize(_decomposition.subdomains.size());
     if (!fem::is_linear(load.boundary_value)) parts.boundary_value = load.boundary_value;
     parts.beside_chords = load.boundary_value;
-    if (placed.on_points) {
+    parts.points = placed.points;
+    if (!placed.points.empty()) {
       parts.obstacle =
           "a point force in the membrane has an infinite energy, and no bound exists; spread it "
           "over a small disc, or let it act on an inclusion";

@@ -28,6 +28,7 @@ struct LoadParts {
   std::string boundary_value;                ///< g_D; empty: linear along edges
   std::string beside_chords;                 ///< g_D, whatever it is
   std::string obstacle;                      ///< why there are no bounds, with the cure
+  std::vector<mesh::Point> points;           ///< where forces act on the membrane itself
 };
 
 /// A load case condensed to the traces.
@@ -76,7 +77,7 @@ struct NodalForce {
 struct PlacedForces {
   std::vector<std::vector<NodalForce>> subdomains;  ///< one list per subdomain
   std::vector<contact::InclusionForce> inclusions;  ///< as LoadOnTraces::inclusion_forces
-  bool on_points = false;                           ///< one acts at a point of the membrane itself
+  std::vector<mesh::Point> points;                  ///< where one acts on the membrane itself
 };
 
 /// Distance, as a fraction of the diagonal of the membrane's bounding box, within which a point

@@ -96,7 +96,8 @@ std::size_t estimate_bytes(const mesh::Mesh& mesh) {
   // three times.
   constexpr double bytes_per_node_and_level = 60, bytes_per_node = 200, bytes_per_joined_node = 500;
   constexpr double trace_blocks = 3, skeleton_blocks = 2, contact_blocks = 4.5, fixed = 1 << 14,
-                   bytes_per_law = sizeof(fem::Tension::of_triangle[0]) + sizeof(fem::Variation);
+                   bytes_per_law = sizeof(fem::Tension::of_triangle[0]) + sizeof(fem::Variation),
+                   bytes_near_tips = 60;  // a triangle; most lie in the discs of one or two tips
   const ddm::Sides sides = ddm::find_sides(mesh);
   const std::vector<Size> sizes = subdomain_sizes(mesh, sides);
   const SkeletonSize skeleton = skeleton_size(mesh, sides);
@@ -120,6 +121,8 @@ std::size_t estimate_bytes(const mesh::Mesh& mesh) {
   }
   if (!mesh.tension_laws.empty())
     bytes += bytes_per_law * static_cast<double>(mesh.triangle_count());
+  if (!mesh.interfaces.empty())
+    bytes += bytes_near_tips * static_cast<double>(mesh.triangle_count());
   return static_cast<std::size_t>(bytes);
 }
 

@@ -94,6 +94,12 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
   /// How many answers to estimate together: as many as gain speed and fit in memory.
   std::size_t estimated_together() const noexcept;
 
+  /// Fills the tips of an answer to this load (contact::TipAnswer), for which it recovers the
+  /// fields if it has none, and drops them again. O(triangles near tips), and O(m) for the load.
+  /// Throws errors::Error (cancelled, limit_exceeded without memory).
+  void find_tips(const PreparedLoad& load, contact::Answer& answer,
+                 const std::stop_token& stop = {}) const;
+
   /// Condenses m loads to be combined: O(N) each and O(n_G^2 + N m) for the energy of pairs; takes
   /// memory for N m numbers meanwhile. The basis is cached (BasisCache): loads that differ in their
   /// names only are condensed once; arrays are compared by the hash of their upload. Throws errors

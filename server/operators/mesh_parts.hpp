@@ -23,6 +23,7 @@
 #include "operators/basis_cache.hpp"
 #include "operators/condense_loads.hpp"
 #include "operators/mesh_operator.hpp"
+#include "tips/tips.hpp"
 
 namespace anticrack::operators {
 
@@ -56,9 +57,11 @@ struct MeshOperator::Parts {
   mutable BasisCache bases;
   base::Lazy<estimate::CutMesh> cut;  // made for the first bounds; see cut_mesh()
   base::Lazy<std::vector<estimate::MeshDual>> mesh_duals;  // see aims.hpp
-  mutable std::atomic<std::size_t> at_work{0};             // bytes of Working
+  base::Lazy<tips::Tips> tips;                  // refers to the decomposition; see all_tips()
+  mutable std::atomic<std::size_t> at_work{0};  // bytes of Working
 
   const estimate::CutMesh& cut_mesh() const;
+  const tips::Tips& all_tips() const;
   /// The function that condenses the loads of a subdomain.
   Condense condense() const;
 };

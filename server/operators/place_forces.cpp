@@ -109,7 +109,7 @@ void place_points(const std::vector<fem::PointForce>& forces, const mesh::Mesh& 
     const fem::Location& location = in[i].location;
     if (location.triangle < 0) throw refused(i, forces[i], "outside the membrane: move it inside");
     const ddm::Subdomain& subdomain = decomposition.subdomains[in[i].subdomain];
-    placed.on_points = true;
+    placed.points.push_back({forces[i].x, forces[i].y});
     for (std::size_t a = 0; a < 3; ++a) {
       placed.subdomains[in[i].subdomain].push_back(
           {subdomain.part.triangles[3 * at(location.triangle) + a],

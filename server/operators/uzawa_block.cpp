@@ -53,6 +53,8 @@ std::vector<UzawaBlock::Ended> UzawaBlock::take_ended() {
   for (contact::UzawaBlock::Ended& one : _state->columns.take_ended()) {
     std::optional<PreparedLoad>& load = _state->loads[at(one.place)];
     load->_data->add_warnings(one.answer);
+    if (one.answer.status != contact::Status::cancelled)
+      _state->mesh_operator->find_tips(*load, one.answer);
     load.reset();
     ended.push_back({one.place, std::move(one.answer)});
   }

@@ -42,7 +42,7 @@ class UzawaBlock {
     contact::Answer answer;
   };
   /// Takes the columns that have ended, in the order of their places, and frees the places. Fields
-  /// take a backward solve each.
+  /// and tips take a backward solve each.
   std::vector<Ended> take_ended();
 
  private:

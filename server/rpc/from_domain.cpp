@@ -60,6 +60,7 @@ v1::LoadCaseAnswer from_domain(const records::CaseRecord& record, const std::str
   v1::LoadCaseAnswer answer = api::message(record);
   answer.set_name(name);
   present(record, answer);
+  if (answer.ByteSizeLong() > max_job_message_bytes) answer.clear_tips();
   return answer;
 }
 
@@ -73,6 +74,8 @@ v1::Job from_domain(const records::JobRecord& record) {
     step.set_detail(words::printable(step.detail(), max_detail_text));
   status.set_load_case_count(job.spec().load_cases_size());
   status.set_load_cases_ended(load_cases_ended(record));
+  if (job.ByteSizeLong() > max_job_message_bytes)
+    for (v1::LoadCaseAnswer& answer : *status.mutable_answers()) answer.clear_tips();
   if (job.ByteSizeLong() > max_job_message_bytes)
     for (v1::LoadCaseAnswer& answer : *status.mutable_answers()) answer.clear_contact_intervals();
   if (job.ByteSizeLong() > max_job_message_bytes)

@@ -178,6 +178,8 @@ TEST_F(JobStops, InAdaptiveStages) {
                  {"solving on a mesh", 6},
                  {"solving for contact", 3},
                  // Bounds
+                 {"gathering triangles about a tip", 3},
+                 {"measuring tips", 12},
                  {"computing bounds", 3},
                  {"listing the edges of a mesh", 60},
                  {"preparing a mesh for bounds", 30},

@@ -49,6 +49,24 @@ TEST(Grading, OfAnUploadStartsFromItsLongestEdge) {
   EXPECT_NEAR(fine.bisection_bound, 45, 1e-9);
 }
 
+/// T+ = T-/4: the exponent at the ends is arctan(1/2)/pi, and m is 0.8 of it; with T+ = 4 T- the
+/// exponent is above 1/4. A grading that is asked for stays.
+TEST(Grading, StaysBelowTheExponentOfUnequalTensions) {
+  const auto triangles = [](double below, double above, double m) {
+    mesh::Mesh mesh = base();
+    mesh.tension = {below, above};
+    mesh::MeshOptions chosen = options(mesh::Preset::graded);
+    chosen.grading = m;
+    return graded(std::move(mesh), chosen, plenty).triangles;
+  };
+  const double unset = mesh::MeshOptions().grading;
+  const double exponent = std::atan(0.5) / std::numbers::pi;
+  EXPECT_EQ(triangles(1, 0.25, unset), triangles(1, 1, 0.8 * exponent));
+  EXPECT_EQ(triangles(1, 4, unset), triangles(1, 1, unset));
+  EXPECT_EQ(triangles(1, 0.25, 0.19), triangles(1, 1, 0.19));
+  EXPECT_NE(triangles(1, 0.25, unset), triangles(1, 1, unset));
+}
+
 TEST(Grading, UniformWithoutASizeLeavesTheMeshAlone) {
   const mesh::Mesh same = graded(base(), options(mesh::Preset::uniform), plenty);
   EXPECT_EQ(same.triangles, base().triangles);

@@ -70,6 +70,8 @@ TEST(FromDomain, AJobThatIsTakenFitsInAMessage) {
     answer.answer.inclusions.push_back({name, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9,
                                         1.0,  1.1, 1.2, 1.3, 1.4, 1.5, 1.6, 1.7, 1.8, 1.9});
     answer.answer.contact_intervals.push_back({name, 0.1, 0.2});
+    answer.answer.tips.push_back(
+        {0.1, 0.2, name, mesh::TipKind::front, false, 0.5, 0.3, {}, 0.4, 0.1, ""});
   }
   for (; taken(); record.cases.push_back(answer)) {
     fem::Load load;
@@ -84,6 +86,7 @@ TEST(FromDomain, AJobThatIsTakenFitsInAMessage) {
   EXPECT_LT(job.ByteSizeLong(), std::size_t{4} << 20U);
   EXPECT_EQ(job.status().answers(0).inclusions_size(), 90);
   EXPECT_EQ(job.status().answers(0).contact_intervals_size(), 0);
+  EXPECT_EQ(job.status().answers(0).tips_size(), 0);
 }
 
 TEST(FromDomain, PutsRunsOfSamplesBehindEachOther) {

@@ -156,6 +156,7 @@ class AnyValue {
   static void positive(double& value) { value = value == 0 ? 0 : value; }
 
   static std::uint64_t count(mesh::Kind) { return 4; }
+  static std::uint64_t count(mesh::TipKind) { return 5; }
   static std::uint64_t count(mesh::Preset) { return 3; }
   static std::uint64_t count(mesh::Shape) { return 3; }
   static std::uint64_t count(mesh::LineSide) { return 3; }

@@ -125,6 +125,14 @@ inline results::Load sample_load(const std::string& name, const results::Mesh& m
   inclusion.set_moment_x(0.01);
   inclusion.set_moment_y(-0.02);
 
+  v1::Tip& tip = *answer.add_tips();
+  tip.set_x(-0.5);
+  tip.set_interface(mesh.info.interfaces(0).name());
+  tip.set_kind(v1::TIP_KIND_DELAMINATED_END);
+  tip.set_closed(contact);
+  tip.set_exponent(0.25);
+  tip.set_intensity(contact ? 0 : 0.3);
+
   results::Trace trace;
   for (std::size_t i = 0; i < interface.node_count(); ++i) {
     const double x = interface.x[i];

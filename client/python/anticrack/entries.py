@@ -12,16 +12,18 @@ from google.protobuf import descriptor_pb2
 from google.protobuf.descriptor import FieldDescriptor
 
 NAN = float("nan")
-_SYMBOLS = [("displacement", "A"), ("slope_", "B"), ("moment_", "M")]  # names of an inclusion's values
+# Names of an inclusion's and a tip's values.
+_SYMBOLS = [("displacement", "A"), ("slope_", "B"), ("moment_", "M"), ("k_iii", "K_III"), ("energy_release_rate", "G")]
 _MESSAGES, _FIELDS = 4, 2  # numbers in paths of source_code_info, see descriptor.proto
 
 
 def name_of(field: Any) -> str:
-    """The name in files: the field's, but A, B, M of inclusions as in the paper, and seconds for durations."""
+    """The name in files: the field's, but A, B, M of inclusions as in the paper, K_III and G of tips, and seconds for
+    durations."""
     name = str(field.name)
     if field.message_type is not None and field.message_type.name == "Duration":
         return name.replace("time", "seconds")
-    if field.containing_type.name == "InclusionAnswer":
+    if field.containing_type.name in ("InclusionAnswer", "Tip"):
         for long_name, symbol in _SYMBOLS:
             if name.startswith(long_name):
                 return symbol + name.removeprefix(long_name)

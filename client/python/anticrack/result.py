@@ -166,6 +166,22 @@ class Inclusion(_walked(solve_pb2.InclusionAnswer, ("name",), Bx=0.0, By=0.0)): 
 
 
 @dataclass(repr=False)
+class Tip(_walked(solve_pb2.Tip, ())):  # type: ignore[misc]
+    """The values of Tip in solve.proto under shorter names: where a crack or an inclusion ends or its condition
+    changes, what kind of tip that is, whether it is closed, and intensity, K_III and G with G_spread, NaN where it has
+    none."""
+
+    def __repr__(self) -> str:
+        told = f"{self.kind.replace('_', ' ')} at ({self.x:.6g}, {self.y:.6g})"
+        if self.reason:
+            return f"{told}: {harmless(self.reason)}"
+        if self.closed:
+            return f"{told}: closed"
+        return told + ": " + ", ".join(f"{name} = {getattr(self, name):.5g}" for name in ("intensity", "K_III", "G")
+                                       if not np.isnan(getattr(self, name)))
+
+
+@dataclass(repr=False)
 class Load(_walked(solve_pb2.LoadCaseAnswer, ("name", "status"))):  # type: ignore[misc]
     """The answer to a load case: the values of LoadCaseAnswer in solve.proto, energy, contact_length, iterations and so
     on, and solve_seconds. status: "converged", "not_converged" (see reason), "failed" (see error) or "cancelled". The
@@ -174,12 +190,14 @@ class Load(_walked(solve_pb2.LoadCaseAnswer, ("name", "status"))):  # type: igno
 
     kkt: relative residuals of the optimality conditions. traces: one for each interface, by its name or index. history:
     arrays (n), one entry an iteration. stages: arrays, one entry a stage; empty without an accuracy.
+    tips: of cracks and inclusions, in the order of the mesh's.
     contact_intervals: (index of the interface, begin, end) in arc length. fields: one for each subdomain, by its name
     or index, where they were asked for. indicator (m): part of each triangle in the square of error_bound, or None."""
     name: str
     status: str
     warnings: list[str] = field(default_factory=list)
     inclusions: Named[Inclusion] = field(default_factory=lambda: Named("inclusion"))
+    tips: list[Tip] = field(default_factory=list)
     traces: Parts[Trace] = field(default_factory=lambda: Parts("interface"))
     history: Arrays = field(default_factory=dict)
     stages: Arrays = field(default_factory=dict)
@@ -522,6 +540,7 @@ def _load_of_answer(answer: solve_pb2.LoadCaseAnswer, lines_in: list[str]) -> Lo
     if solved:
         load.warnings = list(answer.warnings)
         load.inclusions.update((part.name, Inclusion(**entries.values_of(part))) for part in answer.inclusions)
+        load.tips = [Tip(**entries.values_of(part)) for part in answer.tips]
         load.contact_intervals = [(lines_in.index(part.interface), part.begin, part.end)
                                   for part in answer.contact_intervals]
     return load

@@ -123,10 +123,13 @@ def _put_result(file: Any, result: Result) -> None:
 
 def _put_load(group: Any, load: Load, interfaces: Parts[Interface]) -> None:
     _put_record(group, load)
-    inclusions = group.create_group("inclusions")
-    for name, default in entries.defaults_of(solve_pb2.InclusionAnswer).items():
-        column = [getattr(part, name) for part in load.inclusions.values()]
-        _put(inclusions, name, column if isinstance(default, str) else np.array(column, type(default)))
+    for place, message, parts in (("inclusions", solve_pb2.InclusionAnswer, list(load.inclusions.values())),
+                                  ("tips", solve_pb2.Tip, load.tips)):
+        columns = group.create_group(place)
+        for name, (_, part) in entries.entries_of(message.DESCRIPTOR).items():
+            values = [_typed(part, getattr(one, name)) for one in parts]
+            kind = type(_typed(part, entries.none_of(part)))
+            _put(columns, name, values if kind is str else np.array(values, kind))
     contact = group.create_group("contact_intervals")
     _put(contact, "interface", [interfaces[place].name for place, _, _ in load.contact_intervals])
     for i, name in enumerate(("begin", "end"), 1):

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <string>
 
+#include "cli/tips_text.hpp"
 #include "results/entries.hpp"
 #include "support/sample_result.hpp"
 
@@ -244,6 +245,34 @@ TEST(NumbersTable, HasEveryNumberWithItsUnitAndMeaning) {
   EXPECT_THAT(text, ::testing::ContainsRegex("\nenergy +-0.163945  N mm +Pi\\(u\\): the middle"));
   EXPECT_THAT(text, ::testing::ContainsRegex("\nkkt_gap +0  mm +largest violation of "));
   EXPECT_THAT(text, ::testing::ContainsRegex("\niterations +346  - +of Algorithm 2"));
+}
+
+TEST(AnswersTable, ShowsTheTipsBelow) {
+  results::Result result = two_loads();
+  result.units.set_length("mm");
+  result.units.set_force("N");
+  v1::Tip& tip = *result.loads[0].answer.add_tips();
+  tip.set_x(0.5);
+  tip.set_kind(v1::TIP_KIND_CRACK_TIP);
+  tip.set_exponent(0.5);
+  tip.set_intensity(0.8);
+  tip.set_k_iii(1.0026);
+  tip.set_energy_release_rate(0.5);
+  tip.set_energy_release_rate_spread(0.001);
+  v1::Tip& other = *result.loads[0].answer.add_tips();
+  other.set_kind(v1::TIP_KIND_OTHER);
+  other.set_reason("two cracks meet there");
+  const std::string table =
+      "\nload       x   y  tip        exponent  intensity       K_III    G  spread of G\n"
+      "          mm  mm                                  N/mm^(1/2)    N            %\n"
+      "opening  0.5   0  crack tip       0.5        0.8      1.0026  0.5          0.2\n"
+      "opening    0   0  other             -          -           -    -            -\n"
+      "tip at 0, 0: two cracks meet there\n";
+  EXPECT_THAT(answers_table(result.loads, result.units), ::testing::EndsWith(table));
+  for (int i = 0; i < 20; ++i) *result.loads[0].answer.add_tips() = tip;
+  EXPECT_THAT(answers_table(result.loads, result.units),
+              ::testing::EndsWith("\nall 22 rows of tips: anticrack show RESULT --tips\n"));
+  EXPECT_THAT(tips_table(result.loads, result.units, true), ::testing::StartsWith("\nload"));
 }
 
 TEST(AnswersJson, IsOneDocumentWithEveryLoad) {

@@ -107,7 +107,7 @@ class JsonGolden(GoldenTest):
         self.document("job-show-accuracy", "job", "watch", answers["job"])
         self.document("run-accuracy", "job", "fetch", answers["job"], "-o", "fetched.h5")
         self.document("run-accuracy", "show", "accuracy.h5")
-        short = self.document("run-accuracy", "run", "accuracy.toml", "-o", "short.h5", "--set",
+        short = self.document("run-not-reached", "run", "accuracy.toml", "-o", "short.h5", "--set",
                               "accuracy.max_triangles=100", code=3)
         self.assertIn("max_triangles", short["not_reached"])
 

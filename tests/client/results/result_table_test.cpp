@@ -99,6 +99,7 @@ std::string result_table() {
          line("/loads/LOAD/stages", "with an accuracy: " + entries(*v1::Stage::descriptor()) +
                                         "; " + entries(*v1::StageAnswer::descriptor())) +
          line("/loads/LOAD/inclusions", entries(*v1::InclusionAnswer::descriptor())) +
+         line("/loads/LOAD/tips", entries(*v1::Tip::descriptor())) +
          line("/loads/LOAD/contact_intervals", entries(*v1::ContactInterval::descriptor())) +
          line("/loads/LOAD/traces/I", entries<Trace>(arrays::trace<Trace>)) +
          line("/loads/LOAD/history", entries<History>(arrays::history<History>)) +

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/answer.hpp"
+#include "operators/mesh_parts.hpp"
+#include "stop/stop.hpp"
+
+namespace anticrack::operators {
+
+const tips::Tips& MeshOperator::Parts::all_tips() const {
+  return tips.get([this] { return tips::Tips(*mesh, decomposition); });
+}
+
+void MeshOperator::find_tips(const PreparedLoad& load, contact::Answer& answer,
+                             const std::stop_token& stop) const {
+  const stop::Scope scope(stop);
+  require_prepared(load, false);
+  const tips::Tips& tips = _parts->all_tips();
+  if (tips.empty()) return;
+  if (!load._data->has_interior || load._data->balanced) {  // which lacks f
+    answer.tips = tips.without_numbers("rows of a sweep have no numbers of tips");
+    return;
+  }
+  if (answer.status != contact::Status::converged) {
+    answer.tips = tips.without_numbers("the load case did not converge");
+    return;
+  }
+  const bool recovered = answer.fields.empty();
+  if (recovered) {
+    const PreparedLoad* const loads[] = {&load};
+    contact::Answer* const answers[] = {&answer};
+    recover_fields(loads, answers);
+  }
+  const LoadParts& parts = load._data->condensed.parts;
+  const std::vector<ddm::Subdomain>& subdomains = _parts->decomposition.subdomains;
+  std::vector<fem::ForceParts> linear(subdomains.size());
+  std::vector<std::span<const double>> force;
+  for (std::size_t s = 0; s < subdomains.size(); ++s) {
+    const ddm::Subdomain& one = subdomains[s];
+    auto made = fem::linear_parts(one.part, parts.force, one.name, {one.node, one.triangle});
+    if (made) linear[s] = std::move(*made);
+    force.emplace_back(made ? std::span<const double>(linear[s].load) : parts.integrated[s].load);
+  }
+  answer.tips = tips.of({answer, force, parts.points});
+  if (recovered) answer.fields.clear();
+}
+
+}  // namespace anticrack::operators

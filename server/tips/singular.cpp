@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tips/singular.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "base/at.hpp"
+
+namespace anticrack::tips {
+namespace {
+
+using mesh::TipKind;
+using std::numbers::pi;
+
+}  // namespace
+
+Singular::Singular(TipKind kind, const Tensor& minus, const Tensor& plus)
+    : _kind(kind), _root{root_of_determinant(minus), root_of_determinant(plus)} {
+  const auto [below, above] = _root;
+  _theta_mean = 2 * below * above / (below + above);
+  switch (kind) {
+    case TipKind::delaminated_end:
+      _exponent = std::atan(std::sqrt(above / below)) / pi;
+      _norm = pi * above;
+      _jump = -std::sqrt(above / below);
+      _sign = -1;
+      break;
+    case TipKind::front:
+      _norm = pi * below / 2;
+      _jump = 1;
+      break;
+    case TipKind::crack_tip:
+      _norm = pi * _theta_mean;
+      _jump = 2;
+      break;
+    default:
+      _norm = pi * (below + above) / 2;
+      break;
+  }
+}
+
+std::array<double, 2> Singular::phi(double theta, std::size_t side) const {
+  const double a = _exponent;
+  switch (_kind) {
+    case TipKind::delaminated_end: {
+      if (side == 1) return {std::sin(a * (pi - theta)), -a * std::cos(a * (pi - theta))};
+      const double beta = -_jump;
+      return {beta * std::cos(a * (pi + theta)), -a * beta * std::sin(a * (pi + theta))};
+    }
+    case TipKind::front:
+      if (side == 1) return {0, 0};
+      return {std::sin(theta / 2), std::cos(theta / 2) / 2};
+    case TipKind::crack_tip: {
+      const double share = _theta_mean / _root[side];
+      return {share * std::sin(theta / 2), share * std::cos(theta / 2) / 2};
+    }
+    default:
+      return {std::cos(theta / 2), -std::sin(theta / 2) / 2};
+  }
+}
+
+double Singular::intensity_of(double rate) const {
+  const auto [below, above] = _root;
+  const double share = _kind == TipKind::front       ? below / 8
+                       : _kind == TipKind::crack_tip ? _theta_mean / 4
+                                                     : (below + above) / 8;
+  return std::sqrt(std::abs(rate) / (pi * share));
+}
+
+double Singular::k_iii(double intensity) const {
+  return intensity * _theta_mean * std::sqrt(pi / 2);
+}
+
+std::array<Tensor, 2> tensors_at(const Place& place, std::span<const Law> laws) {
+  std::array<Tensor, 2> result{};
+  for (std::size_t side = 0; side < 2; ++side) {
+    const Tensor t = laws[at(place.subdomain[side])].at(place.course.tip);
+    const Point a = product(t, place.course.ahead), b = product(t, place.course.normal);
+    result[side] = {dot(a, place.course.ahead), dot(a, place.course.normal),
+                    dot(b, place.course.normal)};
+  }
+  return result;
+}
+
+Singular singular_at(const Place& place, std::span<const Law> laws) {
+  const auto [minus, plus] = tensors_at(place, laws);
+  return {place.kind, minus, plus};
+}
+
+double least_exponent(const mesh::Mesh& mesh) {
+  double least = 0.25;
+  const bool one_tension =
+      mesh.tension_laws.empty() &&
+      std::ranges::adjacent_find(mesh.tension, std::not_equal_to<>()) == mesh.tension.end();
+  if (one_tension) return least;
+  const mesh::EdgeTable edges(mesh.triangles);
+  const std::vector<Law> laws = laws_of(mesh);
+  for (const Place& place : find_places(mesh, edges, mesh::edge_ends(mesh, edges)))
+    if (place.kind == TipKind::delaminated_end && place.reason.empty())
+      least = std::min(least, singular_at(place, laws).exponent());
+  return least;
+}
+
+}  // namespace anticrack::tips

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tips/support.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <unordered_set>
+#include <utility>
+
+#include "base/at.hpp"
+#include "stop/stop.hpp"
+
+namespace anticrack::tips {
+namespace {
+
+double distance_to_edge(const Point& x, const Point& a, const Point& b) {
+  const Point along = minus(b, a), from = minus(x, a);
+  const double part = std::clamp(dot(from, along) / dot(along, along), 0.0, 1.0);
+  return std::hypot(from[0] - part * along[0], from[1] - part * along[1]);
+}
+
+}  // namespace
+
+Surroundings::Surroundings(const mesh::Mesh& mesh, const mesh::EdgeTable& edges,
+                           const std::vector<mesh::EdgeEnd>& ends)
+    : _mesh(mesh), _edges(edges), _ends(ends), _on_interface(mesh.node_count(), 0) {
+  for (const mesh::EdgeEnd& end : ends) _on_interface[at(end.node)] = 1;
+}
+
+bool Surroundings::is_obstacle(std::int32_t a, std::int32_t b, const Place& place) const {
+  if (_on_interface[at(a)] == 0 || _on_interface[at(b)] == 0) return false;
+  const auto ends = mesh::ends_at(_ends, a);
+  return std::ranges::find(ends, b, &mesh::EdgeEnd::other) != ends.end() &&
+         !std::ranges::binary_search(place.edges, std::array{std::min(a, b), std::max(a, b)});
+}
+
+Support Surroundings::of(const Place& place) const {
+  const Point& tip = place.course.tip;
+  Support support;
+  support.radius = place.reach;
+  using Near = std::pair<double, std::int32_t>;
+  std::priority_queue<Near, std::vector<Near>, std::greater<>> waiting;
+  std::unordered_set<std::int32_t> seen;
+  const auto add = [&](std::int32_t triangle, double distance) {
+    if (distance < support.radius && seen.insert(triangle).second)
+      waiting.push({distance, triangle});
+  };
+  for (const auto& edge : place.edges) {
+    if (edge[0] != place.node && edge[1] != place.node) continue;
+    for (const mesh::EdgeUse& use : _edges.find(edge[0], edge[1])) add(use.triangle, 0);
+  }
+  std::vector<Near> found;
+  while (!waiting.empty()) {
+    stop::look_at_turn(found.size(), "gathering triangles about a tip");
+    const auto [nearest, triangle] = waiting.top();
+    waiting.pop();
+    if (nearest >= support.radius) break;
+    if (found.size() == most_triangles) {
+      support.radius = nearest;
+      break;
+    }
+    found.push_back({nearest, triangle});
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::int32_t a = _mesh.triangles[3 * at(triangle) + i],
+                         b = _mesh.triangles[3 * at(triangle) + (i + 1) % 3];
+      const double distance = a == place.node || b == place.node
+                                  ? 0
+                                  : distance_to_edge(tip, position(_mesh, a), position(_mesh, b));
+      if (distance >= support.radius) continue;
+      const auto uses = _edges.find(a, b);
+      if (uses.size() < 2 || is_obstacle(a, b, place)) {
+        support.radius = std::min(support.radius, distance);
+        continue;
+      }
+      for (const mesh::EdgeUse& use : uses)
+        if (use.triangle != triangle) add(use.triangle, std::max(nearest, distance));
+    }
+  }
+  if (found.empty()) return support;
+  constexpr std::size_t enough = 200;  // triangles, about a radius of five edges
+  const std::size_t quarter = std::min(std::max(found.size() / 4, enough), found.size() - 1);
+  support.inner = std::min(found[quarter].first, support.radius / 2);
+  for (const auto& [distance, triangle] : found)
+    if (distance < support.radius) support.triangles.push_back(triangle);
+  std::ranges::sort(support.triangles);
+  return support;
+}
+
+}  // namespace anticrack::tips

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tips/tips.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_set>
+#include <utility>
+
+#include "base/at.hpp"
+#include "ddm/decomposition.hpp"
+#include "errors/errors.hpp"
+#include "mesh/edges.hpp"
+#include "stop/stop.hpp"
+#include "tips/support.hpp"
+
+namespace anticrack::tips {
+namespace {
+
+using contact::TipAnswer;
+using mesh::TipKind;
+
+constexpr const char* measuring = "measuring tips";
+
+/// With fewer triangles about the tip a number means nothing.
+constexpr std::size_t fewest_triangles = 60;
+
+/// The numbers of all triangles of the mesh in the decomposition.
+std::vector<Cell> cells_of(const mesh::Mesh& mesh, const ddm::Decomposition& decomposition) {
+  std::vector<Cell> cells(mesh.triangle_count());
+  for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
+    const std::vector<std::int32_t>& of_mesh = decomposition.subdomains[s].triangle;
+    for (std::size_t t = 0; t < of_mesh.size(); ++t)
+      cells[at(of_mesh[t])] = {static_cast<std::int32_t>(s), static_cast<std::int32_t>(t)};
+  }
+  return cells;
+}
+
+/// The derivative of T along the course at the centre of a triangle, by differences.
+Tensor change_of(const Law& law, const Course& course, const Corners& at, double radius) {
+  Point centre{};
+  double size = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < 2; ++k) centre[k] += at.x[i][k] / 3;
+    const Point side = minus(at.x[i], at.x[(i + 1) % 3]);
+    size = std::max(size, std::hypot(side[0], side[1]));
+  }
+  const double step = std::max(0.25 * size, 1e-6 * radius);
+  const Point& t = course.ahead;
+  const auto moved = [&](double by) {
+    return law.at({centre[0] + by * t[0], centre[1] + by * t[1]});
+  };
+  Tensor change = moved(step);
+  const Tensor before = moved(-step);
+  for (std::size_t i = 0; i < 3; ++i) change[i] = (change[i] - before[i]) / (2 * step);
+  return change;
+}
+
+}  // namespace
+
+Tips::Tips(const mesh::Mesh& mesh, const ddm::Decomposition& decomposition)
+    : _decomposition(decomposition), _tilts(mesh.inclusions.size(), 0) {
+  for (const mesh::Interface& line : mesh.interfaces) _interfaces.push_back(line.name);
+  for (std::size_t j = 0; j < mesh.motions.size(); ++j) _tilts[j] = mesh.motions[j].tilt ? 1 : 0;
+  const mesh::EdgeTable edges(mesh.triangles);
+  const std::vector<mesh::EdgeEnd> ends = mesh::edge_ends(mesh, edges);
+  const Surroundings around(mesh, edges, ends);
+  const std::vector<Law> laws = laws_of(mesh);
+  const std::vector<Cell> cells = cells_of(mesh, decomposition);
+  for (Place& place : find_places(mesh, edges, ends)) {
+    stop::look(measuring, _tips.size());
+    Tip& tip = _tips.emplace_back(Tip{std::move(place), 0, 0, {}});
+    if (!tip.place.reason.empty()) continue;
+    try {
+      tip.singular.emplace_back(singular_at(tip.place, laws));
+      prepare(mesh, cells, around, laws, tip);
+    } catch (const errors::Error& error) {
+      if (error.reason() == errors::Reason::cancelled) throw;
+      tip.place.reason = error.what();  // T is not finite a little off a triangle
+    }
+    if (!tip.place.reason.empty()) tip.cells = {};
+  }
+}
+
+void Tips::prepare(const mesh::Mesh& mesh, std::span<const Cell> local, const Surroundings& around,
+                   std::span<const Law> laws, Tip& tip) const {
+  Place& place = tip.place;
+  const Support support = around.of(place);
+  tip.radius = support.radius;
+  tip.inner = support.inner;
+  if (support.triangles.size() < fewest_triangles) {
+    place.reason = fmt::format(
+        "only {} triangles lie between it and the next bend, end, line or boundary, {:.3g} away; "
+        "take a smaller mesh.size",
+        support.triangles.size(), support.radius);
+    return;
+  }
+  for (const std::int32_t t : support.triangles) {
+    const auto s = at(mesh.subdomain[at(t)]);
+    if (laws[s].varies() && laws[s].may_jump()) {
+      place.reason = "the tension of \"" + mesh.subdomains[s] +
+                     "\" may jump or bend near it: write it without conditions, abs, min, max "
+                     "and steps, or make regions of its parts";
+      return;
+    }
+    tip.cells.push_back(local[at(t)]);
+  }
+  std::ranges::sort(tip.cells, {},
+                    [](const Cell& c) { return std::pair(c.subdomain, c.triangle); });
+
+  const std::unordered_set<std::int32_t> behind(place.behind.begin(), place.behind.end());
+  std::vector<std::size_t> side;
+  bool any_varies = false;
+  for (std::size_t k = 0; k < tip.cells.size(); ++k) {
+    const Cell& cell = tip.cells[k];
+    const Corners corner = corners(cell);
+    double d = 0;
+    for (const Point& x : corner.x) d += place.course.across(x);
+    side.push_back(d > 0 ? 1 : 0);
+    const ddm::Subdomain& subdomain = _decomposition.subdomains[at(cell.subdomain)];
+    any_varies = any_varies || laws[at(cell.subdomain)].varies();
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (subdomain.node[at(subdomain.part.triangles[3 * at(cell.triangle) + i])] != place.node)
+        continue;
+      tip.tip_cell = k;
+      tip.tip_corner = i;
+    }
+  }
+  Extraction& extraction = tip.extraction.emplace_back(place.course, tip.singular.front(),
+                                                       tensors_at(place, laws), support.radius);
+  for (std::size_t k = 0; k < tip.cells.size(); ++k) {
+    stop::look_at_turn<1024>(k, measuring);
+    const Cell& cell = tip.cells[k];
+    const ddm::Subdomain& subdomain = _decomposition.subdomains[at(cell.subdomain)];
+    std::array<bool, 3> jumps{};
+    for (std::size_t i = 0; i < 3; ++i)
+      jumps[i] =
+          behind.contains(subdomain.node[at(subdomain.part.triangles[3 * at(cell.triangle) + i])]);
+    const Corners corner = corners(cell);
+    extraction.add(corner, tension(cell), side[k], jumps);
+    if (any_varies)
+      tip.change.push_back(
+          change_of(laws[at(cell.subdomain)], place.course, corner, support.radius));
+  }
+  const std::vector<std::int32_t>& chain = mesh.interfaces[at(place.interface)].nodes;
+  tip.first_behind =
+      static_cast<std::size_t>(std::ranges::find(chain, place.behind.front()) - chain.begin());
+}
+
+Corners Tips::corners(const Cell& cell) const {
+  const fem::Triangulation& part = _decomposition.subdomains[at(cell.subdomain)].part;
+  std::array<Point, 3> x{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t node = at(part.triangles[3 * at(cell.triangle) + i]);
+    x[i] = {part.xy[2 * node], part.xy[2 * node + 1]};
+  }
+  return corners_of(x);
+}
+
+Tensor Tips::tension(const Cell& cell) const {
+  const fem::Tension& tension = _decomposition.subdomains[at(cell.subdomain)].tension;
+  if (tension.of_triangle.empty()) return {tension.mean, 0, tension.mean};
+  return tension.of_triangle[at(cell.triangle)];
+}
+
+TipAnswer Tips::row_of(const Tip& tip) const {
+  TipAnswer row;
+  row.x = tip.place.course.tip[0];
+  row.y = tip.place.course.tip[1];
+  row.interface = _interfaces[at(tip.place.interface)];
+  row.kind = tip.place.kind;
+  row.reason = tip.place.reason;
+  if (!tip.singular.empty()) row.exponent = tip.singular.front().exponent();
+  return row;
+}
+
+std::vector<TipAnswer> Tips::without_numbers(const std::string& reason) const {
+  std::vector<TipAnswer> rows;
+  for (const Tip& tip : _tips) {
+    TipAnswer& row = rows.emplace_back(row_of(tip));
+    if (row.reason.empty()) row.reason = reason;
+  }
+  return rows;
+}
+
+std::vector<TipAnswer> Tips::of(const Solved& solved) const {
+  std::vector<TipAnswer> rows;
+  for (const Tip& tip : _tips) {
+    stop::look(measuring, rows.size());
+    TipAnswer& row = rows.emplace_back(row_of(tip));
+    for (const Point& force : solved.point_forces) {
+      const Point from = minus(force, tip.place.course.tip);
+      if (row.reason.empty() && std::hypot(from[0], from[1]) <= tip.radius)
+        row.reason = fmt::format("a point force acts within {:.3g} of it: spread it over a disc",
+                                 tip.radius);
+    }
+    if (row.reason.empty()) measure(tip, solved, row);
+  }
+  return rows;
+}
+
+Integrals Tips::integrals(std::size_t tip, const Solved& solved) const {
+  return integrals(_tips[tip], solved);
+}
+
+Integrals Tips::integrals(const Tip& tip, const Solved& solved) const {
+  const Place& place = tip.place;
+  const Singular& singular = tip.singular.front();
+  const Extraction& extraction = tip.extraction.front();
+  Point slope{};
+  if (place.inclusion >= 0 && _tilts[at(place.inclusion)] != 0) {
+    const contact::InclusionAnswer& body = solved.answer.inclusions[at(place.inclusion)];
+    slope = {body.slope_x_mesh, body.slope_y_mesh};
+  }
+  const auto corners_u = [&](const Cell& cell) {
+    const fem::Triangulation& part = _decomposition.subdomains[at(cell.subdomain)].part;
+    std::array<double, 3> u{};
+    for (std::size_t i = 0; i < 3; ++i)
+      u[i] =
+          solved.answer.fields[at(cell.subdomain)].u[at(part.triangles[3 * at(cell.triangle) + i])];
+    return u;
+  };
+  const double at_tip = corners_u(tip.cells[tip.tip_cell])[tip.tip_corner];
+  const Moved moved(place.course, tip.radius, tip.inner);
+  Integrals result;
+  double sum = -extraction.part_of_slope(slope);
+  for (std::size_t k = 0; k < tip.cells.size(); ++k) {
+    const Cell& cell = tip.cells[k];
+    std::array<double, 3> u = corners_u(cell);
+    for (double& one : u) one -= at_tip;
+    const double* force = &solved.force[at(cell.subdomain)][3 * at(cell.triangle)];
+    sum += extraction.part(k, u, force);
+    if (place.kind != TipKind::delaminated_end)
+      moved.add(corners(cell), u, tension(cell), force, slope,
+                tip.change.empty() ? nullptr : &tip.change[k], result.rates);
+  }
+  result.intensity = singular.sign() * sum / (2 * singular.exponent() * singular.norm());
+  return result;
+}
+
+void Tips::measure(const Tip& tip, const Solved& solved, TipAnswer& row) const {
+  const Place& place = tip.place;
+  const Singular& singular = tip.singular.front();
+  const auto [rates, dual] = integrals(tip, solved);
+  const contact::Trace& trace = solved.answer.traces[at(place.interface)];
+  row.closed = place.unilateral && (trace.contact[tip.first_behind] != 0 ||
+                                    trace.jump[tip.first_behind] <= 0 || dual <= 0);
+  const auto [least, most] = std::ranges::minmax(rates);
+  const bool grows = place.kind == TipKind::front || place.kind == TipKind::crack_tip;
+  if (grows) {
+    row.energy_release_rate = row.closed ? 0 : std::max(0.0, rates.back());
+    row.energy_release_rate_spread = most - least;
+  }
+  if (row.closed)
+    row.intensity = 0;
+  else if (place.kind == TipKind::delaminated_end)
+    row.intensity = dual;
+  else
+    row.intensity = std::copysign(singular.intensity_of(rates.back()), dual);
+  if (place.kind == TipKind::crack_tip) row.k_iii = singular.k_iii(*row.intensity);
+}
+
+std::size_t Tips::bytes() const noexcept {
+  std::size_t bytes = 0;
+  for (const Tip& tip : _tips) {
+    bytes += sizeof(Tip) + tip.cells.capacity() * sizeof(Cell) +
+             tip.change.capacity() * sizeof(Tensor) +
+             tip.place.edges.capacity() * sizeof(tip.place.edges[0]) +
+             tip.place.behind.capacity() * sizeof(std::int32_t);
+    for (const Extraction& one : tip.extraction) bytes += one.bytes();
+  }
+  return bytes;
+}
+
+}  // namespace anticrack::tips
