@@ -29,14 +29,18 @@ struct ForceOn {
 struct Lack {
   /// >= |s|; not finite if Ways lead nowhere.
   double flux = 0;
-  /// |l(z) - a(u_h, z)| <= work max |z| for nodal values z with [z] = 0 where [u_h] = 0.
+  /// |l(z) - a(u_h, z)| <= work max |z| for nodal values z with [z] = 0 where [u_h] = 0. With
+  /// `reactions`: the same for all z, less the work of the reactions on [z].
   double work = 0;
 };
 
 /// `traction`: as Balance::traction. `forces`: on each inclusion; empty: 0. `kept`: (faces) the
-/// admissible part of the outward flux through a minus face. O(faces).
+/// admissible part of the outward flux through a minus face. `reactions`: (faces, 2) the flux that
+/// belongs to the ends of minus faces, where contact is told to react; empty: where [u_h] = 0 it
+/// may be any, elsewhere 0. O(faces).
 Lack lack_of(const CutMesh& cut, const EquilibratedFlux& flux, std::span<const double> traction,
-             std::span<const ForceOn> forces, std::span<const double> kept);
+             std::span<const ForceOn> forces, std::span<const double> kept,
+             std::span<const double> reactions = {});
 
 /// `kept` for a pressure: the flux through each face, at most 0 on minus faces.
 std::vector<double> pressing(const CutMesh& cut, const EquilibratedFlux& flux);

@@ -17,7 +17,8 @@ constexpr double worth = 0.03;
 /// The exponent of weights: larger ones clip less and multiply energies more (THEORY.md).
 constexpr double beta = 0.6;
 
-/// Per copy, the contact it is the minus side of, or -1.
+}  // namespace
+
 std::vector<std::int32_t> contact_at(const MeshOperator::Parts& parts,
                                      const estimate::CutMesh& cut) {
   std::vector<std::int32_t> contact(cut.at.size(), -1);
@@ -28,8 +29,6 @@ std::vector<std::int32_t> contact_at(const MeshOperator::Parts& parts,
   }
   return contact;
 }
-
-}  // namespace
 
 contact::Adjoint::Room room_of(const MeshOperator::Parts& parts, const estimate::Primal& primal,
                                contact::Adjoint::Room room, const estimate::Weight& weight) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -29,6 +30,10 @@ struct Target {
   contact::Adjoint::Goal goal;
   const Aim& aim() const { return goals[k]; }
 };
+
+/// Per copy, the contact it is the minus side of, or -1.
+std::vector<std::int32_t> contact_at(const MeshOperator::Parts& parts,
+                                     const estimate::CutMesh& cut);
 
 /// The room of an answer, for a weight: jumps times w, and the forces k p.
 contact::Adjoint::Room room_of(const MeshOperator::Parts& parts, const estimate::Primal& primal,
