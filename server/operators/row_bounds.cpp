@@ -32,13 +32,6 @@ double quadratic(const Eigen::Ref<const Eigen::MatrixXd>& matrix,
   return x.dot(product);
 }
 
-/// The pressure on each face is the sum of those of its ends; each(pressure, other's pressure).
-template <class Each>
-void each_face(const VectorXd& ends, const VectorXd& others, const Each& each) {
-  for (Index end = 0; end < ends.size(); end += 2)
-    each(ends[end] + ends[end + 1], others[end] + others[end + 1]);
-}
-
 }  // namespace
 
 RowBounds::RowBounds(const MeshOperator::Parts& parts, const SharedBounds& shared)
@@ -161,7 +154,7 @@ bool RowBounds::take(std::span<const double> c, const contact::LcpAnswer& soluti
   const VectorXd none = VectorXd::Zero(row.turned.ends.size()),
                  any = VectorXd::Constant(none.size(), unlimited);
   turn(row.slope + slopes_of_work(d), none, any, row.turned);
-  each_face(row.turned.ends, none, [&](double p, double) { off += std::max(0.0, -p); });
+  off -= row.turned.ends.cwiseMin(0.0).sum();  // rounding
   row.turned.ends = row.turned.ends.cwiseMax(0.0);
   row.pressure = work(row.turned.ends, d);
 
@@ -199,7 +192,7 @@ bool RowBounds::take(std::span<const double> c, const contact::LcpAnswer& soluti
 
 /// Finds z_0 of each goal, with these contacts closed; false if a part is held by contact alone.
 bool RowBounds::aim(const std::vector<char>& closed) {
-  if (!_goals.empty() && closed == _closed) return true;
+  if (_of.goals == 0 || (!_goals.empty() && closed == _closed)) return true;
   _goals.clear();
   _closed = closed;
   const std::vector<contact::Opened> opened = _parts.contact->solve_open(closed, _unit);
@@ -388,12 +381,12 @@ double RowBounds::turn_within(Index goal, double sign, double most, Pair& pair) 
   }
   this->turn(pair.slope, low, high, turned);
   double c = 0, off = 0;
-  each_face(turned.ends, p, [&](double q, double pressure) {
-    const double size = -sign * q;
-    if (!(size > 0)) return;
-    off += std::max(0.0, size - most * pressure);
-    c = std::max(c, size < most * pressure ? size / pressure : most);
-  });
+  for (Index i = 0; i < p.size(); i += 2) {
+    const double size = -sign * (turned.ends[i] + turned.ends[i + 1]), room = p[i] + p[i + 1];
+    if (!(size > 0)) continue;
+    off += std::max(0.0, size - most * room);
+    c = std::max(c, size < most * room ? size / room : most);
+  }
   pair.lack += _of.beyond * off;
   finish(goal, pair);
   return c;

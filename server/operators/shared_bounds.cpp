@@ -162,6 +162,9 @@ class Maker {
       }
       for (std::size_t b = 0; b < on.size(); ++b)
         possible = possible && (on[b] == 0 || _cut.ways.bodies[b].held);
+      // One force for both ends: what obeys a cone then does so turned, too (RowBounds).
+      if (count == 2)
+        possible = possible && _of.ends[at(turn.end[0])].force == _of.ends[at(turn.end[1])].force;
       if (count == 0 || !possible) continue;
       _of.turns.push_back(turn);
       _fans.push_back(fan);
