@@ -151,8 +151,8 @@ TEST_P(LongCrack, HasTheLinearAnswersOfTheDenseProblem) {
   const Reduced load = strip.reduce(waves[0]);
   const std::vector<char> closed = strip.dense().solve(load.r, load.magnitude, {}, {}).closed;
   for (const std::vector<char>& kept : {closed, std::vector<char>()}) {
-    const Opened dense = strip.condensed().solve_open(kept, {&force.r, 1}).front();
-    const Opened joined = strip.joined().solve_open(kept, {&force.r, 1}).front();
+    const Opened dense = strip.condensed().solve_open(kept, {&force.r, 1}, 0).front();
+    const Opened joined = strip.joined().solve_open(kept, {&force.r, 1}, 0).front();
     ASSERT_TRUE(dense.solved && joined.solved);
     std::printf("[ figures  ] %s: d %.1e, reactions %.1e of %.1e\n", GetParam().name,
                 (joined.d - dense.d).lpNorm<Eigen::Infinity>() / force.compliance,
@@ -185,7 +185,7 @@ TEST_P(LongCrack, HasTheFieldsOfUnitForcesWithEveryContactOpen) {
   for (std::size_t k = 0; k < forces.size(); ++k) {
     EXPECT_EQ(open.fields({&forces[k], 1}).front(), fields[k]);
     const VectorXd r = strip.condensed().unit_force(sums[k]).r;
-    const Displaced dense{&sums[k], strip.condensed().solve_open({}, {&r, 1}).front().d};
+    const Displaced dense{&sums[k], strip.condensed().solve_open({}, {&r, 1}, 0).front().d};
     const std::vector<double> u = strip.condensed().fields_of({&dense, 1}).front();
     EXPECT_LT(difference(VectorXd::Map(u.data(), static_cast<Index>(u.size())),
                          VectorXd::Map(fields[k].data(), static_cast<Index>(fields[k].size()))),

@@ -194,6 +194,8 @@ void check_fibres(unsigned seed, PairTally& tally) {
       primal_norms(primal, bracket(coarse->cut, sigma, balanced.balance, of_boundary, coarse->u,
                                    coarse->answer.energy_mesh, primal.lack.flux));
   EXPECT_GT(norms.lift, 0);
+  PrimalNorms linear = norms;
+  linear.lift = 0;
   const operators::MeshOperator::Parts joined(coarse->mesh, 1, 0);
   const std::vector<operators::Aim> goals = operators::aims(coarse->parts);
   const std::vector<MeshDual>&duals = operators::mesh_duals(coarse->parts, coarse->cut, goals),
@@ -203,6 +205,8 @@ void check_fibres(unsigned seed, PairTally& tally) {
                      std::abs(goals[k].value_in(fine->answer) - goals[k].value_in(coarse->answer)),
                  half = half_width(duals[k], norms), rounding = 1e-9 * (1 + off);
     EXPECT_LE(off, half + rounding);
+    EXPECT_NEAR(half - half_width(duals[k], linear),
+                norms.lift * (duals[k].closed + duals[k].open / 2), 1e-9 * half);
     EXPECT_NEAR(duals[k].off, same[k].off, 1e-5 * (duals[k].norm + duals[k].off));
     EXPECT_NEAR(duals[k].norm, same[k].norm, 1e-5 * duals[k].norm);
     tally.nearest = std::min(tally.nearest, 1 - off / (half + rounding));
