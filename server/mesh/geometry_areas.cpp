@@ -2,7 +2,7 @@
 //
 // Chords with their ends on a curve leave area on one side of it, and an energy off by as much.
 // With ends a third of the way beyond, as much lies on the other side: what is left of the
-// difference is of the fourth order in the angle of a chord, not of the second.
+// difference is of the third order in the angle of a chord, not of the second (THEORY.md).
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -57,8 +57,8 @@ def interval(value: float, lower: float, upper: float, mesh: float, unit: str = 
 
 def with_bounds(of: Any, name: str, unit: str = "") -> str:
     """Writes the interval of a value of an answer, "A", "energy" and so on, and of A its relative error, as the command
-    does: "0.85 %" of itself unless it may be 0, and where it is nearer to 0 "40 %; 0.3 % of 0.05 mm", of its scale; then
-    what curves in place of chords may change, by estimate: ", chords +- 1e-05 mm"."""
+    does: "0.85 %" of itself unless it may be 0, and where it is nearer to 0 "40 %; 0.3 % of 0.05 mm", of its scale.
+    Then what curves in place of their chords may change, by estimate: ", chords +- 1e-05 mm"."""
     value, lower, upper, mesh = (getattr(of, name + part) for part in ("", "_lower", "_upper", "_mesh"))
     relative, errors = getattr(of, f"{name}_error_relative", math.nan), []
     if math.isfinite(relative):
@@ -67,9 +67,10 @@ def with_bounds(of: Any, name: str, unit: str = "") -> str:
             errors.append(per_cent(half / abs(value)))
         if half > 0 and (not value or relative < half / abs(value)):
             errors.append(f"{per_cent(relative)} of {of.A_scale:.3g}{unit}")
-    chords = getattr(of, f"{name}_geometry_error", math.nan)
-    return interval(value, lower, upper, mesh, unit, "; ".join(errors), _probable(of, unit) if name == "A" else "") + (
-        f", chords +- {chords:.2g}{unit}" if math.isfinite(chords) else "")
+    gap = getattr(of, f"{name}_geometry_error", math.nan)
+    chords = f", chords +- {gap:.2g}{unit}" if math.isfinite(gap) else ""
+    probable = _probable(of, unit) if name == "A" else ""
+    return interval(value, lower, upper, mesh, unit, "; ".join(errors), probable) + chords
 
 
 def _probable(of: Any, unit: str) -> str:
