@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import os
+from collections.abc import Iterable
 from dataclasses import asdict, fields
 from typing import Any
 
@@ -121,15 +122,18 @@ def _put_result(file: Any, result: Result) -> None:
         _put_sweep(file.create_group("sweep"), result.sweep)
 
 
+def _put_parts(group: Any, descriptor: Any, parts: Iterable[Any]) -> None:
+    """Writes objects with the values of a message as columns."""
+    for name, (_, field) in entries.entries_of(descriptor).items():
+        column = [_typed(field, getattr(part, name)) for part in parts]
+        kind = type(_typed(field, entries.none_of(field)))
+        _put(group, name, column if kind is str else np.array(column, kind))
+
+
 def _put_load(group: Any, load: Load, interfaces: Parts[Interface]) -> None:
     _put_record(group, load)
-    for place, message, parts in (("inclusions", solve_pb2.InclusionAnswer, list(load.inclusions.values())),
-                                  ("tips", solve_pb2.Tip, load.tips)):
-        columns = group.create_group(place)
-        for name, (_, part) in entries.entries_of(message.DESCRIPTOR).items():
-            values = [_typed(part, getattr(one, name)) for one in parts]
-            kind = type(_typed(part, entries.none_of(part)))
-            _put(columns, name, values if kind is str else np.array(values, kind))
+    _put_parts(group.create_group("inclusions"), solve_pb2.InclusionAnswer.DESCRIPTOR, load.inclusions.values())
+    _put_parts(group.create_group("tips"), solve_pb2.Tip.DESCRIPTOR, load.tips)
     contact = group.create_group("contact_intervals")
     _put(contact, "interface", [interfaces[place].name for place, _, _ in load.contact_intervals])
     for i, name in enumerate(("begin", "end"), 1):
