@@ -31,6 +31,8 @@ std::vector<std::int32_t> unknown_at(const MeshOperator::Parts& parts,
   return unknown;
 }
 
+}  // namespace
+
 contact::Adjoint::Room room_of(const MeshOperator::Parts& parts, const estimate::Primal& primal,
                                const std::vector<char>& closed, const estimate::Weight* weight) {
   const estimate::CutMesh& cut = primal.cut;
