@@ -61,6 +61,7 @@ struct MeshOperator::Parts {
   mutable std::atomic<std::size_t> at_work{0};  // bytes of Working
 
   const estimate::CutMesh& cut_mesh() const;
+  /// The tips, prepared at the first call.
   const tips::Tips& all_tips() const;
   /// The function that condenses the loads of a subdomain.
   Condense condense() const;

@@ -10,6 +10,7 @@ namespace anticrack::tips {
 
 using mesh::Point;
 
+/// Products and differences of vectors of the plane.
 inline double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1]; }
 inline Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1]}; }
 

@@ -31,6 +31,7 @@ struct Flattened {
   double stretch = 1;   ///< Y = stretch d
   double root = 1;      ///< D
   Tensor tip{1, 0, 1};  ///< T0
+  /// `at_tip`: T0 in coordinates along and across.
   explicit Flattened(const Tensor& at_tip);
 };
 

@@ -52,7 +52,7 @@ Arm walk(const mesh::Mesh& mesh, const std::vector<EdgeEnd>& ends, const EdgeEnd
     const auto next = mesh::ends_at(ends, here.other);
     if (next.size() != 2 || here.other == first.node) break;
     const EdgeEnd& on = next[next[0].other == here.node ? 1 : 0];
-    if (on.kind != here.kind || on.inclusion != here.inclusion) break;
+    if (on.kind != here.kind || on.inclusion != here.inclusion || on.forward != here.forward) break;
     here = on;
   }
   return arm;

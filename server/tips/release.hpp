@@ -25,6 +25,7 @@ struct Corners {
   std::array<Point, 3> hat;
   double area;
 };
+/// Of a counterclockwise triangle.
 Corners corners_of(const std::array<Point, 3>& x);
 
 /// The number of radii with which an integral is computed.

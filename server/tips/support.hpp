@@ -28,6 +28,7 @@ constexpr std::size_t most_triangles = 60'000;
 /// Finds supports on one mesh. Keeps references to its arguments.
 class Surroundings {
  public:
+  /// `ends`: of mesh::edge_ends. O(m).
   Surroundings(const mesh::Mesh& mesh, const mesh::EdgeTable& edges,
                const std::vector<mesh::EdgeEnd>& ends);
 

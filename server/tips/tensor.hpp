@@ -16,6 +16,7 @@ namespace anticrack::tips {
 /// Txx, Txy, Tyy.
 using Tensor = std::array<double, 3>;
 
+/// T v.
 inline Point product(const Tensor& t, const Point& v) {
   return {t[0] * v[0] + t[1] * v[1], t[1] * v[0] + t[2] * v[1]};
 }
@@ -25,6 +26,7 @@ double root_of_determinant(const Tensor& t);
 /// T of a subdomain at points.
 class Law {
  public:
+  /// That of a mesh for one of its subdomains.
   Law(const mesh::Mesh& mesh, std::size_t subdomain);
 
   /// Throws errors::Error (expression_invalid) where an expression is not finite.
@@ -40,6 +42,7 @@ class Law {
   bool _varies = false, _may_jump = false;
 };
 
+/// Of all subdomains.
 std::vector<Law> laws_of(const mesh::Mesh& mesh);
 
 }  // namespace anticrack::tips
