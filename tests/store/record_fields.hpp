@@ -140,7 +140,6 @@ class AnyValue {
       positive(value.tip_size);
       positive(value.chord_angle);
     } else if constexpr (std::is_same_v<Struct, records::MeshRecord>) {
-      positive(value.theta_star);
       positive(value.bisection_bound);
     } else if constexpr (std::is_same_v<Struct, contact::AnswerSummary>) {
       positive(value.theta);
