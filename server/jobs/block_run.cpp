@@ -18,7 +18,7 @@ void BlockRun::add(const Task& task, operators::PreparedLoad load) {
   auto column = std::make_unique<Column>(Column{task, History(task, _iterations)});
   const records::JobSpec& spec = *task.job->spec;
   const int place = _block.add(std::move(load), std::get<contact::UzawaOptions>(spec.solver),
-                               spec.fields, column->history);
+                               spec.fields, column->history, task.job->stop.get_token());
   _places[static_cast<std::size_t>(place)] = std::move(column);
   ++_columns;
 }

@@ -16,11 +16,13 @@ struct UzawaBlock::State {
         contact::Mass mass, int capacity)
       : mesh_operator(std::move(of_mesh)),
         columns(problem, mesh_operator->mesh(), mass, capacity),
-        loads(at(capacity)) {}
+        loads(at(capacity)),
+        stops(at(capacity)) {}
 
   std::shared_ptr<const MeshOperator> mesh_operator;
   contact::UzawaBlock columns;                     // refers to the operator and to the loads
   std::vector<std::optional<PreparedLoad>> loads;  // by place
+  std::vector<std::stop_token> stops;              // by place
 };
 
 UzawaBlock::UzawaBlock(std::shared_ptr<const MeshOperator> mesh_operator, contact::Mass mass,
@@ -38,23 +40,35 @@ int UzawaBlock::columns() const noexcept { return _state->columns.columns(); }
 int UzawaBlock::capacity() const noexcept { return _state->columns.capacity(); }
 
 int UzawaBlock::add(PreparedLoad load, const contact::UzawaOptions& options, bool fields,
-                    contact::Observer& observer) {
+                    contact::Observer& observer, std::stop_token stop) {
   _state->mesh_operator->require_prepared(load, fields);
   // The column refers to the load's data, which stay in place when the PreparedLoad moves.
   const int place = _state->columns.add(load._data->loads(), options, fields, observer);
   _state->loads[at(place)] = std::move(load);
+  _state->stops[at(place)] = std::move(stop);
   return place;
 }
 
 void UzawaBlock::step() { _state->columns.step(); }
+
+/// An answer that is stopped meanwhile is cancelled.
+void UzawaBlock::measure_tips(const PreparedLoad& load, contact::Answer& answer,
+                              const std::stop_token& stop) const {
+  if (answer.status == contact::Status::cancelled) return;
+  try {
+    _state->mesh_operator->find_tips(load, answer, stop);
+  } catch (const errors::Error& error) {
+    if (error.reason() != errors::Reason::cancelled || !stop.stop_requested()) throw;
+  }
+  if (stop.stop_requested()) answer.status = contact::Status::cancelled;
+}
 
 std::vector<UzawaBlock::Ended> UzawaBlock::take_ended() {
   std::vector<Ended> ended;
   for (contact::UzawaBlock::Ended& one : _state->columns.take_ended()) {
     std::optional<PreparedLoad>& load = _state->loads[at(one.place)];
     load->_data->add_warnings(one.answer);
-    if (one.answer.status != contact::Status::cancelled)
-      _state->mesh_operator->find_tips(*load, one.answer);
+    measure_tips(*load, one.answer, _state->stops[at(one.place)]);
     load.reset();
     ended.push_back({one.place, std::move(one.answer)});
   }

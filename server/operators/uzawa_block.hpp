@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <stop_token>
 #include <vector>
 
 #include "contact/answer.hpp"
@@ -30,9 +31,10 @@ class UzawaBlock {
   int capacity() const noexcept;  ///< most columns that may iterate at once
 
   /// Adds a column and returns its place, below capacity(), which it keeps until its answer is
-  /// taken. `options.mass` must be the block's; the observer must outlive the column.
+  /// taken. `options.mass` must be the block's; the observer must outlive the column. After a
+  /// `stop` its tips are not measured.
   int add(PreparedLoad load, const contact::UzawaOptions& options, bool fields,
-          contact::Observer& observer);
+          contact::Observer& observer, std::stop_token stop = {});
   /// Iterates every column once. O(n_G^2 columns), no allocation. An observer that returns false
   /// cancels its column.
   void step();
@@ -47,6 +49,8 @@ class UzawaBlock {
 
  private:
   struct State;
+  void measure_tips(const PreparedLoad& load, contact::Answer& answer,
+                    const std::stop_token& stop) const;
   std::unique_ptr<State> _state;
 };
 

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <span>
+#include <utility>
 
 #include "base/at.hpp"
 #include "mesh/refine.hpp"
@@ -105,6 +107,9 @@ std::vector<Place> find_places(const mesh::Mesh& mesh, const mesh::EdgeTable& ed
   double size = 0;
   for (const double x : mesh.xy) size = std::max(size, std::abs(x));
   const std::vector<bool> on_boundary = edges.boundary_nodes(mesh.node_count());
+  std::set<std::pair<std::int32_t, std::int32_t>> chords;
+  for (const mesh::ChordEdge& chord : mesh.chords)
+    chords.emplace(std::min(chord.a, chord.b), std::max(chord.a, chord.b));
   std::vector<Place> places;
   for (const std::int32_t node : mesh::tips(mesh)) {
     const auto here = mesh::ends_at(ends, node);
@@ -122,6 +127,9 @@ std::vector<Place> find_places(const mesh::Mesh& mesh, const mesh::EdgeTable& ed
       place.subdomain[plus ? 1 : 0] = mesh.subdomain[at(use.triangle)];
     }
     place.reason = on_boundary[at(node)] ? "it lies on the boundary" : met.reason;
+    // The last chord is short beside its curve (mesh::Tips), so that hardly a disc is left.
+    if (place.reason.empty() && chords.contains(std::minmax(node, behind.other)))
+      place.reason = "it lies on a curve, of which the mesh has chords; end it by a straight piece";
     place.unilateral = behind.kind == Kind::crack || behind.kind == Kind::delaminated;
     if (place.reason.empty()) {
       std::vector<Arm> arms{walk(mesh, ends, behind, size)};

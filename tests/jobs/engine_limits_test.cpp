@@ -212,7 +212,7 @@ TEST(EngineLimits, LoadCasesPastTheBytesOfAResultFail) {
 
 TEST(EngineLimits, TheEventLogIsTrimmedAndTheResultIsNot) {
   EngineOptions options = one_thread();
-  options.event_log_bytes = 2500;
+  options.event_log_bytes = 4000;
   Engine test(options);
   records::JobSpec spec = short_job(test.ready_mesh());
   uzawa_of(spec).epsilon = 1e-300;

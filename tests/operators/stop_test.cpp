@@ -83,7 +83,7 @@ void expect_stops(const Stage& stage) {
     const stop::Scope scope(stopped.asked());
     try {
       stage.run();
-      ADD_FAILURE() << "went on to its end";
+      ADD_FAILURE() << "went on to its end, after " << stopped.count() << " looks";
     } catch (const errors::Error& error) {
       EXPECT_EQ(error.reason(), errors::Reason::cancelled) << error.what();
     }
@@ -113,7 +113,10 @@ void walk(mesh::Mesh made, std::size_t condensed_up_to) {
   const std::vector<double> indicator = op->estimate(prepared, answer);
   ASSERT_EQ(answer.no_bracket, "");
   ASSERT_TRUE(answer.inclusions.front().displacement_lower);
-  expect_stops({"bounding", [&] { op->estimate(prepared, answer); }});
+  expect_stops({"bounding", [&] {
+                  contact::Answer again = answer;  // one that was stopped is of no use
+                  op->estimate(prepared, again);
+                }});
 }
 
 TEST(Stops, ManyInclusionsOnASkeleton) { walk(with_inclusions(16, 128), skeleton); }
