@@ -170,11 +170,11 @@ class Figures(unittest.TestCase):
         for part in result["pulled"].fields:
             part.u = result.mesh.nodes[part.nodes] @ (3.0, -4.0)
         for tension, size in zip(result.mesh.tension, draw.flux(result, "pulled")):
-            numpy.testing.assert_allclose(size, 5 * tension, rtol=1e-3)  # the smallest triangles have edges of 1e-13
+            numpy.testing.assert_allclose(size, 5 * tension, rtol=1e-2)  # the smallest triangles have edges of 1e-13
         self.assertGreater(len(set(result.mesh.tension)), 1)
         result.mesh.info.subdomains[1].tension_law.along = "1 + x^2"
         for size in draw.flux(result, "pulled"):  # |grad u|: T is not known
-            numpy.testing.assert_allclose(size, 5, rtol=1e-3)
+            numpy.testing.assert_allclose(size, 5, rtol=1e-2)
         self.assertTrue(draw.plan(result, "pulled").figure.axes[1].get_ylabel().startswith("|\u2207u|"))
 
     def test_the_side_that_came_off_is_the_minus_side(self):
