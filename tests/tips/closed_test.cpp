@@ -14,7 +14,6 @@ namespace {
 
 using contact::TipAnswer;
 using mesh::Kind;
-using mesh::TipKind;
 
 /// Pushes the faces together over the middle, apart elsewhere.
 fem::Load partly_closing() {
