@@ -42,8 +42,11 @@ std::vector<EdgeEnd> edge_ends(const Mesh& mesh, const EdgeTable& edges) {
 }
 
 std::span<const EdgeEnd> ends_at(std::span<const EdgeEnd> ends, std::int32_t node) noexcept {
-  const auto found = std::ranges::equal_range(ends, node, {}, &EdgeEnd::node);
-  return {found.begin(), found.end()};
+  const auto first =
+      std::lower_bound(ends.begin(), ends.end(), node,
+                       [](const EdgeEnd& end, std::int32_t sought) { return end.node < sought; });
+  return {first,
+          std::find_if(first, ends.end(), [node](const EdgeEnd& end) { return end.node != node; })};
 }
 
 }  // namespace anticrack::mesh

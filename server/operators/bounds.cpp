@@ -90,8 +90,9 @@ void find_bounds(const MeshOperator::Parts& parts, const estimate::CutMesh& cut,
     of.indicator.resize(bracket.indicator.size());
     for (std::size_t t = 0; t < bracket.indicator.size(); ++t)
       of.indicator[at(cut.triangle[t])] = bracket.indicator[t];
-    bounded.push_back({load, primals.emplace_back(cut, fluxes[i], balance, lifts, u, lack), bracket,
-                       answer, of.stop, of.closely, of.of_largest, &of.indicator, across});
+    primals.push_back({cut, fluxes[i], balance, lifts, u, lack});
+    bounded.push_back({load, primals.back(), bracket, answer, of.stop, of.closely, of.of_largest,
+                       &of.indicator, across});
   }
   bound_displacements(parts, bounded);
   for (const Bounded& one : bounded) contact::take_middles(one.answer);
