@@ -11,6 +11,7 @@
 
 #include "casefile/json.hpp"
 #include "casefile/sections.hpp"
+#include "mesh/geometry.hpp"
 #include "toml/long_key.hpp"
 
 namespace anticrack::casefile {
@@ -33,13 +34,13 @@ bool has_curves(const v1::Geometry& geometry) {
 // The chord angle for which chords change about a tenth of what is asked for: what they change
 // falls as the third power of the angle, and is about 1e-4 of the values with the default one.
 double chord_angle_for(const v1::Accuracy& accuracy) {
-  constexpr double default_angle = 5, is_for = 1e-3;
+  constexpr double is_for = 1e-3;
   double least = is_for;
   if (accuracy.has_energy()) least = std::min(least, accuracy.energy());
   if (accuracy.has_displacement()) least = std::min(least, accuracy.displacement());
   if (accuracy.has_displacement_estimated())
     least = std::min(least, accuracy.displacement_estimated());
-  return default_angle * std::cbrt(least / is_for);
+  return mesh::default_chord_angle * std::cbrt(least / is_for);
 }
 
 void read_mesh(const Section& root, Case& result) {
