@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/exact_run.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <exception>
 #include <utility>
 
 #include "contact/answer.hpp"
 #include "errors/errors.hpp"
+#include "jobs/result_block.hpp"
 #include "operators/mesh_operator.hpp"
 #include "stop/stop.hpp"
 
@@ -76,6 +79,14 @@ void find_tips(const std::vector<PreparedCase>& cases, std::vector<Solved>& solv
     if (solved[i].failure || solved[i].answer.fields.empty()) continue;
     const auto& job = *cases[i].task.job;
     try {
+      const std::size_t tips = job.mesh_operator->tip_count();
+      if (!has_room_for_tips(*job.spec, job.mesh_operator->mesh().inclusions, tips)) {
+        solved[i].answer.warnings.push_back(fmt::format(
+            "no numbers of tips: {} tips in {} load cases do not fit in a message; make smaller "
+            "jobs",
+            tips, job.spec->loads.size()));
+        continue;
+      }
       job.mesh_operator->find_tips(cases[i].load, solved[i].answer, job.stop.get_token());
     } catch (...) {
       solved[i].failure = std::current_exception();

@@ -45,6 +45,15 @@ constexpr std::uint64_t rows_of(const std::tuple<Rows...>&) {
   return sizeof...(Rows);
 }
 
+/// Of the answer to a load case, without its tips.
+std::uint64_t answer_bytes(const std::vector<std::string>& inclusions) {
+  constexpr std::uint64_t a_case = 800;        // numbers and texts
+  constexpr std::uint64_t an_inclusion = 139;  // fourteen numbers and tags
+  std::uint64_t bytes = a_case;
+  for (const std::string& name : inclusions) bytes += an_inclusion + name.size();
+  return bytes;
+}
+
 }  // namespace
 
 records::Block case_arrays(std::size_t index, const contact::Answer& answer,
@@ -97,13 +106,15 @@ void require_result_arrays(const records::JobSpec& spec, std::uint64_t interface
   }
 }
 
+bool has_room_for_tips(const records::JobSpec& spec, const std::vector<std::string>& inclusions,
+                       std::size_t tips) {
+  constexpr std::uint64_t a_tip = 200;  // nine numbers, names and a reason
+  return spec.loads.size() * (answer_bytes(inclusions) + a_tip * tips) <= max_answer_bytes;
+}
+
 void require_answers(const records::JobSpec& spec, const std::vector<std::string>& inclusions) {
-  constexpr std::uint64_t a_case = 800;        // numbers and texts
-  constexpr std::uint64_t an_inclusion = 139;  // fourteen numbers and tags
-  std::uint64_t answer = a_case;
-  for (const std::string& name : inclusions) answer += an_inclusion + name.size();
-  const std::uint64_t bytes = spec.sweep ? 0 : spec.loads.size() * answer;
-  if (bytes > max_answer_bytes) {
+  const std::uint64_t answer = answer_bytes(inclusions);
+  if (!spec.sweep && spec.loads.size() * answer > max_answer_bytes) {
     throw errors::Error(errors::Reason::limit_exceeded,
                         "the answers to {} load cases with {} inclusions each do not fit in a "
                         "message: make jobs of at most {} load cases",

@@ -9,12 +9,14 @@ const tips::Tips& MeshOperator::Parts::all_tips() const {
   return tips.get([this] { return tips::Tips(*mesh, decomposition); });
 }
 
+std::size_t MeshOperator::tip_count() const { return _parts->all_tips().size(); }
+
 void MeshOperator::find_tips(const PreparedLoad& load, contact::Answer& answer,
                              const std::stop_token& stop) const {
   const stop::Scope scope(stop);
   require_prepared(load, false);
   const tips::Tips& tips = _parts->all_tips();
-  if (tips.empty()) return;
+  if (tips.size() == 0) return;
   if (!load._data->has_interior || load._data->balanced) {  // which lacks f
     answer.tips = tips.without_numbers("rows of a sweep have no numbers of tips");
     return;

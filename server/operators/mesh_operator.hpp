@@ -94,6 +94,8 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
   /// How many answers to estimate together: as many as gain speed and fit in memory.
   std::size_t estimated_together() const noexcept;
 
+  /// The tips of cracks and inclusions: mesh::tips. O(m log m) in the first call.
+  std::size_t tip_count() const;
   /// Fills the tips of an answer to this load (contact::TipAnswer), for which it recovers the
   /// fields if it has none, and drops them again. O(triangles near tips), and O(m) for the load.
   /// Throws errors::Error (cancelled, limit_exceeded without memory).

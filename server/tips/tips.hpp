@@ -53,8 +53,7 @@ class Tips {
   /// The rows without numbers, for one reason.
   std::vector<contact::TipAnswer> without_numbers(const std::string& reason) const;
 
-  /// Whether the mesh has no tips.
-  bool empty() const noexcept { return _tips.empty(); }
+  std::size_t size() const noexcept { return _tips.size(); }
   /// Memory in bytes.
   std::size_t bytes() const noexcept;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Jobs from submission to result.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -137,7 +138,7 @@ v1::CreateMeshRequest mesh_of_slits() {
   return request;
 }
 
-/// The layout alone has some 20 MB.
+/// The layout alone has some 20 MB. The numbers of 180,000 tips have no room in the answers.
 TEST(Job, OfManyLoadsAndInterfacesIsReadWhole) {
   RunningServer server;
   const std::string mesh = server.create(mesh_of_slits()).name();
@@ -150,6 +151,10 @@ TEST(Job, OfManyLoadsAndInterfacesIsReadWhole) {
   }
   const v1::Job job = server.finish(server.create(request).name());
   ASSERT_EQ(job.status().state(), v1::JobStatus::STATE_SUCCEEDED) << job.status().error().message();
+  ASSERT_EQ(job.status().answers_size(), 1000);
+  EXPECT_EQ(job.status().answers(999).tips_size(), 0);
+  ASSERT_EQ(job.status().answers(999).warnings_size(), 1);
+  EXPECT_THAT(job.status().answers(999).warnings(0), ::testing::StartsWith("no numbers of tips"));
   Received block;
   ASSERT_TRUE(read_result(server, job.name(), 0, block).ok());
   EXPECT_GT(block.layout.arrays_size(), 450'000);
