@@ -9,6 +9,18 @@ const tips::Tips& MeshOperator::Parts::all_tips() const {
   return tips.get([this] { return tips::Tips(*mesh, decomposition); });
 }
 
+ForceOnTriangles::ForceOnTriangles(const LoadParts& parts,
+                                   const std::vector<ddm::Subdomain>& subdomains)
+    : linear(subdomains.size()) {
+  for (std::size_t s = 0; s < subdomains.size(); ++s) {
+    const ddm::Subdomain& one = subdomains[s];
+    auto made = fem::linear_parts(one.part, parts.force, one.name, {one.node, one.triangle});
+    if (made) linear[s] = std::move(*made);
+    of_subdomains.emplace_back(made ? std::span<const double>(linear[s].load)
+                                    : parts.integrated[s].load);
+  }
+}
+
 std::size_t MeshOperator::tip_count() const { return _parts->all_tips().size(); }
 
 void MeshOperator::find_tips(const PreparedLoad& load, contact::Answer& answer,
@@ -32,16 +44,8 @@ void MeshOperator::find_tips(const PreparedLoad& load, contact::Answer& answer,
     recover_fields(loads, answers);
   }
   const LoadParts& parts = load._data->condensed.parts;
-  const std::vector<ddm::Subdomain>& subdomains = _parts->decomposition.subdomains;
-  std::vector<fem::ForceParts> linear(subdomains.size());
-  std::vector<std::span<const double>> force;
-  for (std::size_t s = 0; s < subdomains.size(); ++s) {
-    const ddm::Subdomain& one = subdomains[s];
-    auto made = fem::linear_parts(one.part, parts.force, one.name, {one.node, one.triangle});
-    if (made) linear[s] = std::move(*made);
-    force.emplace_back(made ? std::span<const double>(linear[s].load) : parts.integrated[s].load);
-  }
-  answer.tips = tips.of({answer, force, parts.points});
+  const ForceOnTriangles force(parts, _parts->decomposition.subdomains);
+  answer.tips = tips.of({answer, force.of_subdomains, parts.points});
   if (recovered) answer.fields.clear();
 }
 

@@ -31,6 +31,7 @@ struct TraceGeometry;
 
 namespace anticrack::operators {
 
+class Growth;
 class PreparedLoad;
 class LoadBasis;
 class UzawaBlock;
@@ -155,6 +156,7 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
   struct Parts;
 
  private:
+  friend class Growth;
   friend class UzawaBlock;
   explicit MeshOperator(std::shared_ptr<const Parts> parts) : _parts(std::move(parts)) {}
   /// Throws errors::Error (internal) if the load is of another mesh, or if `fields` are asked for
@@ -175,6 +177,7 @@ class PreparedLoad {
   explicit PreparedLoad(std::shared_ptr<const Data> data) : _data(std::move(data)) {}
 
  private:
+  friend class Growth;
   friend class MeshOperator;
   friend class UzawaBlock;
   std::shared_ptr<const Data> _data;
