@@ -289,7 +289,7 @@ TEST(Preview, FollowsTwoHundredPositions) {
   for (std::size_t i = 1; i < mesh.xy.size(); i += 2)  // as fine across the line as along it
     mesh.xy[i] = std::copysign(std::expm1(3 * std::abs(mesh.xy[i])) / std::expm1(3.0), mesh.xy[i]);
   ASSERT_EQ(mesh.triangle_count(), 40'000U);
-  const OnMesh on = prepared(std::move(mesh), Bonded::load());
+  const OnMesh on = prepared(std::move(mesh), load_of("0", "y > 0 ? 2 : x < -0.45 ? 14 : -10"));
   const std::clock_t begin = std::clock();
   const Grown grown = grow(on, {{"sigma", 0.7, 1.75, "0.1"}});
   std::printf("[ figures  ] %zu positions on 40,000 triangles: %.2f s of processor time\n",
