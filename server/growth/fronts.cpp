@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "base/at.hpp"
@@ -28,11 +29,11 @@ struct Incident {
 
 bool is_open(Kind kind) { return kind == Kind::crack || kind == Kind::delaminated; }
 
-std::size_t nearest(const std::vector<double>& arc, double s) {
-  const auto above = std::ranges::lower_bound(arc, s);
-  if (above == arc.begin()) return 0;
-  if (above == arc.end() || s - above[-1] < *above - s) return at(above - arc.begin() - 1);
-  return at(above - arc.begin());
+std::string shown(const mesh::Point& x) { return errors::shown(x[0], x[1]); }
+
+std::string shown(const Path& path) {
+  return fmt::format("the path on \"{}\" from {} to {}", path.interface, shown(path.from),
+                     shown(path.to));
 }
 
 class Finder {
@@ -61,9 +62,9 @@ class Finder {
     stretch.holds_beyond = last == End::holds;
     if (first != End::front && last != End::front) {
       throw Error(Reason::invalid_argument,
-                  "nothing open meets the path \"{}\" from {} to {}, so no front starts there: let "
-                  "it begin where the inclusion has come off or the crack ends",
-                  path.interface, errors::shown(path.from), errors::shown(path.to));
+                  "nothing open meets {}, so no front starts there: let it begin where the "
+                  "inclusion has come off or the crack ends",
+                  shown(path));
     }
     const Track from_first = track_of(path, stretch, arc);
     const auto add_front = [&](bool forward, End beyond, int facing) {
@@ -87,48 +88,64 @@ class Finder {
  private:
   enum class End { front, holds, breaks_through };
 
+  /// The node of an interface that is nearest to a point, which may be an edge's length away.
+  std::size_t nearest(const Path& path, const mesh::Interface& line, const mesh::Point& x) const {
+    std::size_t best = 0;
+    double least = std::numeric_limits<double>::infinity(), edge = 0;
+    for (std::size_t i = 0; i < line.nodes.size(); ++i) {
+      const mesh::Point node = mesh::position(_mesh, line.nodes[i]);
+      const double far = std::hypot(x[0] - node[0], x[1] - node[1]);
+      if (i > 0) {
+        const mesh::Point before = mesh::position(_mesh, line.nodes[i - 1]);
+        edge = std::max(edge, std::hypot(node[0] - before[0], node[1] - before[1]));
+      }
+      if (!(far < least)) continue;
+      least = far;
+      best = i;
+    }
+    if (!(least <= edge)) {
+      throw Error(Reason::invalid_argument,
+                  "{} leaves its interface, from which {} is {} away: write points of it",
+                  shown(path), shown(x), errors::shown(least));
+    }
+    return best;
+  }
+
   Stretch place(const Path& path, const std::vector<Stretch>& before) const {
     const auto found = std::ranges::find(_mesh.interfaces, path.interface, &mesh::Interface::name);
-    if (found == _mesh.interfaces.end())
-      throw Error(Reason::invalid_argument, "the mesh has no interface \"{}\"", path.interface);
-    const std::vector<double> arc = mesh::arc_length(_mesh, *found);
-    const double slack = 1e-9 * arc.back();
-    if (!(path.from >= -slack && path.from < path.to && path.to <= arc.back() + slack)) {
-      throw Error(Reason::invalid_argument,
-                  "the path from {} to {} leaves its interface \"{}\", whose length is {}: write "
-                  "0 <= from < to <= {}",
-                  errors::shown(path.from), errors::shown(path.to), path.interface,
-                  errors::shown(arc.back()), errors::shown(arc.back()));
+    if (found == _mesh.interfaces.end()) {
+      std::string names;
+      for (const mesh::Interface& line : _mesh.interfaces)
+        names += (names.empty() ? "\"" : ", \"") + line.name + "\"";
+      throw Error(Reason::invalid_argument, "the mesh has no interface \"{}\"; it has {}",
+                  path.interface, names.empty() ? "none" : names);
     }
     Stretch stretch;
     stretch.interface = at(found - _mesh.interfaces.begin());
-    stretch.first = nearest(arc, path.from);
-    stretch.last = nearest(arc, path.to);
-    if (stretch.first >= stretch.last)
+    stretch.first = nearest(path, *found, path.from);
+    stretch.last = nearest(path, *found, path.to);
+    if (stretch.first > stretch.last) std::swap(stretch.first, stretch.last);
+    if (stretch.first == stretch.last)
       throw Error(Reason::invalid_argument,
-                  "the path \"{}\" from {} to {} is shorter than an edge of the mesh: take a finer "
-                  "mesh",
-                  path.interface, errors::shown(path.from), errors::shown(path.to));
+                  "{} is shorter than an edge of the mesh: take a finer mesh", shown(path));
     for (const Stretch& other : before)
       if (other.interface == stretch.interface && stretch.first <= other.last &&
           other.first <= stretch.last)
         throw Error(Reason::invalid_argument,
-                    "two paths of \"{}\" overlap or touch: write one, with Gc an expression in x "
-                    "and y",
-                    path.interface);
+                    "{} overlaps or touches another: write one, with Gc an expression in x and y",
+                    shown(path));
     const Kind kind = found->kind[stretch.first];
     for (std::size_t e = stretch.first; e < stretch.last; ++e) {
       if (!is_open(found->kind[e]) || found->kind[e] != kind ||
           found->inclusion[e] != found->inclusion[stretch.first])
         throw Error(Reason::invalid_argument,
-                    "the path \"{}\" from {} to {} is not of one condition on the mesh, crack or "
-                    "delaminated, at {}: end it there",
-                    path.interface, errors::shown(path.from), errors::shown(path.to),
-                    errors::shown(arc[e]));
+                    "{} is not of one condition on the mesh, a crack or delaminated, at {}: end it "
+                    "there, and let the mesh have as open what may come off",
+                    shown(path), shown(mesh::position(_mesh, found->nodes[e])));
       if (e > stretch.first && _incident[at(found->nodes[e])].size() > 2)
         throw Error(Reason::invalid_argument,
-                    "the path \"{}\" crosses another interface at {}: end it there",
-                    path.interface, errors::shown(arc[e]));
+                    "{} crosses another interface at {}: end it there", shown(path),
+                    shown(mesh::position(_mesh, found->nodes[e])));
     }
     return stretch;
   }
@@ -171,7 +188,7 @@ class Finder {
       if (!(Gc > 0)) {
         throw Error(Reason::invalid_argument,
                     "Gc = {} is {} at {}; it must be above 0 on the whole path", path.toughness,
-                    errors::shown(Gc), errors::shown(x[0], x[1]))
+                    errors::shown(Gc), shown(x))
             .at("toughness");
       }
       track.position.push_back(arc[i]);

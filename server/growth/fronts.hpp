@@ -10,16 +10,10 @@
 #include <vector>
 
 #include "growth/evolution.hpp"
+#include "growth/path.hpp"
 #include "mesh/mesh.hpp"
 
 namespace anticrack::growth {
-
-/// A stretch of an interface that holds at first.
-struct Path {
-  std::string interface;
-  double from = 0, to = 0;  ///< arc length from the first node of the interface, [L]
-  std::string toughness;    ///< Gc, an expression in x and y, [F/L]
-};
 
 /// A path as nodes: of `first` to `last` of the interface nothing comes off before a front passes.
 struct Stretch {
@@ -48,8 +42,9 @@ struct Fronts {
 
 /// Finds the fronts, in the order of the paths, of each first the one at its first end. Ends of
 /// paths are moved to the nearest nodes. Throws errors::Error at "paths[i]": invalid_argument for a
-/// path that leaves its interface, crosses or touches another interface or path, is not open on the
-/// mesh, or has no front; expression_invalid for Gc. O(k log k) for k interface edges.
+/// path that leaves its interface by more than an edge, crosses or touches another interface or
+/// path, is not open on the mesh, or has no front; expression_invalid for Gc. O(k) for k interface
+/// edges, and O(m log m).
 Fronts find_fronts(const mesh::Mesh& mesh, std::span<const Path> paths);
 
 }  // namespace anticrack::growth

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "growth/fronts.hpp"
+#include "growth/on_line.hpp"
 #include "support/errors.hpp"
 #include "support/structured_mesh.hpp"
 
@@ -16,6 +17,7 @@ namespace {
 
 using errors::Reason;
 using mesh::Kind;
+using testing::on_line;
 using testing::throws;
 
 /// Along y = 0: glue up to -3/4, an inclusion that has come off or may do so up to 1/4, which goes
@@ -31,8 +33,11 @@ mesh::Mesh line(Kind from_left = Kind::delaminated) {
 
 TEST(Fronts, AreWhereAPathMeetsWhatIsOpen) {
   const mesh::Mesh mesh = line();
-  const Path to_bonded{"sigma", 0.75, 1.25, "1 + x"}, to_end{"sigma", 0.25, 0.5, "2"};
+  const Path to_bonded = on_line(0.75, 1.25, "1 + x"), to_end = on_line(0.25, 0.5, "2");
   const Fronts right = find_fronts(mesh, std::vector{to_bonded});
+  const Fronts turned =
+      find_fronts(mesh, std::vector{Path{"sigma", to_bonded.to, to_bonded.from, "1 + x"}});
+  EXPECT_EQ(right.fronts[0].track.position, turned.fronts[0].track.position);
   ASSERT_EQ(right.fronts.size(), 1U);
   const Track& track = right.fronts[0].track;
   EXPECT_DOUBLE_EQ(track.position.front(), 0.75);
@@ -45,7 +50,7 @@ TEST(Fronts, AreWhereAPathMeetsWhatIsOpen) {
   EXPECT_DOUBLE_EQ(left.fronts[0].track.position.back(), 0.25);
   EXPECT_TRUE(left.fronts[0].track.breaks_through);  // the inclusion ends
   EXPECT_EQ(left.fronts[0].track.facing, -1);
-  const Fronts bridge = find_fronts(mesh, std::vector{Path{"sigma", 0.5, 1, "2"}});
+  const Fronts bridge = find_fronts(mesh, std::vector{on_line(0.5, 1, "2")});
   ASSERT_EQ(bridge.fronts.size(), 2U);
   EXPECT_EQ(bridge.fronts[0].track.facing, 1);
   EXPECT_EQ(bridge.fronts[1].track.facing, 0);
@@ -57,28 +62,33 @@ TEST(Fronts, OfPathsThatAreNoneAreRefused) {
     return [=] { find_fronts(mesh, paths); };
   };
   const mesh::Mesh open = line();
-  const Path good{"sigma", 0.75, 1.25, "1"};
+  const Path good = on_line(0.75, 1.25, "1");
   using Paths = std::vector<Path>;
   EXPECT_TRUE(throws(find(open, {}), Reason::invalid_argument, "paths"));
   // nothing open meets it
-  EXPECT_TRUE(throws(find(open, {{"sigma", 0.25, 1.25, "1"}}), Reason::invalid_argument, "paths[0]"));
+  EXPECT_TRUE(throws(find(open, {on_line(0.25, 1.25, "1")}), Reason::invalid_argument, "paths[0]"));
   // beyond the interface, of no length, without a number
-  for (const auto& [from, to] : {std::pair{0.75, 2.5}, {-1.0, 0.5}, {1.0, 1.0}, {1.0, 0.5},
+  for (const auto& [from, to] : {std::pair{0.75, 2.5}, {-1.0, 0.5}, {1.0, 1.0},
                                  {std::nan(""), 1.0}, {0.75, HUGE_VAL}})
-    EXPECT_TRUE(throws(find(open, Paths{good, {"sigma", from, to, "1"}}),
+    EXPECT_TRUE(throws(find(open, Paths{good, on_line(from, to, "1")}),
                        Reason::invalid_argument, "paths[1]"))
         << from << " " << to;
-  EXPECT_TRUE(throws(find(open, {{"tau", 0.75, 1.25, "1"}}), Reason::invalid_argument, "paths[0]"));
+  Path other = good;
+  other.interface = "tau";
+  EXPECT_TRUE(throws(find(open, {other}), Reason::invalid_argument, "paths[0]"));
+  other = good;
+  other.to[1] = 0.3;  // beside the line
+  EXPECT_TRUE(throws(find(open, {other}), Reason::invalid_argument, "paths[0]"));
   // glue and what is bonded do not come off
-  EXPECT_TRUE(throws(find(open, {{"sigma", 0.75, 1.4, "1"}}), Reason::invalid_argument, "paths[0]"));
-  EXPECT_TRUE(throws(find(open, {{"sigma", 0.1, 0.5, "1"}}), Reason::invalid_argument, "paths[0]"));
+  EXPECT_TRUE(throws(find(open, {on_line(0.75, 1.4, "1")}), Reason::invalid_argument, "paths[0]"));
+  EXPECT_TRUE(throws(find(open, {on_line(0.1, 0.5, "1")}), Reason::invalid_argument, "paths[0]"));
   EXPECT_TRUE(throws(find(line(Kind::inclusion), {good}), Reason::invalid_argument, "paths[0]"));
   // two paths that share a node
-  EXPECT_TRUE(throws(find(open, {good, {"sigma", 0.5, 0.75, "1"}}), Reason::invalid_argument,
+  EXPECT_TRUE(throws(find(open, {good, on_line(0.5, 0.75, "1")}), Reason::invalid_argument,
                      "paths[1]"));
   for (const std::string bad : {"0", "-1", "x - 0.1", "0/0"})
-    EXPECT_TRUE(testing::error_of(find(open, {{"sigma", 0.75, 1.25, bad}})).has_value()) << bad;
-  EXPECT_TRUE(throws(find(open, {{"sigma", 0.75, 1.25, "1 +"}}), Reason::expression_invalid));
+    EXPECT_TRUE(testing::error_of(find(open, {on_line(0.75, 1.25, bad)})).has_value()) << bad;
+  EXPECT_TRUE(throws(find(open, {on_line(0.75, 1.25, "1 +")}), Reason::expression_invalid));
 }
 
 }  // namespace

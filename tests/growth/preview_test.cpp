@@ -16,15 +16,18 @@
 #include "contact/answer.hpp"
 #include "contact/options.hpp"
 #include "fem/load.hpp"
+#include "growth/on_line.hpp"
 #include "operators/grow.hpp"
 #include "support/errors.hpp"
 #include "support/silent_observer.hpp"
 #include "support/structured_mesh.hpp"
+#include "tips/measured.hpp"
 
 namespace anticrack::growth {
 namespace {
 
 using mesh::Kind;
+using testing::on_line;
 using operators::Growth;
 using operators::MeshOperator;
 using operators::PreparedLoad;
@@ -125,7 +128,7 @@ mesh::Mesh with_free_sides(mesh::Mesh mesh) {
 }
 
 /// Two paths from |x| = 1/4 to 3/4, and states with both fronts at |x| = half.
-const std::vector<Path> both_ways = {{"sigma", 0.25, 0.75, "1"}, {"sigma", 1.25, 1.75, "1"}};
+const std::vector<Path> both_ways = {on_line(0.25, 0.75, "1"), on_line(1.25, 1.75, "1")};
 
 /// The largest relative error of G1 where both fronts are equally far, less the shift by which these
 /// meshes make everything that is open longer: 0.353 of an edge on squares with a diagonal.
@@ -195,7 +198,7 @@ struct Bonded {
     const std::string by = std::to_string(size);
     return load_of("0", by + "*(y > 0 ? 2 : x < -0.25 ? 14 : -10)");
   }
-  static std::vector<Path> paths() { return {{"sigma", 1 + to, 1 + end, "0.1"}}; }
+  static std::vector<Path> paths() { return {on_line(1 + to, 1 + end, "0.1")}; }
 };
 
 TEST(PreviewUnderContact, IsTheProblemWithEachFrontWhereItIs) {
@@ -249,6 +252,25 @@ TEST(PreviewUnderContact, ScalesWithTheLoad) {
   }
 }
 
+/// A graded mesh with the front where it is has t_c within 1 %, or a part of it that falls with the
+/// edges: at 0 the front is near the end of contact.
+TEST(PreviewUnderContact, IsNearAGradedMesh) {
+  const Grown grown =
+      grow(prepared(square(Bonded::opened, 4 * Bonded::n), Bonded::load()), Bonded::paths(), 16);
+  for (const Row& row : grown.rows) {
+    const double front = row.position[0] - 1;
+    if (std::remainder(front, 0.25) != 0) continue;
+    const mesh::Mesh base = testing::cut_square([&](double x) {
+      return x > front && x < Bonded::end ? Kind::inclusion : Bonded::opened(x);
+    });
+    const testing::Measured graded = testing::measure(testing::fine(base), Bonded::load());
+    const double load = std::sqrt(0.1 / *graded.tip(front).energy_release_rate);
+    std::printf("[ figures  ] front at %g: t_c is %.2f %% off a graded mesh\n", front,
+                100 * (row.load / load - 1));
+    EXPECT_NEAR(row.load, load, (front == 0 ? 0.02 : 0.01) * load) << front;
+  }
+}
+
 /// The same numbers whatever was solved before.
 TEST(PreviewUnderContact, HasNoMemory) {
   const OnMesh on = prepared(square(Bonded::opened, Bonded::n), Bonded::load());
@@ -273,7 +295,7 @@ TEST(PreviewOfAClosedFront, DoesNotGrow) {
 
 TEST(Preview, RefusesAFrontThatIsTooNearToSomething) {
   const OnMesh on = prepared(square(Bonded::opened, Bonded::n), Bonded::load());
-  const std::vector<Path> near = {{"sigma", 1.7, 1.75, "1"}};
+  const std::vector<Path> near = {on_line(1.7, 1.75, "1")};
   EXPECT_TRUE(testing::throws([&] { Growth(on.op, on.load, near); },
                               errors::Reason::invalid_argument, "paths[0]"));
 }
@@ -291,7 +313,7 @@ TEST(Preview, FollowsTwoHundredPositions) {
   ASSERT_EQ(mesh.triangle_count(), 40'000U);
   const OnMesh on = prepared(std::move(mesh), load_of("0", "y > 0 ? 2 : x < -0.45 ? 14 : -10"));
   const std::clock_t begin = std::clock();
-  const Grown grown = grow(on, {{"sigma", 0.7, 1.75, "0.1"}});
+  const Grown grown = grow(on, {on_line(0.7, 1.75, "0.1")});
   std::printf("[ figures  ] %zu positions on 40,000 triangles: %.2f s of processor time\n",
               grown.rows.size(), static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
   EXPECT_GE(grown.rows.size(), 190U);
