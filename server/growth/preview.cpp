@@ -215,6 +215,13 @@ void Preview::tie(const State& state) {
   }
 }
 
+contact::Answer Preview::answer(const State& state, const contact::ActiveSetOptions& options,
+                                contact::Observer& observer) {
+  tie(state);
+  return contact::solve_active_set(_problem, _mesh, _load.loads, options, false, observer, {},
+                                   _tied);
+}
+
 Measured Preview::measure(const State& state) {
   stop::look("growing cracks and delaminations");
   tie(state);

@@ -48,6 +48,10 @@ class Preview {
           std::span<const Path> paths);
 
   std::vector<Track> tracks() const;
+  /// The whole answer in a state, for t = 1, without fields; what holds on the paths counts as glue
+  /// or bonded. Throws as measure().
+  contact::Answer answer(const State& state, const contact::ActiveSetOptions& options,
+                         contact::Observer& observer);
   /// Solves a state. O(c^3) a step of the active set with c open contacts, and O(N). Throws
   /// errors::Error: numerical where a part of the membrane slides off or the steps do not end;
   /// cancelled.

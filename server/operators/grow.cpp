@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "contact/answer.hpp"
 #include "errors/errors.hpp"
 #include "growth/preview.hpp"
 #include "operators/mesh_parts.hpp"
@@ -35,6 +36,14 @@ Growth::Growth(std::shared_ptr<const MeshOperator> mesh_operator, PreparedLoad l
 Growth::~Growth() = default;
 
 std::vector<growth::Track> Growth::tracks() const { return _parts->preview.tracks(); }
+
+contact::Answer Growth::answer(const growth::State& state,
+                               const contact::ActiveSetOptions& options,
+                               contact::Observer& observer) {
+  contact::Answer answer = _parts->preview.answer(state, options, observer);
+  _parts->load._data->add_warnings(answer);
+  return answer;
+}
 
 growth::Measured Growth::measure(const growth::State& state, const std::stop_token& stop) {
   const stop::Scope scope(stop);

@@ -26,6 +26,9 @@ class Growth {
   Growth& operator=(const Growth&) = delete;
 
   std::vector<growth::Track> tracks() const;
+  /// As growth::Preview::answer.
+  contact::Answer answer(const growth::State& state, const contact::ActiveSetOptions& options,
+                         contact::Observer& observer);
   /// As growth::Preview::measure.
   growth::Measured measure(const growth::State& state, const std::stop_token& stop = {});
 

@@ -202,8 +202,8 @@ struct Bonded {
 };
 
 TEST(PreviewUnderContact, IsTheProblemWithEachFrontWhereItIs) {
-  const Grown grown = grow(prepared(square(Bonded::opened, Bonded::n), Bonded::load()),
-                           Bonded::paths(), 4);
+  const OnMesh on_paths = prepared(square(Bonded::opened, Bonded::n), Bonded::load());
+  const Grown grown = grow(on_paths, Bonded::paths(), 4);
   ASSERT_GE(grown.rows.size(), 3U);
   bool any_contact = false;
   for (std::size_t k = 0; k < grown.rows.size(); ++k) {
@@ -220,6 +220,16 @@ TEST(PreviewUnderContact, IsTheProblemWithEachFrontWhereItIs) {
                 1e-10 * std::abs(answer.inclusions[0].displacement));
     EXPECT_NEAR(measured.energy, answer.energy, 1e-10 * std::abs(answer.energy));
     any_contact = any_contact || answer.contact_length > 0;
+    // The whole answer is that, too.
+    Growth growth(on_paths.op, on_paths.load, Bonded::paths());
+    const contact::Answer held = growth.answer({{4 * k}, {Fate::grows}}, {}, silent);
+    EXPECT_EQ(held.status, contact::Status::converged) << held.reason;
+    EXPECT_NEAR(held.energy, answer.energy, 1e-10 * std::abs(answer.energy));
+    EXPECT_NEAR(held.contact_length, answer.contact_length, 1e-9);
+    for (std::size_t i = 0; i < answer.traces[0].jump.size(); ++i) {
+      EXPECT_NEAR(held.traces[0].u_minus[i], answer.traces[0].u_minus[i], 1e-9);
+      EXPECT_EQ(held.traces[0].contact[i], answer.traces[0].contact[i]) << i;
+    }
     EXPECT_EQ(measured.contact_length > 0, answer.contact_length > 0);
   }
   EXPECT_TRUE(any_contact);
