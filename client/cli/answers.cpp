@@ -20,6 +20,7 @@
 #include "cli/progress.hpp"
 #include "cli/sweep_text.hpp"
 #include "cli/text.hpp"
+#include "cli/growth_text.hpp"
 #include "cli/tips_text.hpp"
 #include "results/entries.hpp"
 #include "results/interval.hpp"
@@ -258,6 +259,9 @@ Json load_json(const results::Load& load, const std::string& method) {
   json["worst_kkt"] = load.has_answer() ? results::largest_kkt(load.answer) : results::unknown;
   json["inclusions"] = json_list(load.answer.inclusions());
   json["tips"] = json_list(load.answer.tips());
+  json["growth"] = json_list(load.answer.growth());
+  json["growth_notes"] = std::vector<std::string>(load.answer.growth_notes().begin(),
+                                                  load.answer.growth_notes().end());
   json["contact_intervals"] = json_list(load.answer.contact_intervals());
   json["stages"] = Json::array();
   for (const v1::Stage& stage : load.stages)
@@ -302,7 +306,8 @@ std::string answers_table(const std::vector<results::Load>& loads, const v1::Uni
     for (const std::string& remark : remarks_on(load))
       remarks += sanitise(load.name()) + ": " + sanitise(remark) + "\n";
   }
-  return table(rows, left) + inclusions.hint() + remarks + tips_table(loads, units, false);
+  return table(rows, left) + inclusions.hint() + remarks + tips_table(loads, units, false) +
+         growth_table(loads, units, false);
 }
 
 std::string answers_table(const results::Result& result) {

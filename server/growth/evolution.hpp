@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "mesh/mesh.hpp"
+
 namespace anticrack::growth {
 
 /// Where one front may be: its positions, the first of which it has at first.
@@ -23,6 +25,7 @@ struct Track {
   /// front. If not, the path ends where the membrane holds.
   bool breaks_through = false;
   int facing = -1;  ///< the front that comes towards this one on the same path; -1: none
+  std::vector<mesh::Point> place{};  ///< (n) of the positions in the plane
 };
 
 /// What becomes of a front.

@@ -71,6 +71,7 @@ class Finder {
       Front front{all.stretches.size(), forward, from_first};
       if (!forward) {
         std::ranges::reverse(front.track.position);
+        std::ranges::reverse(front.track.place);
         std::ranges::reverse(front.track.toughness);
       }
       front.track.breaks_through = beyond != End::holds;
@@ -192,6 +193,7 @@ class Finder {
             .at("toughness");
       }
       track.position.push_back(arc[i]);
+      track.place.push_back(x);
       track.toughness.push_back(Gc);
     }
     return track;

@@ -9,6 +9,7 @@
 
 #include "contact/answer.hpp"
 #include "errors/errors.hpp"
+#include "jobs/growth_run.hpp"
 #include "jobs/result_block.hpp"
 #include "operators/mesh_operator.hpp"
 #include "stop/stop.hpp"
@@ -32,9 +33,12 @@ Solved solve(const PreparedCase& prepared, std::atomic<std::uint64_t>& iteration
   const stop::Scope scope(prepared.task.job->stop.get_token());
   try {
     Recorder recorder(prepared.task, iterations);
-    solved.answer = prepared.task.job->mesh_operator->solve(
-        prepared.load, std::get<contact::ActiveSetOptions>(spec_of(prepared).solver), false,
-        recorder);
+    solved.answer =
+        spec_of(prepared).growth
+            ? grow(prepared, recorder)
+            : prepared.task.job->mesh_operator->solve(
+                  prepared.load, std::get<contact::ActiveSetOptions>(spec_of(prepared).solver),
+                  false, recorder);
     solved.history = recorder.history();
   } catch (...) {
     solved.failure = std::current_exception();
@@ -47,8 +51,10 @@ bool all_stopped(const std::vector<PreparedCase>& cases) {
       cases, [](const PreparedCase& one) { return one.task.job->stop.stop_requested(); });
 }
 
-/// Bounds and tips are computed from fields.
+/// Bounds and tips are computed from fields. With growth there are none: on the mesh all paths are
+/// open.
 bool wants_fields(const PreparedCase& prepared) {
+  if (spec_of(prepared).growth) return false;
   return spec_of(prepared).fields || !spec_of(prepared).without_bounds ||
          !prepared.task.job->mesh_operator->mesh().interfaces.empty();
 }
@@ -104,7 +110,7 @@ void add_bounds(const std::vector<PreparedCase>& cases, std::vector<Solved>& sol
   std::vector<operators::MeshOperator::Estimate> estimates;
   std::vector<Solved*> of_estimates;
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    if (solved[i].failure || spec_of(cases[i]).without_bounds ||
+    if (solved[i].failure || spec_of(cases[i]).without_bounds || spec_of(cases[i]).growth ||
         solved[i].answer.status != contact::Status::converged)
       continue;
     operators::MeshOperator::Estimate one{&cases[i].load, &solved[i].answer,
