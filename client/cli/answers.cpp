@@ -16,11 +16,11 @@
 #include <variant>
 #include <vector>
 
+#include "cli/growth_text.hpp"
 #include "cli/json.hpp"
 #include "cli/progress.hpp"
 #include "cli/sweep_text.hpp"
 #include "cli/text.hpp"
-#include "cli/growth_text.hpp"
 #include "cli/tips_text.hpp"
 #include "results/entries.hpp"
 #include "results/interval.hpp"

@@ -63,8 +63,8 @@ std::string growth_table(const std::vector<results::Load>& loads, const v1::Unit
       notes += sanitise(load.name()) + ": " + sanitise(note) + "\n";
   }
   if (rows.size() == 2) return "";
-  return "\n" + table(rows, {2, 9}) + (left_out ? "all rows: anticrack show RESULT --growth\n" : "") +
-         notes;
+  return "\n" + table(rows, {2, 9}) +
+         (left_out ? "all rows: anticrack show RESULT --growth\n" : "") + notes;
 }
 
 }  // namespace anticrack::cli

@@ -120,8 +120,8 @@ struct AnswerSummary {
 ANTICRACK_FIELDS(AnswerSummary, reason, iterations, criterion, theta, theta_star, energy, kkt,
                  kkt_relative, weakly_active, warnings, inclusions, contact_length,
                  contact_intervals, energy_lower, energy_upper, error_bound, error_bound_relative,
-                 no_bracket, energy_mesh, contact_length_error, energy_geometry_error, tips,
-                 growth, growth_notes)
+                 no_bracket, energy_mesh, contact_length_error, energy_geometry_error, tips, growth,
+                 growth_notes)
 
 /// The number that users are told of a value: the middle of its bounds, or without bounds `mesh`,
 /// that of u on the mesh.

@@ -31,9 +31,9 @@ struct Track {
 /// What becomes of a front.
 enum class Fate {
   grows,
-  snapped,        ///< the last piece before its end, or another front, came off at once
-  end_of_path,    ///< its path ends, and the membrane holds there
-  not_followed,   ///< G cannot be computed any further
+  snapped,       ///< the last piece before its end, or another front, came off at once
+  end_of_path,   ///< its path ends, and the membrane holds there
+  not_followed,  ///< G cannot be computed any further
 };
 
 /// The positions of all fronts.
@@ -59,8 +59,8 @@ struct Control {
 
 /// A state, and the load at which the first of its fronts leaves it.
 struct Row {
-  std::vector<double> position;  ///< of each front
-  std::vector<double> G1;        ///< of each front; NaN where it does not grow any more
+  std::vector<double> position;   ///< of each front
+  std::vector<double> G1;         ///< of each front; NaN where it does not grow any more
   std::vector<double> toughness;  ///< Gc where each front is
   /// t at which each front starts; infinite where it is closed or does not grow any more.
   std::vector<double> starts;
@@ -68,10 +68,10 @@ struct Row {
   std::vector<double> displacement;  ///< of each inclusion, at this load
   double control = 0;                ///< what is increased: the load, or |A| of the inclusion
   double contact_length = 0;
-  double energy = 0;              ///< Pi at this load
-  int leader = -1;                ///< the front that starts; -1: all are closed
-  std::vector<int> ties;          ///< others that start at a load at most 1 % above
-  bool stable = false;            ///< control is above that of all rows before
+  double energy = 0;      ///< Pi at this load
+  int leader = -1;        ///< the front that starts; -1: all are closed
+  std::vector<int> ties;  ///< others that start at a load at most 1 % above
+  bool stable = false;    ///< control is above that of all rows before
 };
 
 /// A change of a front's fate.
@@ -122,8 +122,8 @@ struct Jump {
   std::size_t from = 0;
   std::optional<std::size_t> to;
   /// What growth does not use of the energy that the jump sets free, [F L]: the sum over the rows
-  /// between of int (G - Gc) da, by the trapezoidal rule, without pieces that snap. Under control by
-  /// a displacement it is right only if the force on that inclusion is the whole load.
+  /// between of int (G - Gc) da, by the trapezoidal rule, without pieces that snap. Under control
+  /// by a displacement it is right only if the force on that inclusion is the whole load.
   double not_dissipated = 0;
 };
 /// `rows` of one Evolution.

@@ -144,9 +144,8 @@ class Finder {
                     "there, and let the mesh have as open what may come off",
                     shown(path), shown(mesh::position(_mesh, found->nodes[e])));
       if (e > stretch.first && _incident[at(found->nodes[e])].size() > 2)
-        throw Error(Reason::invalid_argument,
-                    "{} crosses another interface at {}: end it there", shown(path),
-                    shown(mesh::position(_mesh, found->nodes[e])));
+        throw Error(Reason::invalid_argument, "{} crosses another interface at {}: end it there",
+                    shown(path), shown(mesh::position(_mesh, found->nodes[e])));
     }
     return stretch;
   }

@@ -17,9 +17,9 @@ namespace anticrack::growth {
 
 /// A path as nodes: of `first` to `last` of the interface nothing comes off before a front passes.
 struct Stretch {
-  std::size_t interface = 0;            ///< index into Mesh::interfaces
-  std::size_t first = 0, last = 0;      ///< indices into Interface::nodes
-  int forward = -1, backward = -1;      ///< the fronts that start at `first` and at `last`
+  std::size_t interface = 0;        ///< index into Mesh::interfaces
+  std::size_t first = 0, last = 0;  ///< indices into Interface::nodes
+  int forward = -1, backward = -1;  ///< the fronts that start at `first` and at `last`
   /// Whether the membrane holds beyond, so that the end is no tip as long as the path holds.
   bool holds_before = false, holds_beyond = false;
 };

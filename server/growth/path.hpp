@@ -9,12 +9,12 @@
 
 namespace anticrack::growth {
 
-/// A stretch of an interface that holds at first. The mesh has there what it becomes, delaminated or
-/// a crack.
+/// A stretch of an interface that holds at first. The mesh has there what it becomes, delaminated
+/// or a crack.
 struct Path {
-  std::string interface;  ///< its name
+  std::string interface;     ///< its name
   mesh::Point from{}, to{};  ///< its ends, in either order
-  std::string toughness;  ///< Gc, an expression in x and y, [F/L]
+  std::string toughness;     ///< Gc, an expression in x and y, [F/L]
 };
 ANTICRACK_FIELDS(Path, interface, from, to, toughness)
 

@@ -70,12 +70,13 @@ Preview::Preview(const contact::ContactProblem& problem, const mesh::Mesh& mesh,
     const Place& here = place(i, 0);
     const double enough = least_radius * here.edge, found = room(i, first);
     if (found >= enough) continue;
-    throw Error(Reason::invalid_argument,
-                "the front at {} has {} only {} away, and G takes a radius of {}, ten edges: take a "
-                "finer mesh along the path",
-                errors::shown(here.course.tip[0], here.course.tip[1]),
-                found < here.radius ? "another front or point force" : here.reason,
-                errors::shown(found), errors::shown(enough))
+    throw Error(
+        Reason::invalid_argument,
+        "the front at {} has {} only {} away, and G takes a radius of {}, ten edges: take a "
+        "finer mesh along the path",
+        errors::shown(here.course.tip[0], here.course.tip[1]),
+        found < here.radius ? "another front or point force" : here.reason, errors::shown(found),
+        errors::shown(enough))
         .at(fmt::format("paths[{}]", _fronts.fronts[i].stretch));
   }
 }
@@ -254,8 +255,7 @@ Measured Preview::measure(const State& state) {
   for (std::size_t p = 0; p < _decomposition.pairs.size(); ++p) {
     const std::int32_t contact = _decomposition.pairs[p].contact;
     if (contact >= 0 && solution.pressed[at(contact)] != 0)
-      measured.contact_length +=
-          _problem.traces().lumped_mass()[static_cast<Eigen::Index>(p)];
+      measured.contact_length += _problem.traces().lumped_mass()[static_cast<Eigen::Index>(p)];
   }
   for (std::size_t i = 0; i < _fronts.fronts.size(); ++i) {
     measured.release.emplace_back();
@@ -290,12 +290,10 @@ double Preview::release(const Place& here, double outer, const contact::Answer& 
       u[i] = solved.fields[at(cell.subdomain)].u[n];
     }
     const fem::Tension& tension = subdomain.tension;
-    const tips::Tensor T = tension.of_triangle.empty()
-                               ? tips::Tensor{tension.mean, 0, tension.mean}
-                               : tension.of_triangle[at(cell.triangle)];
-    moved.add(tips::corners_of(x), u, T,
-              &_load.force[at(cell.subdomain)][3 * at(cell.triangle)], slope,
-              here.change.empty() ? nullptr : &here.change[k], rates);
+    const tips::Tensor T = tension.of_triangle.empty() ? tips::Tensor{tension.mean, 0, tension.mean}
+                                                       : tension.of_triangle[at(cell.triangle)];
+    moved.add(tips::corners_of(x), u, T, &_load.force[at(cell.subdomain)][3 * at(cell.triangle)],
+              slope, here.change.empty() ? nullptr : &here.change[k], rates);
   }
   const auto [least, most] = std::ranges::minmax(rates);
   return rates.front() <= closed_spread * (most - least) ? 0 : rates.front();

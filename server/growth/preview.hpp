@@ -27,8 +27,8 @@
 
 namespace anticrack::growth {
 
-/// Radii of the integral for G over the edges at the front. On meshes without symmetry a smaller one
-/// errs by some per cent, whatever the mesh.
+/// Radii of the integral for G over the edges at the front. On meshes without symmetry a smaller
+/// one errs by some per cent, whatever the mesh.
 constexpr double least_radius = 10, radius = 16;
 
 /// A load on the mesh, and its parts on triangles.
@@ -60,12 +60,12 @@ class Preview {
  private:
   struct Place {
     tips::Course course;
-    double radius = 0;              ///< no tip that does not move, bend or boundary is nearer
-    double edge = 0;                ///< length of an edge at the front
-    std::string reason;             ///< what is nearest
-    std::vector<tips::Cell> cells;  ///< nearer than the radius
+    double radius = 0;                 ///< no tip that does not move, bend or boundary is nearer
+    double edge = 0;                   ///< length of an edge at the front
+    std::string reason;                ///< what is nearest
+    std::vector<tips::Cell> cells;     ///< nearer than the radius
     std::vector<tips::Tensor> change;  ///< (cells) derivative of T; empty: 0
-    std::int32_t behind = -1;       ///< contact right behind the front; -1: none
+    std::int32_t behind = -1;          ///< contact right behind the front; -1: none
     std::int32_t inclusion = -1;
   };
 

@@ -63,8 +63,8 @@ struct EndEvent {
   std::shared_ptr<const records::JobRecord> job;
 };
 
-using Event = std::variant<SampleEvent, PhaseEvent, CaseEvent, RowsEvent, StageEvent, GrowthEvent,
-                           EndEvent>;
+using Event =
+    std::variant<SampleEvent, PhaseEvent, CaseEvent, RowsEvent, StageEvent, GrowthEvent, EndEvent>;
 
 struct NumberedEvent {
   std::uint64_t sequence = 0;

@@ -99,9 +99,10 @@ std::vector<std::string> notes_on(const std::vector<growth::Row>& rows, const Ev
     const std::string front = shown(track, track.position[evolution.state().at[event.front]]);
     switch (event.fate) {
       case growth::Fate::snapped:
-        notes.push_back(front + (track.facing < 0
-                                     ? " comes so near to the end that the rest comes off at once"
-                                     : " meets that from the other side: the rest comes off at once"));
+        notes.push_back(front +
+                        (track.facing < 0
+                             ? " comes so near to the end that the rest comes off at once"
+                             : " meets that from the other side: the rest comes off at once"));
         break;
       case growth::Fate::end_of_path:
         notes.push_back(front + " is at the end of its path");
@@ -126,9 +127,8 @@ contact::Answer grown(const PreparedCase& prepared, contact::Observer& observer)
   std::vector<growth::Track> tracks = preview.tracks();
   const std::size_t step = step_of(tracks, positions_of(spec));
   Evolution evolution(std::move(tracks), control, step);
-  contact::Answer answer =
-      preview.answer(evolution.state(), std::get<contact::ActiveSetOptions>(job.spec->solver),
-                     observer);
+  contact::Answer answer = preview.answer(
+      evolution.state(), std::get<contact::ActiveSetOptions>(job.spec->solver), observer);
   if (answer.status != contact::Status::converged) return answer;
   std::vector<growth::Row> rows;
   while (!evolution.over()) {
@@ -163,8 +163,9 @@ void check_growth(const records::JobSpec& spec, const EngineOptions& options) {
     const growth::Path& path = growth.paths[i];
     const std::string field = fmt::format("growth.paths[{}].toughness", i);
     if (path.toughness.empty())
-      throw Error(Reason::invalid_argument, "Gc is missing; write a number above 0, or an "
-                                            "expression in x and y")
+      throw Error(Reason::invalid_argument,
+                  "Gc is missing; write a number above 0, or an "
+                  "expression in x and y")
           .at(field);
     if (path.toughness.size() > options.max_expression_bytes)
       throw Error(Reason::limit_exceeded, "Gc has {} bytes and may have {}", path.toughness.size(),
@@ -177,8 +178,9 @@ void check_growth(const records::JobSpec& spec, const EngineOptions& options) {
                 "growth takes the method \"active-set\": fronts are contacts that are tied")
         .at("solver.uzawa");
   if (spec.fields || spec.indicators)
-    throw Error(Reason::invalid_argument, "a job with growth has traces, and no fields or "
-                                          "indicators: leave them out")
+    throw Error(Reason::invalid_argument,
+                "a job with growth has traces, and no fields or "
+                "indicators: leave them out")
         .at("outputs");
   constexpr std::uint64_t a_row = 200;  // thirteen numbers and a name
   const auto rows = static_cast<std::uint64_t>(positions_of(growth)) * spec.loads.size();

@@ -16,8 +16,8 @@ namespace anticrack::jobs {
 /// what needs no mesh.
 void check_growth(const records::JobSpec& spec, const EngineOptions& options);
 
-/// The answer of the first state with the rows of growth, each of which the job's log hears of as it
-/// comes. Throws errors::Error at "growth...": as operators::Growth, and invalid_argument for an
+/// The answer of the first state with the rows of growth, each of which the job's log hears of as
+/// it comes. Throws errors::Error at "growth...": as operators::Growth, and invalid_argument for an
 /// unknown inclusion; cancelled.
 contact::Answer grow(const PreparedCase& prepared, contact::Observer& observer);
 

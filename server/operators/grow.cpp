@@ -29,7 +29,9 @@ Growth::Growth(std::shared_ptr<const MeshOperator> mesh_operator, PreparedLoad l
   ForceOnTriangles force(data.condensed.parts, on_mesh.decomposition.subdomains);
   const growth::PreviewLoad on_paths{data.loads(), force.of_subdomains,
                                      data.condensed.parts.points};
-  _parts.reset(new Parts{std::move(mesh_operator), std::move(load), std::move(force),
+  _parts.reset(new Parts{std::move(mesh_operator),
+                         std::move(load),
+                         std::move(force),
                          {*on_mesh.contact, *on_mesh.mesh, on_paths, paths}});
 }
 
@@ -37,8 +39,7 @@ Growth::~Growth() = default;
 
 std::vector<growth::Track> Growth::tracks() const { return _parts->preview.tracks(); }
 
-contact::Answer Growth::answer(const growth::State& state,
-                               const contact::ActiveSetOptions& options,
+contact::Answer Growth::answer(const growth::State& state, const contact::ActiveSetOptions& options,
                                contact::Observer& observer) {
   contact::Answer answer = _parts->preview.answer(state, options, observer);
   _parts->load._data->add_warnings(answer);

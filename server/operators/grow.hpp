@@ -14,11 +14,12 @@
 
 namespace anticrack::operators {
 
-/// Numbers of the fronts of some paths, wherever these are (growth/preview.hpp). Keeps the operators
-/// of the mesh alive. For one thread.
+/// Numbers of the fronts of some paths, wherever these are (growth/preview.hpp). Keeps the
+/// operators of the mesh alive. For one thread.
 class Growth {
  public:
-  /// Throws errors::Error: as growth::Preview; internal for a load of another mesh or a combination.
+  /// Throws errors::Error: as growth::Preview; internal for a load of another mesh or a
+  /// combination.
   Growth(std::shared_ptr<const MeshOperator> mesh_operator, PreparedLoad load,
          std::span<const growth::Path> paths, const std::stop_token& stop = {});
   ~Growth();

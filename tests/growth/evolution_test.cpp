@@ -45,9 +45,7 @@ std::vector<Row> grown(Evolution& evolution, const Rates& rates) {
 Measured one(double G1, double A = 1) { return {{G1}, {A}, 0, -G1}; }
 
 /// A double cantilever beam: A = a^3 under the force 1, so G1 = 3 a^2 / 2 by Irwin.
-Measured beam(const std::vector<double>& a) {
-  return one(1.5 * a[0] * a[0], a[0] * a[0] * a[0]);
-}
+Measured beam(const std::vector<double>& a) { return one(1.5 * a[0] * a[0], a[0] * a[0] * a[0]); }
 
 TEST(OneFront, OfABeamRunsUnderLoadAndCreepsUnderDisplacement) {
   constexpr double from = 1, to = 2, Gc = 0.3;
@@ -177,11 +175,11 @@ TEST(TwoFronts, GoOnWhenTheOtherHasEnded) {
   Track short_path = even(0, 0.1, 5), long_path = even(0, 1, 20);
   Evolution evolution({short_path, long_path}, {}, 1);
   const std::vector<Row> rows = grown(evolution, [&](const std::vector<double>& a) {
-    return Measured{{evolution.state().fate[0] == Fate::grows ? std::optional(5.0) : std::nullopt,
-                     1 + a[1]},
-                    {},
-                    0,
-                    0};
+    return Measured{
+        {evolution.state().fate[0] == Fate::grows ? std::optional(5.0) : std::nullopt, 1 + a[1]},
+        {},
+        0,
+        0};
   });
   EXPECT_EQ(rows.size(), 6U + 21U);
   EXPECT_EQ(rows[5].leader, 0);

@@ -68,10 +68,10 @@ TEST(Fronts, OfPathsThatAreNoneAreRefused) {
   // nothing open meets it
   EXPECT_TRUE(throws(find(open, {on_line(0.25, 1.25, "1")}), Reason::invalid_argument, "paths[0]"));
   // beyond the interface, of no length, without a number
-  for (const auto& [from, to] : {std::pair{0.75, 2.5}, {-1.0, 0.5}, {1.0, 1.0},
-                                 {std::nan(""), 1.0}, {0.75, HUGE_VAL}})
-    EXPECT_TRUE(throws(find(open, Paths{good, on_line(from, to, "1")}),
-                       Reason::invalid_argument, "paths[1]"))
+  for (const auto& [from, to] :
+       {std::pair{0.75, 2.5}, {-1.0, 0.5}, {1.0, 1.0}, {std::nan(""), 1.0}, {0.75, HUGE_VAL}})
+    EXPECT_TRUE(throws(find(open, Paths{good, on_line(from, to, "1")}), Reason::invalid_argument,
+                       "paths[1]"))
         << from << " " << to;
   Path other = good;
   other.interface = "tau";
@@ -84,8 +84,8 @@ TEST(Fronts, OfPathsThatAreNoneAreRefused) {
   EXPECT_TRUE(throws(find(open, {on_line(0.1, 0.5, "1")}), Reason::invalid_argument, "paths[0]"));
   EXPECT_TRUE(throws(find(line(Kind::inclusion), {good}), Reason::invalid_argument, "paths[0]"));
   // two paths that share a node
-  EXPECT_TRUE(throws(find(open, {good, on_line(0.5, 0.75, "1")}), Reason::invalid_argument,
-                     "paths[1]"));
+  EXPECT_TRUE(
+      throws(find(open, {good, on_line(0.5, 0.75, "1")}), Reason::invalid_argument, "paths[1]"));
   for (const std::string bad : {"0", "-1", "x - 0.1", "0/0"})
     EXPECT_TRUE(testing::error_of(find(open, {on_line(0.75, 1.25, bad)})).has_value()) << bad;
   EXPECT_TRUE(throws(find(open, {on_line(0.75, 1.25, "1 +")}), Reason::expression_invalid));

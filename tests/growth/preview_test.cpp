@@ -27,10 +27,10 @@ namespace anticrack::growth {
 namespace {
 
 using mesh::Kind;
-using testing::on_line;
 using operators::Growth;
 using operators::MeshOperator;
 using operators::PreparedLoad;
+using testing::on_line;
 
 using KindOf = std::function<Kind(double)>;
 
@@ -60,8 +60,7 @@ struct OnMesh {
 };
 
 OnMesh prepared(mesh::Mesh mesh, const fem::Load& load) {
-  auto op =
-      MeshOperator::factorise(std::make_shared<const mesh::Mesh>(std::move(mesh)), 2, {});
+  auto op = MeshOperator::factorise(std::make_shared<const mesh::Mesh>(std::move(mesh)), 2, {});
   const fem::Load* const one[] = {&load};
   auto outcome = std::move(op->prepare(one).front());
   if (const auto* error = std::get_if<errors::Error>(&outcome)) throw errors::Error(*error);
@@ -130,8 +129,8 @@ mesh::Mesh with_free_sides(mesh::Mesh mesh) {
 /// Two paths from |x| = 1/4 to 3/4, and states with both fronts at |x| = half.
 const std::vector<Path> both_ways = {on_line(0.25, 0.75, "1"), on_line(1.25, 1.75, "1")};
 
-/// The largest relative error of G1 where both fronts are equally far, less the shift by which these
-/// meshes make everything that is open longer: 0.353 of an edge on squares with a diagonal.
+/// The largest relative error of G1 where both fronts are equally far, less the shift by which
+/// these meshes make everything that is open longer: 0.353 of an edge on squares with a diagonal.
 double worst_error(const OnMesh& on, int n, double part) {
   Growth growth(on.op, on.load, both_ways);
   double worst = 0;
@@ -168,11 +167,11 @@ TEST(PreviewOfADelamination, HasHalfTheRateOfTheCrack) {
   EXPECT_LT(worst_error(prepared(mesh, load_of("y")), n, 0.5), 2e-3);
 }
 
-/// The longer half releases more: what leads goes on leading, and the other front begins when it has
-/// ended.
+/// The longer half releases more: what leads goes on leading, and the other front begins when it
+/// has ended.
 TEST(PreviewOfACrack, RunsOneWayAtATime) {
-  const OnMesh on = prepared(
-      with_free_sides(square(within(0.75, Kind::crack, Kind::glue), 64)), load_of("y"));
+  const OnMesh on =
+      prepared(with_free_sides(square(within(0.75, Kind::crack, Kind::glue), 64)), load_of("y"));
   const Grown grown = grow(on, both_ways, 4);
   int changes = 0;
   for (std::size_t k = 1; k < grown.rows.size(); ++k)
@@ -335,7 +334,10 @@ TEST(Preview, StopsWhenItIsToldTo) {
   std::stop_source stop;
   stop.request_stop();
   EXPECT_TRUE(testing::throws(
-      [&] { growth.measure({{0}, {Fate::grows}}, stop.get_token()); }, errors::Reason::cancelled));
+      [&] {
+        growth.measure({{0}, {Fate::grows}}, stop.get_token());
+      },
+      errors::Reason::cancelled));
 }
 
 }  // namespace

@@ -158,10 +158,9 @@ TEST(EngineGrowth, WithWhatCannotBeIsRefused) {
   using Spec = records::JobSpec;
   EXPECT_TRUE(throws(submit([](Spec& spec) { spec.growth->paths.clear(); }),
                      Reason::invalid_argument, "growth.paths"));
-  EXPECT_TRUE(throws(submit([](Spec& spec) {
-                       spec.growth->paths.resize(101, spec.growth->paths[0]);
-                     }),
-                     Reason::limit_exceeded, "growth.paths"));
+  EXPECT_TRUE(
+      throws(submit([](Spec& spec) { spec.growth->paths.resize(101, spec.growth->paths[0]); }),
+             Reason::limit_exceeded, "growth.paths"));
   for (const int positions : {-1, 1, 1001})
     EXPECT_TRUE(throws(submit([=](Spec& spec) { spec.growth->positions = positions; }),
                        Reason::invalid_argument, "growth.positions"));
@@ -171,8 +170,8 @@ TEST(EngineGrowth, WithWhatCannotBeIsRefused) {
                      Reason::expression_invalid, "growth.paths[0].toughness"));
   EXPECT_TRUE(throws(submit([](Spec& spec) { spec.solver = contact::UzawaOptions{}; }),
                      Reason::invalid_argument, "solver.uzawa"));
-  EXPECT_TRUE(throws(submit([](Spec& spec) { spec.fields = true; }), Reason::invalid_argument,
-                     "outputs"));
+  EXPECT_TRUE(
+      throws(submit([](Spec& spec) { spec.fields = true; }), Reason::invalid_argument, "outputs"));
   EXPECT_TRUE(throws(submit([](Spec& spec) {
                        spec.loads.resize(100, spec.loads[0]);
                        for (std::size_t i = 0; i < spec.loads.size(); ++i)
@@ -192,7 +191,10 @@ TEST(EngineGrowth, WithWhatCannotBeIsRefused) {
   EXPECT_EQ(field_of([](Spec& spec) { spec.growth->paths[0].toughness = "-1"; }),
             "growth.paths[0].toughness");
   EXPECT_EQ(field_of([](Spec& spec) { spec.growth->paths[0].to = {0, 0.7}; }), "growth.paths[0]");
-  EXPECT_EQ(field_of([](Spec& spec) { spec.growth->paths[0].from = {0.5, 0}; spec.growth->paths[0].to = {-0.5, 0}; }),
+  EXPECT_EQ(field_of([](Spec& spec) {
+              spec.growth->paths[0].from = {0.5, 0};
+              spec.growth->paths[0].to = {-0.5, 0};
+            }),
             "growth.paths[0]");
   EXPECT_EQ(field_of([](Spec& spec) { spec.growth->inclusion = "rivet"; }), "growth.inclusion");
 }

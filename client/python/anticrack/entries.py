@@ -18,8 +18,8 @@ _MESSAGES, _FIELDS = 4, 2  # numbers in paths of source_code_info, see descripto
 
 
 def name_of(field: Any) -> str:
-    """The name in files: the field's, but A, B, M of inclusions as in the paper, K_III and G of tips, G1 and Gc of growth, and
-    seconds for durations."""
+    """The name in files: the field's, but A, B, M of inclusions as in the paper, K_III and G of tips, G1 and Gc of
+    growth, and seconds for durations."""
     name = str(field.name)
     if field.message_type is not None and field.message_type.name == "Duration":
         return name.replace("time", "seconds")

@@ -243,8 +243,8 @@ class Load(_walked(solve_pb2.LoadCaseAnswer, ("name", "status"))):  # type: igno
         if self.no_bracket:
             told += f"\nno bounds: {self.no_bracket}"
         if self.growth:
-            told += "\n" + "\n".join(map(harmless, [f"growth: {counted(len(self.growth['load']), 'row')}",
-                                                  *self.growth_notes]))
+            notes = [f"growth: {counted(len(self.growth['load']), 'row')}", *self.growth_notes]
+            told += "\n" + "\n".join(map(harmless, notes))
         if self.inclusions:
             told += "\n" + lines(list(self.inclusions.values()))
         return told.replace("\n", "\n  ")

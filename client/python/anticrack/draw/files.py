@@ -165,8 +165,9 @@ class _Drawing:
 
 def draw_figures(result: Result, folder: str, wanted: Wanted, look: Look) -> Made:
     """Draws LOAD-membrane, LOAD-plan, LOAD-traces (-2 and so on for further interfaces), LOAD-convergence,
-    LOAD-accuracy, LOAD-growth and the overview LOAD for every load with traces; for a sweep, sweep, sweep-slope, sweep-contact and
-    the traces of kept rows. Makes the folder. Raises Error if it cannot be written or a name does not exist."""
+    LOAD-accuracy, LOAD-growth and the overview LOAD for every load with traces; for a sweep, sweep, sweep-slope,
+    sweep-contact and the traces of kept rows. Makes the folder. Raises Error if it cannot be written or a name does
+    not exist."""
     drawing = _Drawing(result, folder, wanted, look)
     output.make_folder(folder)
     with look.applied():
