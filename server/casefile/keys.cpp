@@ -195,7 +195,7 @@ constexpr Key mesh_rows[] = {
     {"preset", choice,
      "\"graded\": bisected towards every tip; \"coarse\": the same with edges four times as long; "
      "\"uniform\": edges of one length; \"paper\": section 8 of the paper, not for a mesh.file",
-     "\"graded\", with [accuracy] \"coarse\", with [growth] \"uniform\""_absent},
+     "\"graded\", with [accuracy] \"coarse\""_absent},
     {"size", positive, "L"_unit,
      "edge length away from tips, at most as long as the membrane is across; not for \"paper\". "
      "The longest edge, which `mesh show` prints, is about this",
