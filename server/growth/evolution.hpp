@@ -20,7 +20,7 @@ namespace anticrack::growth {
 struct Track {
   std::string name;               ///< of the path, for people
   std::vector<double> position;   ///< (n >= 2) arc length along its interface, [L]
-  std::vector<double> toughness;  ///< (n) Gc > 0, [F/L]
+  std::vector<double> toughness;  ///< (n) Gc > 0, [F]
   /// Whether nothing holds beyond the last position: the end of an inclusion, a free edge, another
   /// front. If not, the path ends where the membrane holds.
   bool breaks_through = false;
