@@ -224,5 +224,17 @@ TEST_F(JobStops, InAlgorithm2) {
        {{"computing theta*", 10}, {"inverting a dense matrix", 2}});
 }
 
+/// Every position of a front is one thing of many.
+TEST_F(JobStops, WhileAFrontGrows) {
+  records::JobSpec spec;
+  spec.mesh = test.ready_mesh(0.02);
+  spec.loads = {{"opening", fem::Expression{"y > 0 ? 1 : -1"}, ""}};
+  spec.growth.emplace().paths = {{"interface", {-0.5, 0}, {0, 0}, "0.1"}};
+  spec.growth->positions = 8;
+  walk(spec, {{"growing cracks and delaminations", 5},
+              {"solving for contact", 5},
+              {"gathering triangles about a tip", 5}});
+}
+
 }  // namespace
 }  // namespace anticrack::jobs
