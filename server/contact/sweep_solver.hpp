@@ -85,6 +85,8 @@ class SweepSolver {
   void solve(const SweepLoads& loads, std::span<const double> coefficients, std::size_t row,
              SweepColumns& rows);
 
+  /// The solution of the last row.
+  const LcpAnswer& answer() const noexcept { return _contact->answer(); }
   const std::vector<char>& closed() const noexcept { return _contact->answer().closed; }
 
  private:

@@ -79,7 +79,10 @@ SweepPlan plan_sweep(const records::JobSpec& spec, MatrixFile matrix,
   plan.matrix = std::move(matrix.path);
   plan.chunk_rows = chunk_rows(sweep.cases, plan.rows, nodes, mesh_operator.contact_nodes().size(),
                                motions(mesh_operator.mesh()));
-  if (sweep.bounds) plan.chunk_rows = std::min(plan.chunk_rows, mesh_operator.estimated_together());
+  const bool shared = sweep.cases == SweepSpec::Cases::combinations &&
+                      mesh_operator.shares_bounds(plan.columns, plan.rows);
+  if (sweep.bounds && !shared)
+    plan.chunk_rows = std::min(plan.chunk_rows, mesh_operator.estimated_together());
   plan.result_bytes = result_bytes(mesh_operator, plan.rows, sweep.traces.size(), sweep.bounds);
   if (plan.result_bytes > options.max_result_bytes) {
     throw Error(Reason::limit_exceeded,

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include "contact/sweep_solver.hpp"
 #include "errors/errors.hpp"
 #include "operators/mesh_parts.hpp"
+#include "operators/row_bounds.hpp"
 #include "stop/stop.hpp"
 
 namespace anticrack::operators {
@@ -96,24 +98,29 @@ const std::vector<std::string>& LoadBasis::warnings() const noexcept {
 }
 
 std::shared_ptr<const LoadBasis> MeshOperator::basis(std::span<const fem::Load* const> loads,
-                                                     const std::stop_token& stop,
-                                                     bool bounds) const {
+                                                     const std::stop_token& stop, bool bounds,
+                                                     std::uint64_t rows) const {
   if (loads.empty()) {
     throw errors::Error(errors::Reason::invalid_argument, "a sweep combines at least one load")
         .at("load_cases");
   }
   const stop::Scope scope(stop);
   require_memory(loads.size(), _parts->decomposition, bounds);
+  const Bounds kind = !bounds                             ? Bounds::none
+                      : shares_bounds(loads.size(), rows) ? Bounds::shared
+                                                          : Bounds::own;
   const auto make = [&]() -> BasisCache::Basis {
     std::vector<LoadOnTraces> condensed = sound(condense_loads(
         loads, *_parts->mesh, _parts->decomposition, _parts->condense(), _parts->neumann, bounds));
     std::vector<BalancedLoad> of_bounds;
     if (bounds)
       of_bounds = balanced(loads, condensed, _parts->decomposition.subdomains, _parts->cut_mesh());
-    return std::make_shared<const CondensedBasis>(
-        basis_of(std::move(condensed), std::move(of_bounds), *_parts));
+    CondensedBasis made = basis_of(std::move(condensed), std::move(of_bounds), *_parts);
+    if (kind == Bounds::shared)
+      made.shared = shared_bounds(*_parts, made.loads, made.balanced, made.reduced);
+    return std::make_shared<const CondensedBasis>(std::move(made));
   };
-  const std::optional<std::string> key = key_of(loads, bounds);
+  const std::optional<std::string> key = key_of(loads, kind);
   return std::make_shared<const LoadBasis>(std::make_shared<const LoadBasis::Data>(
       LoadBasis::Data{shared_from_this(), key ? _parts->bases.get(*key, stop, make) : make()}));
 }
@@ -146,11 +153,21 @@ bool MeshOperator::sweep(const LoadBasis& basis, std::span<const double> coeffic
   if (basis._data->mesh_operator.get() != this || coefficients.size() != rows.rows() * m)
     throw errors::Error(errors::Reason::internal, "coefficients of another basis");
   const contact::SweepLoads& loads = basis._data->basis->reduced;
+  const SharedBounds* shared = basis._data->basis->shared.get();
+  std::optional<RowBounds> bounds;
+  if (shared != nullptr && !rows.energy_lower.empty()) bounds.emplace(*_parts, *shared);
   return sweep_rows(options, rows, start, stop,
                     contact::solving_order(loads, coefficients, rows.rows()),
                     [&](contact::SweepSolver& solver, std::size_t row) {
-                      solver.solve(loads, coefficients.subspan(row * m, m), row, rows);
+                      const auto c = coefficients.subspan(row * m, m);
+                      solver.solve(loads, c, row, rows);
+                      if (bounds && rows.status[row] == contact::Status::converged)
+                        bounds->find(c, solver.answer(), row, rows);
                     });
+}
+
+bool MeshOperator::shares_bounds(std::size_t loads, std::uint64_t rows) const {
+  return operators::shares_bounds(*_parts, loads, rows);
 }
 
 bool MeshOperator::sweep(std::span<const PreparedLoad> loads,

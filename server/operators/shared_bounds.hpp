@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the bounds of all rows of a sweep share. Everything of a row lies in the span of
+//
+//   u_b:  the response to each load of the sweep, every contact closed; to a unit jump of each
+//         contact; and to a unit force on the A of each inclusion, every contact closed,
+//
+// with fluxes sigma_b that are linear, too: the fan of a contact divides its force lambda among
+// the faces beside it by their lengths, so that the pressure of a row is >= 0 where its lambda is,
+// whatever its contact. A row then turns the flux about each such node, phi_k, as far as p >= 0
+// allows. What bounds are made of are products of all these (THEORY.md, "Rows of a sweep").
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "contact/sweep_solver.hpp"
+#include "operators/aims.hpp"
+#include "operators/mesh_parts.hpp"
+
+namespace anticrack::operators {
+
+/// Index b: the loads, the contacts, the goals, in this order. Index e: without the goals. Index k:
+/// the turns.
+struct SharedBounds {
+  Eigen::Index loads = 0, contacts = 0, goals = 0;
+
+  Eigen::MatrixXd flux;     ///< (b, b) int (sigma_b - T grad u_b).(sigma_c - T grad u_c) / T
+  Eigen::MatrixXd mixed;    ///< (contacts, b) int grad u_i.(sigma_b - T grad u_b)
+  Eigen::MatrixXd turning;  ///< (k, b) int phi_k.(sigma_b - T grad u_b) / T
+  Eigen::SparseMatrix<double> overlap;  ///< (k, k) int phi_k.phi_l / T
+  Eigen::MatrixXd strain;               ///< (b, b) int T grad u_b.grad u_c; of contacts: S^
+  Eigen::MatrixXd softness;             ///< (contacts, contacts) inverse of S^
+  Eigen::MatrixXd r;                    ///< (contacts, loads) lambda = S^ d - r c
+  Eigen::MatrixXd magnitude;            ///< (all loads, all loads) |Pi| of pairs, contacts closed
+  Eigen::MatrixXd traction;  ///< (contacts + goals, loads) l(u_b) - a(u_j, u_b) for the mean of g
+  Eigen::MatrixXd oscillation;  ///< (loads, loads) sum of o_j o_k
+  /// The same as `flux`, `strain` and `overlap` with the weight omega, the sum of o_j / |o_j| over
+  /// the loads, and the sum of o_j o_k / omega; empty where all loads are balanced.
+  struct Unbalanced {
+    Eigen::MatrixXd flux, strain, oscillation;
+    Eigen::SparseMatrix<double> overlap;
+  } unbalanced;
+  /// (loads, goals) int (f - f_h) z + int (g - g_h) z <= steep |z|_omega + moments max |z|.
+  Eigen::MatrixXd steep, moments;
+  Eigen::VectorXd norm;        ///< (b) roots of the diagonal of `flux`
+  Eigen::VectorXd largest;     ///< (b) max |u_b|
+  Eigen::VectorXd lack, work;  ///< (b) estimate::Lack
+  double beyond = 0;           ///< Lack::flux for each unit of lambda that is not admissible
+  double largest_tension = 0;
+  std::vector<contact::UnitForce> unit;  ///< (goals)
+  std::vector<std::size_t> inclusion;    ///< (goals)
+
+  /// An end of a minus face. There [u] is d[jump], 0 if jump is -1, and the pressure takes
+  /// part lambda[force] and what the flux about the node is turned.
+  struct End {
+    std::int32_t jump = -1, force = -1;
+    double part = 0;
+  };
+  std::vector<End> ends;  ///< (minus faces, 2)
+  /// A turn adds `sign` to the pressure at each end; -1: it has only one.
+  struct Turn {
+    std::array<std::int32_t, 2> end{-1, -1};
+    std::array<double, 2> sign{};
+  };
+  std::vector<Turn> turns;
+
+  auto stiffness() const { return strain.block(loads, loads, contacts, contacts); }  ///< S^
+  std::size_t bytes() const noexcept;
+};
+
+/// Whether rows of a sweep of `loads` loads share bounds: where they are bounded by adjoints,
+/// nothing varies inside triangles, and so many rows pay for the products. Depends on the mesh and
+/// the numbers alone.
+bool shares_bounds(const MeshOperator::Parts& parts, std::size_t loads, std::uint64_t rows);
+
+/// The products, for loads that balance `balanced`; null if g_D of one is not linear along edges,
+/// or if the flux of one is not in equilibrium, as where cracks cross. O(m b^2).
+std::shared_ptr<const SharedBounds> shared_bounds(const MeshOperator::Parts& parts,
+                                                  std::span<const LoadOnTraces> loads,
+                                                  std::span<const BalancedLoad> balanced,
+                                                  const contact::SweepLoads& reduced);
+
+}  // namespace anticrack::operators
