@@ -48,6 +48,8 @@ struct SweepLoads {
   Eigen::MatrixXd motion;        ///< (motions, loads)
   Eigen::MatrixXd energy;        ///< (loads, loads), symmetric: Pi
 
+  /// sum of |c_j c_k Pi_jk|: what may cancel in the energy of a combination. O(m^2).
+  double parts_energy(std::span<const double> coefficients) const;
   /// Memory of its arrays.
   std::size_t bytes() const noexcept;
 };

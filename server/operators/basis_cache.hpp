@@ -20,6 +20,7 @@
 #include "fem/load.hpp"
 #include "operators/condense_loads.hpp"
 #include "operators/load_bounds.hpp"
+#include "operators/working.hpp"
 
 namespace anticrack::operators {
 
@@ -33,6 +34,7 @@ struct CondensedBasis {
   std::vector<BalancedLoad> balanced;       ///< per load; empty: rows have no bounds
   std::shared_ptr<const SharedBounds> shared;  ///< null: rows with bounds are bounded one by one
   std::vector<std::string> warnings;           ///< of all loads, without repetition
+  std::unique_ptr<const Working> counted;      ///< its bytes, also while only a job has it
 
   /// Memory of the arrays in bytes.
   std::size_t bytes() const noexcept;

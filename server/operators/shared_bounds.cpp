@@ -16,18 +16,6 @@
 namespace anticrack::operators {
 namespace {
 
-/// Per copy, the contact it is the minus side of, or -1.
-std::vector<std::int32_t> contact_at(const MeshOperator::Parts& parts,
-                                     const estimate::CutMesh& cut) {
-  std::vector<std::int32_t> contact(cut.at.size(), -1);
-  for (const ddm::NodePair& pair : parts.decomposition.pairs) {
-    const ddm::Subdomain& minus = parts.decomposition.subdomains[at(pair.minus)];
-    contact[at(cut.first_copy[at(pair.minus)]) + minus.interior + at(pair.minus_trace)] =
-        pair.contact;
-  }
-  return contact;
-}
-
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -36,11 +24,12 @@ constexpr const char* sharing = "computing what bounds of rows share";
 
 constexpr std::size_t most_inclusions = 16, most_bytes = std::size_t{512} << 20;
 
-std::size_t bytes_of(const MatrixXd& matrix) { return sizeof(double) * at(matrix.size()); }
+constexpr Index fluxes_together = 4;
 
-/// The bytes of the fields, fluxes and gradients of `columns` functions.
+/// The bytes of the fields, fluxes and gradients of `columns` functions, while they are made.
 std::size_t bytes_at_work(std::size_t triangles, std::size_t columns) {
-  return sizeof(double) * 5 * triangles * columns;
+  return triangles *
+         (sizeof(double) * 5 * columns + at(fluxes_together) * bytes_per_triangle_and_load);
 }
 
 /// a'b of tall matrices, or a'w b with weights of their rows, a few rows at a time.
@@ -65,14 +54,17 @@ class Maker {
  public:
   Maker(const MeshOperator::Parts& parts, std::span<const LoadOnTraces> loads,
         std::span<const BalancedLoad> balanced, const contact::SweepLoads& reduced)
-      : _parts(parts), _cut(parts.cut_mesh()), _loads(loads), _balanced(balanced) {
+      : _parts(parts),
+        _cut(parts.cut_mesh()),
+        _loads(loads),
+        _balanced(balanced),
+        _reduced(reduced) {
     for (const Aim& aim : aims(parts))
       if (aim.scale != nullptr) _aims.push_back(aim);  // rows have bounds of A only
     _of.loads = static_cast<Index>(loads.size());
     _of.contacts = reduced.r.rows();
     _of.goals = static_cast<Index>(_aims.size());
-    _of.r = reduced.r;
-    _of.magnitude = reduced.energy.cwiseAbs();
+    _of.pressures = face_pressures(parts, _cut);
     _of.largest_tension = _cut.shapes.largest_tension;
     for (const Aim& aim : _aims) _of.inclusion.push_back(aim.inclusion);
     _of.unit = unit_forces(parts, _aims);
@@ -80,7 +72,6 @@ class Maker {
 
   std::shared_ptr<const SharedBounds> make() {
     place_rows();
-    divide_forces();
     find_fields();
     find_strain();
     const Eigen::LLT<MatrixXd> factor(_of.stiffness());
@@ -93,7 +84,6 @@ class Maker {
     _of.norm = _of.flux.diagonal().cwiseMax(0.0).cwiseSqrt();
     find_weight();
     find_turns();
-    turn();
     find_rest();
     return std::make_shared<const SharedBounds>(std::move(_of));
   }
@@ -117,78 +107,13 @@ class Maker {
     return _turned[t] != 0 ? 2 * static_cast<Index>(fem::rule_5.size) : 2;
   }
 
-  /// Divides the force of each contact by the lengths of its faces. An end that is no contact, as a
-  /// tip, has the pressure of the other end.
-  void divide_forces() {
-    const std::vector<std::int32_t> contact = contact_at(_parts, _cut);
-    VectorXd length = VectorXd::Zero(_of.contacts);
-    std::vector<double> own;
-    const auto each = [&](const auto& what) {
-      for (std::size_t f = 0; f < _cut.faces.size(); ++f)
-        if (estimate::presses(_cut.faces[f].condition)) what(_cut.ends(_cut.faces[f]));
-    };
-    each([&](const auto& ends) {
-      const estimate::Vector &p = _cut.at[at(ends[0])], &q = _cut.at[at(ends[1])];
-      own.push_back(std::hypot(q[0] - p[0], q[1] - p[1]));
-      for (const std::int32_t end : ends)
-        if (contact[at(end)] >= 0) length[contact[at(end)]] += own.back();
-    });
-    each([&](const auto& ends) {
-      const double size = own[_of.ends.size() / 2];
-      for (const std::size_t k : {0, 1}) {
-        const std::int32_t jump = contact[at(ends[k])],
-                           force = jump >= 0 ? jump : contact[at(ends[1 - k])];
-        _of.ends.push_back({jump, force, force >= 0 ? size / length[force] : 0});
-      }
-    });
-  }
-
-  /// A turn for each fan at minus faces, if the flux through its other faces may change and no body
-  /// feels it.
-  void find_turns() {
-    std::vector<std::int32_t> place(_cut.faces.size(), -1);
-    std::int32_t places = 0;
-    for (std::size_t f = 0; f < place.size(); ++f)
-      if (estimate::presses(_cut.faces[f].condition)) place[f] = places++;
-    for (std::size_t fan = 0; fan < _cut.fan_count(); ++fan) {
-      SharedBounds::Turn turn;
-      std::size_t count = 0;
-      bool possible = true;
-      std::vector<double> on(_cut.ways.bodies.size(), 0);
-      for (std::int32_t n = _cut.first_stop[fan]; n < _cut.first_stop[fan + 1]; ++n) {
-        const estimate::Stop& stop = _cut.stops[at(n)];
-        const estimate::Face& face = _cut.faces[at(stop.face)];
-        possible = possible && face.condition != estimate::Condition::given;
-        if (face.inclusion >= 0) {
-          possible = possible && _cut.tilts[at(face.inclusion)] == 0;
-          on[at(_cut.ways.of[at(face.inclusion)])] += stop.sign();
-        }
-        if (place[at(stop.face)] < 0) continue;
-        possible = possible && count < 2;
-        if (count < 2) {
-          turn.end[count] = 2 * place[at(stop.face)] + stop.end;
-          turn.sign[count] = -stop.sign();
-        }
-        ++count;
-      }
-      for (std::size_t b = 0; b < on.size(); ++b)
-        possible = possible && (on[b] == 0 || _cut.ways.bodies[b].held);
-      // One force for both ends: what obeys a cone then does so turned, too (RowBounds).
-      if (count == 2)
-        possible = possible && _of.ends[at(turn.end[0])].force == _of.ends[at(turn.end[1])].force;
-      if (count == 0 || !possible) continue;
-      _of.turns.push_back(turn);
-      _fans.push_back(fan);
-    }
-  }
-
   /// The products of the turns, triangle by triangle.
-  void turn() {
-    const auto count = static_cast<Index>(_fans.size());
+  void find_turns() {
+    const auto count = static_cast<Index>(_of.pressures.turns.size());
     _of.turning = MatrixXd::Zero(count, columns());
     std::vector<std::vector<std::pair<Index, const double*>>> at_triangle(_cut.triangle_count());
     for (Index k = 0; k < count; ++k) {
-      const std::size_t fan = _fans[at(k)];
+      const std::size_t fan = _of.pressures.turns[at(k)].fan;
       for (auto n = at(_cut.first_corner[fan]); n < at(_cut.first_corner[fan + 1]); ++n) {
         const estimate::FanCorner& corner = _cut.shapes.around[n];
         at_triangle[at(corner.triangle)].emplace_back(k, corner.edge);
@@ -211,8 +136,8 @@ class Maker {
         }
       }
     }
-    _of.overlap.resize(count, count);
-    _of.overlap.setFromTriplets(overlaps.begin(), overlaps.end());
+    _of.pressures.overlap.resize(count, count);
+    _of.pressures.overlap.setFromTriplets(overlaps.begin(), overlaps.end());
     _of.unbalanced.overlap.resize(count, count);
     _of.unbalanced.overlap.setFromTriplets(weighed.begin(), weighed.end());
   }
@@ -297,7 +222,7 @@ class Maker {
 
   /// lambda of u_b, on each contact.
   VectorXd reactions(Index b) const {
-    if (b < _of.loads) return -_of.r.col(b);
+    if (b < _of.loads) return -_reduced.r.col(b);
     if (b < _of.loads + _of.contacts) return _of.strain.col(b).segment(_of.loads, _of.contacts);
     return -_of.unit[at(b - _of.loads - _of.contacts)].r;
   }
@@ -314,13 +239,13 @@ class Maker {
     _of.work.resize(columns());
     _size.resize(columns());
     for (Index first = 0; first < columns();) {
-      constexpr Index together = 4;
       const Index end = first < _of.loads ? _of.loads : columns();  // only loads have a force
-      const Index count = std::min(together, end - first);
+      const Index count = std::min(fluxes_together, end - first);
       std::vector<std::vector<double>> through;
       std::vector<estimate::Balance> balances;
       for (Index b = first; b < first + count; ++b) {
-        through.push_back(through_faces(reactions(b)));
+        through.push_back(
+            _of.pressures.through(_cut.faces.size(), _of.pressures.divided(reactions(b)).ends));
         balances.push_back({field(b), {}, {}});
         if (b >= _of.loads) continue;
         balances.back().force = _balanced[at(b)].balance.force;
@@ -333,20 +258,6 @@ class Maker {
         take(first + k, fluxes[at(k)], through[at(k)], balances[at(k)].traction);
       first += count;
     }
-  }
-
-  /// (faces, 2) the flux out of the ends of minus faces.
-  std::vector<double> through_faces(const VectorXd& lambda) const {
-    std::vector<double> through(2 * _cut.faces.size(), 0);
-    auto end = _of.ends.begin();
-    for (std::size_t f = 0; f < _cut.faces.size(); ++f) {
-      if (!estimate::presses(_cut.faces[f].condition)) continue;
-      for (const std::size_t k : {0, 1}) {
-        if (end->force >= 0) through[2 * f + k] = -end->part * lambda[end->force];
-        ++end;
-      }
-    }
-    return through;
   }
 
   void take(Index b, const estimate::EquilibratedFlux& flux, std::span<const double> through,
@@ -453,10 +364,10 @@ class Maker {
   const estimate::CutMesh& _cut;
   std::span<const LoadOnTraces> _loads;
   std::span<const BalancedLoad> _balanced;
+  const contact::SweepLoads& _reduced;
   std::vector<Aim> _aims;
   std::vector<char> _turned;
   std::vector<Index> _first_row;
-  std::vector<std::size_t> _fans;  // of the turns
   Index _rows = 0;
   std::vector<std::vector<double>> _fields;
   MatrixXd _gradient, _flux;  // rows of sqrt(area / T) T grad u_b, and of sigma_b - T grad u_b
@@ -476,11 +387,15 @@ bool possible(const MeshOperator::Parts& parts) {
 }  // namespace
 
 std::size_t SharedBounds::bytes() const noexcept {
-  std::size_t bytes = sizeof(*this) + ends.capacity() * sizeof(ends[0]);
-  for (const MatrixXd* one : {&flux, &mixed, &turning, &strain, &softness, &r, &traction,
-                              &unbalanced.flux, &unbalanced.strain})
-    bytes += bytes_of(*one);
-  return bytes;
+  std::size_t numbers = 0;
+  for (const MatrixXd* one :
+       {&flux, &mixed, &turning, &strain, &softness, &traction, &oscillation, &unbalanced.flux,
+        &unbalanced.strain, &unbalanced.oscillation, &steep, &moments})
+    numbers += at(one->size());
+  for (const contact::UnitForce& force : unit) numbers += at(force.r.size());
+  // The overlap with the weight has the entries of that without.
+  return sizeof(*this) + sizeof(double) * (numbers + 4 * at(norm.size())) +
+         (unbalanced.flux.size() > 0 ? 2 : 1) * pressures.bytes();
 }
 
 bool shares_bounds(const MeshOperator::Parts& parts, std::size_t loads, std::uint64_t rows) {

@@ -5,15 +5,14 @@
 //   u_b:  the response to each load of the sweep, every contact closed; to a unit jump of each
 //         contact; and to a unit force on the A of each inclusion, every contact closed,
 //
-// with fluxes sigma_b that are linear, too: the fan of a contact divides its force lambda among
-// the faces beside it by their lengths, so that the pressure of a row is >= 0 where its lambda is,
-// whatever its contact. A row then turns the flux about each such node, phi_k, as far as p >= 0
-// allows. What bounds are made of are products of all these (THEORY.md, "Rows of a sweep").
+// with fluxes sigma_b that are linear, too, because each has the pressure that FacePressures
+// divides: so the pressure of a row is >= 0 where its lambda is, whatever its contact. A row then
+// turns it as far as p >= 0 allows. What bounds are made of are products of all these (THEORY.md,
+// "Rows of a sweep").
 #pragma once
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -22,6 +21,7 @@
 
 #include "contact/sweep_solver.hpp"
 #include "operators/aims.hpp"
+#include "operators/face_pressures.hpp"
 #include "operators/mesh_parts.hpp"
 
 namespace anticrack::operators {
@@ -31,18 +31,15 @@ namespace anticrack::operators {
 struct SharedBounds {
   Eigen::Index loads = 0, contacts = 0, goals = 0;
 
-  Eigen::MatrixXd flux;     ///< (b, b) int (sigma_b - T grad u_b).(sigma_c - T grad u_c) / T
-  Eigen::MatrixXd mixed;    ///< (contacts, b) int grad u_i.(sigma_b - T grad u_b)
-  Eigen::MatrixXd turning;  ///< (k, b) int phi_k.(sigma_b - T grad u_b) / T
-  Eigen::SparseMatrix<double> overlap;  ///< (k, k) int phi_k.phi_l / T
-  Eigen::MatrixXd strain;               ///< (b, b) int T grad u_b.grad u_c; of contacts: S^
-  Eigen::MatrixXd softness;             ///< (contacts, contacts) inverse of S^
-  Eigen::MatrixXd r;                    ///< (contacts, loads) lambda = S^ d - r c
-  Eigen::MatrixXd magnitude;            ///< (all loads, all loads) |Pi| of pairs, contacts closed
+  Eigen::MatrixXd flux;      ///< (b, b) int (sigma_b - T grad u_b).(sigma_c - T grad u_c) / T
+  Eigen::MatrixXd mixed;     ///< (contacts, b) int grad u_i.(sigma_b - T grad u_b)
+  Eigen::MatrixXd turning;   ///< (k, b) int phi_k.(sigma_b - T grad u_b) / T
+  Eigen::MatrixXd strain;    ///< (b, b) int T grad u_b.grad u_c; of contacts: S^
+  Eigen::MatrixXd softness;  ///< (contacts, contacts) inverse of S^
   Eigen::MatrixXd traction;  ///< (contacts + goals, loads) l(u_b) - a(u_j, u_b) for the mean of g
   Eigen::MatrixXd oscillation;  ///< (loads, loads) sum of o_j o_k
-  /// The same as `flux`, `strain` and `overlap` with the weight omega, the sum of o_j / |o_j| over
-  /// the loads, and the sum of o_j o_k / omega; empty where all loads are balanced.
+  /// The same as `flux`, `strain` and FacePressures::overlap with the weight omega, the sum of o_j
+  /// / |o_j| over the loads, and the sum of o_j o_k / omega; empty where all loads are balanced.
   struct Unbalanced {
     Eigen::MatrixXd flux, strain, oscillation;
     Eigen::SparseMatrix<double> overlap;
@@ -57,19 +54,7 @@ struct SharedBounds {
   std::vector<contact::UnitForce> unit;  ///< (goals)
   std::vector<std::size_t> inclusion;    ///< (goals)
 
-  /// An end of a minus face. There [u] is d[jump], 0 if jump is -1, and the pressure takes
-  /// part lambda[force] and what the flux about the node is turned.
-  struct End {
-    std::int32_t jump = -1, force = -1;
-    double part = 0;
-  };
-  std::vector<End> ends;  ///< (minus faces, 2)
-  /// A turn adds `sign` to the pressure at each end; -1: it has only one.
-  struct Turn {
-    std::array<std::int32_t, 2> end{-1, -1};
-    std::array<double, 2> sign{};
-  };
-  std::vector<Turn> turns;
+  FacePressures pressures;
 
   auto stiffness() const { return strain.block(loads, loads, contacts, contacts); }  ///< S^
   std::size_t bytes() const noexcept;

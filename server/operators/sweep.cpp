@@ -109,6 +109,7 @@ std::shared_ptr<const LoadBasis> MeshOperator::basis(std::span<const fem::Load* 
   const Bounds kind = !bounds                             ? Bounds::none
                       : shares_bounds(loads.size(), rows) ? Bounds::shared
                                                           : Bounds::own;
+  const std::optional<std::string> key = key_of(loads, kind);
   const auto make = [&]() -> BasisCache::Basis {
     std::vector<LoadOnTraces> condensed = sound(condense_loads(
         loads, *_parts->mesh, _parts->decomposition, _parts->condense(), _parts->neumann, bounds));
@@ -118,9 +119,10 @@ std::shared_ptr<const LoadBasis> MeshOperator::basis(std::span<const fem::Load* 
     CondensedBasis made = basis_of(std::move(condensed), std::move(of_bounds), *_parts);
     if (kind == Bounds::shared)
       made.shared = shared_bounds(*_parts, made.loads, made.balanced, made.reduced);
+    made.counted =
+        std::make_unique<const Working>(_parts->at_work, made.bytes() + (key ? key->size() : 0));
     return std::make_shared<const CondensedBasis>(std::move(made));
   };
-  const std::optional<std::string> key = key_of(loads, kind);
   return std::make_shared<const LoadBasis>(std::make_shared<const LoadBasis::Data>(
       LoadBasis::Data{shared_from_this(), key ? _parts->bases.get(*key, stop, make) : make()}));
 }
@@ -155,7 +157,7 @@ bool MeshOperator::sweep(const LoadBasis& basis, std::span<const double> coeffic
   const contact::SweepLoads& loads = basis._data->basis->reduced;
   const SharedBounds* shared = basis._data->basis->shared.get();
   std::optional<RowBounds> bounds;
-  if (shared != nullptr && !rows.energy_lower.empty()) bounds.emplace(*_parts, *shared);
+  if (shared != nullptr && !rows.energy_lower.empty()) bounds.emplace(*_parts, *shared, loads);
   return sweep_rows(options, rows, start, stop,
                     contact::solving_order(loads, coefficients, rows.rows()),
                     [&](contact::SweepSolver& solver, std::size_t row) {
@@ -200,9 +202,7 @@ PreparedLoad MeshOperator::combine(const LoadBasis& basis,
   if (data->has_interior) {
     data->balanced = operators::combine(condensed.balanced, coefficients);
     data->condensed.parts.obstacle = data->balanced->obstacle;
-    Eigen::VectorXd sizes = Eigen::VectorXd::Ones(condensed.reduced.energy.cols());
-    sizes.head(c.size()) = c.cwiseAbs();
-    data->parts_energy = sizes.dot(condensed.reduced.energy.cwiseAbs() * sizes);
+    data->parts_energy = condensed.reduced.parts_energy(coefficients);
   }
   data->condensed.warnings = condensed.warnings;
   for (std::size_t s = 0; s < condensed.products.size(); ++s) {
