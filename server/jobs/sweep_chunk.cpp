@@ -238,7 +238,7 @@ std::shared_ptr<const operators::LoadBasis> condense_basis(
     pointers.push_back(&loads.back());
   }
   return mesh_operator.basis(pointers, job.stop.get_token(), job.spec->sweep->bounds,
-                             job.sweep->plan.rows);
+                             job.sweep->plan.rows, job.spec->sweep->tips);
 }
 
 EndedChunk solve_chunk(const Task& task, std::atomic<std::uint64_t>& iterations) {

@@ -10,6 +10,7 @@
 
 #include "errors/errors.hpp"
 #include "fields/walk.hpp"
+#include "operators/row_tips.hpp"
 #include "operators/shared_bounds.hpp"
 
 namespace anticrack::operators {
@@ -34,8 +35,9 @@ void append(std::string& key, const std::string& text) {
 
 }  // namespace
 
-std::optional<std::string> key_of(std::span<const fem::Load* const> loads, Bounds bounds) {
-  std::string key(1, static_cast<char>(bounds));
+std::optional<std::string> key_of(std::span<const fem::Load* const> loads, Bounds bounds,
+                                  bool tips) {
+  std::string key{static_cast<char>(bounds), tips ? 't' : '-'};
   for (const fem::Load* load : loads) {
     const auto* array = std::get_if<fem::Array>(&load->force);
     if (array != nullptr && array->upload.empty()) return std::nullopt;
@@ -67,7 +69,7 @@ std::size_t CondensedBasis::bytes() const noexcept {
   for (const BalancedLoad& load : balanced) bytes += sizeof(load) + load.bytes();
   for (const ddm::LoadProducts& product : products)
     bytes += sizeof(double) * static_cast<std::size_t>(product.energy.size() + product.norm.size());
-  return bytes + (shared ? shared->bytes() : 0);
+  return bytes + (shared ? shared->bytes() : 0) + (tips ? tips->bytes() : 0);
 }
 
 BasisCache::Basis BasisCache::get(const std::string& key, const std::stop_token& stop,

@@ -24,6 +24,7 @@
 
 namespace anticrack::operators {
 
+struct RowTips;
 struct SharedBounds;
 
 /// Loads of one mesh, condensed and reduced for the rows of a sweep. Does not keep the mesh.
@@ -33,6 +34,7 @@ struct CondensedBasis {
   std::vector<ddm::LoadProducts> products;  ///< per subdomain
   std::vector<BalancedLoad> balanced;       ///< per load; empty: rows have no bounds
   std::shared_ptr<const SharedBounds> shared;  ///< null: rows with bounds are bounded one by one
+  std::shared_ptr<const RowTips> tips;         ///< null: rows have no numbers of tips
   std::vector<std::string> warnings;           ///< of all loads, without repetition
   std::unique_ptr<const Working> counted;      ///< its bytes, also while only a job has it
 
@@ -47,7 +49,7 @@ enum class Bounds : char { none = '-', own = 'b', shared = 's' };
 /// fields of the loads but their names are; the hash of its upload stands for an array. None if an
 /// array has no hash.
 std::optional<std::string> key_of(std::span<const fem::Load* const> loads,
-                                  Bounds bounds = Bounds::none);
+                                  Bounds bounds = Bounds::none, bool tips = false);
 
 /// The most recently used bases of one mesh, at most 8 and, with their keys, 64 MiB. The least
 /// recently used one is dropped first; a basis above the limit alone is not kept. Thread-safe; no

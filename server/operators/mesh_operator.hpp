@@ -107,10 +107,11 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
   /// names only are condensed once; arrays are compared by the hash of their upload. Throws errors
   /// of loads as in prepare(), with "load_cases[j]." before the field, and limit_exceeded beyond
   /// max_basis_bytes. `bounds`: also keeps what fields and bounds of combinations need, O(N)
-  /// numbers a load, and, if `rows` rows share bounds, what sweep() bounds them by.
+  /// numbers a load, and, if `rows` rows share bounds, what sweep() bounds them by. `tips`: what
+  /// the numbers of tips need.
   std::shared_ptr<const LoadBasis> basis(std::span<const fem::Load* const> loads,
                                          const std::stop_token& stop = {}, bool bounds = false,
-                                         std::uint64_t rows = 0) const;
+                                         std::uint64_t rows = 0, bool tips = false) const;
   /// Whether so many rows of combinations of so many loads share bounds (shared_bounds.hpp).
   bool shares_bounds(std::size_t loads, std::uint64_t rows) const;
 

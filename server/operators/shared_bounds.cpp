@@ -10,6 +10,7 @@
 #include "contact/answer.hpp"
 #include "estimate/equilibrated_flux.hpp"
 #include "fem/triangle_rules.hpp"
+#include "operators/basis_fields.hpp"
 #include "operators/displacement_bounds.hpp"
 #include "stop/stop.hpp"
 
@@ -143,31 +144,10 @@ class Maker {
   }
 
   void find_fields() {
-    const contact::TraceProblem& traces = _parts.problem;
-    for (const LoadOnTraces& load : _loads) {
-      stop::look(sharing);
-      const contact::Reduced closed = _parts.contact->reduce(
-          load.subdomains, contact::held_values(_parts.decomposition, load.subdomains), true);
-      contact::Answer answer;
-      for (const VectorXd& trace :
-           traces.scatter(_parts.contact->values(closed.x, VectorXd::Zero(_of.contacts), closed.p)))
-        answer.side_traces.emplace_back(trace.begin(), trace.end());
-      const contact::SolvedCase one{load.subdomains, answer};
-      _parts.contact->recover_fields({&one, 1});
-      _fields.push_back(of_copies(answer.fields));
-    }
-    const ddm::Terms none;
-    std::vector<contact::Displaced> displaced;
-    for (Index i = 0; i < _of.contacts; ++i)
-      displaced.push_back({&none, VectorXd::Unit(_of.contacts, i)});
-    for (const Aim& aim : _aims) displaced.push_back({&aim.goal, VectorXd::Zero(_of.contacts)});
-    constexpr std::size_t together = 8;
-    for (std::size_t done = 0; done < displaced.size(); done += together) {
-      stop::look(sharing);
-      const std::span some =
-          std::span(displaced).subspan(done, std::min(together, displaced.size() - done));
-      for (auto& one : _parts.contact->fields_of(some)) _fields.push_back(std::move(one));
-    }
+    std::vector<const ddm::Terms*> goals;
+    for (const Aim& aim : _aims) goals.push_back(&aim.goal);
+    basis_fields(_parts, _loads, goals,
+                 [this](std::vector<double> u) { _fields.push_back(std::move(u)); });
     _of.largest.resize(columns());
     for (Index b = 0; b < columns(); ++b)
       _of.largest[b] =
