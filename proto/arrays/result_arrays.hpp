@@ -105,6 +105,11 @@ inline constexpr auto sweep_matrices = std::tuple{
                        "Bx, By of each inclusion on the mesh; none where no inclusion tilts")),
     explained("contact", "rows,contacts", &Columns::contact,
               "1 where the node is closed under pressure"),
+    optional(explained("intensity", "rows,tips", &Columns::intensity,
+                       "if asked for: of each tip, as of a load case; NaN where it has none")),
+    optional(array("energy_release_rate", "rows,tips", &Columns::energy_release_rate, "", "F")),
+    optional(array("energy_release_rate_spread", "rows,tips", &Columns::energy_release_rate_spread,
+                   "G of each tip and its spread, in the order of the mesh's tips", "F")),
 };
 
 // Where they are: folders end with a slash, all numbers are indices.

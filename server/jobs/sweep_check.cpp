@@ -95,6 +95,11 @@ void check_sweep(const records::JobSpec& spec, const EngineOptions& options) {
                 "cases of a job")
         .at("outputs");
   }
+  if (sweep.tips && sweep.cases != SweepSpec::Cases::combinations) {
+    throw Error(Reason::invalid_argument,
+                "rows of nodal forces have no numbers of tips: leave them out, or combine loads")
+        .at("sweep.tips");
+  }
   if (sweep.bounds && spec.without_bounds) {
     throw Error(Reason::invalid_argument,
                 "the job asks for bounds of the rows and for no bounds: leave one of them out")

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/answer.hpp"
 #include "operators/mesh_parts.hpp"
+#include "operators/row_tips.hpp"
 #include "stop/stop.hpp"
 
 namespace anticrack::operators {
@@ -32,15 +33,8 @@ void MeshOperator::find_tips(const PreparedLoad& load, contact::Answer& answer,
     recover_fields(loads, answers);
   }
   const LoadParts& parts = load._data->condensed.parts;
-  const std::vector<ddm::Subdomain>& subdomains = _parts->decomposition.subdomains;
-  std::vector<fem::ForceParts> linear(subdomains.size());
-  std::vector<std::span<const double>> force;
-  for (std::size_t s = 0; s < subdomains.size(); ++s) {
-    const ddm::Subdomain& one = subdomains[s];
-    auto made = fem::linear_parts(one.part, parts.force, one.name, {one.node, one.triangle});
-    if (made) linear[s] = std::move(*made);
-    force.emplace_back(made ? std::span<const double>(linear[s].load) : parts.integrated[s].load);
-  }
+  const auto forces = forces_on_corners(_parts->decomposition.subdomains, parts);
+  const std::vector<std::span<const double>> force(forces.begin(), forces.end());
   answer.tips = tips.of({answer, force, parts.points});
   if (recovered) answer.fields.clear();
 }

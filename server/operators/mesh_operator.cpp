@@ -126,7 +126,7 @@ std::size_t MeshOperator::bytes() const noexcept {
   if (const auto* duals = _parts->mesh_duals.known())
     bytes += duals->capacity() * sizeof(estimate::MeshDual);
   if (const tips::Tips* tips = _parts->tips.known()) bytes += tips->bytes();
-  return bytes + _parts->sweep_geometry.bytes() + _parts->bases.bytes();
+  return bytes + _parts->sweep_geometry.bytes();
 }
 
 const estimate::CutMesh& MeshOperator::Parts::cut_mesh() const {

@@ -107,15 +107,20 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
   /// names only are condensed once; arrays are compared by the hash of their upload. Throws errors
   /// of loads as in prepare(), with "load_cases[j]." before the field, and limit_exceeded beyond
   /// max_basis_bytes. `bounds`: also keeps what fields and bounds of combinations need, O(N)
-  /// numbers a load.
+  /// numbers a load, and, if `rows` rows share bounds, what sweep() bounds them by. `tips`: what
+  /// the numbers of tips need.
   std::shared_ptr<const LoadBasis> basis(std::span<const fem::Load* const> loads,
-                                         const std::stop_token& stop = {},
-                                         bool bounds = false) const;
+                                         const std::stop_token& stop = {}, bool bounds = false,
+                                         std::uint64_t rows = 0, bool tips = false) const;
+  /// Whether so many rows of combinations of so many loads share bounds (shared_bounds.hpp).
+  bool shares_bounds(std::size_t loads, std::uint64_t rows) const;
 
   /// Solves the rows of a sweep, row k for the load sum_j c_kj f_j; coefficients have shape (rows,
   /// loads), row-major. Rows are solved in the order of contact::solving_order. Each starts from
   /// the contact of the one before, the first from `start` (empty: all closed), which is set to the
-  /// contact of the last; no number but the steps depends on either.
+  /// contact of the last; no number but the steps depends on either. If the basis was made for rows
+  /// that share bounds, and `rows` has columns for them, they are filled in; a row without, NaN,
+  /// has to be estimated as a load of its own.
   /// A row costs O(m c) and a few steps of at most O(c^3), and allocates nothing if the contact
   /// changes little; see contact::SweepSolver for the numbers and not_converged. The width of
   /// `rows` must fit mesh() and contact_nodes(). Throws errors::Error (internal) for another shape

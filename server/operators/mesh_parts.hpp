@@ -3,8 +3,6 @@
 // The data of the types of mesh_operator.hpp; only this folder includes it.
 #pragma once
 
-#include <atomic>
-#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,21 +25,6 @@
 
 namespace anticrack::operators {
 
-/// Counts memory that is taken for a while in MeshOperator::bytes(); made before it is taken.
-class Working {
- public:
-  Working(std::atomic<std::size_t>& sum, std::size_t bytes) : _sum(sum), _bytes(bytes) {
-    _sum += _bytes;
-  }
-  ~Working() { _sum -= _bytes; }
-  Working(const Working&) = delete;
-  Working& operator=(const Working&) = delete;
-
- private:
-  std::atomic<std::size_t>& _sum;
-  const std::size_t _bytes;
-};
-
 struct MeshOperator::Parts {
   Parts(std::shared_ptr<const mesh::Mesh> cut_mesh, int threads, std::size_t condensed_up_to);
 
@@ -54,11 +37,11 @@ struct MeshOperator::Parts {
   std::unique_ptr<const contact::ContactProblem> contact;  // refers to the problem
   contact::SweepGeometry sweep_geometry;
   std::vector<contact::TraceGeometry> geometry;
+  mutable std::atomic<std::size_t> at_work{0};  // bytes of Working; outlives what is counted in it
   mutable BasisCache bases;
   base::Lazy<estimate::CutMesh> cut;  // made for the first bounds; see cut_mesh()
   base::Lazy<std::vector<estimate::MeshDual>> mesh_duals;  // see aims.hpp
-  base::Lazy<tips::Tips> tips;                  // refers to the decomposition; see all_tips()
-  mutable std::atomic<std::size_t> at_work{0};  // bytes of Working
+  base::Lazy<tips::Tips> tips;  // refers to the decomposition; see all_tips()
 
   const estimate::CutMesh& cut_mesh() const;
   /// The tips, prepared at the first call.

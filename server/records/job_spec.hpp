@@ -28,8 +28,9 @@ struct SweepSpec {
   std::vector<std::uint32_t> traces{};  ///< rows whose traces are kept, ascending
   bool packed = false;                  ///< the matrix came with the job
   bool bounds = false;                  ///< rows have bounds of their errors
+  bool tips = false;                    ///< rows have numbers of tips
 };
-ANTICRACK_FIELDS(SweepSpec, cases, upload, rows, traces, packed, bounds)
+ANTICRACK_FIELDS(SweepSpec, cases, upload, rows, traces, packed, bounds, tips)
 
 /// Load cases solved stage after stage, on meshes refined until their bounds are close enough.
 struct AccuracySpec {

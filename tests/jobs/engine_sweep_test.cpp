@@ -156,6 +156,39 @@ TEST(EngineSweep, HasTheBoundsOfLoadCasesWhereItIsAskedForThem) {
   expect_near(*array<double>(*result, "sweep/displacement_upper"), a_upper);
 }
 
+/// Bounds of rows that share them hold the numbers of the same loads as load cases, and are about
+/// as close.
+TEST(EngineSweep, SharesBoundsAmongManyRows) {
+  Engine test;
+  const std::string mesh = test.ready_mesh(mesh_size);
+  const std::vector<double> matrix = eighths(400 * std::size_t{3}, 6);
+  records::JobSpec spec = combinations(mesh, upload(test.backend, matrix));
+  spec.sweep->bounds = true;
+  const std::string sweep = test.submit(spec), plain = test.submit(one_by_one(mesh, matrix));
+  ASSERT_EQ(test.ended(sweep).state, JobState::succeeded);
+  const JobRecord expected = test.ended(plain);
+  const auto result = test.engine.result(sweep);
+  const auto lower = *array<double>(*result, "sweep/energy_lower"),
+             upper = *array<double>(*result, "sweep/energy_upper"),
+             a_lower = *array<double>(*result, "sweep/displacement_lower"),
+             a_upper = *array<double>(*result, "sweep/displacement_upper");
+  std::size_t others = 0;
+  for (std::size_t row = 0; row < expected.cases.size(); ++row) {
+    const contact::AnswerSummary& answer = expected.cases[row].answer;
+    const double width = *answer.energy_upper - *answer.energy_lower;
+    EXPECT_LE(lower[row], *answer.energy_upper + 1e-9 * std::abs(answer.energy));
+    EXPECT_LE(upper[row] - lower[row], 2 * width) << row;
+    for (std::size_t i = 0; i < answer.inclusions.size(); ++i) {
+      const std::size_t place = row * answer.inclusions.size() + i;
+      const contact::InclusionAnswer& inclusion = answer.inclusions[i];
+      EXPECT_LE(a_lower[place], *inclusion.displacement_upper);
+      EXPECT_GE(a_upper[place], *inclusion.displacement_lower);
+      if (a_lower[place] != *inclusion.displacement_lower) ++others;
+    }
+  }
+  EXPECT_GT(others, expected.cases.size() / 2) << "rows were bounded one by one";
+}
+
 TEST(EngineSweep, SaysWhyARowHasNoBounds) {
   Engine test;
   records::JobSpec spec = combinations(

@@ -261,8 +261,9 @@ class Sweep:
     None, contact (rows, contacts) of the crack nodes contact_nodes (contacts, 2): interface, node. coefficients
     (rows, loads), or None where they are not known. energy_lower, energy_upper, displacement_lower, displacement_upper:
     bounds of the membrane's exact values, NaN if a row has none, or None if not asked for; energy and displacement are
-    then the middles, and energy_mesh and displacement_mesh those of u on the mesh, else None. kept: rows whose traces
-    are in Result.loads["row-K"]. answer: SweepAnswer in solve.proto."""
+    then the middles, and energy_mesh and displacement_mesh those of u on the mesh, else None. intensity,
+    energy_release_rate, energy_release_rate_spread (rows, tips): of each tip of the mesh, NaN if it has none, or None
+    if not asked for. kept: rows whose traces are in Result.loads["row-K"]. answer: SweepAnswer in solve.proto."""
     loads: list[str]
     inclusions: list[str]
     status: Array
@@ -280,6 +281,9 @@ class Sweep:
     displacement_lower: Array | None = None
     displacement_upper: Array | None = None
     displacement_mesh: Array | None = None
+    intensity: Array | None = None
+    energy_release_rate: Array | None = None
+    energy_release_rate_spread: Array | None = None
     coefficients: Array | None = None
     kept: list[int] = field(default_factory=list)
     error: str = ""
@@ -295,7 +299,8 @@ class Sweep:
         return np.asarray(self.status == solve_pb2.LoadCaseAnswer.STATUS_CONVERGED)
 
     def frame(self) -> Any:
-        """A pandas.DataFrame with a line for each row: coefficients, A, its bounds and slopes by name; needs pandas."""
+        """A pandas.DataFrame with a line for each row: coefficients, A, its bounds and slopes by name, and numbers of
+        tips; needs pandas."""
         pandas = package("pandas")
         columns: dict[str, Any] = {}
         if self.coefficients is not None:
@@ -309,6 +314,10 @@ class Sweep:
                                  ("A_upper", self.displacement_upper), ("A_mesh", self.displacement_mesh),
                                  ("Bx", slopes[0]), ("By", slopes[1])):
                 columns[f"{what} of {name}"] = None if values is None else values[:, i]
+        for what, values in (("intensity", self.intensity), ("G", self.energy_release_rate),
+                             ("G_spread", self.energy_release_rate_spread)):
+            for i in range(0 if values is None else values.shape[1]):
+                columns[f"{what} of tip {i}"] = values[:, i]
         columns = {name: column for name, column in columns.items() if column is not None}
         return pandas.DataFrame(columns).rename_axis("row")
 
