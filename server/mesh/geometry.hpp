@@ -160,6 +160,7 @@ struct PlannedCurve {
   Role role = Role::dirichlet;
   int left = -1;   ///< face on the left of a-b, -1: outside the membrane, or in a hole
   int right = -1;  ///< face on its right; equal to `left` for a curve inside a face
+  int side = -1;   ///< of the boundary: index into Plan::sides
   // of an interface:
   Kind kind = Kind::glue;
   int inclusion = -1;
@@ -172,8 +173,8 @@ struct PlannedCurve {
   /// Whether the curve is a whole chord, whose nodes may be put on its bend.
   bool bends() const noexcept { return bend >= 0 && chord == 0; }
 };
-ANTICRACK_FIELDS(PlannedCurve, a, b, intervals, role, left, right, kind, inclusion, bend, from, to,
-                 chord)
+ANTICRACK_FIELDS(PlannedCurve, a, b, intervals, role, left, right, kind, inclusion, side, bend,
+                 from, to, chord)
 
 /// A chain of curves from a to b, each beginning where the last ends; the plus side is on the left.
 struct PlannedInterface {
@@ -216,9 +217,10 @@ struct Plan {
   std::size_t triangles = 0;            ///< expected number, before grading
   std::vector<std::string> warnings{};  ///< for Mesh::warnings: points that were moved onto a line
   std::vector<Bend> bends{};            ///< of which curves are chords
+  std::vector<std::string> sides{};     ///< names of the sides of the boundary, and of the holes
 };
 ANTICRACK_FIELDS(Plan, points, curves, interfaces, faces, inclusions, motions, growth, grading,
-                 triangles, warnings, bends)
+                 triangles, warnings, bends, sides)
 
 /// Checks a geometry and cuts it into curves with the intervals of the preset. An interface is
 /// walked against its direction where the plus side of an inclusion comes off instead of the minus

@@ -32,7 +32,7 @@ v1::Job from_domain(const records::JobRecord& record);
 /// The job in JOB_VIEW_BASIC.
 v1::Job basic(records::JobRecord record);
 
-/// An answer, without tips if they do not fit. `name`: that of the load case.
+/// An answer, without tips and forces on the boundary if they do not fit. `name`: that of the load case.
 v1::LoadCaseAnswer from_domain(const records::CaseRecord& record, const std::string& name);
 
 /// Appends the samples to the arrays, with one allocation per array and one copy per array and run.
