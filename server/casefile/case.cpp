@@ -120,6 +120,7 @@ void read_output(const Section& root, Case& result) {
               });
     spec.set_without_bounds(!output->boolean("bounds").value_or(true));
     result.spots["outputs"] = output->spot_of("fields");
+    result.spots["probes"] = output->spot_of("probe");
     result.spots["without_bounds"] = output->spot_of("bounds");
   }
   // If there are bounds, fields are drawn with the indicators of their errors.

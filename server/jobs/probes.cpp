@@ -106,7 +106,7 @@ PlacedProbes place_probes(const std::vector<Probe>& probes,
                 "the point {} of the probe \"{}\" is outside the membrane, whose curves are chords "
                 "here: move it inside",
                 errors::shown(points[k][0], points[k][1]), placed.rows[k].name)
-        .at(fmt::format("probes[{}]", owner[k]));
+        .at(fmt::format("probes[{}]{}", owner[k], probes[owner[k]].to ? "" : ".from"));
   }
   return placed;
 }

@@ -28,7 +28,8 @@ struct PlacedProbes {
   std::vector<operators::PointPlace> places;
 };
 
-/// Throws errors::Error (invalid_argument at "probes[I]") for a point outside the membrane.
+/// Throws errors::Error (invalid_argument at "probes[I]", of one point "probes[I].from") for a
+/// point outside the membrane.
 PlacedProbes place_probes(const std::vector<records::Probe>& probes,
                           const operators::MeshOperator& mesh_operator);
 

@@ -160,7 +160,6 @@ struct PlannedCurve {
   Role role = Role::dirichlet;
   int left = -1;   ///< face on the left of a-b, -1: outside the membrane, or in a hole
   int right = -1;  ///< face on its right; equal to `left` for a curve inside a face
-  int side = -1;   ///< of the boundary: index into Plan::sides
   // of an interface:
   Kind kind = Kind::glue;
   int inclusion = -1;
@@ -169,12 +168,13 @@ struct PlannedCurve {
   double from = 0;   ///< parameter of the bend at a
   double to = 0;     ///< at b
   double chord = 0;  ///< of a part of a chord, which stays straight: length of the whole; else 0
+  int side = -1;     ///< of the boundary: index into Plan::sides
 
   /// Whether the curve is a whole chord, whose nodes may be put on its bend.
   bool bends() const noexcept { return bend >= 0 && chord == 0; }
 };
-ANTICRACK_FIELDS(PlannedCurve, a, b, intervals, role, left, right, kind, inclusion, side, bend,
-                 from, to, chord)
+ANTICRACK_FIELDS(PlannedCurve, a, b, intervals, role, left, right, kind, inclusion, bend, from, to,
+                 chord, side)
 
 /// A chain of curves from a to b, each beginning where the last ends; the plus side is on the left.
 struct PlannedInterface {

@@ -63,7 +63,9 @@ class Names {
   std::unordered_map<std::int32_t, std::size_t> _of;
 };
 
-/// Ends of the Neumann edges of a subdomain, as nodes of the mesh.
+Edge sorted(const Edge& edge) { return {std::min(edge[0], edge[1]), std::max(edge[0], edge[1])}; }
+
+/// An edge of a subdomain by the nodes of the mesh.
 Edge on_mesh(const ddm::Subdomain& subdomain, const Edge& local) {
   return {subdomain.node[at(local[0])], subdomain.node[at(local[1])]};
 }
@@ -132,14 +134,11 @@ BoundaryForces::BoundaryForces(const mesh::Mesh& mesh, const ddm::Decomposition&
     row.y = box.low[1] + 0.5 * (box.high[1] - box.low[1]);
   }
   std::unordered_map<std::int32_t, std::map<std::int32_t, double>> lengths;  // of nodes, by row
-  for (const Edge& edge : mesh.dirichlet)
-    for (const std::int32_t node : edge)
-      lengths[node][rows.at(names.key(edge, false))] += length_of(mesh, edge);
-  std::map<Edge, std::int32_t> shared;  // rows of edges with a node that has several
-  for (const Edge& edge : mesh.dirichlet)
-    if (lengths[edge[0]].size() + lengths[edge[1]].size() > 2)
-      shared[{std::min(edge[0], edge[1]), std::max(edge[0], edge[1])}] =
-          rows.at(names.key(edge, false));
+  std::map<Edge, std::int32_t> held;  // rows of edges, their lower nodes first
+  for (const Edge& edge : mesh.dirichlet) {
+    const std::int32_t row = held[sorted(edge)] = rows.at(names.key(edge, false));
+    for (const std::int32_t node : edge) lengths[node][row] += length_of(mesh, edge);
+  }
   for (std::size_t s = 0; s < _local.size(); ++s) {
     const ddm::Subdomain& subdomain = decomposition.subdomains[s];
     Local& local = _local[s];
@@ -159,13 +158,9 @@ BoundaryForces::BoundaryForces(const mesh::Mesh& mesh, const ddm::Decomposition&
       if (std::none_of(corner, corner + 3, [free](std::int32_t i) { return i >= free; })) continue;
       local.triangles.push_back(static_cast<std::int32_t>(t));
       for (const std::int32_t k : {0, 1, 2}) {
-        const Edge ends{corner[k], corner[(k + 1) % 3]}, there = on_mesh(subdomain, ends);
-        const auto found =
-            shared.find({std::min(there[0], there[1]), std::max(there[0], there[1])});
-        if (found == shared.end()) continue;
-        for (const std::size_t end : {0, 1})
-          if (lengths.at(there[end]).size() > 1)
-            local.corners.push_back({static_cast<std::int32_t>(t), k, ends[end], found->second});
+        const auto found = held.find(sorted(on_mesh(subdomain, {corner[k], corner[(k + 1) % 3]})));
+        if (found != held.end())
+          local.edges.push_back({static_cast<std::int32_t>(t), k, found->second});
       }
     }
   }
@@ -194,11 +189,14 @@ std::vector<contact::BoundaryAnswer> BoundaryForces::of(const contact::Answer& a
         if (const std::size_t i = at(subdomain.part.triangles[3 * at(t) + k]); i >= free)
           held[i - free] -= 0.5 * through.sides[(k + 1) % 3];
     }
-    for (const Corner& corner : local.corners) {
-      const Through through(subdomain, at(corner.triangle), answer.fields[s].u);
-      const double own = 0.5 * through.sides[at(corner.side)];
-      add({corner.node, corner.row}, own);
-      held[at(corner.node) - free] -= own;
+    for (const HeldEdge& edge : local.edges) {
+      const double own =
+          0.5 * Through(subdomain, at(edge.triangle), answer.fields[s].u).sides[at(edge.side)];
+      for (const std::int32_t k : {edge.side, (edge.side + 1) % 3}) {
+        const std::int32_t node = subdomain.part.triangles[3 * at(edge.triangle) + at(k)];
+        add({node, edge.row}, own);
+        held[at(node) - free] -= own;
+      }
     }
     for (const Share& share : local.held) add(share, held[at(share.node) - free]);
     if (load.parts.traction.empty()) continue;
@@ -212,7 +210,7 @@ std::size_t BoundaryForces::bytes() const noexcept {
   std::size_t bytes = _rows.capacity() * sizeof(contact::BoundaryAnswer);
   for (const Local& local : _local)
     bytes += (local.held.capacity() + local.ends.capacity()) * sizeof(Share) +
-             local.corners.capacity() * sizeof(Corner) +
+             local.edges.capacity() * sizeof(HeldEdge) +
              local.triangles.capacity() * sizeof(std::int32_t);
   return bytes;
 }

@@ -17,9 +17,9 @@ namespace anticrack::operators {
 
 /// Where u is given, the force in a node is the residual  int T grad u.grad phi_i - int f phi_i  of
 /// its equation; where T du/dn is given, it is the given one. So with those on inclusions they
-/// balance the load as exactly as the equations are solved. The force in a node between two sides
-/// where u is given is shared: each has the flux of the triangles on its edges, and of the rest as
-/// much as these are long, which is exact for linear u. Keeps a reference to the decomposition.
+/// balance the load as exactly as the equations are solved. A node between two sides where u is
+/// given has on each the flux of the triangles on its edges, and the rest of its force as these are
+/// long, which is exact for linear u. Keeps a reference to the decomposition.
 class BoundaryForces {
  public:
   /// O(m), with 12 bytes for each side of a triangle meanwhile.
@@ -39,15 +39,15 @@ class BoundaryForces {
     std::int32_t row = 0;
     double part = 1;
   };
-  /// An edge, from its corner `side` of a triangle, whose node `node` has several rows.
-  struct Corner {
-    std::int32_t triangle = 0, side = 0, node = 0, row = 0;
+  /// A Dirichlet edge, from a triangle's corner `side` to the next.
+  struct HeldEdge {
+    std::int32_t triangle = 0, side = 0, row = 0;
   };
   struct Local {
     std::vector<Share> held;              ///< Dirichlet nodes, by node
     std::vector<Share> ends;              ///< both ends of each Neumann edge
     std::vector<std::int32_t> triangles;  ///< with Dirichlet nodes
-    std::vector<Corner> corners;
+    std::vector<HeldEdge> edges;
   };
 
   const ddm::Decomposition& _decomposition;

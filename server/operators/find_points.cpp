@@ -33,6 +33,7 @@ std::vector<PointPlace> find_points(std::span<const fem::PlanePoint> points, con
   const double tolerance = point_tolerance * diagonal(mesh);
   std::vector<PointPlace> found(points.size());
   std::vector<int> ranks(points.size(), 0);
+  std::vector<double> distances(points.size());  // at tips edges are shorter than the tolerance
   for (std::size_t c = 0; c < mesh.interfaces.size(); ++c) {
     const mesh::Interface& interface = mesh.interfaces[c];
     for (std::size_t e = 0; e < interface.kind.size(); ++e) {
@@ -40,9 +41,12 @@ std::vector<PointPlace> find_points(std::span<const fem::PlanePoint> points, con
                                                 mesh::position(mesh, interface.nodes[e + 1])};
       set.visit_near(ends, tolerance, [&](std::size_t i) {
         const int rank = rank_of(interface, e);
-        if (rank < ranks[i] || fem::distance_to_segment(set[i], ends[0], ends[1]) > tolerance)
+        const double distance = fem::distance_to_segment(set[i], ends[0], ends[1]);
+        if (rank < ranks[i] || distance > tolerance ||
+            (rank == ranks[i] && distance > distances[i]))
           return;
         ranks[i] = rank;
+        distances[i] = distance;
         found[i].interface = static_cast<std::int32_t>(c);
         found[i].edge = static_cast<std::int32_t>(e);
       });

@@ -23,7 +23,7 @@ constexpr double point_tolerance = 1e-9;
 
 struct PointPlace {
   /// An interface and its edge on which the point lies, of an inclusion rather than of a crack, of
-  /// a crack rather than of glue; -1: none.
+  /// a crack rather than of glue, the nearest of these; -1: none.
   std::int32_t interface = -1, edge = -1;
   std::size_t subdomain = 0;  ///< in which it lies deepest
   fem::Location location;     ///< in that subdomain; triangle -1: outside the membrane

@@ -56,10 +56,10 @@ points = 5
   for (const char* half : {"name = \"a\"", "from = [0, 0]\nto = [1, 0]", "to = [1, 0]\npoints = 3",
                            "at = [0, 0]\npoints = 3", "at = [0, 0]\nfrom = [0, 0]"})
     EXPECT_THAT(complaint(sample_text + "[[output.probe]]\n" + half + "\n"),
-                HasSubstr("plate.toml:21: output.probe.1: neither a point nor a line; write at = "))
+                HasSubstr("plate.toml:21: output.probe.0: neither a point nor a line; write at = "))
         << half;
   EXPECT_THAT(complaint(sample_text + "[[output.probe]]\nat = [nan, 0]\n"),
-              HasSubstr("plate.toml:22: output.probe.1.at: "));
+              HasSubstr("plate.toml:22: output.probe.0.at: "));
 }
 
 TEST(JobSection, NamesWhatIsWrong) {

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "contact/answer.hpp"
+#include "mesh/refine.hpp"
 #include "operators/find_points.hpp"
 #include "operators/mesh_operator.hpp"
 #include "support/silent_observer.hpp"
@@ -72,6 +73,23 @@ TEST(FindPoints, AnOpenInterfaceHasTwoValues) {
     if (plus - minus > 1e-3) ++open;
   }
   EXPECT_GE(open, 6U);
+}
+
+TEST(FindPoints, ATipHasOneValueHoweverShortItsEdges) {
+  mesh::Mesh mesh =
+      mesh::grade(testing::structured_mesh({16, 8, {}, {}}), {0.1, 0.2, 1e-12}, 100'000);
+  const auto op =
+      MeshOperator::factorise(std::make_shared<const mesh::Mesh>(std::move(mesh)), 1, {});
+  fem::Load load;
+  load.force = fem::Expression{"y > 0 ? 1 : -1"};
+  load.inclusion_forces["stiffener"] = 0.3;
+  const contact::Answer answer = solved(op, load);
+  for (const double x : {-0.5, 0.5}) {
+    const Point tip{x, 0};
+    const auto [minus, plus] = op->u_at(op->find_points(std::vector{tip})[0], tip, answer);
+    EXPECT_NEAR(minus, answer.inclusions[0].displacement_mesh, 1e-14);
+    EXPECT_NEAR(plus, answer.inclusions[0].displacement_mesh, 1e-14);
+  }
 }
 
 TEST(FindPoints, OutsideIsNowhere) {
