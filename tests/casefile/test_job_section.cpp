@@ -53,7 +53,7 @@ points = 5
   EXPECT_EQ(the_case.spec.probes(1).points(), 5);
   EXPECT_EQ(locate(the_case, "spec.probes[0].from")->line, 22U);
   EXPECT_EQ(locate(the_case, "spec.probes[1].points")->line, 27U);
-  for (const char* half : {"name = \"a\"", "from = [0, 0]\nto = [1, 0]", "to = [1, 0]\npoints = 3",
+  for (const char* half : {"points = 3", "from = [0, 0]\nto = [1, 0]", "to = [1, 0]\npoints = 3",
                            "at = [0, 0]\npoints = 3", "at = [0, 0]\nfrom = [0, 0]"})
     EXPECT_THAT(complaint(sample_text + "[[output.probe]]\n" + half + "\n"),
                 HasSubstr("plate.toml:21: output.probe.0: neither a point nor a line; write at = "))
