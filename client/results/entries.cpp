@@ -62,6 +62,7 @@ std::string name_of(const FieldDescriptor& field) {
   std::string name = field.name();
   if (is_duration(field)) return name.replace(name.rfind("time"), 4, "seconds");
   if (field.containing_type() != v1::InclusionAnswer::descriptor() &&
+      field.containing_type() != v1::BoundaryAnswer::descriptor() &&
       field.containing_type() != v1::Tip::descriptor())
     return name;
   for (const auto& [long_name, symbol] : shorter)

@@ -31,6 +31,7 @@ struct TraceGeometry;
 
 namespace anticrack::operators {
 
+struct PointPlace;
 class PreparedLoad;
 class LoadBasis;
 class UzawaBlock;
@@ -94,6 +95,17 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
   /// How many answers to estimate together: as many as gain speed and fit in memory.
   std::size_t estimated_together() const noexcept;
 
+  /// The rows of BoundaryForces. O(m) in the first call.
+  std::size_t boundary_count() const;
+  /// Fills the forces on the parts of the boundary of an answer with fields to this load; of a row
+  /// of a sweep there are none. O(boundary).
+  void find_boundary(const PreparedLoad& load, contact::Answer& answer) const;
+  /// Where points lie. O(m log k + hits) for k points.
+  std::vector<PointPlace> find_points(std::span<const mesh::Point> points) const;
+  /// u of an answer with fields at such a point, on the minus and the plus side of the interface on
+  /// which it lies; elsewhere both are one.
+  std::pair<double, double> u_at(const PointPlace& place, const mesh::Point& point,
+                                 const contact::Answer& answer) const;
   /// The tips of cracks and inclusions: mesh::tips. O(m log m) in the first call.
   std::size_t tip_count() const;
   /// Fills the tips of an answer to this load (contact::TipAnswer), for which it recovers the
@@ -151,6 +163,8 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
   const std::vector<std::int32_t>& field_nodes(std::size_t subdomain) const;
   /// Triangles of a subdomain, (m_i,3) row-major, as indices into field_nodes.
   const std::vector<std::int32_t>& field_triangles(std::size_t subdomain) const;
+  /// Means of Txx, Txy, Tyy over these triangles, (m_i,3) row-major.
+  std::vector<double> field_tension(std::size_t subdomain) const;
   /// The memory held now, measured, in bytes, including the mesh and the bounds being computed.
   std::size_t bytes() const noexcept;
   /// theta* for lumped mass; 0 if Algorithm 2 does not apply. Computed at the first use: O(n_G^3).

@@ -19,6 +19,7 @@
 #include "estimate/cut_mesh.hpp"
 #include "estimate/mesh_dual.hpp"
 #include "operators/basis_cache.hpp"
+#include "operators/boundary_forces.hpp"
 #include "operators/condense_loads.hpp"
 #include "operators/mesh_operator.hpp"
 #include "tips/tips.hpp"
@@ -41,11 +42,14 @@ struct MeshOperator::Parts {
   mutable BasisCache bases;
   base::Lazy<estimate::CutMesh> cut;  // made for the first bounds; see cut_mesh()
   base::Lazy<std::vector<estimate::MeshDual>> mesh_duals;  // see aims.hpp
-  base::Lazy<tips::Tips> tips;  // refers to the decomposition; see all_tips()
+  base::Lazy<tips::Tips> tips;          // refers to the decomposition; see all_tips()
+  base::Lazy<BoundaryForces> boundary;  // refers to the decomposition
 
   const estimate::CutMesh& cut_mesh() const;
   /// The tips, prepared at the first call.
   const tips::Tips& all_tips() const;
+  /// The parts of the boundary, found at the first call.
+  const BoundaryForces& boundary_forces() const;
   /// The function that condenses the loads of a subdomain.
   Condense condense() const;
 };

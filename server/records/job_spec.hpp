@@ -12,6 +12,7 @@
 #include "contact/options.hpp"
 #include "fem/load.hpp"
 #include "fields/fields.hpp"
+#include "mesh/bend.hpp"
 #include "records/priority.hpp"
 
 namespace anticrack::records {
@@ -52,6 +53,15 @@ struct Units {
 };
 ANTICRACK_FIELDS(Units, length, force)
 
+/// A point, or with `to` a line of evenly spaced points, at which answers tell u.
+struct Probe {
+  std::string name;
+  mesh::Point from{};
+  std::optional<mesh::Point> to{};
+  int points = 0;  ///< of a line
+};
+ANTICRACK_FIELDS(Probe, name, from, to, points)
+
 /// The request of a client for a job.
 struct JobSpec {
   std::string title;
@@ -64,11 +74,12 @@ struct JobSpec {
   std::optional<SweepSpec> sweep{};        ///< loads are its basis
   std::optional<AccuracySpec> accuracy{};  ///< solved in stages
   std::optional<Units> units{};            ///< of all numbers
+  std::vector<Probe> probes{};
   Priority priority = Priority::normal;
   std::chrono::milliseconds queue_time_limit{0};  ///< from creation to start; 0: the server's limit
   std::chrono::milliseconds run_time_limit{0};    ///< from start to end; 0: the server's limit
 };
 ANTICRACK_FIELDS(JobSpec, title, mesh, loads, solver, fields, indicators, without_bounds, sweep,
-                 accuracy, units, priority, queue_time_limit, run_time_limit)
+                 accuracy, units, probes, priority, queue_time_limit, run_time_limit)
 
 }  // namespace anticrack::records

@@ -159,9 +159,7 @@ Corners Tips::corners(const Cell& cell) const {
 }
 
 Tensor Tips::tension(const Cell& cell) const {
-  const fem::Tension& tension = _decomposition.subdomains[at(cell.subdomain)].tension;
-  if (tension.of_triangle.empty()) return {tension.mean, 0, tension.mean};
-  return tension.of_triangle[at(cell.triangle)];
+  return _decomposition.subdomains[at(cell.subdomain)].tension.matrix(at(cell.triangle));
 }
 
 TipAnswer Tips::row_of(const Tip& tip) const {

@@ -81,7 +81,7 @@ void expect_same_contact(const records::BlockSource& sweep, const records::Block
 void expect_same_traces(const records::BlockSource& sweep, const records::BlockSource& plain,
                         const std::vector<std::uint32_t>& rows) {
   for (const std::uint32_t row : rows) {
-    for (const char* name : {"u_minus", "u_plus", "jump", "pressure"}) {
+    for (const char* name : {"u_minus", "u_plus", "jump", "pressure", "flux", "force"}) {
       const std::string path = "traces/" + std::to_string(row) + "/0/" + name;
       const auto values = array<double>(sweep, path);
       ASSERT_TRUE(values) << path;

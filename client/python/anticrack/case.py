@@ -236,6 +236,16 @@ class Accuracy(_Table):
     A_estimated: float | None = None
 
 
+@dataclass(repr=False, kw_only=True)
+class Probe(_Table):
+    """Where answers tell u: at a point, or at `points` points of the line from start to end."""
+    name: str | None = None
+    at: Point | None = None
+    start: Point | None = None
+    end: Point | None = None
+    points: int | None = None
+
+
 @dataclass(repr=False)
 class Units(_Table):
     """Names of units to show; no number is converted. "mm" and "N" give T in N/mm, f in N/mm^2, energies in N mm."""
@@ -251,14 +261,15 @@ class Case:
                  solver: ActiveSet | Uzawa | None = None, accuracy: Accuracy | None = None, title: str = "",
                  units: Units | None = None, fields: bool = False, bounds: bool = True, priority: str | None = None,
                  queue_timeout: float | str | None = None,
-                 run_timeout: float | str | None = None) -> None:
+                 run_timeout: float | str | None = None, probes: Sequence[Probe] = ()) -> None:
         """fields: keep u on every node, which drawing the membrane needs. bounds: bound the error of each answer.
         Timeouts are seconds, or text such as "2h"."""
         job = {"priority": priority, "queue_timeout": queue_timeout, "run_timeout": run_timeout}
         tables: dict[str, Any] = {
             "title": title or None, "geometry": geometry, "mesh": mesh, "solver": solver, "accuracy": accuracy,
             "units": units, "load": loads if isinstance(loads, _Table) else list(loads) or None,
-            "output": {"fields": fields, "bounds": bounds} if fields or not bounds else None,
+            "output": ({"fields": fields, "bounds": bounds} if fields or not bounds else {})
+            | ({"probe": list(probes)} if probes else {}) or None,
             "job": {key: value for key, value in job.items() if value is not None} or None}
         self.tables = tables_of({key: value for key, value in tables.items() if value is not None})
         self.text, self.source, self.folder = "", "", pathlib.Path()
