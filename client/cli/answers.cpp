@@ -16,6 +16,7 @@
 #include <variant>
 #include <vector>
 
+#include "cli/growth_text.hpp"
 #include "cli/json.hpp"
 #include "cli/progress.hpp"
 #include "cli/sweep_text.hpp"
@@ -260,6 +261,9 @@ Json load_json(const results::Load& load, const std::string& method) {
   json["boundary"] = json_list(load.answer.boundary());
   json["probes"] = json_list(load.answer.probes());
   json["tips"] = json_list(load.answer.tips());
+  json["growth"] = json_list(load.answer.growth());
+  json["growth_notes"] = std::vector<std::string>(load.answer.growth_notes().begin(),
+                                                  load.answer.growth_notes().end());
   json["contact_intervals"] = json_list(load.answer.contact_intervals());
   json["stages"] = Json::array();
   for (const v1::Stage& stage : load.stages)
@@ -304,7 +308,8 @@ std::string answers_table(const std::vector<results::Load>& loads, const v1::Uni
     for (const std::string& remark : remarks_on(load))
       remarks += sanitise(load.name()) + ": " + sanitise(remark) + "\n";
   }
-  return table(rows, left) + inclusions.hint() + remarks + tips_table(loads, units, false);
+  return table(rows, left) + inclusions.hint() + remarks + tips_table(loads, units, false) +
+         growth_table(loads, units, false);
 }
 
 std::string answers_table(const results::Result& result) {

@@ -16,6 +16,7 @@
 #include "cli/csv_file.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/external.hpp"
+#include "cli/growth_text.hpp"
 #include "cli/json.hpp"
 #include "cli/options.hpp"
 #include "cli/rows_text.hpp"
@@ -35,7 +36,8 @@ struct FileOptions {
   std::string folder;
   std::vector<std::string> loads;  ///< empty: all
   std::string csv;
-  bool inclusions = false, boundary = false, probes = false, tips = false, all = false;
+  bool inclusions = false, boundary = false, probes = false, tips = false, growth = false,
+       all = false;
 };
 
 struct PlotOptions {
@@ -97,6 +99,7 @@ int show_file(const FileOptions& options, const Globals& given) {
     for (const results::Load& load : result.loads) foot += stages_table(load);
   print_answer(globals, head +
                             (options.tips         ? tips_table(result.loads, result.units, true)
+                             : options.growth     ? growth_table(result.loads, result.units, true)
                              : options.inclusions ? inclusions_table(result)
                              : options.boundary   ? rows_table(result, "boundary")
                              : options.probes     ? rows_table(result, "probes")
@@ -137,7 +140,8 @@ void add_plot(CLI::App& app, const Globals& globals, Command& chosen) {
                         "One figure, together, of up to 8 loads over each other on one interface");
   command
       ->add_option("--only", options->only,
-                   "Of overview, membrane, plan, traces, convergence and accuracy those to draw, "
+                   "Of overview, membrane, plan, traces, convergence, accuracy and growth those to "
+                   "draw, "
                    "separated by commas (default: all that have something to show)")
       ->excludes(together)
       ->type_name("LIST");
@@ -163,7 +167,9 @@ void add_plot(CLI::App& app, const Globals& globals, Command& chosen) {
       "Of every load: LOAD-membrane, LOAD-plan (from above, u and the flux), LOAD-traces (u-, u+\n"
       "and [u] on the interface, and the contact pressure), LOAD-convergence and, of a job with "
       "an\n"
-      "accuracy, LOAD-accuracy (error against triangles), 85 mm wide, a column of a journal; and\n"
+      "accuracy, LOAD-accuracy (error against triangles), of one with growth LOAD-growth (the\n"
+      "load against the displacement, G against the front), 85 mm wide, a column of a journal; "
+      "and\n"
       "LOAD, an overview. Of a sweep: sweep (A and the contact length), sweep-contact (where the\n"
       "cracks are closed) and the traces of rows that were kept.\n"
       "The Python package anticrack draws them, with matplotlib.\n\n"
@@ -189,6 +195,8 @@ void add_files(CLI::App& app, const Globals& globals, Command& chosen) {
   show_command->add_flag("--tips", options->tips,
                          "A row for each tip of a crack or an inclusion of each load case, also of "
                          "many");
+  show_command->add_flag("--growth", options->growth,
+                         "A row for each position of cracks and delaminations that grow");
   show_command->add_flag(
       "--all", options->all,
       "Also every number of the mesh, a sweep and each load case, with its unit and what it is");

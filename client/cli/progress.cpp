@@ -40,6 +40,13 @@ void JobProgress::apply(const v1::WatchJobResponse& event, double seconds) {
     case v1::WatchJobResponse::kSweepRows:
       if (sweep) sweep->apply(event.sweep_rows(), seconds);
       break;
+    case v1::WatchJobResponse::kGrowthStep: {
+      const v1::GrowthRow& row = event.growth_step().row();
+      enter(v1::JobStatus::STATE_RUNNING,
+            fmt::format("front on {} at {}, load {}", row.interface(), number(row.position(), 4),
+                        number(row.load(), 4)));
+      break;
+    }
     case v1::WatchJobResponse::kStageEnded:
     case v1::WatchJobResponse::EVENT_NOT_SET:
       break;  // only ended load cases, or an event of a later version

@@ -27,7 +27,8 @@ using Value = std::variant<double, std::int32_t, std::int64_t, std::string>;
 /// seconds, a time by its text, an error by its message, a truth value by 0 or 1. The name of a
 /// value in a nested message begins with the nested message's name ("kkt_gap").
 struct Entry {
-  std::string name;  ///< the field's, but A, B, M of inclusions as in the paper, times in seconds
+  std::string name;  ///< the field's, but A, B, M of inclusions as in the paper, G1 and Gc of
+                     ///< growth, times in seconds
   std::string meaning, unit;                       ///< see comments::Comment
   ValueType type;                                  ///< float64, int32, int64 or text
   const google::protobuf::FieldDescriptor* outer;  ///< the nested message with the field, or null

@@ -61,6 +61,8 @@ void read_mesh(const Section& root, Case& result) {
   *result.mesh.mutable_geometry() = read_geometry(*geometry, result.spots);
   if (root.find("accuracy") && !(mesh && mesh->find("preset")))
     result.mesh.mutable_options()->set_preset(v1::MESH_PRESET_COARSE);
+  if (root.find("growth") && !(mesh && mesh->find("preset")))
+    result.mesh.mutable_options()->set_preset(v1::MESH_PRESET_UNIFORM);
   if (result.spec.has_accuracy() && !result.mesh.options().has_chord_angle() &&
       has_curves(result.mesh.geometry()))
     result.mesh.mutable_options()->set_chord_angle(chord_angle_for(result.spec.accuracy()));
@@ -146,6 +148,9 @@ Case parse_case(const std::string& text, const std::string& source,
     result.text = out.str();
   }
   const Section root(table, "", case_keys);
+  if (root.find("growth") && root.find("accuracy"))
+    throw Error(root.spot_of("accuracy"),
+                "there is [growth] too, whose mesh stays as it is; remove one of the two");
   fill(root, result.spec, "", result.spots);
   result.mesh.set_title(result.spec.title());
   read_mesh(root, result);

@@ -195,7 +195,7 @@ constexpr Key mesh_rows[] = {
     {"preset", choice,
      "\"graded\": bisected towards every tip; \"coarse\": the same with edges four times as long; "
      "\"uniform\": edges of one length; \"paper\": section 8 of the paper, not for a mesh.file",
-     "\"graded\", with [accuracy] \"coarse\""_absent},
+     "\"graded\", with [accuracy] \"coarse\", with [growth] \"uniform\""_absent},
     {"size", positive, "L"_unit,
      "edge length away from tips, at most as long as the membrane is across; not for \"paper\". "
      "The longest edge, which `mesh show` prints, is about this",
@@ -276,6 +276,31 @@ constexpr Key accuracy_rows[] = {
      "false"_absent},
 };
 constexpr Keys accuracy_keys{v1::Accuracy::descriptor, {accuracy_rows}};
+
+constexpr Key path_rows[] = {
+    {"interface",
+     "the line of the path: the name of an interface, or of an inclusion or crack that has a line "
+     "of its own",
+     "name an interface, inclusion or crack"_need},
+    {"from", point, "L"_unit, "where the stretch begins that holds at first",
+     "write [x, y], a point of the line"_need},
+    {"to", point, "L"_unit, "where it ends", "write [x, y], a point of the line"_need},
+    {"Gc", expression, "F/L"_unit, "what growth costs per area, above 0 on the whole path",
+     "write a number above 0, or an expression in x and y"_need, "toughness"_field},
+};
+constexpr Keys path_keys{v1::Growth::Path::descriptor, {path_rows}};
+
+constexpr Key growth_rows[] = {
+    {"path", list, "a table for each"_form,
+     "a stretch that holds at first, and along which fronts grow from where it meets what is open. "
+     "[geometry] has it as what it becomes, delaminated or a crack",
+     "write [[growth.path]] with interface, from, to and Gc"_need, "paths"_field,
+     EachOf{&path_keys}},
+    {"inclusion", "increased is the displacement of this inclusion, in place of the load",
+     "the load is increased"_absent},
+    {"positions", count, "about so many on all paths together, 2 to 1,000", "200"_absent},
+};
+constexpr Keys growth_keys{v1::Growth::descriptor, {growth_rows}};
 
 constexpr Key unit_rows[] = {
     {"length",
@@ -374,6 +399,8 @@ constexpr Key case_rows[] = {
     {"accuracy", table,
      "solves on finer and finer meshes until the bounds of the errors are this close",
      "one mesh, no refinement"_absent, &accuracy_keys},
+    {"growth", table, "cracks and delaminations grow under each load, which is scaled",
+     "nothing grows"_absent, &growth_keys},
     {"units", table, "names of your units; nothing is converted", "none"_absent, &unit_keys},
     {"load", structure, "a table for each"_form,
      "all that acts on the membrane together; any number, with different names", "load_cases"_field,

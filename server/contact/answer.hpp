@@ -92,6 +92,22 @@ struct ProbeAnswer {
 };
 ANTICRACK_FIELDS(ProbeAnswer, name, s, x, y, u_minus, u_plus)
 
+/// A position of fronts that grow, and the load at which one of them leaves it (growth/).
+struct GrowthRow {
+  std::int32_t front = -1;  ///< the one that leaves; -1: all are closed
+  std::string interface;
+  double position = 0;  ///< arc length along its interface
+  double x = 0, y = 0;
+  std::optional<double> load, displacement;  ///< empty: none leaves; without inclusion
+  double g1 = 0, toughness = 0;
+  double contact_length = 0;
+  std::optional<double> energy;
+  bool stable = false;
+  std::int32_t ties = 0;  ///< how many others would leave at nearly this load
+};
+ANTICRACK_FIELDS(GrowthRow, front, interface, position, x, y, load, displacement, g1, toughness,
+                 contact_length, energy, stable, ties)
+
 /// The numbers of an answer, without its status and arrays.
 struct AnswerSummary {
   std::string reason;  ///< for not_converged: what happened and what to change
@@ -118,12 +134,14 @@ struct AnswerSummary {
   std::vector<TipAnswer> tips;                  ///< one per mesh::tips
   std::vector<BoundaryAnswer> boundary;
   std::vector<ProbeAnswer> probes;
+  std::vector<GrowthRow> growth;          ///< of a job with growth
+  std::vector<std::string> growth_notes;  ///< jumps, what snaps, why it ends
 };
 ANTICRACK_FIELDS(AnswerSummary, reason, iterations, criterion, theta, theta_star, energy, kkt,
                  kkt_relative, weakly_active, warnings, inclusions, contact_length,
                  contact_intervals, energy_lower, energy_upper, error_bound, error_bound_relative,
                  no_bracket, energy_mesh, contact_length_error, energy_geometry_error, tips,
-                 boundary, probes)
+                 boundary, probes, growth, growth_notes)
 
 /// The number that users are told of a value: the middle of its bounds, or without bounds `mesh`,
 /// that of u on the mesh.

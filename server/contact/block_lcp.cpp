@@ -6,6 +6,7 @@
 
 #include "base/at.hpp"
 #include "contact/dense.hpp"
+#include "errors/errors.hpp"
 #include "stop/stop.hpp"
 
 namespace anticrack::contact {
@@ -261,6 +262,12 @@ Opened BlockLcp::solve_open(const VectorXd& r, const std::vector<char>& closed,
 
 LcpAnswer BlockLcp::solve(const VectorXd& r, const VectorXd& magnitude, const LcpOptions& options,
                           std::span<const char> start, const OnStep& on_step) const {
+  if (!options.tied.empty()) {
+    throw errors::Error(errors::Reason::limit_exceeded,
+                        "{} nodes of cracks and delaminations are too many for fronts that move: "
+                        "take a coarser mesh along the paths",
+                        r.size());
+  }
   LcpAnswer answer;
   const auto scale = _scale.head(r.size());
   const VectorXd& terms = magnitude.size() == 0 ? r : magnitude;

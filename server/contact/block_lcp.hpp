@@ -28,7 +28,8 @@ class BlockLcp {
            const Conditions& conditions);
 
   /// `magnitude`, `start`: as for DenseLcp::solve. With an empty `start` all contacts begin closed,
-  /// except those that the problem on the hats opens.
+  /// except those that the problem on the hats opens. Throws errors::Error (limit_exceeded) for
+  /// options.tied, of which this method has none.
   LcpAnswer solve(const Eigen::VectorXd& r, const Eigen::VectorXd& magnitude,
                   const LcpOptions& options, std::span<const char> start,
                   const OnStep& on_step = {}) const;

@@ -39,8 +39,26 @@ void CaseState::set_motion(const VectorXd& w) {
   }
 }
 
+VectorXd CaseState::of_loose_contacts(const VectorXd& lambda) const {
+  VectorXd result = lambda;
+  for (std::size_t c = 0; c < _tied.size(); ++c)
+    if (_tied[c] != 0) result[static_cast<Index>(c)] = 0;
+  return result;
+}
+
+VectorXd CaseState::of_loose_pairs(const VectorXd& mu) const {
+  VectorXd result = mu;
+  if (_tied.empty()) return result;
+  const std::vector<ddm::NodePair>& pairs = _traces.decomposition().pairs;
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    if (pairs[i].contact >= 0 && at(pairs[i].contact) < _tied.size() &&
+        _tied[at(pairs[i].contact)] != 0)
+      result[static_cast<Index>(i)] = 0;
+  return result;
+}
+
 void CaseState::settle_contact(std::vector<char> pressed, const VectorXd& lambda) {
-  _traces.pair_forces().complete_contact(lambda, pressed);
+  _traces.pair_forces().complete_contact(of_loose_contacts(lambda), pressed);
   const std::vector<ddm::NodePair>& pairs = _traces.decomposition().pairs;
   for (std::size_t i = 0; i < pairs.size(); ++i)
     if (pairs[i].contact >= 0) _state.contact[i] = pressed[at(pairs[i].contact)];
@@ -63,15 +81,16 @@ void CaseState::fill(const VectorXd& jumps, const VectorXd& lambda) {
   for (const PairForces::Implied& implied : _traces.pair_forces().implied())
     if (_state.mu[implied.pair] > 0)  // closed as its contacts are; traces have rounding errors
       _state.jump[implied.pair] = 0;
+  const VectorXd loose = of_loose_pairs(_state.mu);
   _state.contact.assign(pairs.size(), 0);
   for (std::size_t i = 0; i < pairs.size(); ++i)
-    _state.contact[i] = pairs[i].unilateral() && _state.mu[static_cast<Index>(i)] > 0 ? 1 : 0;
+    _state.contact[i] = pairs[i].unilateral() && loose[static_cast<Index>(i)] > 0 ? 1 : 0;
   _sample.energy = energy(_loads.subdomains, _state);
   for (std::size_t j = 0; j < _loads.inclusion_forces.size(); ++j)
     _sample.energy -=
         work(_loads.inclusion_forces[j].on_holders, _state.motion.col(static_cast<Index>(j)));
-  _sample.contact_count = contact_count(_traces.decomposition(), _state.mu);
-  _sample.kkt = contact_residuals(_traces.decomposition(), _state.mu, _state.jump);
+  _sample.contact_count = contact_count(_traces.decomposition(), loose);
+  _sample.kkt = contact_residuals(_traces.decomposition(), loose, _state.jump);
   _sample.kkt.equilibrium = equilibrium_residual(_traces.decomposition(), _state);
 }
 

@@ -16,7 +16,9 @@ namespace anticrack::contact {
 /// State and sample of one load case, made from jumps and multipliers. Keeps references.
 class CaseState {
  public:
-  CaseState(const TraceProblem& traces, const CaseLoads& loads) : _traces(traces), _loads(loads) {}
+  /// `tied`: as in LcpOptions; pairs that are tied have mu of either sign and are in no contact.
+  CaseState(const TraceProblem& traces, const CaseLoads& loads, std::span<const char> tied = {})
+      : _traces(traces), _loads(loads), _tied(tied) {}
 
   /// The state; the caller sets its traces and fluxes.
   TraceState& state() noexcept { return _state; }
@@ -32,8 +34,12 @@ class CaseState {
   void settle_contact(std::vector<char> pressed, const Eigen::VectorXd& lambda);
 
  private:
+  /// Values of contacts or pairs, 0 where they are tied.
+  Eigen::VectorXd of_loose_contacts(const Eigen::VectorXd& lambda) const;
+  Eigen::VectorXd of_loose_pairs(const Eigen::VectorXd& mu) const;
   const TraceProblem& _traces;
   CaseLoads _loads;
+  const std::span<const char> _tied;
   TraceState _state;
   Sample _sample;
 };

@@ -19,7 +19,8 @@ DenseContact::DenseContact(MatrixXd matrix, const TraceProblem& traces)
 
 LcpAnswer DenseContact::solve(const Reduced& load, const LcpOptions& options,
                               std::span<const char> start, const OnStep& on_step) const {
-  if (!start.empty()) return _lcp.solve(load.r, load.magnitude, options, start, on_step);
+  if (!start.empty() || !options.tied.empty())
+    return _lcp.solve(load.r, load.magnitude, options, start, on_step);
   return _lcp.solve(load.r, load.magnitude, options, _nested_start.closed(load.r, load.magnitude),
                     on_step);
 }

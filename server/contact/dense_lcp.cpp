@@ -74,7 +74,7 @@ LcpSequence::LcpSequence(const DenseLcp& lcp, const LcpOptions& options,
     : _lcp(lcp),
       _matrix(lcp.scaled_matrix()),
       _conditions(lcp.scaled_conditions()),
-      _nested(lcp.size() > small ? nested : nullptr),
+      _nested(lcp.size() > small && options.tied.empty() ? nested : nullptr),
       _options(options) {
   _closed.assign(start.begin(), start.end());
   if (_closed.size() < at(lcp.size())) _closed.resize(at(lcp.size()), 1);
@@ -85,6 +85,12 @@ LcpSequence::LcpSequence(const DenseLcp& lcp, const LcpOptions& options,
   _r.setZero(lcp.size());
   for (VectorXd* vector : {&_d, &_force, &_lambda, &_answer.d, &_answer.lambda})
     vector->setZero(lcp.conditions());
+  close_tied();
+}
+
+void LcpSequence::close_tied() {
+  for (Index i = 0; i < nodes(); ++i)
+    if (tied(i)) _closed[at(i)] = 1;
 }
 
 const LcpAnswer& LcpSequence::solve(const VectorXd& r, const VectorXd& magnitude,
@@ -155,7 +161,8 @@ void LcpSequence::apply() {
 void LcpSequence::set_multipliers() {
   apply();
   _conditions.split(_closed, _force);
-  for (Index i = 0; i < _force.size(); ++i) _lambda[i] = _closed[at(i)] == 0 ? 0 : _force[i];
+  for (Index i = 0; i < _force.size(); ++i)
+    _lambda[i] = _closed[at(i)] == 0 || tied(i) ? 0 : _force[i];
 }
 
 /// Multipliers for the method that frees one condition at a time. Rows whose contacts are all
@@ -170,7 +177,7 @@ void LcpSequence::set_multipliers_of_set() {
     for (const ddm::Term& term : _conditions.rows()[k]) _force[term.index] -= nu * term.factor;
   }
   for (Index i = 0; i < _force.size(); ++i)
-    _lambda[i] = i < nodes() && _closed[at(i)] == 0 ? 0 : _force[i];
+    _lambda[i] = i < nodes() && (_closed[at(i)] == 0 || tied(i)) ? 0 : _force[i];
 }
 
 /// Counts and reports a step; returns false if the run is to end.
@@ -386,9 +393,9 @@ void LcpSequence::finish() {
     _answer.d[i] = _lcp.scale()[i] * d * _unit;
     _answer.lambda[i] = lambda * to_force;
     _answer.pressed[at(i)] = lambda > weak ? 1 : 0;
-    _answer.weakly_active += _d[i] <= weak && _lambda[i] <= weak ? 1 : 0;
+    _answer.weakly_active += _d[i] <= weak && _lambda[i] <= weak && !tied(i) ? 1 : 0;
     size = std::max(size, _answer.lambda[i]);
-    if (i >= nodes()) continue;
+    if (i >= nodes() || tied(i)) continue;
     error = std::max(error, std::abs(lambda - _force[i]) * to_force);
     size = std::max(size, (*_given.magnitude)[i]);
   }

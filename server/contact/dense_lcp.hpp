@@ -62,6 +62,8 @@ struct LcpOptions {
   double tolerance = 1e-12;  ///< of weakly_active, relative to the load
   int max_steps = 1000;
   bool monotone_only = false;  ///< skips the primal-dual steps, to test the fall-back
+  /// (contacts) 1: d = 0, whatever pulls, and no lambda; empty: none. Kept as a reference.
+  std::span<const char> tied{};
 };
 
 /// Linear complementarity with a dense matrix S, the minimum of d'S d/2 - r'd under Conditions:
@@ -144,6 +146,10 @@ class LcpSequence {
  private:
   Eigen::Index nodes() const { return _r.size(); }
   void close_all();
+  bool tied(Eigen::Index i) const {
+    return i < nodes() && !_options.tied.empty() && _options.tied[static_cast<std::size_t>(i)] != 0;
+  }
+  void close_tied();
   const OpenFactor& factor();
   LcpStatus find_set();
   bool primal_dual();

@@ -50,13 +50,14 @@ Eigen::VectorXd held_values(const ddm::Decomposition& decomposition,
 /// Solves the exact contact problem, with iterative refinement. Each step reports a sample; its
 /// criterion is that of step 3 of Algorithm 2, 1 in the first step (for a joined membrane: the work
 /// of the step relative to all work). `start`: closed contacts to start from (Answer::closed of
-/// another load); empty: the problem chooses. The bits of a condensed problem depend on the final
-/// set only. Ends not_converged at max_steps, if a part of the membrane held by contact only is
-/// pulled off, or if a relative residual is above solution_residual. Throws errors::Error
-/// (numerical) if the energy overflows.
+/// another load); empty: the problem chooses. `tied`: as in LcpOptions; their pressure may be
+/// negative. The bits of a condensed problem depend on the final set only. Ends not_converged at
+/// max_steps, if a part of the membrane held by contact only is pulled off, or if a relative
+/// residual is above solution_residual. Throws errors::Error (numerical) if the energy overflows.
 Answer solve_active_set(const ContactProblem& problem, const mesh::Mesh& mesh,
                         const CaseLoads& loads, const ActiveSetOptions& options, bool fields,
-                        Observer& observer, std::span<const char> start = {});
+                        Observer& observer, std::span<const char> start = {},
+                        std::span<const char> tied = {});
 
 /// The skeleton's values w, from the traces of an answer. O(n).
 Eigen::VectorXd unknowns_of(const ddm::Decomposition& decomposition, const Answer& answer);

@@ -19,8 +19,11 @@ using Eigen::VectorXd;
 /// The solution of one load case.
 class Case {
  public:
-  Case(const ContactProblem& problem, const CaseLoads& loads)
-      : _problem(problem), _loads(loads.subdomains), _solved(problem.traces(), loads) {
+  Case(const ContactProblem& problem, const CaseLoads& loads, std::span<const char> tied)
+      : _problem(problem),
+        _loads(loads.subdomains),
+        _tied(tied),
+        _solved(problem.traces(), loads, tied) {
     _position.load = problem.reduce(_loads, held_values(problem.traces().decomposition(), _loads));
     _position.d.setZero(_position.load.r.size());
     _solved.state().load_size = _position.load.size;
@@ -91,7 +94,9 @@ class Case {
 
   /// Computes pressures and contact of the position.
   void settle(const LcpAnswer& solution) {
-    const VectorXd lambda = _problem.multipliers(state(), solution.closed).cwiseMax(0.0);
+    VectorXd lambda = _problem.multipliers(state(), solution.closed);
+    for (Index i = 0; i < lambda.size(); ++i)
+      if (at(i) >= _tied.size() || _tied[at(i)] == 0) lambda[i] = std::max(lambda[i], 0.0);
     _solved.fill(_problem.conditions().jumps(_position.d, solution.closed), lambda);
     _solved.settle_contact(solution.pressed, lambda);
   }
@@ -139,6 +144,7 @@ class Case {
 
   const ContactProblem& _problem;
   std::span<const ddm::CondensedLoad> _loads;
+  std::span<const char> _tied;
   CaseState _solved;
   Position _position;
   double _closed_energy = 0, _closed_size = 0;  // Pi and |u|_V^2 with every contact closed
@@ -148,10 +154,12 @@ class Case {
 
 Answer solve_active_set(const ContactProblem& problem, const mesh::Mesh& mesh,
                         const CaseLoads& loads, const ActiveSetOptions& options, bool fields,
-                        Observer& observer, std::span<const char> start) {
-  Case load_case(problem, loads);
+                        Observer& observer, std::span<const char> start,
+                        std::span<const char> tied) {
+  Case load_case(problem, loads, tied);
   const LcpAnswer solution = problem.solve_contact(
-      load_case.reduced(), {options.tolerance, options.max_steps}, start, [&](const LcpStep& step) {
+      load_case.reduced(), {options.tolerance, options.max_steps, false, tied}, start,
+      [&](const LcpStep& step) {
         load_case.sample_step(step);
         return observer.on_iteration(load_case.solved().sample());
       });

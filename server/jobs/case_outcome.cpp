@@ -26,7 +26,7 @@ Error placed(Error error, std::size_t index) {
     error.at(path);
   else if (error.fields().front().field == "uzawa")
     error.below("solver");
-  else
+  else if (!error.fields().front().field.starts_with("growth"))
     error.below(path);
   return error;
 }

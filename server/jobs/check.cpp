@@ -8,6 +8,7 @@
 
 #include "errors/errors.hpp"
 #include "jobs/accuracy.hpp"
+#include "jobs/growth_run.hpp"
 #include "jobs/probes.hpp"
 #include "jobs/sweep_check.hpp"
 #include "operators/check_loads.hpp"
@@ -85,6 +86,7 @@ void check(const records::JobSpec& spec, const EngineOptions& options) {
   else
     check_count(spec.loads.size(), options);
   if (spec.accuracy) check_accuracy(spec);
+  if (spec.growth) check_growth(spec, options);
   if (spec.units) {
     check_unit(spec.units->length, "units.length");
     check_unit(spec.units->force, "units.force");

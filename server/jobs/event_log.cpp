@@ -11,6 +11,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "contact/answer.hpp"
 #include "contact/sweep_columns.hpp"
 #include "errors/errors.hpp"
 #include "fields/walk.hpp"
@@ -80,6 +81,8 @@ std::size_t kept_bytes(const Event& event) {
     bytes += fields::bytes_of(*rows->rows);
   else if (const auto* stage = std::get_if<StageEvent>(&event))
     bytes += fields::bytes_of(*stage->stage);
+  else if (const auto* step = std::get_if<GrowthEvent>(&event))
+    bytes += fields::bytes_of(*step->row);
   else if (const auto* end = std::get_if<EndEvent>(&event))
     bytes += fields::bytes_of(*end->job);
   return bytes;

@@ -17,6 +17,7 @@
 #include "records/job_state.hpp"
 
 namespace anticrack::contact {
+struct GrowthRow;
 struct SweepColumns;
 }  // namespace anticrack::contact
 
@@ -51,12 +52,19 @@ struct StageEvent {
   std::shared_ptr<const records::StageRecord> stage;
 };
 
+/// Fronts that grow under a load case have been measured in a position.
+struct GrowthEvent {
+  std::int32_t load_case = 0;
+  std::shared_ptr<const contact::GrowthRow> row;
+};
+
 /// The job ended. This is always the last event.
 struct EndEvent {
   std::shared_ptr<const records::JobRecord> job;
 };
 
-using Event = std::variant<SampleEvent, PhaseEvent, CaseEvent, RowsEvent, StageEvent, EndEvent>;
+using Event =
+    std::variant<SampleEvent, PhaseEvent, CaseEvent, RowsEvent, StageEvent, GrowthEvent, EndEvent>;
 
 struct NumberedEvent {
   std::uint64_t sequence = 0;
@@ -71,7 +79,8 @@ struct ProgressEvents {
 };
 
 /// The events that a watcher gets in one message: progress of load cases, or one other event.
-using Batch = std::variant<ProgressEvents, PhaseEvent, RowsEvent, StageEvent, EndEvent>;
+using Batch =
+    std::variant<ProgressEvents, PhaseEvent, RowsEvent, StageEvent, GrowthEvent, EndEvent>;
 
 struct NumberedBatch {
   std::uint64_t last = 0;  ///< sequence of its last event

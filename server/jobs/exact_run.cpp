@@ -9,6 +9,7 @@
 
 #include "contact/answer.hpp"
 #include "errors/errors.hpp"
+#include "jobs/growth_run.hpp"
 #include "jobs/probes.hpp"
 #include "jobs/result_block.hpp"
 #include "operators/mesh_operator.hpp"
@@ -33,9 +34,12 @@ Solved solve(const PreparedCase& prepared, std::atomic<std::uint64_t>& iteration
   const stop::Scope scope(prepared.task.job->stop.get_token());
   try {
     Recorder recorder(prepared.task, iterations);
-    solved.answer = prepared.task.job->mesh_operator->solve(
-        prepared.load, std::get<contact::ActiveSetOptions>(spec_of(prepared).solver), false,
-        recorder);
+    solved.answer =
+        spec_of(prepared).growth
+            ? grow(prepared, recorder)
+            : prepared.task.job->mesh_operator->solve(
+                  prepared.load, std::get<contact::ActiveSetOptions>(spec_of(prepared).solver),
+                  false, recorder);
     solved.history = recorder.history();
   } catch (...) {
     solved.failure = std::current_exception();
@@ -48,13 +52,15 @@ bool all_stopped(const std::vector<PreparedCase>& cases) {
       cases, [](const PreparedCase& one) { return one.task.job->stop.stop_requested(); });
 }
 
-/// Forces, tips and bounds are computed from fields.
+/// Forces, tips and bounds are computed from fields. With growth there are none: on the mesh all
+/// paths are open.
 void recover_fields(const std::vector<PreparedCase>& cases, std::vector<Solved>& solved) {
   std::vector<const operators::PreparedLoad*> loads;
   std::vector<contact::Answer*> answers;
   std::vector<std::exception_ptr*> failures;
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    if (!solved[i].failure && solved[i].answer.status != contact::Status::cancelled) {
+    if (!spec_of(cases[i]).growth && !solved[i].failure &&
+        solved[i].answer.status != contact::Status::cancelled) {
       loads.push_back(&cases[i].load);
       answers.push_back(&solved[i].answer);
       failures.push_back(&solved[i].failure);
@@ -111,7 +117,7 @@ void add_bounds(const std::vector<PreparedCase>& cases, std::vector<Solved>& sol
   std::vector<operators::MeshOperator::Estimate> estimates;
   std::vector<Solved*> of_estimates;
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    if (solved[i].failure || spec_of(cases[i]).without_bounds ||
+    if (solved[i].failure || spec_of(cases[i]).without_bounds || spec_of(cases[i]).growth ||
         solved[i].answer.status != contact::Status::converged)
       continue;
     operators::MeshOperator::Estimate one{&cases[i].load, &solved[i].answer,

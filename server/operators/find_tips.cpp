@@ -1,13 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/answer.hpp"
 #include "operators/mesh_parts.hpp"
-#include "operators/row_tips.hpp"
 #include "stop/stop.hpp"
 
 namespace anticrack::operators {
 
 const tips::Tips& MeshOperator::Parts::all_tips() const {
   return tips.get([this] { return tips::Tips(*mesh, decomposition); });
+}
+
+ForceOnTriangles::ForceOnTriangles(const LoadParts& parts,
+                                   const std::vector<ddm::Subdomain>& subdomains)
+    : linear(subdomains.size()) {
+  for (std::size_t s = 0; s < subdomains.size(); ++s) {
+    const ddm::Subdomain& one = subdomains[s];
+    auto made = fem::linear_parts(one.part, parts.force, one.name, {one.node, one.triangle});
+    if (made) linear[s] = std::move(*made);
+    of_subdomains.emplace_back(made ? std::span<const double>(linear[s].load)
+                                    : parts.integrated[s].load);
+  }
 }
 
 std::size_t MeshOperator::tip_count() const { return _parts->all_tips().size(); }
@@ -33,9 +44,8 @@ void MeshOperator::find_tips(const PreparedLoad& load, contact::Answer& answer,
     recover_fields(loads, answers);
   }
   const LoadParts& parts = load._data->condensed.parts;
-  const auto forces = forces_on_corners(_parts->decomposition.subdomains, parts);
-  const std::vector<std::span<const double>> force(forces.begin(), forces.end());
-  answer.tips = tips.of({answer, force, parts.points});
+  const ForceOnTriangles force(parts, _parts->decomposition.subdomains);
+  answer.tips = tips.of({answer, force.of_subdomains, parts.points});
   if (recovered) answer.fields.clear();
 }
 

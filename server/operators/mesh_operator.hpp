@@ -31,6 +31,7 @@ struct TraceGeometry;
 
 namespace anticrack::operators {
 
+class Growth;
 struct PointPlace;
 class PreparedLoad;
 class LoadBasis;
@@ -174,6 +175,7 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
   struct Parts;
 
  private:
+  friend class Growth;
   friend class UzawaBlock;
   explicit MeshOperator(std::shared_ptr<const Parts> parts) : _parts(std::move(parts)) {}
   /// Throws errors::Error (internal) if the load is of another mesh, or if `fields` are asked for
@@ -194,6 +196,7 @@ class PreparedLoad {
   explicit PreparedLoad(std::shared_ptr<const Data> data) : _data(std::move(data)) {}
 
  private:
+  friend class Growth;
   friend class MeshOperator;
   friend class UzawaBlock;
   std::shared_ptr<const Data> _data;

@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,13 @@ struct MeshOperator::Parts {
   const BoundaryForces& boundary_forces() const;
   /// The function that condenses the loads of a subdomain.
   Condense condense() const;
+};
+
+/// Per subdomain (m,3): int f hat_i for the corners i of each triangle. Refers to the load.
+struct ForceOnTriangles {
+  ForceOnTriangles(const LoadParts& parts, const std::vector<ddm::Subdomain>& subdomains);
+  std::vector<fem::ForceParts> linear;  ///< what `of_subdomains` refers to besides
+  std::vector<std::span<const double>> of_subdomains;
 };
 
 struct PreparedLoad::Data {

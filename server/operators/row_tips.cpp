@@ -60,20 +60,7 @@ std::size_t RowTips::bytes() const noexcept {
   return sizeof(*this) + tips.size() * sizeof(Tip) + sizeof(double) * numbers;
 }
 
-std::vector<std::vector<double>> forces_on_corners(const std::vector<ddm::Subdomain>& subdomains,
-                                                   const LoadParts& parts) {
-  std::vector<std::vector<double>> forces;
-  for (std::size_t s = 0; s < subdomains.size(); ++s) {
-    const ddm::Subdomain& one = subdomains[s];
-    auto linear = fem::linear_parts(one.part, parts.force, one.name, {one.node, one.triangle});
-    forces.push_back(linear ? std::move(linear->load) : parts.integrated[s].load);
-  }
-  return forces;
-}
-
-RowTips row_tips(const MeshOperator::Parts& parts, std::span<const LoadOnTraces> loads,
-                 std::span<const std::vector<std::vector<double>>> forces,
-                 std::span<const mesh::Point> points) {
+RowTips row_tips(const MeshOperator::Parts& parts, std::span<const LoadOnTraces> loads) {
   RowTips result;
   const tips::Tips& tips = parts.all_tips();
   if (const std::string why = obstacle(parts, loads.size()); !why.empty()) {
@@ -81,6 +68,12 @@ RowTips row_tips(const MeshOperator::Parts& parts, std::span<const LoadOnTraces>
     return result;
   }
   const auto b = static_cast<Index>(loads.size() + parts.decomposition.skeleton.independent);
+  std::vector<ForceOnTriangles> forces;
+  std::vector<mesh::Point> points;
+  for (const LoadOnTraces& load : loads) {
+    forces.emplace_back(load.parts, parts.decomposition.subdomains);
+    points.insert(points.end(), load.parts.points.begin(), load.parts.points.end());
+  }
   std::vector<Values> values;
   for (std::size_t i = 0; i < tips.size(); ++i) {
     if (const std::string why = tips.obstacle(i, points); !why.empty()) {
@@ -104,7 +97,8 @@ RowTips row_tips(const MeshOperator::Parts& parts, std::span<const LoadOnTraces>
       }
       for (std::size_t k = 0; at(column) < loads.size() && k < of.form.cells.size(); ++k) {
         const tips::Cell& cell = of.form.cells[k];
-        const double* force = &forces[at(column)][at(cell.subdomain)][3 * at(cell.triangle)];
+        const double* force =
+            &forces[at(column)].of_subdomains[at(cell.subdomain)][3 * at(cell.triangle)];
         for (std::size_t i = 0; i < 3; ++i)
           of.v(nodes + static_cast<Index>(3 * k + i), column) = force[i];
       }

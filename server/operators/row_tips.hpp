@@ -34,15 +34,8 @@ struct RowTips {
   std::size_t bytes() const noexcept;
 };
 
-/// int f hat_i for the corners of the triangles of each subdomain, (m_i, 3).
-std::vector<std::vector<double>> forces_on_corners(const std::vector<ddm::Subdomain>& subdomains,
-                                                   const LoadParts& parts);
-
-/// `loads`: condensed with their interiors; `forces`: forces_on_corners of each; `points`: where
-/// forces of any of them act on the membrane itself. O(N b), and O(b^2) for the nodes near a tip.
-RowTips row_tips(const MeshOperator::Parts& parts, std::span<const LoadOnTraces> loads,
-                 std::span<const std::vector<std::vector<double>>> forces,
-                 std::span<const mesh::Point> points);
+/// Of loads condensed with their interiors and parts. O(N b), and O(b^2) for the nodes near a tip.
+RowTips row_tips(const MeshOperator::Parts& parts, std::span<const LoadOnTraces> loads);
 
 /// Fills the tips of a row that `solution` solves. O(k^2) a tip with k numbers of y that are not 0.
 void find_row_tips(const MeshOperator::Parts& parts, const RowTips& shared,

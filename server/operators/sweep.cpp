@@ -73,6 +73,7 @@ CondensedBasis basis_of(std::vector<LoadOnTraces> loads, std::vector<BalancedLoa
   }
   std::vector<contact::CaseLoads> cases;
   for (LoadOnTraces& load : loads) {
+    load.parts = {};
     for (ddm::CondensedLoad& part : load.subdomains) {
       if (condensed && result.balanced.empty()) part.z_interior.resize(0);
       part.z_boundary.resize(0);
@@ -116,19 +117,11 @@ std::shared_ptr<const LoadBasis> MeshOperator::basis(std::span<const fem::Load* 
     std::vector<LoadOnTraces> condensed =
         sound(condense_loads(loads, *_parts->mesh, _parts->decomposition, _parts->condense(),
                              _parts->neumann, interiors));
-    std::vector<std::vector<std::vector<double>>> forces;
-    std::vector<mesh::Point> points;
-    for (const LoadOnTraces& load : condensed) {
-      if (!tips) break;
-      forces.push_back(forces_on_corners(_parts->decomposition.subdomains, load.parts));
-      points.insert(points.end(), load.parts.points.begin(), load.parts.points.end());
-    }
+    std::shared_ptr<const RowTips> of_tips;
+    if (tips) of_tips = std::make_shared<const RowTips>(row_tips(*_parts, condensed));
     std::vector<BalancedLoad> of_bounds;
     if (bounds)
       of_bounds = balanced(loads, condensed, _parts->decomposition.subdomains, _parts->cut_mesh());
-    std::shared_ptr<const RowTips> of_tips;
-    if (tips)
-      of_tips = std::make_shared<const RowTips>(row_tips(*_parts, condensed, forces, points));
     CondensedBasis made = basis_of(std::move(condensed), std::move(of_bounds), *_parts);
     if (of_tips) {
       made.warnings.insert(made.warnings.end(), of_tips->warnings.begin(), of_tips->warnings.end());

@@ -12,6 +12,7 @@
 #include "contact/options.hpp"
 #include "fem/load.hpp"
 #include "fields/fields.hpp"
+#include "growth/path.hpp"
 #include "mesh/bend.hpp"
 #include "records/priority.hpp"
 
@@ -46,6 +47,14 @@ struct AccuracySpec {
 ANTICRACK_FIELDS(AccuracySpec, energy, displacement, max_triangles, time, keep_stages, largest,
                  displacement_estimated)
 
+/// Growth under each load case, along paths that the mesh has as open.
+struct GrowthSpec {
+  std::vector<growth::Path> paths;
+  std::string inclusion;       ///< its displacement is increased; empty: the load
+  std::int32_t positions = 0;  ///< about so many; 0: 200
+};
+ANTICRACK_FIELDS(GrowthSpec, paths, inclusion, positions)
+
 /// Names of units, for readers; empty: none.
 struct Units {
   std::string length;
@@ -73,6 +82,7 @@ struct JobSpec {
   bool without_bounds = false;             ///< answers have no bounds of their errors
   std::optional<SweepSpec> sweep{};        ///< loads are its basis
   std::optional<AccuracySpec> accuracy{};  ///< solved in stages
+  std::optional<GrowthSpec> growth{};      ///< fronts grow under each load
   std::optional<Units> units{};            ///< of all numbers
   std::vector<Probe> probes{};
   Priority priority = Priority::normal;
@@ -80,6 +90,6 @@ struct JobSpec {
   std::chrono::milliseconds run_time_limit{0};    ///< from start to end; 0: the server's limit
 };
 ANTICRACK_FIELDS(JobSpec, title, mesh, loads, solver, fields, indicators, without_bounds, sweep,
-                 accuracy, units, probes, priority, queue_time_limit, run_time_limit)
+                 accuracy, growth, units, probes, priority, queue_time_limit, run_time_limit)
 
 }  // namespace anticrack::records

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "api/translations.hpp"
+#include "contact/answer.hpp"
 #include "contact/sweep_columns.hpp"
 #include "errors/errors.hpp"
 #include "jobs/job_engine.hpp"
@@ -120,6 +121,12 @@ void WatchFeed::fill(const jobs::RowsEvent& rows, v1::WatchJobResponse& response
 
 void WatchFeed::fill(const jobs::StageEvent& stage, v1::WatchJobResponse& response) {
   *response.mutable_stage_ended() = api::message(*stage.stage);
+}
+
+void WatchFeed::fill(const jobs::GrowthEvent& step, v1::WatchJobResponse& response) {
+  v1::GrowthStep& growth = *response.mutable_growth_step();
+  growth.set_load_case(step.load_case);
+  api::write_fields(*step.row, *growth.mutable_row());
 }
 
 void WatchFeed::fill(const jobs::EndEvent& end, v1::WatchJobResponse& response) {

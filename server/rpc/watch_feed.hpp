@@ -50,6 +50,7 @@ class WatchFeed final : public Feed<v1::WatchJobResponse> {
   void fill(const jobs::ProgressEvents& progress, v1::WatchJobResponse& response);
   void fill(const jobs::PhaseEvent& phase, v1::WatchJobResponse& response);
   void fill(const jobs::RowsEvent& rows, v1::WatchJobResponse& response);
+  static void fill(const jobs::GrowthEvent& step, v1::WatchJobResponse& response);
   static void fill(const jobs::StageEvent& stage, v1::WatchJobResponse& response);
   void fill(const jobs::EndEvent& end, v1::WatchJobResponse& response);
 

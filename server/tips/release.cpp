@@ -24,6 +24,25 @@ Corners corners_of(const std::array<Point, 3>& x) {
   return at;
 }
 
+Tensor change_of(const Law& law, const Course& course, const Corners& at, double radius) {
+  Point centre{};
+  double size = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < 2; ++k) centre[k] += at.x[i][k] / 3;
+    const Point side = minus(at.x[i], at.x[(i + 1) % 3]);
+    size = std::max(size, std::hypot(side[0], side[1]));
+  }
+  const double step = std::max(0.25 * size, 1e-6 * radius);
+  const Point& t = course.ahead;
+  const auto moved = [&](double by) {
+    return law.at({centre[0] + by * t[0], centre[1] + by * t[1]});
+  };
+  Tensor change = moved(step);
+  const Tensor before = moved(-step);
+  for (std::size_t i = 0; i < 3; ++i) change[i] = (change[i] - before[i]) / (2 * step);
+  return change;
+}
+
 void Moved::add(const Corners& at, const std::array<double, 3>& u, const Tensor& tension,
                 const double* force, const Point& slope, const Tensor* change,
                 std::array<double, radii>& sum) const {

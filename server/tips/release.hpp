@@ -28,6 +28,10 @@ struct Corners {
 /// Of a counterclockwise triangle.
 Corners corners_of(const std::array<Point, 3>& x);
 
+/// The derivative of T along the course at the centre of a triangle, by differences; `radius` is
+/// that of the integral. Throws errors::Error (expression_invalid).
+Tensor change_of(const Law& law, const Course& course, const Corners& at, double radius);
+
 /// The number of radii with which an integral is computed.
 constexpr std::size_t radii = 3;
 

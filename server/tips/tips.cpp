@@ -26,7 +26,8 @@ constexpr const char* measuring = "measuring tips";
 /// With fewer triangles about the tip a number means nothing.
 constexpr std::size_t fewest_triangles = 60;
 
-/// The numbers of all triangles of the mesh in the decomposition.
+}  // namespace
+
 std::vector<Cell> cells_of(const mesh::Mesh& mesh, const ddm::Decomposition& decomposition) {
   std::vector<Cell> cells(mesh.triangle_count());
   for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
@@ -36,28 +37,6 @@ std::vector<Cell> cells_of(const mesh::Mesh& mesh, const ddm::Decomposition& dec
   }
   return cells;
 }
-
-/// The derivative of T along the course at the centre of a triangle, by differences.
-Tensor change_of(const Law& law, const Course& course, const Corners& at, double radius) {
-  Point centre{};
-  double size = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t k = 0; k < 2; ++k) centre[k] += at.x[i][k] / 3;
-    const Point side = minus(at.x[i], at.x[(i + 1) % 3]);
-    size = std::max(size, std::hypot(side[0], side[1]));
-  }
-  const double step = std::max(0.25 * size, 1e-6 * radius);
-  const Point& t = course.ahead;
-  const auto moved = [&](double by) {
-    return law.at({centre[0] + by * t[0], centre[1] + by * t[1]});
-  };
-  Tensor change = moved(step);
-  const Tensor before = moved(-step);
-  for (std::size_t i = 0; i < 3; ++i) change[i] = (change[i] - before[i]) / (2 * step);
-  return change;
-}
-
-}  // namespace
 
 Tips::Tips(const mesh::Mesh& mesh, const ddm::Decomposition& decomposition)
     : _decomposition(decomposition), _tilts(mesh.inclusions.size(), 0) {

@@ -25,6 +25,9 @@ struct Decomposition;
 
 namespace anticrack::tips {
 
+/// The numbers of all triangles of the mesh in the decomposition. O(m).
+std::vector<Cell> cells_of(const mesh::Mesh& mesh, const ddm::Decomposition& decomposition);
+
 /// An answer with its fields and its load.
 struct Solved {
   const contact::Answer& answer;  ///< with fields, one per subdomain

@@ -71,6 +71,47 @@ TEST(DenseLcp, SolvesRandomProblemsBothWaysFromAnyStartToTheSameBits) {
   std::printf("[ figures  ] %d of 300 fell back\n", fell_back);
 }
 
+/// What is tied has d = 0 and no lambda, and the others are solved as if it were not there.
+TEST(DenseLcp, TiedNodesAreAsIfTheyWereNotThere) {
+  const unsigned seed = testing::random_seed();
+  std::printf("[ seed     ] %u\n", seed);
+  std::mt19937 random(seed);
+  int pulled = 0;
+  for (int k = 0; k < 200; ++k) {
+    const Index n = 2 + k % 25;
+    const MatrixXd s = random_spd(random, n, 1.0);
+    const VectorXd r = random_vector(random, n);
+    std::vector<char> tied(static_cast<std::size_t>(n));
+    std::vector<Index> loose;
+    for (Index i = 0; i < n; ++i) {
+      tied[static_cast<std::size_t>(i)] = random() % 2 == 0 ? 1 : 0;
+      if (tied[static_cast<std::size_t>(i)] == 0) loose.push_back(i);
+    }
+    for (const bool monotone : {false, true}) {
+      LcpOptions options;
+      options.monotone_only = monotone;
+      options.tied = tied;
+      const std::vector<char> open(static_cast<std::size_t>(n), 0);
+      const LcpAnswer answer = DenseLcp(s).solve(r, {}, options, open);
+      const LcpAnswer rest = solve(s(loose, loose), r(loose));
+      ASSERT_EQ(answer.status, LcpStatus::solved);
+      EXPECT_LT(answer.residual, 1e-12);
+      for (Index i = 0; i < n; ++i) {
+        if (tied[static_cast<std::size_t>(i)] == 0) continue;
+        EXPECT_EQ(answer.d[i], 0);
+        EXPECT_EQ(answer.lambda[i], 0);
+        pulled += (s * answer.d - r)[i] < 0 ? 1 : 0;
+      }
+      const double size = r.lpNorm<Eigen::Infinity>();
+      for (std::size_t i = 0; i < loose.size(); ++i) {
+        EXPECT_NEAR(answer.d[loose[i]], rest.d[static_cast<Index>(i)], 1e-10 * size);
+        EXPECT_NEAR(answer.lambda[loose[i]], rest.lambda[static_cast<Index>(i)], 1e-10 * size);
+      }
+    }
+  }
+  EXPECT_GT(pulled, 100);
+}
+
 TEST(DenseLcp, IsNotMisledByScale) {
   const unsigned seed = testing::random_seed();
   std::printf("[ seed     ] %u\n", seed);

@@ -145,7 +145,8 @@ class AnyValue {
       positive(value.theta);
       positive(value.theta_star);
     } else if constexpr (std::is_same_v<Struct, records::JobRecord>) {
-      if (value.spec.accuracy) value.spec.sweep.reset();  // a job has one task
+      if (value.spec.growth) value.spec.accuracy.reset();  // a job has one task
+      if (value.spec.growth || value.spec.accuracy) value.spec.sweep.reset();
       if (!value.spec.sweep) value.sweep = {};
     }
   }

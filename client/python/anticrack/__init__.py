@@ -11,8 +11,8 @@ from __future__ import annotations
 import importlib
 from typing import TYPE_CHECKING, Any
 
-from .case import (Accuracy, ActiveSet, Case, Crack, Geometry, Hole, Inclusion, Interface, Load, Mesh, Probe, Region,
-                   Side, Units, Uzawa)
+from .case import (Accuracy, ActiveSet, Case, Crack, Geometry, Growth, Hole, Inclusion, Interface, Load, Mesh, Path,
+                   Probe, Region, Side, Units, Uzawa)
 from .client import Client, Job, connect, local
 from .errors import CaseError, Error, LocalServerError, ServerError
 from .msh import Msh
@@ -21,9 +21,9 @@ from .result import Result
 if TYPE_CHECKING:
     from . import aio, draw
 
-__all__ = ["Accuracy", "ActiveSet", "Case", "CaseError", "Client", "Crack", "Error", "Geometry", "Hole", "Inclusion",
-           "Interface", "Job", "Load", "LocalServerError", "Mesh", "Msh", "Probe", "Region", "Result", "ServerError",
-           "Side", "Units", "Uzawa", "aio", "connect", "draw", "local", "read"]
+__all__ = ["Accuracy", "ActiveSet", "Case", "CaseError", "Client", "Crack", "Error", "Geometry", "Growth", "Hole",
+           "Inclusion", "Interface", "Job", "Load", "LocalServerError", "Mesh", "Msh", "Path", "Probe", "Region",
+           "Result", "ServerError", "Side", "Units", "Uzawa", "aio", "connect", "draw", "local", "read"]
 __version__ = "0.1.0"
 
 read = Result.read

@@ -22,7 +22,7 @@ Part = tuple[Point, Point]
 Tension = float | str | Mapping[str, float | str]
 # Names in Python that differ from the key in TOML.
 _KEYS = {"start": "from", "end": "to", "interfaces": "interface", "inclusions": "inclusion", "cracks": "crack",
-         "regions": "region", "holes": "hole"}
+         "regions": "region", "holes": "hole", "paths": "path"}
 
 
 def tables_of(value: Any) -> Any:
@@ -247,6 +247,25 @@ class Probe(_Table):
 
 
 @dataclass(repr=False)
+class Path(_Table):
+    """A stretch of an interface, from start to end, that holds at first and along which fronts grow. Gc: what growth
+    costs per area, a number or an expression in x and y."""
+    interface: str
+    start: Point
+    end: Point
+    Gc: float | str
+
+
+@dataclass(repr=False)
+class Growth(_Table):
+    """Delaminations and cracks grow under each load, which is scaled. inclusion: its displacement is increased, in
+    place of the load. positions: about so many on all paths together."""
+    paths: list[Path]
+    inclusion: str | None = None
+    positions: int | None = None
+
+
+@dataclass(repr=False)
 class Units(_Table):
     """Names of units to show; no number is converted. "mm" and "N" give T in N/mm, f in N/mm^2, energies in N mm."""
     length: str | None = None
@@ -260,14 +279,14 @@ class Case:
     def __init__(self, geometry: Geometry | None = None, loads: Sequence[Load] = (), mesh: Mesh | None = None,
                  solver: ActiveSet | Uzawa | None = None, accuracy: Accuracy | None = None, title: str = "",
                  units: Units | None = None, fields: bool = False, bounds: bool = True, priority: str | None = None,
-                 queue_timeout: float | str | None = None,
-                 run_timeout: float | str | None = None, probes: Sequence[Probe] = ()) -> None:
+                 queue_timeout: float | str | None = None, run_timeout: float | str | None = None,
+                 probes: Sequence[Probe] = (), growth: Growth | None = None) -> None:
         """fields: keep u on every node, which drawing the membrane needs. bounds: bound the error of each answer.
         Timeouts are seconds, or text such as "2h"."""
         job = {"priority": priority, "queue_timeout": queue_timeout, "run_timeout": run_timeout}
         tables: dict[str, Any] = {
             "title": title or None, "geometry": geometry, "mesh": mesh, "solver": solver, "accuracy": accuracy,
-            "units": units, "load": loads if isinstance(loads, _Table) else list(loads) or None,
+            "growth": growth, "units": units, "load": loads if isinstance(loads, _Table) else list(loads) or None,
             "output": ({"fields": fields, "bounds": bounds} if fields or not bounds else {})
             | ({"probe": list(probes)} if probes else {}) or None,
             "job": {key: value for key, value in job.items() if value is not None} or None}

@@ -19,7 +19,7 @@ from .result import Result, Units
 from .text import harmless
 from .v1 import mesh_pb2
 
-FIGURES = ("overview", "membrane", "plan", "traces", "convergence", "accuracy")
+FIGURES = ("overview", "membrane", "plan", "traces", "convergence", "accuracy", "growth")
 USAGE, CLOSED = 2, 141  # exit codes, as those of `anticrack`
 
 

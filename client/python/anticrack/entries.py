@@ -18,11 +18,13 @@ _MESSAGES, _FIELDS = 4, 2  # numbers in paths of source_code_info, see descripto
 
 
 def name_of(field: Any) -> str:
-    """The name in files: the field's, but A, B, M of inclusions as in the paper, K_III and G of tips, and seconds for
-    durations."""
+    """The name in files: the field's, but A, B, M of inclusions as in the paper, K_III and G of tips, G1 and Gc of
+    growth, and seconds for durations."""
     name = str(field.name)
     if field.message_type is not None and field.message_type.name == "Duration":
         return name.replace("time", "seconds")
+    if field.containing_type.name == "GrowthRow":
+        return {"g1": "G1", "toughness": "Gc"}.get(name, name)
     if field.containing_type.name in ("InclusionAnswer", "BoundaryAnswer", "Tip"):
         for long_name, symbol in _SYMBOLS:
             if name.startswith(long_name):

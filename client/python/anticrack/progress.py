@@ -52,6 +52,9 @@ class State:
         elif event == "sweep_rows":
             self.ended += len(message.sweep_rows.status)
             self.now = "solving"
+        elif event == "growth_step":
+            row = message.growth_step.row
+            self.now = f"front on {row.interface} at {row.position:.4g}, load {row.load:.4g}"
         elif event == "stage_ended":
             self.ended = 0  # the next stage solves the load cases again
             lines += self._stage_ended(message.stage_ended)

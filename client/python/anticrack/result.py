@@ -241,7 +241,10 @@ class Load(_walked(solve_pb2.LoadCaseAnswer, ("name", "status"))):  # type: igno
 
     kkt: relative residuals of the optimality conditions. traces: one for each interface, by its name or index. history:
     arrays (n), one entry an iteration. stages: arrays, one entry a stage; empty without an accuracy.
-    boundary: forces on its sides and holes. tips: of cracks and inclusions, in the order of the mesh's.
+    boundary: forces on its sides and holes. tips: of cracks and inclusions, in the order of the mesh's. growth: arrays,
+    one entry for each position of fronts that grow: front (the one that leaves it), interface, position (arc length),
+    x, y, load, displacement, G1, Gc, contact_length, energy, stable, ties; empty without growth. growth_notes: what
+    happens, in words.
     contact_intervals: (index of the interface, begin, end) in arc length. fields: one for each subdomain, by its name
     or index, where they were asked for. indicator (m): part of each triangle in the square of error_bound, or None."""
     name: str
@@ -251,6 +254,8 @@ class Load(_walked(solve_pb2.LoadCaseAnswer, ("name", "status"))):  # type: igno
     probe_points: list[ProbePoint] = field(default_factory=list)
     boundary: list[BoundaryForce] = field(default_factory=list)
     tips: list[Tip] = field(default_factory=list)
+    growth: Arrays = field(default_factory=dict)
+    growth_notes: list[str] = field(default_factory=list)
     traces: Parts[Trace] = field(default_factory=lambda: Parts("interface"))
     history: Arrays = field(default_factory=dict)
     stages: Arrays = field(default_factory=dict)
@@ -300,6 +305,9 @@ class Load(_walked(solve_pb2.LoadCaseAnswer, ("name", "status"))):  # type: igno
                      f"{short_length(self.contact_length)}{self.units.behind('L')}")
         if self.no_bracket:
             told += f"\nno bounds: {self.no_bracket}"
+        if self.growth:
+            notes = [f"growth: {counted(len(self.growth['load']), 'row')}", *self.growth_notes]
+            told += "\n" + "\n".join(map(harmless, notes))
         if self.inclusions:
             told += "\n" + lines(list(self.inclusions.values()))
         return told.replace("\n", "\n  ")
@@ -616,6 +624,9 @@ def _load_of_answer(answer: solve_pb2.LoadCaseAnswer, lines_in: list[str]) -> Lo
         load.probe_points = [ProbePoint(**entries.values_of(part)) for part in answer.probes]
         load.boundary = [BoundaryForce(**entries.values_of(part)) for part in answer.boundary]
         load.tips = [Tip(**entries.values_of(part)) for part in answer.tips]
+        rows = [entries.values_of(row) for row in answer.growth]
+        load.growth = {name: np.array([row[name] for row in rows]) for name in (rows[0] if rows else ())}
+        load.growth_notes = list(answer.growth_notes)
         load.contact_intervals = [(lines_in.index(part.interface), part.begin, part.end)
                                   for part in answer.contact_intervals]
     return load

@@ -137,6 +137,11 @@ def _put_load(group: Any, load: Load, interfaces: Parts[Interface]) -> None:
     _put_parts(group.create_group("probes"), solve_pb2.ProbeAnswer.DESCRIPTOR, load.probe_points)
     _put_parts(group.create_group("boundary"), solve_pb2.BoundaryAnswer.DESCRIPTOR, load.boundary)
     _put_parts(group.create_group("tips"), solve_pb2.Tip.DESCRIPTOR, load.tips)
+    growth = group.create_group("growth")
+    for name, (_, item) in entries.entries_of(solve_pb2.GrowthRow.DESCRIPTOR).items():
+        values = load.growth.get(name, np.empty(0))
+        text = isinstance(entries.none_of(item), str)
+        _put(growth, name, list(values) if text else values.astype(type(_typed(item, entries.none_of(item)))))
     contact = group.create_group("contact_intervals")
     _put(contact, "interface", [interfaces[place].name for place, _, _ in load.contact_intervals])
     for i, name in enumerate(("begin", "end"), 1):

@@ -207,7 +207,7 @@ class Jobs(unittest.TestCase):
                 numpy.testing.assert_allclose(sweep.energy_release_rate[row, i], tip.G, rtol=1e-6)
         self.assertEqual(sweep.frame()["G of tip 1"].tolist(), sweep.energy_release_rate[:, 1].tolist())
         self.assertIsNone(self.client.run(case, numpy.eye(2), progress=False).sweep.intensity)
-        with self.assertRaisesRegex(CaseError, "tips are of a sweep"):
+        with self.assertRaisesRegex(anticrack.CaseError, "tips are of a sweep"):
             self.client.run(case, tips=True)
 
     def test_sweeps_leave_out_the_accuracy(self):

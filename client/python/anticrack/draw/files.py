@@ -80,7 +80,7 @@ class _Drawing:
         return self.first(self.loads, f"{what} drawn; --load {other} chooses others")
 
     def draw_loads(self) -> None:
-        suffixes = ["-membrane", "-plan", "-convergence", "-accuracy",
+        suffixes = ["-membrane", "-plan", "-convergence", "-accuracy", "-growth",
                     *(_traces_suffix(i) for i in range(len(self.result.interfaces)))]
         # Stems of all loads, so that a load's file has the same name however many are drawn.
         for load, stem in zip(self.shown("loads", "NAME"), output.stems((load.name for load in self.loads), suffixes)):
@@ -108,6 +108,8 @@ class _Drawing:
         self.draw_traces(load, stem)
         if has("convergence") and _steps(load) >= self.fewest:
             self.drawn.add(f"{stem}-convergence", pictures.picture(pictures.draw_convergence, look, result, load))
+        if has("growth") and load.growth:
+            self.drawn.add(f"{stem}-growth", pictures.growth_picture(look, result, load))
         if has("accuracy") and len(bounded(load)["triangles"]) > 1:
             self.drawn.add(f"{stem}-accuracy", pictures.accuracy_picture(look, result, load))
         elif has("accuracy") and (load.stages or self.wanted.only):
@@ -163,8 +165,9 @@ class _Drawing:
 
 def draw_figures(result: Result, folder: str, wanted: Wanted, look: Look) -> Made:
     """Draws LOAD-membrane, LOAD-plan, LOAD-traces (-2 and so on for further interfaces), LOAD-convergence,
-    LOAD-accuracy and the overview LOAD for every load with traces; for a sweep, sweep, sweep-slope, sweep-contact and
-    the traces of kept rows. Makes the folder. Raises Error if it cannot be written or a name does not exist."""
+    LOAD-accuracy, LOAD-growth and the overview LOAD for every load with traces; for a sweep, sweep, sweep-slope,
+    sweep-contact and the traces of kept rows. Makes the folder. Raises Error if it cannot be written or a name does
+    not exist."""
     drawing = _Drawing(result, folder, wanted, look)
     output.make_folder(folder)
     with look.applied():

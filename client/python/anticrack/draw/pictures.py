@@ -12,6 +12,7 @@ from matplotlib.lines import Line2D
 from ..result import Load, Result
 from .along import (Profile, can_open, common, draw_traces, edge_pressure, finish, heading, jump, pressed, pressure,
                     shade)
+from .growth import growth, release
 from .history import bounded, convergence, error_band, errors
 from .meshes import Plan, draw_mesh
 from .panel import CURVES, cut, legend_below, named, rounded, stretch_of, unit_of
@@ -149,6 +150,13 @@ def picture(draw: Any, look: Look, result: Result, load: Load) -> Files:
     """Makes a picture of one panel with `draw`, e.g. draw_membrane or draw_plan."""
     sheet = Sheet(look, title_of(result, load))
     return sheet.files(draw(sheet, result, load))
+
+
+def growth_picture(look: Look, result: Result, load: Load) -> Files:
+    """Draws the load against the displacement above, and G1 and Gc against the fronts below."""
+    sheet = Sheet(look, title_of(result, load))
+    top = draw_curves(growth, sheet, result, load)
+    return sheet.files(top + draw_curves(release, sheet, result, load, 0, top))
 
 
 draw_convergence = functools.partial(draw_curves, convergence)

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The numbers of one position of the fronts after another, on one mesh with one factorisation. What
+// still holds on a path is contacts that are tied: d = 0, whatever pulls. So a position costs an
+// active set that begins with that of the position before, and one backward solve for u.
+//
+// A. M. Khludnev, K. Ohtsuka, J. Sokolowski, On derivative of energy functional for elastic bodies
+// with cracks and unilateral conditions, Quart. Appl. Math. 60 (2002).
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "contact/contact_problem.hpp"
+#include "growth/evolution.hpp"
+#include "growth/fronts.hpp"
+#include "mesh/edge_ends.hpp"
+#include "mesh/edges.hpp"
+#include "tips/release.hpp"
+#include "tips/support.hpp"
+#include "tips/tensor.hpp"
+
+namespace anticrack::growth {
+
+/// Radii of the integral for G over the edges at the front. On meshes without symmetry a smaller
+/// one errs by some per cent, whatever the mesh.
+constexpr double least_radius = 10, radius = 16;
+
+/// A load on the mesh, and its parts on triangles.
+struct PreviewLoad {
+  contact::CaseLoads loads;
+  /// Per subdomain (m,3): int f hat_i for the corners i of each triangle.
+  std::vector<std::span<const double>> force;
+  std::span<const mesh::Point> point_forces;
+};
+
+/// Keeps references to its arguments. For one thread.
+class Preview {
+ public:
+  /// Throws errors::Error: that of find_fronts; invalid_argument at "paths[i]" where a front is too
+  /// near to something, or on a curve, for G to be computed at first. O(m log m).
+  Preview(const contact::ContactProblem& problem, const mesh::Mesh& mesh, PreviewLoad load,
+          std::span<const Path> paths);
+
+  std::vector<Track> tracks() const;
+  /// The whole answer in a state, for t = 1, without fields; what holds on the paths counts as glue
+  /// or bonded. Throws as measure().
+  contact::Answer answer(const State& state, const contact::ActiveSetOptions& options,
+                         contact::Observer& observer);
+  /// Solves a state. O(c^3) a step of the active set with c open contacts, and O(N). Throws
+  /// errors::Error: numerical where a part of the membrane slides off or the steps do not end;
+  /// cancelled.
+  Measured measure(const State& state);
+
+ private:
+  struct Place {
+    tips::Course course;
+    double radius = 0;                 ///< no tip that does not move, bend or boundary is nearer
+    double edge = 0;                   ///< length of an edge at the front
+    std::string reason;                ///< what is nearest
+    std::vector<tips::Cell> cells;     ///< nearer than the radius
+    std::vector<tips::Tensor> change;  ///< (cells) derivative of T; empty: 0
+    std::int32_t behind = -1;          ///< contact right behind the front; -1: none
+    std::int32_t inclusion = -1;
+  };
+
+  const Place& place(std::size_t front, std::size_t position);
+  Place find_place(const Front& front, std::size_t position) const;
+  void take_surroundings(Place& place, tips::Place around) const;
+  double room(std::size_t front, const State& state);
+  double release(const Place& here, double outer, const contact::Answer& solved,
+                 const mesh::Point& slope) const;
+  void tie(const State& state);
+  std::vector<std::int32_t> contacts_at(const Stretch& stretch, std::size_t node) const;
+  const mesh::Interface& line_of(const Stretch& stretch) const {
+    return _mesh.interfaces[stretch.interface];
+  }
+
+  const contact::ContactProblem& _problem;
+  const mesh::Mesh& _mesh;
+  const ddm::Decomposition& _decomposition;
+  const PreviewLoad _load;
+  const Fronts _fronts;
+  const mesh::EdgeTable _edges;
+  const std::vector<mesh::EdgeEnd> _ends;
+  const tips::Surroundings _around;
+  const std::vector<tips::Law> _laws;
+  const std::vector<tips::Cell> _cells;  // (m)
+  std::vector<mesh::Point> _tips;        // those that do not move
+  const contact::Reduced _reduced;
+  double _closed_energy = 0;
+  std::vector<char> _tied, _closed;
+  std::map<std::pair<std::size_t, std::size_t>, Place> _places;
+};
+
+}  // namespace anticrack::growth

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/growth_run.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <variant>
+
+#include "contact/answer.hpp"
+#include "expression/function.hpp"
+#include "jobs/result_block.hpp"
+#include "operators/grow.hpp"
+
+namespace anticrack::jobs {
+namespace {
+
+using errors::Error;
+using errors::Reason;
+using growth::Evolution;
+
+constexpr std::size_t most_paths = 100;
+constexpr std::int32_t default_positions = 200, most_positions = 1'000;
+
+std::int32_t positions_of(const records::GrowthSpec& growth) {
+  return growth.positions == 0 ? default_positions : growth.positions;
+}
+
+growth::Control control_of(const records::GrowthSpec& growth, const mesh::Mesh& mesh) {
+  if (growth.inclusion.empty()) return {};
+  const auto found = std::ranges::find(mesh.inclusions, growth.inclusion);
+  if (found == mesh.inclusions.end())
+    throw Error(Reason::invalid_argument,
+                "the mesh has no inclusion \"{}\" whose displacement could be increased",
+                growth.inclusion)
+        .at("inclusion");
+  return {static_cast<int>(found - mesh.inclusions.begin())};
+}
+
+/// As many edges as make about so many positions.
+std::size_t step_of(const std::vector<growth::Track>& tracks, std::int32_t positions) {
+  double edges = 0;
+  for (const growth::Track& track : tracks)
+    edges += static_cast<double>(track.position.size() - 1) / (track.facing < 0 ? 1 : 2);
+  return static_cast<std::size_t>(std::max(1.0, std::ceil(edges / positions)));
+}
+
+std::string shown(const growth::Track& track, double position) {
+  return fmt::format("the front on \"{}\" at {}", track.name, errors::shown(position));
+}
+
+contact::GrowthRow row_of(const growth::Row& row, const growth::Measured& measured,
+                          const growth::State& state, const Evolution& evolution, int inclusion) {
+  contact::GrowthRow result;
+  result.front = row.leader;
+  result.contact_length = row.contact_length;
+  if (row.leader < 0) return result;
+  const auto i = static_cast<std::size_t>(row.leader);
+  const growth::Track& track = evolution.tracks()[i];
+  result.interface = track.name;
+  result.position = row.position[i];
+  result.x = track.place[state.at[i]][0];
+  result.y = track.place[state.at[i]][1];
+  result.load = row.load;
+  if (!measured.displacement.empty())
+    result.displacement = row.displacement[static_cast<std::size_t>(std::max(inclusion, 0))];
+  result.g1 = row.G1[i];
+  result.toughness = row.toughness[i];
+  result.energy = row.energy;
+  result.stable = row.stable;
+  result.ties = static_cast<std::int32_t>(row.ties.size());
+  return result;
+}
+
+/// What happened, in words.
+std::vector<std::string> notes_on(const std::vector<growth::Row>& rows, const Evolution& evolution,
+                                  growth::Control control) {
+  std::vector<std::string> notes;
+  const char* const increased = control.inclusion < 0 ? "load" : "displacement";
+  for (const growth::Jump& jump : growth::jumps(rows, control)) {
+    const growth::Row& from = rows[jump.from];
+    const auto i = static_cast<std::size_t>(from.leader);
+    const std::string front = shown(evolution.tracks()[i], from.position[i]);
+    if (jump.to) {
+      const growth::Row& to = rows[*jump.to];
+      notes.push_back(fmt::format(
+          "{} runs at the {} {}, to row {}, where it stops; {} of the energy is not used", front,
+          increased, errors::shown(from.control), *jump.to, errors::shown(jump.not_dissipated)));
+      if (to.leader != from.leader) notes.back() += " (others move on the way)";
+    } else {
+      notes.push_back(fmt::format(
+          "{} runs at the {} {} and does not stop on its path; {} of the energy is not used", front,
+          increased, errors::shown(from.control), errors::shown(jump.not_dissipated)));
+    }
+  }
+  for (const growth::Event& event : evolution.events()) {
+    const growth::Track& track = evolution.tracks()[event.front];
+    const std::string front = shown(track, track.position[evolution.state().at[event.front]]);
+    switch (event.fate) {
+      case growth::Fate::snapped:
+        notes.push_back(front +
+                        (track.facing < 0
+                             ? " comes so near to the end that the rest comes off at once"
+                             : " meets that from the other side: the rest comes off at once"));
+        break;
+      case growth::Fate::end_of_path:
+        notes.push_back(front + " is at the end of its path");
+        break;
+      case growth::Fate::not_followed:
+        notes.push_back(front + " is not followed further: G takes ten edges of room about it");
+        break;
+      case growth::Fate::grows:
+        break;
+    }
+  }
+  notes.push_back(evolution.ending());
+  return notes;
+}
+
+contact::Answer grown(const PreparedCase& prepared, contact::Observer& observer) {
+  const LiveJob& job = *prepared.task.job;
+  const records::GrowthSpec& spec = *job.spec->growth;
+  const std::stop_token stop = job.stop.get_token();
+  const growth::Control control = control_of(spec, job.mesh_operator->mesh());
+  operators::Growth preview(job.mesh_operator, prepared.load, spec.paths, stop);
+  std::vector<growth::Track> tracks = preview.tracks();
+  const std::size_t step = step_of(tracks, positions_of(spec));
+  Evolution evolution(std::move(tracks), control, step);
+  contact::Answer answer = preview.answer(
+      evolution.state(), std::get<contact::ActiveSetOptions>(job.spec->solver), observer);
+  if (answer.status != contact::Status::converged) return answer;
+  std::vector<growth::Row> rows;
+  while (!evolution.over()) {
+    const growth::State state = evolution.state();
+    const growth::Measured measured = preview.measure(state, stop);
+    const std::optional<growth::Row> row = evolution.take(measured);
+    if (!row) continue;
+    answer.growth.push_back(row_of(*row, measured, state, evolution, control.inclusion));
+    job.log->append(GrowthEvent{static_cast<std::int32_t>(prepared.task.index),
+                                std::make_shared<const contact::GrowthRow>(answer.growth.back())});
+    rows.push_back(*row);
+  }
+  answer.growth_notes = notes_on(rows, evolution, control);
+  return answer;
+}
+
+}  // namespace
+
+void check_growth(const records::JobSpec& spec, const EngineOptions& options) {
+  const records::GrowthSpec& growth = *spec.growth;
+  if (growth.paths.empty())
+    throw Error(Reason::invalid_argument, "growth needs at least one path").at("growth.paths");
+  if (growth.paths.size() > most_paths)
+    throw Error(Reason::limit_exceeded, "{} paths: growth may have {}", growth.paths.size(),
+                most_paths)
+        .at("growth.paths");
+  if (growth.positions != 0 && (growth.positions < 2 || growth.positions > most_positions))
+    throw Error(Reason::invalid_argument, "{} positions: take 2 to {}", growth.positions,
+                most_positions)
+        .at("growth.positions");
+  for (std::size_t i = 0; i < growth.paths.size(); ++i) {
+    const growth::Path& path = growth.paths[i];
+    const std::string field = fmt::format("growth.paths[{}].toughness", i);
+    if (path.toughness.empty())
+      throw Error(Reason::invalid_argument,
+                  "Gc is missing; write a number above 0, or an "
+                  "expression in x and y")
+          .at(field);
+    if (path.toughness.size() > options.max_expression_bytes)
+      throw Error(Reason::limit_exceeded, "Gc has {} bytes and may have {}", path.toughness.size(),
+                  options.max_expression_bytes)
+          .at(field);
+    const expression::Function checked(path.toughness, field);
+  }
+  if (!std::holds_alternative<contact::ActiveSetOptions>(spec.solver))
+    throw Error(Reason::invalid_argument,
+                "growth takes the method \"active-set\": fronts are contacts that are tied")
+        .at("solver.uzawa");
+  if (spec.fields || spec.indicators)
+    throw Error(Reason::invalid_argument,
+                "a job with growth has traces, and no fields or "
+                "indicators: leave them out")
+        .at("outputs");
+  constexpr std::uint64_t a_row = 200;  // thirteen numbers and a name
+  const auto rows = static_cast<std::uint64_t>(positions_of(growth)) * spec.loads.size();
+  if (rows * a_row > max_answer_bytes)
+    throw Error(Reason::limit_exceeded,
+                "{} positions under each of {} load cases do not fit in a message: take fewer, or "
+                "make several jobs",
+                positions_of(growth), spec.loads.size())
+        .at("growth.positions");
+}
+
+contact::Answer grow(const PreparedCase& prepared, contact::Observer& observer) {
+  try {
+    return grown(prepared, observer);
+  } catch (Error& error) {
+    if (!error.fields().empty()) error.below("growth");
+    throw;
+  }
+}
+
+}  // namespace anticrack::jobs
