@@ -161,8 +161,7 @@ bool RowBounds::aim(const std::vector<char>& closed) {
     const VectorXd& ends = goal.pair.turned.ends;
     VectorXd least = ends.cwiseMin(0.0), most = ends.cwiseMax(0.0);
     for (Index i = 0; i < ends.size(); ++i) {
-      const std::int32_t own = _of.pressures.ends[at(i)].jump;
-      if (own < 0 || closed[at(own)] == 0) continue;
+      if (!_of.pressures.closed_at(i, closed)) continue;
       if (ends[i] < 0) least[i] = -unlimited;
       if (ends[i] > 0) most[i] = unlimited;
     }
@@ -312,11 +311,8 @@ double RowBounds::turn_within(Index goal, double sign, double most, Pair& pair) 
       if (turn.end[one] >= 0) turned.ends[turn.end[one]] += turn.sign[one] * turned.by[k];
   }
   VectorXd low = -most * p, high = most * p;
-  for (Index i = 0; i < p.size(); ++i) {
-    const std::int32_t own = faces.ends[at(i)].jump;
-    if (own < 0 || _closed[at(own)] == 0) continue;
-    (sign > 0 ? high[i] : low[i]) = sign * unlimited;
-  }
+  for (Index i = 0; i < p.size(); ++i)
+    if (faces.closed_at(i, _closed)) (sign > 0 ? high[i] : low[i]) = sign * unlimited;
   faces.turn(pair.slope, low, high, turned);
   double c = 0, off = 0;
   for (Index i = 0; i < p.size(); i += 2) {

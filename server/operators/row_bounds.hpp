@@ -46,9 +46,9 @@ class RowBounds {
     Pair pair;
     double most = 0;
   };
-  /// Of the last row, to be compared with the fluxes themselves: the pressure of sigma at the ends
-  /// of FacePressures, and the lower and the upper bound of each goal that moves.
-  const Eigen::VectorXd& pressure() const noexcept { return _row.turned.ends; }
+  /// Of the last row, to be compared with the fluxes themselves: the pressure of sigma, and the
+  /// lower and the upper bound of each goal that moves.
+  const FacePressures::Turned& pressure() const noexcept { return _row.turned; }
   const std::vector<Found>& found() const noexcept { return _found; }
 
  private:

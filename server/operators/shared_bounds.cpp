@@ -71,6 +71,7 @@ class Maker {
   }
 
   std::shared_ptr<const SharedBounds> make() {
+    if (_of.pressures.ends.empty()) return nullptr;
     place_rows();
     find_fields();
     find_strain();
