@@ -138,16 +138,17 @@ void check_rows(unsigned seed, Tally& tally) {
   const auto mesh = refined(membrane.mesh(), 1), fine_mesh = refined(membrane.mesh(), 3);
   const std::vector<fem::Load> loads = loads_on(*mesh, seed % 5 == 0);
   Operator op, fine;
+  std::shared_ptr<const LoadBasis> shared, own, finer;
   try {
     op = MeshOperator::factorise(mesh, 1, {});
     if (!op->shares_bounds(loads.size(), many)) return;
     fine = MeshOperator::factorise(fine_mesh, 1, {});
+    shared = op->basis(pointers(loads), {}, true, many);
+    own = op->basis(pointers(loads), {}, true);
+    finer = fine->basis(pointers(loads), {}, true);
   } catch (const errors::Error&) {
-    return;  // nothing holds a part
+    return;  // nothing holds a part, or the boundary holds a rigid one at several values
   }
-  const auto shared = op->basis(pointers(loads), {}, true, many),
-             own = op->basis(pointers(loads), {}, true),
-             finer = fine->basis(pointers(loads), {}, true);
   const std::vector<double> c = rows_of(loads.size(), seed);
   contact::SweepColumns rows(c.size() / loads.size(), mesh->inclusions.size(),
                              op->contact_nodes().size(), contact::tilts(*mesh), true);
@@ -191,7 +192,7 @@ void check_rows(unsigned seed, Tally& tally) {
 
 TEST(RowBounds, HoldOnFinerMeshesAndAreAboutThoseOfTheLoadsAlone) {
   const unsigned first = testing::random_seed();
-  const char* const seeds = std::getenv("ANTICRACK_SEEDS");  // 1000 by hand
+  const char* const seeds = std::getenv("ANTICRACK_SEEDS");  // 600 by hand
   const unsigned count = seeds != nullptr ? static_cast<unsigned>(std::atoi(seeds)) : 24;
   Tally tally;
   for (unsigned seed = first; seed < first + count; ++seed) {
