@@ -39,7 +39,8 @@ std::vector<fem::Load> loads_on(const mesh::Mesh& mesh, bool balanced) {
   loads[1].force = 1.02;
   loads[2].force = fem::Expression{"x - 2*y"};
   loads[2].boundary_value = "0.1*x - 0.05*y";
-  loads[3].force = fem::Expression{balanced ? "y" : "3*sin(2*x + 5*y)"};
+  loads[3].force =
+      fem::Expression{balanced ? "y" : "3*sin(2*x + 5*y) + (2*x + 5*y > 20.3 ? 1 : 0)"};
   const std::vector<char> tilts = reference::tilting(mesh);
   for (std::size_t j = 0; j < mesh.inclusions.size(); ++j) {
     loads[2].inclusion_forces[mesh.inclusions[j]] = j % 2 == 0 ? 0.7 : -1;
@@ -334,8 +335,8 @@ struct Made {
 
 /// How often each term of the bounds was there to be compared.
 struct Compared {
-  int pressures = 0, works = 0, tractions = 0, cones = 0, shifts = 0, turns = 0, energies = 0,
-      displacements = 0;
+  int pressures = 0, works = 0, tractions = 0, cones = 0, shifts = 0, turns = 0, unknown = 0,
+      energies = 0, displacements = 0;
 };
 
 /// Compares the bounds of a row with the same made of fluxes and fields.
@@ -386,7 +387,12 @@ class Comparison {
       expect_as_wide(bound.c * off, expected.c * off, 1e-7 * found.pair.terms, !sums());
       EXPECT_NEAR(bound.half.dual, expected.half.dual, 1e-9 * square(found.pair.terms));
       expect_as_wide(bound.half.primal, expected.half.primal, 1e-9 * size(sigma), _balanced);
-      expect_as_wide(sign * bound.value, sign * expected.value, 1e-5 * scale, _balanced && !sums());
+      expect_as_wide(bound.half.mixed, expected.half.mixed, 1e-9 * scale, _balanced);
+      const auto beside = [&](const estimate::Bound& of) {
+        return sign * (of.value - of.middle) - of.half(of.c);
+      };
+      expect_as_wide(beside(bound), beside(expected), 1e-9 * scale, _balanced);
+      _tally.unknown += beside(expected) > 1e-7 * scale ? 1 : 0;
       ++_tally.displacements;
       _tally.cones += bound.c * std::sqrt(bound.half.primal) > std::sqrt(bound.half.dual) ? 1 : 0;
       _tally.shifts += found.pair.shift.size() > 0 ? 1 : 0;
@@ -543,11 +549,11 @@ TEST(RowBounds, AreThoseOfTheFluxesThatTheyStandFor) {
   }
   std::printf(
       "[ figures  ] %d energies, %d A; with p [u] %d, turned %d, q [u] %d, tractions %d, in cones "
-      "%d, clipped %d\n",
+      "%d, clipped %d, unknown %d\n",
       tally.energies, tally.displacements, tally.pressures, tally.turns, tally.works,
-      tally.tractions, tally.cones, tally.shifts);
-  for (const int term :
-       {tally.pressures, tally.turns, tally.works, tally.tractions, tally.cones, tally.shifts})
+      tally.tractions, tally.cones, tally.shifts, tally.unknown);
+  for (const int term : {tally.pressures, tally.turns, tally.works, tally.tractions, tally.cones,
+                         tally.shifts, tally.unknown})
     EXPECT_GT(term, 10);
 }
 
@@ -647,7 +653,14 @@ TEST(RowBounds, OfAStripAreWhatJumpsAndPressuresMakeOfThem) {
         EXPECT_LE(found[0].lower, exact.energy() + 1e-9);
         EXPECT_LE(found[1].lower, exact.displacement() + 1e-6);
         EXPECT_GE(found[1].upper, exact.displacement() - 1e-6);
-        if (of.pressure() < 0) continue;
+        if (of.pressure() < 0) {
+          // The contacts are pulled, which no pressure explains.
+          const double unexplained = closed != 0 ? 0 : -of.pressure() / Strip::spring;
+          for (const RowBounds::Found& one : bounds.found())
+            EXPECT_GE(std::abs(one.bound.value - one.bound.middle),
+                      one.bound.half(one.bound.c) + unexplained - 1e-9);
+          continue;
+        }
         // eta = 0: P alone is between the energies, and c P between mid and the upper bound of A.
         const double work = of.pressure() * jump;
         EXPECT_NEAR(found[0].lower, of.energy() - work, 1e-9);
