@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "base/at.hpp"
@@ -27,11 +28,34 @@ std::vector<std::int32_t> unknown_at(const MeshOperator::Parts& parts,
   return unknown;
 }
 
-/// Divides the force of each contact by the lengths of its faces. An end that is no contact, as a
-/// tip, has the pressure of the other end.
-void divide(const MeshOperator::Parts& parts, const estimate::CutMesh& cut, FacePressures& of) {
-  const std::vector<std::int32_t> contact = contact_at_ends(parts, cut);
-  std::vector<double> length, beside(parts.decomposition.skeleton.contacts.size(), 0);
+/// The contacts whose jumps sum up to w[plus] - w[minus]: one, or a chain of them. None: there is
+/// no such chain.
+std::optional<std::vector<std::int32_t>> chain(const std::vector<ddm::Contact>& contacts,
+                                               std::int32_t plus, std::int32_t minus) {
+  std::map<std::int32_t, std::vector<std::int32_t>> way{{minus, {}}};
+  std::vector<std::int32_t> reached{minus};
+  for (std::size_t k = 0; k < reached.size() && !way.contains(plus); ++k) {
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      if (contacts[i].minus != reached[k] || way.contains(contacts[i].plus)) continue;
+      std::vector<std::int32_t> longer = way[reached[k]];
+      longer.push_back(static_cast<std::int32_t>(i));
+      way[contacts[i].plus] = std::move(longer);
+      reached.push_back(contacts[i].plus);
+    }
+  }
+  const auto found = way.find(plus);
+  if (found == way.end()) return std::nullopt;
+  return found->second;
+}
+
+/// Finds the jumps at the ends, and divides the force of each contact by the lengths of its faces.
+/// An end that has no contact of its own, as a tip, has the pressure of the other end. False if a
+/// jump is not known.
+bool divide(const MeshOperator::Parts& parts, const estimate::CutMesh& cut, FacePressures& of) {
+  const std::vector<ddm::Contact>& contacts = parts.decomposition.skeleton.contacts;
+  const std::vector<std::int32_t> contact = contact_at_ends(parts, cut),
+                                  unknown = unknown_at(parts, cut);
+  std::vector<double> length, beside(contacts.size(), 0);
   for (const std::int32_t f : of.faces) {
     const auto ends = cut.ends(cut.faces[at(f)]);
     const estimate::Vector &p = cut.at[at(ends[0])], &q = cut.at[at(ends[1])];
@@ -40,11 +64,24 @@ void divide(const MeshOperator::Parts& parts, const estimate::CutMesh& cut, Face
       if (contact[at(end)] >= 0) beside[at(contact[at(end)])] += length.back();
   }
   for (std::size_t i = 0; i < of.faces.size(); ++i) {
-    for (const std::int32_t end : {2 * of.faces[i], 2 * of.faces[i] + 1}) {
-      const std::int32_t jump = contact[at(end)], force = jump >= 0 ? jump : contact[at(end ^ 1)];
-      of.ends.push_back({jump, force, force >= 0 ? length[i] / beside[at(force)] : 0});
+    const estimate::Face& face = cut.faces[at(of.faces[i])];
+    const auto ends = cut.ends(face), others = cut.ends(cut.faces[at(face.other)]);
+    for (const std::size_t k : {0, 1}) {
+      const std::size_t end = 2 * at(of.faces[i]) + k;
+      const std::int32_t own = contact[end], force = own >= 0 ? own : contact[end ^ 1];
+      const auto first = static_cast<std::int32_t>(of.jumps.size());
+      if (own >= 0) {
+        of.jumps.push_back(own);
+      } else {
+        const auto sum = chain(contacts, unknown[at(others[1 - k])], unknown[at(ends[k])]);
+        if (!sum) return false;
+        of.jumps.insert(of.jumps.end(), sum->begin(), sum->end());
+      }
+      of.ends.push_back({first, static_cast<std::int32_t>(of.jumps.size()), force,
+                         force >= 0 ? length[i] / beside[at(force)] : 0});
     }
   }
+  return true;
 }
 
 void find_turns(const estimate::CutMesh& cut, FacePressures& of) {
@@ -106,7 +143,7 @@ FacePressures face_pressures(const MeshOperator::Parts& parts, const estimate::C
   FacePressures of;
   for (std::size_t f = 0; f < cut.faces.size(); ++f)
     if (estimate::presses(cut.faces[f].condition)) of.faces.push_back(static_cast<std::int32_t>(f));
-  divide(parts, cut, of);
+  if (!divide(parts, cut, of)) return {};
   find_turns(cut, of);
   return of;
 }
@@ -129,23 +166,21 @@ std::vector<double> FacePressures::through(std::size_t all_faces, const VectorXd
 }
 
 double FacePressures::work(const VectorXd& pressure,
-                           const Eigen::Ref<const VectorXd>& jumps) const {
+                           const Eigen::Ref<const VectorXd>& d) const {
   double sum = 0;
   for (Index e = 0; e < pressure.size(); ++e)
-    if (const std::int32_t jump = ends[at(e)].jump; jump >= 0)
-      sum += 0.5 * (pressure[e] + pressure[e ^ 1]) * jumps[jump];
+    for (const std::int32_t i : jumps_at(e)) sum += 0.5 * (pressure[e] + pressure[e ^ 1]) * d[i];
   return sum;
 }
 
-VectorXd FacePressures::slopes_of_work(const Eigen::Ref<const VectorXd>& jumps) const {
+VectorXd FacePressures::slopes_of_work(const Eigen::Ref<const VectorXd>& d) const {
   VectorXd slopes = VectorXd::Zero(static_cast<Index>(turns.size()));
   for (Index k = 0; k < slopes.size(); ++k) {
     const Turn& turn = turns[at(k)];
     for (const std::size_t one : {0, 1}) {
       if (turn.end[one] < 0) continue;
       for (const std::int32_t end : {turn.end[one], turn.end[one] ^ 1})
-        if (const std::int32_t jump = ends[at(end)].jump; jump >= 0)
-          slopes[k] += 0.5 * turn.sign[one] * jumps[jump];
+        for (const std::int32_t i : jumps_at(end)) slopes[k] += 0.5 * turn.sign[one] * d[i];
     }
   }
   return slopes;
@@ -182,9 +217,15 @@ void FacePressures::turn(const VectorXd& slope, const VectorXd& least, const Vec
   }
 }
 
+bool FacePressures::closed_at(Index end, const std::vector<char>& closed) const {
+  const std::span<const std::int32_t> own = jumps_at(end);
+  return !own.empty() &&
+         std::ranges::all_of(own, [&](std::int32_t i) { return closed[at(i)] != 0; });
+}
+
 std::size_t FacePressures::bytes() const noexcept {
   return faces.capacity() * sizeof(faces[0]) + ends.capacity() * sizeof(ends[0]) +
-         turns.capacity() * sizeof(turns[0]) +
+         turns.capacity() * sizeof(turns[0]) + jumps.capacity() * sizeof(jumps[0]) +
          at(overlap.nonZeros()) * (sizeof(double) + sizeof(int)) +
          at(overlap.outerSize()) * sizeof(int);
 }

@@ -88,14 +88,18 @@ bool RowBounds::take(std::span<const double> c, const contact::LcpAnswer& soluti
   row.y.tail(contacts) = solution.d.head(contacts);
   const auto d = row.y.tail(contacts);
   row.sizes = row.y.cwiseAbs();
-  row.off_gradients.resize(0);
   row.products.resize(_of.flux.rows());
   multiply(_of.flux.leftCols(elastic), row.y, row.products);
-  row.norm_squared = quadratic(_of.strain.topLeftCorner(elastic, elastic), row.y);
-  VectorXd reaction(contacts), of_loads(contacts);
+  const auto coefficients = row.y.head(loads);
+  VectorXd& reaction = row.reaction;
+  reaction.resize(contacts);
   multiply(_of.stiffness(), d, reaction);
-  multiply(_loads.r, row.y.head(loads), of_loads);
-  reaction -= of_loads;
+  row.norm_squared = coefficients.dot(_of.strain.topLeftCorner(loads, loads) * coefficients +
+                                      2 * _of.strain.block(0, loads, loads, contacts) * d) +
+                     d.dot(reaction);
+  reaction -= _loads.r * coefficients;
+  row.divided = faces.divided(reaction).ends;
+  row.traction = _of.traction * coefficients;
   row.forces = solution.lambda.head(contacts).cwiseMax(0.0);
   row.off = (reaction - row.forces).cwiseAbs();
 
@@ -161,8 +165,7 @@ bool RowBounds::aim(const std::vector<char>& closed) {
     const VectorXd& ends = goal.pair.turned.ends;
     VectorXd least = ends.cwiseMin(0.0), most = ends.cwiseMax(0.0);
     for (Index i = 0; i < ends.size(); ++i) {
-      const std::int32_t own = _of.pressures.ends[at(i)].jump;
-      if (own < 0 || closed[at(own)] == 0) continue;
+      if (!_of.pressures.closed_at(i, closed)) continue;
       if (ends[i] < 0) least[i] = -unlimited;
       if (ends[i] > 0) most[i] = unlimited;
     }
@@ -178,13 +181,18 @@ RowBounds::Pair RowBounds::pair(Index goal, VectorXd jumps, VectorXd forces, boo
   const auto stiffness = _of.stiffness();
   Pair of;
   of.reacting = jumps;
-  if (clipped) {
-    multiply(_of.softness, forces + _unit[at(goal)], of.reacting);
-    of.shift = of.reacting - jumps;
-  }
+  const VectorXd load = forces + _unit[at(goal)];
   VectorXd force(n), flux(n);
-  multiply(stiffness, of.reacting, force);
-  const double off = (force - _unit[at(goal)] - forces).lpNorm<1>();
+  multiply(stiffness, jumps, force);
+  double off = 0;
+  if (clipped) {
+    multiply(_of.softness, load, of.reacting);
+    of.shift = of.reacting - jumps;
+    of.strain = root(of.shift.dot(load - force));
+    off = _of.inexact * load.lpNorm<1>();
+  } else {
+    off = (force - load).lpNorm<1>();
+  }
   multiply(_of.flux.block(_of.loads, _of.loads, n, n), of.reacting, flux);
   const auto own = _of.flux.col(unit).segment(_of.loads, n);
   of.square = of.reacting.dot(flux) + 2 * of.reacting.dot(own) + _of.flux(unit, unit);
@@ -193,19 +201,17 @@ RowBounds::Pair RowBounds::pair(Index goal, VectorXd jumps, VectorXd forces, boo
   of.slope += _of.turning.col(unit);
   const VectorXd sizes = of.reacting.cwiseAbs();
   of.terms = _of.norm.segment(_of.loads, n).dot(sizes) + _of.norm[unit];
+  of.lack = _of.lack.segment(_of.loads, n).dot(sizes) + _of.lack[unit] + _of.beyond * off;
+  of.turned = _of.pressures.divided(forces);
   if (clipped) {
-    VectorXd mixed(n);
-    multiply(_of.mixed.middleCols(_of.loads, n), of.reacting, mixed);
-    mixed += _of.mixed.col(unit);
-    multiply(stiffness, of.shift, force);
-    const double strain = of.shift.dot(force);
-    of.square += 2 * of.shift.dot(mixed) + strain;
-    of.terms += root(strain);
+    // tau balances the unit force and the forces: this is int grad (z' - z).(tau - T grad z'),
+    // wrong by what tau lacks.
+    const double mixed = _of.pressures.work(of.turned.ends, of.shift) - forces.dot(of.shift);
+    of.square += 2 * mixed + of.strain * (of.strain + 2 * of.lack);
+    of.terms += of.strain;
     of.slope += _of.pressures.slopes_of_work(of.shift);
   }
-  of.lack = _of.lack.segment(_of.loads, n).dot(sizes) + _of.lack[unit] + _of.beyond * off;
   of.largest = _of.largest[unit] + _of.largest.segment(_of.loads, n).dot(jumps.cwiseAbs());
-  of.turned = _of.pressures.divided(forces);
   of.jumps = std::move(jumps);
   of.forces = std::move(forces);
   return of;
@@ -232,7 +238,7 @@ void RowBounds::finish(Index goal, Pair& pair) const {
 }
 
 /// The bound of A from one side, of estimate/interval.hpp; A on the mesh is `value`.
-RowBounds::Found RowBounds::bound(Index goal, estimate::Side side, double value) {
+RowBounds::Found RowBounds::bound(Index goal, estimate::Side side, double value) const {
   const Goal& of = _goals[at(goal)];
   const double sign = side == estimate::Side::upper ? 1 : -1;
   const VectorXd d = _row.y.tail(_of.contacts);
@@ -265,25 +271,22 @@ RowBounds::Found RowBounds::bound(Index goal, estimate::Side side, double value)
 }
 
 /// What the bound by z and its tau is made of.
-estimate::Terms RowBounds::terms(Index goal, double value, const Pair& z) {
-  Row& row = _row;
+estimate::Terms RowBounds::terms(Index goal, double value, const Pair& z) const {
+  const Row& row = _row;
   const Index n = _of.contacts, unit = _of.loads + n + goal;
-  const bool clipped = z.shift.size() > 0;
-  if (clipped && row.off_gradients.size() == 0) {
-    row.off_gradients.resize(n);
-    multiply(_of.mixed.leftCols(_of.loads + n), row.y, row.off_gradients);
-  }
-  const auto coefficients = row.y.head(_of.loads), sizes = row.sizes.head(_of.loads);
+  const auto sizes = row.sizes.head(_of.loads);
   const double o = std::sqrt(row.unbalanced.squared);
   estimate::Terms of;
   of.value = value;
   of.work = _of.pressures.work(z.turned.ends, row.y.tail(n));
-  of.residual = (_of.traction.row(n + goal) + z.jumps.transpose() * _of.traction.topRows(n))
-                    .dot(coefficients) -
-                z.jumps.dot(row.forces);
+  of.residual = row.traction[n + goal] + z.jumps.dot(row.traction.head(n) - row.forces);
+  double shifted = 0;  // int grad (z' - z).(sigma - T grad u), sigma not turned
+  if (z.shift.size() > 0)
+    shifted =
+        z.shift.dot(row.traction.head(n) - row.reaction) + _of.pressures.work(row.divided, z.shift);
   of.mixed = 0.5 * (row.products[unit] + z.reacting.dot(row.products.segment(_of.loads, n)) +
                     z.turned.by.dot(row.slope + _of.pressures.overlap * row.turned.by) +
-                    row.turned.by.dot(z.slope) + (clipped ? z.shift.dot(row.off_gradients) : 0));
+                    row.turned.by.dot(z.slope) + shifted);
   of.distance = row.distance;
   of.square = z.square;
   of.pressure = row.pressure;
@@ -293,7 +296,8 @@ estimate::Terms RowBounds::terms(Index goal, double value, const Pair& z) {
   of.unbalanced.dual = std::min(o * std::sqrt(z.square), row.unbalanced.dual * z.near);
   of.extra = z.steep * sizes.dot(_of.steep.col(goal)) +
              z.largest * sizes.dot(_of.moments.col(goal)) + row.work * z.largest +
-             z.jumps.cwiseAbs().dot(row.off) + of_products * z.terms * row.terms;
+             z.jumps.cwiseAbs().dot(row.off) + 0.5 * row.lack * z.strain +
+             of_products * z.terms * row.terms;
   return of;
 }
 
@@ -312,11 +316,8 @@ double RowBounds::turn_within(Index goal, double sign, double most, Pair& pair) 
       if (turn.end[one] >= 0) turned.ends[turn.end[one]] += turn.sign[one] * turned.by[k];
   }
   VectorXd low = -most * p, high = most * p;
-  for (Index i = 0; i < p.size(); ++i) {
-    const std::int32_t own = faces.ends[at(i)].jump;
-    if (own < 0 || _closed[at(own)] == 0) continue;
-    (sign > 0 ? high[i] : low[i]) = sign * unlimited;
-  }
+  for (Index i = 0; i < p.size(); ++i)
+    if (faces.closed_at(i, _closed)) (sign > 0 ? high[i] : low[i]) = sign * unlimited;
   faces.turn(pair.slope, low, high, turned);
   double c = 0, off = 0;
   for (Index i = 0; i < p.size(); i += 2) {

@@ -34,6 +34,7 @@ class RowBounds {
     FacePressures::Turned turned;            ///< q
     Eigen::VectorXd slope;  ///< int phi_k.(tau - T grad z) / T, before it is turned
     double square = 0;      ///< |tau - T grad z|^2
+    double strain = 0;      ///< |z' - z|
     double terms = 0;       ///< root of the sum of what may cancel in it
     double lack = 0;        ///< |t|
     double near = 0;        ///< >= |tau - T grad z|_omega
@@ -46,9 +47,9 @@ class RowBounds {
     Pair pair;
     double most = 0;
   };
-  /// Of the last row, to be compared with the fluxes themselves: the pressure of sigma at the ends
-  /// of FacePressures, and the lower and the upper bound of each goal that moves.
-  const Eigen::VectorXd& pressure() const noexcept { return _row.turned.ends; }
+  /// Of the last row, to be compared with the fluxes themselves: the pressure of sigma, and the
+  /// lower and the upper bound of each goal that moves.
+  const FacePressures::Turned& pressure() const noexcept { return _row.turned; }
   const std::vector<Found>& found() const noexcept { return _found; }
 
  private:
@@ -58,12 +59,15 @@ class RowBounds {
   };
   /// A load with its solution.
   struct Row {
-    Eigen::VectorXd y, sizes;                 ///< coefficients of u, and their absolute values
-    Eigen::VectorXd forces, off;              ///< lambda >= 0, and |S^ d - r - lambda|
-    Eigen::VectorXd products, off_gradients;  ///< flux y; mixed y, if needed
-    FacePressures::Turned turned;             ///< p
-    Eigen::VectorXd slope;                    ///< int phi_k.(sigma - T grad u) / T, before
-    double terms = 0;                         ///< as of a pair
+    Eigen::VectorXd y, sizes;      ///< coefficients of u, and their absolute values
+    Eigen::VectorXd reaction;      ///< S^ d - r
+    Eigen::VectorXd forces, off;   ///< lambda >= 0, and |S^ d - r - lambda|
+    Eigen::VectorXd divided;       ///< the pressure of `reaction`, not turned
+    Eigen::VectorXd traction;      ///< SharedBounds::traction c
+    Eigen::VectorXd products;      ///< flux y
+    FacePressures::Turned turned;  ///< p
+    Eigen::VectorXd slope;         ///< int phi_k.(sigma - T grad u) / T, before
+    double terms = 0;              ///< as of a pair
     double norm_squared = 0, distance = 0, lack = 0, work = 0, pressure = 0;
     estimate::Unbalanced unbalanced;  ///< `dual`: root of the sum of o^2 / omega
   };
@@ -71,8 +75,8 @@ class RowBounds {
   bool take(std::span<const double> c, const contact::LcpAnswer& solution, double energy);
   bool aim(const std::vector<char>& closed);
   Pair pair(Eigen::Index goal, Eigen::VectorXd jumps, Eigen::VectorXd forces, bool clipped) const;
-  Found bound(Eigen::Index goal, estimate::Side side, double value);
-  estimate::Terms terms(Eigen::Index goal, double value, const Pair& z);
+  Found bound(Eigen::Index goal, estimate::Side side, double value) const;
+  estimate::Terms terms(Eigen::Index goal, double value, const Pair& z) const;
   double turn_within(Eigen::Index goal, double sign, double most, Pair& pair) const;
   void finish(Eigen::Index goal, Pair& pair) const;
 

@@ -72,16 +72,21 @@ class Maker {
   }
 
   std::shared_ptr<const SharedBounds> make() {
+    if (_of.pressures.ends.empty()) return nullptr;
     place_rows();
     find_fields();
     find_strain();
     const Eigen::LLT<MatrixXd> factor(_of.stiffness());
     if (factor.info() != Eigen::Success) return nullptr;
     _of.softness = factor.solve(MatrixXd::Identity(_of.contacts, _of.contacts));
+    _of.inexact = (_of.stiffness() * _of.softness - MatrixXd::Identity(_of.contacts, _of.contacts))
+                      .cwiseAbs()
+                      .colwise()
+                      .sum()
+                      .maxCoeff();
     find_fluxes();
     if (!sound()) return nullptr;
     _of.flux = product(_flux, _flux);
-    _of.mixed = product(_gradient.middleCols(_of.loads, _of.contacts), _flux);
     _of.norm = _of.flux.diagonal().cwiseMax(0.0).cwiseSqrt();
     find_weight();
     find_turns();
@@ -369,7 +374,7 @@ bool possible(const MeshOperator::Parts& parts) {
 std::size_t SharedBounds::bytes() const noexcept {
   std::size_t numbers = 0;
   for (const MatrixXd* one :
-       {&flux, &mixed, &turning, &strain, &softness, &traction, &oscillation, &unbalanced.flux,
+       {&flux, &turning, &strain, &softness, &traction, &oscillation, &unbalanced.flux,
         &unbalanced.strain, &unbalanced.oscillation, &steep, &moments})
     numbers += at(one->size());
   for (const contact::UnitForce& force : unit) numbers += at(force.r.size());

@@ -32,10 +32,10 @@ struct SharedBounds {
   Eigen::Index loads = 0, contacts = 0, goals = 0;
 
   Eigen::MatrixXd flux;      ///< (b, b) int (sigma_b - T grad u_b).(sigma_c - T grad u_c) / T
-  Eigen::MatrixXd mixed;     ///< (contacts, b) int grad u_i.(sigma_b - T grad u_b)
   Eigen::MatrixXd turning;   ///< (k, b) int phi_k.(sigma_b - T grad u_b) / T
   Eigen::MatrixXd strain;    ///< (b, b) int T grad u_b.grad u_c; of contacts: S^
   Eigen::MatrixXd softness;  ///< (contacts, contacts) inverse of S^
+  double inexact = 0;        ///< largest sum of a column of |S^ softness - 1|
   Eigen::MatrixXd traction;  ///< (contacts + goals, loads) l(u_b) - a(u_j, u_b) for the mean of g
   Eigen::MatrixXd oscillation;  ///< (loads, loads) sum of o_j o_k
   /// The same as `flux`, `strain` and FacePressures::overlap with the weight omega, the sum of o_j
