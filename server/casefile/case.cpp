@@ -61,8 +61,6 @@ void read_mesh(const Section& root, Case& result) {
   *result.mesh.mutable_geometry() = read_geometry(*geometry, result.spots);
   if (root.find("accuracy") && !(mesh && mesh->find("preset")))
     result.mesh.mutable_options()->set_preset(v1::MESH_PRESET_COARSE);
-  if (root.find("growth") && !(mesh && mesh->find("preset")))
-    result.mesh.mutable_options()->set_preset(v1::MESH_PRESET_UNIFORM);
   if (result.spec.has_accuracy() && !result.mesh.options().has_chord_angle() &&
       has_curves(result.mesh.geometry()))
     result.mesh.mutable_options()->set_chord_angle(chord_angle_for(result.spec.accuracy()));

@@ -195,7 +195,7 @@ constexpr Key mesh_rows[] = {
     {"preset", choice,
      "\"graded\": bisected towards every tip; \"coarse\": the same with edges four times as long; "
      "\"uniform\": edges of one length; \"paper\": section 8 of the paper, not for a mesh.file",
-     "\"graded\", with [accuracy] \"coarse\", with [growth] \"uniform\""_absent},
+     "\"graded\", with [accuracy] \"coarse\""_absent},
     {"size", positive, "L"_unit,
      "edge length away from tips, at most as long as the membrane is across; not for \"paper\". "
      "The longest edge, which `mesh show` prints, is about this",
@@ -285,7 +285,7 @@ constexpr Key path_rows[] = {
     {"from", point, "L"_unit, "where the stretch begins that holds at first",
      "write [x, y], a point of the line"_need},
     {"to", point, "L"_unit, "where it ends", "write [x, y], a point of the line"_need},
-    {"Gc", expression, "F/L"_unit, "what growth costs per area, above 0 on the whole path",
+    {"Gc", expression, "F"_unit, "what growth costs per length, above 0 on the whole path",
      "write a number above 0, or an expression in x and y"_need, "toughness"_field},
 };
 constexpr Keys path_keys{v1::Growth::Path::descriptor, {path_rows}};

@@ -24,8 +24,8 @@ double per_load(const Row& row, Control control) {
 
 }  // namespace
 
-Evolution::Evolution(std::vector<Track> tracks, Control control, std::size_t step)
-    : _tracks(std::move(tracks)), _control(control), _step(std::max<std::size_t>(step, 1)) {
+Evolution::Evolution(std::vector<Track> tracks, Control control, double step)
+    : _tracks(std::move(tracks)), _control(control), _step(step) {
   for (const Track& track : _tracks) {
     if (track.position.size() < 2 || track.toughness.size() != track.position.size())
       throw errors::Error(errors::Reason::invalid_argument,
@@ -95,12 +95,17 @@ Row Evolution::row_of(const Measured& measured) const {
 }
 
 void Evolution::advance(std::size_t leader) {
-  const std::size_t last = _tracks[leader].position.size() - 1;
+  const std::vector<double>& position = _tracks[leader].position;
+  const std::size_t last = position.size() - 1;
   std::size_t& here = _state.at[leader];
-  if (here == last)
+  if (here == last) {
     set_fate(leader, _tracks[leader].breaks_through ? Fate::snapped : Fate::end_of_path);
-  else
-    here = std::min(here + _step, last);
+  } else {
+    constexpr double rounding = 1e-9;
+    const double from = position[here];
+    while (++here < last && std::abs(position[here] - from) < (1 - rounding) * _step) {
+    }
+  }
   const int facing = _tracks[leader].facing;
   if (facing < 0 || _state.fate[leader] != Fate::grows) return;
   // The positions of both are those of one path, from either end.

@@ -20,7 +20,7 @@ namespace anticrack::growth {
 struct Track {
   std::string name;               ///< of the path, for people
   std::vector<double> position;   ///< (n >= 2) arc length along its interface, [L]
-  std::vector<double> toughness;  ///< (n) Gc > 0, [F/L]
+  std::vector<double> toughness;  ///< (n) Gc > 0, [F]
   /// Whether nothing holds beyond the last position: the end of an inclusion, a free edge, another
   /// front. If not, the path ends where the membrane holds.
   bool breaks_through = false;
@@ -85,9 +85,9 @@ struct Event {
 /// the first front leads, and the others are reported.
 class Evolution {
  public:
-  /// `step`: positions that the leader advances at once. Throws errors::Error (invalid_argument)
+  /// `step`: length by which the leader advances at once, at least by one position. Throws errors::Error (invalid_argument)
   /// for tracks without positions, or with Gc that is not above 0.
-  Evolution(std::vector<Track> tracks, Control control, std::size_t step);
+  Evolution(std::vector<Track> tracks, Control control, double step);
 
   const std::vector<Track>& tracks() const noexcept { return _tracks; }
   const State& state() const noexcept { return _state; }
@@ -108,7 +108,7 @@ class Evolution {
 
   std::vector<Track> _tracks;
   Control _control;
-  std::size_t _step;
+  double _step;
   State _state;
   std::vector<Event> _events;
   std::size_t _rows = 0;

@@ -14,7 +14,7 @@ namespace anticrack::growth {
 struct Path {
   std::string interface;     ///< its name
   mesh::Point from{}, to{};  ///< its ends, in either order
-  std::string toughness;     ///< Gc, an expression in x and y, [F/L]
+  std::string toughness;     ///< Gc, an expression in x and y, [F]
 };
 ANTICRACK_FIELDS(Path, interface, from, to, toughness)
 

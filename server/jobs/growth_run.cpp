@@ -38,12 +38,12 @@ growth::Control control_of(const records::GrowthSpec& growth, const mesh::Mesh& 
   return {static_cast<int>(found - mesh.inclusions.begin())};
 }
 
-/// As many edges as make about so many positions.
-std::size_t step_of(const std::vector<growth::Track>& tracks, std::int32_t positions) {
-  double edges = 0;
+/// The length that makes so many positions of all paths.
+double step_of(const std::vector<growth::Track>& tracks, std::int32_t positions) {
+  double length = 0;
   for (const growth::Track& track : tracks)
-    edges += static_cast<double>(track.position.size() - 1) / (track.facing < 0 ? 1 : 2);
-  return static_cast<std::size_t>(std::max(1.0, std::ceil(edges / positions)));
+    length += std::abs(track.position.back() - track.position.front()) / (track.facing < 0 ? 1 : 2);
+  return length / positions;
 }
 
 std::string shown(const growth::Track& track, double position) {
@@ -125,7 +125,7 @@ contact::Answer grown(const PreparedCase& prepared, contact::Observer& observer)
   const growth::Control control = control_of(spec, job.mesh_operator->mesh());
   operators::Growth preview(job.mesh_operator, prepared.load, spec.paths, stop);
   std::vector<growth::Track> tracks = preview.tracks();
-  const std::size_t step = step_of(tracks, positions_of(spec));
+  const double step = step_of(tracks, positions_of(spec));
   Evolution evolution(std::move(tracks), control, step);
   contact::Answer answer = preview.answer(
       evolution.state(), std::get<contact::ActiveSetOptions>(job.spec->solver), observer);

@@ -49,7 +49,7 @@ Measured beam(const std::vector<double>& a) { return one(1.5 * a[0] * a[0], a[0]
 
 TEST(OneFront, OfABeamRunsUnderLoadAndCreepsUnderDisplacement) {
   constexpr double from = 1, to = 2, Gc = 0.3;
-  Evolution loaded({even(from, to, 200, Gc)}, {}, 1), driven({even(from, to, 200, Gc)}, {0}, 1);
+  Evolution loaded({even(from, to, 200, Gc)}, {}, 0), driven({even(from, to, 200, Gc)}, {0}, 0);
   const std::vector<Row> by_load = grown(loaded, beam), by_displacement = grown(driven, beam);
   ASSERT_EQ(by_load.size(), 201U);
   for (std::size_t k = 0; k < by_load.size(); ++k) {
@@ -80,7 +80,7 @@ TEST(OneFront, StopsAtAStripeThatIsTough) {
     Track track = even(from, 2, 400);
     for (std::size_t i = 0; i < track.position.size(); ++i)
       track.toughness[i] = track.position[i] < stripe ? weak : tough;
-    Evolution evolution({track}, {}, 1);
+    Evolution evolution({track}, {}, 0);
     const std::vector<Row> rows = grown(evolution, beam);
     const std::vector<Jump> jump = jumps(rows, {});
     ASSERT_FALSE(jump.empty());
@@ -100,7 +100,7 @@ TEST(OneFront, StopsAtAStripeThatIsTough) {
 }
 
 TEST(OneFront, ThatIsClosedHasNoLoad) {
-  Evolution evolution({even(0, 1, 10)}, {}, 1);
+  Evolution evolution({even(0, 1, 10)}, {}, 0);
   const std::vector<Row> rows = grown(evolution, [](const auto&) { return one(0); });
   ASSERT_EQ(rows.size(), 1U);
   EXPECT_TRUE(std::isinf(rows[0].load));
@@ -114,7 +114,7 @@ TEST(OneFront, SnapsBeforeAnEndAndStopsWhereItCannotBeFollowed) {
   for (const bool through : {true, false}) {
     Track track = even(0, 1, 10);
     track.breaks_through = through;
-    Evolution evolution({track}, {}, 1);
+    Evolution evolution({track}, {}, 0);
     const std::vector<Row> rows = grown(evolution, [](const std::vector<double>& a) {
       Measured measured = one(1);
       if (a[0] > 0.75) measured.release[0] = {};
@@ -130,7 +130,7 @@ TEST(OneFront, SnapsBeforeAnEndAndStopsWhereItCannotBeFollowed) {
 /// With G = C / (1 + a), which falls, two fronts keep C1 / (1 + a1) = C2 / (1 + a2) to a step.
 TEST(TwoFronts, KeepTheirRatesEqual) {
   constexpr double C[] = {1, 1.7};
-  Evolution evolution({even(0, 3, 300), even(0, 3, 300)}, {}, 1);
+  Evolution evolution({even(0, 3, 300), even(0, 3, 300)}, {}, 0);
   const std::vector<Row> rows = grown(evolution, [&](const std::vector<double>& a) {
     return Measured{{C[0] / (1 + a[0]), C[1] / (1 + a[1])}, {}, 0, 0};
   });
@@ -158,7 +158,7 @@ TEST(TwoFronts, ThatMeetSnapTogetherAndDoNotPassEachOther) {
   left.facing = 1;
   right.facing = 0;
   for (const double near : {0.0, 0.1}) {
-    Evolution evolution({left, right}, {}, 3);
+    Evolution evolution({left, right}, {}, 0.03);
     const std::vector<Row> rows = grown(evolution, [&](const std::vector<double>& a) {
       Measured measured{{1 + a[0], 1 + 0.5 * (1 - a[1])}, {}, 0, 0};
       if (a[1] - a[0] < near) measured.release = {{}, {}};
@@ -173,7 +173,7 @@ TEST(TwoFronts, ThatMeetSnapTogetherAndDoNotPassEachOther) {
 
 TEST(TwoFronts, GoOnWhenTheOtherHasEnded) {
   Track short_path = even(0, 0.1, 5), long_path = even(0, 1, 20);
-  Evolution evolution({short_path, long_path}, {}, 1);
+  Evolution evolution({short_path, long_path}, {}, 0);
   const std::vector<Row> rows = grown(evolution, [&](const std::vector<double>& a) {
     return Measured{
         {evolution.state().fate[0] == Fate::grows ? std::optional(5.0) : std::nullopt, 1 + a[1]},
@@ -192,9 +192,9 @@ TEST(Tracks, NeedAToughnessAboveZero) {
   for (const double bad : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
     Track track = even(0, 1, 4);
     track.toughness[2] = bad;
-    EXPECT_THROW(Evolution({track}, {}, 1), errors::Error) << bad;
+    EXPECT_THROW(Evolution({track}, {}, 0), errors::Error) << bad;
   }
-  EXPECT_THROW(Evolution({Track{"short", {0}, {1}, false, -1}}, {}, 1), errors::Error);
+  EXPECT_THROW(Evolution({Track{"short", {0}, {1}, false, -1}}, {}, 0), errors::Error);
 }
 
 }  // namespace

@@ -81,7 +81,7 @@ struct Grown {
   std::vector<Event> events;
 };
 
-Grown grow(const OnMesh& on, const std::vector<Path>& paths, std::size_t step = 1,
+Grown grow(const OnMesh& on, const std::vector<Path>& paths, double step = 0,
            Control control = {}) {
   Growth growth(on.op, on.load, paths);
   Evolution evolution(growth.tracks(), control, step);
@@ -172,7 +172,7 @@ TEST(PreviewOfADelamination, HasHalfTheRateOfTheCrack) {
 TEST(PreviewOfACrack, RunsOneWayAtATime) {
   const OnMesh on =
       prepared(with_free_sides(square(within(0.75, Kind::crack, Kind::glue), 64)), load_of("y"));
-  const Grown grown = grow(on, both_ways, 4);
+  const Grown grown = grow(on, both_ways, 4.0 / 64);
   int changes = 0;
   for (std::size_t k = 1; k < grown.rows.size(); ++k)
     changes += grown.rows[k].leader != grown.rows[k - 1].leader ? 1 : 0;
@@ -202,7 +202,7 @@ struct Bonded {
 
 TEST(PreviewUnderContact, IsTheProblemWithEachFrontWhereItIs) {
   const OnMesh on_paths = prepared(square(Bonded::opened, Bonded::n), Bonded::load());
-  const Grown grown = grow(on_paths, Bonded::paths(), 4);
+  const Grown grown = grow(on_paths, Bonded::paths(), 4.0 / Bonded::n);
   ASSERT_GE(grown.rows.size(), 3U);
   bool any_contact = false;
   for (std::size_t k = 0; k < grown.rows.size(); ++k) {
@@ -264,8 +264,8 @@ TEST(PreviewUnderContact, ScalesWithTheLoad) {
 /// A graded mesh with the front where it is has t_c within 1 %, or a part of it that falls with the
 /// edges: at 0 the front is near the end of contact.
 TEST(PreviewUnderContact, IsNearAGradedMesh) {
-  const Grown grown =
-      grow(prepared(square(Bonded::opened, 4 * Bonded::n), Bonded::load()), Bonded::paths(), 16);
+  const Grown grown = grow(prepared(square(Bonded::opened, 4 * Bonded::n), Bonded::load()),
+                           Bonded::paths(), 4.0 / Bonded::n);
   for (const Row& row : grown.rows) {
     const double front = row.position[0] - 1;
     if (std::remainder(front, 0.25) != 0) continue;

@@ -249,7 +249,7 @@ class Probe(_Table):
 @dataclass(repr=False)
 class Path(_Table):
     """A stretch of an interface, from start to end, that holds at first and along which fronts grow. Gc: what growth
-    costs per area, a number or an expression in x and y."""
+    costs per length, a number or an expression in x and y."""
     interface: str
     start: Point
     end: Point

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The cases of the gallery beyond the paper's."""
+import cmath
 import csv
 import math
 
@@ -21,7 +22,32 @@ def sheared_fibre(angle, a):
     return a * (1 + math.cos(b)), a / 2 * math.sin(b / 4) * (1 - math.cos(b / 2))
 
 
+def debonded_rate(b, a):
+    """G under u = y of the front at x = b of a fibre (-a, a) that is off its minus side for b < x < a, in a plate
+    without end. As in test_partly_delaminated, with the arc between psi = -arccos(b/a) and 0."""
+    psi = -math.acos(b / a)
+    mean, half = psi / 2, -psi / 2
+    x2 = -0.5j * a
+    x1 = -x2 * cmath.exp(1j * mean) * math.cos(half)
+    y = 2 * (x2 * cmath.exp(0.5j * (3 * psi - mean)) + x1 * cmath.exp(0.5j * (psi - mean))).imag
+    return math.pi / 8 * 4 * y * y / (2 * a * math.sin(half) * abs(math.sin(psi)))
+
+
 class Shapes(GalleryTest):
+    def test_growth(self):
+        answers = self.follow_one("growth")
+        rows = {name: column[()] for name, column in answers.file["loads/shear/growth"].items()}
+        (first, second) = numpy.flatnonzero(rows["stable"])
+        exact = numpy.sqrt(rows["Gc"] / [debonded_rate(x, 0.5) for x in rows["x"]])
+        before_the_end = rows["x"] > -0.4
+        self.assertLess(numpy.abs(rows["load"] / exact - 1)[before_the_end].max(), 0.01)
+        self.assertGreaterEqual(rows["x"][second - 1], -0.2)
+        self.assertLess(rows["x"][second], -0.2)
+        self.assert_told((f"{exact[first]:.4f}", exact[first]), ("0.6529", rows["load"][first]),
+                         (f"{exact[second]:.4f}", exact[second]), ("1.0592", rows["load"][second]))
+        self.assertIn("comes off at once", " ".join(answers.file["loads/shear/growth_notes"].asstr()))
+        self.assert_figures("shear-growth")
+
     def test_several_inclusions(self):
         answers = self.follow_one("several-inclusions")
         long, short = ([answers.displacement(load, i) for load in ("opening", "pulled")] for i in (0, 1))

@@ -94,7 +94,7 @@ std::string result_table() {
               values + "`index`: from 0; " + entries(*v1::LoadCaseAnswer::descriptor())) +
          line("/loads/LOAD",
               "`warnings` (w) text: e.g. of a load not integrated as exactly as "
-              "asked; " +
+              "asked; `growth_notes` (g) text: with growth, jumps, what snaps and why it ends; " +
                   entries<Load>(tables::indicator)) +
          line("/loads/LOAD/stages", "with an accuracy: " + entries(*v1::Stage::descriptor()) +
                                         "; " + entries(*v1::StageAnswer::descriptor())) +
@@ -102,6 +102,7 @@ std::string result_table() {
          line("/loads/LOAD/tips", entries(*v1::Tip::descriptor())) +
          line("/loads/LOAD/boundary", entries(*v1::BoundaryAnswer::descriptor())) +
          line("/loads/LOAD/probes", entries(*v1::ProbeAnswer::descriptor())) +
+         line("/loads/LOAD/growth", entries(*v1::GrowthRow::descriptor())) +
          line("/loads/LOAD/contact_intervals", entries(*v1::ContactInterval::descriptor())) +
          line("/loads/LOAD/traces/I", entries<Trace>(arrays::trace<Trace>)) +
          line("/loads/LOAD/history", entries<History>(arrays::history<History>)) +

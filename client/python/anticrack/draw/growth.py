@@ -9,7 +9,7 @@ import numpy as np
 from ..errors import Error
 from ..result import Load, Result
 from ..text import harmless
-from .panel import CURVES, axes, load_of, named, unit_of
+from .panel import CURVES, axes, load_of, named
 
 
 def _begin(result: Result, load: str | Load | None, ax: Any) -> tuple[Any, Load]:
@@ -32,7 +32,7 @@ def growth(result: Result, load: str | Load | None = None, ax: Any = None) -> An
     ax.plot(at, rows["load"], color=color, linewidth=0.6, label=f"{label}fronts run")
     ax.plot(at, np.where(rows["stable"] != 0, rows["load"], np.nan), color=color, linewidth=2, marker=".",
             markersize=4, label=f"{label}stable")
-    ax.set_xlabel(("position of the front" if by_position else "displacement") + unit_of(result))
+    ax.set_xlabel(("position of the front" if by_position else "displacement") + result.units.label("L"))
     ax.set_ylabel("load, times the load case")
     ax.set_title(f"{named(load.name)}: load of growth")
     ax.legend(fontsize="small")
@@ -52,8 +52,8 @@ def release(result: Result, load: str | Load | None = None, ax: Any = None) -> A
         ax.plot(rows["position"][own][order], rows["Gc"][own][order], color=color, linestyle=":",
                 label=f"Gc{of}")
     ax.set_yscale("log")
-    ax.set_xlabel("position of the front" + unit_of(result))
-    ax.set_ylabel("G1 and Gc" + unit_of(result, "F/L"))
+    ax.set_xlabel("position of the front" + result.units.label("L"))
+    ax.set_ylabel("G1 and Gc" + result.units.label("F"))
     ax.set_title(f"{named(load.name)}: energy release")
     ax.legend(fontsize="small")
     return ax
