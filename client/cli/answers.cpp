@@ -258,6 +258,8 @@ Json load_json(const results::Load& load, const std::string& method) {
   json["method"] = method;
   json["worst_kkt"] = load.has_answer() ? results::largest_kkt(load.answer) : results::unknown;
   json["inclusions"] = json_list(load.answer.inclusions());
+  json["boundary"] = json_list(load.answer.boundary());
+  json["probes"] = json_list(load.answer.probes());
   json["tips"] = json_list(load.answer.tips());
   json["growth"] = json_list(load.answer.growth());
   json["growth_notes"] = std::vector<std::string>(load.answer.growth_notes().begin(),

@@ -19,6 +19,7 @@
 #include "cli/growth_text.hpp"
 #include "cli/json.hpp"
 #include "cli/options.hpp"
+#include "cli/rows_text.hpp"
 #include "cli/stages_text.hpp"
 #include "cli/text.hpp"
 #include "cli/tips_text.hpp"
@@ -35,7 +36,8 @@ struct FileOptions {
   std::string folder;
   std::vector<std::string> loads;  ///< empty: all
   std::string csv;
-  bool inclusions = false, tips = false, growth = false, all = false;
+  bool inclusions = false, boundary = false, probes = false, tips = false, growth = false,
+       all = false;
 };
 
 struct PlotOptions {
@@ -99,6 +101,8 @@ int show_file(const FileOptions& options, const Globals& given) {
                             (options.tips         ? tips_table(result.loads, result.units, true)
                              : options.growth     ? growth_table(result.loads, result.units, true)
                              : options.inclusions ? inclusions_table(result)
+                             : options.boundary   ? rows_table(result, "boundary")
+                             : options.probes     ? rows_table(result, "probes")
                                                   : answers_table(result)) +
                             (options.all ? numbers_table(result) : "") + foot);
   return exit_ok;
@@ -184,6 +188,10 @@ void add_files(CLI::App& app, const Globals& globals, Command& chosen) {
   add_file(*show_command, options->file, options->loads, "Result file, HDF5");
   show_command->add_flag("--inclusions", options->inclusions,
                          "A row for each inclusion of each load case, also of many");
+  show_command->add_flag("--boundary", options->boundary,
+                         "The force on each side and hole of the boundary in each load case");
+  show_command->add_flag("--probes", options->probes,
+                         "u at each point of the probes of the case in each load case");
   show_command->add_flag("--tips", options->tips,
                          "A row for each tip of a crack or an inclusion of each load case, also of "
                          "many");

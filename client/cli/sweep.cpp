@@ -150,6 +150,8 @@ void add_options(CLI::App& command, SweepOptions& options) {
       "--bounds", options.files.bounds,
       "Bounds of the energy and of every A in each row, as a load case has them; a row "
       "then takes as long as one");
+  command.add_flag("--tips", options.files.tips,
+                   "Intensity and energy release rate of every tip in each row");
   CLI::Option* output = command
                             .add_option("-o,--output,--out", options.output,
                                         "Result file, HDF5 (default: CASE.h5 in this folder)")
@@ -173,7 +175,9 @@ void add_sweep(CLI::App& app, const Globals& globals, Command& chosen) {
   command->footer(
       "Row k of the file is the load case c_k1 load_1 + c_k2 load_2 + ..., solved by the active\n"
       "set. The answers are columns: A, energy, contact length, steps, status and contact of\n"
-      "every row, with --bounds also bounds of A and the energy, and traces of the rows you name.\n"
+      "every row, with --bounds also bounds of A and the energy, with --tips the intensity and G "
+      "of\n"
+      "every tip, and traces of the rows you name.\n"
       "Ctrl-C detaches, as in run.\n\n"
       "Example:\n  anticrack sweep load-ratio.toml --coefficients load-ratio.csv\n"
       "  anticrack sweep plate.toml --coefficients runs.h5:/c --traces 0,100-110 --csv runs.csv");

@@ -158,6 +158,7 @@ SweepInput read_sweep_input(const SweepFiles& files, const Case& the_case) {
   input.source = input.nodal ? files.nodal : files.coefficients;
   input.traces = files.traces;
   input.bounds = files.bounds;
+  input.tips = files.tips;
   if (input.nodal)
     read_nodal(files, input);
   else
@@ -172,6 +173,7 @@ void make_sweep(const SweepInput& input, const v1::ServerLimits& limits, Case& t
   v1::JobSpec& spec = the_case.spec;
   spec.mutable_sweep()->mutable_traces()->Add(traces.begin(), traces.end());
   spec.mutable_sweep()->set_bounds(input.bounds);
+  spec.mutable_sweep()->set_tips(input.tips);
   matrix_of(input, spec);
   // Rows have no fields, but a case for `run` often asks for them.
   spec.clear_outputs();

@@ -20,6 +20,7 @@ struct SweepFiles {
   std::string nodal;         ///< FILE.h5:/PATH
   std::string traces = "none";
   bool bounds = false;
+  bool tips = false;
 };
 
 struct SweepInput {
@@ -27,6 +28,7 @@ struct SweepInput {
   std::string source;          ///< where the values come from
   std::string traces;          ///< rows whose traces to keep, not parsed yet
   bool bounds = false;         ///< whether bounds are asked for
+  bool tips = false;           ///< whether numbers of tips are
   std::vector<double> values;  ///< (rows, columns) row-major
   std::size_t rows = 0;
   std::size_t columns = 0;

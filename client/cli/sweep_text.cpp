@@ -133,6 +133,38 @@ std::string bounds_text(const results::Sweep& sweep, const SweepSummary& counts,
   return text + "\n";
 }
 
+constexpr const char* tip_columns[] = {"intensity", "G", "G_spread"};
+
+/// The row in which a tip has its largest G, -1: in none.
+struct Largest {
+  double g = -1;
+  std::int64_t row = -1;
+};
+
+std::vector<Largest> largest_rates(const results::Sweep& sweep) {
+  std::vector<Largest> found(sweep.tips());
+  for (std::size_t row = 0; row < sweep.rows(); ++row) {
+    for (std::size_t tip = 0; tip < found.size(); ++tip) {
+      const double g = sweep.energy_release_rate[row * found.size() + tip];
+      if (sweep.converged(row) && g > found[tip].g)
+        found[tip] = {g, static_cast<std::int64_t>(row)};
+    }
+  }
+  return found;
+}
+
+/// A text like "largest G of tip 1: 0.23 in row 17" for each tip that has one.
+std::string tips_text(const results::Sweep& sweep, const v1::Units& units) {
+  std::string text;
+  const std::vector<Largest> found = largest_rates(sweep);
+  for (std::size_t tip = 0; tip < found.size(); ++tip)
+    if (found[tip].row >= 0)
+      text += fmt::format("largest {} of tip {}: {} in row {}\n",
+                          sanitise(results::labelled("G", results::label_of(units, "F"))), tip,
+                          number(found[tip].g, 5), found[tip].row);
+  return text;
+}
+
 std::string csv_head(const results::Sweep& sweep, std::size_t loads) {
   std::string head = "row";
   for (std::size_t i = 0; i < loads; ++i) head += "," + csv_field(sweep.loads[i]);
@@ -144,6 +176,8 @@ std::string csv_head(const results::Sweep& sweep, std::size_t loads) {
     for (const char* part : slope_parts)
       if (!sweep.slope.empty()) head += "," + csv_field(name_of(part, sweep, i));
   }
+  for (std::size_t tip = 0; tip < sweep.tips(); ++tip)
+    for (const char* part : tip_columns) head += fmt::format(",{} of tip {}", part, tip);
   return head +
          (sweep.energy_lower.empty() ? ",energy"
                                      : ",energy,energy_lower,energy_upper,energy_mesh") +
@@ -177,7 +211,7 @@ std::string sweep_table(const results::Sweep& sweep, const v1::Units& units) {
     if (sweep.inclusions.size() > few_inclusions)
       text += "all inclusions: anticrack show RESULT --inclusions, or --csv FILE\n";
   }
-  text += bounds_text(sweep, counts, units);
+  text += bounds_text(sweep, counts, units) + tips_text(sweep, units);
   if (!sweep.kept.empty()) text += "traces of " + counted(sweep.kept.size(), "row") + "\n";
   if (!sweep.error.empty()) text += sanitise(sweep.error) + "\n";
   return text;
@@ -199,12 +233,16 @@ Json sweep_json(const results::Sweep& sweep) {
       inclusion[slope_parts[part]] = range_json(counts.slope[i][part]);
     inclusions.push_back(std::move(inclusion));
   }
+  Json tips = Json::array();
+  for (const Largest& tip : largest_rates(sweep))
+    tips.push_back({{"G", tip.row < 0 ? results::unknown : tip.g}, {"row", tip.row}});
   Json json = json_of(sweep.answer);
   json.update({{"source", sweep.source},
                {"not_solved", not_solved(sweep.answer)},
                {"error", sweep.error},
                {"loads", sweep.loads},
                {"inclusions", std::move(inclusions)},
+               {"tips", std::move(tips)},
                {"contact_length", range_json(counts.contact_length)},
                {"energy", range_json(counts.energy)},
                {"bounded", counts.bounded},
@@ -240,6 +278,10 @@ std::string sweep_csv(const results::Sweep& sweep) {
       for (std::size_t part = 0; part < slope_parts.size() && !sweep.slope.empty(); ++part)
         add(sweep.slope_at(row, i, part));
     }
+    for (std::size_t tip = row * sweep.tips(); tip < (row + 1) * sweep.tips(); ++tip)
+      for (const auto* column :
+           {&sweep.intensity, &sweep.energy_release_rate, &sweep.energy_release_rate_spread})
+        add((*column)[tip]);
     add(sweep.energy[row]);
     add_bounds(sweep.energy_lower, sweep.energy_upper, sweep.energy_mesh, row);
     add(sweep.contact_length[row]);

@@ -64,6 +64,7 @@ std::string name_of(const FieldDescriptor& field) {
   if (field.containing_type() == v1::GrowthRow::descriptor())
     return name == "g1" ? "G1" : name == "toughness" ? "Gc" : name;
   if (field.containing_type() != v1::InclusionAnswer::descriptor() &&
+      field.containing_type() != v1::BoundaryAnswer::descriptor() &&
       field.containing_type() != v1::Tip::descriptor())
     return name;
   for (const auto& [long_name, symbol] : shorter)

@@ -49,7 +49,9 @@ struct Trace {
   std::vector<double> u_minus;
   std::vector<double> u_plus;
   std::vector<double> jump;           ///< u_plus - u_minus
-  std::vector<double> pressure;       ///< contact pressure on cracks, flux on glue
+  std::vector<double> pressure;       ///< contact pressure, 0 on glue and bonded parts
+  std::vector<double> flux;           ///< -T du/dn on these
+  std::vector<double> force;          ///< nodal forces of both
   std::vector<std::int32_t> contact;  ///< 1: crack node closed under pressure
   bool operator==(const Trace&) const = default;
 };
@@ -75,6 +77,7 @@ struct History {
 struct Field {
   std::vector<std::int32_t> nodes;      ///< (n_i) index into Mesh::xy
   std::vector<std::int32_t> triangles;  ///< (m_i,3) row-major, index into nodes
+  std::vector<double> tension;          ///< (m_i,3) Txx, Txy, Tyy
   std::vector<double> u;                ///< (n_i)
   bool operator==(const Field&) const = default;
 };

@@ -99,6 +99,7 @@ std::size_t Sweep::extent(std::string_view word) const noexcept {
   return word == "rows"         ? rows()
          : word == "contacts"   ? contacts()
          : word == "inclusions" ? inclusions.size()
+         : word == "tips"       ? tips()
          : word == "loads"      ? loads.size()
                                 : kept.size();
 }

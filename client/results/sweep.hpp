@@ -41,6 +41,8 @@ struct Sweep {
   std::vector<double> slope;                ///< (rows, inclusions, 2) Bx, By; empty if none tilts
   std::vector<std::uint8_t> contact;        ///< (rows, contacts) row-major: 1 closed under pressure
   std::vector<std::int32_t> contact_nodes;  ///< (contacts, 2): interface, and its node
+  /// (rows, tips) row-major, NaN where a tip has none; empty if not asked for.
+  std::vector<double> intensity, energy_release_rate, energy_release_rate_spread;
 
   /// Rows whose traces were kept, ascending: Result::loads has one load for each, "row-17".
   std::vector<std::int32_t> kept;
@@ -52,7 +54,8 @@ struct Sweep {
   /// Number of rows, and of crack nodes.
   std::size_t rows() const noexcept { return status.size(); }
   std::size_t contacts() const noexcept { return contact_nodes.size() / 2; }
-  /// The length that a word of a shape means: "rows", "contacts", "inclusions", "loads", "kept".
+  std::size_t tips() const noexcept { return rows() == 0 ? 0 : intensity.size() / rows(); }
+  /// The length that a word of a shape means: "rows", "contacts", "inclusions", "tips", ...
   std::size_t extent(std::string_view word) const noexcept;
   /// Bx (part 0) or By (part 1) of an inclusion in a row; 0 if no inclusion tilts.
   double slope_at(std::size_t row, std::size_t inclusion, std::size_t part) const noexcept {

@@ -29,7 +29,18 @@ inline constexpr auto trace = std::tuple{
     array("u_minus", "k", &Trace::u_minus, "u on the minus side", "L"),
     array("u_plus", "k", &Trace::u_plus, "u on the plus side", "L"),
     array("jump", "k", &Trace::jump, "u_plus - u_minus", "L"),
-    array("pressure", "k", &Trace::pressure, "contact pressure on cracks, flux on glue", "F/L"),
+    array("pressure", "k", &Trace::pressure,
+          "contact pressure, 0 on glue and bonded parts; singular at tips, so that its values in "
+          "nodes near them depend on the mesh",
+          "F/L"),
+    array("flux", "k", &Trace::flux,
+          "-T du/dn on glue and bonded parts, n from the minus to the plus side, 0 on cracks and "
+          "delaminated parts; singular at tips as pressure",
+          "F/L"),
+    array("force", "k", &Trace::force,
+          "nodal forces: pressure and flux times the length of the node, whose sums do not depend "
+          "on how fine the mesh is at tips",
+          "F"),
     array("contact", "k", &Trace::contact, "1 where a crack is closed under pressure, else 0"),
 };
 
@@ -52,6 +63,8 @@ template <class Subdomain>
 inline constexpr auto subdomain = std::tuple{
     array("nodes", "n", &Subdomain::nodes, "indices into the mesh's nodes, a slit's twice"),
     array("triangles", "m,3", &Subdomain::triangles, "indices into nodes"),
+    array("tension", "m,3", &Subdomain::tension,
+          "means of Txx, Txy, Tyy over each triangle; T grad u is the flux", "F/L"),
 };
 
 /// Below load_fields the subdomain alone is the array: of one load.
@@ -105,6 +118,11 @@ inline constexpr auto sweep_matrices = std::tuple{
                        "Bx, By of each inclusion on the mesh; none where no inclusion tilts")),
     explained("contact", "rows,contacts", &Columns::contact,
               "1 where the node is closed under pressure"),
+    optional(explained("intensity", "rows,tips", &Columns::intensity,
+                       "if asked for: of each tip, as of a load case; NaN where it has none")),
+    optional(array("energy_release_rate", "rows,tips", &Columns::energy_release_rate, "", "F")),
+    optional(array("energy_release_rate_spread", "rows,tips", &Columns::energy_release_rate_spread,
+                   "G of each tip and its spread, in the order of the mesh's tips", "F")),
 };
 
 // Where they are: folders end with a slash, all numbers are indices.

@@ -108,8 +108,19 @@ void read_output(const Section& root, Case& result) {
   v1::JobSpec& spec = result.spec;
   if (const auto output = root.section("output")) {
     if (output->boolean("fields").value_or(false)) spec.add_outputs(v1::OUTPUT_FIELDS);
+    read_list(*output, "probe", "probes", *spec.mutable_probes(), result.spots,
+              [](const Section& probe, const std::string&, const v1::Probe&) {
+                const bool to = probe.find("to") != nullptr;
+                if (probe.find("at") ? !to && !probe.find("from") && !probe.find("points")
+                                     : to && probe.find("from") && probe.find("points"))
+                  return;
+                throw Error(probe.spot(),
+                            "neither a point nor a line; write at = [x, y] for a point, or from = "
+                            "[x, y], to = [x, y] and points = 101 for a line");
+              });
     spec.set_without_bounds(!output->boolean("bounds").value_or(true));
     result.spots["outputs"] = output->spot_of("fields");
+    result.spots["probes"] = output->spot_of("probe");
     result.spots["without_bounds"] = output->spot_of("bounds");
   }
   // If there are bounds, fields are drawn with the indicators of their errors.

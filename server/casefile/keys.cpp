@@ -365,12 +365,27 @@ constexpr Key job_rows[] = {
 };
 constexpr Keys job_keys{v1::JobSpec::descriptor, {job_rows}};
 
+constexpr Key probe_rows[] = {
+    {"name", "a letter, then at most 63 letters, digits, '_', '.' or '-'",
+     "probe-1, probe-2, ... by its place"_absent},
+    {"at", point, "L"_unit,
+     "one point, in the membrane or on its boundary; on an interface it has u of both sides",
+     "a line"_absent, "from"_field},
+    {"from", point, "L"_unit, "of a line: its first point", "one point, `at`"_absent},
+    {"to", point, "L"_unit, "of a line: its last point", "one point, `at`"_absent},
+    {"points", count, "of a line, evenly spaced, its ends among them: 2 to 1,000, as all probes",
+     "one point, `at`"_absent},
+};
+constexpr Keys probe_keys{v1::Probe::descriptor, {probe_rows}};
+
 constexpr Key output_rows[] = {
     {"fields", structure, "true or false"_form,
      "true: u on every node is kept, for figures of the membrane and export", "false"_absent},
     {"bounds", structure, "true or false"_form,
      "false: answers have no bounds of their errors; many small loads take a third less time",
      "true"_absent},
+    {"probe", list, "a table for each"_form, "points and lines at which u is told; not of a sweep",
+     "probes"_field, EachOf{&probe_keys}},
 };
 constexpr Keys output_keys{v1::JobSpec::descriptor, {output_rows}};
 

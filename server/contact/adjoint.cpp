@@ -38,12 +38,16 @@ VectorXd Adjoint::jumps(const Goal& goal, double sign, const Room& room) const {
   return d;
 }
 
+VectorXd Adjoint::reactions(const Goal& goal, double sign, const Room& room) const {
+  return clip(goal.reactions, -sign, room.forces);
+}
+
 VectorXd Adjoint::load(const Goal& goal, double sign, const Room& room) const {
-  const VectorXd reactions = clip(goal.reactions, -sign, room.forces);
-  VectorXd load = goal.force->r + reactions.head(goal.force->r.size());
+  const VectorXd clipped = reactions(goal, sign, room);
+  VectorXd load = goal.force->r + clipped.head(goal.force->r.size());
   for (std::size_t k = 0; k < _conditions.rows().size(); ++k)
     for (const auto& [i, factor] : _conditions.rows()[k])
-      load[i] += reactions[_conditions.row(k)] * factor;
+      load[i] += clipped[_conditions.row(k)] * factor;
   return load;
 }
 

@@ -37,8 +37,9 @@ class Adjoint {
   /// Jumps of z: those of z_0, of which those of the sign of `sign` are clipped to `room`. Where a
   /// dependent contact would leave it, all jumps of its node are scaled down.
   Eigen::VectorXd jumps(const Goal& goal, double sign, const Room& room) const;
-  /// Load of z' on the contacts, all of which are open: r plus the reactions, of which those of the
-  /// other sign are clipped to `room`.
+  /// Reactions of z', per condition: those of z_0, of which those of the other sign are clipped.
+  Eigen::VectorXd reactions(const Goal& goal, double sign, const Room& room) const;
+  /// Load of z' on the contacts, all of which are open: r plus the reactions.
   Eigen::VectorXd load(const Goal& goal, double sign, const Room& room) const;
 
  private:

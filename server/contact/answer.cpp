@@ -48,7 +48,10 @@ Trace trace_of(const TraceProblem& problem, std::span<const ddm::CondensedLoad> 
     trace.jump.push_back(paired ? state.jump[side.pair]
                          : free ? trace.u_plus.back() - trace.u_minus.back()
                                 : 0);
-    trace.pressure.push_back(paired ? state.mu[side.pair] : 0);
+    const bool opens = paired && problem.decomposition().pairs[at(side.pair)].unilateral();
+    trace.pressure.push_back(opens ? state.mu[side.pair] : 0);
+    trace.flux.push_back(paired && !opens ? state.mu[side.pair] : 0);
+    trace.force.push_back(paired ? state.force[side.pair] : 0);
     trace.contact.push_back(paired ? state.contact[at(side.pair)] : 0);
   }
   return trace;

@@ -74,6 +74,24 @@ struct TipAnswer {
 ANTICRACK_FIELDS(TipAnswer, x, y, interface, kind, closed, exponent, intensity, k_iii,
                  energy_release_rate, energy_release_rate_spread, reason)
 
+/// The force on a side or a hole of the boundary, see operators/boundary_forces.
+struct BoundaryAnswer {
+  std::string name;
+  bool free = false;                  ///< T du/dn is given there, not u
+  double resultant = 0;               ///< int T du/dn ds, n outwards
+  double moment_x = 0, moment_y = 0;  ///< int T du/dn (x - x0) ds, (y - y0)
+  double x = 0, y = 0;                ///< (x0, y0), the middle of its bounding box
+};
+ANTICRACK_FIELDS(BoundaryAnswer, name, free, resultant, moment_x, moment_y, x, y)
+
+/// u at a point of a probe; both are one but on an interface.
+struct ProbeAnswer {
+  std::string name;
+  double s = 0, x = 0, y = 0;
+  double u_minus = 0, u_plus = 0;
+};
+ANTICRACK_FIELDS(ProbeAnswer, name, s, x, y, u_minus, u_plus)
+
 /// A position of fronts that grow, and the load at which one of them leaves it (growth/).
 struct GrowthRow {
   std::int32_t front = -1;  ///< the one that leaves; -1: all are closed
@@ -114,14 +132,16 @@ struct AnswerSummary {
   double energy_mesh = 0;                       ///< Pi of u on the mesh
   std::optional<double> energy_geometry_error;  ///< as displacement_geometry_error, of Pi
   std::vector<TipAnswer> tips;                  ///< one per mesh::tips
-  std::vector<GrowthRow> growth;                ///< of a job with growth
-  std::vector<std::string> growth_notes;        ///< jumps, what snaps, why it ends
+  std::vector<BoundaryAnswer> boundary;
+  std::vector<ProbeAnswer> probes;
+  std::vector<GrowthRow> growth;          ///< of a job with growth
+  std::vector<std::string> growth_notes;  ///< jumps, what snaps, why it ends
 };
 ANTICRACK_FIELDS(AnswerSummary, reason, iterations, criterion, theta, theta_star, energy, kkt,
                  kkt_relative, weakly_active, warnings, inclusions, contact_length,
                  contact_intervals, energy_lower, energy_upper, error_bound, error_bound_relative,
-                 no_bracket, energy_mesh, contact_length_error, energy_geometry_error, tips, growth,
-                 growth_notes)
+                 no_bracket, energy_mesh, contact_length_error, energy_geometry_error, tips,
+                 boundary, probes, growth, growth_notes)
 
 /// The number that users are told of a value: the middle of its bounds, or without bounds `mesh`,
 /// that of u on the mesh.

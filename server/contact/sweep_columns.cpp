@@ -25,4 +25,12 @@ void SweepColumns::take_bounds(std::size_t row, const AnswerSummary& answer) {
   }
 }
 
+void SweepColumns::take_tip(std::size_t row, std::size_t tip, const TipAnswer& answer) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const std::size_t place = row * tips + tip;
+  intensity[place] = answer.intensity.value_or(none);
+  energy_release_rate[place] = answer.energy_release_rate.value_or(none);
+  energy_release_rate_spread[place] = answer.energy_release_rate_spread.value_or(none);
+}
+
 }  // namespace anticrack::contact

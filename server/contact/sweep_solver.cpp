@@ -141,6 +141,13 @@ std::size_t SweepGeometry::bytes() const noexcept {
          contact.capacity() * sizeof(contact[0]);
 }
 
+double SweepLoads::parts_energy(std::span<const double> coefficients) const {
+  VectorXd sizes = VectorXd::Ones(energy.cols());
+  for (std::size_t j = 0; j < coefficients.size(); ++j)
+    sizes[static_cast<Index>(j)] = std::abs(coefficients[j]);
+  return sizes.dot(energy.cwiseAbs() * sizes);
+}
+
 std::size_t SweepLoads::bytes() const noexcept {
   return bytes_of(r) + bytes_of(magnitude) + bytes_of(motion) + bytes_of(energy);
 }

@@ -48,6 +48,8 @@ struct SweepLoads {
   Eigen::MatrixXd motion;        ///< (motions, loads)
   Eigen::MatrixXd energy;        ///< (loads, loads), symmetric: Pi
 
+  /// sum of |c_j c_k Pi_jk|: what may cancel in the energy of a combination. O(m^2).
+  double parts_energy(std::span<const double> coefficients) const;
   /// Memory of its arrays.
   std::size_t bytes() const noexcept;
 };
@@ -85,6 +87,8 @@ class SweepSolver {
   void solve(const SweepLoads& loads, std::span<const double> coefficients, std::size_t row,
              SweepColumns& rows);
 
+  /// The solution of the last row.
+  const LcpAnswer& answer() const noexcept { return _contact->answer(); }
   const std::vector<char>& closed() const noexcept { return _contact->answer().closed; }
 
  private:

@@ -15,7 +15,9 @@ struct Trace {
   std::vector<double> u_minus;
   std::vector<double> u_plus;
   std::vector<double> jump;      ///< u_plus - u_minus
-  std::vector<double> pressure;  ///< multiplier mu: contact pressure on cracks, flux on glue
+  std::vector<double> pressure;  ///< multiplier mu where [u] >= 0, contact pressure; 0 elsewhere
+  std::vector<double> flux;      ///< mu elsewhere: -T du/dn, n from the minus to the plus side
+  std::vector<double> force;     ///< M mu of both, in the node
   /// 1: crack node that is closed under pressure; 0 also where nodes just touch (weakly active).
   std::vector<std::int32_t> contact;
 };

@@ -40,6 +40,15 @@ LiftIntegrals integrals_of(const CutMesh& cut, const EquilibratedFlux& flux,
   return to;
 }
 
+bool in_range(double tension, double largest) noexcept {
+  const double squared = tension * largest * largest;
+  return largest == 0 || (squared >= 1e-250 && squared <= 1e280);
+}
+
+double rounding_of(double energy, double norm_squared, double tension, double largest) noexcept {
+  return 1e-12 * (std::abs(energy) + norm_squared) + 1e-13 * tension * largest * largest;
+}
+
 Bracket bracket(const CutMesh& cut, const EquilibratedFlux& flux, const LoadBalance& load,
                 const std::vector<Lift>& lifts, std::span<const double> u, double energy,
                 double lack) {
@@ -98,12 +107,11 @@ Bracket bracket(const CutMesh& cut, const EquilibratedFlux& flux, const LoadBala
   }
   result.distance = std::sqrt(squared) + lack;
   half_distance += lack * (std::sqrt(squared) + lack / 2);
-  // Allows for rounding without interval arithmetic: it is some 1e-14, also of products of u that
-  // cancel, as in a membrane that is lifted. Means of T are less accurate.
   double largest = 0;
   for (const double value : u) largest = std::max(largest, std::abs(value));
-  const double rounding = 1e-12 * (std::abs(energy) + flux.norm_squared()) +
-                          1e-13 * cut.shapes.largest_tension * largest * largest + unknown;
+  const double rounding =
+      rounding_of(energy, flux.norm_squared(), cut.shapes.largest_tension, largest) +
+      unknown;  // means of T are less accurate
   result.lower = energy + lift_energy - half_distance - result.work - rounding;
   result.upper += energy + lift_energy + rounding;
   result.error =

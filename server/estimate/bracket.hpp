@@ -41,6 +41,14 @@ struct LiftIntegrals {
 LiftIntegrals integrals_of(const CutMesh& cut, const EquilibratedFlux& flux,
                            const LoadBalance& load, const Lift& lift, std::span<const double> u);
 
+/// Whether T max |u|^2 says something: u is 0, or its square is far from vanishing and overflow.
+bool in_range(double tension, double largest) noexcept;
+
+/// Allows for rounding in bounds of an energy without interval arithmetic: it is some 1e-14, also
+/// of products of u that cancel, as in a membrane that is lifted. `norm_squared`: |u_h|^2;
+/// `largest`: max |u_h|.
+double rounding_of(double energy, double norm_squared, double tension, double largest) noexcept;
+
 struct Bracket {
   double lower = 0;  ///< bound of the exact Pi, force times length
   double upper = 0;

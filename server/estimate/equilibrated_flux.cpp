@@ -259,4 +259,22 @@ bool EquilibratedFlux::turned(std::size_t triangle) const {
   return first != _turns.end() && first->side < 3 * triangle + 3;
 }
 
+double rest_of_forces(const CutMesh& cut, std::size_t triangle, const double* f, const double* g) {
+  // The square of flux_loops.hpp, made bilinear.
+  const double of_f = f[0] + f[1] + f[2], of_g = g[0] + g[1] + g[2];
+  const auto change = [](const double* of, std::size_t i) {
+    return of[(i + 2) % 3] - of[(i + 1) % 3];
+  };
+  double rest = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    const double bubble = 2 * change(f, i) * change(g, i) -
+                          0.5 * (change(f, j) * change(g, k) + change(f, k) * change(g, j)) -
+                          of_f * of_g + 1.5 * (of_f * g[i] + of_g * f[i]);
+    const Vector& edge = cut.shapes.edge[3 * triangle + i];
+    rest += dot(edge, edge) * (of_f * of_g / 144 + bubble / 45);
+  }
+  return 4 * rest;
+}
+
 }  // namespace anticrack::estimate

@@ -115,4 +115,8 @@ class EquilibratedFlux {
   double _imbalance = 0;
 };
 
+/// What two forces (Balance::force of a triangle) add to the product of their fluxes over T, beside
+/// the means: their parts of the flux that have no mean.
+double rest_of_forces(const CutMesh& cut, std::size_t triangle, const double* f, const double* g);
+
 }  // namespace anticrack::estimate

@@ -31,16 +31,8 @@ struct Cone {
   }
 };
 
-/// What a Weight adds to the sums of Products: to `distance`, to `square`, and M twice.
-struct Weighted {
-  double primal = 0, mixed = 0, dual = 0;
-};
-
-/// Sums over the triangles with the part o of the load that is not balanced.
-struct Unbalanced {
-  double squared = 0;  ///< o^2
-  double primal = 0;   ///< o |sigma - T grad v|
-  double dual = 0;     ///< o |tau - T grad z|
+/// Sums over the triangles with an unbalanced load.
+struct Rest : Unbalanced {
   double moved = 0;    ///< >= int (f - f_h) z + int (g - g_h) z
   double weighed = 0;  ///< o^2 where there is a weight, which the others leave out
 };
@@ -54,7 +46,7 @@ struct Products {
   double distance = 0;
   double slack = 0;
   Weighted weighted{};
-  Unbalanced unbalanced{};
+  Rest rest{};
 
   void operator+=(const Products& by) {
     square += by.square;
@@ -117,7 +109,7 @@ class Sum {
       if (inside) weighed = weighed.subspan(1);
       if (oscillation.empty() || oscillation[t] == 0) continue;
       const double o = oscillation[t];
-      Unbalanced& of = sum.unbalanced;
+      Rest& of = sum.rest;
       if (inside) {
         of.weighed += o * o;
         continue;
@@ -181,6 +173,9 @@ class Sum {
       sum.dual += (dual_factor(one) - 1) * own.square;
       sum.mixed += beta / (1 - beta) * std::sqrt(own.square * own.distance);
     }
+    sum.most_primal = _weight->largest / (1 - _weight->beta);
+    sum.most_mixed = _weight->beta / (1 - _weight->beta);
+    sum.most_dual = 1 / (1 - _weight->beta);
     return sum;
   }
 
@@ -231,6 +226,8 @@ FluxBounds flux_bounds(const Primal& primal, const Dual& dual) {
   }
   return bounds;
 }
+
+}  // namespace
 
 Bound bound(const Aimed& aimed, const EquilibratedFlux& tau) {
   const Primal& primal = *aimed.primal;
@@ -314,33 +311,25 @@ Bound bound(const Aimed& aimed, const EquilibratedFlux& tau) {
     limit(pressures, outward, bound);
   }
   if (jumps.left() || pressures.left()) return {};  // no bounds: another c is better
-  const double off = std::sqrt(std::max(0.0, distance)), of_dual = std::sqrt(products.square);
-  const double s = bridged ? primal.lack.flux : 0;
-  const double t = bridged ? lack_of(cut, tau, {}, dual.unit, kept).flux : 0;
-  const Weighted& sloped = products.weighted;
-  const Unbalanced& rest = products.unbalanced;
-  const double beyond =
-      rest.squared + 2 * (primal.lifts.empty() ? rest.primal : off * std::sqrt(rest.squared));
-  const double e = std::sqrt(std::max(0.0, distance + beyond + sloped.primal)) / 2 +
-                   std::sqrt(weights.most_primal()) * s / 2,
-               f = std::sqrt(products.square + sloped.dual) / 2 +
-                   std::sqrt(weights.most_dual()) * t / 2;
-  Bound found;
-  found.half = {e * e + pressure,
-                sloped.mixed / 2 + rest.dual / 2 + t * std::sqrt(rest.squared) / 2 +
-                    weights.most_mixed() * (of_dual * s + t * off + s * t) / 2,
-                f * f};
-  found.c = c;
-  found.estimate = mixed;
-  found.short_of = std::sqrt(found.half.dual / found.half.primal) / dual.c;
-  found.middle = dual.value + work + residual + mixed;
-  const double lacking =
-      bridged ? primal.lack.work * largest_of(dual.z) + 0.5 * (of_dual * s + t * off + s * t)
-              : 2 * largest_of(primal.u) * pressures.all_beyond;
-  const double extra = aimed.unloaded * std::sqrt(rest.weighed) + rest.moved +
-                       0.5 * products.slack + unknown +
-                       1e-12 * (std::abs(dual.value) + std::abs(found.middle)) + lacking;
-  found.value = found.middle + sign * (found.half(c) + extra);
+  const Rest& rest = products.rest;
+  Terms terms{dual.value,
+              work,
+              residual,
+              mixed,
+              distance,
+              products.square,
+              pressure,
+              bridged ? primal.lack.flux : 0,
+              bridged ? lack_of(cut, tau, {}, dual.unit, kept).flux : 0,
+              rest};
+  if (!primal.lifts.empty())
+    terms.unbalanced.primal = std::sqrt(std::max(0.0, distance) * rest.squared);
+  terms.weighted = products.weighted;
+  terms.extra = aimed.unloaded * std::sqrt(rest.weighed) + rest.moved + 0.5 * products.slack +
+                unknown +
+                (bridged ? primal.lack.work * largest_of(dual.z)
+                         : 2 * largest_of(primal.u) * pressures.all_beyond);
+  Bound found = bound_of(terms, dual.side, c, dual.c);
   if (const double best = found.half.best(c); std::isfinite(best)) {
     found.parts = std::move(parts.primal);
     for (std::size_t k = 0; k < found.parts.size(); ++k)
@@ -349,7 +338,37 @@ Bound bound(const Aimed& aimed, const EquilibratedFlux& tau) {
   return found;
 }
 
-}  // namespace
+Bound bound_of(const Terms& of, Side side, double c, double most) {
+  const Unbalanced& rest = of.unbalanced;
+  const Weighted& weighted = of.weighted;
+  const double lacking = 0.5 * (std::sqrt(of.square) * of.s +
+                                of.t * std::sqrt(std::max(0.0, of.distance)) + of.s * of.t);
+  const double distance = of.distance + rest.squared + 2 * rest.primal + weighted.primal;
+  const double e = (std::sqrt(std::max(0.0, distance)) + std::sqrt(weighted.most_primal) * of.s) /
+                   2,
+               f = (std::sqrt(of.square + weighted.dual) + std::sqrt(weighted.most_dual) * of.t) /
+                   2;
+  Bound found;
+  found.half = {e * e + of.pressure,
+                (weighted.mixed + rest.dual + of.t * std::sqrt(rest.squared)) / 2 +
+                    weighted.most_mixed * lacking,
+                f * f};
+  found.c = c;
+  found.estimate = of.mixed;
+  found.short_of = std::sqrt(found.half.dual / found.half.primal) / most;
+  found.middle = of.value + of.work + of.residual + of.mixed;
+  const double extra = of.extra + lacking + 1e-12 * (std::abs(of.value) + std::abs(found.middle));
+  found.value = found.middle + (side == Side::upper ? 1 : -1) * (found.half(c) + extra);
+  return found;
+}
+
+double first_cone(double compliance, double norm_squared) {
+  return 2 * (norm_squared > 0 ? std::sqrt(compliance / norm_squared) : 1);
+}
+
+double wider_cone(double c, const Bound& last) {
+  return c * (std::isfinite(last.value) ? std::clamp(last.short_of, 1.5, 8.0) : 8);
+}
 
 double HalfWidth::best(double c) const {
   return primal > 0 ? std::max(c, std::sqrt(dual / primal))

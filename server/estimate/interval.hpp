@@ -71,6 +71,35 @@ struct Dual {
   const Weight* weight = nullptr;    ///< null: 1
 };
 
+/// Sums over the triangles with the part o of the load that is not balanced.
+struct Unbalanced {
+  double squared = 0;  ///< o^2
+  double primal = 0;   ///< o |sigma - T grad v|
+  double dual = 0;     ///< o |tau - T grad z|
+};
+
+/// What a Weight adds to |sigma - T grad v|^2, to 2 M, and to |tau - T grad z|^2; bounds of w + b +
+/// b^2/h, b/h and 1/h.
+struct Weighted {
+  double primal = 0, mixed = 0, dual = 0;
+  double most_primal = 1, most_mixed = 0, most_dual = 1;
+};
+
+/// What a bound is made of, in the symbols above.
+struct Terms {
+  double value = 0;     ///< A(u_h)
+  double work = 0;      ///< int q [v]
+  double residual = 0;  ///< l(z) - a(v, z)
+  double mixed = 0;     ///< 1/2 int (tau - T grad z).(sigma/T - grad v)
+  double distance = 0;  ///< |sigma - T grad v|^2
+  double square = 0;    ///< |tau - T grad z|^2
+  double pressure = 0;  ///< int w p [v]
+  double s = 0, t = 0;  ///< |s| and |t|
+  Unbalanced unbalanced{};
+  double extra = 0;  ///< all else by which A may differ
+  Weighted weighted{};
+};
+
 /// The terms of R(c).
 struct HalfWidth {
   double primal = 0, mixed = 0, dual = 0;  ///< E, M, F
@@ -89,6 +118,15 @@ struct Bound {
   std::vector<double> parts{};
 };
 
+/// The bound made of these terms, if z and tau obey the cone of `c`, in that of `most`.
+Bound bound_of(const Terms& terms, Side side, double c, double most);
+
+/// Most cones to try, of which most answers need two; the first, for a goal of this compliance and
+/// |u|^2; and the next one.
+constexpr int most_cones = 4;
+double first_cone(double compliance, double norm_squared);
+double wider_cone(double c, const Bound& last);
+
 /// The tau of a Dual: on one side of 0, q is within c k p at each end of a face.
 EquilibratedFlux dual_flux(const Primal& primal, const Dual& dual);
 
@@ -101,8 +139,10 @@ struct Aimed {
   bool parts = false;  ///< fill Bound::parts
 };
 
-/// The bounds by several duals at once; the bits of each are as if it were alone. There is none if
-/// z or tau leave the cone. O(m) each.
+/// The bound by a tau. There is none if z or tau leave the cone. O(m).
+Bound bound(const Aimed& aimed, const EquilibratedFlux& tau);
+/// The bounds by several duals at once, with their dual_flux; the bits of each are as if it were
+/// alone. O(m) each.
 std::vector<Bound> bounds(const CutMesh& cut, std::span<const Aimed> of);
 
 }  // namespace anticrack::estimate

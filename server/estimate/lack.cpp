@@ -24,7 +24,8 @@ struct OnBody {
 }  // namespace
 
 Lack lack_of(const CutMesh& cut, const EquilibratedFlux& flux, std::span<const double> traction,
-             std::span<const ForceOn> forces, std::span<const double> kept) {
+             std::span<const ForceOn> forces, std::span<const double> kept,
+             std::span<const double> reactions) {
   const Ways& ways = cut.ways;
   if (!std::isfinite(ways.triangle)) return {Ways::none, 0};
   const std::vector<double>& through = flux.through_faces();
@@ -59,10 +60,15 @@ Lack lack_of(const CutMesh& cut, const EquilibratedFlux& flux, std::span<const d
     const double beyond = std::abs(own[0] + own[1] - kept[f]);
     sides += beyond;
     if (body != nullptr) body->beyond += beyond;
+    const auto unexplained = [&](std::size_t end, double outward) {
+      return reactions.empty() ? 0 : std::abs(outward - reactions[2 * f + end]);
+    };
+    for (const std::size_t end : {0, 1}) lack.work += unexplained(end, own[end]);
     if (face.condition != Condition::crack_minus) continue;
     const double* other = &through[2 * at(face.other)];
     sides += std::abs(other[0] + other[1] + kept[f]);
-    for (const std::size_t end : {0, 1}) lack.work += std::abs(own[end] + other[1 - end]);
+    for (const std::size_t end : {0, 1})
+      lack.work += std::abs(own[end] + other[1 - end]) + unexplained(end, -other[1 - end]);
   }
   lack.flux = ways.triangle * sides;
   for (std::size_t b = 0; b < on.size(); ++b) {

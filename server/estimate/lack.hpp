@@ -29,14 +29,17 @@ struct ForceOn {
 struct Lack {
   /// >= |s|; not finite if Ways lead nowhere.
   double flux = 0;
-  /// |l(z) - a(u_h, z) - sum of w [z] over the ends of minus faces| <= work max |z|, z linear.
+  /// |l(z) - a(u_h, z) - sum of w [z] over the ends of minus faces| <= work max |z|, z linear; w
+  /// are the `reactions`, or without them the flux through the ends.
   double work = 0;
 };
 
 /// `traction`: as Balance::traction. `forces`: on each inclusion; empty: 0. `kept`: (faces) the
-/// admissible part of the outward flux through a minus face. O(faces).
+/// admissible part of the outward flux through a minus face. `reactions`: (faces, 2) the flux that
+/// belongs to the ends of minus faces; empty: that of `flux`. O(faces).
 Lack lack_of(const CutMesh& cut, const EquilibratedFlux& flux, std::span<const double> traction,
-             std::span<const ForceOn> forces, std::span<const double> kept);
+             std::span<const ForceOn> forces, std::span<const double> kept,
+             std::span<const double> reactions = {});
 
 /// `kept` for a pressure: the flux through each face, at most 0 on minus faces.
 std::vector<double> pressing(const CutMesh& cut, const EquilibratedFlux& flux);

@@ -316,10 +316,7 @@ class Weighing {
 }  // namespace
 
 WeightOf::WeightOf(const EquilibratedFlux& sigma, const Weight* weight) : _sigma(sigma) {
-  if (weight == nullptr) return;
-  _faces = weight->faces;
-  _largest = weight->largest;
-  _beta = weight->beta;
+  if (weight != nullptr) _faces = weight->faces;
 }
 
 Weight::OnFace WeightOf::on(std::size_t face) {

@@ -70,15 +70,10 @@ class WeightOf {
   WeightOf(const EquilibratedFlux& sigma, const Weight* weight);
   /// On a minus face; faces must be asked for in ascending order.
   Weight::OnFace on(std::size_t face);
-  /// Bounds of w + b + b^2/h, b/h and 1/h.
-  double most_primal() const { return _largest / (1 - _beta); }
-  double most_mixed() const { return _beta / (1 - _beta); }
-  double most_dual() const { return 1 / (1 - _beta); }
 
  private:
   const EquilibratedFlux& _sigma;
   std::span<const Weight::OnFace> _faces;
-  double _largest = 1, _beta = 0;
 };
 
 /// The weight with l about `inner` times R, and at least three faces, at each of the ends. An end

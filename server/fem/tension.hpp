@@ -45,6 +45,10 @@ struct Tension {
   std::vector<std::array<double, 3>> of_triangle{};
   std::vector<Variation> variation{};  ///< (m) empty: T is constant on every triangle
 
+  /// Txx, Txy, Tyy of a triangle.
+  std::array<double, 3> matrix(std::size_t triangle) const {
+    return of_triangle.empty() ? std::array<double, 3>{mean, 0, mean} : of_triangle[triangle];
+  }
   Isotropic isotropic(std::size_t triangle) const;
   std::size_t bytes() const noexcept;
 };

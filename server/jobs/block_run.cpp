@@ -5,6 +5,8 @@
 #include <utility>
 #include <variant>
 
+#include "jobs/probes.hpp"
+
 namespace anticrack::jobs {
 
 BlockRun::BlockRun(const std::shared_ptr<const operators::MeshOperator>& mesh_operator,
@@ -17,8 +19,9 @@ BlockRun::BlockRun(const std::shared_ptr<const operators::MeshOperator>& mesh_op
 void BlockRun::add(const Task& task, operators::PreparedLoad load) {
   auto column = std::make_unique<Column>(Column{task, History(task, _iterations)});
   const records::JobSpec& spec = *task.job->spec;
-  const int place = _block.add(std::move(load), std::get<contact::UzawaOptions>(spec.solver),
-                               spec.fields, column->history, task.job->stop.get_token());
+  const int place =
+      _block.add(std::move(load), std::get<contact::UzawaOptions>(spec.solver),
+                 spec.fields || !spec.probes.empty(), column->history, task.job->stop.get_token());
   _places[static_cast<std::size_t>(place)] = std::move(column);
   ++_columns;
 }
@@ -57,8 +60,11 @@ void BlockRun::tell() {
   flush();
 }
 
-CaseOutcome BlockRun::outcome_of(const Column& column, const contact::Answer& answer) {
+CaseOutcome BlockRun::outcome_of(const Column& column, contact::Answer& answer) {
   try {
+    const LiveJob& job = *column.task.job;
+    if (!answer.fields.empty()) fill_probes(*job.probes, *job.mesh_operator, answer);
+    if (!job.spec->fields) answer.fields.clear();
     return solved_case(column.task, answer, column.history.history());
   } catch (...) {
     return failed_case(column.task, std::current_exception());

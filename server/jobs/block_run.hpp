@@ -57,7 +57,7 @@ class BlockRun {
 
   /// Appends the iteration to the logs of the jobs; adjacent columns of one job go in one call.
   void tell();
-  static CaseOutcome outcome_of(const Column& column, const contact::Answer& answer);
+  static CaseOutcome outcome_of(const Column& column, contact::Answer& answer);
   std::vector<EndedCase> end_all(const std::exception_ptr& failure);
 
   const int _capacity;

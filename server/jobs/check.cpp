@@ -9,6 +9,7 @@
 #include "errors/errors.hpp"
 #include "jobs/accuracy.hpp"
 #include "jobs/growth_run.hpp"
+#include "jobs/probes.hpp"
 #include "jobs/sweep_check.hpp"
 #include "operators/check_loads.hpp"
 
@@ -91,6 +92,7 @@ void check(const records::JobSpec& spec, const EngineOptions& options) {
     check_unit(spec.units->force, "units.force");
   }
   check_names(spec.loads);
+  check_probes(spec.probes);
   for (std::size_t i = 0; i < spec.loads.size(); ++i) {
     try {
       fem::check(spec.loads[i], options.max_expression_bytes);

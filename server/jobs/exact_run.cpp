@@ -10,6 +10,7 @@
 #include "contact/answer.hpp"
 #include "errors/errors.hpp"
 #include "jobs/growth_run.hpp"
+#include "jobs/probes.hpp"
 #include "jobs/result_block.hpp"
 #include "operators/mesh_operator.hpp"
 #include "stop/stop.hpp"
@@ -51,20 +52,14 @@ bool all_stopped(const std::vector<PreparedCase>& cases) {
       cases, [](const PreparedCase& one) { return one.task.job->stop.stop_requested(); });
 }
 
-/// Bounds and tips are computed from fields. With growth there are none: on the mesh all paths are
-/// open.
-bool wants_fields(const PreparedCase& prepared) {
-  if (spec_of(prepared).growth) return false;
-  return spec_of(prepared).fields || !spec_of(prepared).without_bounds ||
-         !prepared.task.job->mesh_operator->mesh().interfaces.empty();
-}
-
+/// Forces, tips and bounds are computed from fields. With growth there are none: on the mesh all
+/// paths are open.
 void recover_fields(const std::vector<PreparedCase>& cases, std::vector<Solved>& solved) {
   std::vector<const operators::PreparedLoad*> loads;
   std::vector<contact::Answer*> answers;
   std::vector<std::exception_ptr*> failures;
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    if (wants_fields(cases[i]) && !solved[i].failure &&
+    if (!spec_of(cases[i]).growth && !solved[i].failure &&
         solved[i].answer.status != contact::Status::cancelled) {
       loads.push_back(&cases[i].load);
       answers.push_back(&solved[i].answer);
@@ -80,20 +75,32 @@ void recover_fields(const std::vector<PreparedCase>& cases, std::vector<Solved>&
   }
 }
 
-void find_tips(const std::vector<PreparedCase>& cases, std::vector<Solved>& solved) {
+/// Whether there is room for the numbers of `what`; else warns.
+bool fits(const LiveJob& job, std::size_t parts, std::size_t tips, const char* what,
+          contact::Answer& answer) {
+  if (has_room(*job.spec, job.mesh_operator->mesh().inclusions, parts, tips)) return true;
+  answer.warnings.push_back(fmt::format(
+      "no numbers of {0}: {1} {0} in {2} load cases do not fit in a message; make smaller jobs",
+      what, tips > 0 ? tips : parts, job.spec->loads.size()));
+  return false;
+}
+
+/// Fills in probes, forces on the boundary and tips.
+void measure(const std::vector<PreparedCase>& cases, std::vector<Solved>& solved) {
   for (std::size_t i = 0; i < cases.size(); ++i) {
     if (solved[i].failure || solved[i].answer.fields.empty()) continue;
     const auto& job = *cases[i].task.job;
     try {
+      contact::Answer& answer = solved[i].answer;
+      fill_probes(*job.probes, *job.mesh_operator, answer);
+      std::size_t parts = job.mesh_operator->boundary_count();
+      if (fits(job, parts, 0, "parts of the boundary", answer))
+        job.mesh_operator->find_boundary(cases[i].load, answer);
+      else
+        parts = 0;
       const std::size_t tips = job.mesh_operator->tip_count();
-      if (!has_room_for_tips(*job.spec, job.mesh_operator->mesh().inclusions, tips)) {
-        solved[i].answer.warnings.push_back(fmt::format(
-            "no numbers of tips: {} tips in {} load cases do not fit in a message; make smaller "
-            "jobs",
-            tips, job.spec->loads.size()));
-        continue;
-      }
-      job.mesh_operator->find_tips(cases[i].load, solved[i].answer, job.stop.get_token());
+      if (tips > 0 && fits(job, parts, tips, "tips", answer))
+        job.mesh_operator->find_tips(cases[i].load, answer, job.stop.get_token());
     } catch (...) {
       solved[i].failure = std::current_exception();
     }
@@ -154,7 +161,7 @@ std::vector<PreparedCase> take_together(std::deque<PreparedCase>& prepared, int 
   do {
     cases.push_back(std::move(prepared.front()));
     prepared.pop_front();
-  } while (cases.size() < most && wants_fields(cases.back()) && wants_fields(prepared.front()));
+  } while (cases.size() < most);
   return cases;
 }
 
@@ -164,7 +171,7 @@ std::vector<EndedCase> solve_exactly(const std::vector<PreparedCase>& cases,
   solved.reserve(cases.size());
   for (const PreparedCase& prepared : cases) solved.push_back(solve(prepared, iterations));
   recover_fields(cases, solved);
-  find_tips(cases, solved);
+  measure(cases, solved);
   add_bounds(cases, solved);
   drop_unwanted(cases, solved);
   std::vector<EndedCase> ended;

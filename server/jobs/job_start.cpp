@@ -7,6 +7,7 @@
 
 #include "errors/errors.hpp"
 #include "jobs/case_outcome.hpp"
+#include "jobs/probes.hpp"
 #include "jobs/result_block.hpp"
 #include "jobs/sweep_check.hpp"
 #include "jobs/sweep_chunk.hpp"
@@ -113,12 +114,14 @@ void start_job(EngineCore& core, std::shared_ptr<const operators::MeshOperator> 
   const JobSnapshot snapshot(*job);
   lock.unlock();
   std::optional<SweepPlan> plan;
+  std::shared_ptr<const PlacedProbes> probes;
   bool stored = false;
   try {
     const stop::Scope scope(job->stop.get_token());
     require_result_arrays(*job->spec, mesh_operator->mesh().interfaces.size(),
                           mesh_operator->mesh().subdomains.size(), core.options.max_result_arrays);
     require_answers(*job->spec, mesh_operator->mesh().inclusions);
+    probes = std::make_shared<const PlacedProbes>(place_probes(job->spec->probes, *mesh_operator));
     plan = plan_of(core, *job, *mesh_operator);
     stored = another_stage || store_start(core, snapshot, plan, job->stages.get());
   } catch (...) {
@@ -132,6 +135,7 @@ void start_job(EngineCore& core, std::shared_ptr<const operators::MeshOperator> 
     return;
   }
   job->mesh_operator = std::move(mesh_operator);
+  job->probes = std::move(probes);
   job->spool = core.store.new_spool();
   if (!another_stage) {
     core.admission.started();

@@ -78,6 +78,8 @@ enum class Stop {
 /// A job is solved in units: its load cases, or the chunks of its sweep (one chunk until the job
 /// starts and they are known). The first part of the members does not change; the engine's mutex
 /// guards the second, with the exceptions named there.
+struct PlacedProbes;
+
 struct LiveJob {
   /// `cases_in_queue`: the load cases that `admission` counted for it.
   LiveJob(std::uint64_t submission, records::JobRecord record, std::uint64_t cases_in_queue,
@@ -111,11 +113,12 @@ struct LiveJob {
   std::shared_ptr<void> mesh_use;  ///< keeps spec's mesh; released when the job has ended
   /// Set when the job, or a stage of it, starts; reset by the thread that ends it.
   std::shared_ptr<const operators::MeshOperator> mesh_operator;
-  std::shared_ptr<store::Spool> spool;  ///< for the result; set with the operator
-  std::vector<LiveCase> cases;          ///< empty for a sweep
-  std::unique_ptr<LiveSweep> sweep;     ///< set once it has started
-  std::unique_ptr<LiveStages> stages;   ///< of a job with an accuracy
-  records::SweepRecord sweep_record;    ///< sums over the rows that have ended
+  std::shared_ptr<const PlacedProbes> probes;  ///< on its mesh; set with the operator
+  std::shared_ptr<store::Spool> spool;         ///< for the result; set with the operator
+  std::vector<LiveCase> cases;                 ///< empty for a sweep
+  std::unique_ptr<LiveSweep> sweep;            ///< set once it has started
+  std::unique_ptr<LiveStages> stages;          ///< of a job with an accuracy
+  records::SweepRecord sweep_record;           ///< sums over the rows that have ended
   std::size_t units = 0;
   std::size_t next_unit = 0;       ///< first one that no thread has taken
   int active = 0;                  ///< units taken and not ended, plus one during a start

@@ -13,6 +13,7 @@
 
 #include "contact/answer.hpp"
 #include "errors/errors.hpp"
+#include "jobs/probes.hpp"
 #include "jobs/trace_arrays.hpp"
 #include "operators/mesh_operator.hpp"
 
@@ -35,9 +36,10 @@ void add_history(BlockBuilder& builder, const std::string& folder,
       arrays::history<contact::Sample>);
 }
 
-/// The nodes and triangles of a subdomain, which all loads share.
+/// The nodes, triangles and tensions of a subdomain, which all loads share.
 struct Subdomain {
   std::span<const std::int32_t> nodes, triangles;
+  std::vector<double> tension;
 };
 
 template <class... Rows>
@@ -45,11 +47,12 @@ constexpr std::uint64_t rows_of(const std::tuple<Rows...>&) {
   return sizeof...(Rows);
 }
 
-/// Of the answer to a load case, without its tips.
-std::uint64_t answer_bytes(const std::vector<std::string>& inclusions) {
+/// Of the answer to a load case, without its tips and the parts of the boundary.
+std::uint64_t answer_bytes(const records::JobSpec& spec,
+                           const std::vector<std::string>& inclusions) {
   constexpr std::uint64_t a_case = 800;        // numbers and texts
   constexpr std::uint64_t an_inclusion = 139;  // fourteen numbers and tags
-  std::uint64_t bytes = a_case;
+  std::uint64_t bytes = a_case + probe_bytes(spec.probes);
   for (const std::string& name : inclusions) bytes += an_inclusion + name.size();
   return bytes;
 }
@@ -76,7 +79,8 @@ std::shared_ptr<const records::BlockSource> result_block(const LiveJob& job) {
   const std::size_t subdomains = job.spec->fields ? job.mesh_operator->mesh().subdomains.size() : 0;
   for (std::size_t i = 0; i < subdomains; ++i) {
     add_arrays(builder, arrays::field_folder(i), arrays::subdomain<Subdomain>,
-               Subdomain{job.mesh_operator->field_nodes(i), job.mesh_operator->field_triangles(i)});
+               Subdomain{job.mesh_operator->field_nodes(i), job.mesh_operator->field_triangles(i),
+                         job.mesh_operator->field_tension(i)});
   }
   store::SpooledBlock result(job.spool);
   const auto add = [&](const ResultPart& part) { result.add(part.arrays, part.run); };
@@ -106,14 +110,16 @@ void require_result_arrays(const records::JobSpec& spec, std::uint64_t interface
   }
 }
 
-bool has_room_for_tips(const records::JobSpec& spec, const std::vector<std::string>& inclusions,
-                       std::size_t tips) {
-  constexpr std::uint64_t a_tip = 200;  // nine numbers, names and a reason
-  return spec.loads.size() * (answer_bytes(inclusions) + a_tip * tips) <= max_answer_bytes;
+bool has_room(const records::JobSpec& spec, const std::vector<std::string>& inclusions,
+              std::size_t parts, std::size_t tips) {
+  constexpr std::uint64_t a_part = 128;  // six numbers and a name of at most 64 letters
+  constexpr std::uint64_t a_tip = 200;   // nine numbers, names and a reason
+  return spec.loads.size() * (answer_bytes(spec, inclusions) + a_part * parts + a_tip * tips) <=
+         max_answer_bytes;
 }
 
 void require_answers(const records::JobSpec& spec, const std::vector<std::string>& inclusions) {
-  const std::uint64_t answer = answer_bytes(inclusions);
+  const std::uint64_t answer = answer_bytes(spec, inclusions);
   if (!spec.sweep && spec.loads.size() * answer > max_answer_bytes) {
     throw errors::Error(errors::Reason::limit_exceeded,
                         "the answers to {} load cases with {} inclusions each do not fit in a "

@@ -41,9 +41,10 @@ constexpr std::uint64_t max_answer_bytes = std::uint64_t{5} << 19U;
 /// inclusions may take more than max_answer_bytes.
 void require_answers(const records::JobSpec& spec, const std::vector<std::string>& inclusions);
 
-/// Whether the numbers of that many tips may be in each of the job's answers as well. What a load
-/// case keeps of them is in memory and in the log of events until the job is removed.
-bool has_room_for_tips(const records::JobSpec& spec, const std::vector<std::string>& inclusions,
-                       std::size_t tips);
+/// Whether the numbers of that many parts of the boundary and tips may be in each of the job's
+/// answers as well. What a load case keeps of them is in memory and in the log of events until the
+/// job is removed.
+bool has_room(const records::JobSpec& spec, const std::vector<std::string>& inclusions,
+              std::size_t parts, std::size_t tips);
 
 }  // namespace anticrack::jobs

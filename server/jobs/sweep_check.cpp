@@ -95,6 +95,17 @@ void check_sweep(const records::JobSpec& spec, const EngineOptions& options) {
                 "cases of a job")
         .at("outputs");
   }
+  if (sweep.tips && sweep.cases != SweepSpec::Cases::combinations) {
+    throw Error(Reason::invalid_argument,
+                "rows of nodal forces have no numbers of tips: leave them out, or combine loads")
+        .at("sweep.tips");
+  }
+  if (!spec.probes.empty()) {
+    throw Error(Reason::invalid_argument,
+                "a sweep has no probes: leave them out, and solve the rows of interest as load "
+                "cases of a job")
+        .at("probes");
+  }
   if (sweep.bounds && spec.without_bounds) {
     throw Error(Reason::invalid_argument,
                 "the job asks for bounds of the rows and for no bounds: leave one of them out")

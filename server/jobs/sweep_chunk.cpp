@@ -140,16 +140,27 @@ class ChunkRows {
     return answer;
   }
 
-  /// Computes bounds of the rows that converged, as for load cases; the rows of a chunk are
-  /// estimated together.
+  /// Computes bounds, as for load cases, of the rows that converged and do not share theirs; a few
+  /// rows are estimated together.
   template <class Load>
   void add_bounds(const Load& load) {
     std::vector<std::size_t> rows;
+    for (std::size_t i = 0; i < _count; ++i) {
+      if (_columns->status[i] == contact::Status::converged &&
+          std::isnan(_columns->energy_lower[i]))
+        rows.push_back(i);
+      if (rows.empty() || (rows.size() < mesh_operator().estimated_together() && i + 1 < _count))
+        continue;
+      add_bounds(load, rows);
+      rows.clear();
+    }
+  }
+
+  template <class Load>
+  void add_bounds(const Load& load, const std::vector<std::size_t>& rows) {
     std::vector<operators::PreparedLoad> loads;
     std::vector<contact::Answer> answers;
-    for (std::size_t i = 0; i < _count; ++i) {
-      if (_columns->status[i] != contact::Status::converged) continue;
-      rows.push_back(i);
+    for (const std::size_t i : rows) {
       loads.push_back(load(i));
       answers.push_back(solve(loads.back()));
     }
@@ -226,7 +237,8 @@ std::shared_ptr<const operators::LoadBasis> condense_basis(
     }
     pointers.push_back(&loads.back());
   }
-  return mesh_operator.basis(pointers, job.stop.get_token(), job.spec->sweep->bounds);
+  return mesh_operator.basis(pointers, job.stop.get_token(), job.spec->sweep->bounds,
+                             job.sweep->plan.rows, job.spec->sweep->tips);
 }
 
 EndedChunk solve_chunk(const Task& task, std::atomic<std::uint64_t>& iterations) {

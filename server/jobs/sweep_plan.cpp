@@ -36,7 +36,7 @@ std::size_t motions(const mesh::Mesh& mesh) {
 
 /// The bytes of the arrays of sweep_result.hpp.
 std::uint64_t result_bytes(const operators::MeshOperator& mesh_operator, std::uint64_t rows,
-                           std::uint64_t traces, bool bounds) {
+                           std::uint64_t traces, bool bounds, std::uint64_t tips) {
   constexpr std::uint64_t a_row = 2 * sizeof(std::int32_t) + 3 * sizeof(double);
   constexpr std::uint64_t a_node = 3 * sizeof(double) + sizeof(std::int32_t);
   constexpr std::uint64_t a_trace_node = 4 * sizeof(double) + sizeof(std::int32_t);
@@ -48,9 +48,10 @@ std::uint64_t result_bytes(const operators::MeshOperator& mesh_operator, std::ui
   std::uint64_t nodes = 0;
   for (const contact::TraceGeometry& interface : mesh_operator.trace_geometry())
     nodes += interface.s.size();
-  return rows * (a_row + sizeof(double) * motions(mesh_operator.mesh()) + bounded + contacts) +
+  return rows * (a_row + sizeof(double) * motions(mesh_operator.mesh()) + bounded + contacts +
+                 3 * sizeof(double) * tips) +
          contacts * 2 * sizeof(std::int32_t) + nodes * (a_node + traces * a_trace_node) +
-         alignment * (bounds ? 15 : 9) + alignment * (interfaces * (4 + 5 * traces));
+         alignment * (bounds ? 18 : 12) + alignment * (interfaces * (4 + 5 * traces));
 }
 
 }  // namespace
@@ -79,8 +80,13 @@ SweepPlan plan_sweep(const records::JobSpec& spec, MatrixFile matrix,
   plan.matrix = std::move(matrix.path);
   plan.chunk_rows = chunk_rows(sweep.cases, plan.rows, nodes, mesh_operator.contact_nodes().size(),
                                motions(mesh_operator.mesh()));
-  if (sweep.bounds) plan.chunk_rows = std::min(plan.chunk_rows, mesh_operator.estimated_together());
-  plan.result_bytes = result_bytes(mesh_operator, plan.rows, sweep.traces.size(), sweep.bounds);
+  const bool shared = sweep.cases == SweepSpec::Cases::combinations &&
+                      mesh_operator.shares_bounds(plan.columns, plan.rows);
+  if (sweep.bounds && !shared)
+    plan.chunk_rows = std::min(plan.chunk_rows, mesh_operator.estimated_together());
+  const std::size_t tips = sweep.tips ? mesh_operator.tip_count() : 0;
+  plan.result_bytes =
+      result_bytes(mesh_operator, plan.rows, sweep.traces.size(), sweep.bounds, tips);
   if (plan.result_bytes > options.max_result_bytes) {
     throw Error(Reason::limit_exceeded,
                 "the answers to {} rows take {} bytes on this mesh and a job's result may have {}: "

@@ -69,8 +69,12 @@ Contacts contacts_of(const std::vector<std::array<std::int32_t, 2>>& nodes) {
 
 SweepColumns unsolved_rows(const LiveJob& job, std::size_t rows) {
   const mesh::Mesh& mesh = job.mesh_operator->mesh();
-  return {rows, mesh.inclusions.size(), job.mesh_operator->contact_nodes().size(),
-          contact::tilts(mesh), job.spec->sweep->bounds};
+  return {rows,
+          mesh.inclusions.size(),
+          job.mesh_operator->contact_nodes().size(),
+          contact::tilts(mesh),
+          job.spec->sweep->bounds,
+          job.spec->sweep->tips ? job.mesh_operator->tip_count() : 0};
 }
 
 records::Block chunk_arrays(const SweepColumns& columns) {
@@ -86,9 +90,10 @@ records::Block chunk_arrays(const SweepColumns& columns) {
       [&](const auto& row) {
         const auto& values = std::invoke(row.member, columns);
         if (row.optional && values.empty()) return;
-        const bool by_inclusion = arrays::second_of(row.shape) == "inclusions";
-        std::vector<std::uint64_t> shape{columns.rows(),
-                                         by_inclusion ? columns.inclusions : columns.contacts};
+        const std::string_view second = arrays::second_of(row.shape);
+        std::vector<std::uint64_t> shape{columns.rows(), second == "inclusions" ? columns.inclusions
+                                                         : second == "tips"     ? columns.tips
+                                                                                : columns.contacts};
         if (const std::size_t depth = arrays::depth_of(row.shape); depth > 1)
           shape.push_back(depth);
         builder.add(arrays::sweep_folder() + std::string(row.name), values, std::move(shape));

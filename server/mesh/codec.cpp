@@ -20,8 +20,9 @@ constexpr std::string_view mesh_tag = "ACMESH2\n";
 constexpr std::string_view moving_mesh_tag = "ACMESH3\n";       // motions follow
 constexpr std::string_view mesh_with_laws_tag = "ACMESH4\n";    // motions and tension laws follow
 constexpr std::string_view mesh_with_chords_tag = "ACMESH5\n";  // motions, laws, chords follow
-constexpr std::string_view request_tag = "ACMREQ5\n";
-constexpr std::string_view reply_tag = "ACMREP4\n";
+constexpr std::string_view mesh_with_parts_tag = "ACMESH6\n";   // the same and boundary parts
+constexpr std::string_view request_tag = "ACMREQ6\n";
+constexpr std::string_view reply_tag = "ACMREP5\n";
 
 constexpr auto last_reason = static_cast<std::int32_t>(errors::Reason::internal);
 
@@ -30,11 +31,13 @@ bool moves(const Mesh& mesh) {
   return std::ranges::any_of(mesh.motions, [](const Motion& m) { return m != Motion(); });
 }
 
-/// Fields that are not part of the hash of a mesh. Motions, laws and chords are among them, as they
-/// were added later: a mesh without them keeps its hash. The bends leave the mesher only as chords.
+/// Fields that are not part of the hash of a mesh. Motions, laws, chords and boundary parts are
+/// among them, as they were added later: a mesh without them keeps its hash. The bends leave the
+/// mesher only as chords.
 bool is_beside(std::string_view field) {
   return field == "warnings" || field == "bisection_bound" || field == "motions" ||
-         field == "tension_laws" || field == "bends" || field == "bent" || field == "chords";
+         field == "tension_laws" || field == "bends" || field == "bent" || field == "chords" ||
+         field == "boundary_parts";
 }
 
 void put(Writer& out, const Mesh& mesh) {
@@ -77,6 +80,7 @@ void check_indices(const Plan& plan) {
       if (face != -1) check_index(face, plan.faces.size(), "a face");
     if (curve.inclusion != -1) check_index(curve.inclusion, plan.inclusions.size(), "an inclusion");
     if (curve.bend != -1) check_index(curve.bend, plan.bends.size(), "a bend");
+    if (curve.side != -1) check_index(curve.side, plan.sides.size(), "a side");
   }
   const auto check_curves = [&](const std::vector<int>& curves) {
     for (const int curve : curves) check_index(curve, plan.curves.size(), "a curve");
@@ -134,9 +138,10 @@ static Choices choices_of(Preset) {
 }
 
 Bytes encode(const Mesh& mesh) {
-  const bool moving = moves(mesh), chords = !mesh.chords.empty(),
-             laws = chords || !mesh.tension_laws.empty();
-  Writer out(chords   ? mesh_with_chords_tag
+  const bool moving = moves(mesh), parts = !mesh.boundary_parts.empty(),
+             chords = parts || !mesh.chords.empty(), laws = chords || !mesh.tension_laws.empty();
+  Writer out(parts    ? mesh_with_parts_tag
+             : chords ? mesh_with_chords_tag
              : laws   ? mesh_with_laws_tag
              : moving ? moving_mesh_tag
                       : mesh_tag,
@@ -145,14 +150,17 @@ Bytes encode(const Mesh& mesh) {
   if (moving || laws) out.value(moving ? mesh.motions : std::vector<Motion>());
   if (laws) out.value(mesh.tension_laws);
   if (chords) out.value(mesh.chords);
+  if (parts) out.value(mesh.boundary_parts);
   return out.take();
 }
 
 Mesh decode_mesh(std::span<const std::byte> bytes) {
   const bool moving = Reader::begins(bytes, moving_mesh_tag),
-             chords = Reader::begins(bytes, mesh_with_chords_tag),
+             parts = Reader::begins(bytes, mesh_with_parts_tag),
+             chords = parts || Reader::begins(bytes, mesh_with_chords_tag),
              laws = chords || Reader::begins(bytes, mesh_with_laws_tag);
-  Reader in(bytes, chords   ? mesh_with_chords_tag
+  Reader in(bytes, parts    ? mesh_with_parts_tag
+                   : chords ? mesh_with_chords_tag
                    : laws   ? mesh_with_laws_tag
                    : moving ? moving_mesh_tag
                             : mesh_tag);
@@ -160,6 +168,7 @@ Mesh decode_mesh(std::span<const std::byte> bytes) {
   if (moving || laws) in.read(mesh.motions);
   if (laws) in.read(mesh.tension_laws);
   if (chords) in.read(mesh.chords);
+  if (parts) in.read(mesh.boundary_parts);
   in.end();
   return mesh;
 }
@@ -192,6 +201,7 @@ Bytes encode(const MesherReply& reply) {
     out.value(mesh->motions);
     out.value(mesh->tension_laws);
     out.value(mesh->chords);
+    out.value(mesh->boundary_parts);
     out.value(mesh->warnings);
     out.value(mesh->bisection_bound);
   } else {
@@ -211,6 +221,7 @@ MesherReply decode_reply(std::span<const std::byte> bytes) {
   in.read(mesh.motions);
   in.read(mesh.tension_laws);
   in.read(mesh.chords);
+  in.read(mesh.boundary_parts);
   in.read(mesh.warnings);
   in.read(mesh.bisection_bound);
   in.end();

@@ -150,6 +150,25 @@ void add_curves(const Layout& layout, const Network& network,
   }
 }
 
+/// Notes the side or hole on which each curve of the boundary lies.
+void add_sides(const Geometry& geometry, const Network& network, Plan& plan) {
+  plan.sides = side_names(geometry);
+  const std::size_t outer = plan.sides.size() - geometry.holes.size();
+  for (std::size_t e = 0; e < network.chords.size(); ++e) {
+    const Chord& chord = network.chords[e];
+    const std::size_t line = at(chord.line);
+    if (line >= network.boundary) continue;
+    std::size_t side = line;
+    if (line >= network.outer)
+      side += outer - network.outer;
+    else if (geometry.sides.empty())  // a polygon is one line, with an edge from each vertex
+      side = static_cast<std::size_t>((chord.from + chord.to) / 2) % outer;
+    if (line < network.outer && network.turned)
+      side = (2 * outer - (geometry.sides.empty() ? 2 : 1) - side) % outer;
+    plan.curves[e].side = static_cast<int>(side);
+  }
+}
+
 /// Notes the bend of which each curve is a chord. A line has stations where its spans meet, so a
 /// chord lies in one span.
 void add_bends(const Network& network, Plan& plan) {
@@ -287,6 +306,7 @@ Plan plan(const Geometry& given, const MeshOptions& options, std::size_t max_tri
   }
   const std::vector<const Stretch*> stretches = stretches_of(layout, network);
   add_curves(layout, network, stretches, plan);
+  add_sides(geometry, network, plan);
   add_bends(network, plan);
   check_held(geometry, plan);
   check_contacts(layout, plan);

@@ -168,12 +168,13 @@ struct PlannedCurve {
   double from = 0;   ///< parameter of the bend at a
   double to = 0;     ///< at b
   double chord = 0;  ///< of a part of a chord, which stays straight: length of the whole; else 0
+  int side = -1;     ///< of the boundary: index into Plan::sides
 
   /// Whether the curve is a whole chord, whose nodes may be put on its bend.
   bool bends() const noexcept { return bend >= 0 && chord == 0; }
 };
 ANTICRACK_FIELDS(PlannedCurve, a, b, intervals, role, left, right, kind, inclusion, bend, from, to,
-                 chord)
+                 chord, side)
 
 /// A chain of curves from a to b, each beginning where the last ends; the plus side is on the left.
 struct PlannedInterface {
@@ -216,9 +217,10 @@ struct Plan {
   std::size_t triangles = 0;            ///< expected number, before grading
   std::vector<std::string> warnings{};  ///< for Mesh::warnings: points that were moved onto a line
   std::vector<Bend> bends{};            ///< of which curves are chords
+  std::vector<std::string> sides{};     ///< names of the sides of the boundary, and of the holes
 };
 ANTICRACK_FIELDS(Plan, points, curves, interfaces, faces, inclusions, motions, growth, grading,
-                 triangles, warnings, bends)
+                 triangles, warnings, bends, sides)
 
 /// Checks a geometry and cuts it into curves with the intervals of the preset. An interface is
 /// walked against its direction where the plus side of an inclusion comes off instead of the minus

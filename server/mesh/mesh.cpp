@@ -240,6 +240,11 @@ void check_boundary(const Mesh& mesh, const EdgeTable& edges) {
     seen.push_back(key(a, b));
   }
   sort_once(mesh, seen, " is listed as dirichlet twice");
+  for (const BoundaryPart& part : mesh.boundary_parts)
+    for (const std::int32_t node : {part.first, part.last})
+      if (node < 0 || node >= nodes)
+        fail("boundary part ", part.name, " ends at node ", node, "; the nodes are 0 to ",
+             nodes - 1);
 }
 
 void check_chords(const Mesh& mesh, const EdgeTable& edges) {
@@ -308,6 +313,7 @@ Mesh without_triangles(const Mesh& mesh) {
   result.motions = mesh.motions;
   result.warnings = mesh.warnings;
   result.bends = mesh.bends;
+  result.boundary_parts = mesh.boundary_parts;
   return result;
 }
 

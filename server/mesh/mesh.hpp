@@ -47,6 +47,14 @@ struct Interface {
 };
 ANTICRACK_FIELDS(Interface, name, nodes, kind, inclusion)
 
+/// A side or hole of the boundary, by its nodes: the edges from `first` to `last`, with the
+/// membrane on their left. first == last: all of a closed curve. Bisection keeps these nodes.
+struct BoundaryPart {
+  std::string name;
+  std::int32_t first = 0, last = 0;
+};
+ANTICRACK_FIELDS(BoundaryPart, name, first, last)
+
 /// Conforming triangulation, index base 0. Interface nodes are stored once; ddm::cut doubles u
 /// there. Invariants (`validate`): indices in range; triangles counterclockwise with positive area,
 /// not overlapping at an edge; every node and subdomain has a triangle; an interface edge is an
@@ -69,6 +77,7 @@ struct Mesh {
   std::vector<Bend> bends;                             ///< what is left of the curves of a geometry
   std::vector<BentEdge> bent;     ///< for the mesher: edges beside these, see refine_uniform
   std::vector<ChordEdge> chords;  ///< edges on chords of curves
+  std::vector<BoundaryPart> boundary_parts;  ///< of a geometry; an uploaded mesh has no names
   /// Lower bound, in degrees, of the angles of any bisection of the unrefined mesh. 0: not refined.
   double bisection_bound = 0;
 
@@ -77,7 +86,8 @@ struct Mesh {
   std::size_t triangle_count() const noexcept { return triangles.size() / 3; }
 };
 ANTICRACK_FIELDS(Mesh, xy, triangles, subdomain, subdomains, tension, tension_laws, inclusions,
-                 motions, interfaces, dirichlet, warnings, bends, bent, chords, bisection_bound)
+                 motions, interfaces, dirichlet, warnings, bends, bent, chords, boundary_parts,
+                 bisection_bound)
 
 /// Throws errors::Error (mesh_invalid) naming the first invariant violated and where. O(m log m).
 void validate(const Mesh& mesh);

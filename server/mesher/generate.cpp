@@ -313,6 +313,17 @@ void require_curves(const mesh::Mesh& mesh, const Plan& plan,
   }
 }
 
+/// Curves of one side follow each other.
+void add_to_parts(const Plan& plan, std::size_t curve, const std::vector<std::int32_t>& chain,
+                  std::vector<mesh::BoundaryPart>& parts) {
+  const int side = plan.curves[curve].side;
+  if (side < 0) return;
+  if (curve > 0 && plan.curves[curve - 1].side == side)
+    parts.back().last = chain.back();
+  else
+    parts.push_back({plan.sides[at(side)], chain.front(), chain.back()});
+}
+
 mesh::Mesh read_mesh(const Plan& plan, const Frame& frame) {
   mesh::Mesh mesh;
   mesh.inclusions = plan.inclusions;
@@ -323,6 +334,7 @@ mesh::Mesh read_mesh(const Plan& plan, const Frame& frame) {
   chains.reserve(plan.curves.size());
   for (std::size_t i = 0; i < plan.curves.size(); ++i) {
     chains.push_back(curve_nodes(plan, i, nodes));
+    add_to_parts(plan, i, chains.back(), mesh.boundary_parts);
     if (plan.curves[i].role != mesh::Role::dirichlet) continue;
     for (std::size_t k = 0; k + 1 < chains[i].size(); ++k)
       mesh.dirichlet.push_back({chains[i][k], chains[i][k + 1]});

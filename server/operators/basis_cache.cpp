@@ -10,6 +10,8 @@
 
 #include "errors/errors.hpp"
 #include "fields/walk.hpp"
+#include "operators/row_tips.hpp"
+#include "operators/shared_bounds.hpp"
 
 namespace anticrack::operators {
 namespace {
@@ -33,8 +35,9 @@ void append(std::string& key, const std::string& text) {
 
 }  // namespace
 
-std::optional<std::string> key_of(std::span<const fem::Load* const> loads, bool bounds) {
-  std::string key(1, bounds ? 'b' : '-');
+std::optional<std::string> key_of(std::span<const fem::Load* const> loads, Bounds bounds,
+                                  bool tips) {
+  std::string key{static_cast<char>(bounds), tips ? 't' : '-'};
   for (const fem::Load* load : loads) {
     const auto* array = std::get_if<fem::Array>(&load->force);
     if (array != nullptr && array->upload.empty()) return std::nullopt;
@@ -66,7 +69,7 @@ std::size_t CondensedBasis::bytes() const noexcept {
   for (const BalancedLoad& load : balanced) bytes += sizeof(load) + load.bytes();
   for (const ddm::LoadProducts& product : products)
     bytes += sizeof(double) * static_cast<std::size_t>(product.energy.size() + product.norm.size());
-  return bytes;
+  return bytes + (shared ? shared->bytes() : 0) + (tips ? tips->bytes() : 0);
 }
 
 BasisCache::Basis BasisCache::get(const std::string& key, const std::stop_token& stop,

@@ -20,8 +20,12 @@
 #include "fem/load.hpp"
 #include "operators/condense_loads.hpp"
 #include "operators/load_bounds.hpp"
+#include "operators/working.hpp"
 
 namespace anticrack::operators {
+
+struct RowTips;
+struct SharedBounds;
 
 /// Loads of one mesh, condensed and reduced for the rows of a sweep. Does not keep the mesh.
 struct CondensedBasis {
@@ -29,16 +33,23 @@ struct CondensedBasis {
   std::vector<LoadOnTraces> loads;          ///< no z_boundary, parts; z_interior if joined, bounded
   std::vector<ddm::LoadProducts> products;  ///< per subdomain
   std::vector<BalancedLoad> balanced;       ///< per load; empty: rows have no bounds
-  std::vector<std::string> warnings;        ///< of all loads, without repetition
+  std::shared_ptr<const SharedBounds> shared;  ///< null: rows with bounds are bounded one by one
+  std::shared_ptr<const RowTips> tips;         ///< null: rows have no numbers of tips
+  std::vector<std::string> warnings;           ///< of all loads, without repetition
+  std::unique_ptr<const Working> counted;      ///< its bytes, also while only a job has it
 
   /// Memory of the arrays in bytes.
   std::size_t bytes() const noexcept;
 };
 
-/// Key of a list of loads, with or without bounds. Two keys are equal if and only if all fields of
-/// the loads but their names are; the hash of its upload stands for an array. None if an array has
-/// no hash.
-std::optional<std::string> key_of(std::span<const fem::Load* const> loads, bool bounds = false);
+/// What a basis is made for.
+enum class Bounds : char { none = '-', own = 'b', shared = 's' };
+
+/// Key of a list of loads and what they are condensed for. Two keys are equal if and only if all
+/// fields of the loads but their names are; the hash of its upload stands for an array. None if an
+/// array has no hash.
+std::optional<std::string> key_of(std::span<const fem::Load* const> loads,
+                                  Bounds bounds = Bounds::none, bool tips = false);
 
 /// The most recently used bases of one mesh, at most 8 and, with their keys, 64 MiB. The least
 /// recently used one is dropped first; a basis above the limit alone is not kept. Thread-safe; no

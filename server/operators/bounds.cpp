@@ -16,9 +16,6 @@
 namespace anticrack::operators {
 namespace {
 
-/// Memory of fields, fluxes and scratch, in bytes.
-constexpr std::size_t bytes_per_triangle_and_load = 450;
-
 constexpr const char* bounding = "computing bounds";
 
 std::string obstacle_of(const LoadOnTraces& load, const estimate::CutMesh& cut,
@@ -33,14 +30,12 @@ std::string obstacle_of(const LoadOnTraces& load, const estimate::CutMesh& cut,
 
 /// Energies are squares, which vanish or overflow if u is very small or very large.
 std::string obstacle_of(std::span<const double> u, double tension) {
-  constexpr double least = 1e-250, most = 1e280;
   double largest = 0;
   for (const double one : u) largest = std::max(largest, std::abs(one));
-  const double square = tension * largest * largest;
-  if (largest == 0 || (square >= least && square <= most)) return "";
+  if (estimate::in_range(tension, largest)) return "";
   return fmt::format(
       "the largest |u| is {:g}, and its square is beyond the range of numbers: scale the load {}",
-      largest, square < least ? "up" : "down");
+      largest, tension * largest * largest < 1 ? "up" : "down");
 }
 
 /// The data from which the bounds of an answer are made.
@@ -69,8 +64,7 @@ void find_bounds(const MeshOperator::Parts& parts, const estimate::CutMesh& cut,
   for (std::size_t i = 0; i < materials.size(); ++i) {
     const auto& [of, load, u, lifts, balance, across, parts_energy] = materials[i];
     contact::Answer& answer = *of.answer;
-    constexpr double most_cancelled = 1e3;  // beyond, rounding exceeds the bracket's
-    if (parts_energy > most_cancelled * (std::abs(answer.energy_mesh) + fluxes[i].norm_squared())) {
+    if (cancels(parts_energy, answer.energy_mesh, fluxes[i].norm_squared())) {
       answer.no_bracket =
           "the loads that are combined cancel, and rounding is not small beside what they leave: "
           "give their sum as a load of its own";

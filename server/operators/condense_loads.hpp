@@ -80,10 +80,6 @@ struct PlacedForces {
   std::vector<mesh::Point> points;                  ///< where one acts on the membrane itself
 };
 
-/// Distance, as a fraction of the diagonal of the membrane's bounding box, within which a point
-/// lies on an edge or inside the membrane.
-constexpr double point_tolerance = 1e-9;
-
 /// A point force on an edge of an inclusion, bonded or delaminated, acts on the inclusion;
 /// elsewhere on the corners of the triangle that contains it, by barycentric coordinates (int delta
 /// phi_i). A force on an inclusion acts at its middle. If the inclusion does not tilt, the force is

@@ -310,10 +310,15 @@ bool bounded(const contact::Answer& answer, const estimate::CutMesh& cut) {
 estimate::Lack lack_of(const estimate::CutMesh& cut, const estimate::EquilibratedFlux& flux,
                        const estimate::LoadBalance& balance, const LoadOnTraces& load) {
   if (!std::isfinite(cut.ways.triangle)) return {};
+  return estimate::lack_of(cut, flux, balance.traction, forces_on(load),
+                           estimate::pressing(cut, flux));
+}
+
+std::vector<estimate::ForceOn> forces_on(const LoadOnTraces& load) {
   std::vector<estimate::ForceOn> forces;
   for (const auto& [on_nodes, on_holders] : load.inclusion_forces)
     forces.push_back({on_nodes.force, {on_nodes.moment_x, on_nodes.moment_y}});
-  return estimate::lack_of(cut, flux, balance.traction, forces, estimate::pressing(cut, flux));
+  return forces;
 }
 
 std::vector<double> of_copies(const std::vector<contact::Field>& fields) {

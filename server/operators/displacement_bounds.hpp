@@ -21,6 +21,9 @@ bool bounded(const contact::Answer& answer, const estimate::CutMesh& cut);
 estimate::Lack lack_of(const estimate::CutMesh& cut, const estimate::EquilibratedFlux& flux,
                        const estimate::LoadBalance& balance, const LoadOnTraces& load);
 
+/// The forces of a load on each inclusion.
+std::vector<estimate::ForceOn> forces_on(const LoadOnTraces& load);
+
 /// u in the copies of estimate::CutMesh.
 std::vector<double> of_copies(const std::vector<contact::Field>& fields);
 

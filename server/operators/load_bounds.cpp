@@ -101,4 +101,8 @@ BalancedLoad combine(std::span<const BalancedLoad> loads, std::span<const double
   return sum;
 }
 
+bool cancels(double parts_energy, double energy, double norm_squared) noexcept {
+  return !(parts_energy <= 1e3 * (std::abs(energy) + norm_squared));
+}
+
 }  // namespace anticrack::operators

@@ -3,6 +3,7 @@
 // The data of a load, or of a combination of loads, from which bounds are made.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,6 +14,9 @@
 #include "operators/condense_loads.hpp"
 
 namespace anticrack::operators {
+
+/// Memory of the field, the flux and the scratch of a load while it is bounded.
+constexpr std::size_t bytes_per_triangle_and_load = 450;
 
 /// All members are linear in the load, except the oscillation, whose bounds add up.
 struct BalancedLoad {
@@ -40,5 +44,9 @@ std::vector<BalancedLoad> balanced(std::span<const fem::Load* const> loads,
 
 /// The data of sum_j c_j f_j, with the obstacles of the loads whose c_j is not 0.
 BalancedLoad combine(std::span<const BalancedLoad> loads, std::span<const double> coefficients);
+
+/// Whether loads that are combined cancel, so that rounding exceeds what bounds allow for it.
+/// `parts_energy`: contact::SweepLoads::parts_energy; the others: Pi and |u|^2 of the sum.
+bool cancels(double parts_energy, double energy, double norm_squared) noexcept;
 
 }  // namespace anticrack::operators

@@ -113,6 +113,16 @@ const std::vector<std::int32_t>& MeshOperator::field_triangles(std::size_t subdo
   return _parts->decomposition.subdomains.at(subdomain).part.triangles;
 }
 
+std::vector<double> MeshOperator::field_tension(std::size_t subdomain) const {
+  const ddm::Subdomain& one = _parts->decomposition.subdomains.at(subdomain);
+  std::vector<double> all;
+  for (std::size_t t = 0; t < one.part.triangle_count(); ++t) {
+    const std::array<double, 3> tension = one.tension.matrix(t);
+    all.insert(all.end(), tension.begin(), tension.end());
+  }
+  return all;
+}
+
 double MeshOperator::theta_star() const {
   return _parts->problem.theta_star(contact::Mass::lumped);
 }
@@ -126,7 +136,8 @@ std::size_t MeshOperator::bytes() const noexcept {
   if (const auto* duals = _parts->mesh_duals.known())
     bytes += duals->capacity() * sizeof(estimate::MeshDual);
   if (const tips::Tips* tips = _parts->tips.known()) bytes += tips->bytes();
-  return bytes + _parts->sweep_geometry.bytes() + _parts->bases.bytes();
+  if (const BoundaryForces* boundary = _parts->boundary.known()) bytes += boundary->bytes();
+  return bytes + _parts->sweep_geometry.bytes();
 }
 
 const estimate::CutMesh& MeshOperator::Parts::cut_mesh() const {

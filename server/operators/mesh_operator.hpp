@@ -32,6 +32,7 @@ struct TraceGeometry;
 namespace anticrack::operators {
 
 class Growth;
+struct PointPlace;
 class PreparedLoad;
 class LoadBasis;
 class UzawaBlock;
@@ -95,6 +96,17 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
   /// How many answers to estimate together: as many as gain speed and fit in memory.
   std::size_t estimated_together() const noexcept;
 
+  /// The rows of BoundaryForces. O(m) in the first call.
+  std::size_t boundary_count() const;
+  /// Fills the forces on the parts of the boundary of an answer with fields to this load; of a row
+  /// of a sweep there are none. O(boundary).
+  void find_boundary(const PreparedLoad& load, contact::Answer& answer) const;
+  /// Where points lie. O(m log k + hits) for k points.
+  std::vector<PointPlace> find_points(std::span<const mesh::Point> points) const;
+  /// u of an answer with fields at such a point, on the minus and the plus side of the interface on
+  /// which it lies; elsewhere both are one.
+  std::pair<double, double> u_at(const PointPlace& place, const mesh::Point& point,
+                                 const contact::Answer& answer) const;
   /// The tips of cracks and inclusions: mesh::tips. O(m log m) in the first call.
   std::size_t tip_count() const;
   /// Fills the tips of an answer to this load (contact::TipAnswer), for which it recovers the
@@ -108,15 +120,20 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
   /// names only are condensed once; arrays are compared by the hash of their upload. Throws errors
   /// of loads as in prepare(), with "load_cases[j]." before the field, and limit_exceeded beyond
   /// max_basis_bytes. `bounds`: also keeps what fields and bounds of combinations need, O(N)
-  /// numbers a load.
+  /// numbers a load, and, if `rows` rows share bounds, what sweep() bounds them by. `tips`: what
+  /// the numbers of tips need.
   std::shared_ptr<const LoadBasis> basis(std::span<const fem::Load* const> loads,
-                                         const std::stop_token& stop = {},
-                                         bool bounds = false) const;
+                                         const std::stop_token& stop = {}, bool bounds = false,
+                                         std::uint64_t rows = 0, bool tips = false) const;
+  /// Whether so many rows of combinations of so many loads share bounds (shared_bounds.hpp).
+  bool shares_bounds(std::size_t loads, std::uint64_t rows) const;
 
   /// Solves the rows of a sweep, row k for the load sum_j c_kj f_j; coefficients have shape (rows,
   /// loads), row-major. Rows are solved in the order of contact::solving_order. Each starts from
   /// the contact of the one before, the first from `start` (empty: all closed), which is set to the
-  /// contact of the last; no number but the steps depends on either.
+  /// contact of the last; no number but the steps depends on either. If the basis was made for rows
+  /// that share bounds, and `rows` has columns for them, they are filled in; a row without, NaN,
+  /// has to be estimated as a load of its own.
   /// A row costs O(m c) and a few steps of at most O(c^3), and allocates nothing if the contact
   /// changes little; see contact::SweepSolver for the numbers and not_converged. The width of
   /// `rows` must fit mesh() and contact_nodes(). Throws errors::Error (internal) for another shape
@@ -147,6 +164,8 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
   const std::vector<std::int32_t>& field_nodes(std::size_t subdomain) const;
   /// Triangles of a subdomain, (m_i,3) row-major, as indices into field_nodes.
   const std::vector<std::int32_t>& field_triangles(std::size_t subdomain) const;
+  /// Means of Txx, Txy, Tyy over these triangles, (m_i,3) row-major.
+  std::vector<double> field_tension(std::size_t subdomain) const;
   /// The memory held now, measured, in bytes, including the mesh and the bounds being computed.
   std::size_t bytes() const noexcept;
   /// theta* for lumped mass; 0 if Algorithm 2 does not apply. Computed at the first use: O(n_G^3).

@@ -3,8 +3,6 @@
 // The data of the types of mesh_operator.hpp; only this folder includes it.
 #pragma once
 
-#include <atomic>
-#include <cstddef>
 #include <memory>
 #include <optional>
 #include <span>
@@ -22,26 +20,12 @@
 #include "estimate/cut_mesh.hpp"
 #include "estimate/mesh_dual.hpp"
 #include "operators/basis_cache.hpp"
+#include "operators/boundary_forces.hpp"
 #include "operators/condense_loads.hpp"
 #include "operators/mesh_operator.hpp"
 #include "tips/tips.hpp"
 
 namespace anticrack::operators {
-
-/// Counts memory that is taken for a while in MeshOperator::bytes(); made before it is taken.
-class Working {
- public:
-  Working(std::atomic<std::size_t>& sum, std::size_t bytes) : _sum(sum), _bytes(bytes) {
-    _sum += _bytes;
-  }
-  ~Working() { _sum -= _bytes; }
-  Working(const Working&) = delete;
-  Working& operator=(const Working&) = delete;
-
- private:
-  std::atomic<std::size_t>& _sum;
-  const std::size_t _bytes;
-};
 
 struct MeshOperator::Parts {
   Parts(std::shared_ptr<const mesh::Mesh> cut_mesh, int threads, std::size_t condensed_up_to);
@@ -55,15 +39,18 @@ struct MeshOperator::Parts {
   std::unique_ptr<const contact::ContactProblem> contact;  // refers to the problem
   contact::SweepGeometry sweep_geometry;
   std::vector<contact::TraceGeometry> geometry;
+  mutable std::atomic<std::size_t> at_work{0};  // bytes of Working; outlives what is counted in it
   mutable BasisCache bases;
   base::Lazy<estimate::CutMesh> cut;  // made for the first bounds; see cut_mesh()
   base::Lazy<std::vector<estimate::MeshDual>> mesh_duals;  // see aims.hpp
-  base::Lazy<tips::Tips> tips;                  // refers to the decomposition; see all_tips()
-  mutable std::atomic<std::size_t> at_work{0};  // bytes of Working
+  base::Lazy<tips::Tips> tips;          // refers to the decomposition; see all_tips()
+  base::Lazy<BoundaryForces> boundary;  // refers to the decomposition
 
   const estimate::CutMesh& cut_mesh() const;
   /// The tips, prepared at the first call.
   const tips::Tips& all_tips() const;
+  /// The parts of the boundary, found at the first call.
+  const BoundaryForces& boundary_forces() const;
   /// The function that condenses the loads of a subdomain.
   Condense condense() const;
 };

@@ -11,7 +11,7 @@
 
 #include "base/at.hpp"
 #include "errors/errors.hpp"
-#include "fem/point_location.hpp"
+#include "operators/find_points.hpp"
 
 namespace anticrack::operators {
 namespace {
@@ -19,64 +19,9 @@ namespace {
 using errors::Error;
 using errors::Reason;
 
-double diagonal(const mesh::Mesh& mesh) {
-  fem::PlanePoint low = mesh::position(mesh, 0), high = low;
-  for (std::size_t i = 0; i < mesh.xy.size(); ++i) {
-    low[i % 2] = std::min(low[i % 2], mesh.xy[i]);
-    high[i % 2] = std::max(high[i % 2], mesh.xy[i]);
-  }
-  return std::hypot(high[0] - low[0], high[1] - low[1]);
-}
-
 Error refused(std::size_t index, const fem::PointForce& force, const std::string& why) {
   return Error(Reason::invalid_argument, "the point {} is {}", errors::shown(force.x, force.y), why)
       .at(fmt::format("point_forces[{}].at", index));
-}
-
-/// The interface edge, other than glue, on which a point lies.
-struct OnInterface {
-  std::int32_t inclusion = -1;
-  const mesh::Interface* crack = nullptr;
-};
-
-std::vector<OnInterface> find_on_interfaces(const mesh::Mesh& mesh, const fem::PointSet& points,
-                                            double tolerance) {
-  std::vector<OnInterface> found(points.size());
-  for (const mesh::Interface& interface : mesh.interfaces) {
-    for (std::size_t e = 0; e < interface.kind.size(); ++e) {
-      if (interface.kind[e] == mesh::Kind::glue) continue;
-      const std::array<fem::PlanePoint, 2> ends{mesh::position(mesh, interface.nodes[e]),
-                                                mesh::position(mesh, interface.nodes[e + 1])};
-      points.visit_near(ends, tolerance, [&](std::size_t i) {
-        if (fem::distance_to_segment(points[i], ends[0], ends[1]) > tolerance) {
-          return;
-        }
-        if (interface.inclusion[e] < 0)
-          found[i].crack = &interface;
-        else
-          found[i].inclusion = interface.inclusion[e];
-      });
-    }
-  }
-  return found;
-}
-
-/// The place of a point, in the subdomain where it lies deepest.
-struct Placed {
-  std::size_t subdomain = 0;
-  fem::Location location;
-};
-
-std::vector<Placed> find_in_subdomains(const ddm::Decomposition& decomposition,
-                                       const fem::PointSet& points, double tolerance) {
-  std::vector<Placed> found(points.size());
-  for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
-    const std::vector<fem::Location> here =
-        fem::locate(decomposition.subdomains[s].part, points, tolerance);
-    for (std::size_t i = 0; i < here.size(); ++i)
-      if (here[i].depth > found[i].location.depth) found[i] = {s, here[i]};
-  }
-  return found;
 }
 
 void place_points(const std::vector<fem::PointForce>& forces, const mesh::Mesh& mesh,
@@ -86,13 +31,12 @@ void place_points(const std::vector<fem::PointForce>& forces, const mesh::Mesh& 
   std::vector<fem::PlanePoint> positions;
   positions.reserve(forces.size());
   for (const fem::PointForce& force : forces) positions.push_back({force.x, force.y});
-  const fem::PointSet points(positions);
-  const double tolerance = point_tolerance * diagonal(mesh);
-  const std::vector<OnInterface> on = find_on_interfaces(mesh, points, tolerance);
-  const std::vector<Placed> in = find_in_subdomains(decomposition, points, tolerance);
+  const std::vector<PointPlace> places = find_points(positions, mesh, decomposition);
   for (std::size_t i = 0; i < forces.size(); ++i) {
-    if (on[i].inclusion >= 0) {
-      const auto j = at(on[i].inclusion);
+    const auto& [line, edge, in, location] = places[i];
+    const mesh::Interface* const on = line < 0 ? nullptr : &mesh.interfaces[at(line)];
+    if (on != nullptr && on->inclusion[at(edge)] >= 0) {
+      const auto j = at(on->inclusion[at(edge)]);
       const ddm::RigidMotion& motion = decomposition.skeleton.motions[j];
       contact::RigidForce& on_inclusion = given[j];
       on_inclusion.force += forces[i].value;
@@ -101,19 +45,17 @@ void place_points(const std::vector<fem::PointForce>& forces, const mesh::Mesh& 
       on_inclusion.moment_y += forces[i].value * (forces[i].y - motion.centre[1]);
       continue;
     }
-    if (on[i].crack != nullptr) {
+    if (on != nullptr && on->kind[at(edge)] != mesh::Kind::glue) {
       throw refused(i, forces[i],
-                    "on a crack of interface \"" + on[i].crack->name +
+                    "on a crack of interface \"" + on->name +
                         "\", whose sides move apart: move it to the side that is meant");
     }
-    const fem::Location& location = in[i].location;
     if (location.triangle < 0) throw refused(i, forces[i], "outside the membrane: move it inside");
-    const ddm::Subdomain& subdomain = decomposition.subdomains[in[i].subdomain];
+    const ddm::Subdomain& subdomain = decomposition.subdomains[in];
     placed.points.push_back({forces[i].x, forces[i].y});
     for (std::size_t a = 0; a < 3; ++a) {
-      placed.subdomains[in[i].subdomain].push_back(
-          {subdomain.part.triangles[3 * at(location.triangle) + a],
-           location.weight[a] * forces[i].value});
+      placed.subdomains[in].push_back({subdomain.part.triangles[3 * at(location.triangle) + a],
+                                       location.weight[a] * forces[i].value});
     }
   }
 }

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -11,6 +12,8 @@
 #include "contact/sweep_solver.hpp"
 #include "errors/errors.hpp"
 #include "operators/mesh_parts.hpp"
+#include "operators/row_bounds.hpp"
+#include "operators/row_tips.hpp"
 #include "stop/stop.hpp"
 
 namespace anticrack::operators {
@@ -70,6 +73,7 @@ CondensedBasis basis_of(std::vector<LoadOnTraces> loads, std::vector<BalancedLoa
   }
   std::vector<contact::CaseLoads> cases;
   for (LoadOnTraces& load : loads) {
+    load.parts = {};
     for (ddm::CondensedLoad& part : load.subdomains) {
       if (condensed && result.balanced.empty()) part.z_interior.resize(0);
       part.z_boundary.resize(0);
@@ -96,24 +100,39 @@ const std::vector<std::string>& LoadBasis::warnings() const noexcept {
 }
 
 std::shared_ptr<const LoadBasis> MeshOperator::basis(std::span<const fem::Load* const> loads,
-                                                     const std::stop_token& stop,
-                                                     bool bounds) const {
+                                                     const std::stop_token& stop, bool bounds,
+                                                     std::uint64_t rows, bool tips) const {
   if (loads.empty()) {
     throw errors::Error(errors::Reason::invalid_argument, "a sweep combines at least one load")
         .at("load_cases");
   }
   const stop::Scope scope(stop);
-  require_memory(loads.size(), _parts->decomposition, bounds);
+  const bool interiors = bounds || tips;
+  require_memory(loads.size(), _parts->decomposition, interiors);
+  const Bounds kind = !bounds                             ? Bounds::none
+                      : shares_bounds(loads.size(), rows) ? Bounds::shared
+                                                          : Bounds::own;
+  const std::optional<std::string> key = key_of(loads, kind, tips);
   const auto make = [&]() -> BasisCache::Basis {
-    std::vector<LoadOnTraces> condensed = sound(condense_loads(
-        loads, *_parts->mesh, _parts->decomposition, _parts->condense(), _parts->neumann, bounds));
+    std::vector<LoadOnTraces> condensed =
+        sound(condense_loads(loads, *_parts->mesh, _parts->decomposition, _parts->condense(),
+                             _parts->neumann, interiors));
+    std::shared_ptr<const RowTips> of_tips;
+    if (tips) of_tips = std::make_shared<const RowTips>(row_tips(*_parts, condensed));
     std::vector<BalancedLoad> of_bounds;
     if (bounds)
       of_bounds = balanced(loads, condensed, _parts->decomposition.subdomains, _parts->cut_mesh());
-    return std::make_shared<const CondensedBasis>(
-        basis_of(std::move(condensed), std::move(of_bounds), *_parts));
+    CondensedBasis made = basis_of(std::move(condensed), std::move(of_bounds), *_parts);
+    if (of_tips) {
+      made.warnings.insert(made.warnings.end(), of_tips->warnings.begin(), of_tips->warnings.end());
+      made.tips = std::move(of_tips);
+    }
+    if (kind == Bounds::shared)
+      made.shared = shared_bounds(*_parts, made.loads, made.balanced, made.reduced);
+    made.counted =
+        std::make_unique<const Working>(_parts->at_work, made.bytes() + (key ? key->size() : 0));
+    return std::make_shared<const CondensedBasis>(std::move(made));
   };
-  const std::optional<std::string> key = key_of(loads, bounds);
   return std::make_shared<const LoadBasis>(std::make_shared<const LoadBasis::Data>(
       LoadBasis::Data{shared_from_this(), key ? _parts->bases.get(*key, stop, make) : make()}));
 }
@@ -146,11 +165,24 @@ bool MeshOperator::sweep(const LoadBasis& basis, std::span<const double> coeffic
   if (basis._data->mesh_operator.get() != this || coefficients.size() != rows.rows() * m)
     throw errors::Error(errors::Reason::internal, "coefficients of another basis");
   const contact::SweepLoads& loads = basis._data->basis->reduced;
+  const SharedBounds* shared = basis._data->basis->shared.get();
+  const RowTips* tips = rows.tips > 0 ? basis._data->basis->tips.get() : nullptr;
+  std::optional<RowBounds> bounds;
+  if (shared != nullptr && !rows.energy_lower.empty()) bounds.emplace(*_parts, *shared, loads);
   return sweep_rows(options, rows, start, stop,
                     contact::solving_order(loads, coefficients, rows.rows()),
                     [&](contact::SweepSolver& solver, std::size_t row) {
-                      solver.solve(loads, coefficients.subspan(row * m, m), row, rows);
+                      const auto c = coefficients.subspan(row * m, m);
+                      solver.solve(loads, c, row, rows);
+                      if (rows.status[row] != contact::Status::converged) return;
+                      if (bounds) bounds->find(c, solver.answer(), row, rows);
+                      if (tips != nullptr)
+                        find_row_tips(*_parts, *tips, c, solver.answer(), row, rows);
                     });
+}
+
+bool MeshOperator::shares_bounds(std::size_t loads, std::uint64_t rows) const {
+  return operators::shares_bounds(*_parts, loads, rows);
 }
 
 bool MeshOperator::sweep(std::span<const PreparedLoad> loads,
@@ -183,9 +215,7 @@ PreparedLoad MeshOperator::combine(const LoadBasis& basis,
   if (data->has_interior) {
     data->balanced = operators::combine(condensed.balanced, coefficients);
     data->condensed.parts.obstacle = data->balanced->obstacle;
-    Eigen::VectorXd sizes = Eigen::VectorXd::Ones(condensed.reduced.energy.cols());
-    sizes.head(c.size()) = c.cwiseAbs();
-    data->parts_energy = sizes.dot(condensed.reduced.energy.cwiseAbs() * sizes);
+    data->parts_energy = condensed.reduced.parts_energy(coefficients);
   }
   data->condensed.warnings = condensed.warnings;
   for (std::size_t s = 0; s < condensed.products.size(); ++s) {

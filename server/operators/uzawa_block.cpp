@@ -52,11 +52,20 @@ int UzawaBlock::add(PreparedLoad load, const contact::UzawaOptions& options, boo
 void UzawaBlock::step() { _state->columns.step(); }
 
 /// An answer that is stopped meanwhile is cancelled.
-void UzawaBlock::measure_tips(const PreparedLoad& load, contact::Answer& answer,
-                              const std::stop_token& stop) const {
+void UzawaBlock::measure(const PreparedLoad& load, contact::Answer& answer,
+                         const std::stop_token& stop) const {
   if (answer.status == contact::Status::cancelled) return;
   try {
-    _state->mesh_operator->find_tips(load, answer, stop);
+    const MeshOperator& mesh_operator = *_state->mesh_operator;
+    const bool recovered = answer.fields.empty();
+    if (recovered) {
+      const PreparedLoad* const loads[] = {&load};
+      contact::Answer* const answers[] = {&answer};
+      mesh_operator.recover_fields(loads, answers);
+    }
+    mesh_operator.find_boundary(load, answer);
+    mesh_operator.find_tips(load, answer, stop);
+    if (recovered) answer.fields.clear();
   } catch (const errors::Error& error) {
     if (error.reason() != errors::Reason::cancelled || !stop.stop_requested()) throw;
   }
@@ -68,7 +77,7 @@ std::vector<UzawaBlock::Ended> UzawaBlock::take_ended() {
   for (contact::UzawaBlock::Ended& one : _state->columns.take_ended()) {
     std::optional<PreparedLoad>& load = _state->loads[at(one.place)];
     load->_data->add_warnings(one.answer);
-    measure_tips(*load, one.answer, _state->stops[at(one.place)]);
+    measure(*load, one.answer, _state->stops[at(one.place)]);
     load.reset();
     ended.push_back({one.place, std::move(one.answer)});
   }

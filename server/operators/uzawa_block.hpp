@@ -32,7 +32,7 @@ class UzawaBlock {
 
   /// Adds a column and returns its place, below capacity(), which it keeps until its answer is
   /// taken. `options.mass` must be the block's; the observer must outlive the column. After a
-  /// `stop` its tips are not measured.
+  /// `stop` its forces and tips are not measured.
   int add(PreparedLoad load, const contact::UzawaOptions& options, bool fields,
           contact::Observer& observer, std::stop_token stop = {});
   /// Iterates every column once. O(n_G^2 columns), no allocation. An observer that returns false
@@ -43,14 +43,14 @@ class UzawaBlock {
     int place = 0;
     contact::Answer answer;
   };
-  /// Takes the columns that have ended, in the order of their places, and frees the places. Fields
-  /// and tips take a backward solve each.
+  /// Takes the columns that have ended, in the order of their places, and frees the places. Each
+  /// takes a backward solve, for its fields, forces and tips.
   std::vector<Ended> take_ended();
 
  private:
   struct State;
-  void measure_tips(const PreparedLoad& load, contact::Answer& answer,
-                    const std::stop_token& stop) const;
+  void measure(const PreparedLoad& load, contact::Answer& answer,
+               const std::stop_token& stop) const;
   std::unique_ptr<State> _state;
 };
 

@@ -13,6 +13,7 @@
 #include "fem/load.hpp"
 #include "fields/fields.hpp"
 #include "growth/path.hpp"
+#include "mesh/bend.hpp"
 #include "records/priority.hpp"
 
 namespace anticrack::records {
@@ -29,8 +30,9 @@ struct SweepSpec {
   std::vector<std::uint32_t> traces{};  ///< rows whose traces are kept, ascending
   bool packed = false;                  ///< the matrix came with the job
   bool bounds = false;                  ///< rows have bounds of their errors
+  bool tips = false;                    ///< rows have numbers of tips
 };
-ANTICRACK_FIELDS(SweepSpec, cases, upload, rows, traces, packed, bounds)
+ANTICRACK_FIELDS(SweepSpec, cases, upload, rows, traces, packed, bounds, tips)
 
 /// Load cases solved stage after stage, on meshes refined until their bounds are close enough.
 struct AccuracySpec {
@@ -60,6 +62,15 @@ struct Units {
 };
 ANTICRACK_FIELDS(Units, length, force)
 
+/// A point, or with `to` a line of evenly spaced points, at which answers tell u.
+struct Probe {
+  std::string name;
+  mesh::Point from{};
+  std::optional<mesh::Point> to{};
+  int points = 0;  ///< of a line
+};
+ANTICRACK_FIELDS(Probe, name, from, to, points)
+
 /// The request of a client for a job.
 struct JobSpec {
   std::string title;
@@ -73,11 +84,12 @@ struct JobSpec {
   std::optional<AccuracySpec> accuracy{};  ///< solved in stages
   std::optional<GrowthSpec> growth{};      ///< fronts grow under each load
   std::optional<Units> units{};            ///< of all numbers
+  std::vector<Probe> probes{};
   Priority priority = Priority::normal;
   std::chrono::milliseconds queue_time_limit{0};  ///< from creation to start; 0: the server's limit
   std::chrono::milliseconds run_time_limit{0};    ///< from start to end; 0: the server's limit
 };
 ANTICRACK_FIELDS(JobSpec, title, mesh, loads, solver, fields, indicators, without_bounds, sweep,
-                 accuracy, growth, units, priority, queue_time_limit, run_time_limit)
+                 accuracy, growth, units, probes, priority, queue_time_limit, run_time_limit)
 
 }  // namespace anticrack::records

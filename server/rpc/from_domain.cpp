@@ -54,13 +54,18 @@ void append_rows(To& to, const std::vector<From>& from, std::size_t first, std::
   to.Add(begin, begin + static_cast<std::ptrdiff_t>(count));
 }
 
+void clear_rows(v1::LoadCaseAnswer& answer) {
+  answer.clear_tips();
+  answer.clear_boundary();
+}
+
 }  // namespace
 
 v1::LoadCaseAnswer from_domain(const records::CaseRecord& record, const std::string& name) {
   v1::LoadCaseAnswer answer = api::message(record);
   answer.set_name(name);
   present(record, answer);
-  if (answer.ByteSizeLong() > max_job_message_bytes) answer.clear_tips();
+  if (answer.ByteSizeLong() > max_job_message_bytes) clear_rows(answer);
   return answer;
 }
 
@@ -75,7 +80,7 @@ v1::Job from_domain(const records::JobRecord& record) {
   status.set_load_case_count(job.spec().load_cases_size());
   status.set_load_cases_ended(load_cases_ended(record));
   if (job.ByteSizeLong() > max_job_message_bytes)
-    for (v1::LoadCaseAnswer& answer : *status.mutable_answers()) answer.clear_tips();
+    for (v1::LoadCaseAnswer& answer : *status.mutable_answers()) clear_rows(answer);
   if (job.ByteSizeLong() > max_job_message_bytes)
     for (v1::LoadCaseAnswer& answer : *status.mutable_answers()) answer.clear_contact_intervals();
   if (job.ByteSizeLong() > max_job_message_bytes)

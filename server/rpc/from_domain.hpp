@@ -26,13 +26,14 @@ v1::Mesh from_domain(const records::MeshRecord& record, bool pinned);
 /// An upload. `ttl`: how long uploads are kept; 0: for ever.
 v1::Upload from_domain(const store::UploadRecord& record, std::chrono::milliseconds ttl);
 
-/// The whole job. If it would be larger than max_job_message_bytes, its tips and contact intervals
-/// are left out; ReadResult has the latter as traces.
+/// The whole job. If it would be larger than max_job_message_bytes, its tips, forces on the
+/// boundary and contact intervals are left out; ReadResult has the latter as traces.
 v1::Job from_domain(const records::JobRecord& record);
 /// The job in JOB_VIEW_BASIC.
 v1::Job basic(records::JobRecord record);
 
-/// An answer, without tips if they do not fit. `name`: that of the load case.
+/// An answer, without tips and forces on the boundary if they do not fit. `name`: that of the load
+/// case.
 v1::LoadCaseAnswer from_domain(const records::CaseRecord& record, const std::string& name);
 
 /// Appends the samples to the arrays, with one allocation per array and one copy per array and run.

@@ -53,6 +53,7 @@ constexpr std::array features{
     "priority",
     "sweep",
     "sweep.bounds",
+    "sweep.tips",
     "timeouts",
     "traction",
     "units",

@@ -138,9 +138,7 @@ Corners Tips::corners(const Cell& cell) const {
 }
 
 Tensor Tips::tension(const Cell& cell) const {
-  const fem::Tension& tension = _decomposition.subdomains[at(cell.subdomain)].tension;
-  if (tension.of_triangle.empty()) return {tension.mean, 0, tension.mean};
-  return tension.of_triangle[at(cell.triangle)];
+  return _decomposition.subdomains[at(cell.subdomain)].tension.matrix(at(cell.triangle));
 }
 
 TipAnswer Tips::row_of(const Tip& tip) const {
@@ -163,27 +161,41 @@ std::vector<TipAnswer> Tips::without_numbers(const std::string& reason) const {
   return rows;
 }
 
+std::string Tips::reason_of(const Tip& tip, std::span<const Point> points) {
+  if (!tip.place.reason.empty()) return tip.place.reason;
+  for (const Point& force : points) {
+    const Point from = minus(force, tip.place.course.tip);
+    if (std::hypot(from[0], from[1]) <= tip.radius)
+      return fmt::format("a point force acts within {:.3g} of it: spread it over a disc",
+                         tip.radius);
+  }
+  return {};
+}
+
+std::string Tips::obstacle(std::size_t index, std::span<const Point> points) const {
+  const Tip& tip = _tips[index];
+  if (tip.place.inclusion >= 0 && _tilts[at(tip.place.inclusion)] != 0)
+    return "its inclusion tilts, and rows have no numbers of such tips";
+  return reason_of(tip, points);
+}
+
 std::vector<TipAnswer> Tips::of(const Solved& solved) const {
   std::vector<TipAnswer> rows;
-  for (const Tip& tip : _tips) {
-    stop::look(measuring, rows.size());
+  for (std::size_t i = 0; i < _tips.size(); ++i) {
+    stop::look(measuring, i);
+    const Tip& tip = _tips[i];
     TipAnswer& row = rows.emplace_back(row_of(tip));
-    for (const Point& force : solved.point_forces) {
-      const Point from = minus(force, tip.place.course.tip);
-      if (row.reason.empty() && std::hypot(from[0], from[1]) <= tip.radius)
-        row.reason = fmt::format("a point force acts within {:.3g} of it: spread it over a disc",
-                                 tip.radius);
-    }
-    if (row.reason.empty()) measure(tip, solved, row);
+    row.reason = reason_of(tip, solved.point_forces);
+    if (!row.reason.empty()) continue;
+    const contact::Trace& trace = solved.answer.traces[at(tip.place.interface)];
+    row = told(i, integrals(i, solved),
+               trace.contact[tip.first_behind] != 0 || trace.jump[tip.first_behind] <= 0);
   }
   return rows;
 }
 
-Integrals Tips::integrals(std::size_t tip, const Solved& solved) const {
-  return integrals(_tips[tip], solved);
-}
-
-Integrals Tips::integrals(const Tip& tip, const Solved& solved) const {
+Integrals Tips::integrals(std::size_t index, const Solved& solved) const {
+  const Tip& tip = _tips[index];
   const Place& place = tip.place;
   const Singular& singular = tip.singular.front();
   const Extraction& extraction = tip.extraction.front();
@@ -218,26 +230,26 @@ Integrals Tips::integrals(const Tip& tip, const Solved& solved) const {
   return result;
 }
 
-void Tips::measure(const Tip& tip, const Solved& solved, TipAnswer& row) const {
-  const Place& place = tip.place;
+TipAnswer Tips::told(std::size_t index, const Integrals& integrals, bool touching) const {
+  const Tip& tip = _tips[index];
+  const TipKind kind = tip.place.kind;
   const Singular& singular = tip.singular.front();
-  const auto [rates, dual] = integrals(tip, solved);
-  const contact::Trace& trace = solved.answer.traces[at(place.interface)];
-  row.closed = place.unilateral && (trace.contact[tip.first_behind] != 0 ||
-                                    trace.jump[tip.first_behind] <= 0 || dual <= 0);
+  const auto& [rates, dual] = integrals;
+  TipAnswer row = row_of(tip);
+  row.closed = tip.place.unilateral && (touching || dual <= 0);
   const auto [least, most] = std::ranges::minmax(rates);
-  const bool grows = place.kind == TipKind::front || place.kind == TipKind::crack_tip;
-  if (grows) {
+  if (kind == TipKind::front || kind == TipKind::crack_tip) {
     row.energy_release_rate = row.closed ? 0 : std::max(0.0, rates.back());
     row.energy_release_rate_spread = most - least;
   }
   if (row.closed)
     row.intensity = 0;
-  else if (place.kind == TipKind::delaminated_end)
+  else if (kind == TipKind::delaminated_end)
     row.intensity = dual;
   else
     row.intensity = std::copysign(singular.intensity_of(rates.back()), dual);
-  if (place.kind == TipKind::crack_tip) row.k_iii = singular.k_iii(*row.intensity);
+  if (kind == TipKind::crack_tip) row.k_iii = singular.k_iii(*row.intensity);
+  return row;
 }
 
 std::size_t Tips::bytes() const noexcept {

@@ -15,6 +15,7 @@
 #include "contact/answer.hpp"
 #include "mesh/mesh.hpp"
 #include "tips/extraction.hpp"
+#include "tips/form.hpp"
 #include "tips/places.hpp"
 #include "tips/release.hpp"
 
@@ -53,6 +54,17 @@ class Tips {
   std::vector<contact::TipAnswer> of(const Solved& solved) const;
   /// The integrals of a tip, by its index, which has no reason.
   Integrals integrals(std::size_t tip, const Solved& solved) const;
+  /// The same of any u and load, as forms. Of a tip without an obstacle.
+  Form form(std::size_t tip) const;
+  /// Why a tip has no form; empty if it has one. `points`: where forces act on the membrane itself.
+  std::string obstacle(std::size_t tip, std::span<const Point> points) const;
+  /// The row of a tip with these integrals. `touching`: its faces touch right behind it, in the
+  /// node `behind`.
+  contact::TipAnswer told(std::size_t tip, const Integrals& integrals, bool touching) const;
+  /// The interface of a tip and the index of the next node behind it there.
+  std::array<std::int32_t, 2> behind(std::size_t tip) const noexcept {
+    return {_tips[tip].place.interface, static_cast<std::int32_t>(_tips[tip].first_behind)};
+  }
   /// The rows without numbers, for one reason.
   std::vector<contact::TipAnswer> without_numbers(const std::string& reason) const;
 
@@ -73,8 +85,7 @@ class Tips {
   };
 
   contact::TipAnswer row_of(const Tip& tip) const;
-  Integrals integrals(const Tip& tip, const Solved& solved) const;
-  void measure(const Tip& tip, const Solved& solved, contact::TipAnswer& row) const;
+  static std::string reason_of(const Tip& tip, std::span<const Point> points);
   void prepare(const mesh::Mesh& mesh, std::span<const Cell> local,
                const class Surroundings& around, std::span<const Law> laws, Tip& tip) const;
   Corners corners(const Cell& cell) const;

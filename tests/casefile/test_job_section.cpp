@@ -36,6 +36,32 @@ TEST(UnitsSection, NamesUnits) {
               HasSubstr("did you mean length?"));
 }
 
+TEST(OutputSection, HasProbes) {
+  const Case the_case = parse(sample_text + R"([[output.probe]]
+at = [0.5, 0.25]
+[[output.probe]]
+name = "middle"
+from = [-1, 0]
+to = [1, 0]
+points = 5
+)");
+  ASSERT_EQ(the_case.spec.probes_size(), 2);
+  EXPECT_EQ(the_case.spec.probes(0).from().y(), 0.25);
+  EXPECT_FALSE(the_case.spec.probes(0).has_to());
+  EXPECT_EQ(the_case.spec.probes(1).name(), "middle");
+  EXPECT_EQ(the_case.spec.probes(1).to().x(), 1);
+  EXPECT_EQ(the_case.spec.probes(1).points(), 5);
+  EXPECT_EQ(locate(the_case, "spec.probes[0].from")->line, 22U);
+  EXPECT_EQ(locate(the_case, "spec.probes[1].points")->line, 27U);
+  for (const char* half : {"points = 3", "from = [0, 0]\nto = [1, 0]", "to = [1, 0]\npoints = 3",
+                           "at = [0, 0]\npoints = 3", "at = [0, 0]\nfrom = [0, 0]"})
+    EXPECT_THAT(complaint(sample_text + "[[output.probe]]\n" + half + "\n"),
+                HasSubstr("plate.toml:21: output.probe.0: neither a point nor a line; write at = "))
+        << half;
+  EXPECT_THAT(complaint(sample_text + "[[output.probe]]\nat = [nan, 0]\n"),
+              HasSubstr("plate.toml:22: output.probe.0.at: "));
+}
+
 TEST(JobSection, NamesWhatIsWrong) {
   EXPECT_THAT(complaint(sample_text + "[job]\npriority = \"blk\"\n"),
               HasSubstr("did you mean bulk?"));

@@ -99,6 +99,23 @@ TEST_F(Check, NamesTheLoadAtFault) {
               "load_cases[3].point_forces", Reason::limit_exceeded));
 }
 
+TEST_F(Check, NamesTheProbeAtFault) {
+  const auto with = [](records::Probe probe) {
+    return [probe](JobSpec& s) { s.probes = {{"a", {0, 0}}, probe}; };
+  };
+  const double nan = std::nan("");
+  EXPECT_FALSE(refuses(with({"", {1, 0}, {{2, 0}}, 999}), ""));
+  EXPECT_TRUE(refuses(with({"a", {1, 0}}), "probes[1].name"));
+  EXPECT_TRUE(refuses(with({"two words", {1, 0}}), "probes[1].name"));
+  EXPECT_TRUE(refuses(with({"b", {nan, 0}}), "probes[1].from"));
+  EXPECT_TRUE(refuses(with({"b", {0, 0}, {{0, nan}}, 3}), "probes[1].to"));
+  EXPECT_TRUE(refuses(with({"b", {0, 0}, {{0, 0}}, 3}), "probes[1].to"));
+  EXPECT_TRUE(refuses(with({"b", {0, 0}, {{1, 0}}, 1}), "probes[1].points"));
+  EXPECT_TRUE(refuses(with({"b", {0, 0}, {}, 2}), "probes[1].points"));
+  EXPECT_TRUE(
+      refuses(with({"b", {0, 0}, {{1, 0}}, 1000}), "probes[1].points", Reason::limit_exceeded));
+}
+
 TEST_F(Check, NamesTheParameterAtFault) {
   EXPECT_TRUE(refuses([](JobSpec& spec) { uzawa(spec).theta = 0; }, "solver.uzawa.theta"));
   EXPECT_TRUE(refuses([](JobSpec& spec) { active_set(spec).tolerance = -1; },

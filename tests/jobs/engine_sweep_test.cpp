@@ -81,7 +81,7 @@ void expect_same_contact(const records::BlockSource& sweep, const records::Block
 void expect_same_traces(const records::BlockSource& sweep, const records::BlockSource& plain,
                         const std::vector<std::uint32_t>& rows) {
   for (const std::uint32_t row : rows) {
-    for (const char* name : {"u_minus", "u_plus", "jump", "pressure"}) {
+    for (const char* name : {"u_minus", "u_plus", "jump", "pressure", "flux", "force"}) {
       const std::string path = "traces/" + std::to_string(row) + "/0/" + name;
       const auto values = array<double>(sweep, path);
       ASSERT_TRUE(values) << path;
@@ -122,10 +122,54 @@ TEST(EngineSweep, CombinesAsLoadCasesDo) {
   EXPECT_EQ(record.sweep.worst_kkt, largest(*array<double>(*result, "sweep/kkt")));
 }
 
+/// The bounds of energy or A, `what`, of all rows.
+struct RowIntervals {
+  RowIntervals(const records::BlockSource& result, const std::string& what)
+      : lower(*array<double>(result, "sweep/" + what + "_lower")),
+        upper(*array<double>(result, "sweep/" + what + "_upper")) {}
+  std::vector<double> lower, upper;
+};
+
+/// Rows and the same loads as load cases: numbers of the mesh are the same, and bounds of both hold
+/// the same exact number and are about as wide. Returns how many rows have bounds of A of their
+/// own.
+std::size_t expect_bounds_as_load_cases(const records::BlockSource& result,
+                                        const JobRecord& plain) {
+  const RowIntervals energy(result, "energy"), a(result, "displacement");
+  const auto middles = *array<double>(result, "sweep/energy");
+  std::vector<double> energies, displacements;
+  std::size_t others = 0;
+  const auto compare = [&](double lower, double upper, double of_lower, double of_upper) {
+    const double rounding = 1e-12 * (std::abs(of_lower) + std::abs(of_upper));
+    EXPECT_LE(lower, of_upper + rounding);
+    EXPECT_GE(upper, of_lower - rounding);
+    EXPECT_LE(upper - lower, 2 * (of_upper - of_lower) + rounding);
+    others += lower != of_lower ? 1 : 0;
+  };
+  for (std::size_t row = 0; row < plain.cases.size(); ++row) {
+    SCOPED_TRACE("row " + std::to_string(row));
+    const contact::AnswerSummary& answer = plain.cases[row].answer;
+    energies.push_back(answer.energy_mesh);
+    compare(energy.lower[row], energy.upper[row], *answer.energy_lower, *answer.energy_upper);
+    EXPECT_EQ(middles[row], (energy.lower[row] + energy.upper[row]) / 2);
+    for (const contact::InclusionAnswer& one : answer.inclusions) {
+      const std::size_t place = displacements.size();
+      displacements.push_back(one.displacement_mesh);
+      compare(a.lower[place], a.upper[place], *one.displacement_lower, *one.displacement_upper);
+    }
+  }
+  expect_near(*array<double>(result, "sweep/energy_mesh"), energies);
+  expect_near(*array<double>(result, "sweep/displacement_mesh"), displacements);
+  return others;
+}
+
 TEST(EngineSweep, HasTheBoundsOfLoadCasesWhereItIsAskedForThem) {
   Engine test;
   const std::string mesh = test.ready_mesh(mesh_size);
-  const std::vector<double> matrix = eighths(20 * std::size_t{3}, 5);  // three chunks
+  // Three chunks of rows that share their bounds; one has no load, and one little.
+  std::vector<double> matrix = eighths(600 * std::size_t{3}, 5);
+  std::fill_n(matrix.begin() + 3 * 17, 3, 0.0);
+  std::fill_n(matrix.begin() + 3 * 18, 3, 1.0 / 64);
   records::JobSpec spec = combinations(mesh, upload(test.backend, matrix));
   const std::string without = test.submit(spec);
   test.ended(without);
@@ -135,12 +179,35 @@ TEST(EngineSweep, HasTheBoundsOfLoadCasesWhereItIsAskedForThem) {
   ASSERT_EQ(ended.state, JobState::succeeded);
   EXPECT_TRUE(ended.sweep.warnings.empty());
   const auto result = test.engine.result(sweep), other = test.engine.result(without);
-  expect_same_answers(*result, expected, true);
-  for (const std::string name : {"sweep/energy", "sweep/displacement"}) {
-    EXPECT_EQ(*array<double>(*result, name + "_mesh"), *array<double>(*other, name));
+  EXPECT_GT(expect_bounds_as_load_cases(*result, expected), 600U) << "bounded one by one";
+  for (const std::string name : {"energy", "displacement"}) {
+    EXPECT_EQ(*array<double>(*result, "sweep/" + name + "_mesh"),
+              *array<double>(*other, "sweep/" + name));
     for (const char* part : {"_lower", "_upper", "_mesh"})
-      EXPECT_EQ(layout(*other, name + part), nullptr) << name << part;
+      EXPECT_EQ(layout(*other, "sweep/" + name + part), nullptr) << name << part;
+    const RowIntervals of(*result, name);
+    const std::size_t count = of.lower.size() / 600;
+    EXPECT_EQ(largest({of.lower.begin() + 17 * count, of.lower.begin() + 18 * count}), 0);
+    EXPECT_EQ(largest({of.upper.begin() + 17 * count, of.upper.begin() + 18 * count}), 0);
   }
+}
+
+/// Where rows cannot share, as with boundary values that bend, they have the bounds of load cases.
+TEST(EngineSweep, BoundsRowsOneByOneWhereTheyCannotShare) {
+  Engine test;
+  const std::string mesh = test.ready_mesh(mesh_size);
+  const std::vector<double> matrix = eighths(20 * std::size_t{3}, 5);
+  records::JobSpec spec = combinations(mesh, upload(test.backend, matrix));
+  records::JobSpec cases = one_by_one(mesh, matrix);
+  spec.loads[1].boundary_value = "x^2";
+  for (std::size_t row = 0; row < 20; ++row)
+    cases.loads[row].boundary_value = "(" + std::to_string(matrix[3 * row + 1]) + ")*x^2";
+  spec.sweep->bounds = true;
+  const std::string sweep = test.submit(spec), plain = test.submit(cases);
+  ASSERT_EQ(test.ended(sweep).state, JobState::succeeded);
+  const JobRecord expected = test.ended(plain);
+  const auto result = test.engine.result(sweep);
+  expect_same_answers(*result, expected, true);
   std::vector<double> lower, upper, a_lower, a_upper;
   for (const records::CaseRecord& record : expected.cases) {
     lower.push_back(record.answer.energy_lower.value());
@@ -150,10 +217,11 @@ TEST(EngineSweep, HasTheBoundsOfLoadCasesWhereItIsAskedForThem) {
       a_upper.push_back(inclusion.displacement_upper.value());
     }
   }
-  expect_near(*array<double>(*result, "sweep/energy_lower"), lower);
-  expect_near(*array<double>(*result, "sweep/energy_upper"), upper);
-  expect_near(*array<double>(*result, "sweep/displacement_lower"), a_lower);
-  expect_near(*array<double>(*result, "sweep/displacement_upper"), a_upper);
+  const RowIntervals energy(*result, "energy"), a(*result, "displacement");
+  expect_near(energy.lower, lower);
+  expect_near(energy.upper, upper);
+  expect_near(a.lower, a_lower);
+  expect_near(a.upper, a_upper);
 }
 
 TEST(EngineSweep, SaysWhyARowHasNoBounds) {

@@ -90,8 +90,8 @@ class BoundedChunkTest : public ChunkTest {
   BoundedChunkTest() : ChunkTest(false, true) {}
 };
 
-TEST_F(BoundedChunkTest, IsSmallAndHasTheBytesThatWerePlanned) {
-  EXPECT_EQ(job->sweep->plan.chunk_rows, 8U);
+TEST_F(BoundedChunkTest, HasTheBytesThatWerePlanned) {
+  ASSERT_TRUE(job->mesh_operator->shares_bounds(3, 300));
   job->sweep->chunks[1] = solve(1).solved;
   const auto block = sweep_result(*job, contact::Status::cancelled);
   EXPECT_LE(block->size(), job->sweep->plan.result_bytes);
@@ -101,10 +101,21 @@ TEST_F(BoundedChunkTest, IsSmallAndHasTheBytesThatWerePlanned) {
   const auto upper = *array<double>(*block, "sweep/energy_upper");
   ASSERT_EQ(lower.size(), 300U);
   EXPECT_TRUE(std::isnan(lower[0])) << "of a row without an answer";
-  for (std::size_t row = 8; row < 16; ++row) {
+  for (std::size_t row = job->sweep->plan.first_row(1); row < 300; ++row) {
     EXPECT_LE(lower[row], energy[row]);
     EXPECT_LE(energy[row], upper[row]);
   }
+}
+
+/// Rows that are bounded one by one end soon after they are stopped.
+TEST_F(BoundedChunkTest, IsSmallWhereRowsDoNotShareTheirBounds) {
+  EXPECT_EQ(job->sweep->plan.chunk_rows, 256U);
+  records::JobSpec spec = *job->spec;
+  spec.sweep->upload = upload(backend, eighths(3));
+  ASSERT_FALSE(job->mesh_operator->shares_bounds(3, 1));
+  const SweepPlan plan = plan_sweep(spec, find_matrix(*spec.sweep, *backend.store, ""),
+                                    *job->mesh_operator, EngineOptions{});
+  EXPECT_EQ(plan.chunk_rows, job->mesh_operator->estimated_together());
 }
 
 TEST_F(BoundedChunkTest, IsLeftWhereItsJobStops) {

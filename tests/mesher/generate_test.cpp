@@ -3,9 +3,13 @@
 // Meshes of geometries, made by the real helper.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
+#include <map>
 #include <numbers>
 #include <set>
+#include <string>
 #include <thread>
 
 #include "mesh/codec.hpp"
@@ -174,6 +178,76 @@ TEST(Generate, EdgesOnChordsKnowTheirCurve) {
     EXPECT_EQ(fine.chords.size(), fine.dirichlet.size() + fine.interfaces[0].kind.size());
     expect_chords(fine);
   }
+}
+
+/// Walks all parts of the boundary with the membrane on the left and expects of the middle of each
+/// edge that it lies on the part of that name, and that the parts are all of it.
+void expect_parts(const Mesh& mesh,
+                  const std::map<std::string, std::function<bool(double, double)>>& lies_on) {
+  std::map<std::int32_t, std::int32_t> next;
+  for (const auto& [a, b] : mesh.dirichlet) next[a] = b;
+  std::size_t walked = 0;
+  ASSERT_EQ(mesh.boundary_parts.size(), lies_on.size());
+  for (const mesh::BoundaryPart& part : mesh.boundary_parts) {
+    std::int32_t node = part.first;
+    do {
+      const Point a = point(mesh, node), b = point(mesh, node = next.at(node));
+      EXPECT_TRUE(lies_on.at(part.name)((a[0] + b[0]) / 2, (a[1] + b[1]) / 2)) << part.name;
+      ASSERT_LE(++walked, mesh.dirichlet.size());
+    } while (node != part.last);
+  }
+  EXPECT_EQ(walked, mesh.dirichlet.size());
+}
+
+TEST(Generate, PartsOfTheBoundaryKeepTheirNames) {
+  Geometry square = paper_geometry();
+  square.holes = {{"", {mesh::Shape::circle, {{0.5, 0.5}}, 0.2}},
+                  {"slot", {mesh::Shape::polyline, {{-0.6, -0.6}, {-0.4, -0.6}, {-0.5, -0.3}}}}};
+  const auto round = [](double x, double y) { return std::hypot(x - 0.5, y - 0.5) < 0.21; };
+  const auto slot = [](double x, double y) { return x < -0.39 && x > -0.61 && y > -0.61 && y < 0; };
+  const auto low = [](double, double y) { return y == -1; };
+  const auto high = [](double, double y) { return y == 1; };
+  const auto left = [](double x, double) { return x == -1; };
+  const auto right = [](double x, double) { return x == 1; };
+  Geometry turned = square;
+  std::ranges::reverse(turned.boundary);  // begins at (-1, 1)
+  for (const MeshOptions& options : {MeshOptions{}, MeshOptions{mesh::Preset::uniform, 0.02}}) {
+    const Mesh mesh = make(square, options);
+    expect_parts(mesh, {{"side-1", low},
+                        {"side-2", right},
+                        {"side-3", high},
+                        {"side-4", left},
+                        {"hole-1", round},
+                        {"slot", slot}});
+    expect_parts(mesh::decode_mesh(mesh::encode(mesh)), {{"side-1", low},
+                                                         {"side-2", right},
+                                                         {"side-3", high},
+                                                         {"side-4", left},
+                                                         {"hole-1", round},
+                                                         {"slot", slot}});
+    expect_parts(mesh::refine(mesh, std::vector<std::uint8_t>(mesh.triangle_count(), 3), enough),
+                 {{"side-1", low},
+                  {"side-2", right},
+                  {"side-3", high},
+                  {"side-4", left},
+                  {"hole-1", round},
+                  {"slot", slot}});
+    expect_parts(make(turned, options), {{"side-1", high},
+                                         {"side-2", right},
+                                         {"side-3", low},
+                                         {"side-4", left},
+                                         {"hole-1", round},
+                                         {"slot", slot}});
+  }
+  Geometry disc;
+  disc.sides = {
+      {"under", {mesh::Shape::arc, {{1, 0}, {0, -1}, {-1, 0}}}},
+      {"", {mesh::Shape::arc, {{-1, 0}, {-0.7071067811865476, 0.7071067811865476}, {0, 1}}}},
+      {"end", {mesh::Shape::arc, {{0, 1}, {0.7071067811865476, 0.7071067811865476}, {1, 0}}}}};
+  disc.cracks = {{"c", {}, true, mesh::LineSpec{mesh::Shape::polyline, {{-0.5, 0}, {0.5, 0}}}}};
+  expect_parts(make(disc, {}), {{"under", [](double, double y) { return y < 0; }},
+                                {"side-2", [](double x, double y) { return y > 0 && x < 0; }},
+                                {"end", [](double x, double y) { return y > 0 && x > 0; }}});
 }
 
 /// An edge crack and a fibre that begins at the edge, where u is held.

@@ -72,6 +72,7 @@ TEST(FromDomain, AJobThatIsTakenFitsInAMessage) {
     answer.answer.contact_intervals.push_back({name, 0.1, 0.2});
     answer.answer.tips.push_back(
         {0.1, 0.2, name, mesh::TipKind::front, false, 0.5, 0.3, {}, 0.4, 0.1, ""});
+    answer.answer.boundary.push_back({name, false, 0.1, 0.2, 0.3, 0.4, 0.5});
   }
   for (; taken(); record.cases.push_back(answer)) {
     fem::Load load;
@@ -87,6 +88,7 @@ TEST(FromDomain, AJobThatIsTakenFitsInAMessage) {
   EXPECT_EQ(job.status().answers(0).inclusions_size(), 90);
   EXPECT_EQ(job.status().answers(0).contact_intervals_size(), 0);
   EXPECT_EQ(job.status().answers(0).tips_size(), 0);
+  EXPECT_EQ(job.status().answers(0).boundary_size(), 0);
 }
 
 TEST(FromDomain, PutsRunsOfSamplesBehindEachOther) {

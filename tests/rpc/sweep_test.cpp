@@ -156,7 +156,7 @@ TEST(Sweep, AnswersEveryRowAsAJobOfItsOwn) {
   const v1::Job alone = solve_alone(server, mesh, traces);
   expect_columns(block, alone, traces);
   for (const std::string row : {"1", "6"}) {
-    for (const std::string name : {"u_minus", "u_plus", "jump", "pressure"}) {
+    for (const std::string name : {"u_minus", "u_plus", "jump", "pressure", "flux", "force"}) {
       SCOPED_TRACE(row + " " + name);
       expect_near(doubles(block, "traces/" + row + "/0/" + name),
                   doubles(traces, "loads/" + row + "/traces/0/" + name));

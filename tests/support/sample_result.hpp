@@ -133,6 +133,13 @@ inline results::Load sample_load(const std::string& name, const results::Mesh& m
   tip.set_exponent(0.25);
   tip.set_intensity(contact ? 0 : 0.3);
 
+  v1::BoundaryAnswer& side = *answer.add_boundary();
+  side.set_name("right");
+  side.set_free(contact);
+  side.set_resultant(-0.7);
+  side.set_moment_x(0.02);
+  side.set_x(1);
+
   results::Trace trace;
   for (std::size_t i = 0; i < interface.node_count(); ++i) {
     const double x = interface.x[i];
@@ -142,6 +149,8 @@ inline results::Load sample_load(const std::string& name, const results::Mesh& m
     trace.u_plus.push_back(sample_u(x, 0, true, contact));
     trace.jump.push_back(trace.u_plus.back() - trace.u_minus.back());
     trace.pressure.push_back(closed ? -0.15 - x : 0.0);
+    trace.flux.push_back(crack ? 0.0 : x);
+    trace.force.push_back(0.1 * (trace.pressure.back() + trace.flux.back()));
     trace.contact.push_back(closed ? 1 : 0);
   }
   load.traces.push_back(trace);
@@ -176,6 +185,7 @@ inline results::Load sample_load(const std::string& name, const results::Mesh& m
     }
     for (std::size_t corner = 0; corner < mesh.triangles.size(); ++corner) {
       if (mesh.subdomain[corner / 3] != (plus ? 1 : 0)) continue;
+      field.tension.push_back(corner % 3 == 1 ? 0 : plus ? 2 : 1);
       const auto found =
           std::lower_bound(field.nodes.begin(), field.nodes.end(), mesh.triangles[corner]);
       field.triangles.push_back(static_cast<std::int32_t>(found - field.nodes.begin()));

@@ -12,7 +12,7 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 from .case import (Accuracy, ActiveSet, Case, Crack, Geometry, Growth, Hole, Inclusion, Interface, Load, Mesh, Path,
-                   Region, Side, Units, Uzawa)
+                   Probe, Region, Side, Units, Uzawa)
 from .client import Client, Job, connect, local
 from .errors import CaseError, Error, LocalServerError, ServerError
 from .msh import Msh
@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     from . import aio, draw
 
 __all__ = ["Accuracy", "ActiveSet", "Case", "CaseError", "Client", "Crack", "Error", "Geometry", "Growth", "Hole",
-           "Inclusion", "Interface", "Job", "Load", "LocalServerError", "Mesh", "Msh", "Path", "Region", "Result",
-           "ServerError", "Side", "Units", "Uzawa", "aio", "connect", "draw", "local", "read"]
+           "Inclusion", "Interface", "Job", "Load", "LocalServerError", "Mesh", "Msh", "Path", "Probe", "Region",
+           "Result", "ServerError", "Side", "Units", "Uzawa", "aio", "connect", "draw", "local", "read"]
 __version__ = "0.1.0"
 
 read = Result.read

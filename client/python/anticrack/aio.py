@@ -75,13 +75,14 @@ class AsyncClient:
         self._session = session
 
     async def submit(self, case: Case | str | os.PathLike[str], coefficients: Any = None, nodal_forces: Any = None,
-                     traces: Sequence[int] = (), bounds: bool = False) -> AsyncJob:
-        message, read = await self._session.submit(case, coefficients, nodal_forces, traces, bounds)
+                     traces: Sequence[int] = (), bounds: bool = False, tips: bool = False) -> AsyncJob:
+        message, read = await self._session.submit(case, coefficients, nodal_forces, traces, bounds, tips)
         return AsyncJob(self._session, message, read, coefficients)
 
     async def run(self, case: Case | str | os.PathLike[str], coefficients: Any = None, nodal_forces: Any = None,
-                  traces: Sequence[int] = (), progress: bool = False, bounds: bool = False) -> Result:
-        job = await self.submit(case, coefficients, nodal_forces, traces, bounds)
+                  traces: Sequence[int] = (), progress: bool = False, bounds: bool = False,
+                  tips: bool = False) -> Result:
+        job = await self.submit(case, coefficients, nodal_forces, traces, bounds, tips)
         return noted(await (await job.wait(progress)).result())
 
     async def mesh(self, case: Case | str | os.PathLike[str]) -> mesh_pb2.Mesh:

@@ -125,19 +125,19 @@ class Client:
         return f"<client of {self._session.address}>"
 
     def submit(self, case: Case | str | os.PathLike[str], coefficients: Any = None, nodal_forces: Any = None,
-               traces: Sequence[int] = (), bounds: bool = False) -> Job:
+               traces: Sequence[int] = (), bounds: bool = False, tips: bool = False) -> Job:
         """Submits a case, or the case in a file, as a job and returns at once.
 
         A sweep solves a load case for every row of coefficients (rows, loads), a DataFrame or an array in the order of
         the loads, or of nodal_forces (rows, nodes): f on the mesh's nodes. traces: rows whose traces are kept. bounds:
-        bound the energy and every A in each row; a row then takes as long as a load case."""
-        message, read = finished(self._session.submit(case, coefficients, nodal_forces, traces, bounds))
+        bound the energy and every A in each row. tips: intensity and G of every tip in each row."""
+        message, read = finished(self._session.submit(case, coefficients, nodal_forces, traces, bounds, tips))
         return Job(self._session, message, read, coefficients)
 
     def run(self, case: Case | str | os.PathLike[str], coefficients: Any = None, nodal_forces: Any = None,
-            traces: Sequence[int] = (), progress: bool = True, bounds: bool = False) -> Result:
+            traces: Sequence[int] = (), progress: bool = True, bounds: bool = False, tips: bool = False) -> Result:
         """Submits a case, waits and fetches the answers; warns if u is not small against the sheet."""
-        return noted(self.submit(case, coefficients, nodal_forces, traces, bounds).wait(progress).result())
+        return noted(self.submit(case, coefficients, nodal_forces, traces, bounds, tips).wait(progress).result())
 
     def mesh(self, case: Case | str | os.PathLike[str]) -> mesh_pb2.Mesh:
         """Meshes a case and returns the mesh's counts, subdomains and interfaces (Mesh in mesh.proto)."""

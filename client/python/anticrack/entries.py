@@ -12,7 +12,7 @@ from google.protobuf import descriptor_pb2
 from google.protobuf.descriptor import FieldDescriptor
 
 NAN = float("nan")
-# Names of an inclusion's and a tip's values.
+# Names of an inclusion's, a boundary's and a tip's values.
 _SYMBOLS = [("displacement", "A"), ("slope_", "B"), ("moment_", "M"), ("k_iii", "K_III"), ("energy_release_rate", "G")]
 _MESSAGES, _FIELDS = 4, 2  # numbers in paths of source_code_info, see descriptor.proto
 
@@ -25,7 +25,7 @@ def name_of(field: Any) -> str:
         return name.replace("time", "seconds")
     if field.containing_type.name == "GrowthRow":
         return {"g1": "G1", "toughness": "Gc"}.get(name, name)
-    if field.containing_type.name in ("InclusionAnswer", "Tip"):
+    if field.containing_type.name in ("InclusionAnswer", "BoundaryAnswer", "Tip"):
         for long_name, symbol in _SYMBOLS:
             if name.startswith(long_name):
                 return symbol + name.removeprefix(long_name)

@@ -8,7 +8,7 @@ import re
 import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, make_dataclass
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -107,12 +107,15 @@ class Interface:
 
 @dataclass(repr=False)
 class Trace:
-    """Values on the nodes (k) of an interface: u on its two sides, jump = u_plus - u_minus, pressure (the flux on
-    glue), contact (1 where a crack is closed under pressure)."""
+    """Values on the nodes (k) of an interface: u on its two sides, jump = u_plus - u_minus, the contact pressure, the
+    flux -T du/dn through glue and bonded parts, n from the minus to the plus side, the nodal forces of both, contact
+    (1 where a crack is closed under pressure). Pressure and flux are singular at tips, forces are not."""
     u_minus: Array
     u_plus: Array
     jump: Array
     pressure: Array
+    flux: Array
+    force: Array
     contact: Array
     name, units = "", Units()  # name of the interface
 
@@ -125,16 +128,49 @@ class Trace:
 @dataclass(repr=False)
 class Field:
     """u (n) on the nodes of a subdomain. nodes (n): indices of Mesh.nodes, where a node inside a slit occurs twice;
-    triangles (m, 3): indices into nodes."""
+    triangles (m, 3): indices into nodes; tension (m, 3): means of Txx, Txy, Tyy over each. mesh: of the result."""
     subdomain: str
     nodes: Array
     triangles: Array
+    tension: Array
     u: Array
-    units = Units()
+    units, mesh = Units(), cast(Mesh, None)
 
     @property
     def name(self) -> str:
         return self.subdomain
+
+    def _corners(self) -> tuple[Array, Array, Array]:
+        """(m, 2) each: differences of the second and third corner to the first in x, y and u."""
+        x, y = self.mesh.nodes[self.nodes[self.triangles]].transpose(2, 0, 1)
+        return tuple(values[:, 1:] - values[:, :1] for values in (x, y, self.u[self.triangles]))  # type: ignore
+
+    @property
+    def areas(self) -> Array:
+        """(m) of the triangles"""
+        x, y, _ = self._corners()
+        return np.asarray(np.abs(x[:, 0] * y[:, 1] - x[:, 1] * y[:, 0]) / 2)
+
+    @property
+    def slopes(self) -> Array:
+        """(m, 2) grad u in each triangle; 0 in one without area"""
+        x, y, u = self._corners()
+        twice = x[:, 0] * y[:, 1] - x[:, 1] * y[:, 0]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            slopes = np.column_stack((u[:, 0] * y[:, 1] - u[:, 1] * y[:, 0],
+                                      u[:, 1] * x[:, 0] - u[:, 0] * x[:, 1])) / twice[:, None]
+        return np.nan_to_num(slopes, posinf=0, neginf=0)
+
+    @property
+    def flux(self) -> Array:
+        """(m, 2) T grad u, the mean over each triangle: of the answer, not the one in balance of the bounds"""
+        (ux, uy), (xx, xy, yy) = self.slopes.T, self.tension.T
+        return np.column_stack((xx * ux + xy * uy, xy * ux + yy * uy))
+
+    @property
+    def energy_density(self) -> Array:
+        """(m) grad u . T grad u / 2, the mean over each triangle"""
+        return np.asarray((self.slopes * self.flux).sum(axis=1) / 2)
 
     def __repr__(self) -> str:
         return (f"{harmless(self.name)}: {counted(len(self.nodes), 'node')}, "
@@ -166,6 +202,21 @@ class Inclusion(_walked(solve_pb2.InclusionAnswer, ("name",), Bx=0.0, By=0.0)): 
 
 
 @dataclass(repr=False)
+class BoundaryForce(_walked(solve_pb2.BoundaryAnswer, ())):  # type: ignore[misc]
+    """The values of BoundaryAnswer in solve.proto: the force `resultant` on a side or a hole of the boundary, and Mx,
+    My about (x, y); free: whether T du/dn is given there, and not u."""
+    units = Units()
+
+    def __repr__(self) -> str:
+        return f"{harmless(self.name)}: {self.resultant:.6g}{self.units.behind('F')}{', given' * self.free}"
+
+
+@dataclass(repr=False)
+class ProbePoint(_walked(solve_pb2.ProbeAnswer, ())):  # type: ignore[misc]
+    """The values of ProbeAnswer in solve.proto: u at a point of the probe `name`."""
+
+
+@dataclass(repr=False)
 class Tip(_walked(solve_pb2.Tip, ())):  # type: ignore[misc]
     """The values of Tip in solve.proto under shorter names: where a crack or an inclusion ends or its condition
     changes, what kind of tip that is, whether it is closed, and intensity, K_III and G with G_spread, NaN where it has
@@ -190,15 +241,18 @@ class Load(_walked(solve_pb2.LoadCaseAnswer, ("name", "status"))):  # type: igno
 
     kkt: relative residuals of the optimality conditions. traces: one for each interface, by its name or index. history:
     arrays (n), one entry an iteration. stages: arrays, one entry a stage; empty without an accuracy.
-    tips: of cracks and inclusions, in the order of the mesh's. growth: arrays, one entry for each position of fronts
-    that grow: front (the one that leaves it), interface, position (arc length), x, y, load, displacement, G1, Gc,
-    contact_length, energy, stable, ties; empty without growth. growth_notes: what happens, in words.
+    boundary: forces on its sides and holes. tips: of cracks and inclusions, in the order of the mesh's. growth: arrays,
+    one entry for each position of fronts that grow: front (the one that leaves it), interface, position (arc length),
+    x, y, load, displacement, G1, Gc, contact_length, energy, stable, ties; empty without growth. growth_notes: what
+    happens, in words.
     contact_intervals: (index of the interface, begin, end) in arc length. fields: one for each subdomain, by its name
     or index, where they were asked for. indicator (m): part of each triangle in the square of error_bound, or None."""
     name: str
     status: str
     warnings: list[str] = field(default_factory=list)
     inclusions: Named[Inclusion] = field(default_factory=lambda: Named("inclusion"))
+    probe_points: list[ProbePoint] = field(default_factory=list)
+    boundary: list[BoundaryForce] = field(default_factory=list)
     tips: list[Tip] = field(default_factory=list)
     growth: Arrays = field(default_factory=dict)
     growth_notes: list[str] = field(default_factory=list)
@@ -225,6 +279,15 @@ class Load(_walked(solve_pb2.LoadCaseAnswer, ("name", "status"))):  # type: igno
     @property
     def kkt_absolute(self) -> dict[str, float]:
         return {name: getattr(self, f"kkt_{name}") for name in KKT}
+
+    @property
+    def probes(self) -> dict[str, Arrays]:
+        """Arrays s, x, y, u_minus, u_plus of each probe of the case, by its name, with an entry each point."""
+        points: dict[str, list[ProbePoint]] = {}
+        for point in self.probe_points:
+            points.setdefault(point.name, []).append(point)
+        return {name: {key: np.array([getattr(point, key) for point in all_of])
+                       for key in ("s", "x", "y", "u_minus", "u_plus")} for name, all_of in points.items()}
 
     def displacements(self) -> dict[str, float]:
         """A of every inclusion, by its name."""
@@ -268,8 +331,9 @@ class Sweep:
     None, contact (rows, contacts) of the crack nodes contact_nodes (contacts, 2): interface, node. coefficients
     (rows, loads), or None where they are not known. energy_lower, energy_upper, displacement_lower, displacement_upper:
     bounds of the membrane's exact values, NaN if a row has none, or None if not asked for; energy and displacement are
-    then the middles, and energy_mesh and displacement_mesh those of u on the mesh, else None. kept: rows whose traces
-    are in Result.loads["row-K"]. answer: SweepAnswer in solve.proto."""
+    then the middles, and energy_mesh and displacement_mesh those of u on the mesh, else None. intensity,
+    energy_release_rate, energy_release_rate_spread (rows, tips): of each tip of the mesh, NaN if it has none, or None
+    if not asked for. kept: rows whose traces are in Result.loads["row-K"]. answer: SweepAnswer in solve.proto."""
     loads: list[str]
     inclusions: list[str]
     status: Array
@@ -287,6 +351,9 @@ class Sweep:
     displacement_lower: Array | None = None
     displacement_upper: Array | None = None
     displacement_mesh: Array | None = None
+    intensity: Array | None = None
+    energy_release_rate: Array | None = None
+    energy_release_rate_spread: Array | None = None
     coefficients: Array | None = None
     kept: list[int] = field(default_factory=list)
     error: str = ""
@@ -302,7 +369,8 @@ class Sweep:
         return np.asarray(self.status == solve_pb2.LoadCaseAnswer.STATUS_CONVERGED)
 
     def frame(self) -> Any:
-        """A pandas.DataFrame with a line for each row: coefficients, A, its bounds and slopes by name; needs pandas."""
+        """A pandas.DataFrame with a line for each row: coefficients, A, its bounds and slopes by name, and numbers of
+        tips; needs pandas."""
         pandas = package("pandas")
         columns: dict[str, Any] = {}
         if self.coefficients is not None:
@@ -316,6 +384,10 @@ class Sweep:
                                  ("A_upper", self.displacement_upper), ("A_mesh", self.displacement_mesh),
                                  ("Bx", slopes[0]), ("By", slopes[1])):
                 columns[f"{what} of {name}"] = None if values is None else values[:, i]
+        for what, values in (("intensity", self.intensity), ("G", self.energy_release_rate),
+                             ("G_spread", self.energy_release_rate_spread)):
+            for i in range(0 if values is None else values.shape[1]):
+                columns[f"{what} of tip {i}"] = values[:, i]
         columns = {name: column for name, column in columns.items() if column is not None}
         return pandas.DataFrame(columns).rename_axis("row")
 
@@ -475,9 +547,11 @@ def _told(result: Result) -> Result:
     """Tells the parts of a result their units, and traces their interfaces."""
     parts: list[Any] = [*result.interfaces, *result.loads.values()]
     for load in result.loads.values():
-        parts += [*load.inclusions.values(), *load.traces, *load.fields]
+        parts += [*load.inclusions.values(), *load.boundary, *load.traces, *load.fields]
         for line, trace in zip(result.interfaces, load.traces):
             trace.name = line.name
+        for part in load.fields:
+            part.mesh = result.mesh
     for part in parts:
         part.units = result.units
     for load in result.loads.values():
@@ -547,6 +621,8 @@ def _load_of_answer(answer: solve_pb2.LoadCaseAnswer, lines_in: list[str]) -> Lo
     if solved:
         load.warnings = list(answer.warnings)
         load.inclusions.update((part.name, Inclusion(**entries.values_of(part))) for part in answer.inclusions)
+        load.probe_points = [ProbePoint(**entries.values_of(part)) for part in answer.probes]
+        load.boundary = [BoundaryForce(**entries.values_of(part)) for part in answer.boundary]
         load.tips = [Tip(**entries.values_of(part)) for part in answer.tips]
         rows = [entries.values_of(row) for row in answer.growth]
         load.growth = {name: np.array([row[name] for row in rows]) for name in (rows[0] if rows else ())}
@@ -561,7 +637,7 @@ def _load_of(job: solve_pb2.Job, index: int, arrays: Mapping[str, Array], result
     prefix = f"loads/{index}/"
     load.traces = _traces(arrays, prefix + "traces", len(result.interfaces))
     load.history, load.indicator = _below(arrays, prefix + "history/"), arrays.get(prefix + "indicator")
-    load.fields += [Field(name, arrays[f"fields/{k}/nodes"], arrays[f"fields/{k}/triangles"],
+    load.fields += [Field(name, *(arrays[f"fields/{k}/{part}"] for part in ("nodes", "triangles", "tension")),
                           arrays[f"{prefix}fields/{k}"])
                     for k, name in enumerate(result.mesh.subdomain_names) if f"{prefix}fields/{k}" in arrays]
     stages = [stage for stage in job.status.stages if index < len(stage.answers)]

@@ -30,7 +30,8 @@ _MEANINGS = [*entries.meanings(job_pb2.Solver.DESCRIPTOR, "solver"),
 _DIMENSIONS = {
     **dict.fromkeys(["nodes", "s", "x", "y", "u_minus", "u_plus", "jump", "u", "displacement", "displacement_lower",
                      "displacement_upper", "displacement_mesh"], "L"),
-    **{name: unit for where, name, unit, _ in _MEANINGS if where != "loads"}, "pressure": "F/L", "indicator": "F L"}
+    **{name: unit for where, name, unit, _ in _MEANINGS if where != "loads"}, "pressure": "F/L",
+    "flux": "F/L", "force": "F", "indicator": "F L", "tension": "F/L"}
 
 
 def save(result: Result, path: str | os.PathLike[str]) -> bool:
@@ -133,6 +134,8 @@ def _put_parts(group: Any, descriptor: Any, parts: Iterable[Any]) -> None:
 def _put_load(group: Any, load: Load, interfaces: Parts[Interface]) -> None:
     _put_record(group, load)
     _put_parts(group.create_group("inclusions"), solve_pb2.InclusionAnswer.DESCRIPTOR, load.inclusions.values())
+    _put_parts(group.create_group("probes"), solve_pb2.ProbeAnswer.DESCRIPTOR, load.probe_points)
+    _put_parts(group.create_group("boundary"), solve_pb2.BoundaryAnswer.DESCRIPTOR, load.boundary)
     _put_parts(group.create_group("tips"), solve_pb2.Tip.DESCRIPTOR, load.tips)
     growth = group.create_group("growth")
     for name, (_, item) in entries.entries_of(solve_pb2.GrowthRow.DESCRIPTOR).items():

@@ -165,7 +165,8 @@ class Session:
         return mesh
 
     async def submit(self, case: Case | str | os.PathLike[str], coefficients: Any = None, nodal_forces: Any = None,
-                     traces: Sequence[int] = (), bounds: bool = False) -> tuple[solve_pb2.Job, ReadCase]:
+                     traces: Sequence[int] = (), bounds: bool = False,
+                     tips: bool = False) -> tuple[solve_pb2.Job, ReadCase]:
         read = await self.read(case, nodal_forces is not None)
         spec, arrays = read.spec, read.arrays()
         if coefficients is not None or nodal_forces is not None:
@@ -174,7 +175,7 @@ class Session:
             names = await self.upload([values.tobytes() for _, values in arrays], upload_pb2.Upload.KIND_ARRAY)
             for (index, _), name in zip(arrays, names):
                 spec.load_cases[index].force.array.upload = name
-            matrix = sweep_of(spec, coefficients, nodal_forces, traces, bounds)
+            matrix = sweep_of(spec, coefficients, nodal_forces, traces, bounds, tips)
             if matrix is not None:
                 target = spec.sweep.coefficients if coefficients is not None else spec.sweep.nodal_forces
                 target.upload = (await self.upload([matrix], upload_pb2.Upload.KIND_ARRAY))[0]

@@ -13,16 +13,16 @@ from .v1 import job_pb2
 
 
 def sweep_of(spec: job_pb2.JobSpec, coefficients: Any, nodal_forces: Any, traces: Sequence[int],
-             bounds: bool) -> bytes | None:
+             bounds: bool, tips: bool) -> bytes | None:
     """Makes a job a sweep; returns the matrix to upload, or None if neither coefficients nor nodal_forces are given.
 
     coefficients (rows, loads) in the order of the case's loads, or a DataFrame with their names as columns;
     nodal_forces (rows, nodes): f on the nodes of the mesh. traces: rows whose traces are kept. bounds: bound every
-    row."""
+    row. tips: numbers of every tip in each row."""
     if coefficients is None and nodal_forces is None:
-        if traces or bounds:
-            raise CaseError("traces and bounds are of a sweep; give coefficients or nodal_forces"
-                            + (" (load cases have bounds anyway)" if bounds else ""))
+        if traces or bounds or tips:
+            raise CaseError("traces, bounds and tips are of a sweep; give coefficients or nodal_forces"
+                            + (" (load cases have bounds and tips anyway)" if bounds or tips else ""))
         return None
     if coefficients is not None and nodal_forces is not None:
         raise CaseError("give coefficients or nodal_forces, not both")
@@ -38,7 +38,7 @@ def sweep_of(spec: job_pb2.JobSpec, coefficients: Any, nodal_forces: Any, traces
                           in_order=True)
         del spec.load_cases[:]
     del spec.outputs[:]
-    spec.sweep.bounds = bounds
+    spec.sweep.bounds, spec.sweep.tips = bounds, tips
     spec.sweep.traces.extend(_kept(traces, len(matrix)))
     return matrix.tobytes()
 

@@ -77,13 +77,18 @@ def _unit(result: Result, dimension: str) -> str:
 
 def membrane(result: Result, load: Load) -> bytes:
     """The .vtu of the membrane. Subdomains share no points, which keeps both faces of cracks and slits. Points have u
-    and node, cells tension, subdomain and, where the load has it, error_indicator."""
+    and node, cells tension, subdomain, T grad u as flux_x, flux_y and its size flux, energy_density and, where the
+    load has it, error_indicator."""
     parts = list(load.fields)
     node = np.concatenate([part.nodes for part in parts])
     first = np.cumsum([0, *(len(part.nodes) for part in parts)])
     corners = np.concatenate([part.triangles + start for part, start in zip(parts, first)])
     subdomain = np.repeat(np.arange(len(parts), dtype=np.int32), [len(part.triangles) for part in parts])
-    cells = {"tension": (result.mesh.tension[subdomain], _unit(result, "F/L")), "subdomain": (subdomain, "")}
+    flux = np.concatenate([part.flux for part in parts])
+    cells = {"tension": (result.mesh.tension[subdomain], _unit(result, "F/L")), "subdomain": (subdomain, ""),
+             "flux_x": (flux[:, 0], _unit(result, "F/L")), "flux_y": (flux[:, 1], _unit(result, "F/L")),
+             "flux": (np.hypot(*flux.T), _unit(result, "F/L")),
+             "energy_density": (np.concatenate([part.energy_density for part in parts]), _unit(result, "F/L"))}
     if load.indicator is not None:
         cells["error_indicator"] = (_indicators(result.mesh, load.indicator, node[corners]), _unit(result, "F L"))
     points = {"u": (np.concatenate([part.u for part in parts]), _unit(result, "L")), "node": (node, "")}
@@ -91,14 +96,15 @@ def membrane(result: Result, load: Load) -> bytes:
 
 
 def interfaces(result: Result, load: Load) -> bytes:
-    """The .vtu of the interfaces as lines. Points have u_minus, u_plus, jump, pressure, s (arc length), kind and
-    contact, cells the index of their interface, and that of their inclusion or -1."""
+    """The .vtu of the interfaces as lines. Points have u_minus, u_plus, jump, pressure, flux, force, s (arc length),
+    kind and contact, cells the index of their interface, and that of their inclusion or -1."""
     lines, length = list(result.interfaces), _unit(result, "L")
     counts = [len(line.s) for line in lines]
     first = np.cumsum([0, *counts])
     starts = np.concatenate([start + np.arange(count - 1) for start, count in zip(first, counts)])
     points = {name: (np.concatenate([getattr(trace, name) for trace in load.traces]), unit) for name, unit in
-              (("u_minus", length), ("u_plus", length), ("jump", length), ("pressure", _unit(result, "F/L")))}
+              (("u_minus", length), ("u_plus", length), ("jump", length), ("pressure", _unit(result, "F/L")),
+               ("flux", _unit(result, "F/L")), ("force", _unit(result, "F")))}
     points["s"] = np.concatenate([line.s for line in lines]), length
     points["kind"] = np.concatenate([line.kind for line in lines]), ""
     points["contact"] = np.concatenate([trace.contact for trace in load.traces]), ""
@@ -108,14 +114,22 @@ def interfaces(result: Result, load: Load) -> bytes:
                np.column_stack([starts, starts + 1]), points, cells)
 
 
+def probes(load: Load) -> bytes:
+    """The .csv of the points of all probes."""
+    names = ("s", "x", "y", "u_minus", "u_plus")
+    rows = [[point.name, *(f"{getattr(point, name):.17g}" for name in names)] for point in load.probe_points]
+    return "".join(",".join(row) + "\n" for row in [["name", *names], *rows]).encode()
+
+
 def export(result: Result, source: str, folder: str, names: Sequence[str] = ()) -> output.Made:
-    """Writes LOAD.vtu, the membrane, and LOAD-interfaces.vtu for every load with an answer, or those of these names,
-    and result.pvd, which shows load i at time i. Makes the folder. A sweep has no fields, so only the interfaces of
-    kept rows are written. source: the name of the result in messages."""
+    """Writes LOAD.vtu, the membrane, LOAD-interfaces.vtu and, of a case with probes, LOAD-probes.csv for every load
+    with an answer, or those of these names, and result.pvd, which shows load i at time i. Makes the folder. A sweep has
+    no fields, so only the interfaces of kept rows are written. source: the name of the result in messages."""
     made = output.Made(folder)
     answered = []
     loads = chosen(result, names)
-    for step, (load, stem) in enumerate(zip(loads, output.stems((load.name for load in loads), ["-interfaces"]))):
+    endings = ["-interfaces", "-probes"]
+    for step, (load, stem) in enumerate(zip(loads, output.stems((load.name for load in loads), endings))):
         if load.traces or load.fields:
             answered.append((step, load, stem))
         else:
@@ -136,5 +150,7 @@ def export(result: Result, source: str, folder: str, names: Sequence[str] = ()) 
         if load.traces:
             made.add(f"{stem}-interfaces", {"vtu": interfaces(result, load)})
             members.append((f"{load.name}, interfaces", f"{stem}-interfaces.vtu", step, 1))
+        if load.probe_points:
+            made.add(f"{stem}-probes", {"csv": probes(load)})
     made.add("result", {"pvd": pvd(members)})
     return made

@@ -122,7 +122,7 @@ class JsonGolden(GoldenTest):
         told = {"source": "", "solve_seconds": 0}
         self.assertEqual(same | told, answers | told)
         self.document("sweep", "show", "rows.h5")
-        bounded = self.document("sweep-bounds", *rows, "--bounds", "--traces", "0", "-o", "bounded.h5")
+        bounded = self.document("sweep-bounds", *rows, "--bounds", "--tips", "--traces", "0", "-o", "bounded.h5")
         self.assertEqual(bounded["sweep"]["bounded"], 1, "a point force is in the others")
         self.assertLess(bounded["answers"][0]["energy_lower"], bounded["answers"][0]["energy"])
         self.assertIsNone(answers["energy_width"])

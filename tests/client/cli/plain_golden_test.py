@@ -138,7 +138,7 @@ class PlainGolden(GoldenTest):
         self.said("sweep", "sweep", "plate.toml", "--coefficients", "rows.csv", "--traces", "all", "-o", "rows.h5",
                   "--csv", "answers.csv")
         self.said("show-sweep", "show", "rows.h5")
-        self.said("sweep-bounds", "sweep", "plate.toml", "--coefficients", "rows.csv", "--bounds", "-o", "bounded.h5")
+        self.said("sweep-bounds", "sweep", "plate.toml", "--coefficients", "rows.csv", "--bounds", "--tips", "-o", "bounded.h5")
         self.said("show-sweep-load", "show", "rows.h5", "--load", "row-1")
         self.said("job-list", "job", "list")
         self.said("mesh-list", "mesh", "list")

@@ -87,7 +87,7 @@ Fetched fetched() {
   BlockMaker maker;
   maker.add("interfaces/0/s", Reals{0, 1}).add("interfaces/0/x", Reals{0, 1});
   maker.add("interfaces/0/y", Reals{0, 0}).add("interfaces/0/kind", Integers{3, 3});
-  for (const char* name : {"u_minus", "u_plus", "jump", "pressure"}) {
+  for (const char* name : {"u_minus", "u_plus", "jump", "pressure", "flux", "force"}) {
     maker.add(traces + name, Reals{0.5, 0.5});
   }
   maker.add(traces + "contact", Integers{0, 0});
@@ -180,7 +180,7 @@ Fetched fetched_sweep() {
   maker.add("sweep/displacement", Reals{0.5, 0, 0.25}, 1);
   maker.add("sweep/contact", std::vector<std::uint8_t>{0, 0, 0, 1, 1, 1}, 2);
   maker.add("sweep/contact_nodes", Integers{0, 0, 0, 1}, 2);
-  for (const char* name : {"u_minus", "u_plus", "jump", "pressure"}) {
+  for (const char* name : {"u_minus", "u_plus", "jump", "pressure", "flux", "force"}) {
     maker.add(std::string("traces/2/0/") + name, Reals{0.5, 0.75});
   }
   maker.add("traces/2/0/contact", Integers{1, 1});

@@ -197,6 +197,19 @@ class Jobs(unittest.TestCase):
         self.assertTrue((frame["A_lower of gamma_c"] < frame["A of gamma_c"]).all())
         self.assertIsNone(self.client.run(case, coefficients, progress=False).sweep.energy_lower)
 
+    def test_sweeps_have_tips_on_request(self):
+        case = EXAMPLES / "load-ratio.toml"
+        sweep = self.client.run(case, numpy.eye(2), tips=True, progress=False).sweep
+        alone = self.client.run(case, progress=False)
+        for row, name in enumerate(("skew", "opening")):
+            for i, tip in enumerate(alone[name].tips):
+                numpy.testing.assert_allclose(sweep.intensity[row, i], tip.intensity, rtol=1e-6)
+                numpy.testing.assert_allclose(sweep.energy_release_rate[row, i], tip.G, rtol=1e-6)
+        self.assertEqual(sweep.frame()["G of tip 1"].tolist(), sweep.energy_release_rate[:, 1].tolist())
+        self.assertIsNone(self.client.run(case, numpy.eye(2), progress=False).sweep.intensity)
+        with self.assertRaisesRegex(anticrack.CaseError, "tips are of a sweep"):
+            self.client.run(case, tips=True)
+
     def test_sweeps_leave_out_the_accuracy(self):
         case = Case(GEOMETRY, [OPENING])
         plain = self.client.run(case, [[1.0]], progress=False)

@@ -100,6 +100,8 @@ std::string result_table() {
                                         "; " + entries(*v1::StageAnswer::descriptor())) +
          line("/loads/LOAD/inclusions", entries(*v1::InclusionAnswer::descriptor())) +
          line("/loads/LOAD/tips", entries(*v1::Tip::descriptor())) +
+         line("/loads/LOAD/boundary", entries(*v1::BoundaryAnswer::descriptor())) +
+         line("/loads/LOAD/probes", entries(*v1::ProbeAnswer::descriptor())) +
          line("/loads/LOAD/growth", entries(*v1::GrowthRow::descriptor())) +
          line("/loads/LOAD/contact_intervals", entries(*v1::ContactInterval::descriptor())) +
          line("/loads/LOAD/traces/I", entries<Trace>(arrays::trace<Trace>)) +

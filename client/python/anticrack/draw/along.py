@@ -119,13 +119,12 @@ def edge_pressure(line: Interface, trace: Trace) -> tuple[Array, Array, Array, A
     """Middles of the edges, the mean pressure over them, their lengths (0 off cracks), and which are in contact. Each
     node has half of an edge, but a tip's half goes to no node. The force is that of the nodes, without the teeth of the
     nodal pressures, which vary with the number of triangles at a node."""
-    opens = np.isin(line.kind, (CRACK, DELAMINATED))  # on glue the pressure is a flux
+    opens = np.isin(line.kind, (CRACK, DELAMINATED))
     begins, ends, edges = opens[:-1], opens[1:], np.diff(line.s)
     count = begins.astype(int) + ends
-    pressures = np.where(opens, trace.pressure, 0)
     closed = trace.contact != 0
     middles = line.s[:-1] + np.where(begins & ends, 0.5, np.where(begins, 0.25, 0.75)) * edges
-    means = (pressures[:-1] + pressures[1:]) / np.maximum(count, 1)
+    means = (trace.pressure[:-1] + trace.pressure[1:]) / np.maximum(count, 1)
     return middles, means, edges * count / 2, (means > 0) & (closed[:-1] | closed[1:])
 
 

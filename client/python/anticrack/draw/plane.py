@@ -211,8 +211,7 @@ def displacement(result: Result, load: str | Load | None = None, ax: Any = None,
 
 
 def flux(result: Result, load: str | Load | None = None) -> list[Array]:
-    """|T grad u| in the triangles of each subdomain, in the order of its field; needs a case with fields. If any T is a
-    law, of which a result has only the mean, it is |grad u|."""
+    """|T grad u| in the triangles of each subdomain, in the order of its field; needs a case with fields."""
     load = load_of(result, load)
     ends = np.cumsum([len(part.triangles) for part in load.fields])[:-1]
     return np.split(Surface(result, load).flux, ends)
@@ -236,7 +235,7 @@ def plan(result: Result, load: str | Load | None = None, ax: Any = None, levels:
         for level, segments in zip(lines.levels, lines.allsegs):
             if len(segments):
                 names.on(of_u.text(level), np.concatenate(segments), 8)
-    label = ("|\u2207u|", "") if result.mesh.tension_law else ("|T \u2207u|", unit_of(result, "F/L"))
-    colour_bar(ax, shades, *label, colorbar, extend="max" if high < highest else "neither", **_beside(result))
+    colour_bar(ax, shades, "|T \u2207u|", unit_of(result, "F/L"), colorbar,
+               extend="max" if high < highest else "neither", **_beside(result))
     ax.set_title(f"{named(load.name)}: lines of u{left_out}{not_converged(load)}")
     return ax

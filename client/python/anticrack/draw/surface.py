@@ -24,8 +24,8 @@ _EDGED = 12_000  # triangles; the edges of more could not be told apart
 class Surface:
     """All subdomains together, without triangles that have no u; both faces of an open crack have their own nodes.
 
-    nodes (n, 2); u (n); triangles (m, 3): indices into nodes; areas (m); flux (m): |T grad u|, but |grad u| if any T is
-    a law, of which a result has only the mean; flux_of_nodes (n) and slopes (n, 2), grad u: means weighted by area."""
+    nodes (n, 2); u (n); triangles (m, 3): indices into nodes; areas (m); flux (m): |T grad u|; flux_of_nodes (n) and
+    slopes (n, 2), grad u: means weighted by area."""
 
     def __init__(self, result: Result, load: Load) -> None:
         parts = load.fields
@@ -36,18 +36,11 @@ class Surface:
         self.nodes = result.mesh.nodes[np.concatenate([part.nodes for part in parts])]
         self.u = np.concatenate([part.u for part in parts])
         self.triangles = np.concatenate([part.triangles + first for part, first in zip(parts, firsts)])
-        tensions = np.ones(len(parts)) if result.mesh.tension_law else result.mesh.tension[:len(parts)]
-        tension = np.repeat(tensions, [len(part.triangles) for part in parts])
         known = np.isfinite(self.u[self.triangles]).all(axis=1)
-        self.triangles, tension = self.triangles[known], tension[known]
-        # Differences of the second and third corner to the first.
-        (bx, cx), (by, cy), (b, c) = ((values[:, 1:] - values[:, :1]).T for values in (
-            *np.moveaxis(self.nodes[self.triangles], 2, 0), self.u[self.triangles]))
-        twice = bx * cy - cx * by
-        self.areas = np.abs(twice) / 2
-        with np.errstate(divide="ignore", invalid="ignore"):
-            slopes = np.nan_to_num(np.stack((b * cy - c * by, c * bx - b * cx)) / twice, posinf=0, neginf=0)
-        self.flux = tension * np.hypot(*slopes)
+        self.triangles = self.triangles[known]
+        self.areas, slopes, fluxes = (np.concatenate([getattr(part, name) for part in parts])[known].T
+                                      for name in ("areas", "slopes", "flux"))
+        self.flux = np.hypot(*fluxes)
         self.around = self._of_nodes(np.ones_like(self.flux))  # three times the area of the triangles at a node
         self.flux_of_nodes, *means = (self._of_nodes(each) / np.where(self.around == 0, 1, self.around)
                                       for each in (self.flux, *slopes))
