@@ -130,7 +130,7 @@ class Client:
 
         A sweep solves a load case for every row of coefficients (rows, loads), a DataFrame or an array in the order of
         the loads, or of nodal_forces (rows, nodes): f on the mesh's nodes. traces: rows whose traces are kept. bounds:
-        bound the energy and every A in each row; a row then takes as long as a load case."""
+        bound the energy and every A in each row, as of a load case; many rows share the work."""
         message, read = finished(self._session.submit(case, coefficients, nodal_forces, traces, bounds))
         return Job(self._session, message, read, coefficients)
 
