@@ -148,8 +148,8 @@ void add_options(CLI::App& command, SweepOptions& options) {
       ->capture_default_str();
   command.add_flag(
       "--bounds", options.files.bounds,
-      "Bounds of the energy and of every A in each row, as a load case has them; a row "
-      "then takes as long as one");
+      "Bounds of the energy and of every A in each row, as a load case has them; many rows "
+      "share the work");
   command.add_flag("--tips", options.files.tips,
                    "Intensity and energy release rate of every tip in each row");
   CLI::Option* output = command

@@ -165,8 +165,7 @@ std::vector<double> FacePressures::through(std::size_t all_faces, const VectorXd
   return flux;
 }
 
-double FacePressures::work(const VectorXd& pressure,
-                           const Eigen::Ref<const VectorXd>& d) const {
+double FacePressures::work(const VectorXd& pressure, const Eigen::Ref<const VectorXd>& d) const {
   double sum = 0;
   for (Index e = 0; e < pressure.size(); ++e)
     for (const std::int32_t i : jumps_at(e)) sum += 0.5 * (pressure[e] + pressure[e ^ 1]) * d[i];

@@ -188,6 +188,26 @@ TEST(SweepBounds, NeedABasisThatWasMadeForThem) {
   EXPECT_EQ(rows.displacement, others.displacement);
 }
 
+/// Also where no cache keeps the basis: an array without a hash cannot be looked up.
+TEST(SweepBounds, CountInTheMemoryOfTheMeshWhileAJobHasThem) {
+  const Operator op = factorised();
+  fem::Load load;
+  load.force = fem::Array{
+      "", true, std::make_shared<const std::vector<double>>(op->mesh().triangle_count(), 1.0)};
+  const fem::Load* const one[] = {&load};
+  constexpr std::uint64_t many = 1'000'000;
+  ASSERT_TRUE(op->shares_bounds(1, many));
+  op->basis(one, {}, true, many);  // whatever the mesh keeps for all bounds
+  const std::size_t before = op->bytes();
+  auto own = op->basis(one, {}, true), shared = op->basis(one, {}, true, many);
+  EXPECT_EQ(op->bytes(), before + own->bytes() + shared->bytes());
+  const std::size_t n = op->contact_nodes().size();
+  EXPECT_GT(shared->bytes(), own->bytes() + 3 * sizeof(double) * n * n);
+  own.reset();
+  shared.reset();
+  EXPECT_EQ(op->bytes(), before);
+}
+
 TEST(SweepBounds, CountTowardsTheMemoryOfABasis) {
   const Operator op = factorised();
   const fem::Load load;

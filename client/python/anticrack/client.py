@@ -130,7 +130,7 @@ class Client:
 
         A sweep solves a load case for every row of coefficients (rows, loads), a DataFrame or an array in the order of
         the loads, or of nodal_forces (rows, nodes): f on the mesh's nodes. traces: rows whose traces are kept. bounds:
-        bound the energy and every A in each row. tips: intensity and G of every tip in each row."""
+        bound the energy and every A in each row, as of a load case. tips: intensity and G of every tip in each row."""
         message, read = finished(self._session.submit(case, coefficients, nodal_forces, traces, bounds, tips))
         return Job(self._session, message, read, coefficients)
 
