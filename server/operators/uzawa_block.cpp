@@ -57,13 +57,13 @@ void UzawaBlock::measure(const PreparedLoad& load, contact::Answer& answer,
   if (answer.status == contact::Status::cancelled) return;
   try {
     const MeshOperator& mesh_operator = *_state->mesh_operator;
-    const bool recovered = answer.fields.empty();
+    const bool recovered = answer.fields.empty() && load._data->has_interior;
     if (recovered) {
       const PreparedLoad* const loads[] = {&load};
       contact::Answer* const answers[] = {&answer};
       mesh_operator.recover_fields(loads, answers);
     }
-    mesh_operator.find_boundary(load, answer);
+    if (!answer.fields.empty()) mesh_operator.find_boundary(load, answer);
     mesh_operator.find_tips(load, answer, stop);
     if (recovered) answer.fields.clear();
   } catch (const errors::Error& error) {
