@@ -91,6 +91,7 @@ void measure(const std::vector<PreparedCase>& cases, std::vector<Solved>& solved
     if (solved[i].failure || solved[i].answer.fields.empty()) continue;
     const auto& job = *cases[i].task.job;
     try {
+      const stop::Scope scope(job.stop.get_token());
       contact::Answer& answer = solved[i].answer;
       fill_probes(*job.probes, *job.mesh_operator, answer);
       std::size_t parts = job.mesh_operator->boundary_count();

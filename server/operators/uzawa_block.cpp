@@ -8,6 +8,7 @@
 #include "contact/uzawa_block.hpp"
 #include "errors/errors.hpp"
 #include "operators/mesh_parts.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::operators {
 
@@ -56,14 +57,15 @@ void UzawaBlock::measure(const PreparedLoad& load, contact::Answer& answer,
                          const std::stop_token& stop) const {
   if (answer.status == contact::Status::cancelled) return;
   try {
+    const stop::Scope scope(stop);
     const MeshOperator& mesh_operator = *_state->mesh_operator;
-    const bool recovered = answer.fields.empty();
+    const bool recovered = answer.fields.empty() && load._data->has_interior;
     if (recovered) {
       const PreparedLoad* const loads[] = {&load};
       contact::Answer* const answers[] = {&answer};
       mesh_operator.recover_fields(loads, answers);
     }
-    mesh_operator.find_boundary(load, answer);
+    if (!answer.fields.empty()) mesh_operator.find_boundary(load, answer);
     mesh_operator.find_tips(load, answer, stop);
     if (recovered) answer.fields.clear();
   } catch (const errors::Error& error) {

@@ -18,6 +18,7 @@
 #include "accuracy/sequence.hpp"
 #include "mesh/refine.hpp"
 #include "support/grid_mesh.hpp"
+#include "support/multipliers.hpp"
 #include "support/paths.hpp"
 
 namespace anticrack::accuracy {
@@ -257,7 +258,7 @@ struct Plain {
     for (const contact::Trace& trace : answer.traces) {
       add(u, trace.u_plus, 1 / units.load);
       add(u, trace.jump, 1 / units.load);
-      add(pressure, trace.pressure, units.size / units.load);
+      add(pressure, testing::multipliers(trace), units.size / units.load);
     }
     for (std::int32_t j = 0; j < 2; ++j) {
       const contact::InclusionAnswer& rigid = answer.inclusions.at(static_cast<std::size_t>(j));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "contact/answer.hpp"
+#include "support/multipliers.hpp"
 
 namespace anticrack::operators {
 
@@ -44,7 +45,7 @@ inline double difference(const contact::Answer& a, const contact::Answer& b) {
   for (std::size_t c = 0; c < a.traces.size(); ++c) {
     u.add(a.traces[c].u_minus, b.traces[c].u_minus);
     u.add(a.traces[c].u_plus, b.traces[c].u_plus);
-    pressure.add(a.traces[c].pressure, b.traces[c].pressure);
+    pressure.add(testing::multipliers(a.traces[c]), testing::multipliers(b.traces[c]));
   }
   for (std::size_t s = 0; s < a.fields.size(); ++s) {
     u.add(a.fields[s].u, b.fields[s].u);

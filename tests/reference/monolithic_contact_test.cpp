@@ -16,6 +16,7 @@
 #include "operators/mesh_operator.hpp"
 #include "reference/random_laws.hpp"
 #include "reference/random_membrane.hpp"
+#include "support/multipliers.hpp"
 #include "support/paths.hpp"
 #include "support/random_seed.hpp"
 #include "support/silent_observer.hpp"
@@ -44,6 +45,7 @@ double nearest(double value, const std::vector<double>& candidates) {
 void compare_trace(const MonolithicContact& reference, std::size_t c, const contact::Trace& trace,
                    double u_scale, double mu_scale, Tally& tally) {
   const std::size_t nodes = trace.jump.size();
+  const std::vector<double> found = testing::multipliers(trace);
   for (std::size_t i = 0; i < nodes; ++i) {
     std::vector<double> minus, plus, mu;
     for (const auto& [e, end] : {std::pair{i, std::size_t{0}}, std::pair{i - 1, std::size_t{1}}}) {
@@ -59,7 +61,7 @@ void compare_trace(const MonolithicContact& reference, std::size_t c, const cont
                         nearest(trace.u_plus[i], plus) / u_scale});
     if (!mu.empty()) {
       ++tally.multipliers;
-      tally.mu = std::max(tally.mu, nearest(trace.pressure[i], mu) / mu_scale);
+      tally.mu = std::max(tally.mu, nearest(found[i], mu) / mu_scale);
     }
   }
 }
@@ -167,7 +169,7 @@ void compare(unsigned seed, bool rich, std::size_t condensed_up_to, Tally& tally
     }
   }
   for (const contact::Trace& trace : answer.traces) {
-    for (const double mu : trace.pressure) {
+    for (const double mu : testing::multipliers(trace)) {
       mu_scale = std::max(mu_scale, std::abs(mu));
     }
   }

@@ -17,6 +17,7 @@
 #include "errors/errors.hpp"
 #include "operators/mesh_operator.hpp"
 #include "reference/random_membrane.hpp"
+#include "support/multipliers.hpp"
 #include "support/paths.hpp"
 #include "support/silent_observer.hpp"
 #include "support/solve.hpp"
@@ -128,7 +129,7 @@ void compare_row(const MeshOperator& op, const SweepColumns& rows, std::size_t r
   EXPECT_GE(rows.steps[row], 1);
   double largest = 0;
   for (const contact::Trace& trace : wanted.traces) {
-    for (const double pressure : trace.pressure) {
+    for (const double pressure : testing::multipliers(trace)) {
       largest = std::max(largest, std::abs(pressure));
     }
   }

@@ -159,7 +159,7 @@ class Field:
         with np.errstate(divide="ignore", invalid="ignore"):
             slopes = np.column_stack((u[:, 0] * y[:, 1] - u[:, 1] * y[:, 0],
                                       u[:, 1] * x[:, 0] - u[:, 0] * x[:, 1])) / twice[:, None]
-        return np.nan_to_num(slopes, posinf=0, neginf=0)
+        return np.asarray(np.nan_to_num(slopes, posinf=0, neginf=0))
 
     @property
     def flux(self) -> Array:
@@ -637,8 +637,7 @@ def _load_of(job: solve_pb2.Job, index: int, arrays: Mapping[str, Array], result
     prefix = f"loads/{index}/"
     load.traces = _traces(arrays, prefix + "traces", len(result.interfaces))
     load.history, load.indicator = _below(arrays, prefix + "history/"), arrays.get(prefix + "indicator")
-    load.fields += [Field(name, *(arrays[f"fields/{k}/{part}"] for part in ("nodes", "triangles", "tension")),
-                          arrays[f"{prefix}fields/{k}"])
+    load.fields += [Field(name, u=arrays[f"{prefix}fields/{k}"], **_below(arrays, f"fields/{k}/"))
                     for k, name in enumerate(result.mesh.subdomain_names) if f"{prefix}fields/{k}" in arrays]
     stages = [stage for stage in job.status.stages if index < len(stage.answers)]
     if stages:

@@ -230,7 +230,7 @@ class Plots(FolderTest):
         mesh.boundary = numpy.array([(0, 1)])
         del load.fields[1:]
         load.fields[0].nodes, load.fields[0].triangles = numpy.arange(3), numpy.array([(0, 1, 2)])
-        load.fields[0].u = numpy.array([0.0, 1, 2])
+        load.fields[0].u, load.fields[0].tension = numpy.array([0.0, 1, 2]), numpy.array([(1.0, 0, 1)])
         self.assertIn("opening-membrane", self.names(triangle, loads=["opening"])[0])
 
     def test_sheets_of_any_shape_size_and_place(self):
