@@ -182,6 +182,10 @@ void check_growth(const records::JobSpec& spec, const EngineOptions& options) {
                 "a job with growth has traces, and no fields or "
                 "indicators: leave them out")
         .at("outputs");
+  if (!spec.probes.empty())
+    throw Error(Reason::invalid_argument,
+                "a job with growth has no probes, as there are no fields: leave them out")
+        .at("probes");
   constexpr std::uint64_t a_row = 200;  // thirteen numbers and a name
   const auto rows = static_cast<std::uint64_t>(positions_of(growth)) * spec.loads.size();
   if (rows * a_row > max_answer_bytes)

@@ -172,6 +172,8 @@ TEST(EngineGrowth, WithWhatCannotBeIsRefused) {
                      Reason::invalid_argument, "solver.uzawa"));
   EXPECT_TRUE(
       throws(submit([](Spec& spec) { spec.fields = true; }), Reason::invalid_argument, "outputs"));
+  EXPECT_TRUE(throws(submit([](Spec& spec) { spec.probes.emplace_back().name = "middle"; }),
+                     Reason::invalid_argument, "probes"));
   EXPECT_TRUE(throws(submit([](Spec& spec) {
                        spec.loads.resize(100, spec.loads[0]);
                        for (std::size_t i = 0; i < spec.loads.size(); ++i)
