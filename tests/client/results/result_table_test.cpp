@@ -173,7 +173,7 @@ TEST(ResultTable, lists_what_a_file_holds_and_nothing_else) {
   add_names(anticrack::testing::with_stages(anticrack::testing::sample_result(2)), held);
   add_names(anticrack::testing::tilting_sweep(5), held);
   Result sweep = anticrack::testing::bounded_sweep(5);
-  for (auto* of_tips :
+  for (const auto of_tips :
        {&Sweep::intensity, &Sweep::energy_release_rate, &Sweep::energy_release_rate_spread})
     (*sweep.sweep).*of_tips = std::vector<double>(2 * sweep.sweep->rows(), 0.5);
   add_names(sweep, held);
