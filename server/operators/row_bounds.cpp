@@ -113,7 +113,8 @@ bool RowBounds::take(std::span<const double> c, const contact::LcpAnswer& soluti
   row.turned.ends = row.turned.ends.cwiseMax(0.0);
   row.pressure = faces.work(row.turned.ends, d);
 
-  row.lack = _of.lack.head(elastic).dot(row.sizes) + _of.beyond * (row.off.sum() + pulling);
+  row.unbalancing = _of.lack.head(elastic).dot(row.sizes);
+  row.lack = row.unbalancing + _of.beyond * (row.off.sum() + pulling);
   row.work = _of.work.head(elastic).dot(row.sizes);
   const VectorXd overlap = faces.overlap * row.turned.by;
   row.terms = _of.norm.head(elastic).dot(row.sizes) + root(row.turned.by.dot(overlap));
@@ -296,7 +297,7 @@ estimate::Terms RowBounds::terms(Index goal, double value, const Pair& z) const 
   of.unbalanced.dual = std::min(o * std::sqrt(z.square), row.unbalanced.dual * z.near);
   of.extra = z.steep * sizes.dot(_of.steep.col(goal)) +
              z.largest * sizes.dot(_of.moments.col(goal)) + row.work * z.largest +
-             z.jumps.cwiseAbs().dot(row.off) + 0.5 * row.lack * z.strain +
+             z.jumps.cwiseAbs().dot(row.off) + 0.5 * row.unbalancing * z.strain +
              of_products * z.terms * row.terms;
   return of;
 }

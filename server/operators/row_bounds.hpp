@@ -69,6 +69,7 @@ class RowBounds {
     Eigen::VectorXd slope;         ///< int phi_k.(sigma - T grad u) / T, before
     double terms = 0;              ///< as of a pair
     double norm_squared = 0, distance = 0, lack = 0, work = 0, pressure = 0;
+    double unbalancing = 0;           ///< what sum y_b sigma_b lacks, a part of `lack`
     estimate::Unbalanced unbalanced;  ///< `dual`: root of the sum of o^2 / omega
   };
 
