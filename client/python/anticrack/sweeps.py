@@ -22,7 +22,7 @@ def sweep_of(spec: job_pb2.JobSpec, coefficients: Any, nodal_forces: Any, traces
     if coefficients is None and nodal_forces is None:
         if traces or bounds or tips:
             raise CaseError("traces, bounds and tips are of a sweep; give coefficients or nodal_forces"
-                            + (" (load cases have bounds and tips anyway)" if bounds or tips else ""))
+                            + (f" (load cases have {'bounds' if bounds else 'tips'} anyway)" if bounds or tips else ""))
         return None
     if coefficients is not None and nodal_forces is not None:
         raise CaseError("give coefficients or nodal_forces, not both")

@@ -59,7 +59,7 @@ COMMANDS = [
     ("plot result.h5 -o figures --only membrane,pressure", 2,
      "--only: the pressure is a panel of traces; write that, or overview; see anticrack plot --help"),
     ("plot result.h5 -o figures --only tracks", 2,
-     "--only: tracks is none of overview, membrane, plan, traces, convergence, accuracy; see anticrack plot --help"),
+     "--only: tracks is none of overview, membrane, plan, traces, convergence, accuracy, growth; see anticrack plot --help"),
     ("sweep two.toml", 2,
      "give exactly one of --coefficients, --combinations, --nodal; see anticrack sweep --help"),
     ("sweep two.toml --coefficients a.csv --nodal b.h5:/f", 2,

@@ -178,7 +178,7 @@ def spec_of(*names):
 
 
 def sweep(**arrays):
-    matrix = sweep_of(spec_of("0", "1"), arrays.get("coefficients"), arrays.get("nodal_forces"), (), False)
+    matrix = sweep_of(spec_of("0", "1"), arrays.get("coefficients"), arrays.get("nodal_forces"), (), False, False)
     return numpy.frombuffer(matrix).reshape(-1, 2)
 
 

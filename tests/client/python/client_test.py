@@ -205,7 +205,7 @@ class Jobs(unittest.TestCase):
             for i, tip in enumerate(alone[name].tips):
                 numpy.testing.assert_allclose(sweep.intensity[row, i], tip.intensity, rtol=1e-6)
                 numpy.testing.assert_allclose(sweep.energy_release_rate[row, i], tip.G, rtol=1e-6)
-        self.assertEqual(sweep.frame()["G of tip 1"].tolist(), sweep.energy_release_rate[:, 1].tolist())
+        self.assertEqual(sweep.frame()["intensity of tip 1"].tolist(), sweep.intensity[:, 1].tolist())
         self.assertIsNone(self.client.run(case, numpy.eye(2), progress=False).sweep.intensity)
         with self.assertRaisesRegex(anticrack.CaseError, "tips are of a sweep"):
             self.client.run(case, tips=True)
