@@ -377,7 +377,7 @@ class SmallOnes(unittest.TestCase):
     def test_rows_whose_traces_are_kept(self):
         def kept(traces):
             spec = spec_of("0", "1")
-            sweep_of(spec, ROWS, None, traces, False)
+            sweep_of(spec, ROWS, None, traces, False, False)
             return list(spec.sweep.traces)
         for rows in ([2, 0], (2, 0, 2), {2, 0}, range(0, 3, 2), numpy.array([2, 0], ">i2"), iter([0, 2]),
                      pandas.Series([2, 0]), [numpy.uint8(2), 0], numpy.arange(3)[::-2], Lazy([0, 2])):
