@@ -40,7 +40,7 @@ Form Tips::form(std::size_t index) const {
   for (const Cell& cell : tip.cells)
     for (std::size_t i = 0; i < 3; ++i) form.nodes.push_back(node_of(cell, i));
   std::ranges::sort(form.nodes);
-  form.nodes.erase(std::ranges::unique(form.nodes).begin(), form.nodes.end());
+  form.nodes.erase(std::unique(form.nodes.begin(), form.nodes.end()), form.nodes.end());
   const auto place_of = [&form](const std::pair<std::int32_t, std::int32_t>& node) {
     return std::ranges::lower_bound(form.nodes, node) - form.nodes.begin();
   };
