@@ -85,8 +85,8 @@ struct Event {
 /// the first front leads, and the others are reported.
 class Evolution {
  public:
-  /// `step`: length by which the leader advances at once, at least by one position. Throws errors::Error (invalid_argument)
-  /// for tracks without positions, or with Gc that is not above 0.
+  /// `step`: length by which the leader advances at once, at least by one position. Throws
+  /// errors::Error (invalid_argument) for tracks without positions, or with Gc that is not above 0.
   Evolution(std::vector<Track> tracks, Control control, double step);
 
   const std::vector<Track>& tracks() const noexcept { return _tracks; }
