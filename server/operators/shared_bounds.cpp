@@ -237,6 +237,7 @@ class Maker {
         balances.back().traction = _balanced[at(b)].balance.traction;
       }
       std::vector<estimate::FaceBounds> bounds;
+      bounds.reserve(through.size());
       for (const std::vector<double>& one : through) bounds.push_back({one, one});
       const auto fluxes = estimate::EquilibratedFlux::of_all(_cut, balances, bounds);
       for (Index k = 0; k < count; ++k)
