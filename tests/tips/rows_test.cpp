@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <random>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -58,7 +59,8 @@ SweepColumns rows_of(const operators::MeshOperator& op, const std::vector<double
   SweepColumns rows(coefficients.size() / parts.size(), op.mesh().inclusions.size(),
                     op.contact_nodes().size(), false, false, tips ? op.tip_count() : 0);
   std::vector<char> start;
-  EXPECT_TRUE(op.sweep(*basis, coefficients, {}, rows, start));
+  EXPECT_TRUE(op.sweep(*basis, std::span<const double>(coefficients.data(), coefficients.size()),
+                       {}, rows, start));
   return rows;
 }
 
