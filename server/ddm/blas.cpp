@@ -3,6 +3,7 @@
 
 #include <cblas.h>
 
+#include <algorithm>
 #include <string>
 
 #include "errors/errors.hpp"
@@ -24,6 +25,20 @@ void require_threadsafe_blas() {
     return true;
   }();
   static_cast<void>(set);
+}
+
+void multiply_symmetric(const Eigen::MatrixXd& a, const double* x, double* y) {
+  const int size = static_cast<int>(a.rows());
+  // OpenBLAS 0.3.21 reads beyond the end of small matrices, which may be where memory ends.
+  constexpr int least = 32;
+  if (size >= least) {
+    cblas_dsymv(CblasColMajor, CblasLower, size, 1, a.data(), size, x, 1, 0, y, 1);
+    return;
+  }
+  for (int i = 0; i < size; ++i) {
+    y[i] = 0;
+    for (int j = 0; j < size; ++j) y[i] += a(std::max(i, j), std::min(i, j)) * x[j];
+  }
 }
 
 }  // namespace anticrack::ddm

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Core>
+
 namespace anticrack::ddm {
 
 /// Throws errors::Error (internal) unless BLAS is the pthread build of OpenBLAS: under threads, the
 /// serial build gave 40 wrong factors of 44, without an error. Sets one thread per caller.
 void require_threadsafe_blas();
+
+/// y = a x with the lower half of a symmetric matrix, by BLAS. O(n^2).
+void multiply_symmetric(const Eigen::MatrixXd& a, const double* x, double* y);
 
 }  // namespace anticrack::ddm

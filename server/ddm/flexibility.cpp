@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "base/at.hpp"
+#include "ddm/blas.hpp"
 #include "ddm/multifrontal.hpp"
 #include "errors/errors.hpp"
 #include "stop/stop.hpp"
@@ -20,7 +21,7 @@ void multiply(const Eigen::MatrixXd& a, const Eigen::Ref<const Eigen::MatrixXd>&
   const int size = static_cast<int>(a.rows()), columns = static_cast<int>(x.cols());
   if (size == 0 || columns == 0) return;
   if (columns == 1) {
-    cblas_dsymv(CblasColMajor, CblasLower, size, 1, a.data(), size, x.data(), 1, 0, y.data(), 1);
+    multiply_symmetric(a, x.data(), y.data());
     return;
   }
   cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, size, columns, size, 1, a.data(), size,

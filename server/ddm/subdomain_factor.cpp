@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ddm/subdomain_factor.hpp"
 
-#include <cblas.h>
 #include <sys/mman.h>
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 #include <numeric>
 
 #include "base/at.hpp"
+#include "ddm/blas.hpp"
 #include "ddm/cholmod.hpp"
 #include "ddm/kernels.hpp"
 #include "ddm/multifrontal.hpp"
@@ -223,11 +223,7 @@ Eigen::VectorXd SubdomainFactor::apply_schur(const Eigen::VectorXd& trace_values
 
 void SubdomainFactor::apply_schur(const Eigen::Ref<const Eigen::VectorXd>& trace_values,
                                   Eigen::Ref<Eigen::VectorXd> result) const {
-  const int size = static_cast<int>(_schur.rows());
-  if (size > 0) {
-    cblas_dsymv(CblasColMajor, CblasLower, size, 1, _schur.data(), size, trace_values.data(), 1, 0,
-                result.data(), 1);
-  }
+  multiply_symmetric(_schur, trace_values.data(), result.data());
 }
 
 std::size_t SubdomainFactor::bytes() const noexcept {
