@@ -19,6 +19,7 @@
 #include "cli/growth_text.hpp"
 #include "cli/json.hpp"
 #include "cli/progress.hpp"
+#include "cli/rows_text.hpp"
 #include "cli/sweep_text.hpp"
 #include "cli/text.hpp"
 #include "cli/tips_text.hpp"
@@ -271,12 +272,6 @@ Json load_json(const results::Load& load, const std::string& method) {
   json["warnings"] =
       std::vector<std::string>(load.answer.warnings().begin(), load.answer.warnings().end());
   return json;
-}
-
-std::string text_of(const results::Value& value) {
-  if (const auto* const real = std::get_if<double>(&value)) return number(*real);
-  const auto* const whole = std::get_if<std::int32_t>(&value);
-  return std::to_string(whole != nullptr ? *whole : std::get<std::int64_t>(value));
 }
 
 }  // namespace

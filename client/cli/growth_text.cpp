@@ -12,9 +12,6 @@
 namespace anticrack::cli {
 namespace {
 
-/// More rows than these are shown when they are asked for.
-constexpr int few_rows = 16;
-
 constexpr std::array columns{"position", "load", "displacement", "G1", "Gc", "contact_length"};
 
 /// Whether the row begins or ends something: it is the first or last, or the fronts run from there

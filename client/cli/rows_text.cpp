@@ -11,7 +11,6 @@
 #include "results/entries.hpp"
 
 namespace anticrack::cli {
-namespace {
 
 std::string text_of(const results::Value& value) {
   return std::visit(
@@ -25,8 +24,6 @@ std::string text_of(const results::Value& value) {
       },
       value);
 }
-
-}  // namespace
 
 std::string rows_table(const results::Result& result, const char* name) {
   const auto& list = *v1::LoadCaseAnswer::descriptor()->FindFieldByName(name);

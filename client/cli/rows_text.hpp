@@ -5,9 +5,13 @@
 
 #include <string>
 
+#include "results/entries.hpp"
 #include "results/result.hpp"
 
 namespace anticrack::cli {
+
+/// A value of a message as text for a terminal; "-" for a number that is not set.
+std::string text_of(const results::Value& value);
 
 /// A row for each message of the list `name` of each load's answer, with all its values.
 std::string rows_table(const results::Result& result, const char* name);

@@ -12,6 +12,9 @@
 
 namespace anticrack::cli {
 
+/// More rows than these are shown when they are asked for.
+inline constexpr int few_rows = 16;
+
 /// The text after words::shown(): text from a server must not control the terminal or add a line.
 std::string sanitise(std::string_view text);
 

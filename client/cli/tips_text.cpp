@@ -13,9 +13,6 @@
 namespace anticrack::cli {
 namespace {
 
-/// More rows than these are shown when they are asked for.
-constexpr std::size_t few_rows = 16;
-
 std::string words_of(const v1::Tip& tip) {
   std::string text = results::name_in(*v1::TipKind_descriptor(), tip.kind());
   std::ranges::replace(text, '_', ' ');
