@@ -28,12 +28,14 @@ struct Values {
   MatrixXd v;  ///< (numbers of v, b)
 };
 
-/// The contact of the node right behind a tip, or -1.
+/// The contact of the node right behind a tip, if it has a jump of its own, or -1.
 std::int32_t contact_behind(const MeshOperator::Parts& parts, std::size_t tip) {
   const std::array<std::int32_t, 2> node = parts.all_tips().behind(tip);
   const contact::SweepGeometry& geometry = parts.sweep_geometry;
   const auto found = std::ranges::find(geometry.nodes, node);
-  return found == geometry.nodes.end() ? -1 : geometry.contact[at(found - geometry.nodes.begin())];
+  if (found == geometry.nodes.end()) return -1;
+  const std::int32_t contact = geometry.contact[at(found - geometry.nodes.begin())];
+  return at(contact) < parts.decomposition.skeleton.independent ? contact : -1;
 }
 
 std::string obstacle(const MeshOperator::Parts& parts, std::size_t loads) {
@@ -135,8 +137,7 @@ void find_row_tips(const MeshOperator::Parts& parts, const RowTips& shared,
         integrals.rates[r] += value * sum;
       }
     }
-    const bool touching =
-        tip.contact >= 0 && (solution.closed[at(tip.contact)] != 0 || solution.d[tip.contact] <= 0);
+    const bool touching = tip.contact >= 0 && solution.d[tip.contact] <= 0;
     rows.take_tip(row, tip.index, parts.all_tips().told(tip.index, integrals, touching));
   }
 }
