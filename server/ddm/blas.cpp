@@ -3,9 +3,6 @@
 
 #include <cblas.h>
 
-#include <algorithm>
-#include <string>
-
 #include "errors/errors.hpp"
 
 namespace anticrack::ddm {
@@ -27,18 +24,11 @@ void require_threadsafe_blas() {
   static_cast<void>(set);
 }
 
-void multiply_symmetric(const Eigen::MatrixXd& a, const double* x, double* y) {
-  const int size = static_cast<int>(a.rows());
-  // OpenBLAS 0.3.21 reads beyond the end of small matrices, which may be where memory ends.
-  constexpr int least = 32;
-  if (size >= least) {
-    cblas_dsymv(CblasColMajor, CblasLower, size, 1, a.data(), size, x, 1, 0, y, 1);
-    return;
-  }
-  for (int i = 0; i < size; ++i) {
-    y[i] = 0;
-    for (int j = 0; j < size; ++j) y[i] += a(std::max(i, j), std::min(i, j)) * x[j];
-  }
+void multiply_symmetric(const Eigen::Ref<const Eigen::MatrixXd>& a, const double* x, double* y) {
+  const int size = static_cast<int>(a.rows()), lda = static_cast<int>(a.outerStride());
+  // Of the upper half: for the lower one OpenBLAS 0.3.21 reads beyond the end of the matrix, which
+  // may be where memory ends, on processors that it does not know.
+  cblas_dsymv(CblasColMajor, CblasUpper, size, 1, a.data(), lda, x, 1, 0, y, 1);
 }
 
 }  // namespace anticrack::ddm

@@ -9,7 +9,7 @@ namespace anticrack::ddm {
 /// serial build gave 40 wrong factors of 44, without an error. Sets one thread per caller.
 void require_threadsafe_blas();
 
-/// y = a x with the lower half of a symmetric matrix, by BLAS. O(n^2).
-void multiply_symmetric(const Eigen::MatrixXd& a, const double* x, double* y);
+/// y = a x with the upper half of a symmetric matrix, by BLAS. O(n^2).
+void multiply_symmetric(const Eigen::Ref<const Eigen::MatrixXd>& a, const double* x, double* y);
 
 }  // namespace anticrack::ddm
