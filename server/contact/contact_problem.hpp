@@ -68,7 +68,9 @@ struct Displaced {
 class RowContact {
  public:
   virtual ~RowContact() = default;
-  virtual void solve(const Eigen::VectorXd& r, const Eigen::VectorXd& magnitude) = 0;
+  /// `coefficients`: r = loads * coefficients, if the loads are known.
+  virtual void solve(const Eigen::VectorXd& r, const Eigen::VectorXd& magnitude,
+                     const Eigen::VectorXd& coefficients) = 0;
   /// The answer to the last load; before the first load only `closed` is set.
   virtual const LcpAnswer& answer() const = 0;
   /// How much the jumps of the answer change each of the sums of the skeleton's unknowns.
@@ -140,9 +142,11 @@ class ContactProblem {
                                          std::span<const Eigen::VectorXd> r,
                                          double tolerance = 0) const = 0;
   /// A solver for rows of a sweep. `start`: closed contacts, empty: all; `motions`: sums of
-  /// unknowns that RowContact::motion reports. Keeps references.
+  /// unknowns that RowContact::motion reports; `loads`: (contacts, loads) of which each r is a
+  /// combination, null: none. Keeps references.
   virtual std::unique_ptr<RowContact> rows(const LcpOptions& options, std::span<const char> start,
-                                           std::vector<ddm::Terms> motions) const = 0;
+                                           std::vector<ddm::Terms> motions,
+                                           const Eigen::MatrixXd* loads) const = 0;
 
   /// Fills Answer::fields; the bits of a case do not depend on the other cases. O(N) each.
   virtual void recover_fields(std::span<const SolvedCase> cases) const = 0;

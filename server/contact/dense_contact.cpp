@@ -48,11 +48,11 @@ namespace {
 class DenseRows final : public RowContact {
  public:
   DenseRows(const DenseLcp& lcp, const LcpOptions& options, std::span<const char> start,
-            const NestedStart& nested, MatrixXd motions)
-      : _contact(lcp, options, start, &nested), _motions(std::move(motions)) {}
+            const NestedStart& nested, MatrixXd motions, const MatrixXd* loads)
+      : _contact(lcp, options, start, &nested, loads), _motions(std::move(motions)) {}
 
-  void solve(const VectorXd& r, const VectorXd& magnitude) override {
-    _contact.solve(r, magnitude);
+  void solve(const VectorXd& r, const VectorXd& magnitude, const VectorXd& coefficients) override {
+    _contact.solve(r, magnitude, {}, coefficients);
   }
   const LcpAnswer& answer() const override { return _contact.answer(); }
   void motion(VectorXd& of_jumps) const override {
@@ -67,9 +67,10 @@ class DenseRows final : public RowContact {
 }  // namespace
 
 std::unique_ptr<RowContact> DenseContact::rows(const LcpOptions& options,
-                                               std::span<const char> start,
-                                               MatrixXd motions) const {
-  return std::make_unique<DenseRows>(_lcp, options, start, _nested_start, std::move(motions));
+                                               std::span<const char> start, MatrixXd motions,
+                                               const MatrixXd* loads) const {
+  return std::make_unique<DenseRows>(_lcp, options, start, _nested_start, std::move(motions),
+                                     loads);
 }
 
 const OpenFactor& DenseContact::all_open() const {

@@ -70,7 +70,8 @@ std::size_t DenseLcp::bytes() const noexcept {
 }
 
 LcpSequence::LcpSequence(const DenseLcp& lcp, const LcpOptions& options,
-                         std::span<const char> start, const NestedStart* nested)
+                         std::span<const char> start, const NestedStart* nested,
+                         const MatrixXd* loads)
     : _lcp(lcp),
       _matrix(lcp.scaled_matrix()),
       _conditions(lcp.scaled_conditions()),
@@ -85,6 +86,9 @@ LcpSequence::LcpSequence(const DenseLcp& lcp, const LcpOptions& options,
   _r.setZero(lcp.size());
   for (VectorXd* vector : {&_d, &_force, &_lambda, &_answer.d, &_answer.lambda})
     vector->setZero(lcp.conditions());
+  if (loads != nullptr && OpenResponses::pay(lcp.size(), loads->cols()) &&
+      _conditions.rows().empty() && options.tied.empty())
+    _responses.emplace(_matrix, lcp.scale().asDiagonal() * *loads);
   close_tied();
 }
 
@@ -94,13 +98,14 @@ void LcpSequence::close_tied() {
 }
 
 const LcpAnswer& LcpSequence::solve(const VectorXd& r, const VectorXd& magnitude,
-                                    const OnStep& on_step) {
+                                    const OnStep& on_step, const VectorXd& coefficients) {
   _given = {&r, magnitude.size() == 0 ? &r : &magnitude, &on_step};
   const auto scale = _lcp.scale().head(nodes());
   const double largest =
       nodes() == 0 ? 0 : scale.cwiseProduct(*_given.magnitude).lpNorm<Eigen::Infinity>();
   _unit = largest > 0 ? largest : 1;
   _r = scale.cwiseProduct(r) / _unit;
+  if (_responses) _coefficients = coefficients / _unit;
   _d.setZero();
   if (_answer.status == LcpStatus::unbounded) close_all();
   _answer.steps = 0;
@@ -142,15 +147,26 @@ const OpenFactor& LcpSequence::factor() {
   return _answer.factor;
 }
 
-/// Computes d for the present set.
-void LcpSequence::solve_open() {
-  factor().solve(_r, _d.head(nodes()));
+/// Computes d for the present set, and with responses _force; returns false if S is singular on its
+/// open nodes.
+bool LcpSequence::solve_open() {
+  if (_responses) {
+    const OpenResponses::Response& response = _responses->of(_closed);
+    if (!response.regular) return false;
+    multiply(response.d, _coefficients, _d);
+    multiply(response.force, _coefficients, _force);
+    return true;
+  }
+  if (!factor().regular()) return false;
+  _answer.factor.solve(_r, _d.head(nodes()));
   _conditions.add_rows(_d);
+  apply();
+  return true;
 }
 
 /// Writes S d - r into _force.
 void LcpSequence::apply() {
-  if (_answer.factor.empty()) {
+  if (std::find(_closed.begin(), _closed.begin() + nodes(), 0) == _closed.begin() + nodes()) {
     _force.head(nodes()) = -_r;
   } else {
     multiply(_matrix, _d.head(nodes()), _force.head(nodes()));
@@ -160,6 +176,11 @@ void LcpSequence::apply() {
 
 void LcpSequence::set_multipliers() {
   apply();
+  share_forces();
+}
+
+/// Multipliers of the present set from _force.
+void LcpSequence::share_forces() {
   _conditions.split(_closed, _force);
   for (Index i = 0; i < _force.size(); ++i)
     _lambda[i] = _closed[at(i)] == 0 || tied(i) ? 0 : _force[i];
@@ -201,9 +222,8 @@ bool LcpSequence::primal_dual() {
   _met.clear();
   for (unsigned step = 1;; ++step) {
     _conditions.close_rows_without_open_contacts(_closed);
-    if (!factor().regular()) return false;
-    solve_open();
-    set_multipliers();
+    if (!solve_open()) return false;
+    share_forces();
     const Index changed = find_next();
     if (!report() || changed == 0) return changed == 0;
     if (!may_go_on()) return false;
@@ -373,14 +393,17 @@ void LcpSequence::close_undecided() {
   _conditions.close_rows_without_open_contacts(_closed);
   if (changed || _answer.fell_back) {
     solve_open();
-    set_multipliers();
+    share_forces();
   }
   if (nodes() > 0 && _d.head(nodes()).minCoeff() < 0) {
     _d = _d.cwiseMax(0.0);
     _conditions.add_rows(_d);
     set_multipliers();
   }
-  factor();  // which now has the rows closed above
+  if (_responses)
+    set_multipliers();  // with the product itself, so that the residual is one
+  else
+    factor();  // which now has the rows closed above
 }
 
 void LcpSequence::finish() {

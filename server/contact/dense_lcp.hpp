@@ -12,6 +12,7 @@
 
 #include "contact/conditions.hpp"
 #include "contact/dense.hpp"
+#include "contact/open_responses.hpp"
 
 namespace anticrack::contact {
 
@@ -115,6 +116,7 @@ class NestedStart;
 /// open ones with d < 0, open the closed ones with lambda < 0, until nothing changes; the rows of G
 /// likewise. A step that changes the set is O(c^3); an r with the set of the one before costs two
 /// triangular solves and a product, O(c^2), and allocates nothing, unless there are rows of G.
+/// Where every r combines a few loads, and there are no rows of G, steps use OpenResponses.
 ///
 /// Termination: where a set recurs (Brent's cycle detection), or S is singular on the open nodes,
 /// the steps begin anew from all closed; if that ends so as well, the monotone method of Lawson and
@@ -126,20 +128,22 @@ class NestedStart;
 /// primal active set method takes its place, which frees or stops at one condition at a time
 /// (Nocedal and Wright, Numerical Optimization, 16.5), by Bland's rule.
 ///
-/// An answer's bits depend on r alone, not on the start nor on what came before: it is computed
-/// from the final set, in which nodes with neither d nor lambda to rounding are closed. For one
-/// thread.
+/// An answer's bits depend on r and its loads alone, not on the start nor on what came before: it
+/// is computed from the final set, in which nodes with neither d nor lambda to rounding are closed.
+/// For one thread.
 class LcpSequence {
  public:
   /// Keeps references. `start`: closed conditions; missing nodes are closed, missing rows open.
   /// `nested`: of the same problem, gives the start for an r far from the one before; may be null.
+  /// `loads`: (c, loads) of which every r is a combination; null: none are known.
   LcpSequence(const DenseLcp& lcp, const LcpOptions& options, std::span<const char> start,
-              const NestedStart* nested = nullptr);
+              const NestedStart* nested = nullptr, const Eigen::MatrixXd* loads = nullptr);
 
   /// `magnitude`: (c) sums of the absolute terms of r, the scale of its rounding errors; empty:
-  /// |r|. The answer is valid until the next call; its factor is the sequence's.
+  /// |r|. The answer is valid until the next call; its factor is the sequence's. `coefficients`: of
+  /// the loads, if they are known; the answer has no factor then where responses to them pay.
   const LcpAnswer& solve(const Eigen::VectorXd& r, const Eigen::VectorXd& magnitude,
-                         const OnStep& on_step = {});
+                         const OnStep& on_step = {}, const Eigen::VectorXd& coefficients = {});
   const LcpAnswer& answer() const noexcept { return _answer; }
   LcpAnswer take() && { return std::move(_answer); }
 
@@ -155,9 +159,10 @@ class LcpSequence {
   bool primal_dual();
   void monotone();
   void one_by_one();
-  void solve_open();
+  bool solve_open();
   void apply();
   void set_multipliers();
+  void share_forces();
   void set_multipliers_of_set();
   Eigen::Index find_next();
   bool report();
@@ -180,6 +185,8 @@ class LcpSequence {
   std::optional<LcpStatus> _ended;
   // Scaled, load of size 1. _force is S d - r, less what rows carry; _lambda that where closed.
   Eigen::VectorXd _r, _d, _force, _lambda;
+  std::optional<OpenResponses> _responses;
+  Eigen::VectorXd _coefficients;  // of the load of size 1
   double _unit = 1;
   struct Given {
     const Eigen::VectorXd *r, *magnitude;

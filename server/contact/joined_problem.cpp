@@ -113,7 +113,8 @@ class JoinedRows final : public RowContact {
     _answer.closed.assign(start.begin(), start.end());
   }
 
-  void solve(const VectorXd& r, const VectorXd& magnitude) override {
+  void solve(const VectorXd& r, const VectorXd& magnitude,
+             const VectorXd& /*coefficients*/) override {
     _answer = _lcp.solve(r, magnitude, _options, _answer.closed, {});
   }
   const LcpAnswer& answer() const override { return _answer; }
@@ -139,13 +140,14 @@ class JoinedRows final : public RowContact {
 
 std::unique_ptr<RowContact> JoinedProblem::rows(const LcpOptions& options,
                                                 std::span<const char> start,
-                                                std::vector<ddm::Terms> motions) const {
+                                                std::vector<ddm::Terms> motions,
+                                                const MatrixXd* loads) const {
   if (!_dense)
     return std::make_unique<JoinedRows>(*this, _by_blocks->lcp, options, start, std::move(motions));
   MatrixXd of_jumps(static_cast<Index>(motions.size()), _membrane.contacts());
   for (Index j = 0; j < of_jumps.rows(); ++j)
     of_jumps.row(j) = unit_force(motions[at(j)]).r.transpose();
-  return _dense->rows(options, start, std::move(of_jumps));
+  return _dense->rows(options, start, std::move(of_jumps), loads);
 }
 
 void JoinedProblem::recover_fields(std::span<const SolvedCase> cases) const {

@@ -54,7 +54,8 @@ class JoinedProblem final : public ContactProblem {
                                  std::span<const Eigen::VectorXd> r,
                                  double tolerance) const override;
   std::unique_ptr<RowContact> rows(const LcpOptions& options, std::span<const char> start,
-                                   std::vector<ddm::Terms> motions) const override;
+                                   std::vector<ddm::Terms> motions,
+                                   const Eigen::MatrixXd* loads) const override;
   void recover_fields(std::span<const SolvedCase> cases) const override;
   std::vector<std::vector<double>> fields_of(std::span<const Displaced> displaced) const override;
   std::unique_ptr<const OpenMembrane> open_membrane() const override;

@@ -165,7 +165,8 @@ std::vector<std::size_t> solving_order(const SweepLoads& loads,
 }
 
 SweepSolver::SweepSolver(const ContactProblem& problem, const SweepGeometry& geometry,
-                         const ActiveSetOptions& options, std::span<const char> start)
+                         const ActiveSetOptions& options, std::span<const char> start,
+                         const SweepLoads* basis)
     : _geometry(geometry),
       _forces(problem.traces().pair_forces()),
       _length(problem.traces().contact_length()),
@@ -175,7 +176,8 @@ SweepSolver::SweepSolver(const ContactProblem& problem, const SweepGeometry& geo
   std::vector<ddm::Terms> motions = sweep_motions(problem.traces().decomposition().skeleton);
   _motion.resize(static_cast<Index>(motions.size()));
   _of_jumps.resize(_motion.size());
-  _contact = problem.rows({options.tolerance, options.max_steps}, start, std::move(motions));
+  _contact = problem.rows({options.tolerance, options.max_steps}, start, std::move(motions),
+                          basis != nullptr ? &basis->r : nullptr);
 }
 
 void SweepSolver::solve(const SweepLoads& loads, std::span<const double> coefficients,
@@ -183,7 +185,7 @@ void SweepSolver::solve(const SweepLoads& loads, std::span<const double> coeffic
   rows.steps[row] = 0;
   bool sound = combine(loads, coefficients);
   if (sound) {
-    _contact->solve(_r, _magnitude);
+    _contact->solve(_r, _magnitude, _coefficients);
     sound = _contact->answer().status == LcpStatus::solved;
     rows.steps[row] = _contact->answer().steps;
   }

@@ -78,9 +78,11 @@ std::vector<std::size_t> solving_order(const SweepLoads& loads,
 ///        measured row by row.
 class SweepSolver {
  public:
-  /// `start`: closed contacts to start the first row from; empty: all are closed.
+  /// `start`: closed contacts to start the first row from; empty: all are closed. `basis`: the
+  /// loads of all rows; null: each row has its own.
   SweepSolver(const ContactProblem& problem, const SweepGeometry& geometry,
-              const ActiveSetOptions& options, std::span<const char> start);
+              const ActiveSetOptions& options, std::span<const char> start,
+              const SweepLoads* basis);
 
   /// Solves and writes one row. It ends not_converged, with zeros, if max_steps is reached, if a
   /// part that only contact holds is pulled off, or if a number is beyond the range of double.

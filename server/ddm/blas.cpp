@@ -26,6 +26,7 @@ void require_threadsafe_blas() {
 
 void multiply_symmetric(const Eigen::Ref<const Eigen::MatrixXd>& a, const double* x, double* y) {
   const int size = static_cast<int>(a.rows()), lda = static_cast<int>(a.outerStride());
+  if (size == 0) return;  // BLAS would complain of lda = 0
   // Of the upper half: for the lower one OpenBLAS 0.3.21 reads beyond the end of the matrix, which
   // may be where memory ends, on processors that it does not know.
   cblas_dsymv(CblasColMajor, CblasUpper, size, 1, a.data(), lda, x, 1, 0, y, 1);

@@ -26,6 +26,7 @@ struct ActiveSetOptions;
 struct Answer;
 class Observer;
 struct SweepColumns;
+struct SweepLoads;
 struct TraceGeometry;
 }  // namespace anticrack::contact
 
@@ -185,7 +186,8 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
   template <class SolveRow>
   bool sweep_rows(const contact::ActiveSetOptions& options, contact::SweepColumns& rows,
                   std::vector<char>& start, const std::stop_token& stop,
-                  std::span<const std::size_t> order, const SolveRow& solve_row) const;
+                  std::span<const std::size_t> order, const contact::SweepLoads* basis,
+                  const SolveRow& solve_row) const;
   std::shared_ptr<const Parts> _parts;
 };
 

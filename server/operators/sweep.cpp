@@ -140,13 +140,14 @@ std::shared_ptr<const LoadBasis> MeshOperator::basis(std::span<const fem::Load* 
 template <class SolveRow>
 bool MeshOperator::sweep_rows(const contact::ActiveSetOptions& options, contact::SweepColumns& rows,
                               std::vector<char>& start, const std::stop_token& stop,
-                              std::span<const std::size_t> order, const SolveRow& solve_row) const {
+                              std::span<const std::size_t> order, const contact::SweepLoads* basis,
+                              const SolveRow& solve_row) const {
   const auto contacts = _parts->decomposition.skeleton.contacts.size();
   if (rows.inclusions != _parts->mesh->inclusions.size() ||
       rows.contacts != contact_nodes().size() || (!start.empty() && start.size() != contacts))
     throw errors::Error(errors::Reason::internal, "rows of a sweep on another mesh");
   const stop::Scope scope(stop);
-  contact::SweepSolver solver(*_parts->contact, _parts->sweep_geometry, options, start);
+  contact::SweepSolver solver(*_parts->contact, _parts->sweep_geometry, options, start, basis);
   std::size_t solved = 0;
   try {
     for (; solved < rows.rows() && !stop.stop_requested(); ++solved)
@@ -170,7 +171,7 @@ bool MeshOperator::sweep(const LoadBasis& basis, std::span<const double> coeffic
   std::optional<RowBounds> bounds;
   if (shared != nullptr && !rows.energy_lower.empty()) bounds.emplace(*_parts, *shared, loads);
   return sweep_rows(options, rows, start, stop,
-                    contact::solving_order(loads, coefficients, rows.rows()),
+                    contact::solving_order(loads, coefficients, rows.rows()), &loads,
                     [&](contact::SweepSolver& solver, std::size_t row) {
                       const auto c = coefficients.subspan(row * m, m);
                       solver.solve(loads, c, row, rows);
@@ -199,7 +200,7 @@ bool MeshOperator::sweep(std::span<const PreparedLoad> loads,
       constant(0, 0) += part.energy_constant;
     solver.solve(contact::reduce(*_parts->contact, parts, constant), once, row, rows);
   };
-  return sweep_rows(options, rows, start, stop, {}, solve_row);
+  return sweep_rows(options, rows, start, stop, {}, nullptr, solve_row);
 }
 
 PreparedLoad MeshOperator::combine(const LoadBasis& basis,

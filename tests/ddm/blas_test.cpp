@@ -47,5 +47,11 @@ TEST(Blas, ReadsNothingBeyondASymmetricMatrix) {
   }
 }
 
+TEST(Blas, HasNoWordForAnEmptyMatrix) {
+  ::testing::internal::CaptureStdout();
+  multiply_symmetric(Eigen::MatrixXd(0, 0), nullptr, nullptr);
+  EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
+}
+
 }  // namespace
 }  // namespace anticrack::ddm
