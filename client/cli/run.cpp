@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 //   anticrack run CASE.toml
-#include <CLI/CLI.hpp>
-
 #include <chrono>
 #include <filesystem>
 #include <memory>
 
 #include "cli/answers.hpp"
-#include "cli/commands.hpp"
 #include "cli/job_run.hpp"
+#include "cli/options.hpp"
 
 namespace anticrack::cli {
 namespace {
@@ -47,9 +45,7 @@ void add_run(CLI::App& app, const Globals& globals, Command& chosen) {
   CLI::App* command =
       app.add_subcommand("run", "Mesh, submit, watch and save: the everyday command");
   const auto options = std::make_shared<RunOptions>();
-  command->add_option("CASE", options->case_file, "The case, a TOML file")
-      ->required()
-      ->type_name("FILE");
+  add_case(*command, options->case_file);
   command
       ->add_option("-o,--output", options->output,
                    "Result file, HDF5 (default: CASE.h5 in this folder)")
@@ -64,8 +60,7 @@ void add_run(CLI::App& app, const Globals& globals, Command& chosen) {
       "Example:\n  anticrack --local run paper.toml -o paper.h5\n"
       "  anticrack run plate.toml --set mesh.preset=uniform --set mesh.size=0.02\n"
       "  anticrack run plate.toml --set accuracy.A=1e-3");
-  command->callback(
-      [=, &globals, &chosen] { chosen = [options, &globals] { return run(*options, globals); }; });
+  on(*command, options, globals, chosen, run);
 }
 
 }  // namespace anticrack::cli

@@ -133,13 +133,15 @@ std::string clock_text(std::int64_t seconds) {
   return {buffer.data(), std::strftime(buffer.data(), buffer.size(), "%Y-%m-%d %H:%M:%S", &local)};
 }
 
-std::string table(const std::vector<std::vector<std::string>>& rows,
+std::string table(std::vector<std::vector<std::string>> rows,
                   const std::vector<std::size_t>& left) {
   std::vector<std::size_t> widths;
-  for (const auto& row : rows) {
+  for (auto& row : rows) {
     widths.resize(std::max(widths.size(), row.size()), 0);
-    for (std::size_t j = 0; j < row.size(); ++j)
+    for (std::size_t j = 0; j < row.size(); ++j) {
+      row[j] = sanitise(row[j]);
       widths[j] = std::max(widths[j], columns_of(row[j]));
+    }
   }
   std::string text;
   for (const auto& row : rows) {
