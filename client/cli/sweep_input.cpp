@@ -121,26 +121,6 @@ void check_task(const Case& the_case) {
   }
 }
 
-void check_limits(const SweepInput& input, const v1::ServerLimits& limits) {
-  const std::string& source = input.source;
-  if (limits.sweep_rows() == 0)
-    fail(source, "the server knows no sweeps; update it, or name a newer one with --server");
-  if (input.rows > limits.sweep_rows()) {
-    fail(source, fmt::format("it has {} rows, the server takes {} a sweep; cut it into several, or "
-                             "start the server with a larger limit",
-                             input.rows, limits.sweep_rows()));
-  }
-  if (!input.nodal && input.columns > static_cast<std::size_t>(limits.sweep_basis())) {
-    fail(source, fmt::format("it combines {} loads, the server at most {}; join loads that always "
-                             "go together, or start the server with a larger limit",
-                             input.columns, limits.sweep_basis()));
-  }
-  if (input.bytes() > inline_matrix_bytes && input.bytes() > limits.upload_bytes()) {
-    fail(source, "it takes " + bytes(input.bytes()) + ", the server takes uploads of " +
-                     bytes(limits.upload_bytes()) + "; cut it into several sweeps");
-  }
-}
-
 }  // namespace
 
 bool leave_out_accuracy(Case& the_case) {
@@ -167,7 +147,6 @@ SweepInput read_sweep_input(const SweepFiles& files, const Case& the_case) {
 }
 
 void make_sweep(const SweepInput& input, const v1::ServerLimits& limits, Case& the_case) {
-  check_limits(input, limits);
   const auto most = static_cast<std::uint64_t>(limits.load_cases());
   const std::vector<std::uint32_t> traces = select_rows(input.traces, input.rows, most);
   v1::JobSpec& spec = the_case.spec;

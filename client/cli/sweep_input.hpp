@@ -48,8 +48,8 @@ bool leave_out_accuracy(Case& the_case);
 /// file, line and cure.
 SweepInput read_sweep_input(const SweepFiles& files, const Case& the_case);
 
-/// Makes the case's job a sweep, except the matrix. Checks the limits of the server; throws
-/// CaseError with the cure.
+/// Makes the case's job a sweep, except the matrix. The server checks its limits, but that of traces
+/// is needed here: throws CaseError with the cure.
 void make_sweep(const SweepInput& input, const v1::ServerLimits& limits, Case& the_case);
 
 /// Throws CaseError unless there is a column for each node of the mesh.
