@@ -10,7 +10,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <cstdlib>
 #include <ctime>
 
@@ -71,10 +70,8 @@ std::string pad_left(std::string_view text, std::size_t width) {
 
 std::string number(double value, int digits, bool exponent) {
   if (!std::isfinite(value)) return "-";
-  std::array<char, 64> buffer{};
-  const int length = std::snprintf(buffer.data(), buffer.size(), exponent ? "%.*e" : "%.*g", digits,
-                                   value + 0.0);  // no "-0"
-  return std::string(buffer.data(), static_cast<std::size_t>(length));
+  value += 0.0;  // no "-0"
+  return exponent ? fmt::format("{:.{}e}", value, digits) : fmt::format("{:.{}g}", value, digits);
 }
 
 std::string exact(double value) {
