@@ -15,7 +15,6 @@
 #include "cli/sweep_input.hpp"
 #include "cli/sweep_text.hpp"
 #include "cli/text.hpp"
-#include "client/jobs.hpp"
 #include "client/meshes.hpp"
 #include "client/uuid.hpp"
 #include "output/file.hpp"
@@ -114,7 +113,7 @@ int sweep(const SweepOptions& options, const Globals& given) {
   Case the_case = read_case(session, options);
   SweepInput input = read_sweep_input(options.files, the_case);
   const Targets targets = check_targets(options);
-  make_sweep(input, client::server_info(session.connection(), session.stop()).limits(), the_case);
+  make_sweep(input, the_case);
   check_mesh(session, the_case, input);
   if (options.detach) {
     tell_submitted(session, submit(session, the_case, client::make_uuid(),

@@ -27,12 +27,6 @@ Case two_load_case() {
   return the_case;
 }
 
-v1::ServerLimits limits() {
-  v1::ServerLimits limits;
-  limits.set_load_cases(100);
-  return limits;
-}
-
 std::string written(const TemporaryFolder& folder, const std::string& name,
                     const std::string& text) {
   std::ofstream(folder / name) << text;
@@ -91,17 +85,6 @@ TEST(SweepInput, RefusesWhatCannotBeReadWithFileAndCure) {
   EXPECT_THAT(nodal(written(folder, "c.csv", "1\n") + ":/x"), HasSubstr("is not an HDF5 file"));
 }
 
-TEST(SweepInput, IsOfTheActiveSetOnly) {
-  Case the_case = two_load_case();
-  the_case.spec.mutable_solver()->mutable_uzawa();
-  the_case.places["solver.method"].set_where("plate.toml:7");
-  the_case.places["solver.method"].set_key("solver.method");
-  EXPECT_THAT(complaint_of([&] {
-                read_sweep_input({"c.csv", "", "none"}, the_case);
-              }),
-              HasSubstr("plate.toml:7: solver.method: a sweep is solved by the active set"));
-}
-
 TEST(SweepInput, LeavesOutTheAccuracyAndItsCoarseMesh) {
   Case the_case = two_load_case();
   EXPECT_FALSE(leave_out_accuracy(the_case));
@@ -131,7 +114,7 @@ TEST(MakeSweep, LeavesAJobWithoutFieldsAndWithTheRowsToKeep) {
   SweepInput input = rows_of_two(10);
   input.traces = "7,1-2";
   input.bounds = true;
-  make_sweep(input, limits(), the_case);
+  make_sweep(input, the_case);
   EXPECT_TRUE(the_case.spec.sweep().bounds());
   EXPECT_THAT(the_case.spec.sweep().traces(), ElementsAre(1, 2, 7));
   EXPECT_TRUE(the_case.spec.sweep().has_coefficients());
@@ -146,20 +129,10 @@ TEST(MakeSweep, OfNodalForcesHasNoLoads) {
   the_case.force_files.push_back({0, "f.h5", "/f"});
   SweepInput input = rows_of_two(10);
   input.nodal = true;
-  make_sweep(input, limits(), the_case);
+  make_sweep(input, the_case);
   EXPECT_TRUE(the_case.spec.sweep().has_nodal_forces());
   EXPECT_EQ(the_case.spec.load_cases_size(), 0);
   EXPECT_TRUE(the_case.force_files.empty());
-}
-
-TEST(MakeSweep, KeepsNoMoreTracesThanTheServer) {
-  SweepInput input = rows_of_two(10);
-  input.traces = "all";
-  Case the_case = two_load_case();
-  v1::ServerLimits few = limits();
-  few.set_load_cases(9);
-  EXPECT_THAT(complaint_of([&] { make_sweep(input, few, the_case); }),
-              HasSubstr("--traces all: these are 10 rows"));
 }
 
 TEST(CheckNodes, WantsAColumnForEachNode) {
