@@ -2,10 +2,8 @@
 //
 //   anticrack run CASE.toml
 #include <chrono>
-#include <filesystem>
 #include <memory>
 
-#include "cli/answers.hpp"
 #include "cli/job_run.hpp"
 #include "cli/options.hpp"
 
@@ -27,16 +25,7 @@ int run(const RunOptions& options, const Globals& given) {
       read_case(session, options.case_file, options.overrides, Loads::needed, options.loads);
   if (the_case.spec.priority() == v1::JobSpec::PRIORITY_UNSPECIFIED)
     the_case.spec.set_priority(v1::JobSpec::PRIORITY_INTERACTIVE);  // a user waits for it
-  const std::filesystem::path output = result_file(options.case_file, options.output);
-  if (!the_case.spec.title().empty()) say(globals, the_case.spec.title());
-  const Followed followed = submit_and_follow(session, the_case);
-  const int job_code = exit_code_of(globals, followed);
-  if (followed.how == Followed::How::detached) return job_code;
-  const auto result = results_of(session, the_case, followed, begin);
-  if (!result) return job_code;
-  save(output, *result, session);
-  print_answers(globals, followed.job, *result, output);
-  return job_code;
+  return run_job(session, the_case, result_file(options.case_file, options.output), begin);
 }
 
 }  // namespace
