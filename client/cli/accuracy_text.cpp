@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "cli/live_view.hpp"
 #include "cli/progress.hpp"
@@ -29,17 +30,18 @@ std::string error_text(double error, double asked) {
   return pad_left(number(100 * error, 3), 6) + " % (asked " + number(100 * asked, 6) + " %)";
 }
 
-std::string unpadded(std::string text) { return text.erase(0, text.find_first_not_of(' ')); }
-
-// Whether to show the error of A; a mesh without inclusions has no A.
-bool tells_displacement(const StageErrors& stage, const v1::Accuracy& asked) {
-  return asked.has_displacement() || asked.has_displacement_estimated() ||
-         std::isfinite(stage.displacement);
-}
-
-bool tells_probable(const StageErrors& stage, const v1::Accuracy& asked) {
-  return asked.has_displacement_estimated() ||
-         (asked.has_displacement() && std::isfinite(stage.probable));
+// What is told of a stage, each with its error: of A unless the mesh has no inclusion, and of its
+// estimate where that is asked for or known beside the proof.
+std::vector<std::pair<std::string, std::string>> errors_told(const StageErrors& stage,
+                                                             const v1::Accuracy& asked) {
+  std::vector<std::pair<std::string, std::string>> told{
+      {"energy", error_text(stage.energy, asked.energy())}};
+  const bool estimated = asked.has_displacement_estimated();
+  if (!asked.has_displacement() && !estimated && !std::isfinite(stage.displacement)) return told;
+  told.emplace_back("A", error_text(stage.displacement, asked.displacement()));
+  if (estimated || (asked.has_displacement() && std::isfinite(stage.probable)))
+    told.emplace_back("probably", error_text(stage.probable, asked.displacement_estimated()));
+  return told;
 }
 
 double fraction_of(const StageErrors& stage, const v1::Accuracy& asked) {
@@ -52,16 +54,16 @@ double fraction_of(const StageErrors& stage, const v1::Accuracy& asked) {
   return fraction;
 }
 
+// "energy 0.21 % (asked 0.1 %), A 0.8 %"; `scale` stands behind the error of A.
 std::string errors_text(const StageErrors& stage, const v1::Accuracy& asked,
                         const std::string& scale = "") {
-  std::string text = "energy " + unpadded(error_text(stage.energy, asked.energy()));
-  if (!tells_displacement(stage, asked)) return text;
-  std::string moved = unpadded(error_text(stage.displacement, asked.displacement()));
-  moved.insert(moved.find('%') + 1, scale);
-  text += ", A " + moved;
-  if (!tells_probable(stage, asked)) return text;
-  return text + ", probably " +
-         unpadded(error_text(stage.probable, asked.displacement_estimated()));
+  std::string text;
+  for (auto& [name, error] : errors_told(stage, asked)) {
+    error.erase(0, error.find_first_not_of(' '));
+    if (name == "A") error.insert(error.find('%') + 1, scale);
+    text += (text.empty() ? "" : ", ") + name + " " + error;
+  }
+  return text;
 }
 
 // The value to which the error of A is relative, if there are several inclusions.
@@ -104,12 +106,9 @@ std::vector<std::string> stage_lines(const std::vector<StageErrors>& stages,
   std::vector<std::string> lines;
   for (std::size_t i = stages.size() - std::min(stages.size(), count); i < stages.size(); ++i) {
     std::string line = "  stage " + pad_left(std::to_string(i + 1), 2) + "  " +
-                       pad_left(std::to_string(stages[i].triangles), 8) + " triangles   energy " +
-                       error_text(stages[i].energy, asked.energy());
-    if (tells_displacement(stages[i], asked))
-      line += "   A " + error_text(stages[i].displacement, asked.displacement());
-    if (tells_probable(stages[i], asked))
-      line += "   probably " + error_text(stages[i].probable, asked.displacement_estimated());
+                       pad_left(std::to_string(stages[i].triangles), 8) + " triangles";
+    for (const auto& [name, error] : errors_told(stages[i], asked))
+      line += "   " + name + " " + error;
     lines.push_back(std::move(line));
   }
   std::size_t widest = 0;

@@ -16,13 +16,11 @@
 #include <variant>
 #include <vector>
 
-#include "cli/growth_text.hpp"
 #include "cli/json.hpp"
+#include "cli/lists_text.hpp"
 #include "cli/progress.hpp"
-#include "cli/rows_text.hpp"
 #include "cli/sweep_text.hpp"
 #include "cli/text.hpp"
-#include "cli/tips_text.hpp"
 #include "results/entries.hpp"
 #include "results/interval.hpp"
 #include "results/notes.hpp"
@@ -127,7 +125,7 @@ class Told {
       if (!each()) break;
       for (const std::string& name : told_of(inclusion)) {
         head.push_back({name, dimension_of(name)});
-        if (_inclusions.size() > 1) head.back().name += " " + sanitise(inclusion.name);
+        if (_inclusions.size() > 1) head.back().name += " " + inclusion.name;
       }
     }
     if (each()) return head;
@@ -197,8 +195,7 @@ std::vector<std::string> row_of(const results::Load& load, const Told& inclusion
     return answered ? number(value, digits, exponent) : "-";
   };
   std::vector<std::string> row{
-      sanitise(load.name()), std::string(word(answer.status())),
-      std::to_string(answer.iterations()),
+      load.name(), std::string(word(answer.status())), std::to_string(answer.iterations()),
       when_answered(by_uzawa ? answer.criterion() : results::largest_kkt(answer), 2, true)};
   inclusions.add(load, row);
   row.push_back(
@@ -247,30 +244,13 @@ std::vector<std::string> remarks_on(const results::Load& load) {
   return remarks;
 }
 
-template <class Messages>
-Json json_list(const Messages& messages) {
-  Json json = Json::array();
-  for (const auto& message : messages) json.push_back(json_of(message));
-  return json;
-}
-
 Json load_json(const results::Load& load, const std::string& method) {
-  Json json = json_of(load.answer);
+  Json json = with_lists(load.answer, json_of(load.answer));
   json["method"] = method;
   json["worst_kkt"] = load.has_answer() ? results::largest_kkt(load.answer) : results::unknown;
-  json["inclusions"] = json_list(load.answer.inclusions());
-  json["boundary"] = json_list(load.answer.boundary());
-  json["probes"] = json_list(load.answer.probes());
-  json["tips"] = json_list(load.answer.tips());
-  json["growth"] = json_list(load.answer.growth());
-  json["growth_notes"] = std::vector<std::string>(load.answer.growth_notes().begin(),
-                                                  load.answer.growth_notes().end());
-  json["contact_intervals"] = json_list(load.answer.contact_intervals());
   json["stages"] = Json::array();
   for (const v1::Stage& stage : load.stages)
     json["stages"].push_back(json_of(stage.answers(0), json_of(stage)));
-  json["warnings"] =
-      std::vector<std::string>(load.answer.warnings().begin(), load.answer.warnings().end());
   return json;
 }
 
@@ -295,7 +275,7 @@ std::string answers_table(const std::vector<results::Load>& loads, const v1::Uni
   for (const Head& column : head) {
     if (column.name == Told::of) left.push_back(rows[0].size());
     rows[0].push_back(column.name);
-    rows[1].push_back(column.dimension ? sanitise(results::unit_of(units, *column.dimension)) : "");
+    rows[1].push_back(column.dimension ? results::unit_of(units, *column.dimension) : "");
   }
   std::string remarks;
   for (const results::Load& load : loads) {
@@ -321,15 +301,15 @@ std::string inclusions_table(const results::Result& result) {
   std::vector<std::vector<std::string>> rows{{"load", "inclusion"}, {"", ""}};
   for (const std::string& name : columns) {
     rows[0].push_back(name);
-    rows[1].push_back(sanitise(results::unit_of(result.units, dimension_of(name))));
+    rows[1].push_back(results::unit_of(result.units, dimension_of(name)));
   }
   rows[0].insert(rows[0].end(), {"resultant", "contact length"});
-  rows[1].insert(rows[1].end(), {sanitise(results::unit_of(result.units, "F")),
-                                 sanitise(results::unit_of(result.units, "L"))});
+  rows[1].insert(rows[1].end(),
+                 {results::unit_of(result.units, "F"), results::unit_of(result.units, "L")});
   for (const results::Load& load : result.loads) {
     if (!load.has_answer()) continue;
     for (const v1::InclusionAnswer& inclusion : load.answer.inclusions()) {
-      auto& row = rows.emplace_back(std::vector{sanitise(load.name()), sanitise(inclusion.name())});
+      auto& row = rows.emplace_back(std::vector{load.name(), inclusion.name()});
       for (const std::string& name : columns) row.push_back(text_of(inclusion, name));
       row.insert(row.end(),
                  {number(inclusion.resultant()), contact_text(inclusion.contact_length())});
@@ -365,7 +345,7 @@ std::string numbers_table(const results::Result& result) {
     for (const results::Entry& entry : results::entries_of(*message.GetDescriptor())) {
       if (entry.type == results::ValueType::text) continue;
       rows.push_back({entry.name, text_of(results::get(message, entry)),
-                      sanitise(results::unit_of(result.units, entry.unit)), entry.meaning});
+                      results::unit_of(result.units, entry.unit), entry.meaning});
     }
     text += "\n" + sanitise(of) + ", every number:\n" + table(rows, {2, 3});
   };

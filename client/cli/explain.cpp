@@ -34,8 +34,7 @@ std::string block(const v1::CaseKey& key) {
 std::string overview(const v1::ListCaseKeysResponse& found) {
   std::vector<std::vector<std::string>> rows;
   for (const v1::CaseKey& key : found.keys())
-    if (key.names(0).find('.') == std::string::npos)
-      rows.push_back({sanitise(key.names(0)), sanitise(key.meaning())});
+    if (key.names(0).find('.') == std::string::npos) rows.push_back({key.names(0), key.meaning()});
   return table(rows, {1}) + "\nanticrack explain KEY tells more of each, and the keys below it.\n";
 }
 

@@ -1,43 +1,38 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <CLI/CLI.hpp>
 
-#include <string>
-
 #include "cli/options.hpp"
 
 namespace anticrack::cli {
 
-void add_figure_options(CLI::App& app, FigureOptions& options) {
-  app.add_option("-o,--output", options.folder, options.folder_help)->type_name("DIR");
-  app.add_option("--format", options.format,
-                 "Of png, svg and pdf those to write, separated by commas")
-      ->type_name("LIST")
-      ->default_str("png,svg");
-  app.add_option("--dpi", options.dpi,
-                 "Dots an inch of PNG files, and of images in the others, from 50 to 1200")
-      ->type_name("INT")
-      ->default_str("300");
-  app.add_option("--width", options.width,
-                 "Width of a panel, mm, a column of most journals; two are side by side in an "
-                 "overview")
-      ->type_name("MM")
-      ->default_str("85");
-  app.add_option("--font", options.font, "Family of the letters (default: DejaVu Sans)")
-      ->type_name("NAME");
-  app.add_flag("--no-titles", options.no_titles,
-               "Leave out the titles of case, load and panels, for papers with captions");
+CLI::Option* pass_on(CLI::App& command, std::vector<std::string>& words, const std::string& flag,
+                     const std::string& type, const std::string& help,
+                     const std::string& if_absent) {
+  const std::string name = flag.substr(flag.rfind(',') + 1);
+  if (type.empty())
+    return command.add_flag_callback(
+        flag, [&words, name] { words.push_back(name); }, help);
+  const auto pass = [&words, name](const std::string& value) {
+    words.push_back(name + "=" + value);
+  };
+  CLI::Option* option = command.add_option_function<std::string>(flag, pass, help);
+  if (!if_absent.empty()) option->default_str(if_absent);
+  return option->type_name(type);
 }
 
-std::vector<std::string> words_of(const FigureOptions& options) {
-  std::vector<std::string> words;
-  for (const auto& [name, value] : {std::pair{"--output=", options.folder},
-                                    {"--format=", options.format},
-                                    {"--dpi=", options.dpi},
-                                    {"--width=", options.width},
-                                    {"--font=", options.font}})
-    if (value) words.push_back(name + *value);
-  if (options.no_titles) words.emplace_back("--no-titles");
-  return words;
+void add_figure_options(CLI::App& command, std::vector<std::string>& words,
+                        const std::string& folder_help) {
+  pass_on(command, words, "-o,--output", "DIR", folder_help);
+  pass_on(command, words, "--format", "LIST",
+          "Of png, svg and pdf those to write, separated by commas", "png,svg");
+  pass_on(command, words, "--dpi", "INT",
+          "Dots an inch of PNG files, and of images in the others, from 50 to 1200", "300");
+  pass_on(command, words, "--width", "MM",
+          "Width of a panel, mm, a column of most journals; two are side by side in an overview",
+          "85");
+  pass_on(command, words, "--font", "NAME", "Family of the letters (default: DejaVu Sans)");
+  pass_on(command, words, "--no-titles", "",
+          "Leave out the titles of case, load and panels, for papers with captions");
 }
 
 }  // namespace anticrack::cli

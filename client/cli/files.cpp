@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -16,13 +15,10 @@
 #include "cli/csv_file.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/external.hpp"
-#include "cli/growth_text.hpp"
 #include "cli/json.hpp"
+#include "cli/lists_text.hpp"
 #include "cli/options.hpp"
-#include "cli/rows_text.hpp"
-#include "cli/stages_text.hpp"
 #include "cli/text.hpp"
-#include "cli/tips_text.hpp"
 #include "output/file.hpp"
 #include "results/error.hpp"
 #include "results/file.hpp"
@@ -31,25 +27,22 @@
 namespace anticrack::cli {
 namespace {
 
-struct FileOptions {
+struct ShowOptions {
   std::string file;
-  std::string folder;
   std::vector<std::string> loads;  ///< empty: all
   std::string csv;
   bool inclusions = false, boundary = false, probes = false, tips = false, growth = false,
        all = false;
 };
 
-struct PlotOptions {
-  std::string file;
-  std::optional<std::string> only, interface, amplify, limits;
-  std::vector<std::string> loads;
-  bool together = false, all = false;
-  FigureOptions figures;
+/// A command of the Python package, with the words that are passed on.
+struct PassedOn {
+  std::string command, file;
+  std::vector<std::string> loads, words;
 };
 
 // The result with the requested loads, in their order.
-results::Result read_result(const FileOptions& options) {
+results::Result read_result(const ShowOptions& options) {
   results::Result result = results::read(options.file);
   if (options.loads.empty()) return result;
   std::vector<std::string> names;
@@ -79,7 +72,7 @@ void add_file(CLI::App& command, std::string& file, std::vector<std::string>& lo
       ->type_name("NAME");
 }
 
-int show_file(const FileOptions& options, const Globals& given) {
+int show_file(const ShowOptions& options, const Globals& given) {
   const Globals globals = with_outputs(given, {options.csv});
   const std::filesystem::path csv = csv_file(options.csv, options.file);
   const results::Result result = read_result(options);
@@ -101,68 +94,45 @@ int show_file(const FileOptions& options, const Globals& given) {
                             (options.tips         ? tips_table(result.loads, result.units, true)
                              : options.growth     ? growth_table(result.loads, result.units, true)
                              : options.inclusions ? inclusions_table(result)
-                             : options.boundary   ? rows_table(result, "boundary")
-                             : options.probes     ? rows_table(result, "probes")
+                             : options.boundary   ? list_table(result, "boundary")
+                             : options.probes     ? list_table(result, "probes")
                                                   : answers_table(result)) +
                             (options.all ? numbers_table(result) : "") + foot);
   return exit_ok;
 }
 
-int plot(const PlotOptions& options, const Globals& globals) {
-  std::vector<std::string> words = words_of(options.figures);
-  words.insert(words.begin(), "plot");
-  for (const std::string& load : options.loads) words.push_back("--load=" + load);
-  for (const auto& [name, value] : {std::pair{"--only=", options.only},
-                                    {"--interface=", options.interface},
-                                    {"--amplify=", options.amplify},
-                                    {"--limits=", options.limits}})
-    if (value) words.push_back(name + *value);
-  if (options.together) words.emplace_back("--together");
-  if (options.all) words.emplace_back("--all");
-  words.insert(words.end(), {"--", options.file});
-  return run_in_python(std::move(words), {}, globals, true);
-}
-
-int export_file(const FileOptions& options, const Globals& globals) {
-  std::vector<std::string> words{"export", "--output=" + options.folder};
+int pass_to_python(const PassedOn& options, const Globals& globals) {
+  std::vector<std::string> words = options.words;
+  words.insert(words.begin(), options.command);
   for (const std::string& load : options.loads) words.push_back("--load=" + load);
   words.insert(words.end(), {"--", options.file});
   return run_in_python(std::move(words), {}, globals, true);
 }
 
 void add_plot(CLI::App& app, const Globals& globals, Command& chosen) {
-  const auto options = std::make_shared<PlotOptions>();
+  const auto options = std::make_shared<PassedOn>(PassedOn{"plot", "", {}, {}});
   CLI::App* command = app.add_subcommand("plot", "Draw the figures of a result file");
   add_file(*command, options->file, options->loads, "Result file, HDF5");
-  add_figure_options(*command, options->figures);
-  CLI::Option* together =
-      command->add_flag("--together", options->together,
-                        "One figure, together, of up to 8 loads over each other on one interface");
-  command
-      ->add_option("--only", options->only,
-                   "Of overview, membrane, plan, traces, convergence, accuracy and growth those to "
-                   "draw, "
-                   "separated by commas (default: all that have something to show)")
-      ->excludes(together)
-      ->type_name("LIST");
-  command
-      ->add_option("--interface", options->interface,
-                   "Draw the traces of this interface, also in the overview and with --together "
-                   "(default: of all that can open; in the overview of the one that opens most, "
-                   "and the pressure of one in contact)")
-      ->type_name("NAME");
-  command->add_flag("--all", options->all,
-                    "However many there are: without it, of more than 12 loads the first 12 are "
-                    "drawn, and of more than 12 interfaces the traces of the most eventful");
-  command
-      ->add_option("--amplify", options->amplify,
-                   "By how much u is amplified in the membrane, the same in all figures")
-      ->type_name("FACTOR");
-  command
-      ->add_option(
-          "--limits", options->limits,
-          "Of the colours of u in the membrane, the same in all figures, as --limits=-0.1,0.4")
-      ->type_name("LOW,HIGH");
+  add_figure_options(*command, options->words, "Folder of the figures (default: figures)");
+  const auto add = [&](const char* flag, const char* type, const char* help) {
+    return pass_on(*command, options->words, flag, type, help);
+  };
+  CLI::Option* together = add(
+      "--together", "", "One figure, together, of up to 8 loads over each other on one interface");
+  add("--only", "LIST",
+      "Of overview, membrane, plan, traces, convergence, accuracy and growth those to draw, "
+      "separated by commas (default: all that have something to show)")
+      ->excludes(together);
+  add("--interface", "NAME",
+      "Draw the traces of this interface, also in the overview and with --together (default: of "
+      "all that can open; in the overview of the one that opens most, and the pressure of one in "
+      "contact)");
+  add("--all", "",
+      "However many there are: without it, of more than 12 loads the first 12 are drawn, and of "
+      "more than 12 interfaces the traces of the most eventful");
+  add("--amplify", "FACTOR", "By how much u is amplified in the membrane, the same in all figures");
+  add("--limits", "LOW,HIGH",
+      "Of the colours of u in the membrane, the same in all figures, as --limits=-0.1,0.4");
   command->footer(
       "Of every load: LOAD-membrane, LOAD-plan (from above, u and the flux), LOAD-traces (u-, u+\n"
       "and [u] on the interface, and the contact pressure), LOAD-convergence and, of a job with "
@@ -177,28 +147,27 @@ void add_plot(CLI::App& app, const Globals& globals, Command& chosen) {
       "  anticrack plot paper.h5 -o figures --format pdf --no-titles\n"
       "  anticrack plot several.h5 -o figures --together --interface middle\n"
       "  anticrack plot several.h5 -o figures --only overview,traces --interface upper");
-  on(*command, options, globals, chosen, plot);
+  on(*command, options, globals, chosen, pass_to_python);
 }
 
 }  // namespace
 
 void add_files(CLI::App& app, const Globals& globals, Command& chosen) {
-  const auto options = std::make_shared<FileOptions>();
+  const auto options = std::make_shared<ShowOptions>();
   CLI::App* show_command = app.add_subcommand("show", "Show the answers of a result file");
   add_file(*show_command, options->file, options->loads, "Result file, HDF5");
-  show_command->add_flag("--inclusions", options->inclusions,
-                         "A row for each inclusion of each load case, also of many");
-  show_command->add_flag("--boundary", options->boundary,
-                         "The force on each side and hole of the boundary in each load case");
-  show_command->add_flag("--probes", options->probes,
-                         "u at each point of the probes of the case in each load case");
-  show_command->add_flag("--tips", options->tips,
-                         "A row for each tip of a crack or an inclusion of each load case, also of "
-                         "many");
-  show_command->add_flag("--growth", options->growth,
-                         "A row for each position of cracks and delaminations that grow");
-  show_command->add_flag(
-      "--all", options->all,
+  const auto add = [show_command](const char* flag, bool& given, const char* help) {
+    show_command->add_flag(flag, given, help);
+  };
+  add("--inclusions", options->inclusions,
+      "A row for each inclusion of each load case, also of many");
+  add("--boundary", options->boundary,
+      "The force on each side and hole of the boundary in each load case");
+  add("--probes", options->probes, "u at each point of the probes of the case in each load case");
+  add("--tips", options->tips,
+      "A row for each tip of a crack or an inclusion of each load case, also of many");
+  add("--growth", options->growth, "A row for each position of cracks and delaminations that grow");
+  add("--all", options->all,
       "Also every number of the mesh, a sweep and each load case, with its unit and what it is");
   show_command
       ->add_option("--csv", options->csv,
@@ -209,18 +178,15 @@ void add_files(CLI::App& app, const Globals& globals, Command& chosen) {
       "Of one load, or with --load, also the stages of a job with an accuracy.\n\n"
       "Example:\n  anticrack show paper.h5\n"
       "  anticrack show fibres.h5 --inclusions --csv fibres.csv");
-  show_command->callback([options, &globals, &chosen] {
-    chosen = [options, &globals] { return show_file(*options, globals); };
-  });
+  on(*show_command, options, globals, chosen, show_file);
 
   add_plot(app, globals, chosen);
 
   CLI::App* export_command =
       app.add_subcommand("export", "Export a result file to .vtu and .pvd, for ParaView");
-  add_file(*export_command, options->file, options->loads, "Result file, HDF5, with fields");
-  export_command->add_option("-o,--output", options->folder, "Folder of the files")
-      ->required()
-      ->type_name("DIR");
+  const auto passed = std::make_shared<PassedOn>(PassedOn{"export", "", {}, {}});
+  add_file(*export_command, passed->file, passed->loads, "Result file, HDF5, with fields");
+  pass_on(*export_command, passed->words, "-o,--output", "DIR", "Folder of the files")->required();
   export_command->footer(
       "The membrane needs u on every node: run the case with [output] fields = true, or fetch its\n"
       "job with --fields (anticrack job fetch). To see it deformed, apply the filter Warp By "
@@ -228,9 +194,7 @@ void add_files(CLI::App& app, const Globals& globals, Command& chosen) {
       "to u. Where the result has them, each triangle has its error_indicator.\n"
       "The Python package anticrack writes the files.\n\n"
       "Example:\n  anticrack export paper.h5 -o paraview");
-  export_command->callback([options, &globals, &chosen] {
-    chosen = [options, &globals] { return export_file(*options, globals); };
-  });
+  on(*export_command, passed, globals, chosen, pass_to_python);
 }
 
 }  // namespace anticrack::cli

@@ -104,10 +104,9 @@ int list_jobs(const JobOptions& options, const Globals& globals) {
   std::vector<std::vector<std::string>> rows{
       {"job", "created", "state", "cases ended", "mesh", "owner", "title"}};
   for (const v1::Job& job : response.jobs()) {
-    rows.push_back({sanitise(job.name()), clock_text(job.status().create_time().seconds()),
-                    std::string(word(job.status().state())), ended_text(job),
-                    sanitise(job.spec().mesh()), sanitise(job.owner()),
-                    sanitise(job.spec().title())});
+    rows.push_back({job.name(), clock_text(job.status().create_time().seconds()),
+                    std::string(word(job.status().state())), ended_text(job), job.spec().mesh(),
+                    job.owner(), job.spec().title()});
   }
   drop_if_empty(rows, 5);  // without users there are no owners
   print_document(table(rows, {1, 2, 4, 5, 6}));

@@ -3,11 +3,13 @@
 
 #include <fmt/core.h>
 
+#include <optional>
 #include <vector>
 
 #include "cli/accuracy_text.hpp"
 #include "cli/answers.hpp"
 #include "cli/exit_codes.hpp"
+#include "cli/follow.hpp"
 #include "cli/job_text.hpp"
 #include "cli/json.hpp"
 #include "cli/progress.hpp"
@@ -88,18 +90,8 @@ auto or_later(const Session& session, const v1::Job& job, const Action& action) 
   }
 }
 
-}  // namespace
-
-fs::path result_file(const std::string& case_file, const std::string& output) {
-  fs::path file =
-      output.empty() ? fs::path(case_file).filename().replace_extension(".h5") : fs::path(output);
-  std::error_code none;  // a missing file is no error
-  if (fs::equivalent(file, case_file, none))
-    throw results::Error(file.string(), "is the case itself", "name another file for the results");
-  output::check_writable(file);
-  return file;
-}
-
+// Submits a case and shows its progress. If the server comes back without its jobs, the same job is
+// submitted again under the same id.
 Followed submit_and_follow(Session& session, const Case& the_case, const Prepare& prepare,
                            std::uint64_t rows) {
   constexpr int tries = 3;
@@ -120,7 +112,8 @@ Followed submit_and_follow(Session& session, const Case& the_case, const Prepare
   }
 }
 
-int exit_code_of(const Globals& globals, const Followed& followed) {
+// Prints the job for --json if the command detached from it.
+int code_of(const Globals& globals, const Followed& followed) {
   switch (followed.how) {
     case Followed::How::detached:
       if (globals.json) print_document(to_json(followed.job));
@@ -133,6 +126,8 @@ int exit_code_of(const Globals& globals, const Followed& followed) {
   return exit_job_failed;
 }
 
+// With the text of the case and the time since `begin`. Empty if the job has no results; then the
+// user is told why.
 std::optional<results::Result> results_of(Session& session, const Case& the_case,
                                           const Followed& followed,
                                           std::chrono::steady_clock::time_point begin) {
@@ -164,6 +159,7 @@ void save(const fs::path& file, const results::Result& result, const Session& se
   }
 }
 
+// With --quiet only what is wrong with them.
 void print_answers(const Globals& globals, const v1::Job& job, const results::Result& result,
                    const fs::path& file) {
   if (globals.quiet && !globals.json) return complain_of(job);
@@ -173,6 +169,34 @@ void print_answers(const Globals& globals, const v1::Job& job, const results::Re
   else
     print_answer(globals, "\n" + answers_table(result) + accuracy_text(job) + "\n" +
                               sanitise(summary(result, file)));
+}
+
+}  // namespace
+
+fs::path result_file(const std::string& case_file, const std::string& output) {
+  fs::path file =
+      output.empty() ? fs::path(case_file).filename().replace_extension(".h5") : fs::path(output);
+  std::error_code none;  // a missing file is no error
+  if (fs::equivalent(file, case_file, none))
+    throw results::Error(file.string(), "is the case itself", "name another file for the results");
+  output::check_writable(file);
+  return file;
+}
+
+int run_job(Session& session, const Case& the_case, const fs::path& output,
+            std::chrono::steady_clock::time_point begin, const OfSweep& more) {
+  const Globals& globals = session.globals();
+  if (!the_case.spec.title().empty()) say(globals, the_case.spec.title());
+  const Followed followed = submit_and_follow(session, the_case, more.prepare, more.rows);
+  const int code = code_of(globals, followed);
+  if (followed.how == Followed::How::detached) return code;
+  std::optional<results::Result> result = results_of(session, the_case, followed, begin);
+  if (!result) return code;
+  if (more.complete) more.complete(*result);
+  save(output, *result, session);
+  if (more.saved) more.saved(*result);
+  print_answers(globals, followed.job, *result, output);
+  return code;
 }
 
 }  // namespace anticrack::cli

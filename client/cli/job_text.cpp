@@ -57,7 +57,7 @@ std::string timeline(const v1::JobStatus& status) {
   for (const v1::JobStatus::Step& step : status.timeline()) {
     const auto since = TimeUtil::DurationToMilliseconds(step.time() - begin);
     std::string what(word(step.state()));
-    what += step.detail().empty() ? "" : " (" + sanitise(step.detail()) + ")";
+    what += step.detail().empty() ? "" : " (" + step.detail() + ")";
     what += again ? fmt::format(", attempt {}", step.attempt()) : "";
     rows.push_back({number(static_cast<double>(since) / 1000, 6), what});
   }

@@ -55,6 +55,21 @@ Json json_of(const google::protobuf::Message& message, Json json) {
   return json;
 }
 
+Json with_lists(const google::protobuf::Message& message, Json json) {
+  const auto& fields = *message.GetReflection();
+  const auto& type = *message.GetDescriptor();
+  for (int i = 0; i < type.field_count(); ++i) {
+    const auto* const field = type.field(i);
+    if (!field->is_repeated()) continue;
+    Json& list = json[field->name()] = Json::array();
+    for (int k = 0; k < fields.FieldSize(message, field); ++k)
+      list.push_back(field->message_type() == nullptr
+                         ? Json(fields.GetRepeatedString(message, field, k))
+                         : json_of(fields.GetRepeatedMessage(message, field, k)));
+  }
+  return json;
+}
+
 std::string to_text(const Json& document) {
   return document.dump(2, ' ', true, Json::error_handler_t::replace);
 }

@@ -19,6 +19,9 @@ using Json = nlohmann::ordered_json;
 /// The single values of a message by the names of results::Entry, added to `json`.
 Json json_of(const google::protobuf::Message& message, Json json = Json::object());
 
+/// The lists of a message by their names, added to `json`: of texts, and of messages as json_of.
+Json with_lists(const google::protobuf::Message& message, Json json);
+
 /// The document as text, indented by two spaces and in ASCII, so that no control characters reach a
 /// terminal. Numbers that are not finite are null; bytes that are not UTF-8 are replaced.
 std::string to_text(const Json& document);

@@ -33,7 +33,7 @@ struct MeshOptions {
   bool pin = false;
   int limit = 50;
   std::string owner;
-  FigureOptions figures;
+  std::vector<std::string> figures;  ///< words for the program that draws
 };
 
 CaseFacts facts_of(const Case& the_case) {
@@ -128,14 +128,16 @@ int show_mesh(const MeshOptions& options, const Globals& globals) {
   const std::optional<Case> the_case =
       file ? std::optional(case_of(session, options)) : std::nullopt;
   const std::string name = the_case ? create_mesh(session, *the_case).name() : given;
-  if (!options.figures.folder && !the_case) return show_mesh(globals, get_mesh(session, name));
+  const bool drawn = std::ranges::any_of(
+      options.figures, [](const std::string& word) { return word.starts_with("--output="); });
+  if (!drawn && !the_case) return show_mesh(globals, get_mesh(session, name));
   const v1::Mesh mesh =
       about(session, Collection::meshes, name, [&] { return wait_for(session, name); });
   const CaseFacts facts = the_case ? facts_of(*the_case) : CaseFacts{};
   show_mesh(globals, mesh, facts);
-  if (!options.figures.folder) return exit_ok;
+  if (!drawn) return exit_ok;
   const client::Block block = client::read_mesh(session.connection(), name, session.stop());
-  std::vector<std::string> words = words_of(options.figures);
+  std::vector<std::string> words = options.figures;
   words.insert(words.begin(), "mesh");
   words.push_back("--unit=" + facts.units.length());
   if (facts.free) words.emplace_back("--free");
@@ -155,10 +157,9 @@ int list_meshes(const MeshOptions& options, const Globals& globals) {
   std::vector<std::vector<std::string>> rows{
       {"mesh", "created", "state", "triangles", "nodes", "owner", "title"}};
   for (const v1::Mesh& mesh : response.meshes()) {
-    rows.push_back({sanitise(mesh.name()), clock_text(mesh.create_time().seconds()),
-                    state_text(mesh), std::to_string(mesh.triangle_count()),
-                    std::to_string(mesh.node_count()), sanitise(mesh.owner()),
-                    sanitise(mesh.title())});
+    rows.push_back({mesh.name(), clock_text(mesh.create_time().seconds()), state_text(mesh),
+                    std::to_string(mesh.triangle_count()), std::to_string(mesh.node_count()),
+                    mesh.owner(), mesh.title()});
   }
   drop_if_empty(rows, 5);  // without users there are no owners
   print_document(table(rows, {1, 2, 5, 6}));
@@ -249,8 +250,7 @@ void add_mesh(CLI::App& app, const Globals& globals, Command& chosen) {
       ->add_option("MESH", options->name, "meshes/ID, or a case (.toml) or .msh file to mesh")
       ->required()
       ->type_name("FILE");
-  options->figures.folder_help = "Folder for the figure";
-  add_figure_options(*show_command, options->figures);
+  add_figure_options(*show_command, options->figures, "Folder for the figure");
   add_overrides(show_command);
 
   CLI::App* warm_command =

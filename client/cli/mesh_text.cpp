@@ -78,7 +78,7 @@ void add_units(const v1::Units& units, const std::vector<std::string>& dimension
   if (units.length().empty() && units.force().empty()) return;
   std::vector<std::string> row;
   for (const std::string& dimension : dimensions)
-    row.push_back(dimension.empty() ? "" : sanitise(results::unit_of(units, dimension)));
+    row.push_back(dimension.empty() ? "" : results::unit_of(units, dimension));
   rows.push_back(std::move(row));
 }
 
@@ -97,12 +97,12 @@ std::string subdomains(const v1::Mesh& mesh, const v1::Units& units) {
              "shortest edge", "longest edge", "held by"}};
   add_units(units, {"", "", "", "L^2", "F/L", "degrees", "L", "L", ""}, rows);
   for (const v1::SubdomainInfo& each : mesh.subdomains()) {
-    rows.push_back(
-        {sanitise(each.name()), std::to_string(each.triangle_count()),
-         std::to_string(each.node_count()), number(each.area()),
-         each.has_tension_law() ? sanitise(law_text(each.tension_law())) : number(each.tension()),
-         number(each.minimum_angle(), 3), number(each.shortest_edge(), 3),
-         number(each.longest_edge(), 3), each.floating() ? "interfaces only" : "the boundary"});
+    rows.push_back({each.name(), std::to_string(each.triangle_count()),
+                    std::to_string(each.node_count()), number(each.area()),
+                    each.has_tension_law() ? law_text(each.tension_law()) : number(each.tension()),
+                    number(each.minimum_angle(), 3), number(each.shortest_edge(), 3),
+                    number(each.longest_edge(), 3),
+                    each.floating() ? "interfaces only" : "the boundary"});
   }
   return short_table(std::move(rows), {8});
 }
@@ -113,15 +113,14 @@ std::string interfaces(const v1::Mesh& mesh, const v1::Units& units) {
     if (inclusion < 0 || inclusion >= mesh.inclusions_size()) return "-";
     const std::string& name = mesh.inclusions(inclusion);
     const auto motion = motions.find(name);
-    return sanitise(name) + (motion == motions.end() ? "" : motion->second);
+    return name + (motion == motions.end() ? "" : motion->second);
   };
   Rows rows{{"interface", "s = 0 at", "s from", "s to", "kind", "inclusion", "edges"}};
   add_units(units, {"", "L", "L", "L", "", "", ""}, rows);
   const std::size_t head = rows.size();
   for (const v1::InterfaceInfo& interface : mesh.interfaces()) {
     for (const auto& segment : interface.segments()) {
-      rows.push_back({sanitise(interface.name()),
-                      interface.has_start() ? spot(interface.start()) : "-",
+      rows.push_back({interface.name(), interface.has_start() ? spot(interface.start()) : "-",
                       number(segment.begin()), number(segment.end()), kind_of(segment.kind()),
                       inclusion_of(segment.inclusion()), std::to_string(segment.edge_count())});
     }
@@ -133,7 +132,7 @@ std::string tips(const v1::Mesh& mesh, const v1::Units& units) {
   Rows rows{{"tip on", "x", "y", "smallest edge"}};
   add_units(units, {"", "L", "L", "L"}, rows);
   for (const v1::TipInfo& tip : mesh.tips()) {
-    rows.push_back({sanitise(tip.interface()), number(tip.at().x()), number(tip.at().y()),
+    rows.push_back({tip.interface(), number(tip.at().x()), number(tip.at().y()),
                     number(tip.smallest_edge(), 3)});
   }
   return mesh.tips_size() == 0 ? "" : "\n" + short_table(std::move(rows));

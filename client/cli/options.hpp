@@ -6,7 +6,6 @@
 #include <CLI/CLI.hpp>
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -41,17 +40,14 @@ inline void add_list_flags(CLI::App& command, const std::string& what, int& limi
       ->type_name("NAME");
 }
 
-/// The options of commands that draw, as passed on to the program that draws, which checks them.
-struct FigureOptions {
-  std::optional<std::string> folder, format, dpi, width, font;
-  bool no_titles = false;
-  std::string folder_help = "Folder of the figures (default: figures)";
-};
+/// Adds an option that is passed on, as a word of `words`, to the program that draws or exports,
+/// which checks it; without a `type` a flag. `words` must outlive the app.
+CLI::Option* pass_on(CLI::App& command, std::vector<std::string>& words, const std::string& flag,
+                     const std::string& type, const std::string& help,
+                     const std::string& if_absent = "");
 
-/// Adds the options. `options` must outlive the app.
-void add_figure_options(CLI::App& app, FigureOptions& options);
-
-/// The options that were given, as words of a command line.
-std::vector<std::string> words_of(const FigureOptions& options);
+/// Adds the options of figures.
+void add_figure_options(CLI::App& command, std::vector<std::string>& words,
+                        const std::string& folder_help);
 
 }  // namespace anticrack::cli

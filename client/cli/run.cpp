@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 //   anticrack run CASE.toml
-#include <CLI/CLI.hpp>
-
 #include <chrono>
-#include <filesystem>
 #include <memory>
 
-#include "cli/answers.hpp"
-#include "cli/commands.hpp"
 #include "cli/job_run.hpp"
+#include "cli/options.hpp"
 
 namespace anticrack::cli {
 namespace {
@@ -29,16 +25,7 @@ int run(const RunOptions& options, const Globals& given) {
       read_case(session, options.case_file, options.overrides, Loads::needed, options.loads);
   if (the_case.spec.priority() == v1::JobSpec::PRIORITY_UNSPECIFIED)
     the_case.spec.set_priority(v1::JobSpec::PRIORITY_INTERACTIVE);  // a user waits for it
-  const std::filesystem::path output = result_file(options.case_file, options.output);
-  if (!the_case.spec.title().empty()) say(globals, the_case.spec.title());
-  const Followed followed = submit_and_follow(session, the_case);
-  const int job_code = exit_code_of(globals, followed);
-  if (followed.how == Followed::How::detached) return job_code;
-  const auto result = results_of(session, the_case, followed, begin);
-  if (!result) return job_code;
-  save(output, *result, session);
-  print_answers(globals, followed.job, *result, output);
-  return job_code;
+  return run_job(session, the_case, result_file(options.case_file, options.output), begin);
 }
 
 }  // namespace
@@ -47,9 +34,7 @@ void add_run(CLI::App& app, const Globals& globals, Command& chosen) {
   CLI::App* command =
       app.add_subcommand("run", "Mesh, submit, watch and save: the everyday command");
   const auto options = std::make_shared<RunOptions>();
-  command->add_option("CASE", options->case_file, "The case, a TOML file")
-      ->required()
-      ->type_name("FILE");
+  add_case(*command, options->case_file);
   command
       ->add_option("-o,--output", options->output,
                    "Result file, HDF5 (default: CASE.h5 in this folder)")
@@ -64,8 +49,7 @@ void add_run(CLI::App& app, const Globals& globals, Command& chosen) {
       "Example:\n  anticrack --local run paper.toml -o paper.h5\n"
       "  anticrack run plate.toml --set mesh.preset=uniform --set mesh.size=0.02\n"
       "  anticrack run plate.toml --set accuracy.A=1e-3");
-  command->callback(
-      [=, &globals, &chosen] { chosen = [options, &globals] { return run(*options, globals); }; });
+  on(*command, options, globals, chosen, run);
 }
 
 }  // namespace anticrack::cli

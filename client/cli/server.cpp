@@ -24,12 +24,12 @@ std::vector<std::string> feature_lines(const v1::ServerInfo& info) {
     const std::size_t dot = feature.find('.');
     const bool grouped = dot != std::string::npos;
     std::string& group = groups[grouped ? feature.substr(0, dot) : ""];
-    group += (group.empty() ? "" : ", ") + sanitise(grouped ? feature.substr(dot + 1) : feature);
+    group += (group.empty() ? "" : ", ") + (grouped ? feature.substr(dot + 1) : feature);
   }
   std::vector<std::string> lines;
   lines.reserve(groups.size());
   for (const auto& [name, features] : groups)
-    lines.push_back(name.empty() ? features : sanitise(name) + ": " + features);
+    lines.push_back(name.empty() ? features : name + ": " + features);
   return lines;
 }
 
@@ -47,8 +47,8 @@ std::string info_text(const v1::ServerInfo& info, const std::string& address) {
   const v1::ServerMetrics& metrics = info.metrics();
   const v1::ServerLimits& limits = info.limits();
   std::vector<std::vector<std::string>> rows{
-      {"address", sanitise(address)},
-      {"version", sanitise(info.version()) + " (" + sanitise(info.build()) + ")"},
+      {"address", address},
+      {"version", info.version() + " (" + info.build() + ")"},
       {"started", clock_text(info.start_time().seconds())}};
   for (const std::string& line : feature_lines(info))
     rows.push_back({rows.size() == 3 ? "features" : "", line});

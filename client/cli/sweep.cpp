@@ -6,7 +6,6 @@
 #include <memory>
 #include <utility>
 
-#include "cli/answers.hpp"
 #include "cli/csv_file.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/follow.hpp"
@@ -15,7 +14,6 @@
 #include "cli/sweep_input.hpp"
 #include "cli/sweep_text.hpp"
 #include "cli/text.hpp"
-#include "client/jobs.hpp"
 #include "client/meshes.hpp"
 #include "client/uuid.hpp"
 #include "output/file.hpp"
@@ -88,25 +86,6 @@ Targets check_targets(const SweepOptions& options) {
   return targets;
 }
 
-int follow_sweep(Session& session, const Targets& targets, const Case& the_case, SweepInput input,
-                 std::chrono::steady_clock::time_point begin) {
-  const Globals& globals = session.globals();
-  const Followed followed = submit_and_follow(
-      session, the_case, [&](v1::JobSpec& spec) { add_matrix(session, input, spec); }, input.rows);
-  const int job_code = exit_code_of(globals, followed);
-  if (followed.how == Followed::How::detached) return job_code;
-  auto result = results_of(session, the_case, followed, begin);
-  if (!result) return job_code;
-  result->sweep.value().source = input.source;
-  if (!input.nodal) result->sweep->coefficients = std::move(input.values);
-  save(targets.result, *result, session);
-  save_csv(targets.csv, *result->sweep, globals);
-  for (const std::string& warning : followed.job.status().sweep_answer().warnings())
-    say(globals, "warning: " + sanitise(warning));
-  print_answers(globals, followed.job, *result, targets.result);
-  return job_code;
-}
-
 int sweep(const SweepOptions& options, const Globals& given) {
   const Globals globals = with_outputs(given, {options.output, options.csv});
   const auto begin = std::chrono::steady_clock::now();
@@ -114,15 +93,23 @@ int sweep(const SweepOptions& options, const Globals& given) {
   Case the_case = read_case(session, options);
   SweepInput input = read_sweep_input(options.files, the_case);
   const Targets targets = check_targets(options);
-  make_sweep(input, client::server_info(session.connection(), session.stop()).limits(), the_case);
+  make_sweep(input, the_case);
   check_mesh(session, the_case, input);
+  const Prepare prepare = [&](v1::JobSpec& spec) { add_matrix(session, input, spec); };
   if (options.detach) {
-    tell_submitted(session, submit(session, the_case, client::make_uuid(),
-                                   [&](v1::JobSpec& spec) { add_matrix(session, input, spec); }));
+    tell_submitted(session, submit(session, the_case, client::make_uuid(), prepare));
     return exit_ok;
   }
-  if (!the_case.spec.title().empty()) say(globals, the_case.spec.title());
-  return follow_sweep(session, targets, the_case, std::move(input), begin);
+  const auto complete = [&](results::Result& result) {
+    result.sweep.value().source = input.source;
+    if (!input.nodal) result.sweep->coefficients = std::move(input.values);
+  };
+  const auto saved = [&](const results::Result& result) {
+    save_csv(targets.csv, *result.sweep, globals);
+    for (const std::string& warning : result.sweep->answer.warnings())
+      say(globals, "warning: " + sanitise(warning));
+  };
+  return run_job(session, the_case, targets.result, begin, {prepare, input.rows, complete, saved});
 }
 
 void add_options(CLI::App& command, SweepOptions& options) {

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "cli/coefficients.hpp"
-#include "cli/text.hpp"
 #include "results/array_file.hpp"
 #include "words/nearest.hpp"
 
@@ -111,36 +110,6 @@ void read_combinations(const SweepFiles& files, const Case& the_case, SweepInput
   }
 }
 
-void check_task(const Case& the_case) {
-  if (the_case.spec.solver().has_uzawa()) {
-    const v1::CasePlace* place = the_case.locate("solver.method");
-    throw CaseError(
-        place ? told(*place) : "solver",
-        "a sweep is solved by the active set; take [solver] out of the case, or add --set "
-        "'solver={method=\"active-set\"}'");
-  }
-}
-
-void check_limits(const SweepInput& input, const v1::ServerLimits& limits) {
-  const std::string& source = input.source;
-  if (limits.sweep_rows() == 0)
-    fail(source, "the server knows no sweeps; update it, or name a newer one with --server");
-  if (input.rows > limits.sweep_rows()) {
-    fail(source, fmt::format("it has {} rows, the server takes {} a sweep; cut it into several, or "
-                             "start the server with a larger limit",
-                             input.rows, limits.sweep_rows()));
-  }
-  if (!input.nodal && input.columns > static_cast<std::size_t>(limits.sweep_basis())) {
-    fail(source, fmt::format("it combines {} loads, the server at most {}; join loads that always "
-                             "go together, or start the server with a larger limit",
-                             input.columns, limits.sweep_basis()));
-  }
-  if (input.bytes() > inline_matrix_bytes && input.bytes() > limits.upload_bytes()) {
-    fail(source, "it takes " + bytes(input.bytes()) + ", the server takes uploads of " +
-                     bytes(limits.upload_bytes()) + "; cut it into several sweeps");
-  }
-}
-
 }  // namespace
 
 bool leave_out_accuracy(Case& the_case) {
@@ -152,7 +121,6 @@ bool leave_out_accuracy(Case& the_case) {
 }
 
 SweepInput read_sweep_input(const SweepFiles& files, const Case& the_case) {
-  check_task(the_case);
   SweepInput input;
   input.nodal = !files.nodal.empty();
   input.source = input.nodal ? files.nodal : files.coefficients;
@@ -166,10 +134,8 @@ SweepInput read_sweep_input(const SweepFiles& files, const Case& the_case) {
   return input;
 }
 
-void make_sweep(const SweepInput& input, const v1::ServerLimits& limits, Case& the_case) {
-  check_limits(input, limits);
-  const auto most = static_cast<std::uint64_t>(limits.load_cases());
-  const std::vector<std::uint32_t> traces = select_rows(input.traces, input.rows, most);
+void make_sweep(const SweepInput& input, Case& the_case) {
+  const std::vector<std::uint32_t> traces = select_rows(input.traces, input.rows);
   v1::JobSpec& spec = the_case.spec;
   spec.mutable_sweep()->mutable_traces()->Add(traces.begin(), traces.end());
   spec.mutable_sweep()->set_bounds(input.bounds);

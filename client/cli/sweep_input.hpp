@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "anticrack/v1/job.pb.h"
-#include "anticrack/v1/server.pb.h"
 #include "cli/case.hpp"
 
 namespace anticrack::cli {
@@ -48,9 +47,8 @@ bool leave_out_accuracy(Case& the_case);
 /// file, line and cure.
 SweepInput read_sweep_input(const SweepFiles& files, const Case& the_case);
 
-/// Makes the case's job a sweep, except the matrix. Checks the limits of the server; throws
-/// CaseError with the cure.
-void make_sweep(const SweepInput& input, const v1::ServerLimits& limits, Case& the_case);
+/// Makes the case's job a sweep, except the matrix. The server checks method and limits.
+void make_sweep(const SweepInput& input, Case& the_case);
 
 /// Throws CaseError unless there is a column for each node of the mesh.
 void check_nodes(const SweepInput& input, std::uint64_t node_count);
@@ -59,9 +57,8 @@ void check_nodes(const SweepInput& input, std::uint64_t node_count);
 v1::Sweep::Matrix& matrix_of(const SweepInput& input, v1::JobSpec& spec);
 
 /// "all", "none", or numbers from 0 and inclusive ranges, "0,10,20-30", in any order, possibly
-/// overlapping. Returns each row once, ascending. Throws CaseError for anything else, for a
-/// row outside 0..rows, and for more than `most` rows. O(rows returned).
-std::vector<std::uint32_t> select_rows(const std::string& text, std::uint64_t rows,
-                                       std::uint64_t most);
+/// overlapping. Returns each row once, ascending. Throws CaseError for anything else, and for a row
+/// outside 0..rows. O(rows) if no range is there many times.
+std::vector<std::uint32_t> select_rows(const std::string& text, std::size_t rows);
 
 }  // namespace anticrack::cli

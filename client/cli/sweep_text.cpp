@@ -54,15 +54,15 @@ std::string end_of(double value, int sign) {
 
 void add_span(const std::string& name, const std::string& unit, const SweepSummary::Range& range,
               Rows& rows) {
-  rows.push_back({sanitise(results::labelled(name, unit)), end_of(range.low, -1), "",
-                  end_of(range.high, 1), ""});
+  rows.push_back(
+      {results::labelled(name, unit), end_of(range.low, -1), "", end_of(range.high, 1), ""});
 }
 
 void add_inclusions(const results::Sweep& sweep, const SweepSummary& counts, const v1::Units& units,
                     Rows& rows) {
   for (std::size_t i = 0; i < sweep.inclusions.size(); ++i) {
-    add_span(name_of("A", sweep, i), sanitise(results::label_of(units, "L")),
-             counts.displacement_bounds[i], rows);
+    add_span(name_of("A", sweep, i), results::label_of(units, "L"), counts.displacement_bounds[i],
+             rows);
     for (std::size_t part = 0; part < slope_parts.size() && counts.tilted(i); ++part)
       add_span(name_of(slope_parts[part], sweep, i), "", counts.slope[i][part], rows);
   }
@@ -85,12 +85,11 @@ void add_extremes(const results::Sweep& sweep, const SweepSummary& counts, const
       if (range_of(i).low < range_of(least).low) least = i;
       if (range_of(i).high > range_of(most).high) most = i;
     }
-    rows.push_back(
-        {sanitise(results::labelled(fmt::format("{} of {} inclusions", name, inclusions), unit)),
-         end_of(range_of(least).low, -1), sanitise(sweep.inclusions[least]),
-         end_of(range_of(most).high, 1), sanitise(sweep.inclusions[most])});
+    rows.push_back({results::labelled(fmt::format("{} of {} inclusions", name, inclusions), unit),
+                    end_of(range_of(least).low, -1), sweep.inclusions[least],
+                    end_of(range_of(most).high, 1), sweep.inclusions[most]});
   };
-  add_one("A", sanitise(results::label_of(units, "L")),
+  add_one("A", results::label_of(units, "L"),
           [&](std::size_t i) { return counts.displacement_bounds[i]; });
   for (std::size_t part = 0; part < slope_parts.size() && counts.tilted(); ++part)
     add_one(slope_parts[part], "", [&](std::size_t i) { return counts.slope[i][part]; });
@@ -133,8 +132,6 @@ std::string bounds_text(const results::Sweep& sweep, const SweepSummary& counts,
   return text + "\n";
 }
 
-constexpr const char* tip_columns[] = {"intensity", "G", "G_spread"};
-
 /// The row in which a tip has its largest G, -1: in none.
 struct Largest {
   double g = -1;
@@ -165,23 +162,40 @@ std::string tips_text(const results::Sweep& sweep, const v1::Units& units) {
   return text;
 }
 
-std::string csv_head(const results::Sweep& sweep, std::size_t loads) {
-  std::string head = "row";
-  for (std::size_t i = 0; i < loads; ++i) head += "," + csv_field(sweep.loads[i]);
-  for (std::size_t i = 0; i < sweep.inclusions.size(); ++i) {
-    head += "," + csv_field(name_of("A", sweep, i));
-    if (!sweep.energy_lower.empty())
-      for (const char* part : {"A_lower", "A_upper", "A_mesh"})
-        head += "," + csv_field(name_of(part, sweep, i));
-    for (const char* part : slope_parts)
-      if (!sweep.slope.empty()) head += "," + csv_field(name_of(part, sweep, i));
+/// A column of comma-separated text: in each row the number at `place` of `width`.
+struct CsvColumn {
+  std::string title;
+  const std::vector<double>& values;
+  std::size_t width = 1, place = 0;
+};
+
+/// The columns of numbers that are right only where a row converged.
+std::vector<CsvColumn> csv_columns(const results::Sweep& sweep) {
+  std::vector<CsvColumn> columns;
+  const auto add = [&columns](std::string title, const std::vector<double>& values,
+                              std::size_t width = 1, std::size_t place = 0) {
+    if (!values.empty()) columns.push_back({std::move(title), values, width, place});
+  };
+  const std::size_t inclusions = sweep.inclusions.size(), tips = sweep.tips();
+  for (std::size_t i = 0; i < inclusions; ++i) {
+    add(name_of("A", sweep, i), sweep.displacement, inclusions, i);
+    add(name_of("A_lower", sweep, i), sweep.displacement_lower, inclusions, i);
+    add(name_of("A_upper", sweep, i), sweep.displacement_upper, inclusions, i);
+    add(name_of("A_mesh", sweep, i), sweep.displacement_mesh, inclusions, i);
+    for (std::size_t part = 0; part < slope_parts.size(); ++part)
+      add(name_of(slope_parts[part], sweep, i), sweep.slope, 2 * inclusions, 2 * i + part);
   }
-  for (std::size_t tip = 0; tip < sweep.tips(); ++tip)
-    for (const char* part : tip_columns) head += fmt::format(",{} of tip {}", part, tip);
-  return head +
-         (sweep.energy_lower.empty() ? ",energy"
-                                     : ",energy,energy_lower,energy_upper,energy_mesh") +
-         ",contact_length,steps,status\n";
+  for (std::size_t tip = 0; tip < tips; ++tip) {
+    add(fmt::format("intensity of tip {}", tip), sweep.intensity, tips, tip);
+    add(fmt::format("G of tip {}", tip), sweep.energy_release_rate, tips, tip);
+    add(fmt::format("G_spread of tip {}", tip), sweep.energy_release_rate_spread, tips, tip);
+  }
+  add("energy", sweep.energy);
+  add("energy_lower", sweep.energy_lower);
+  add("energy_upper", sweep.energy_upper);
+  add("energy_mesh", sweep.energy_mesh);
+  add("contact_length", sweep.contact_length);
+  return columns;
 }
 
 }  // namespace
@@ -204,9 +218,9 @@ std::string sweep_table(const results::Sweep& sweep, const v1::Units& units) {
     else
       add_inclusions(sweep, counts, units, rows);
     const auto& [shortest, longest] = counts.contact_length;
-    rows.push_back({sanitise(results::labelled("contact length", results::label_of(units, "L"))),
+    rows.push_back({results::labelled("contact length", results::label_of(units, "L")),
                     contact_text(shortest), "", contact_text(longest), ""});
-    add_span("energy", sanitise(results::label_of(units, "F L")), counts.energy_bounds, rows);
+    add_span("energy", results::label_of(units, "F L"), counts.energy_bounds, rows);
     text += table_of_spans(std::move(rows));
     if (sweep.inclusions.size() > few_inclusions)
       text += "all inclusions: anticrack show RESULT --inclusions, or --csv FILE\n";
@@ -253,41 +267,19 @@ Json sweep_json(const results::Sweep& sweep) {
 
 std::string sweep_csv(const results::Sweep& sweep) {
   const std::size_t loads = sweep.coefficients.empty() ? 0 : sweep.loads.size();
-  const std::size_t inclusions = sweep.inclusions.size();
-  std::string text = csv_head(sweep, loads);
+  const std::vector<CsvColumn> columns = csv_columns(sweep);
+  std::string text = "row";
+  for (std::size_t i = 0; i < loads; ++i) text += "," + csv_field(sweep.loads[i]);
+  for (const CsvColumn& column : columns) text += "," + csv_field(column.title);
+  text += ",steps,status\n";
   for (std::size_t row = 0; row < sweep.rows(); ++row) {
-    const bool right = sweep.converged(row);
-    const auto add = [&text, right](double value) {
-      text += ',';
-      if (right && std::isfinite(value)) text += exact(value);
-    };
-    const auto add_bounds = [&](const std::vector<double>& lower, const std::vector<double>& upper,
-                                const std::vector<double>& mesh, std::size_t place) {
-      if (lower.empty()) return;
-      for (const auto* column : {&lower, &upper, &mesh}) add((*column)[place]);
-    };
     text += std::to_string(row);
-    for (std::size_t i = 0; i < loads; ++i) {
-      text += ',';
-      text += exact(sweep.coefficients[row * loads + i]);
-    }
-    for (std::size_t i = 0; i < inclusions; ++i) {
-      add(sweep.displacement[row * inclusions + i]);
-      add_bounds(sweep.displacement_lower, sweep.displacement_upper, sweep.displacement_mesh,
-                 row * inclusions + i);
-      for (std::size_t part = 0; part < slope_parts.size() && !sweep.slope.empty(); ++part)
-        add(sweep.slope_at(row, i, part));
-    }
-    for (std::size_t tip = row * sweep.tips(); tip < (row + 1) * sweep.tips(); ++tip)
-      for (const auto* column :
-           {&sweep.intensity, &sweep.energy_release_rate, &sweep.energy_release_rate_spread})
-        add((*column)[tip]);
-    add(sweep.energy[row]);
-    add_bounds(sweep.energy_lower, sweep.energy_upper, sweep.energy_mesh, row);
-    add(sweep.contact_length[row]);
-    text += fmt::format(",{},", sweep.steps[row]);
-    text += results::status_name(sweep.status[row]);
-    text += '\n';
+    for (std::size_t i = 0; i < loads; ++i)
+      text += "," + exact(sweep.coefficients[row * loads + i]);
+    for (const CsvColumn& column : columns)
+      text += "," + (sweep.converged(row) ? exact(column.values[row * column.width + column.place])
+                                          : std::string());
+    text += fmt::format(",{},{}\n", sweep.steps[row], results::status_name(sweep.status[row]));
   }
   return text;
 }

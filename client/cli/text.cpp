@@ -10,7 +10,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <cstdlib>
 #include <ctime>
 
@@ -71,10 +70,8 @@ std::string pad_left(std::string_view text, std::size_t width) {
 
 std::string number(double value, int digits, bool exponent) {
   if (!std::isfinite(value)) return "-";
-  std::array<char, 64> buffer{};
-  const int length = std::snprintf(buffer.data(), buffer.size(), exponent ? "%.*e" : "%.*g", digits,
-                                   value + 0.0);  // no "-0"
-  return std::string(buffer.data(), static_cast<std::size_t>(length));
+  value += 0.0;  // no "-0"
+  return exponent ? fmt::format("{:.{}e}", value, digits) : fmt::format("{:.{}g}", value, digits);
 }
 
 std::string exact(double value) {
@@ -133,13 +130,15 @@ std::string clock_text(std::int64_t seconds) {
   return {buffer.data(), std::strftime(buffer.data(), buffer.size(), "%Y-%m-%d %H:%M:%S", &local)};
 }
 
-std::string table(const std::vector<std::vector<std::string>>& rows,
+std::string table(std::vector<std::vector<std::string>> rows,
                   const std::vector<std::size_t>& left) {
   std::vector<std::size_t> widths;
-  for (const auto& row : rows) {
+  for (auto& row : rows) {
     widths.resize(std::max(widths.size(), row.size()), 0);
-    for (std::size_t j = 0; j < row.size(); ++j)
+    for (std::size_t j = 0; j < row.size(); ++j) {
+      row[j] = sanitise(row[j]);
       widths[j] = std::max(widths[j], columns_of(row[j]));
+    }
   }
   std::string text;
   for (const auto& row : rows) {

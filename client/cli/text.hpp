@@ -12,9 +12,6 @@
 
 namespace anticrack::cli {
 
-/// More rows than these are shown when they are asked for.
-inline constexpr int few_rows = 16;
-
 /// The text after words::shown(): text from a server must not control the terminal or add a line.
 std::string sanitise(std::string_view text);
 
@@ -56,8 +53,8 @@ std::string time_text(double seconds);
 std::string clock_text(std::int64_t seconds);
 
 /// A table with columns two spaces apart; column 0 and those in `left` are aligned left. There are
-/// no trailing spaces.
-std::string table(const std::vector<std::vector<std::string>>& rows,
+/// no trailing spaces. Cells are sanitised.
+std::string table(std::vector<std::vector<std::string>> rows,
                   const std::vector<std::size_t>& left = {});
 
 /// A table of a head and the first rows, with a line that counts the others; --json has them all.

@@ -7,15 +7,13 @@ namespace anticrack::client {
 
 v1::ReadCaseResponse read_case(Connection& connection, const v1::ReadCaseRequest& request,
                                const std::stop_token& stop) {
-  Connection::State& state = connection.state();
-  return call(state, *state.cases, &v1::CaseService::Stub::ReadCase, request, stop);
+  return call(connection, &v1::CaseService::Stub::ReadCase, request, stop);
 }
 
 v1::ListCaseKeysResponse list_case_keys(Connection& connection,
                                         const v1::ListCaseKeysRequest& request,
                                         const std::stop_token& stop) {
-  Connection::State& state = connection.state();
-  return call(state, *state.cases, &v1::CaseService::Stub::ListCaseKeys, request, stop);
+  return call(connection, &v1::CaseService::Stub::ListCaseKeys, request, stop);
 }
 
 }  // namespace anticrack::client

@@ -30,16 +30,8 @@ struct Connection::State {
   ConnectionOptions options;
   std::optional<Proxy> proxy;  ///< the proxy between here and the server
   std::shared_ptr<grpc::Channel> channel;
-  std::shared_ptr<grpc::Channel> bulk;  ///< channel of bulk reads
-  std::unique_ptr<v1::CaseService::Stub> cases;
-  std::unique_ptr<v1::UploadService::Stub> uploads;
-  std::unique_ptr<v1::MeshService::Stub> meshes;
-  std::unique_ptr<v1::SolveService::Stub> jobs;
-  std::unique_ptr<v1::ServerService::Stub> server;
-  std::unique_ptr<v1::UploadService::Stub> bulk_uploads;
-  std::unique_ptr<v1::MeshService::Stub> bulk_meshes;  ///< on the channel of bulk reads
-  std::unique_ptr<v1::SolveService::Stub> bulk_jobs;
-  std::atomic<bool> met = false;  ///< the server has answered once
+  std::shared_ptr<grpc::Channel> bulk;  ///< channel of bulk reads and uploads
+  std::atomic<bool> met = false;        ///< the server has answered once
 };
 
 /// Puts the token of the connection, if any, on a call that is about to start.
@@ -55,10 +47,13 @@ class Retries {
   /// `channel`: that of the call.
   Retries(Connection::State& state, grpc::Channel& channel);
 
-  /// Returns when it is time to try again. Throws `error` to give up, Interrupted on `stop`.
-  void wait(const Error& error, const std::stop_token& stop);
+  /// Returns when it is time to try again, after a try that ended with `status`; OK: a stream that
+  /// ended too early. Throws its Error to give up, Interrupted on `stop`.
+  void wait(const grpc::Status& status, const std::stop_token& stop);
   /// To be called when the server has answered.
   void succeeded();
+  /// Whether the connection was lost in one of the tries, so that a response may have been.
+  bool lost() const noexcept { return _lost; }
 
  private:
   Connection::State& _state;
@@ -66,51 +61,71 @@ class Retries {
   Backoff _backoff;
   std::optional<std::chrono::steady_clock::time_point> _failing_since;
   std::optional<Error> _first_error;  ///< the first error since the last success
+  bool _lost = false;
 };
 
 /// Sleeps; throws Interrupted on `stop`.
 void sleep(std::chrono::milliseconds time, const std::stop_token& stop);
 
-/// Tries a unary call once; `stop` ends it.
-template <class Stub, class Request, class Response>
-grpc::Status try_call(const Connection::State& state, Stub& stub,
-                      grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*),
-                      const Request& request, Response& response, const std::stop_token& stop) {
-  grpc::ClientContext context;
-  authorise(state, context);
-  context.set_deadline(std::chrono::system_clock::now() + state.options.deadline);
-  const std::stop_callback cancel(stop, [&context] { context.TryCancel(); });
-  return (stub.*method)(&context, request, &response);
-}
-
 /// The response of a unary method; after a lost connection the call is retried with back-off.
 /// Throws Error, and Interrupted once `stop` is requested. `deletes`: NOT_FOUND after a lost
 /// response is success.
 template <class Stub, class Request, class Response>
-Response call(Connection::State& state, Stub& stub,
+Response call(Connection& connection,
               grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*),
               const Request& request, const std::stop_token& stop, bool deletes = false) {
+  Connection::State& state = connection.state();
+  Stub stub(state.channel);
   Retries retries(state, *state.channel);
-  bool lost = false;
   while (true) {
+    grpc::ClientContext context;
+    authorise(state, context);
+    context.set_deadline(std::chrono::system_clock::now() + state.options.deadline);
+    const std::stop_callback cancel(stop, [&context] { context.TryCancel(); });
     Response response;
-    const grpc::Status status = try_call(state, stub, method, request, response, stop);
-    if (status.ok() || (deletes && lost && status.error_code() == grpc::StatusCode::NOT_FOUND)) {
+    const grpc::Status status = (stub.*method)(&context, request, &response);
+    if (status.ok() ||
+        (deletes && retries.lost() && status.error_code() == grpc::StatusCode::NOT_FOUND)) {
       retries.succeeded();
       return response;
     }
-    const Error error = error_of(state, status);
-    lost = lost || is_lost_connection(error);
-    retries.wait(error, stop);
+    retries.wait(status, stop);
   }
 }
 
-/// A request that has only a name.
-template <class Request>
-Request named(const std::string& name) {
+/// The same for a request that has only a name.
+template <class Stub, class Request, class Response>
+Response call_named(Connection& connection,
+                    grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*),
+                    const std::string& name, const std::stop_token& stop, bool deletes = false) {
   Request request;
   request.set_name(name);
-  return request;
+  return call(connection, method, request, stop, deletes);
+}
+
+/// Passes on the messages of a stream to take(message); returns the status with which it ended. No
+/// deadline: jobs may take days, heartbeats show life. `stop` ends the stream; so does what `take`
+/// throws.
+template <class Stub, class Request, class Response, class Take>
+grpc::Status read_stream(const Connection::State& state,
+                         const std::shared_ptr<grpc::Channel>& channel,
+                         std::unique_ptr<grpc::ClientReader<Response>> (Stub::*method)(
+                             grpc::ClientContext*, const Request&),
+                         const Request& request, const std::stop_token& stop, const Take& take) {
+  Stub stub(channel);
+  grpc::ClientContext context;
+  authorise(state, context);
+  const std::stop_callback cancel(stop, [&context] { context.TryCancel(); });
+  const auto reader = (stub.*method)(&context, request);
+  Response message;
+  try {
+    while (reader->Read(&message)) take(message);
+  } catch (...) {
+    context.TryCancel();
+    reader->Finish();
+    throw;
+  }
+  return reader->Finish();
 }
 
 }  // namespace anticrack::client

@@ -141,15 +141,7 @@ std::string refused_text(Code code, const std::string& message, const Credential
 Connection::State::State(ConnectionOptions chosen) : options(std::move(chosen)) {
   proxy = proxy_for(options.address, [](const char* name) { return std::getenv(name); });
   channel = make_channel(options, proxy.has_value(), false);
-  uploads = v1::UploadService::NewStub(channel);
-  cases = v1::CaseService::NewStub(channel);
-  meshes = v1::MeshService::NewStub(channel);
-  jobs = v1::SolveService::NewStub(channel);
-  server = v1::ServerService::NewStub(channel);
   bulk = make_channel(options, proxy.has_value(), true);
-  bulk_uploads = v1::UploadService::NewStub(bulk);
-  bulk_meshes = v1::MeshService::NewStub(bulk);
-  bulk_jobs = v1::SolveService::NewStub(bulk);
 }
 
 Connection::Connection(ConnectionOptions options)
@@ -190,16 +182,19 @@ Error error_of(const Connection::State& state, const grpc::Status& status) {
 Retries::Retries(Connection::State& state, grpc::Channel& channel)
     : _state(state), _channel(channel), _backoff(state.options.retry) {}
 
-void Retries::wait(const Error& error, const std::stop_token& stop) {
+void Retries::wait(const grpc::Status& status, const std::stop_token& stop) {
   if (stop.stop_requested()) throw Interrupted();
-  if (_state.options.lost && is_lost_connection(error)) _state.options.lost();
+  const Error error = status.ok() ? Error(Code::unavailable, "the server closed the stream early")
+                                  : error_of(_state, status);
+  const bool lost = is_lost_connection(error);
+  _lost = _lost || lost;
+  if (_state.options.lost && lost) _state.options.lost();
   const auto now = steady_clock::now();
   if (!_failing_since) {
     _failing_since = now;
     _first_error = error;
   }
   const auto failing = std::chrono::duration_cast<milliseconds>(now - *_failing_since);
-  const bool lost = is_lost_connection(error);
   const milliseconds patience =
       lost && !_state.met ? _state.options.first_contact : _state.options.retry.patience;
   const auto delay = _backoff.next(error, failing, patience);

@@ -8,35 +8,27 @@ namespace anticrack::client {
 
 v1::Job create_job(Connection& connection, const v1::JobSpec& spec, const std::string& request_id,
                    const std::stop_token& stop) {
-  Connection::State& state = connection.state();
   v1::CreateJobRequest request;
   *request.mutable_spec() = spec;
   request.set_request_id(request_id);
-  return call(state, *state.jobs, &v1::SolveService::Stub::CreateJob, request, stop);
+  return call(connection, &v1::SolveService::Stub::CreateJob, request, stop);
 }
 
 v1::Job get_job(Connection& connection, const std::string& name, const std::stop_token& stop) {
-  Connection::State& state = connection.state();
-  return call(state, *state.jobs, &v1::SolveService::Stub::GetJob, named<v1::GetJobRequest>(name),
-              stop);
+  return call_named(connection, &v1::SolveService::Stub::GetJob, name, stop);
 }
 
 v1::ListJobsResponse list_jobs(Connection& connection, const v1::ListJobsRequest& request,
                                const std::stop_token& stop) {
-  Connection::State& state = connection.state();
-  return call(state, *state.jobs, &v1::SolveService::Stub::ListJobs, request, stop);
+  return call(connection, &v1::SolveService::Stub::ListJobs, request, stop);
 }
 
 v1::Job cancel_job(Connection& connection, const std::string& name, const std::stop_token& stop) {
-  Connection::State& state = connection.state();
-  return call(state, *state.jobs, &v1::SolveService::Stub::CancelJob,
-              named<v1::CancelJobRequest>(name), stop);
+  return call_named(connection, &v1::SolveService::Stub::CancelJob, name, stop);
 }
 
 void delete_job(Connection& connection, const std::string& name, const std::stop_token& stop) {
-  Connection::State& state = connection.state();
-  call(state, *state.jobs, &v1::SolveService::Stub::DeleteJob, named<v1::DeleteJobRequest>(name),
-       stop, true);
+  call_named(connection, &v1::SolveService::Stub::DeleteJob, name, stop, true);
 }
 
 bool ended(v1::JobStatus::State state) {
@@ -45,14 +37,12 @@ bool ended(v1::JobStatus::State state) {
 }
 
 Block read_result(Connection& connection, const std::string& name, const std::stop_token& stop) {
-  Connection::State& state = connection.state();
-  return read_block(state, *state.bulk_jobs, &v1::SolveService::Stub::ReadResult, name, stop);
+  return read_block(connection, &v1::SolveService::Stub::ReadResult, name, stop);
 }
 
 v1::ServerInfo server_info(Connection& connection, const std::stop_token& stop) {
-  Connection::State& state = connection.state();
-  return call(state, *state.server, &v1::ServerService::Stub::GetServerInfo,
-              v1::GetServerInfoRequest(), stop);
+  return call(connection, &v1::ServerService::Stub::GetServerInfo, v1::GetServerInfoRequest(),
+              stop);
 }
 
 }  // namespace anticrack::client

@@ -20,41 +20,32 @@ constexpr std::chrono::milliseconds longest_poll{1'000};
 
 v1::Mesh create_mesh(Connection& connection, const v1::CreateMeshRequest& request,
                      const std::stop_token& stop) {
-  Connection::State& state = connection.state();
-  return call(state, *state.meshes, &v1::MeshService::Stub::CreateMesh, request, stop);
+  return call(connection, &v1::MeshService::Stub::CreateMesh, request, stop);
 }
 
 v1::Mesh get_mesh(Connection& connection, const std::string& name, const std::stop_token& stop) {
-  Connection::State& state = connection.state();
-  return call(state, *state.meshes, &v1::MeshService::Stub::GetMesh,
-              named<v1::GetMeshRequest>(name), stop);
+  return call_named(connection, &v1::MeshService::Stub::GetMesh, name, stop);
 }
 
 v1::ListMeshesResponse list_meshes(Connection& connection, const v1::ListMeshesRequest& request,
                                    const std::stop_token& stop) {
-  Connection::State& state = connection.state();
-  return call(state, *state.meshes, &v1::MeshService::Stub::ListMeshes, request, stop);
+  return call(connection, &v1::MeshService::Stub::ListMeshes, request, stop);
 }
 
 v1::Mesh warm_mesh(Connection& connection, const std::string& name, bool pin,
                    const std::stop_token& stop) {
-  Connection::State& state = connection.state();
   v1::WarmMeshRequest request;
   request.set_name(name);
   request.set_pin(pin);
-  return call(state, *state.meshes, &v1::MeshService::Stub::WarmMesh, request, stop);
+  return call(connection, &v1::MeshService::Stub::WarmMesh, request, stop);
 }
 
 v1::Mesh evict_mesh(Connection& connection, const std::string& name, const std::stop_token& stop) {
-  Connection::State& state = connection.state();
-  return call(state, *state.meshes, &v1::MeshService::Stub::EvictMesh,
-              named<v1::EvictMeshRequest>(name), stop);
+  return call_named(connection, &v1::MeshService::Stub::EvictMesh, name, stop);
 }
 
 void delete_mesh(Connection& connection, const std::string& name, const std::stop_token& stop) {
-  Connection::State& state = connection.state();
-  call(state, *state.meshes, &v1::MeshService::Stub::DeleteMesh, named<v1::DeleteMeshRequest>(name),
-       stop, true);
+  call_named(connection, &v1::MeshService::Stub::DeleteMesh, name, stop, true);
 }
 
 bool settled(v1::Mesh::State state) {
@@ -81,8 +72,7 @@ v1::Mesh wait_for_mesh(Connection& connection, const std::string& name,
 }
 
 Block read_mesh(Connection& connection, const std::string& name, const std::stop_token& stop) {
-  Connection::State& state = connection.state();
-  return read_block(state, *state.bulk_meshes, &v1::MeshService::Stub::ReadMesh, name, stop);
+  return read_block(connection, &v1::MeshService::Stub::ReadMesh, name, stop);
 }
 
 }  // namespace anticrack::client

@@ -19,45 +19,35 @@ inline constexpr int tries_of_damaged_data = 3;
 /// The block that a method streams, complete and checked. After a lost connection the read goes on
 /// where it was. Throws Error, and Interrupted once `stop` is requested.
 template <class Stub, class Request, class Response>
-Block read_block(Connection::State& state, Stub& stub,
+Block read_block(Connection& connection,
                  std::unique_ptr<grpc::ClientReader<Response>> (Stub::*method)(grpc::ClientContext*,
                                                                                const Request&),
                  const std::string& name, const std::stop_token& stop) {
+  Connection::State& state = connection.state();
   BlockReceiver receiver;
   Retries retries(state, *state.bulk);
   int damaged = 0;
+  Request request;
+  request.set_name(name);
   while (true) {
-    Request request;
-    request.set_name(name);
     request.set_offset(receiver.offset());
-    grpc::ClientContext context;
-    authorise(state, context);
-    const std::stop_callback cancel(stop, [&context] { context.TryCancel(); });
-    const auto reader = (stub.*method)(&context, request);
+    const auto take = [&](const Response& response) {
+      if (response.has_layout()) return receiver.accept(response.layout());
+      if (!response.has_chunk()) return;
+      receiver.accept(response.chunk());
+      if (response.chunk().data().empty()) return;  // this is no progress
+      retries.succeeded();
+      damaged = 0;
+    };
+    grpc::Status status;
     try {
-      Response response;
-      while (reader->Read(&response)) {
-        if (response.has_layout()) {
-          receiver.accept(response.layout());
-        } else if (response.has_chunk()) {
-          receiver.accept(response.chunk());
-          if (response.chunk().data().empty()) continue;  // this is no progress
-          retries.succeeded();
-          damaged = 0;
-        }
-      }
+      status = read_stream(state, state.bulk, method, request, stop, take);
     } catch (const Error&) {
-      context.TryCancel();
-      reader->Finish();
       if (++damaged == tries_of_damaged_data) throw;
       continue;
     }
-    const grpc::Status status = reader->Finish();
     if (receiver.complete()) return receiver.finish();
-    if (stop.stop_requested()) throw Interrupted();
-    retries.wait(status.ok() ? Error(Code::unavailable, "the server closed the stream early")
-                             : error_of(state, status),
-                 stop);
+    retries.wait(status, stop);
   }
 }
 

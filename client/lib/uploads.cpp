@@ -7,7 +7,6 @@
 #include <functional>
 #include <future>
 #include <memory>
-#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string_view>
@@ -23,16 +22,13 @@ namespace {
 constexpr std::size_t chunk_bytes = 1u << 20;
 constexpr std::size_t files_a_stream = 500;  // the server takes 1000
 
-/// Returns the next chunk of a file; empty at its end.
-using NextChunk = std::function<std::string()>;
+/// A file to send, and what returns its next chunk, empty at its end.
 struct Outgoing {
   v1::CreateUploadsRequest::Header header;
-  NextChunk next;
+  std::function<std::string()> next;
 };
-/// Returns the next file; none at the end.
-using NextFile = std::function<std::optional<Outgoing>()>;
-/// Begins with the first file; called for every try to send.
-using Begin = std::function<NextFile()>;
+/// Opens a file by its index; called in order, and from the first one on for every try to send.
+using Open = std::function<Outgoing(std::size_t)>;
 
 /// The chunks of a file on the disk.
 class FileChunks {
@@ -92,16 +88,19 @@ Outgoing array_file(const std::shared_ptr<const std::vector<double>>& owner,
 class ArrayFiles {
  public:
   ArrayFiles(std::size_t first, std::size_t end, const ReadArray& read)
-      : _next(first), _end(end), _read(read) {
-    read_next();
-  }
+      : _first(first), _end(end), _read(read) {}
 
-  std::optional<Outgoing> next() {
-    if (_ready.empty() && _pending.valid()) {
+  Outgoing open(std::size_t index) {
+    if (index == 0) {
+      _pending = {};  // waits for the reading of an earlier try
+      _ready.clear();
+      _next = _first;
+      read_next();
+    }
+    if (_ready.empty()) {
       _ready = _pending.get();
       read_next();
     }
-    if (_ready.empty()) return std::nullopt;
     Outgoing file = std::move(_ready.front());
     _ready.pop_front();
     return file;
@@ -121,30 +120,29 @@ class ArrayFiles {
     });
   }
 
-  std::size_t _next;
-  const std::size_t _end;
+  std::size_t _next = 0;
+  const std::size_t _first, _end;
   const ReadArray& _read;
   std::deque<Outgoing> _ready;
   std::future<std::deque<Outgoing>> _pending;
 };
 
 // The server may refuse before everything is sent; the status then gives the reason.
-grpc::Status send_once(Connection::State& state, const Begin& begin,
+grpc::Status send_once(Connection::State& state, const Open& open, std::size_t count,
                        v1::CreateUploadsResponse& response, const std::stop_token& stop) {
+  v1::UploadService::Stub stub(state.bulk);
   grpc::ClientContext context;
   authorise(state, context);
   const std::stop_callback cancel(stop, [&context] { context.TryCancel(); });
-  const auto writer = state.bulk_uploads->CreateUploads(&context, &response);
+  const auto writer = stub.CreateUploads(&context, &response);
   try {
     v1::CreateUploadsRequest request;
     bool writing = true;
-    const NextFile next_file = begin();
-    while (writing) {
-      std::optional<Outgoing> file = next_file();
-      if (!file) break;
-      *request.mutable_header() = std::move(file->header);
+    for (std::size_t i = 0; writing && i < count; ++i) {
+      Outgoing file = open(i);
+      *request.mutable_header() = std::move(file.header);
       writing = writer->Write(request);
-      for (std::string chunk = file->next(); writing && !chunk.empty(); chunk = file->next()) {
+      for (std::string chunk = file.next(); writing && !chunk.empty(); chunk = file.next()) {
         request.set_chunk(std::move(chunk));
         writing = writer->Write(request);
       }
@@ -159,33 +157,24 @@ grpc::Status send_once(Connection::State& state, const Begin& begin,
 }
 
 /// Sends `count` files; returns their names.
-std::vector<std::string> send(Connection& connection, const Begin& begin, std::size_t count,
+std::vector<std::string> send(Connection& connection, const Open& open, std::size_t count,
                               const std::stop_token& stop) {
   Connection::State& state = connection.state();
   Retries retries(state, *state.bulk);
   while (true) {
     v1::CreateUploadsResponse response;
-    const grpc::Status status = send_once(state, begin, response, stop);
-    if (status.ok()) {
-      retries.succeeded();
-      if (static_cast<std::size_t>(response.uploads_size()) != count)
-        throw Error(Code::internal, "the server answered for other files than those sent");
-      std::vector<std::string> names;
-      for (const v1::Upload& upload : response.uploads()) names.push_back(upload.name());
-      return names;
+    const grpc::Status status = send_once(state, open, count, response, stop);
+    if (!status.ok()) {
+      retries.wait(status, stop);
+      continue;
     }
-    retries.wait(error_of(state, status), stop);
+    retries.succeeded();
+    if (static_cast<std::size_t>(response.uploads_size()) != count)
+      throw Error(Code::internal, "the server answered for other files than those sent");
+    std::vector<std::string> names;
+    for (const v1::Upload& upload : response.uploads()) names.push_back(upload.name());
+    return names;
   }
-}
-
-/// Makes a stream of one file.
-Begin once(std::function<Outgoing()> file) {
-  return [file = std::move(file)] {
-    return [file, sent = false]() mutable -> std::optional<Outgoing> {
-      if (std::exchange(sent, true)) return std::nullopt;
-      return file();
-    };
-  };
 }
 
 }  // namespace
@@ -193,16 +182,17 @@ Begin once(std::function<Outgoing()> file) {
 std::string upload_mesh(Connection& connection, const std::filesystem::path& path,
                         const std::stop_token& stop) {
   const auto header = header_of_msh(path);
-  const Begin begin = once([&] {
+  const auto open = [&](std::size_t) {
     const auto file = std::make_shared<FileChunks>(path);
     return Outgoing{header, [file] { return file->next(); }};
-  });
-  return send(connection, begin, 1, stop).front();
+  };
+  return send(connection, open, 1, stop).front();
 }
 
 std::string upload_array(Connection& connection, std::span<const double> values,
                          const std::stop_token& stop) {
-  return send(connection, once([&] { return array_file(nullptr, values); }), 1, stop).front();
+  const auto open = [values](std::size_t) { return array_file(nullptr, values); };
+  return send(connection, open, 1, stop).front();
 }
 
 std::vector<std::string> upload_arrays(Connection& connection, std::size_t count,
@@ -210,12 +200,10 @@ std::vector<std::string> upload_arrays(Connection& connection, std::size_t count
   std::vector<std::string> names;
   for (std::size_t first = 0; first < count; first += files_a_stream) {
     const std::size_t end = std::min(count, first + files_a_stream);
-    const Begin begin = [&] {
-      const auto files = std::make_shared<ArrayFiles>(first, end, read);
-      return [files] { return files->next(); };
-    };
+    ArrayFiles files(first, end, read);
+    const auto open = [&files](std::size_t index) { return files.open(index); };
     try {
-      const auto sent = send(connection, begin, end - first, stop);
+      const auto sent = send(connection, open, end - first, stop);
       names.insert(names.end(), sent.begin(), sent.end());
     } catch (const Error& error) {
       Details details = error.details();
@@ -233,21 +221,16 @@ std::vector<std::string> upload_arrays(Connection& connection, std::size_t count
 
 v1::Upload get_upload(Connection& connection, const std::string& name,
                       const std::stop_token& stop) {
-  Connection::State& state = connection.state();
-  return call(state, *state.uploads, &v1::UploadService::Stub::GetUpload,
-              named<v1::GetUploadRequest>(name), stop);
+  return call_named(connection, &v1::UploadService::Stub::GetUpload, name, stop);
 }
 
 v1::ListUploadsResponse list_uploads(Connection& connection, const v1::ListUploadsRequest& request,
                                      const std::stop_token& stop) {
-  Connection::State& state = connection.state();
-  return call(state, *state.uploads, &v1::UploadService::Stub::ListUploads, request, stop);
+  return call(connection, &v1::UploadService::Stub::ListUploads, request, stop);
 }
 
 void delete_upload(Connection& connection, const std::string& name, const std::stop_token& stop) {
-  Connection::State& state = connection.state();
-  call(state, *state.uploads, &v1::UploadService::Stub::DeleteUpload,
-       named<v1::DeleteUploadRequest>(name), stop, true);
+  call_named(connection, &v1::UploadService::Stub::DeleteUpload, name, stop, true);
 }
 
 }  // namespace anticrack::client

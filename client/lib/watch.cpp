@@ -30,33 +30,27 @@ v1::Job watch_job(Connection& connection, const std::string& name, std::uint64_t
   Connection::State& state = connection.state();
   Retries retries(state, *state.channel);
   Position position{after_sequence, std::nullopt};
+  v1::WatchJobRequest request;
+  request.set_name(name);
   while (true) {
-    v1::WatchJobRequest request;
-    request.set_name(name);
     request.set_after_sequence(position.after);
-    grpc::ClientContext context;  // no deadline: jobs may take days, heartbeats show life
-    authorise(state, context);
-    const std::stop_callback cancel(stop, [&context] { context.TryCancel(); });
-    const auto reader = state.jobs->WatchJob(&context, request);
-    v1::WatchJobResponse message;
-    while (reader->Read(&message)) {
+    const auto take = [&](const v1::WatchJobResponse& message) {
       retries.succeeded();
       if (position.take(message)) event(message);
-    }
-    const grpc::Status status = reader->Finish();
+    };
+    const grpc::Status status =
+        read_stream(state, state.channel, &v1::SolveService::Stub::WatchJob, request, stop, take);
     if (position.last) return *std::move(position.last);
-    if (stop.stop_requested()) throw Interrupted();
-    if (status.error_code() == grpc::StatusCode::OUT_OF_RANGE && position.after != 0) {
-      if (state.options.notice) {
-        state.options.notice("the events after number " + std::to_string(position.after) +
-                             " are no longer there; starting again from the earliest");
-      }
-      position.after = 0;
+    const bool gone = status.error_code() == grpc::StatusCode::OUT_OF_RANGE && position.after != 0;
+    if (!gone || stop.stop_requested()) {
+      retries.wait(status, stop);
       continue;
     }
-    retries.wait(status.ok() ? Error(Code::unavailable, "the server closed the stream early")
-                             : error_of(state, status),
-                 stop);
+    if (state.options.notice) {
+      state.options.notice("the events after number " + std::to_string(position.after) +
+                           " are no longer there; starting again from the earliest");
+    }
+    position.after = 0;
   }
 }
 

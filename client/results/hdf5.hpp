@@ -81,6 +81,9 @@ struct Row {
   std::size_t width() const noexcept { return columns == 0 ? 1 : columns * depth; }
 };
 
+/// HDF5's type of numbers in memory.
+hid_t native(ValueType type);
+
 // Writing.
 
 /// Returns the bytes of an HDF5 file (format 1.10) whose root group `fill` has filled. It is made

@@ -19,19 +19,9 @@ void require_hard_link(const Handle& group, const std::string& name) {
 }
 
 bool is(const Handle& type, ValueType wanted) {
-  switch (wanted) {
-    case ValueType::float64:
-      return H5Tget_class(type.get()) == H5T_FLOAT && H5Tget_size(type.get()) == 8;
-    case ValueType::int32:
-      return H5Tget_class(type.get()) == H5T_INTEGER && H5Tget_size(type.get()) == 4;
-    case ValueType::uint8:
-      return H5Tget_class(type.get()) == H5T_INTEGER && H5Tget_size(type.get()) == 1;
-    case ValueType::int64:
-      return H5Tget_class(type.get()) == H5T_INTEGER && H5Tget_size(type.get()) == 8;
-    case ValueType::text:
-      return H5Tis_variable_str(type.get()) > 0;
-  }
-  return false;
+  if (wanted == ValueType::text) return H5Tis_variable_str(type.get()) > 0;
+  return H5Tget_class(type.get()) == (wanted == ValueType::float64 ? H5T_FLOAT : H5T_INTEGER) &&
+         H5Tget_size(type.get()) == bytes_of(wanted);
 }
 
 struct Attribute {
@@ -47,13 +37,6 @@ Attribute open_attribute(const Handle& object, const std::string& name) {
   const Handle space(H5Aget_space(id.get()), H5Sclose, what + " cannot be read");
   const hssize_t count = H5Sget_simple_extent_npoints(space.get());
   return {std::move(id), std::move(type), count};
-}
-
-hid_t native(ValueType type) {
-  return type == ValueType::float64 ? H5T_NATIVE_DOUBLE
-         : type == ValueType::int32 ? H5T_NATIVE_INT32
-         : type == ValueType::int64 ? H5T_NATIVE_INT64
-                                    : H5T_NATIVE_UINT8;
 }
 
 /// Fills in `count` values by calling read(type in memory, destination). Texts have HDF5's type
@@ -152,6 +135,13 @@ void require_filters(const Handle& properties, const std::string& what) {
 }
 
 }  // namespace
+
+hid_t native(ValueType type) {
+  return type == ValueType::float64 ? H5T_NATIVE_DOUBLE
+         : type == ValueType::int32 ? H5T_NATIVE_INT32
+         : type == ValueType::int64 ? H5T_NATIVE_INT64
+                                    : H5T_NATIVE_UINT8;
+}
 
 Handle open_root(const std::filesystem::path& path, const std::string& cure) {
   namespace fs = std::filesystem;

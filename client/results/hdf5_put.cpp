@@ -35,38 +35,29 @@ hid_t text_type() {
   return id;
 }
 
+hid_t type_in_file(ValueType type) {
+  return type == ValueType::float64 ? H5T_IEEE_F64LE
+         : type == ValueType::int32 ? H5T_STD_I32LE
+         : type == ValueType::int64 ? H5T_STD_I64LE
+         : type == ValueType::uint8 ? H5T_STD_U8LE
+                                    : text_type();
+}
+
 /// Values as HDF5 takes them: their types in the file and in memory, and a pointer to them.
 struct Values {
-  Values(ValueType type, const void* values, std::size_t count) : data(values) {
-    switch (type) {
-      case ValueType::float64:
-        in_file = H5T_IEEE_F64LE;
-        in_memory = H5T_NATIVE_DOUBLE;
-        break;
-      case ValueType::int32:
-        in_file = H5T_STD_I32LE;
-        in_memory = H5T_NATIVE_INT32;
-        break;
-      case ValueType::uint8:
-        in_file = H5T_STD_U8LE;
-        in_memory = H5T_NATIVE_UINT8;
-        break;
-      case ValueType::int64:
-        in_file = H5T_STD_I64LE;
-        in_memory = H5T_NATIVE_INT64;
-        break;
-      case ValueType::text:
-        in_file = in_memory = text_type();
-        for (std::size_t i = 0; i < count; ++i)
-          pointers.push_back(static_cast<const std::string*>(values)[i].c_str());
-        data = pointers.data();
-        break;
-    }
+  Values(ValueType type, const void* values, std::size_t count)
+      : data(values),
+        in_file(type_in_file(type)),
+        in_memory(type == ValueType::text ? in_file : native(type)) {
+    if (type != ValueType::text) return;
+    for (std::size_t i = 0; i < count; ++i)
+      pointers.push_back(static_cast<const std::string*>(values)[i].c_str());
+    data = pointers.data();
   }
 
   std::vector<const char*> pointers;
   const void* data;
-  hid_t in_file = -1, in_memory = -1;
+  hid_t in_file, in_memory;
 };
 
 Handle new_creation_properties(std::size_t rows, const Row& row) {

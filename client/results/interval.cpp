@@ -4,9 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 namespace anticrack::results {
 
@@ -27,10 +25,7 @@ std::string interval(double value, double lower, double upper) {
   const int decimals = std::max(0, behind + exponent);
   const double scale = std::pow(10.0, -exponent);
   const auto fixed = [&](double number) {
-    std::array<char, 64> buffer{};
-    const int length =
-        std::snprintf(buffer.data(), buffer.size(), "%.*f", decimals, number * scale + 0.0);
-    return std::string(buffer.data(), static_cast<std::size_t>(length));
+    return fmt::format("{:.{}f}", number * scale + 0.0, decimals);
   };
   const std::string text = fixed(shown) + " +- " + fixed(beside);
   return exponent == 0 ? text : fmt::format("({})e{}", text, exponent);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results/notes.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <string_view>
 
 namespace anticrack::results {
@@ -68,14 +69,12 @@ std::vector<std::string> notes_on(const Result& result) {
   const Largest largest = largest_of(result);
   const double side = smaller_side(result.mesh);
   if (!(largest.u > largest_part * side)) return notes;
-  std::ostringstream note;
-  note.precision(3);
-  note << "u reaches " << largest.u << ' ' << length;
-  if (!largest.load.empty()) note << " in load \"" << largest.load << '"';
-  note << ", and the smaller side of the sheet is " << side << ' ' << length
-       << ": the equation is that of small slopes, u up to about a tenth of the side. u is "
-          "proportional to the load and to 1/tension: look for a factor in them";
-  notes.push_back(note.str());
+  const std::string load = largest.load.empty() ? "" : fmt::format(" in load \"{}\"", largest.load);
+  notes.push_back(fmt::format(
+      "u reaches {:.3g} {}{}, and the smaller side of the sheet is {:.3g} {}: the equation is that "
+      "of small slopes, u up to about a tenth of the side. u is proportional to the load and to "
+      "1/tension: look for a factor in them",
+      largest.u, length, load, side, length));
   return notes;
 }
 

@@ -30,13 +30,6 @@ TEST(CaseErrors, SyntaxNamesTheLine) {
             "plate.toml: this is not text; name a case, a TOML file");
 }
 
-TEST(CaseErrors, NoLoadsAndNoGeometry) {
-  EXPECT_EQ(complaint("title = \"A\"\n"),
-            "plate.toml: geometry: missing; write [geometry] with boundary and interface, or "
-            "mesh.file = \"x.msh\"");
-  EXPECT_THAT(complaint("mesh.file = \"x.msh\"\n"), HasSubstr("load: missing; write [[load]]"));
-}
-
 TEST(Complaint, OfAKeyOfManyParts) {
   std::string plain = "a", quoted = "a";
   for (int i = 0; i < 200'000; ++i) plain += ".a";

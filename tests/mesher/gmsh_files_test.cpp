@@ -126,38 +126,24 @@ TEST_F(GmshFiles, FourFormatsGiveOneMesh) {
   expect_same(through(2.2, true), old);
 }
 
-TEST_F(GmshFiles, AllElementsSavedWithParametersAreRead) {
-  gmsh::option::setNumber("Mesh.SaveAll", 1);
-  gmsh::option::setNumber("Mesh.SaveParametric", 1);
-  gmsh::model::mesh::generate(2);
-  for (const bool binary : {false, true}) {
-    EXPECT_EQ(through(4.1, binary).interfaces[0].name, "interface");
-  }
-}
-
-TEST_F(GmshFiles, QuadranglesAreRefused) {
-  gmsh::model::mesh::generate(2);
-  // the nodes of the corners carry the numbers of their points
-  gmsh::model::mesh::addElementsByType(1, 3, {}, {1, 2, 8, 5});
-  for (const double version : {2.2, 4.1}) {
-    for (const bool binary : {false, true}) {
-      const auto error = testing::error_of([&] { through(version, binary); });
-      ASSERT_TRUE(error);
-      EXPECT_THAT(error->what(), HasSubstr("4-node quadrangles"));
+TEST_F(GmshFiles, OtherElementsAndNoneAreRefused) {
+  const auto expect_refused = [this](const char* told) {
+    for (const double version : {2.2, 4.1}) {
+      for (const bool binary : {false, true}) {
+        const auto error = testing::error_of([&] { through(version, binary); });
+        ASSERT_TRUE(error);
+        EXPECT_THAT(error->what(), HasSubstr(told));
+      }
     }
-  }
-}
-
-TEST_F(GmshFiles, SecondOrderIsRefused) {
+  };
+  expect_refused("; mesh i");  // there is a geometry alone
   gmsh::model::mesh::generate(2);
   gmsh::model::mesh::setOrder(2);
-  for (const double version : {2.2, 4.1}) {
-    for (const bool binary : {false, true}) {
-      const auto error = testing::error_of([&] { through(version, binary); });
-      ASSERT_TRUE(error);
-      EXPECT_THAT(error->what(), HasSubstr("save first-order elements"));
-    }
-  }
+  expect_refused("save first-order elements");
+  gmsh::model::mesh::setOrder(1);
+  // the nodes of the corners carry the numbers of their points
+  gmsh::model::mesh::addElementsByType(1, 3, {}, {1, 2, 8, 5});
+  expect_refused("4-node quadrangles");
 }
 
 /// All interfaces together; 2 means 2 to rounding.
@@ -253,16 +239,6 @@ TEST_F(GmshFiles, GroupsOfPartsAreRefused) {
   EXPECT_THAT(error->what(), HasSubstr("groups of its own"));
 }
 
-TEST_F(GmshFiles, GeometryWithoutAMeshIsNamed) {
-  for (const bool binary : {false, true}) {
-    const auto error = testing::error_of([&] { through(4.1, binary); });
-    ASSERT_TRUE(error);
-    EXPECT_THAT(error->what(), HasSubstr("geometry but no mesh; mesh it before saving (gmsh"));
-    EXPECT_THAT(testing::error_of([&] { through(2.2, binary); })->what(),
-                HasSubstr("the mesh has no triangle; mesh in two dimensions (gmsh -2)"));
-  }
-}
-
 TEST_F(GmshFiles, AnInclusionWithoutItsLinesIsMissed) {
   gmsh::model::mesh::generate(2);
   gmsh::model::removePhysicalGroups({{1, 4}});
@@ -279,13 +255,6 @@ TEST_F(GmshFiles, Version1IsRefused) {
   const auto error = testing::error_of([&] { through(1, false); });
   ASSERT_TRUE(error);
   EXPECT_THAT(error->what(), HasSubstr("MSH 1, which is not read; convert it: gmsh old.msh -save"));
-}
-
-TEST_F(GmshFiles, OtherVersionsAreRefused) {
-  gmsh::model::mesh::generate(2);
-  const auto error = testing::error_of([&] { through(4.0, false); });
-  ASSERT_TRUE(error);
-  EXPECT_THAT(error->what(), HasSubstr("format 4 is not read"));
 }
 
 void crack(int group, int open_at = 0) {
@@ -385,28 +354,6 @@ TEST_F(GmshFiles, ACurveInTwoGroupsTakesTheKeyword) {
     EXPECT_THAT(mesh.warnings, ElementsAre(HasSubstr("curve group 9 \"sigma\" lies between two "
                                                      "subdomains: taken for glue")));
   });
-}
-
-TEST_F(GmshFiles, ASurfaceInTwoGroupsIsRefused) {
-  group(2, {1}, 8, "again");
-  gmsh::model::mesh::generate(2);
-  for (const double version : {2.2, 4.1}) {
-    const auto error = testing::error_of([&] { through(version, false); });
-    ASSERT_TRUE(error);
-    EXPECT_THAT(error->what(), HasSubstr("a surface belongs to one subdomain"));
-  }
-}
-
-TEST_F(GmshFiles, OptionsNameTheGroups) {
-  gmsh::model::mesh::generate(2);
-  mesh::MeshOptions options;
-  options.curve_groups = {{4, "crack"}};
-  options.surface_groups = {{1, "lower"}};
-  options.tension = {{"lower", 3}};
-  const mesh::Mesh mesh = through(4.1, true, options);
-  EXPECT_THAT(mesh.subdomains, ElementsAre("lower", "plus"));
-  EXPECT_THAT(mesh.tension, ElementsAre(3, 1));
-  expect_lengths(mesh, {{Kind::glue, 1}, {Kind::crack, 1}});
 }
 
 /// A square with a line from its middle to the right, to its side or not so far.

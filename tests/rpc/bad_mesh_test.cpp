@@ -47,13 +47,6 @@ const std::vector<BadMesh>& bad_meshes() {
       {"InclusionOffTheInterface",
        [](auto& request) { move(*part(request).mutable_from(), 0, 0.1); }, "GEOMETRY_INVALID",
        "geometry.inclusions[0].part.from"},
-      {"AlignLineOutside",
-       [](auto& request) {
-         v1::Polyline& line = *request.mutable_options()->add_align();
-         move(*line.add_points(), 0, 0.5);
-         move(*line.add_points(), 0, 1.5);
-       },
-       "GEOMETRY_INVALID", "options.align[0]"},
       {"NegativeSize", [](auto& request) { request.mutable_options()->set_size(-1); },
        "INVALID_ARGUMENT", "options.size"},
       {"LawNotAboveZero",

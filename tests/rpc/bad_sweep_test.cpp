@@ -8,16 +8,13 @@
 #include <functional>
 #include <limits>
 
-#include "digest/digest.hpp"
 #include "rpc/details.hpp"
-#include "rpc/people.hpp"
 #include "rpc/requests.hpp"
 #include "rpc/running_server.hpp"
 
 namespace anticrack::rpc {
 namespace {
 
-using anticrack::testing::Context;
 using anticrack::testing::expect_error;
 using anticrack::testing::packed;
 using anticrack::testing::paper_mesh;
@@ -84,49 +81,6 @@ TEST(BadSweep, IsRefusedAndTheServerServesOn) {
   }
   const v1::Job good = server.finish(server.create(sweep_job(mesh, {1, 2, 3})).name());
   EXPECT_EQ(good.status().state(), v1::JobStatus::STATE_SUCCEEDED);
-}
-
-/// What only the mesh can tell fails the job.
-TEST(BadSweep, OverNodesHasAValueForEach) {
-  RunningServer server;
-  const v1::Mesh mesh = server.settle(server.create(paper_mesh()).name());
-  v1::CreateJobRequest request = sweep_job(mesh.name(), {});
-  request.mutable_spec()->clear_load_cases();
-  request.mutable_spec()->mutable_sweep()->mutable_nodal_forces()->set_packed(
-      packed(std::vector<double>(mesh.node_count() + 1, 1.0)));
-  const v1::Job job = server.finish(server.create(request).name());
-  EXPECT_EQ(job.status().state(), v1::JobStatus::STATE_FAILED);
-  const grpc::Status status(static_cast<grpc::StatusCode>(job.status().error().code()),
-                            job.status().error().message(),
-                            job.status().error().SerializeAsString());
-  expect_error(status, grpc::StatusCode::INVALID_ARGUMENT, "INVALID_ARGUMENT",
-               "sweep.nodal_forces");
-}
-
-TEST(BadSweep, OfAnothersUploadIsAsIfItDidNotExist) {
-  using anticrack::testing::other_token;
-  using anticrack::testing::owner_token;
-  RunningServer server(
-      [](auto& settings) { settings.server.security.tokens = anticrack::testing::people(); });
-  const auto create = [&](const std::string& token,
-                          const std::function<void(v1::JobSpec&)>& adjust) {
-    Context meshing(token);
-    v1::Mesh mesh;
-    EXPECT_TRUE(server.meshes->CreateMesh(&meshing, paper_mesh(), &mesh).ok());
-    v1::CreateJobRequest request = sweep_job(mesh.name(), {1, 2, 3});
-    adjust(*request.mutable_spec());
-    Context context(token);
-    v1::Job job;
-    return server.jobs->CreateJob(&context, request, &job);
-  };
-  const auto by_name = [](v1::JobSpec& job) {
-    job.mutable_sweep()->mutable_coefficients()->set_upload(
-        "uploads/" + digest::Sha256().add(packed({1, 2, 3})).finish());
-  };
-  EXPECT_TRUE(create(owner_token, [](v1::JobSpec&) {}).ok());
-  EXPECT_TRUE(create(owner_token, by_name).ok());
-  expect_error(create(other_token, by_name), grpc::StatusCode::NOT_FOUND, "NOT_FOUND",
-               "spec.sweep.coefficients");
 }
 
 }  // namespace

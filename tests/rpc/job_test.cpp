@@ -83,33 +83,6 @@ TEST(Job, OpensTheCrackOfExampleThree) {
             static_cast<std::size_t>(answer.iterations()));
 }
 
-TEST(Job, IsSolvedExactlyUnlessAskedOtherwise) {
-  RunningServer server;
-  v1::CreateJobRequest request = opening_job(server.create(paper_mesh()).name());
-  v1::LoadCase& pushed = *request.mutable_spec()->add_load_cases();
-  pushed.set_name("pushed");
-  (*pushed.mutable_inclusion_forces())["fibre"] = 0.5;
-  v1::LoadCase& poked = *request.mutable_spec()->add_load_cases();
-  poked.set_name("poked");
-  v1::PointForce& point = *poked.add_point_forces();
-  point.mutable_at()->set_x(0.1);
-  point.set_value(0.5);
-  const v1::Job job = server.finish(server.create(request).name());
-  ASSERT_EQ(job.status().state(), v1::JobStatus::STATE_SUCCEEDED);
-  EXPECT_EQ(job.spec().solver().active_set().max_steps(), 1000);
-  ASSERT_EQ(job.status().answers_size(), 3);
-  for (const v1::LoadCaseAnswer& answer : job.status().answers()) {
-    EXPECT_EQ(answer.status(), v1::LoadCaseAnswer::STATUS_CONVERGED);
-    EXPECT_EQ(answer.theta(), 0);
-    EXPECT_LT(answer.iterations(), 20);
-    EXPECT_LT(answer.kkt().complementarity_relative(), 1e-12);
-    EXPECT_EQ(answer.warnings_size(), 0);
-  }
-  EXPECT_NEAR(job.status().answers(1).inclusions(0).resultant(), 0.5, 1e-9);
-  EXPECT_EQ(job.status().answers(2).inclusions(0).displacement(),
-            job.status().answers(1).inclusions(0).displacement());
-}
-
 /// Ninety slits in a plate.
 v1::CreateMeshRequest mesh_of_slits() {
   v1::CreateMeshRequest request;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "rpc/requests.hpp"
 
-#include <cstdio>
-
 namespace anticrack::testing {
 namespace {
 
@@ -57,16 +55,6 @@ v1::CreateJobRequest sweep_job(const std::string& mesh, const std::vector<double
   (*push.mutable_inclusion_forces())["fibre"] = 1;
   job.mutable_sweep()->mutable_coefficients()->set_packed(packed(coefficients));
   return request;
-}
-
-v1::LoadCase row_alone(const std::string& name, const double* row) {
-  char force[100];
-  std::snprintf(force, sizeof force, "(%.17g) * (y > 0 ? 1 : -1) + (%.17g) * x", row[0], row[1]);
-  v1::LoadCase load;
-  load.set_name(name);
-  load.mutable_force()->set_expression(force);
-  (*load.mutable_inclusion_forces())["fibre"] = row[2];
-  return load;
 }
 
 v1::CreateJobRequest endless_job(const std::string& mesh) {

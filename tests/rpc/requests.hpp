@@ -25,9 +25,6 @@ std::string packed(const std::vector<double>& values);
 /// and "push" (a force of 1 on the inclusion).
 v1::CreateJobRequest sweep_job(const std::string& mesh, const std::vector<double>& coefficients);
 
-/// The plain load case that such a row stands for.
-v1::LoadCase row_alone(const std::string& name, const double* row);
-
 /// A job that iterates until it is cancelled.
 v1::CreateJobRequest endless_job(const std::string& mesh);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Sweeps from submission to result, against the same load cases solved one by one.
+// Sweeps from submission to result.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,12 +18,10 @@ namespace {
 
 using anticrack::testing::doubles;
 using anticrack::testing::expect_error;
-using anticrack::testing::opening_job;
 using anticrack::testing::packed;
 using anticrack::testing::paper_mesh;
 using anticrack::testing::read_result;
 using anticrack::testing::Received;
-using anticrack::testing::row_alone;
 using anticrack::testing::RunningServer;
 using anticrack::testing::sweep_job;
 using anticrack::testing::values_of;
@@ -70,59 +68,8 @@ Watched watch(RunningServer& server, const std::string& job) {
   return told;
 }
 
-/// The row_count one by one.
-v1::Job solve_alone(RunningServer& server, const std::string& mesh, Received& block) {
-  v1::CreateJobRequest request = opening_job(mesh);
-  request.mutable_spec()->clear_load_cases();
-  for (std::size_t row = 0; row < row_count; ++row) {
-    *request.mutable_spec()->add_load_cases() =
-        row_alone("row " + std::to_string(row), &matrix[basis * row]);
-  }
-  v1::Job job = server.finish(server.create(request).name());
-  EXPECT_EQ(job.status().answers_size(), static_cast<int>(row_count));
-  EXPECT_TRUE(read_result(server, job.name(), 0, block).ok());
-  return job;
-}
-
-/// The columns of the block against the answers of the plain job, and the contact of each row
-/// against its traces.
-void expect_columns(const Received& sweep, const v1::Job& alone, const Received& traces) {
-  const auto displacement = doubles(sweep, "sweep/displacement");
-  const auto energy = doubles(sweep, "sweep/energy");
-  const auto contact_length = doubles(sweep, "sweep/contact_length");
-  std::vector<std::uint64_t> shape;
-  const auto contact =
-      values_of<std::uint8_t>(sweep, "sweep/contact", v1::ArrayLayout::TYPE_UINT8, &shape);
-  ASSERT_THAT(shape, ElementsAre(row_count, ::testing::Gt(0u)));
-  const std::size_t contacts = shape[1];
-  const auto nodes =
-      values_of<std::int32_t>(sweep, "sweep/contact_nodes", v1::ArrayLayout::TYPE_INT32, &shape);
-  ASSERT_THAT(shape, ElementsAre(contacts, 2u));
-  ASSERT_EQ(energy.size(), row_count);
-  ASSERT_EQ(contact_length.size(), row_count);
-  ASSERT_EQ(displacement.size(), row_count);
-  for (std::size_t row = 0; row < row_count; ++row) {
-    SCOPED_TRACE(row);
-    const v1::LoadCaseAnswer& answer = alone.status().answers(static_cast<int>(row));
-    EXPECT_NEAR(displacement[row], answer.inclusions(0).displacement_mesh(), tolerance);
-    EXPECT_NEAR(energy[row], answer.energy_mesh(), tolerance);
-    EXPECT_NEAR(contact_length[row], answer.contact_length(), tolerance);
-    const auto closed = values_of<std::int32_t>(
-        traces, "loads/" + std::to_string(row) + "/traces/0/contact", v1::ArrayLayout::TYPE_INT32);
-    for (std::size_t c = 0; c < contacts; ++c) {
-      EXPECT_EQ(nodes[2 * c], 0);
-      EXPECT_EQ(static_cast<std::int32_t>(contact[row * contacts + c]),
-                closed.at(static_cast<std::size_t>(nodes[2 * c + 1])));
-    }
-  }
-}
-
-void expect_near(const std::vector<double>& left, const std::vector<double>& right) {
-  ASSERT_EQ(left.size(), right.size());
-  for (std::size_t i = 0; i < left.size(); ++i) EXPECT_NEAR(left[i], right[i], tolerance) << i;
-}
-
-TEST(Sweep, AnswersEveryRowAsAJobOfItsOwn) {
+/// That rows are as load cases of their own: jobs/engine_sweep_test.
+TEST(Sweep, TellsEveryRowOnceAsTheResultHasIt) {
   RunningServer server;
   const std::string mesh = server.create(paper_mesh()).name();
   v1::CreateJobRequest request = sweep_job(mesh, matrix);
@@ -146,22 +93,15 @@ TEST(Sweep, AnswersEveryRowAsAJobOfItsOwn) {
   EXPECT_THAT(told.times, Each(1));
   EXPECT_THAT(told.status, Each(v1::LoadCaseAnswer::STATUS_CONVERGED));
 
-  Received block, traces;
+  Received block;
   ASSERT_TRUE(read_result(server, created.name(), 0, block).ok());
   EXPECT_EQ(block.layout.sha256(), digest::Sha256().add(block.bytes).finish());
   EXPECT_EQ(doubles(block, "sweep/energy"), told.energy);
   EXPECT_EQ(doubles(block, "sweep/displacement"), told.displacement);
   EXPECT_EQ(values_of<std::int32_t>(block, "sweep/status", v1::ArrayLayout::TYPE_INT32),
             told.status);
-  const v1::Job alone = solve_alone(server, mesh, traces);
-  expect_columns(block, alone, traces);
-  for (const std::string row : {"1", "6"}) {
-    for (const std::string name : {"u_minus", "u_plus", "jump", "pressure", "flux", "force"}) {
-      SCOPED_TRACE(row + " " + name);
-      expect_near(doubles(block, "traces/" + row + "/0/" + name),
-                  doubles(traces, "loads/" + row + "/traces/0/" + name));
-    }
-  }
+  for (const char* row : {"1", "6"})
+    EXPECT_FALSE(doubles(block, std::string("traces/") + row + "/0/jump").empty());
 }
 
 TEST(Sweep, OfAnUploadIsTheSame) {

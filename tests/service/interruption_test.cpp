@@ -39,20 +39,6 @@ TEST(Interruption, DetachAndAttachAgainInMidIteration) {
   EXPECT_EQ(server.ended_job(name).status().state(), v1::JobStatus::STATE_CANCELLED);
 }
 
-TEST(Interruption, CancelKeepsWhatHadEnded) {
-  const Server server;
-  const Ended submit = server.client({"job", "submit", example("paper-1.toml"), "--json", "--set",
-                                      "solver.theta=1e-7", "--set", "solver.epsilon=1e-300",
-                                      "--set", "solver.max_iterations=1000000"});
-  ASSERT_EQ(submit.code, 0) << submit.error;
-  const std::string name = server.running_job();
-  EXPECT_EQ(server.client({"job", "cancel", name}).code, 0);
-  const v1::Job job = server.ended_job(name);
-  EXPECT_EQ(job.status().state(), v1::JobStatus::STATE_CANCELLED);
-  EXPECT_EQ(job.status().answers(0).status(), v1::LoadCaseAnswer::STATUS_CANCELLED);
-  EXPECT_EQ(server.client({"job", "cancel", name}).code, 0) << "cancel is idempotent";
-}
-
 TEST(Interruption, AClientKilledWhileStreamingHurtsNobody) {
   const Server server;
   const anticrack::testing::TemporaryFolder folder;
@@ -83,15 +69,6 @@ TEST(Interruption, SigtermWithStreamsOpenStopsInTime) {
   ASSERT_TRUE(code.has_value()) << "still there after 5 s";
   EXPECT_EQ(*code, 0) << server.process().error();
   for (const auto* client : {run.get(), first.get(), second.get()}) client->signal(SIGKILL);
-}
-
-TEST(Interruption, AnUnreachableServerIsExitCodeFour) {
-  Server server;
-  server.process().signal(SIGTERM);
-  ASSERT_TRUE(server.process().wait().has_value());
-  const Ended info = server.client({"server"});
-  EXPECT_EQ(info.code, 4);
-  EXPECT_THAT(info.error, HasSubstr(server.address()));
 }
 
 }  // namespace

@@ -19,8 +19,6 @@ namespace {
 using anticrack::testing::TemporaryFolder;
 using ::testing::HasSubstr;
 
-constexpr int ratio_rows = 81;
-
 /// A line of --csv by the names of its columns.
 using Row = std::map<std::string, std::string>;
 
@@ -73,35 +71,6 @@ std::vector<std::string> with(std::vector<std::string> arguments,
                               const std::vector<std::string>& more) {
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
-}
-
-TEST(Sweep, GivesForEachRowWhatItsLoadGivesAlone) {
-  const Server server;
-  const TemporaryFolder folder;
-  const Ended sweep =
-      server.client(with(ratio_sweep(), {"--csv", folder / "r.csv", "-o", folder / "r.h5",
-                                         "--traces", "0,40,80", "--json"}));
-  ASSERT_EQ(sweep.code, 0) << sweep.output << sweep.error;
-  const google::protobuf::Struct document = parse_json(sweep.output);
-  const auto& counts = document.fields().at("sweep").struct_value().fields();
-  EXPECT_EQ(counts.at("rows").number_value(), ratio_rows);
-  EXPECT_EQ(counts.at("converged").number_value(), ratio_rows);
-
-  const std::vector<Row> rows = rows_of(folder / "r.csv");
-  ASSERT_EQ(rows.size(), ratio_rows);
-  for (const int row : {0, 13, 40, 55, 80}) {
-    const std::string c = rows[static_cast<std::size_t>(row)].at("opening");
-    const Ended alone = server.client(
-        {"run", example("load-ratio.toml"), "--set",
-         "load=[{name='one', f='(x * y > 0 ? 1 : -1) + (" + c + ") * (y > 0 ? 1 : -1)'}]", "-o",
-         folder / "alone.h5", "--json"});
-    ASSERT_EQ(alone.code, 0) << alone.output << alone.error;
-    SCOPED_TRACE("row " + std::to_string(row));
-    expect_same(rows[static_cast<std::size_t>(row)], parse_json(alone.output), 0);
-  }
-  // Pressed shut at one end of the sweep, open at the other.
-  EXPECT_NEAR(std::stod(rows.front().at("contact_length")), 1, 0.1);
-  EXPECT_EQ(std::stod(rows.back().at("contact_length")), 0);
 }
 
 TEST(Sweep, CanBeSubmittedWatchedAndFetchedSeparately) {

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <string>
 
-#include "cli/tips_text.hpp"
+#include "cli/lists_text.hpp"
 #include "results/entries.hpp"
 #include "support/sample_result.hpp"
 

@@ -137,6 +137,13 @@ class BadUsage(unittest.TestCase):
             with self.subTest(message):
                 self.assertEqual(self.said_of_case(text), (code, f"anticrack: {message}\n"))
 
+    def test_an_output_that_cannot_be_written_is_seen_before_anything_is_submitted(self):
+        before = self.anticrack("job", "list").stdout
+        code, said = self.said("run", "case.toml", "-o", "no-folder/out.h5")
+        self.assertEqual(code, 2)
+        self.assertIn("no-folder", said)
+        self.assertEqual(self.anticrack("job", "list").stdout, before)
+
     def test_a_stage_beyond_the_memory_says_why(self):
         (self.folder / "small").mkdir()
         server = self.address(self.folder / "small", "--memory-budget", "6MiB")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/stages_text.hpp"
+#include "cli/lists_text.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -27,15 +27,6 @@ Case two_load_case() {
   return the_case;
 }
 
-v1::ServerLimits limits() {
-  v1::ServerLimits limits;
-  limits.set_sweep_rows(1000);
-  limits.set_sweep_basis(10);
-  limits.set_load_cases(100);
-  limits.set_upload_bytes(1u << 30);
-  return limits;
-}
-
 std::string written(const TemporaryFolder& folder, const std::string& name,
                     const std::string& text) {
   std::ofstream(folder / name) << text;
@@ -94,17 +85,6 @@ TEST(SweepInput, RefusesWhatCannotBeReadWithFileAndCure) {
   EXPECT_THAT(nodal(written(folder, "c.csv", "1\n") + ":/x"), HasSubstr("is not an HDF5 file"));
 }
 
-TEST(SweepInput, IsOfTheActiveSetOnly) {
-  Case the_case = two_load_case();
-  the_case.spec.mutable_solver()->mutable_uzawa();
-  the_case.places["solver.method"].set_where("plate.toml:7");
-  the_case.places["solver.method"].set_key("solver.method");
-  EXPECT_THAT(complaint_of([&] {
-                read_sweep_input({"c.csv", "", "none"}, the_case);
-              }),
-              HasSubstr("plate.toml:7: solver.method: a sweep is solved by the active set"));
-}
-
 TEST(SweepInput, LeavesOutTheAccuracyAndItsCoarseMesh) {
   Case the_case = two_load_case();
   EXPECT_FALSE(leave_out_accuracy(the_case));
@@ -134,7 +114,7 @@ TEST(MakeSweep, LeavesAJobWithoutFieldsAndWithTheRowsToKeep) {
   SweepInput input = rows_of_two(10);
   input.traces = "7,1-2";
   input.bounds = true;
-  make_sweep(input, limits(), the_case);
+  make_sweep(input, the_case);
   EXPECT_TRUE(the_case.spec.sweep().bounds());
   EXPECT_THAT(the_case.spec.sweep().traces(), ElementsAre(1, 2, 7));
   EXPECT_TRUE(the_case.spec.sweep().has_coefficients());
@@ -149,43 +129,10 @@ TEST(MakeSweep, OfNodalForcesHasNoLoads) {
   the_case.force_files.push_back({0, "f.h5", "/f"});
   SweepInput input = rows_of_two(10);
   input.nodal = true;
-  make_sweep(input, limits(), the_case);
+  make_sweep(input, the_case);
   EXPECT_TRUE(the_case.spec.sweep().has_nodal_forces());
   EXPECT_EQ(the_case.spec.load_cases_size(), 0);
   EXPECT_TRUE(the_case.force_files.empty());
-}
-
-TEST(MakeSweep, ChecksTheLimitsOfTheServer) {
-  const auto refused = [](const SweepInput& input,
-                          const std::function<void(v1::ServerLimits&)>& set) {
-    v1::ServerLimits allowed = limits();
-    set(allowed);
-    Case the_case = two_load_case();
-    return complaint_of([&] { make_sweep(input, allowed, the_case); });
-  };
-  const SweepInput input = rows_of_two(10);
-  EXPECT_EQ(refused(input, [](v1::ServerLimits&) {}), "accepted");
-  EXPECT_THAT(refused(input, [](v1::ServerLimits& l) { l.set_sweep_rows(9); }),
-              HasSubstr("c.csv: it has 10 rows, the server takes 9 a sweep; cut it into several"));
-  EXPECT_THAT(refused(input, [](v1::ServerLimits& l) { l.set_sweep_basis(1); }),
-              HasSubstr("c.csv: it combines 2 loads, the server at most 1; join loads"));
-  EXPECT_THAT(refused(input, [](v1::ServerLimits& l) { l.set_sweep_rows(0); }),
-              HasSubstr("the server knows no sweeps; update it"));
-  SweepInput traced = input;
-  traced.traces = "all";
-  EXPECT_THAT(refused(traced, [](v1::ServerLimits& l) { l.set_load_cases(9); }),
-              HasSubstr("--traces all: these are 10 rows"));
-  const SweepInput large = rows_of_two(100'000);
-  EXPECT_THAT(refused(large,
-                      [](v1::ServerLimits& l) {
-                        l.set_sweep_rows(1'000'000);
-                        l.set_upload_bytes(1'000'000);
-                      }),
-              HasSubstr("c.csv: it takes 1.6 MB, the server takes uploads of 1 MB; cut it"));
-  SweepInput nodal = input;
-  nodal.nodal = true;
-  EXPECT_EQ(refused(nodal, [](v1::ServerLimits& l) { l.set_sweep_basis(1); }), "accepted")
-      << "there is no basis";
 }
 
 TEST(CheckNodes, WantsAColumnForEachNode) {

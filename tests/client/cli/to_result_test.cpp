@@ -55,31 +55,10 @@ Fetched fetched() {
   v1::LoadCaseAnswer& answer = *result.job.mutable_status()->add_answers();
   answer.set_status(v1::LoadCaseAnswer::STATUS_CONVERGED);
   answer.set_iterations(1);
-  answer.set_criterion(0.5);
-  answer.set_theta(2);
   answer.set_energy(-0.25);
-  answer.mutable_kkt()->set_gap(0.125);
-  answer.mutable_kkt()->set_gap_relative(0.0625);
   answer.mutable_solve_time()->set_seconds(1);
   answer.mutable_solve_time()->set_nanos(500'000'000);
-  v1::InclusionAnswer& inclusion = *answer.add_inclusions();
-  inclusion.set_name("fibre");
-  inclusion.set_displacement(0.75);
-  inclusion.set_slope_x(0.5);
-  inclusion.set_slope_y(-0.5);
-  inclusion.set_moment_x(2);
-  inclusion.set_moment_y(-3);
-  inclusion.set_displacement_lower(0.7);
-  inclusion.set_displacement_upper(0.8);
-  inclusion.set_displacement_estimated_error(0.01);
-  inclusion.set_slope_x_lower(0.4);
-  inclusion.set_slope_x_upper(0.6);
-  inclusion.set_slope_y_lower(-0.6);
-  inclusion.set_slope_y_upper(-0.4);
-  v1::ContactInterval& interval = *answer.add_contact_intervals();
-  interval.set_interface("sigma");
-  interval.set_begin(0.25);
-  interval.set_end(0.5);
+  answer.add_inclusions()->set_name("fibre");
 
   result.mesh_block = mesh_block(3, 0);
   const std::string traces = "loads/0/traces/0/";
@@ -150,12 +129,6 @@ TEST(ToResult, KeepsALoadThatFailedWithoutArrays) {
   EXPECT_EQ(result.loads[1].answer.error().message(), "not finite");
   EXPECT_TRUE(std::isnan(result.loads[1].answer.energy()));
   EXPECT_TRUE(result.loads[1].traces.empty());
-}
-
-TEST(ToResult, RefusesArraysOutsideTheirBlock) {
-  Fetched odd = fetched();
-  odd.mesh_block.bytes.resize(8);
-  EXPECT_THROW(to_result(odd), results::Error);
 }
 
 /// Three rows over two loads, of which the middle one did not converge; traces of the last two.

@@ -127,6 +127,8 @@ CASES = [
      "wrong.toml:19: solver.p: p is -1; it must be finite and not negative"),
     ([("theta = 1.5", "epsilon = 0")], 2,
      "wrong.toml:19: solver.epsilon: epsilon is 0; it must be a finite number above 0"),
+    ([("theta = 1.5", "kkt_tolerance = 0")], 2,
+     "wrong.toml:19: solver.kkt_tolerance: kkt_tolerance is 0; it must be a finite number above 0"),
     ([("theta = 1.5", "max_iterations = 0")], 2,
      "wrong.toml:19: solver.max_iterations: 0 is not a count; write a whole number from 1 to 2147483647"),
     ([("theta = 1.5", "max_iterations = 2000000000")], 2,
@@ -206,6 +208,33 @@ CASES = [
       *more('[[geometry.interface]]\narc = [[-1, 0], [1, 0]]')], 2,
      "wrong.toml:13: geometry.interface.0.arc: [ [ -1, 0 ], [ 1, 0 ] ] is not an arc; write [from, "
      "through, to], three points with the second between the others"),
+    ([("[[-1, 0], [1, 0]]", "[[-1, 0], [0.9, 0]]"), ('"uniform"', '"paper"'), ("size = 0.5\n", "")], 2,
+     "wrong.toml:14: mesh.preset: preset paper is for one polyline that cuts the polygon in two from boundary to "
+     "boundary; choose preset graded or uniform for this geometry"),
+    ([('"uniform"', '"graded"'), ("size = 0.5", "grading = 2")], 2,
+     "wrong.toml:15: mesh.grading: options.grading is 2; it is an exponent above 0 and at most 1"),
+    ([('"uniform"', '"graded"'), ("size = 0.5", "align = [[[0, 0.5], [0, 5]]]")], 2,
+     "wrong.toml:15: mesh.align.0: options.align[0] leaves the membrane or touches its boundary in between: the "
+     "stretch from (0, 0.5) to (0, 5) meets the edge (1, 1)-(-1, 1) of boundary; only its two ends may lie on the boundary"),
+    ([("[1, 0]]\n", "[1, 0]]\nneumann = [[[0, 0], [1, 1]]]\n")], 2,
+     "wrong.toml:6: geometry.neumann.0: neumann[0].from (0, 0) lies 1 off the boundary; it must lie on it, to "
+     "2.8284271e-06"),
+    (more('[[geometry.region]]\nname = "top"\nat = [5, 5]'), 2,
+     'wrong.toml:15: geometry.region.top.at: region "top": at (5, 5) lies outside the membrane; it must lie inside '
+     "the subdomain it names"),
+    ([("interface = [[-1, 0], [1, 0]]\n", ""), *more(
+        "[[geometry.interface]]\npoints = [[-1, 0], [1, 0]]\n[[geometry.interface]]\npoints = [[0, 0], [1, 0]]")], 2,
+     "wrong.toml:15: geometry.interface.1.points: interface 2 and interface 1 run along each other from (0, 0) on; "
+     "leave that stretch out of one of them"),
+    ([("interface = [[-1, 0], [1, 0]]\n", ""), *more("[[geometry.interface]]\narc = [[-1, 0], [0, 0], [1, 0]]")], 2,
+     "wrong.toml:13: geometry.interface.0.arc: the interface: through (0, 0) lies 0 off the straight line through "
+     "(-1, 0) and (1, 0); that is not an arc, give a polyline instead"),
+    ([("interface = [[-1, 0], [1, 0]]\n", ""), *more(
+        "[[geometry.interface]]\npoints = [[-1, 0], [1, 0]]\n[[geometry.interface]]\nclosed = true\n"
+        "points = [[-0.5, 0.3], [0.5, 0.3], [0.5, 0.8], [-0.5, 0.8]]\n"
+        '[[geometry.region]]\nname = "patch"\nat = [0, 0.5]')], 1,
+     'jobs/ID failed: wrong.toml:26: solver.method: load case "opening": the subdomain "patch" has a part without '
+     'Dirichlet nodes, so Algorithm 2 cannot solve on it alone; use the method "active-set"'),
     # Loads.
     ([("[[load]]", "[load]")], 2,
      "wrong.toml:21: load: { f = 'y > 0 ? 1 : -1', name = 'opening' } is not a list of tables; write "
@@ -251,6 +280,9 @@ CASES = [
     ([("delaminated = true", "fixed = 0.1"), (F, "inclusion_forces = { fibre = 0 }")], 2,
      "wrong.toml:23: load.opening.inclusion_forces.fibre: the inclusion is held by its key fixed, so a force on it moves "
      "nothing; leave one of the two out"),
+    ([("[1, 0]]\n", '[1, 0]]\nneumann = ["side-2"]\n'), (F, F + '\ntraction = "x +* 2"')], 2,
+     'wrong.toml:25: load.opening.traction: the expression "x +* 2" cannot be read: Unexpected operator "*" found at '
+     "position 3 (symbols are x, y, _pi, _e)"),
     ([(F, F + '\ntraction = "1"')], 2,
      "wrong.toml:24: load.opening.traction: nothing has a traction, as no part of the boundary is in geometry.neumann; "
      "name its sides or holes there"),

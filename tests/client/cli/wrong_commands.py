@@ -207,8 +207,8 @@ COMMANDS = [
     ("sweep two.toml --coefficients good.csv --csv two.h5", 2,
      "--csv two.h5: this is also the result file; name another one"),
     ("sweep two.toml --coefficients good.csv --set solver.method=uzawa", 2,
-     "--set solver.method=uzawa: solver.method: a sweep is solved by the active set; take [solver] "
-     "out of the case, or add --set 'solver={method=\"active-set\"}'"),
+     "--set solver.method=uzawa: solver.method: a sweep is solved by the active set: ask for that, or submit the rows "
+     "as load cases of a job"),
     # What the server is asked for.
     ("job show nosuchjob", 2,
      "there is no jobs/nosuchjob; see anticrack job list"),
