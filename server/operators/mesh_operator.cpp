@@ -144,6 +144,12 @@ const estimate::CutMesh& MeshOperator::Parts::cut_mesh() const {
   return cut.get([this] { return estimate::cut_mesh(*mesh, decomposition); });
 }
 
+const estimate::StiffPart* MeshOperator::Parts::stiff_part() const {
+  const std::optional<estimate::StiffPart>& found =
+      stiff.get([this] { return estimate::stiff_part(*mesh, decomposition, cut_mesh()); });
+  return found ? &*found : nullptr;
+}
+
 void require_threadsafe_blas() { ddm::require_threadsafe_blas(); }
 
 }  // namespace anticrack::operators
