@@ -333,7 +333,8 @@ Bound bound(const Aimed& aimed, const EquilibratedFlux& tau) {
       return flux.through_faces()[2 * f] + flux.through_faces()[2 * f + 1];
     };
     const double outward = through(tau), bound = std::max(0.0, on.bound[0] + on.bound[1]);
-    kept[f] = bridged ? pressures.kept(outward, sign, dual.c_on(primal, f) * bound) : outward;  // -q
+    kept[f] =
+        bridged ? pressures.kept(outward, sign, dual.c_on(primal, f) * bound) : outward;  // -q
     const double opening = sigma.jump(f, 0) + sigma.jump(f, 1);
     work -= 0.5 * kept[f] * opening;
     const double own = on.most * std::max(0.0, -0.5 * through(sigma) * opening);
@@ -384,10 +385,9 @@ std::optional<HalfWidth> half_of_parts(const std::array<PartNorms, 2>& of, doubl
   const auto form = [&](double a1, double b1, double a2, double b2) {
     return (a1 * a2 + stiff * b1 * b2 + g * (a1 * b2 + a2 * b1) / 2) / determinant;
   };
-  return HalfWidth{stiff * part.energy + rest.energy + g * part.reach * rest.reach +
-                       form(a, b, a, b),
-                   2 * form(part.flux, rest.flux, a, b),
-                   form(part.flux, rest.flux, part.flux, rest.flux)};
+  return HalfWidth{
+      stiff * part.energy + rest.energy + g * part.reach * rest.reach + form(a, b, a, b),
+      2 * form(part.flux, rest.flux, a, b), form(part.flux, rest.flux, part.flux, rest.flux)};
 }
 
 namespace {

@@ -66,8 +66,8 @@ struct Primal {
   const EquilibratedFlux& flux;
   const LoadBalance& load;
   const std::vector<Lift>& lifts;
-  std::span<const double> u;  ///< (copies)
-  Lack lack{};                ///< of the flux
+  std::span<const double> u;         ///< (copies)
+  Lack lack{};                       ///< of the flux
   const StiffPart* stiff = nullptr;  ///< null: none
 };
 
@@ -92,8 +92,8 @@ struct Dual {
 
   /// The most that c may be on a face.
   double c_on(const Primal& primal, std::size_t face) const {
-    const bool in = primal.stiff != nullptr &&
-                    primal.stiff->has_face(primal.cut, primal.cut.faces[face]);
+    const bool in =
+        primal.stiff != nullptr && primal.stiff->has_face(primal.cut, primal.cut.faces[face]);
     return in ? stiff * c : c;
   }
 };

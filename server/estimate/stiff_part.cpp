@@ -2,7 +2,6 @@
 #include "estimate/stiff_part.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
@@ -24,8 +23,10 @@ namespace {
 constexpr const char* continuing = "continuing functions out of a stiff part";
 
 constexpr std::int32_t none = -1;
-constexpr std::size_t next(std::size_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
-constexpr std::size_t previous(std::size_t corner) {
+constexpr std::size_t following(std::size_t corner) {
+  return corner % 3 == 2 ? corner - 2 : corner + 1;
+}
+constexpr std::size_t preceding(std::size_t corner) {
   return corner % 3 == 0 ? corner + 2 : corner - 1;
 }
 double square(const Vector& a) { return dot(a, a); }
@@ -60,7 +61,7 @@ class Triangulation {
   const Vector& place(std::size_t corner) const { return cut.at[at(cut.copy[corner])]; }
   /// The side opposite to a corner, counterclockwise.
   Vector side(std::size_t corner) const {
-    return along(place(previous(corner)), -1, place(next(corner)));
+    return along(place(preceding(corner)), -1, place(following(corner)));
   }
   double area(std::size_t t) const { return cross(side(3 * t), side(3 * t + 1)) / 2; }
   const Face* face_of(std::size_t of_side) const {
@@ -76,13 +77,13 @@ class Triangulation {
  private:
   std::size_t side_of(const mesh::EdgeUse& use) const {
     const std::size_t first = 3 * at(use.triangle);
-    return previous(static_cast<std::size_t>(std::find(&node[first], &node[first] + 3, use.from) -
-                                             &node[0]));
+    return preceding(
+        static_cast<std::size_t>(std::find(&node[first], &node[first] + 3, use.from) - &node[0]));
   }
 };
 
-/// The largest w'A w / w'B w, A without what it has of the columns of Z, on which B is 0. Negative
-/// if Cholesky's factor does not prove it.
+/// A number a little above the largest w'A w / w'B w, A without what it has of the columns of Z, on
+/// which B is 0. Negative if Cholesky's factor proves none.
 double largest_ratio(Eigen::MatrixXd a, Eigen::MatrixXd b, const Eigen::MatrixXd& z) {
   if (z.cols() > 0) {
     const Eigen::MatrixXd of_z = a * z;
@@ -94,13 +95,24 @@ double largest_ratio(Eigen::MatrixXd a, Eigen::MatrixXd b, const Eigen::MatrixXd
   b = (0.5 * (b + b.transpose())).eval();
   const Eigen::LLT<Eigen::MatrixXd> factor(b);
   if (factor.info() != Eigen::Success) return -1;
-  Eigen::MatrixXd c = factor.matrixL().solve(a);
-  c = factor.matrixL().solve(c.transpose()).eval();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> values(c, Eigen::EigenvaluesOnly);
-  if (values.info() != Eigen::Success) return -1;
-  // More than rounding, so that the factor below is that of a matrix well above 0.
-  const double ratio = 1.001 * std::max(values.eigenvalues().maxCoeff(), 1e-3);
-  return Eigen::LLT<Eigen::MatrixXd>(ratio * b - a).info() == Eigen::Success ? ratio : -1;
+  // A few powers find it nearly; a factor says whether a number is above it.
+  constexpr int powers = 40, most_tries = 30;
+  constexpr double above = 1.02, more = 1.1;
+  double ratio = 0;
+  Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(b.rows(), 1, 2);
+  for (int k = 0; k < powers; ++k) {
+    stop::look(continuing);
+    const Eigen::VectorXd of_x = a * x;
+    if (!(of_x.norm() > 0)) break;
+    ratio = std::max(ratio, x.dot(of_x) / x.dot(b * x));
+    x = factor.solve(of_x / of_x.norm());
+  }
+  ratio = above * std::max(ratio, 1e-3);  // well above rounding
+  for (int k = 0; k < most_tries; ++k, ratio *= more) {
+    stop::look(continuing);
+    if (Eigen::LLT<Eigen::MatrixXd>(ratio * b - a).info() == Eigen::Success) return ratio;
+  }
+  return -1;
 }
 
 /// A sparse symmetric matrix whose last unknowns are the trace.
@@ -132,8 +144,8 @@ class Matrix {
 struct Run {
   std::vector<std::size_t> corner;  // counterclockwise
   std::vector<double> until;        // part of the run's angle up to the end of each
-  std::size_t before() const { return previous(corner.front()); }  // its first spoke, as a side
-  std::size_t after() const { return next(corner.back()); }        // and its last one
+  std::size_t before() const { return preceding(corner.front()); }  // its first spoke, as a side
+  std::size_t after() const { return following(corner.back()); }    // and its last one
 };
 
 class Continuation {
@@ -146,13 +158,14 @@ class Continuation {
     if (!find_interface() || !find_parts() || !find_fans()) return -1;
     double local = 0;
     for (const double one : _local) local = std::max(local, one);
-    const double whole = largest_ratio(_means.transpose() * of_soft() * _means, of_stiff(), _islands);
+    const double whole =
+        largest_ratio(_means.transpose() * of_soft() * _means, of_stiff(), _islands);
     if (!(whole >= 0)) return -1;
     return std::sqrt(whole) + std::sqrt(_stretch) + std::sqrt(local);
   }
 
  private:
-  static constexpr std::size_t most_edges = 1000, most_stiff = 200'000;
+  static constexpr std::size_t most_edges = 2000, most_stiff = 200'000;
 
   bool in_stiff(std::size_t side) const { return _stiff[side / 3] != 0; }
   bool on_interface(std::size_t side) const {
@@ -166,7 +179,7 @@ class Continuation {
       const Face* face = _in.face_of(side);
       if (face != nullptr && face->condition == Condition::pressed) return false;
       _trace[side] = edges++;
-      for (const std::size_t corner : {next(side), previous(side)}) {
+      for (const std::size_t corner : {following(side), preceding(side)}) {
         std::int32_t& node = _node[at(_in.node[corner])];
         if (node < 0) node = _nodes++;
       }
@@ -268,22 +281,22 @@ class Continuation {
     std::optional<Run> found;
     for (const std::size_t corner : corners) {
       if (in_stiff(corner) != stiff) continue;
-      const std::int32_t back = _in.across[previous(corner)];
+      const std::int32_t back = _in.across[preceding(corner)];
       if (back >= 0 && in_stiff(at(back)) == stiff) continue;
       if (found) return std::nullopt;
       found.emplace().corner.push_back(corner);
     }
     while (found) {
-      const std::size_t spoke = next(found->corner.back());
+      const std::size_t spoke = following(found->corner.back());
       if (_in.across[spoke] < 0 || on_interface(spoke)) break;
       const Face* face = _in.face_of(spoke);
       if (face != nullptr && (stiff || face->inclusion >= 0)) return std::nullopt;
-      found->corner.push_back(next(at(_in.across[spoke])));
+      found->corner.push_back(following(at(_in.across[spoke])));
     }
     double sum = 0;
     if (found) {
       for (const std::size_t corner : found->corner) {
-        const Vector a = _in.side(previous(corner)), b = _in.side(next(corner));
+        const Vector a = _in.side(preceding(corner)), b = _in.side(following(corner));
         sum += std::atan2(cross(b, a), -dot(a, b));
         found->until.push_back(sum);
       }
@@ -319,7 +332,7 @@ class Continuation {
   /// The vector from the node of a corner to the point at part `part` of its run.
   Vector ray(const Run& run, std::size_t i, double part) const {
     const double from = i == 0 ? 0 : run.until[i - 1];
-    const Vector a = _in.side(previous(run.corner[i])), across = _in.side(run.corner[i]);
+    const Vector a = _in.side(preceding(run.corner[i])), across = _in.side(run.corner[i]);
     return along(a, (part - from) / (run.until[i] - from), across);
   }
 
@@ -331,7 +344,8 @@ class Continuation {
     std::size_t i = 0, j = stiff.corner.size() - 1;
     for (double from = 0;;) {
       const double j_end = j == 0 ? 1 : 1 - stiff.until[j - 1];
-      const bool last = i + 1 == soft.corner.size(), soft_ends = j == 0 || (!last && soft.until[i] <= j_end);
+      const bool last = i + 1 == soft.corner.size(),
+                 soft_ends = j == 0 || (!last && soft.until[i] <= j_end);
       const double to = last && j == 0 ? 1 : std::min(last ? 1 : soft.until[i], j_end);
       if (to - from > 1e-12) {
         const Vector a = ray(soft, i, from), b = ray(soft, i, to), c = ray(stiff, j, 1 - from),
@@ -346,8 +360,7 @@ class Continuation {
         const std::size_t corner = soft.corner[i], t = corner / 3;
         double slopes = 0;
         for (std::size_t k = 3 * t; k < 3 * t + 3; ++k)
-          if (_node[at(_in.node[k])] >= 0)
-            slopes += std::abs(dot(_in.side(corner), _in.side(k)));
+          if (_node[at(_in.node[k])] >= 0) slopes += std::abs(dot(_in.side(corner), _in.side(k)));
         const double area = _in.area(t);
         most[j] = std::max(most[j], slopes / (4 * area * area) * (soft_area / stiff_area) *
                                         _in.area(stiff.corner[j] / 3));
@@ -369,8 +382,8 @@ class Continuation {
     for (std::size_t j = 0; j < n; ++j) {
       const std::size_t corner = run.corner[j], t = corner / 3;
       const double area = _in.area(t);
-      const Vector to_first = _in.side(previous(corner)), across = _in.side(corner),
-                   to_last = along(to_first, 1, across), back = _in.side(next(corner));
+      const Vector to_first = _in.side(preceding(corner)), across = _in.side(corner),
+                   to_last = along(to_first, 1, across), back = _in.side(following(corner));
       const double sides = square(to_first) + square(across) + square(back);
       // |w_K - w_a| in this triangle, from (x - P) / (2 |K|), P opposite to the spokes.
       const Vector p{weight[0] * to_last[0] + weight[1] * to_first[0],
@@ -387,8 +400,7 @@ class Continuation {
     for (std::size_t j = 0; j < n; ++j) {
       double sum = 0;
       for (std::size_t i = 0; i < n; ++i) sum += factor(j, i);
-      for (std::size_t i = 0; i < n; ++i)
-        _local[run.corner[i] / 3] += most[j] * sum * factor(j, i);
+      for (std::size_t i = 0; i < n; ++i) _local[run.corner[i] / 3] += most[j] * sum * factor(j, i);
     }
   }
 
@@ -410,7 +422,7 @@ class Continuation {
       if (_piece[t] < 0) continue;
       add(matrix, t, &unknown[3 * t], 4);
       for (std::size_t side = 3 * t; side < 3 * t + 3; ++side) {
-        const Vector &a = _in.place(next(side)), &b = _in.place(previous(side));
+        const Vector &a = _in.place(following(side)), &b = _in.place(preceding(side));
         matrix.put(unknown[side], {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2});
       }
     }
@@ -425,7 +437,7 @@ class Continuation {
       const Face* face = _in.face_of(side);
       if (in_stiff(side) || face == nullptr || on_interface(side)) continue;
       if (!ends_held(side) && face->inclusion < 0) continue;
-      for (const std::size_t corner : {next(side), previous(side)})
+      for (const std::size_t corner : {following(side), preceding(side)})
         zero[at(_in.node[corner])] = 1;
     }
     std::vector<std::int32_t> unknown(_in.count, none);
@@ -512,8 +524,8 @@ std::optional<StiffPart> stiff_part(const mesh::Mesh& mesh, const ddm::Decomposi
   std::ranges::stable_sort(candidates, std::ranges::greater{}, &Candidate::ratio);
   if (candidates.empty()) return std::nullopt;
   const Triangulation triangulation(mesh, cut);
-  for (const Candidate& one : std::span(candidates).first(
-           std::min(candidates.size(), most_candidates))) {
+  for (const Candidate& one :
+       std::span(candidates).first(std::min(candidates.size(), most_candidates))) {
     StiffPart part;
     for (const auto& of : tension) part.has.push_back(of[0] >= one.least ? 1 : 0);
     try {

@@ -31,7 +31,9 @@ struct StiffPart {
 
   /// Whether both sides of a face lie in it.
   bool has_face(const CutMesh& cut, const Face& face) const {
-    const auto in = [&](const Face& one) { return has[static_cast<std::size_t>(one.side / 3)] != 0; };
+    const auto in = [&](const Face& one) {
+      return has[static_cast<std::size_t>(one.side / 3)] != 0;
+    };
     return in(face) && (face.other < 0 || in(cut.faces[static_cast<std::size_t>(face.other)]));
   }
 };

@@ -33,13 +33,13 @@ contact::Adjoint::Room room_of(const MeshOperator::Parts& parts, const estimate:
   for (std::size_t f = 0; f < cut.faces.size(); ++f) {
     if (!estimate::presses(cut.faces[f].condition)) continue;
     const estimate::Weight::OnFace on = weights.on(f);
-    const bool in_stiff =
-        primal.stiff != nullptr && primal.stiff->has_face(cut, cut.faces[f]);
+    const bool in_stiff = primal.stiff != nullptr && primal.stiff->has_face(cut, cut.faces[f]);
     const double factor = in_stiff ? stiff : 1;
     for (const std::size_t end : {0, 1}) {
       const Eigen::Index i = contact[2 * f + end];
       if (i < 0) continue;
-      room.jumps[i] = std::min(room.jumps[i], factor * on.least * std::max(0.0, primal.flux.jump(f, end)));
+      room.jumps[i] =
+          std::min(room.jumps[i], factor * on.least * std::max(0.0, primal.flux.jump(f, end)));
       if (closed[at(i)] != 0) room.forces[i] += factor * on.bound[end];
     }
   }
@@ -102,8 +102,8 @@ bool Search::take_wanted(const estimate::Bound& one) {
   constexpr double far = 1.5;
   const auto [c, stiff] = *one.wanted;
   const auto differ = [](double a, double b) { return a > far * b || b > far * a; };
-  const bool another = one.used > 0.5 && std::isfinite(c) &&
-                       (differ(c, _c) || differ(c * stiff, _c * _stiff));
+  const bool another =
+      one.used > 0.5 && std::isfinite(c) && (differ(c, _c) || differ(c * stiff, _c * _stiff));
   if (!another) return false;
   _c = c;
   _stiff = stiff;

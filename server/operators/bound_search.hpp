@@ -70,7 +70,7 @@ class Search {
   Target& _target;
   const estimate::Side _side;
   contact::Adjoint::Room _room;  // for c = 1 and the present weight
-  double _c = 0, _stiff = 1;  // estimate::ConeSize
+  double _c = 0, _stiff = 1;     // estimate::ConeSize
   estimate::Bound _best;
   std::optional<std::vector<estimate::ContactEnd>> _ends;  // found with the first weight
   std::optional<estimate::Weight> _weight;
