@@ -47,6 +47,7 @@ struct Products {
   double slack = 0;
   Weighted weighted{};
   Rest rest{};
+  std::array<PartTerms, 2> parts{};
 
   void operator+=(const Products& by) {
     square += by.square;
@@ -69,6 +70,7 @@ Products varied(const Products& by_mean, const fem::Variation& variation, double
           (c + d) * (c + d),
           change * std::sqrt(by_mean.square * by_mean.distance) + a * d + b * (c + d) +
               2 * variation.unknown * norm_of_z * norm_of_u,
+          {},
           {},
           {}};
 }
@@ -99,6 +101,9 @@ class Sum {
         own = varied(own, shapes.variation[t], std::sqrt(sigma.energy_of(t, _z)),
                      std::sqrt(sigma.energy_of(t, _primal.u)));
       sum += own;
+      PartTerms& part = sum.parts[part_of(t)];
+      part.distance += own.distance;
+      part.square += own.square;
       const bool inside = !weighed.empty() && weighed.front().triangle == t;
       if (!parts.primal.empty()) {
         const double o = oscillation.empty() ? 0 : oscillation[t],
@@ -114,8 +119,10 @@ class Sum {
         of.weighed += o * o;
         continue;
       }
-      of.squared += o * o;
-      of.primal += o * std::sqrt(own.distance);
+      for (Unbalanced* all : {static_cast<Unbalanced*>(&of), &part.unbalanced}) {
+        all->squared += o * o;
+        all->primal += o * std::sqrt(own.distance);
+      }
       of.dual += o * std::sqrt(own.square);
       const std::int32_t* copy = &_primal.cut.copy[3 * t];
       const double largest = std::max(
@@ -125,6 +132,11 @@ class Sum {
     }
     if (_weight != nullptr) sum.weighted = weighted();
     return sum;
+  }
+
+  /// Index into Terms::parts.
+  std::size_t part_of(std::size_t t) const {
+    return _primal.stiff != nullptr && _primal.stiff->has[t] != 0 ? 1 : 0;
   }
 
   /// int (tau - T grad z) . grad w divided by int phi, with the mean of tau - T grad z if that is
@@ -218,7 +230,7 @@ FluxBounds flux_bounds(const Primal& primal, const Dual& dual) {
     for (const std::size_t end : {0, 1}) {
       const bool tip = ends[end] == others[1 - end],
                  closed = !tip && !(sigma.jump(f, end) > rounding);
-      const double bound = dual.c * on.bound[end], other = closed ? unlimited : bound;
+      const double bound = dual.c_on(primal, f) * on.bound[end], other = closed ? unlimited : bound;
       const bool upper = dual.side == Side::upper;
       bounds.most[2 * f + end] = upper ? bound : other;
       bounds.least[2 * f + end] = -(upper ? other : bound);
@@ -243,6 +255,8 @@ Bound bound(const Aimed& aimed, const EquilibratedFlux& tau) {
   const Products products = sum.products(parts);
   double residual = 0, mixed = 0.5 * products.mixed, distance = products.distance, unknown = 0,
          of_lifts = 0;
+  std::array<PartTerms, 2> parts_of = products.parts;
+  std::array<double, 2> lifts_of{};
   for (const Lift& lift : primal.lifts) {
     const auto side = at(cut.faces[at(lift.face)].side);
     const double through = sigma.flux_through(side, dual.z), lifted = sum.lifted(lift);
@@ -251,19 +265,29 @@ Bound bound(const Aimed& aimed, const EquilibratedFlux& tau) {
     unknown += lift.unknown * (std::abs(through) + 0.5 * std::abs(lifted));
     const LiftIntegrals of = integrals_of(cut, sigma, primal.load, lift, primal.u);
     if (!varies) {
-      distance += of.norm * of.norm - 2 * of.difference() + 2 * of.unknown;
+      const double more = of.norm * of.norm - 2 * of.difference() + 2 * of.unknown;
+      distance += more;
+      parts_of[sum.part_of(side / 3)].distance += more;
       continue;
     }
     const fem::Variation& variation = cut.shapes.variation[side / 3];
     const double norm = variation.above * of.norm;
     of_lifts += 3 * norm * norm;  // a triangle has no more sides
+    lifts_of[sum.part_of(side / 3)] += 3 * norm * norm;
     unknown += 1.5 * (variation.spread + variation.unknown) * norm *
                std::sqrt(sigma.energy_of(side / 3, dual.z));
   }
   if (of_lifts > 0) distance = std::pow(std::sqrt(distance) + std::sqrt(of_lifts), 2);
+  for (std::size_t p : {0, 1}) {
+    double& own = parts_of[p].distance;
+    own = std::max(0.0, own);
+    if (lifts_of[p] > 0) own = std::pow(std::sqrt(own) + std::sqrt(lifts_of[p]), 2);
+    if (!primal.lifts.empty())
+      parts_of[p].unbalanced.primal = std::sqrt(own * parts_of[p].unbalanced.squared);
+  }
 
   const double sign = dual.side == Side::upper ? 1 : -1;
-  double c = 0, work = 0, pressure = 0;
+  double c = 0, work = 0, pressure = 0;  // c as of Dual
   // Fluxes are sums of T grad z', whose rounding errors are relative to T |z'|.
   const double of_jumps = 1e-12 * largest_of(dual.z),
                of_pressures = 1e-12 * largest_of(tau.through_faces()) +
@@ -273,8 +297,10 @@ Bound bound(const Aimed& aimed, const EquilibratedFlux& tau) {
   std::vector<double> kept(cut.faces.size(), 0);
   Cone jumps{of_jumps, of_jumps}, pressures{of_pressures, 1000 * of_pressures};
   // What is on the other side of 0 may be of any size.
-  const auto limit = [&](Cone& cone, double of_dual, double of_primal) {
-    const double most = dual.c * std::max(0.0, of_primal), size = std::abs(of_dual);
+  const auto limit = [&](Cone& cone, double of_dual, double of_primal, std::size_t face,
+                         PartTerms& part) {
+    const double c_there = dual.c_on(primal, face), most = c_there * std::max(0.0, of_primal),
+                 size = std::abs(of_dual);
     if (size <= cone.rounding) {  // counts as 0, as its sign means nothing
       cone.all_beyond += size;
       return;
@@ -282,7 +308,8 @@ Bound bound(const Aimed& aimed, const EquilibratedFlux& tau) {
     if (sign * of_dual < 0) return;
     cone.beyond = std::max(cone.beyond, size - most);
     cone.all_beyond += std::max(0.0, size - most);
-    c = std::max(c, size < most ? size / of_primal : dual.c);
+    part.c = std::max(part.c, size < most ? size / of_primal : c_there);
+    c = std::max(c, size < most ? size / of_primal * (dual.c / c_there) : dual.c);
   };
   WeightOf weights(sigma, dual.weight);
   for (std::size_t f = 0; f < cut.faces.size(); ++f) {
@@ -295,20 +322,25 @@ Bound bound(const Aimed& aimed, const EquilibratedFlux& tau) {
     if (!presses(face.condition)) continue;
     const Weight::OnFace on = weights.on(f);
     const auto ends = cut.ends(face), others = cut.ends(cut.faces[at(face.other)]);
+    PartTerms& part =
+        parts_of[primal.stiff != nullptr && primal.stiff->has_face(cut, face) ? 1 : 0];
     for (const std::size_t end : {0, 1}) {
       const double of_z = dual.z[at(others[1 - end])] - dual.z[at(ends[end])];
       residual += sigma.through_faces()[2 * f + end] * of_z;
-      limit(jumps, of_z, on.least * sigma.jump(f, end));
+      limit(jumps, of_z, on.least * sigma.jump(f, end), f, part);
     }
     const auto through = [&](const EquilibratedFlux& flux) {
       return flux.through_faces()[2 * f] + flux.through_faces()[2 * f + 1];
     };
     const double outward = through(tau), bound = std::max(0.0, on.bound[0] + on.bound[1]);
-    kept[f] = bridged ? pressures.kept(outward, sign, dual.c * bound) : outward;  // -q
+    kept[f] =
+        bridged ? pressures.kept(outward, sign, dual.c_on(primal, f) * bound) : outward;  // -q
     const double opening = sigma.jump(f, 0) + sigma.jump(f, 1);
     work -= 0.5 * kept[f] * opening;
-    pressure += on.most * std::max(0.0, -0.5 * through(sigma) * opening);
-    limit(pressures, outward, bound);
+    const double own = on.most * std::max(0.0, -0.5 * through(sigma) * opening);
+    pressure += own;
+    part.pressure += own;
+    limit(pressures, outward, bound, f, part);
   }
   if (jumps.left() || pressures.left()) return {};  // no bounds: another c is better
   const Rest& rest = products.rest;
@@ -325,6 +357,10 @@ Bound bound(const Aimed& aimed, const EquilibratedFlux& tau) {
   if (!primal.lifts.empty())
     terms.unbalanced.primal = std::sqrt(std::max(0.0, distance) * rest.squared);
   terms.weighted = products.weighted;
+  if (primal.stiff != nullptr && dual.weight == nullptr) {
+    terms.parts = parts_of;
+    terms.coupling = primal.stiff->coupling;
+  }
   terms.extra = aimed.unloaded * std::sqrt(rest.weighed) + rest.moved + 0.5 * products.slack +
                 unknown +
                 (bridged ? primal.lack.work * largest_of(dual.z)
@@ -332,11 +368,67 @@ Bound bound(const Aimed& aimed, const EquilibratedFlux& tau) {
   Bound found = bound_of(terms, dual.side, c, dual.c);
   if (const double best = found.half.best(c); std::isfinite(best)) {
     found.parts = std::move(parts.primal);
-    for (std::size_t k = 0; k < found.parts.size(); ++k)
-      found.parts[k] = best * found.parts[k] + parts.dual[k] / best;
+    for (std::size_t k = 0; k < found.parts.size(); ++k) {
+      const double own = sum.part_of(k) == 1 ? best * found.stiff : best;
+      found.parts[k] = own * found.parts[k] + parts.dual[k] / own;
+    }
   }
   return found;
 }
+
+std::optional<HalfWidth> half_of_parts(const std::array<PartNorms, 2>& of, double coupling,
+                                       double stiff) {
+  const auto& [rest, part] = of;
+  const double g = coupling * std::abs(stiff - 1), determinant = 4 * stiff - g * g;
+  if (!(determinant > 0)) return std::nullopt;
+  const double a = g * rest.reach, b = g * part.reach;
+  const auto form = [&](double a1, double b1, double a2, double b2) {
+    return (a1 * a2 + stiff * b1 * b2 + g * (a1 * b2 + a2 * b1) / 2) / determinant;
+  };
+  return HalfWidth{
+      stiff * part.energy + rest.energy + g * part.reach * rest.reach + form(a, b, a, b),
+      2 * form(part.flux, rest.flux, a, b), form(part.flux, rest.flux, part.flux, rest.flux)};
+}
+
+namespace {
+
+/// The least R of two parts over c_s >= c[0] and stiff c_s >= c[1]; the formula without parts has
+/// stiff = 1.
+struct BestOfParts {
+  HalfWidth half{};
+  ConeSize cone{};
+  double value = std::numeric_limits<double>::infinity();
+
+  BestOfParts(const std::array<PartNorms, 2>& norms, double coupling, std::array<double, 2> c) {
+    constexpr int steps = 400;
+    constexpr double per_decade = 20;
+    for (int k = -steps; k <= steps; ++k) {
+      const double stiff = std::pow(10, k / per_decade), least = std::max(c[0], c[1] / stiff);
+      const std::optional<HalfWidth> tried = half_of_parts(norms, coupling, stiff);
+      if (!tried || !((*tried)(least) < value)) continue;
+      half = *tried;
+      cone = {least, stiff};
+      value = half(least);
+    }
+  }
+};
+
+std::array<PartNorms, 2> norms_of(const Terms& of) {
+  std::array<PartNorms, 2> norms;
+  for (const std::size_t p : {0, 1}) {
+    const PartTerms& part = of.parts[p];
+    const double o = std::sqrt(part.unbalanced.squared), own = std::sqrt(part.distance),
+                 d = (std::sqrt(part.distance + part.unbalanced.squared +
+                                2 * part.unbalanced.primal) +
+                      of.s) /
+                     2;
+    norms[p] = {d * d + part.pressure, std::sqrt(part.square) + of.t,
+                (own + of.s + (p == 0 ? 3 : 1) * o) / 2};
+  }
+  return norms;
+}
+
+}  // namespace
 
 Bound bound_of(const Terms& of, Side side, double c, double most) {
   const Unbalanced& rest = of.unbalanced;
@@ -354,11 +446,25 @@ Bound bound_of(const Terms& of, Side side, double c, double most) {
                     weighted.most_mixed * lacking,
                 f * f};
   found.c = c;
+  found.used = c / most;
   found.estimate = of.mixed;
   found.short_of = std::sqrt(found.half.dual / found.half.primal) / most;
   found.middle = of.value + of.work + of.residual + of.mixed;
+  if (of.coupling >= 0) {
+    const std::array<PartNorms, 2> norms = norms_of(of);
+    const double mixed = found.half.mixed;
+    const BestOfParts best(norms, of.coupling, {of.parts[0].c, of.parts[1].c});
+    if (best.value + mixed < found.half(c)) {
+      found.half = best.half;
+      found.half.mixed += mixed;
+      found.c = best.cone.c;
+      found.stiff = best.cone.stiff;
+    }
+    const BestOfParts any(norms, of.coupling, {0, 0});
+    found.wanted = {any.half.best(0), any.cone.stiff};
+  }
   const double extra = of.extra + lacking + 1e-12 * (std::abs(of.value) + std::abs(found.middle));
-  found.value = found.middle + (side == Side::upper ? 1 : -1) * (found.half(c) + extra);
+  found.value = found.middle + (side == Side::upper ? 1 : -1) * (found.half(found.c) + extra);
   return found;
 }
 

@@ -25,6 +25,15 @@
 // spread |grad z|_h |w| to R for a(v, z), and half of it for mid. A Weight needs both T constant
 // and w = 0.
 //
+// With a StiffPart, c may differ between it (t) and the rest (s). For eta_p = |tau - T grad z|_p,
+// d_p = |D|_p, E_p = d_p^2 + P_p of each part and any c_t, c_s that hold the cones of both,
+//
+//   R <= c_t E_t + c_s E_s + g d_t d_s + (c_s a^2 + c_t b^2 + g a b) / (4 c_t c_s - g^2),
+//   g = coupling |c_t - c_s|,  a = eta_t + g d_s,  b = eta_s + g d_t,  if 4 c_t c_s > g^2.
+//
+// With c_t = k c_s this is c_s E + M + F / c_s again, and k = 1 the formula without parts. What
+// sigma does not balance takes o_t/2 and 3 o_s/2 beside d_t and d_s in g d_t d_s, a and b.
+//
 // The rest of the load, which sigma does not balance (LoadBalance: o, moments), moves the bound
 // outwards: |D| takes o/2 more on each triangle, M half of sum o |tau - T grad z|, and R what the
 // rest may be of l(z). In the triangles of a Weight it moves A by `unloaded` times its norm. So do
@@ -35,8 +44,10 @@
 //   work max |z| + (eta |s| + |t| |sigma - T grad v| + |s| |t|) / 2.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -44,6 +55,7 @@
 #include "estimate/equilibrated_flux.hpp"
 #include "estimate/lack.hpp"
 #include "estimate/load_balance.hpp"
+#include "estimate/stiff_part.hpp"
 #include "estimate/weight.hpp"
 
 namespace anticrack::estimate {
@@ -54,11 +66,18 @@ struct Primal {
   const EquilibratedFlux& flux;
   const LoadBalance& load;
   const std::vector<Lift>& lifts;
-  std::span<const double> u;  ///< (copies)
-  Lack lack{};                ///< of the flux
+  std::span<const double> u;         ///< (copies)
+  Lack lack{};                       ///< of the flux
+  const StiffPart* stiff = nullptr;  ///< null: none
 };
 
 enum class Side : std::uint8_t { lower, upper };
+
+/// c of the cone, which is `stiff` times as large on contacts of a StiffPart.
+struct ConeSize {
+  double c = 0;
+  double stiff = 1;
+};
 
 /// The dual solution. z and tau need not solve any equation.
 struct Dual {
@@ -69,6 +88,14 @@ struct Dual {
   double c = 0;                      ///< the most that c may be
   std::span<const ForceOn> unit;     ///< (inclusions) the force that tau balances
   const Weight* weight = nullptr;    ///< null: 1
+  double stiff = 1;                  ///< ConeSize::stiff; 1 with a weight
+
+  /// The most that c may be on a face.
+  double c_on(const Primal& primal, std::size_t face) const {
+    const bool in =
+        primal.stiff != nullptr && primal.stiff->has_face(primal.cut, primal.cut.faces[face]);
+    return in ? stiff * c : c;
+  }
 };
 
 /// Sums over the triangles with the part o of the load that is not balanced.
@@ -85,6 +112,13 @@ struct Weighted {
   double most_primal = 1, most_mixed = 0, most_dual = 1;
 };
 
+/// The terms of the stiff part or of the rest, as in Terms.
+struct PartTerms {
+  double distance = 0, square = 0, pressure = 0;
+  Unbalanced unbalanced{};
+  double c = 0;  ///< of the cone there
+};
+
 /// What a bound is made of, in the symbols above.
 struct Terms {
   double value = 0;     ///< A(u_h)
@@ -98,6 +132,8 @@ struct Terms {
   Unbalanced unbalanced{};
   double extra = 0;  ///< all else by which A may differ
   Weighted weighted{};
+  std::array<PartTerms, 2> parts{};  ///< the rest, and the stiff part
+  double coupling = -1;              ///< StiffPart::coupling; negative: there are no parts
 };
 
 /// The terms of R(c).
@@ -111,12 +147,22 @@ struct Bound {
   double value = std::numeric_limits<double>::infinity();  ///< not finite: there is none
   double estimate = 0;                                     ///< estimate of A - A(u_h), not a bound
   double short_of = 0;  ///< eta / (2 c rho): if above 1, a larger c is probably better
-  // mid, c, and R of the formulas above.
-  double middle = 0, c = 0;
+  double used = 0;      ///< part of the cone that z and tau take
+  // mid, c_s, and R of the formulas above, for c_t = stiff c_s.
+  double middle = 0, c = 0, stiff = 1;
   HalfWidth half{};
+  /// With a StiffPart: the cone that these z and tau would have the best R with.
+  std::optional<ConeSize> wanted{};
   /// (m) the parts of the triangles in c' E + F / c' at the best c', if Aimed::parts asks for them.
   std::vector<double> parts{};
 };
+
+/// R for c_t = stiff c_s of parts with these E_p, eta_p, and d_p of the products of both.
+struct PartNorms {
+  double energy = 0, flux = 0, reach = 0;
+};
+std::optional<HalfWidth> half_of_parts(const std::array<PartNorms, 2>& of, double coupling,
+                                       double stiff);
 
 /// The bound made of these terms, if z and tau obey the cone of `c`, in that of `most`.
 Bound bound_of(const Terms& terms, Side side, double c, double most);

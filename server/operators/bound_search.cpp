@@ -21,7 +21,8 @@ constexpr double beta = 0.6;
 }  // namespace
 
 contact::Adjoint::Room room_of(const MeshOperator::Parts& parts, const estimate::Primal& primal,
-                               const std::vector<char>& closed, const estimate::Weight* weight) {
+                               const std::vector<char>& closed, const estimate::Weight* weight,
+                               double stiff) {
   const estimate::CutMesh& cut = primal.cut;
   const std::vector<std::int32_t> contact = contact_at_ends(parts, cut);
   // In a node the least weight of the faces beside it counts, and what both may carry.
@@ -32,11 +33,14 @@ contact::Adjoint::Room room_of(const MeshOperator::Parts& parts, const estimate:
   for (std::size_t f = 0; f < cut.faces.size(); ++f) {
     if (!estimate::presses(cut.faces[f].condition)) continue;
     const estimate::Weight::OnFace on = weights.on(f);
+    const bool in_stiff = primal.stiff != nullptr && primal.stiff->has_face(cut, cut.faces[f]);
+    const double factor = in_stiff ? stiff : 1;
     for (const std::size_t end : {0, 1}) {
       const Eigen::Index i = contact[2 * f + end];
       if (i < 0) continue;
-      room.jumps[i] = std::min(room.jumps[i], on.least * std::max(0.0, primal.flux.jump(f, end)));
-      if (closed[at(i)] != 0) room.forces[i] += on.bound[end];
+      room.jumps[i] =
+          std::min(room.jumps[i], factor * on.least * std::max(0.0, primal.flux.jump(f, end)));
+      if (closed[at(i)] != 0) room.forces[i] += factor * on.bound[end];
     }
   }
   return room;
@@ -62,7 +66,7 @@ estimate::Aimed Search::aimed(std::span<const double> z, std::span<const double>
   const Bounded& of = _target.adjoints.of;
   return {&of.primal,
           {z, reacting, _target.aim().value_in(of.answer), _side, _c, _target.unit,
-           _weight ? &*_weight : nullptr},
+           _weight ? &*_weight : nullptr, _stiff},
           _unloaded,
           of.of_largest.has_value()};
 }
@@ -78,17 +82,34 @@ void Search::take(const estimate::Bound& one) {
     _c *= std::clamp(one.short_of, 1.0, 2.0);
   } else {
     const bool found = std::isfinite(one.value);
-    if (_tries < estimate::most_cones && (!found || (better && one.short_of > 1))) {
+    if (_tries < estimate::most_cones && better && one.wanted) {
+      if (take_wanted(one)) return;
+    } else if (_tries < estimate::most_cones && (!found || (better && one.short_of > 1))) {
       _c = estimate::wider_cone(_c, one);
       return;
     }
-    const bool limited = !found || one.c > 0.9 * _c;
+    const bool limited = !found || one.used > 0.9;
     _done = !limited || !_target.adjoints.of.closely || !std::isfinite(_best.value);
     _tries = estimate::most_cones;
     _inner = 0.1;
     _c = std::sqrt(_best.half.dual / _best.half.primal);
+    _stiff = 1;
   }
   if (!_done) weigh();
+}
+
+bool Search::take_wanted(const estimate::Bound& one) {
+  constexpr double far = 1.5;
+  const auto [c, stiff] = *one.wanted;
+  const auto differ = [](double a, double b) { return a > far * b || b > far * a; };
+  const bool another =
+      one.used > 0.5 && std::isfinite(c) && (differ(c, _c) || differ(c * stiff, _c * _stiff));
+  if (!another) return false;
+  _c = c;
+  _stiff = stiff;
+  const Adjoints& of = _target.adjoints;
+  _room = room_of(_parts, of.of.primal, of.of.answer.closed, nullptr, _stiff);
+  return true;
 }
 
 double Search::off(const estimate::Bound& one) const { return sign() * (one.value - one.middle); }

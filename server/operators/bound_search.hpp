@@ -32,10 +32,11 @@ struct Target {
 };
 
 /// The room of an answer for c = 1: per condition w times the jump, and the force k p of sigma; 0
-/// if it is open. `closed`: Answer::closed; `weight`: null: 1. O(faces log contacts).
+/// if it is open. `closed`: Answer::closed; `weight`: null: 1; `stiff`: estimate::ConeSize::stiff.
+/// O(faces log contacts).
 contact::Adjoint::Room room_of(const MeshOperator::Parts& parts, const estimate::Primal& primal,
                                const std::vector<char>& closed,
-                               const estimate::Weight* weight = nullptr);
+                               const estimate::Weight* weight = nullptr, double stiff = 1);
 
 /// Searches for the best bound from one side. Tries a few c, each larger than the last, then
 /// weights about the ends of contact zones, if bounds are to be close.
@@ -62,13 +63,14 @@ class Search {
   double sign() const { return _side == estimate::Side::upper ? 1 : -1; }
   contact::Adjoint::Room room() const;           ///< for the present c
   double off(const estimate::Bound& one) const;  ///< from the middle
+  bool take_wanted(const estimate::Bound& one);  ///< whether another cone of both parts is worth it
   void weigh();
 
   const MeshOperator::Parts& _parts;
   Target& _target;
   const estimate::Side _side;
   contact::Adjoint::Room _room;  // for c = 1 and the present weight
-  double _c = 0;
+  double _c = 0, _stiff = 1;     // estimate::ConeSize
   estimate::Bound _best;
   std::optional<std::vector<estimate::ContactEnd>> _ends;  // found with the first weight
   std::optional<estimate::Weight> _weight;

@@ -56,6 +56,8 @@ void find_bounds(const MeshOperator::Parts& parts, const estimate::CutMesh& cut,
     balances.push_back({one.u, one.balance.force, one.balance.traction});
   const std::vector<estimate::EquilibratedFlux> fluxes =
       estimate::EquilibratedFlux::of_all(cut, balances);
+  const estimate::StiffPart* const stiff =
+      parts.mesh->inclusions.empty() ? nullptr : parts.stiff_part();
   std::vector<estimate::Primal> primals;
   std::vector<estimate::Bracket> brackets;
   std::vector<Bounded> bounded;
@@ -84,7 +86,7 @@ void find_bounds(const MeshOperator::Parts& parts, const estimate::CutMesh& cut,
     of.indicator.resize(bracket.indicator.size());
     for (std::size_t t = 0; t < bracket.indicator.size(); ++t)
       of.indicator[at(cut.triangle[t])] = bracket.indicator[t];
-    primals.push_back({cut, fluxes[i], balance, lifts, u, lack});
+    primals.push_back({cut, fluxes[i], balance, lifts, u, lack, stiff});
     bounded.push_back({load, primals.back(), bracket, answer, of.stop, of.closely, of.of_largest,
                        &of.indicator, across});
   }

@@ -10,6 +10,7 @@
 #include "contact/traces.hpp"
 #include "ddm/blas.hpp"
 #include "operators/mesh_parts.hpp"
+#include "operators/working.hpp"
 #include "stop/stop.hpp"
 
 namespace anticrack::operators {
@@ -135,6 +136,8 @@ std::size_t MeshOperator::bytes() const noexcept {
   if (const estimate::CutMesh* cut = _parts->cut.known()) bytes += cut->bytes();
   if (const auto* duals = _parts->mesh_duals.known())
     bytes += duals->capacity() * sizeof(estimate::MeshDual);
+  if (const auto* stiff = _parts->stiff.known(); stiff != nullptr && *stiff)
+    bytes += (*stiff)->has.capacity();
   if (const tips::Tips* tips = _parts->tips.known()) bytes += tips->bytes();
   if (const BoundaryForces* boundary = _parts->boundary.known()) bytes += boundary->bytes();
   return bytes + _parts->sweep_geometry.bytes();
@@ -142,6 +145,15 @@ std::size_t MeshOperator::bytes() const noexcept {
 
 const estimate::CutMesh& MeshOperator::Parts::cut_mesh() const {
   return cut.get([this] { return estimate::cut_mesh(*mesh, decomposition); });
+}
+
+const estimate::StiffPart* MeshOperator::Parts::stiff_part() const {
+  constexpr std::size_t bytes_per_triangle = 1200;  // of the factors
+  const std::optional<estimate::StiffPart>& found = stiff.get([this] {
+    const Working counted(at_work, bytes_per_triangle * mesh->triangle_count());
+    return estimate::stiff_part(*mesh, decomposition, cut_mesh());
+  });
+  return found ? &*found : nullptr;
 }
 
 void require_threadsafe_blas() { ddm::require_threadsafe_blas(); }

@@ -19,6 +19,7 @@
 #include "ddm/subdomain_operator.hpp"
 #include "estimate/cut_mesh.hpp"
 #include "estimate/mesh_dual.hpp"
+#include "estimate/stiff_part.hpp"
 #include "operators/basis_cache.hpp"
 #include "operators/boundary_forces.hpp"
 #include "operators/condense_loads.hpp"
@@ -43,10 +44,13 @@ struct MeshOperator::Parts {
   mutable BasisCache bases;
   base::Lazy<estimate::CutMesh> cut;  // made for the first bounds; see cut_mesh()
   base::Lazy<std::vector<estimate::MeshDual>> mesh_duals;  // see aims.hpp
+  base::Lazy<std::optional<estimate::StiffPart>> stiff;    // see stiff_part()
   base::Lazy<tips::Tips> tips;          // refers to the decomposition; see all_tips()
   base::Lazy<BoundaryForces> boundary;  // refers to the decomposition
 
   const estimate::CutMesh& cut_mesh() const;
+  /// estimate::stiff_part, found at the first call; null if there is none.
+  const estimate::StiffPart* stiff_part() const;
   /// The tips, prepared at the first call.
   const tips::Tips& all_tips() const;
   /// The parts of the boundary, found at the first call.

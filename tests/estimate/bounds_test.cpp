@@ -188,6 +188,69 @@ TEST(Fibres, HaveBoundsThatContainTheAnswersOfAMeshTwoLevelsFiner) {
   EXPECT_GT(tally.displacements, 200);
 }
 
+/// An inclusion above a line, or on it, and a load on one side of it.
+struct Beside {
+  const char* name;
+  int y;
+  mesh::Kind kind;
+  bool load_above;
+};
+
+/// Half the width of the bounds of A over |A|, T below the line `ratio` times that above.
+double width_beside(const Beside& one, double ratio) {
+  constexpr int columns = 12, line = 6;
+  testing::GridMesh grid(columns, 2 * line, {"below", "above"},
+                         [](int, int j) { return j < line ? 0 : 1; });
+  grid.mesh.tension = {ratio, 1};
+  grid.mesh.inclusions = {"inclusion"};
+  std::vector<mesh::Kind> kinds(columns, mesh::Kind::glue);
+  if (one.y == line)
+    std::fill(kinds.begin() + 4, kinds.begin() + 8, one.kind);
+  else
+    grid.add({{4, one.y}, {8, one.y}}, std::vector<mesh::Kind>(4, one.kind), 0);
+  grid.add({{0, line}, {columns, line}}, kinds, 0);
+  const mesh::Mesh finer = mesh::refine_uniform(grid.mesh);
+  Random random;
+  for (const std::int32_t part : finer.subdomain)
+    random.force.push_back((part == 1) == one.load_above ? 1 : 0);
+  const contact::Answer coarse = solve(finer, random, 1, true),
+                        fine = solve(mesh::refine_uniform(mesh::refine_uniform(finer)), random, 16,
+                                     false);
+  const contact::InclusionAnswer& of = coarse.inclusions.front();
+  const double truth = fine.inclusions.front().displacement_mesh;
+  Contained tally;
+  EXPECT_TRUE(check_interval(of.displacement_lower, of.displacement_upper, of.displacement_mesh,
+                             truth, one.name, tally));
+  return (*of.displacement_upper - *of.displacement_lower) / 2 / std::abs(truth);
+}
+
+TEST(Contrast, WidensTheBoundsOfAByNoMoreThanAConstant) {
+  using enum mesh::Kind;
+  for (const Beside& one :
+       {Beside{"off the load", 9, inclusion, false}, Beside{"beside the load", 9, inclusion, true},
+        Beside{"delaminated, off the load", 9, delaminated, false},
+        Beside{"delaminated, beside the load", 9, delaminated, true},
+        Beside{"on the line", 6, inclusion, false},
+        Beside{"delaminated on the line", 6, delaminated, false},
+        Beside{"delaminated on the line, load above", 6, delaminated, true}}) {
+    std::vector<double> widths;
+    std::string figures;
+    for (const double decades : {-8, -6, -4, -2, 0, 2, 4, 6, 8}) {
+      widths.push_back(width_beside(one, std::pow(10, decades)));
+      figures += fmt::format(" {:.3g}", widths.back());
+    }
+    std::printf("[ figures  ] %s:%s\n", one.name, figures.c_str());
+    // One c for both parts where the minus side of a delaminated inclusion is the stiff one.
+    const bool above_only = one.y == 6 && one.kind == delaminated;
+    for (const bool below : {false, true}) {
+      if (below && above_only) continue;
+      const double far = widths[below ? 8 : 0], near = widths[below ? 6 : 2];
+      EXPECT_LT(far, 1);
+      EXPECT_NEAR(far, near, 0.05 * near);
+    }
+  }
+}
+
 TEST(ManyInclusions, OnVeryManyTrianglesOfALongInterfaceHaveNoneAndAWarning) {
   testing::GridMesh grid(230, 230, {"all"}, [](int, int) { return 0; });
   for (int j = 0; j < 14 * 14; ++j) {
