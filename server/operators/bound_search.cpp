@@ -58,6 +58,12 @@ Eigen::VectorXd Search::jumps() const {
   return _target.adjoints.adjoint.jumps(_target.goal, sign(), room());
 }
 
+bool Search::clips() const {
+  const contact::Adjoint::Goal& goal = _target.goal;
+  return jumps() != goal.jumps ||
+         _target.adjoints.adjoint.reactions(goal, sign(), room()) != goal.reactions;
+}
+
 estimate::Aimed Search::aimed(std::span<const double> z, std::span<const double> reacting) const {
   const Bounded& of = _target.adjoints.of;
   return {&of.primal,
