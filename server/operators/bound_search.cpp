@@ -84,7 +84,8 @@ void Search::take(const estimate::Bound& one) {
     _c *= std::clamp(one.short_of, 1.0, 2.0);
   } else {
     const bool found = std::isfinite(one.value);
-    if (_tries < estimate::most_cones && (!found || (better && one.short_of > 1))) {
+    // If nothing is clipped, a wider cone has the same z and z'.
+    if (_tries < estimate::most_cones && (!found || (better && one.short_of > 1 && clips()))) {
       _c = estimate::wider_cone(_c, one);
       return;
     }
