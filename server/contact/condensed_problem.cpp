@@ -200,10 +200,12 @@ std::vector<std::vector<double>> CondensedProblem::fields_of(
   std::vector<std::vector<double>> fields(displaced.size(), std::vector<double>(size));
   std::deque<std::vector<VectorXd>> side_traces;
   std::vector<Recovery> cases;
+  Reduced load;
   for (std::size_t f = 0; f < fields.size(); ++f) {
     stop::look("solving for contact");
     const auto& [force, d] = displaced[f];
-    const Reduced load = eliminate(maps().vector_of(*force), {}, {}, false);
+    if (f == 0 || force != displaced[f - 1].force)
+      load = eliminate(maps().vector_of(*force), {}, {}, false);
     side_traces.push_back(traces().scatter(values(solve(load, d), d, load.p)));
     Recovery& own = cases.emplace_back(Recovery{none, {}, {}});
     for (const VectorXd& trace : side_traces.back())

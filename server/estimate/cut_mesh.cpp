@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
 #include "base/at.hpp"
 #include "errors/errors.hpp"
@@ -39,6 +40,7 @@ class Cutting {
     find_ways_out();
     find_fans();
     sort_fans(block);
+    meet_triangles();
     find_obstacle();
     return std::move(_cut);
   }
@@ -272,6 +274,24 @@ class Cutting {
     _cut.stops = std::move(stops);
   }
 
+  void meet_triangles() {
+    std::vector<char> seen(_cut.triangle_count(), 0);
+    _cut.met.reserve(seen.size());
+    _cut.met_until.reserve(_cut.fan_count());
+    const auto meet = [&](std::size_t t) {
+      if (std::exchange(seen[t], 1) == 0) _cut.met.push_back(static_cast<std::int32_t>(t));
+    };
+    for (std::size_t b = 0; b <= _cut.block_count(); ++b) {
+      stop::look(cutting);
+      for (auto fan = at(_cut.first_fan[b]); fan < at(_cut.first_fan[b + 1]); ++fan) {
+        for (const std::int32_t corner : corners_of(fan)) meet(at(corner / 3));
+        _cut.met_until.push_back(static_cast<std::int32_t>(_cut.met.size()));
+      }
+      if (b == _cut.block_count()) break;
+      for (std::size_t t = _cut.first_of_block(b); t < _cut.first_of_block(b + 1); ++t) meet(t);
+    }
+  }
+
   std::span<const std::int32_t> corners_of(std::size_t fan) const {
     return std::span(_cut.corners)
         .subspan(at(_cut.first_corner[fan]),
@@ -337,7 +357,7 @@ std::size_t CutMesh::bytes() const noexcept {
   const auto of = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
   return shapes.bytes() + of(first_triangle) + of(first_copy) + of(copy) + of(at) + of(triangle) +
          of(faces) + of(chords) + of(ways_out) + of(first_corner) + of(corners) + of(first_stop) +
-         of(stops) + of(first_fan) + of(ways.bodies) + of(ways.of);
+         of(stops) + of(first_fan) + of(met) + of(met_until) + of(ways.bodies) + of(ways.of);
 }
 
 CutMesh cut_mesh(const mesh::Mesh& mesh, const ddm::Decomposition& decomposition,

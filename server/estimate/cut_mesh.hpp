@@ -92,6 +92,9 @@ struct CutMesh {
   /// have triangles of this block alone, so that threads may work on blocks at once; the last fans
   /// have triangles of several. Blocks depend on the mesh only, not on the number of threads.
   std::vector<std::int32_t> first_fan;  ///< (blocks + 2)
+  /// (triangles) The triangles of each block in the order in which its fans meet them, then those
+  /// that none of its own fans has; and (fans) how many are met, in all blocks, once a fan is done.
+  std::vector<std::int32_t> met, met_until;
   /// Ways from triangles to the Dirichlet boundary that cross no crack and no inclusion. A triangle
   /// comes after those that its way leads through; triangles without a way are left out.
   std::vector<WayOut> ways_out;

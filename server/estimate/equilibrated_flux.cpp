@@ -41,6 +41,8 @@ FluxMesh flux_mesh(const CutMesh& cut) {
           shapes.tension.data(),
           shapes.softness.data(),
           shapes.around.data(),
+          cut.met.data(),
+          cut.met_until.data(),
           cut.stops.data(),
           cut.faces.data(),
           look};
@@ -67,31 +69,30 @@ std::size_t largest_of(const std::vector<FluxBlock>& blocks) {
 
 }  // namespace
 
-EquilibratedFlux::EquilibratedFlux(const Balance& balance, const CutMesh& cut)
+EquilibratedFlux::EquilibratedFlux(const Balance& balance, const CutMesh& cut, bool distances)
     : _cut(cut),
       _balance(balance),
       _tension(cut.shapes.tension),
       _area(cut.shapes.area),
       _edge(cut.shapes.edge),
-      _mean(cut.triangle_count()),
-      _distance(cut.triangle_count()),
+      _distance(distances ? cut.triangle_count() : 0),
       _through(2 * cut.faces.size()) {}
 
 EquilibratedFlux::EquilibratedFlux(const CutMesh& cut, const Balance& balance, FaceBounds bounds,
                                    int polish)
-    : EquilibratedFlux(balance, cut) {
+    : EquilibratedFlux(balance, cut, true) {
   make({this, 1}, {&bounds, 1}, polish);
 }
 
 std::vector<EquilibratedFlux> EquilibratedFlux::of_all(const CutMesh& cut,
                                                        std::span<const Balance> loads,
                                                        std::span<const FaceBounds> bounds,
-                                                       int polish) {
+                                                       int polish, bool distances) {
   std::vector<EquilibratedFlux> fluxes;
   fluxes.reserve(loads.size());
   for (const Balance& load : loads) {
     look();
-    fluxes.push_back(EquilibratedFlux(load, cut));
+    fluxes.push_back(EquilibratedFlux(load, cut, distances));
   }
   for (std::size_t done = 0; done < loads.size(); done += flux_lanes) {
     const std::size_t count = std::min(loads.size() - done, flux_lanes);
@@ -109,31 +110,40 @@ void EquilibratedFlux::make(std::span<EquilibratedFlux> fluxes, std::span<const 
   const std::size_t lanes = fluxes.size() <= 2 ? fluxes.size() : flux_lanes;
   const FluxMesh mesh = flux_mesh(cut);
   std::array<FluxLane, flux_lanes> lane;
+  std::array<const double*, flux_lanes> u;
   const auto values = [](std::span<const double> of) { return of.empty() ? nullptr : of.data(); };
   for (std::size_t l = 0; l < lanes; ++l) {
     const bool more = l < fluxes.size();
     EquilibratedFlux& own = fluxes[std::min(l, fluxes.size() - 1)];
     const Balance& load = own._balance;
     const FaceBounds of = bounds.empty() ? FaceBounds() : bounds[std::min(l, fluxes.size() - 1)];
-    lane[l] = {load.u.data(),
-               values(load.force),
-               values(load.traction),
-               values(of.least),
-               values(of.most),
-               more ? own._mean.front().data() : nullptr,
-               more ? own._distance.data() : nullptr};
+    u[l] = load.u.data();
+    lane[l] = {values(load.force), values(load.traction), values(of.least), values(of.most),
+               more && !own._distance.empty() ? own._distance.data() : nullptr};
   }
   look();
+  base::Large<double> side_by_side(lanes == 1 ? 0 : lanes * cut.at.size());
+  if (lanes > 1) {
+    constexpr std::size_t some = 65536;
+    base::at_once((cut.at.size() + some - 1) / some, base::Threads::allowed(), [&] {
+      return [&](std::size_t part) {
+        const std::size_t end = std::min(cut.at.size(), (part + 1) * some);
+        for (std::size_t i = part * some; i < end; ++i)
+          for (std::size_t l = 0; l < lanes; ++l) side_by_side[lanes * i + l] = u[l][i];
+      };
+    });
+  }
   std::vector<FluxBlock> blocks = blocks_of(cut);
   const std::size_t own_scratch = lanes * flux_scratch(mesh, largest_of(blocks));
-  base::Large<double> means(lanes == 1 ? 0 : lanes * 2 * cut.triangle_count());
+  const auto means = std::make_shared<base::Large<double>>(lanes * 2 * cut.triangle_count());
   base::Large<double> through(lanes * 2 * cut.faces.size(), 0.0);
-  double* const mean = lanes == 1 ? lane.front().mean : means.data();
   const FluxLoop loop = lanes == 1 ? kernels.one : lanes == 2 ? kernels.two : kernels.several;
   const auto take = [&](FluxStep step) {
     const auto worker = [&] {
       return [&, own = base::Large<double>(own_scratch)](std::size_t b) mutable {
-        loop(mesh, lane.data(), step, blocks[b], {mean, through.data(), own.data()});
+        loop(mesh, lane.data(), step, blocks[b],
+             {lanes == 1 ? u.front() : side_by_side.data(), means->data(), through.data(),
+              own.data()});
       };
     };
     base::at_once(blocks.size() - 1, base::Threads::allowed(), worker);
@@ -141,9 +151,12 @@ void EquilibratedFlux::make(std::span<EquilibratedFlux> fluxes, std::span<const 
   };
   take(FluxStep::build);
   for (int sweep = 0; sweep < polish; ++sweep) take(FluxStep::polish);
-  take(FluxStep::finish);
+  if (!fluxes.front()._distance.empty()) take(FluxStep::finish);
   for (std::size_t l = 0; l < fluxes.size(); ++l) {
     look();
+    fluxes[l]._means = means;
+    fluxes[l]._mean = means->data() + l;
+    fluxes[l]._lanes = lanes;
     fluxes[l].finish(l, lanes, blocks, through);
   }
 }
@@ -183,6 +196,7 @@ void EquilibratedFlux::turn() {
   std::sort(_turns.begin(), _turns.end(),
             [](const Turn& a, const Turn& b) { return a.side < b.side; });
   for (const Turn& one : _turns) {
+    if (_distance.empty()) break;
     const std::size_t t = one.side / 3;
     double sum = 0;
     for (std::size_t p = 0; p < fem::rule_5.size; ++p) {
@@ -202,7 +216,8 @@ std::vector<EquilibratedFlux::Turn>::const_iterator EquilibratedFlux::first_turn
 
 Vector EquilibratedFlux::mean_difference(std::size_t triangle) const {
   const double scale = std::sqrt(_tension[triangle] / _area[triangle]);
-  return {scale * _mean[triangle][0], scale * _mean[triangle][1]};
+  const Vector own = mean(triangle);
+  return {scale * own[0], scale * own[1]};
 }
 
 Vector EquilibratedFlux::difference(std::size_t triangle,
@@ -254,7 +269,7 @@ Vector EquilibratedFlux::normal_of(std::size_t side) const {
   return {along[1], -along[0]};
 }
 
-bool EquilibratedFlux::turned(std::size_t triangle) const {
+bool EquilibratedFlux::has_turn(std::size_t triangle) const {
   const auto first = first_turn(triangle);
   return first != _turns.end() && first->side < 3 * triangle + 3;
 }

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -45,11 +46,12 @@ class EquilibratedFlux {
                    int polish = 1);
   /// Makes the fluxes of several loads at once; the bits of each are as if it were alone. Either
   /// all loads have a force or none has. `bounds`: those of each load, or empty: w <= 0.
+  /// `distances`: whether distance() is wanted.
   static std::vector<EquilibratedFlux> of_all(const CutMesh& cut, std::span<const Balance> loads,
                                               std::span<const FaceBounds> bounds = {},
-                                              int polish = 1);
+                                              int polish = 1, bool distances = true);
 
-  /// int |sigma - T grad u|^2 / T over each triangle, shape (m).
+  /// int |sigma - T grad u|^2 / T over each triangle, shape (m); empty if it is not wanted.
   const base::Large<double>& distance() const noexcept { return _distance; }
   /// int p [u] over each minus face, 0 for other faces; shape (faces).
   std::vector<double> work_of_pressure() const;
@@ -60,8 +62,11 @@ class EquilibratedFlux {
   /// The mean of that difference over a triangle; it is constant if `turned` is false and f is 0.
   Vector mean_difference(std::size_t triangle) const;
   /// The same times sqrt(area / T); its square is a part of distance().
-  const Vector& mean(std::size_t triangle) const { return _mean[triangle]; }
-  bool turned(std::size_t triangle) const;
+  Vector mean(std::size_t triangle) const {
+    const double* of = _mean + 2 * _lanes * triangle;
+    return {of[0], of[_lanes]};
+  }
+  bool turned(std::size_t triangle) const { return !_turns.empty() && has_turn(triangle); }
   /// [u] at an end of a minus face.
   double jump(std::size_t face, std::size_t end) const;
   /// Sum of v_i e_i of a triangle (Shapes), which is sqrt(area / T) grad v turned by 90 degrees.
@@ -90,7 +95,7 @@ class EquilibratedFlux {
   double imbalance() const noexcept { return _imbalance; }
 
  private:
-  EquilibratedFlux(const Balance& balance, const CutMesh& cut);  // not made yet
+  EquilibratedFlux(const Balance& balance, const CutMesh& cut, bool distances);  // not made yet
   static void make(std::span<EquilibratedFlux> fluxes, std::span<const FaceBounds> bounds,
                    int polish);
   /// Takes its lane of what the blocks found and of the fluxes `through` faces.
@@ -100,9 +105,11 @@ class EquilibratedFlux {
 
   const CutMesh& _cut;
   Balance _balance;
-  const std::vector<double>&_tension, &_area;  // (m)
-  const std::vector<Vector>& _edge;            // (corners) e_i
-  base::Large<Vector> _mean;                   // (m)
+  const std::vector<double>&_tension, &_area;         // (m)
+  const std::vector<Vector>& _edge;                   // (corners) e_i
+  std::shared_ptr<const base::Large<double>> _means;  // (m, 2, lanes) of all made together
+  const double* _mean = nullptr;                      // its own first one
+  std::size_t _lanes = 1;
   base::Large<double> _distance;
   std::vector<double> _through;
   struct Turn {
@@ -111,6 +118,7 @@ class EquilibratedFlux {
   };
   std::vector<Turn> _turns;  // sorted by triangle
   std::vector<Turn>::const_iterator first_turn(std::size_t triangle) const;
+  bool has_turn(std::size_t triangle) const;
   double _norm_squared = 0;
   double _imbalance = 0;
 };

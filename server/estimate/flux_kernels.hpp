@@ -21,6 +21,7 @@ struct FluxMesh {
   const std::int32_t *copy, *first_corner, *first_stop;
   const double *edge, *tension, *softness;  // edge: (corners, 2)
   const FanCorner* around;
+  const std::int32_t *met, *met_until;
   const Stop* stops;
   const Face* face;
   /// Called every `flux_turn` triangles or fans; throws if the work is to end.
@@ -31,11 +32,9 @@ constexpr std::size_t flux_turn = 8192;
 
 /// The arrays of one load; null traction or force means 0.
 struct FluxLane {
-  const double* u;
   const double* force;
   const double* traction;
   const double *least, *most;  ///< of w on minus faces; null: w <= 0
-  double* mean;                ///< (triangles, 2) of sigma - T grad u, times sqrt(area / T)
   double* distance;            ///< (triangles) int |sigma - T grad u|^2 / T; null: not wanted
 };
 
@@ -48,9 +47,10 @@ struct FluxBlock {
   double imbalance[flux_lanes] = {};
 };
 
-/// Memory of the loops, entries of the lanes side by side.
+/// Arrays of the loops, entries of the lanes side by side.
 struct FluxScratch {
-  double* mean;     ///< (triangles, 2); of one lane its own
+  const double* u;  ///< (copies)
+  double* mean;     ///< (triangles, 2) of sigma - T grad u, times sqrt(area / T)
   double* through;  ///< (faces, 2)
   double* own;      ///< flux_scratch() a lane, for each thread
 };

@@ -8,6 +8,9 @@
 namespace anticrack::estimate {
 namespace {
 
+/// Fans for which triangles are measured at once.
+constexpr std::size_t fans_at_once = 64;
+
 template <std::size_t lanes>
 struct Wide;
 template <>
@@ -68,6 +71,7 @@ class Flux {
         _lane(lane),
         _block(block),
         _pressure(lane->most == nullptr),
+        _u(reinterpret_cast<const V*>(scratch.u)),
         _mean(reinterpret_cast<Pair*>(scratch.mean)),
         _through(reinterpret_cast<V*>(scratch.through)),
         _x(reinterpret_cast<V*>(scratch.own)),
@@ -108,9 +112,7 @@ class Flux {
   static V larger(const V& a, const V& b) { return a < b ? b : a; }
   static V smaller(const V& a, const V& b) { return b < a ? b : a; }
 
-  V u(std::int32_t copy) const {
-    return of_lanes([&](std::size_t l) { return _lane[l].u[copy]; });
-  }
+  const V& u(std::int32_t copy) const { return _u[copy]; }
   V force(std::size_t corner) const {
     return of_lanes([&](std::size_t l) { return _lane[l].force[corner]; });
   }
@@ -135,17 +137,18 @@ class Flux {
     to[1] = to[0] + half[(i + 1) % 3];
   }
 
-  /// Begins the triangles of the block: the part of sigma - T grad u that comes from the load is
-  /// d/2 (x - centroid) with the divergence d, and the bubble
+  /// Begins some triangles of the block, in the order of FluxMesh::met: the part of sigma - T grad
+  /// u that comes from the load is d/2 (x - centroid) with the divergence d, and the bubble
   ///   b = 1/3 sum_(i<j) (f_j - f_i)(P_j - P_i) l_i l_j,  div b = -(f - mean f),
   /// which has no flux through the sides. With the loads f_i, their sum s and d_i = f_k - f_j this
   /// adds -(f_0 e_2 + f_1 e_0 + f_2 e_1) to the mean, and the square of the rest is
   ///   4 sum_i e_i.e_i (s^2 / 144 + (2 d_i^2 - d_j d_k - s (s - 3 f_i)) / 45).
   template <bool loaded>
-  void measure() {
+  void measure(std::size_t first, std::size_t last) {
     V norm_squared{};
-    for (std::size_t t = _block.first_triangle; t < _block.last_triangle; ++t) {
-      look(t);
+    for (std::size_t n = first; n < last; ++n) {
+      look(n);
+      const auto t = static_cast<std::size_t>(_mesh.met[n]);
       V half[3];
       norm_squared += halves(t, half);
       V mx{}, my{};
@@ -170,75 +173,145 @@ class Flux {
       for (std::size_t i = 0; i < 3; ++i)
         spoke_of<loaded>(half, t, i, _spoke + 2 * (3 * (t - _block.first_triangle) + i));
     }
-    for (std::size_t l = 0; l < lanes; ++l) _block.norm_squared[l] = of(norm_squared, l);
+    for (std::size_t l = 0; l < lanes; ++l) _block.norm_squared[l] += of(norm_squared, l);
   }
 
   /// The fan of corner i adds x out through side j and x' in through side k of the triangle; fans
   /// not yet built count as half of T grad u. With a = x less half of T grad u through side j, this
   /// adds a e_i to the mean of sigma - T grad u, apart from the load. The block without triangles
-  /// has fans of other blocks' triangles.
+  /// has fans of other blocks' triangles. Triangles are measured shortly before their first fan, so
+  /// that what it needs of them is in the cache.
   template <bool loaded>
   void build() {
-    measure<loaded>();
-    const bool own_triangles = _block.first_triangle < _block.last_triangle;
+    std::size_t met = _block.first_triangle;
     V imbalance{};
     for (std::size_t fan = _block.first_fan; fan < _block.last_fan; ++fan) {
       look(fan);
-      const FanCorner* const end = _mesh.around + _mesh.first_corner[fan + 1];
-      V x{};
-      Pair slope{};
-      V* spoke = _x;
-      *spoke = x;
-      for (const FanCorner* one = _mesh.around + _mesh.first_corner[fan]; one != end; ++one) {
-        const std::size_t t = static_cast<std::size_t>(one->triangle),
-                          i = static_cast<std::size_t>(one->i);
-        V computed[2];
-        const V* own = computed;
-        if (own_triangles) {
-          own = _spoke + 2 * (3 * (t - _block.first_triangle) + i);
-        } else {
-          V half[3];
-          halves(t, half);
-          spoke_of<loaded>(half, t, i, computed);
-        }
-        Pair mean = _mean[t];
-        mean += Of::scaled(x + own[1], one->edge);
-        _mean[t] = mean;
-        slope += Of::products(mean, one->edge);
-        x += own[0];
-        *++spoke = x;
+      if (_block.first_triangle == _block.last_triangle) {
+        build_fan<loaded, false, 0>(fan, imbalance);
+        continue;
       }
-      const std::int32_t first_stop = _mesh.first_stop[fan], last_stop = _mesh.first_stop[fan + 1];
-      if (first_stop == last_stop) imbalance += larger(x, -x);
-      for (std::int32_t s = first_stop; s < last_stop; ++s) {
-        const Stop& stop = _mesh.stops[s];
-        _through[2 * stop.face + stop.end] = sign(stop) * _x[stop.spoke];
+      if ((fan - _block.first_fan) % fans_at_once == 0) {
+        const std::size_t end =
+            fan + fans_at_once < _block.last_fan ? fan + fans_at_once : _block.last_fan;
+        const auto until = static_cast<std::size_t>(_mesh.met_until[end - 1]);
+        measure<loaded>(met, until);
+        met = until;
       }
-      rotate(fan, step(fan, slope_of_work(fan) + Of::sum(slope)));
+      by_size(fan,
+              [&](auto size) { build_fan<loaded, true, decltype(size)::corners>(fan, imbalance); });
     }
+    measure<loaded>(met, _block.last_triangle);
     for (std::size_t l = 0; l < lanes; ++l) _block.imbalance[l] = of(imbalance, l);
   }
 
   void polish() {
     for (std::size_t fan = _block.first_fan; fan < _block.last_fan; ++fan) {
       look(fan);
-      const FanCorner* const end = _mesh.around + _mesh.first_corner[fan + 1];
-      Pair slope{};
-      for (const FanCorner* one = _mesh.around + _mesh.first_corner[fan]; one != end; ++one)
-        slope += Of::products(_mean[one->triangle], one->edge);
-      rotate(fan, step(fan, slope_of_work(fan) + Of::sum(slope)));
+      by_size(fan, [&](auto size) { polish_fan<decltype(size)::corners>(fan); });
+    }
+  }
+
+  /// So many corners of a fan; 0: any number.
+  template <int n>
+  struct Size {
+    static constexpr int corners = n;
+  };
+  /// Calls work(Size<n>()). Loops over the usual numbers of corners are unrolled: their means stay
+  /// in registers, and no branch depends on the number.
+  template <class Work>
+  void by_size(std::size_t fan, const Work& work) const {
+    switch (_mesh.first_corner[fan + 1] - _mesh.first_corner[fan]) {
+      case 4:
+        return work(Size<4>());
+      case 5:
+        return work(Size<5>());
+      case 6:
+        return work(Size<6>());
+      case 7:
+        return work(Size<7>());
+      case 8:
+        return work(Size<8>());
+      default:
+        return work(Size<0>());
+    }
+  }
+
+  /// Builds a fan of `n` corners, or of any number if n is 0. `own`: of triangles of the block.
+  template <bool loaded, bool own, int n>
+  void build_fan(std::size_t fan, V& imbalance) {
+    const FanCorner* const around = _mesh.around + _mesh.first_corner[fan];
+    const int corners = n > 0 ? n : _mesh.first_corner[fan + 1] - _mesh.first_corner[fan];
+    Pair mean[n > 0 ? n : 1], slope[2] = {};
+    V x{};
+    V* spoke = _x;
+    *spoke = x;
+#pragma GCC unroll 8
+    for (int k = 0; k < corners; ++k) {
+      const FanCorner& one = around[k];
+      const std::size_t t = static_cast<std::size_t>(one.triangle),
+                        i = static_cast<std::size_t>(one.i);
+      V computed[2];
+      const V* of_triangle = computed;
+      if constexpr (own) {
+        of_triangle = _spoke + 2 * (3 * (t - _block.first_triangle) + i);
+      } else {
+        V half[3];
+        halves(t, half);
+        spoke_of<loaded>(half, t, i, computed);
+      }
+      Pair now = _mean[t];
+      now += Of::scaled(x + of_triangle[1], one.edge);
+      slope[k % 2] += Of::products(now, one.edge);
+      if constexpr (n > 0)
+        mean[k] = now;
+      else
+        _mean[t] = now;
+      x += of_triangle[0];
+      *++spoke = x;
+    }
+    const std::int32_t first_stop = _mesh.first_stop[fan], last_stop = _mesh.first_stop[fan + 1];
+    if (first_stop == last_stop) imbalance += larger(x, -x);
+    for (std::int32_t s = first_stop; s < last_stop; ++s) {
+      const Stop& stop = _mesh.stops[s];
+      _through[2 * stop.face + stop.end] = sign(stop) * _x[stop.spoke];
+    }
+    rotate<n>(fan, slope, mean);
+  }
+
+  template <int n>
+  void polish_fan(std::size_t fan) {
+    const FanCorner* const around = _mesh.around + _mesh.first_corner[fan];
+    const int corners = n > 0 ? n : _mesh.first_corner[fan + 1] - _mesh.first_corner[fan];
+    Pair mean[n > 0 ? n : 1], slope[2] = {};
+#pragma GCC unroll 8
+    for (int k = 0; k < corners; ++k) {
+      const Pair now = _mean[around[k].triangle];
+      slope[k % 2] += Of::products(now, around[k].edge);
+      if constexpr (n > 0) mean[k] = now;
+    }
+    rotate<n>(fan, slope, mean);
+  }
+
+  /// Adds the best flux to that through all spokes of a fan, which runs round the node. `slope`:
+  /// two parts of its sum over the corners; `mean`: of the n corners, or in memory if n is 0.
+  template <int n>
+  void rotate(std::size_t fan, const Pair* slope, const Pair* mean) {
+    const FanCorner* const around = _mesh.around + _mesh.first_corner[fan];
+    const int corners = n > 0 ? n : _mesh.first_corner[fan + 1] - _mesh.first_corner[fan];
+    Pair whole = slope[0];
+    whole += slope[1];
+    const V flux = step(fan, slope_of_work(fan) + Of::sum(whole));
+#pragma GCC unroll 8
+    for (int k = 0; k < corners; ++k) {
+      Pair now = n > 0 ? mean[k] : _mean[around[k].triangle];
+      now += Of::scaled(flux, around[k].edge);
+      _mean[around[k].triangle] = now;
     }
   }
 
   void look(std::size_t turn) const {
     if (turn % flux_turn == 0) _mesh.look();
-  }
-
-  /// Adds `flux` to that through all spokes of the fan, which runs round the node.
-  void rotate(std::size_t fan, const V& flux) {
-    const FanCorner* const end = _mesh.around + _mesh.first_corner[fan + 1];
-    for (const FanCorner* one = _mesh.around + _mesh.first_corner[fan]; one != end; ++one)
-      _mean[one->triangle] += Of::scaled(flux, one->edge);
   }
 
   static double sign(const Stop& stop) { return stop.end == 0 ? -1 : 1; }
@@ -322,12 +395,8 @@ class Flux {
       const V mx = _mean[t][0], my = _mean[t][1];
       const V square = mx * mx + my * my;
       for (std::size_t l = 0; l < lanes; ++l) {
-        FluxLane& to = _lane[l];
-        if (to.distance == nullptr) continue;
-        to.distance[t] = loaded ? of(square, l) + to.distance[t] : of(square, l);
-        if (lanes == 1) continue;  // _mean is its own
-        to.mean[2 * t] = of(mx, l);
-        to.mean[2 * t + 1] = of(my, l);
+        double* const distance = _lane[l].distance;
+        if (distance != nullptr) distance[t] = loaded ? of(square, l) + distance[t] : of(square, l);
       }
     }
   }
@@ -336,6 +405,7 @@ class Flux {
   FluxLane* const _lane;
   FluxBlock& _block;
   const bool _pressure;
+  const V* const _u;
   Pair* const _mean;
   V* const _through;
   V* const _x;      // fluxes through the spokes of a fan

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "estimate/interval.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <deque>
 
 #include "base/at.hpp"
 #include "base/at_once.hpp"
@@ -14,9 +16,9 @@ namespace anticrack::estimate {
 namespace {
 
 double largest_of(std::span<const double> values) {
-  double largest = 0;
-  for (const double one : values) largest = std::max(largest, std::abs(one));
-  return largest;
+  if (values.empty()) return 0;
+  const auto size = static_cast<Eigen::Index>(values.size());
+  return Eigen::Map<const Eigen::ArrayXd>(values.data(), size).abs().maxCoeff();
 }
 
 /// How far jumps or pressures leave the cone: values up to `rounding` count as 0, and `beyond` may
@@ -35,21 +37,26 @@ struct Cone {
 struct Rest : Unbalanced {
   double moved = 0;    ///< >= int (f - f_h) z + int (g - g_h) z
   double weighed = 0;  ///< o^2 where there is a weight, which the others leave out
+
+  void operator+=(const Rest& by) {
+    squared += by.squared;
+    primal += by.primal;
+    dual += by.dual;
+    moved += by.moved;
+    weighed += by.weighed;
+  }
 };
 
 /// Integrals of products over T: of tau - T grad z with itself (`square`) and with sigma - T grad
 /// u_h (`mixed`), and of the latter with itself (`distance`). If T varies on triangles they are
 /// bounds, and `slack` bounds the error of `mixed`.
-struct Products {
+struct Integrals {
   double square = 0;
   double mixed = 0;
   double distance = 0;
   double slack = 0;
-  Weighted weighted{};
-  Rest rest{};
-  std::array<PartTerms, 2> parts{};
 
-  void operator+=(const Products& by) {
+  void operator+=(const Integrals& by) {
     square += by.square;
     mixed += by.mixed;
     distance += by.distance;
@@ -57,22 +64,38 @@ struct Products {
   }
 };
 
+struct Products : Integrals {
+  Rest rest{};
+  std::array<PartTerms, 2> parts{};
+
+  using Integrals::operator+=;
+  void operator+=(const Products& by) {
+    *this += static_cast<const Integrals&>(by);
+    rest += by.rest;
+    for (const std::size_t p : {0, 1}) {
+      parts[p].distance += by.parts[p].distance;
+      parts[p].square += by.parts[p].square;
+      parts[p].unbalanced.squared += by.parts[p].unbalanced.squared;
+      parts[p].unbalanced.primal += by.parts[p].unbalanced.primal;
+    }
+  }
+};
+
+/// Triangles whose products are summed together, small enough for several duals to find in the
+/// cache what they share.
+constexpr std::size_t some_triangles = 4096;
+
 /// The products of a triangle from those with T_h, as in bracket.hpp. |1/T - 1/T_h| T_h <=
 /// `change`.
-Products varied(const Products& by_mean, const fem::Variation& variation, double norm_of_z,
-                double norm_of_u) {
+Integrals varied(const Integrals& by_mean, const fem::Variation& variation, double norm_of_z,
+                 double norm_of_u) {
   const double a = variation.below * std::sqrt(by_mean.square), b = variation.spread * norm_of_z,
                c = variation.below * std::sqrt(by_mean.distance), d = variation.spread * norm_of_u;
   const double change =
       std::max(variation.below * variation.below - 1, 1 - 1 / (variation.above * variation.above));
-  return {(a + b) * (a + b),
-          by_mean.mixed,
-          (c + d) * (c + d),
+  return {(a + b) * (a + b), by_mean.mixed, (c + d) * (c + d),
           change * std::sqrt(by_mean.square * by_mean.distance) + a * d + b * (c + d) +
-              2 * variation.unknown * norm_of_z * norm_of_u,
-          {},
-          {},
-          {}};
+              2 * variation.unknown * norm_of_z * norm_of_u};
 }
 
 /// (m) The parts of the triangles in E and F; empty if nobody asks for them.
@@ -83,20 +106,27 @@ struct Parts {
 class Sum {
  public:
   Sum(const Primal& primal, const Dual& dual, const EquilibratedFlux& tau)
-      : _primal(primal), _tau(tau), _weight(dual.weight), _z(dual.z), _rest(dual.z.size()) {
-    for (std::size_t i = 0; i < _rest.size(); ++i) _rest[i] = dual.reacting[i] - dual.z[i];
+      : _primal(primal), _tau(tau), _weight(dual.weight), _z(dual.z) {
+    if (dual.reacting.data() == dual.z.data()) return;
+    _rest.reserve(_z.size());
+    for (std::size_t i = 0; i < _z.size(); ++i) _rest.push_back(dual.reacting[i] - _z[i]);
   }
 
-  Products products(Parts& parts) const {
+  /// The products of `some_triangles`, from a multiple of it on, whose parts it sets.
+  Products products(std::size_t first, Parts& parts) const {
     Products sum;
     const EquilibratedFlux& sigma = _primal.flux;
     const Shapes& shapes = _primal.cut.shapes;
     const std::vector<double>& oscillation = _primal.load.oscillation;
     std::span<const Weight::OnTriangle> weighed;
-    if (_weight != nullptr) weighed = _weight->triangles;
-    for (std::size_t t = 0; t < _primal.cut.triangle_count(); ++t) {
-      stop::look_at_turn(t, "computing bounds of A");
-      Products own = of_triangle(t);
+    if (_weight != nullptr) {
+      const auto begin =
+          std::ranges::lower_bound(_weight->triangles, first, {}, &Weight::OnTriangle::triangle);
+      weighed = {begin, _weight->triangles.end()};
+    }
+    const std::size_t last = std::min(first + some_triangles, _primal.cut.triangle_count());
+    for (std::size_t t = first; t < last; ++t) {
+      Integrals own = of_triangle(t);
       if (!shapes.variation.empty())
         own = varied(own, shapes.variation[t], std::sqrt(sigma.energy_of(t, _z)),
                      std::sqrt(sigma.energy_of(t, _primal.u)));
@@ -130,7 +160,6 @@ class Sum {
       of.moved += std::min(o * std::sqrt(sigma.energy_of(t, _z)),
                            largest > 0 ? _primal.load.moments[t] * largest : 0);
     }
-    if (_weight != nullptr) sum.weighted = weighted();
     return sum;
   }
 
@@ -144,42 +173,16 @@ class Sum {
   double lifted(const Lift& lift) const {
     const auto side = at(_primal.cut.faces[at(lift.face)].side);
     const Vector normal = _primal.flux.normal_of(side), mean = _tau.mean_difference(side / 3),
-                 shift = _primal.flux.flux_of(side / 3, _rest);
+                 shift = shift_of(side / 3);
     return (mean[0] + shift[0]) * normal[0] + (mean[1] + shift[1]) * normal[1];
-  }
-
- private:
-  Products of_triangle(std::size_t t) const {
-    const EquilibratedFlux& sigma = _primal.flux;
-    const Shapes& shapes = _primal.cut.shapes;
-    Products sum;
-    sum.distance = std::max(0.0, sigma.distance()[t]);
-    const auto add = [&](double factor, const Vector& off, const Vector& of_sigma) {
-      sum.square += factor * dot(off, off);
-      sum.mixed += factor * dot(off, of_sigma);
-    };
-    if (!_tau.turned(t)) {  // constant: sqrt(area / T) times both
-      const Vector &of_tau = _tau.mean(t), rise = sigma.rise_of(t, _rest);
-      const double tension = shapes.tension[t];
-      add(1, {of_tau[0] - tension * rise[1], of_tau[1] + tension * rise[0]}, sigma.mean(t));
-      return sum;
-    }
-    const Vector shift = sigma.flux_of(t, _rest);
-    const double scale = sigma.area(t) / sigma.tension(t);
-    for (std::size_t p = 0; p < fem::rule_5.size; ++p) {
-      const double b = fem::rule_5.b[p], c = fem::rule_5.c[p];
-      const Vector of_tau = _tau.difference(t, {1 - b - c, b, c});
-      add(scale * fem::rule_5.weight[p], {of_tau[0] + shift[0], of_tau[1] + shift[1]},
-          sigma.difference(t, {1 - b - c, b, c}));
-    }
-    return sum;
   }
 
   /// b = beta w where w is not constant, so that w + b + b^2/h = w / (1 - beta).
   Weighted weighted() const {
     Weighted sum;
+    if (_weight == nullptr) return sum;
     for (const Weight::OnTriangle& one : _weight->triangles) {
-      const Products own = of_triangle(one.triangle);
+      const Integrals own = of_triangle(one.triangle);
       const double beta = beta_in(one);
       sum.primal += (primal_factor(one) - 1) * own.distance;
       sum.dual += (dual_factor(one) - 1) * own.square;
@@ -188,6 +191,41 @@ class Sum {
     sum.most_primal = _weight->largest / (1 - _weight->beta);
     sum.most_mixed = _weight->beta / (1 - _weight->beta);
     sum.most_dual = 1 / (1 - _weight->beta);
+    return sum;
+  }
+
+ private:
+  /// T grad (z' - z).
+  Vector shift_of(std::size_t t) const {
+    return _rest.empty() ? Vector{} : _primal.flux.flux_of(t, _rest);
+  }
+
+  Integrals of_triangle(std::size_t t) const {
+    const EquilibratedFlux& sigma = _primal.flux;
+    Integrals sum;
+    sum.distance = std::max(0.0, sigma.distance()[t]);
+    const auto add = [&](double factor, const Vector& off, const Vector& of_sigma) {
+      sum.square += factor * dot(off, off);
+      sum.mixed += factor * dot(off, of_sigma);
+    };
+    if (!_tau.turned(t)) {  // constant: sqrt(area / T) times both
+      Vector off = _tau.mean(t);
+      if (!_rest.empty()) {
+        const Vector rise = sigma.rise_of(t, _rest);
+        const double tension = sigma.tension(t);
+        off = {off[0] - tension * rise[1], off[1] + tension * rise[0]};
+      }
+      add(1, off, sigma.mean(t));
+      return sum;
+    }
+    const Vector shift = shift_of(t);
+    const double scale = sigma.area(t) / sigma.tension(t);
+    for (std::size_t p = 0; p < fem::rule_5.size; ++p) {
+      const double b = fem::rule_5.b[p], c = fem::rule_5.c[p];
+      const Vector of_tau = _tau.difference(t, {1 - b - c, b, c});
+      add(scale * fem::rule_5.weight[p], {of_tau[0] + shift[0], of_tau[1] + shift[1]},
+          sigma.difference(t, {1 - b - c, b, c}));
+    }
     return sum;
   }
 
@@ -239,20 +277,21 @@ FluxBounds flux_bounds(const Primal& primal, const Dual& dual) {
   return bounds;
 }
 
-}  // namespace
+/// A Weight needs both T constant and w = 0.
+bool weighable(const Aimed& aimed) {
+  const Primal& primal = *aimed.primal;
+  return aimed.dual.weight == nullptr ||
+         (primal.cut.shapes.variation.empty() && primal.lifts.empty());
+}
 
-Bound bound(const Aimed& aimed, const EquilibratedFlux& tau) {
+/// The bound made of what was summed over the triangles.
+Bound bound(const Aimed& aimed, const EquilibratedFlux& tau, const Sum& sum,
+            const Products& products, Parts parts) {
   const Primal& primal = *aimed.primal;
   const Dual& dual = aimed.dual;
   const CutMesh& cut = primal.cut;
   const EquilibratedFlux& sigma = primal.flux;
   const bool varies = !cut.shapes.variation.empty();
-  if (dual.weight != nullptr && (varies || !primal.lifts.empty())) return {};
-
-  const Sum sum(primal, dual, tau);
-  Parts parts;
-  if (aimed.parts) parts.primal = parts.dual = std::vector<double>(cut.triangle_count());
-  const Products products = sum.products(parts);
   double residual = 0, mixed = 0.5 * products.mixed, distance = products.distance, unknown = 0,
          of_lifts = 0;
   std::array<PartTerms, 2> parts_of = products.parts;
@@ -356,7 +395,7 @@ Bound bound(const Aimed& aimed, const EquilibratedFlux& tau) {
               rest};
   if (!primal.lifts.empty())
     terms.unbalanced.primal = std::sqrt(std::max(0.0, distance) * rest.squared);
-  terms.weighted = products.weighted;
+  terms.weighted = sum.weighted();
   if (primal.stiff != nullptr && dual.weight == nullptr) {
     terms.parts = parts_of;
     terms.coupling = primal.stiff->coupling;
@@ -376,21 +415,33 @@ Bound bound(const Aimed& aimed, const EquilibratedFlux& tau) {
   return found;
 }
 
-std::optional<HalfWidth> half_of_parts(const std::array<PartNorms, 2>& of, double coupling,
-                                       double stiff) {
-  const auto& [rest, part] = of;
-  const double g = coupling * std::abs(stiff - 1), determinant = 4 * stiff - g * g;
-  if (!(determinant > 0)) return std::nullopt;
-  const double a = g * rest.reach, b = g * part.reach;
-  const auto form = [&](double a1, double b1, double a2, double b2) {
-    return (a1 * a2 + stiff * b1 * b2 + g * (a1 * b2 + a2 * b1) / 2) / determinant;
-  };
-  return HalfWidth{
-      stiff * part.energy + rest.energy + g * part.reach * rest.reach + form(a, b, a, b),
-      2 * form(part.flux, rest.flux, a, b), form(part.flux, rest.flux, part.flux, rest.flux)};
+/// Several bounds by taus of the same number.
+std::vector<Bound> bounds_by(std::span<const Aimed> of, std::span<const EquilibratedFlux> taus) {
+  std::vector<Bound> found(of.size());
+  if (of.empty()) return found;
+  const std::size_t triangles = of.front().primal->cut.triangle_count(),
+                    blocks = (triangles + some_triangles - 1) / some_triangles;
+  std::deque<Sum> sums;
+  std::vector<Parts> parts(of.size());
+  for (std::size_t i = 0; i < of.size(); ++i) {
+    sums.emplace_back(*of[i].primal, of[i].dual, taus[i]);
+    if (of[i].parts) parts[i].primal = parts[i].dual = std::vector<double>(triangles);
+  }
+  std::vector<Products> products(blocks * of.size());
+  base::at_once(blocks, base::Threads::allowed(), [&] {
+    return [&](std::size_t block) {
+      for (std::size_t i = 0; i < of.size(); ++i)
+        products[block * of.size() + i] = sums[i].products(block * some_triangles, parts[i]);
+    };
+  });
+  for (std::size_t i = 0; i < of.size(); ++i) {
+    if (!weighable(of[i])) continue;
+    Products all;
+    for (std::size_t block = 0; block < blocks; ++block) all += products[block * of.size() + i];
+    found[i] = bound(of[i], taus[i], sums[i], all, std::move(parts[i]));
+  }
+  return found;
 }
-
-namespace {
 
 /// The least R of two parts over c_s >= c[0] and stiff c_s >= c[1]; the formula without parts has
 /// stiff = 1.
@@ -429,6 +480,24 @@ std::array<PartNorms, 2> norms_of(const Terms& of) {
 }
 
 }  // namespace
+
+std::optional<HalfWidth> half_of_parts(const std::array<PartNorms, 2>& of, double coupling,
+                                       double stiff) {
+  const auto& [rest, part] = of;
+  const double g = coupling * std::abs(stiff - 1), determinant = 4 * stiff - g * g;
+  if (!(determinant > 0)) return std::nullopt;
+  const double a = g * rest.reach, b = g * part.reach;
+  const auto form = [&](double a1, double b1, double a2, double b2) {
+    return (a1 * a2 + stiff * b1 * b2 + g * (a1 * b2 + a2 * b1) / 2) / determinant;
+  };
+  return HalfWidth{
+      stiff * part.energy + rest.energy + g * part.reach * rest.reach + form(a, b, a, b),
+      2 * form(part.flux, rest.flux, a, b), form(part.flux, rest.flux, part.flux, rest.flux)};
+}
+
+Bound bound(const Aimed& aimed, const EquilibratedFlux& tau) {
+  return bounds_by({&aimed, 1}, {&tau, 1}).front();
+}
 
 Bound bound_of(const Terms& of, Side side, double c, double most) {
   const Unbalanced& rest = of.unbalanced;
@@ -498,11 +567,7 @@ std::vector<Bound> bounds(const CutMesh& cut, std::span<const Aimed> of) {
     balances.push_back({one.dual.reacting, {}, {}});
   }
   const std::vector<FaceBounds> of_faces(cones.begin(), cones.end());
-  const std::vector<EquilibratedFlux> taus = EquilibratedFlux::of_all(cut, balances, of_faces);
-  std::vector<Bound> found(of.size());
-  base::at_once(of.size(), base::Threads::allowed(),
-                [&] { return [&](std::size_t i) { found[i] = bound(of[i], taus[i]); }; });
-  return found;
+  return bounds_by(of, EquilibratedFlux::of_all(cut, balances, of_faces, 1, false));
 }
 
 }  // namespace anticrack::estimate

@@ -62,6 +62,12 @@ Eigen::VectorXd Search::jumps() const {
   return _target.adjoints.adjoint.jumps(_target.goal, sign(), room());
 }
 
+bool Search::clips() const {
+  const contact::Adjoint::Goal& goal = _target.goal;
+  return jumps() != goal.jumps ||
+         _target.adjoints.adjoint.reactions(goal, sign(), room()) != goal.reactions;
+}
+
 estimate::Aimed Search::aimed(std::span<const double> z, std::span<const double> reacting) const {
   const Bounded& of = _target.adjoints.of;
   return {&of.primal,
@@ -82,9 +88,11 @@ void Search::take(const estimate::Bound& one) {
     _c *= std::clamp(one.short_of, 1.0, 2.0);
   } else {
     const bool found = std::isfinite(one.value);
+    // If nothing is clipped, a wider cone has the same z and z'.
     if (_tries < estimate::most_cones && better && one.wanted) {
       if (take_wanted(one)) return;
-    } else if (_tries < estimate::most_cones && (!found || (better && one.short_of > 1))) {
+    } else if (_tries < estimate::most_cones &&
+               (!found || (better && one.short_of > 1 && clips()))) {
       _c = estimate::wider_cone(_c, one);
       return;
     }

@@ -52,6 +52,8 @@ class Search {
   Eigen::VectorXd load() const;
   Eigen::VectorXd reactions() const;  ///< the load without that of the unit force
   Eigen::VectorXd jumps() const;
+  /// Whether z or z' differs from z_0. If not, all three are one field, to rounding.
+  bool clips() const;
   estimate::Aimed aimed(std::span<const double> z, std::span<const double> reacting) const;
   void take(const estimate::Bound& one);
   void give_up() { _done = true; }

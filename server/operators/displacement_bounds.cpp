@@ -25,35 +25,42 @@ namespace {
 
 constexpr const char* bounding_a = "computing bounds of A";
 
-/// Fields of z and of z', without which there is no field of z either.
+/// Fields of z and of z', without which there is no field of z either. Where nothing is clipped,
+/// one field is both.
 struct Fields {
   std::vector<std::vector<double>> z, reacting;
+  std::vector<char> one;
 };
 
-/// z' by a factor with every contact open, or by solves for the contacts.
-Fields fields_of(const MeshOperator::Parts& parts, const contact::OpenMembrane* open,
+/// z' by a factor with every contact open, or by solves for the contacts. Without Ways
+/// (`bridged`) z' has to be in equilibrium to rounding by its own solve.
+Fields fields_of(const MeshOperator::Parts& parts, const contact::OpenMembrane* open, bool bridged,
                  std::span<Search* const> searches) {
   std::vector<const ddm::Terms*> forces;
   std::vector<Eigen::VectorXd> loads;
   std::vector<contact::Displaced> displaced;
-  for (const Search* search : searches) {
-    forces.push_back(&search->target().aim().goal);
-    loads.push_back(open != nullptr ? search->reactions() : search->load());
-    displaced.push_back({forces.back(), search->jumps()});
-  }
+  std::vector<std::size_t> solved;
   Fields fields;
+  fields.reacting.resize(searches.size());
+  for (std::size_t i = 0; i < searches.size(); ++i) {
+    const Search& search = *searches[i];
+    displaced.push_back({&search.target().aim().goal, search.jumps()});
+    fields.one.push_back(open == nullptr && bridged && !search.clips() ? 1 : 0);
+    if (fields.one.back() != 0) continue;
+    solved.push_back(i);
+    forces.push_back(displaced.back().force);
+    loads.push_back(open != nullptr ? search.reactions() : search.load());
+  }
   if (open != nullptr) {
     fields.reacting = open->fields(forces, false, loads);
     fields.z = parts.contact->fields_of(displaced);
     return fields;
   }
   const std::vector<contact::Opened> opened = parts.contact->solve_open({}, loads);
-  for (std::size_t i = 0; i < searches.size(); ++i) displaced.push_back({forces[i], opened[i].d});
+  for (std::size_t k = 0; k < solved.size(); ++k) displaced.push_back({forces[k], opened[k].d});
   fields.z = parts.contact->fields_of(displaced);
-  for (std::size_t i = 0; i < searches.size(); ++i) {
-    fields.reacting.push_back(std::move(fields.z[searches.size() + i]));
-    if (!opened[i].solved) fields.reacting.back().clear();
-  }
+  for (std::size_t k = 0; k < solved.size(); ++k)
+    if (opened[k].solved) fields.reacting[solved[k]] = std::move(fields.z[searches.size() + k]);
   return fields;
 }
 
@@ -61,16 +68,17 @@ Fields fields_of(const MeshOperator::Parts& parts, const contact::OpenMembrane* 
 void advance(const MeshOperator::Parts& parts, const estimate::CutMesh& cut,
              const contact::OpenMembrane* open, std::span<Search* const> searches) {
   stop::look(bounding_a);
-  const Fields fields = fields_of(parts, open, searches);
+  const Fields fields = fields_of(parts, open, std::isfinite(cut.ways.triangle), searches);
   std::vector<estimate::Aimed> aimed;
   std::vector<Search*> solved;
   for (std::size_t i = 0; i < searches.size(); ++i) {
-    if (fields.reacting[i].empty()) {
+    const std::vector<double>& reacting = (fields.one[i] != 0 ? fields.z : fields.reacting)[i];
+    if (reacting.empty()) {
       searches[i]->give_up();
       continue;
     }
     solved.push_back(searches[i]);
-    aimed.push_back(searches[i]->aimed(fields.z[i], fields.reacting[i]));
+    aimed.push_back(searches[i]->aimed(fields.z[i], reacting));
   }
   const std::vector<estimate::Bound> found = estimate::bounds(cut, aimed);
   for (std::size_t i = 0; i < found.size(); ++i) solved[i]->take(found[i]);

@@ -5,10 +5,10 @@
 
 namespace anticrack::operators {
 
-/// Blocks of 4 MiB and more get pages of their own, which return to the system when freed. By
-/// default glibc raises that threshold to the largest block ever freed (up to 32 MiB), so after the
-/// first eviction factors would come from heaps, which shrink at their end only. A heap keeps up to
-/// 4 MiB free at its end. Acts on the whole process, once; thread-safe.
+/// Blocks of 32 MiB and more get pages of their own, which return to the system when freed. Smaller
+/// ones come from heaps, of which up to 256 MiB free at the end stay for the next load; heaps
+/// shrink at their end only, so return_freed_memory() is to be called after an eviction. Acts on
+/// the whole process, once; thread-safe.
 void set_up_heaps() noexcept;
 
 /// Returns the free pages of all heaps to the system. Takes their locks one at a time; the caller
