@@ -184,8 +184,9 @@ constexpr Keys geometry_keys{v1::Geometry::descriptor, {geometry_rows}};
 
 constexpr Key group_rows[] = {
     {"curve", structure, "{ TAG = \"meaning\" }"_form,
-     "of physical curves by their number: \"dirichlet\", \"neumann\", \"crack\", \"crack:NAME\", "
-     "\"free\", \"free:NAME\", \"inclusion:NAME\", \"delaminated:NAME\" or \"glue\""},
+     "of physical curves by their number: \"dirichlet\", \"dirichlet:NAME\", \"neumann\", "
+     "\"neumann:NAME\", \"crack\", \"crack:NAME\", \"free\", \"free:NAME\", \"inclusion:NAME\", "
+     "\"delaminated:NAME\" or \"glue\""},
     {"surface", structure, "{ TAG = \"name\" }"_form,
      "the names of subdomains by the number of their physical surface"},
 };
