@@ -106,6 +106,37 @@ TEST(BoundaryForces, BalanceTheLoadWhateverTheInterfacesAre) {
   }
 }
 
+TEST(BoundaryForces, HaveTheMomentsOfTheLoad) {
+  const mesh::Mesh mesh = named({.columns = 16,
+                                 .rows = 8,
+                                 .kind = [](double) { return mesh::Kind::glue; },
+                                 .inclusion = {},
+                                 .inclusions = {}});
+  const contact::Answer answer = answer_of(mesh, loaded());
+  double x = 0, y = 0;
+  for (const BoundaryAnswer& one : answer.boundary) {
+    x += one.moment_x + one.resultant * one.x;
+    y += one.moment_y + one.resultant * one.y;
+  }
+  // int grad u = int g_D n is what tension adds.
+  EXPECT_NEAR(x + 4.0 / 3 + 1.5 * 0.3, 1.2, 1e-10);
+  EXPECT_NEAR(y - 4 - 1.5 * 0.6, 0, 1e-10);
+}
+
+TEST(BoundaryForces, ShareACornerByTheLengthsOfItsEdges) {
+  mesh::Mesh mesh = named({.columns = 8,
+                           .rows = 3,
+                           .kind = [](double) { return mesh::Kind::glue; },
+                           .inclusion = {},
+                           .inclusions = {}});
+  fem::Load load;
+  load.point_forces = {{-1 + 1e-9, -1 + 1e-9, 7}};  // held by the corner alone
+  const contact::Answer answer = answer_of(mesh, load);
+  const double along_x = 2.0 / 8, along_y = 1.0 / 3;
+  EXPECT_NEAR(part(answer, "bottom", false).resultant, -7 * along_x / (along_x + along_y), 1e-6);
+  EXPECT_NEAR(part(answer, "left", false).resultant, -7 * along_y / (along_x + along_y), 1e-6);
+}
+
 TEST(BoundaryForces, BalanceTractionsTooAndUnderATensor) {
   mesh::Mesh mesh = named({.columns = 16, .rows = 8, .kind = {}, .inclusion = {}});
   mesh.tension_laws = {{"1 + x*x", "2", 30}, {"3", "", 0}};
