@@ -106,6 +106,15 @@ TEST(BoundaryForces, BalanceTheLoadWhateverTheInterfacesAre) {
   }
 }
 
+TEST(BoundaryForces, BalanceWhatHoldsAnInclusion) {
+  mesh::Mesh mesh = named({.columns = 16, .rows = 8, .kind = {}, .inclusion = {}});
+  mesh.motions = {{false, 0.5}};
+  const contact::Answer answer = answer_of(mesh, loaded());
+  ASSERT_EQ(answer.inclusions.size(), 1U);
+  EXPECT_GT(std::abs(answer.inclusions[0].resultant), 0.1);
+  expect_balance(answer, applied);
+}
+
 TEST(BoundaryForces, HaveTheMomentsOfTheLoad) {
   const mesh::Mesh mesh = named({.columns = 16,
                                  .rows = 8,
