@@ -45,13 +45,19 @@ inline constexpr auto edges = std::tuple{
               "index into /mesh/inclusions, -1 none"),
 };
 
-// The dataset of /loads/NAME, beside the answer.
+// The datasets of /loads/NAME, beside the answer.
 
-inline constexpr auto indicator = std::tuple{
+inline constexpr auto of_triangles = std::tuple{
     optional(explained("indicator", "m", &Load::indicator,
                        "part of each triangle in the square of error_bound; none where it was not "
                        "asked for or there are no bounds",
                        "F L")),
+    optional(
+        explained("balanced_flux", "m,3", &Load::balanced_flux,
+                  "outward flux through the side opposite to each corner of a triangle, of the "
+                  "flux behind the bounds, which is in equilibrium: the three sum to minus the "
+                  "load on it; where it was asked for",
+                  "F")),
 };
 
 // Attributes and datasets of /sweep, beside the message SweepAnswer and the arrays of ReadResult.

@@ -211,7 +211,8 @@ records::StageRecord Translation<records::StageRecord>::read(const v1::Stage& fr
   return value;
 }
 
-const Except of_spec{"mesh", "loads", "fields", "indicators", "queue_time_limit", "run_time_limit"};
+const Except of_spec{
+    "mesh", "loads", "fields", "indicators", "balanced_flux", "queue_time_limit", "run_time_limit"};
 
 bool asks_for(const v1::JobSpec& spec, v1::Output output) {
   return std::ranges::find(spec.outputs(), output) != spec.outputs().end();
@@ -223,6 +224,7 @@ void Translation<records::JobSpec>::write(const records::JobSpec& value, v1::Job
   write_field(value.loads, to, "load_cases");
   if (value.fields) to.add_outputs(v1::OUTPUT_FIELDS);
   if (value.indicators) to.add_outputs(v1::OUTPUT_INDICATORS);
+  if (value.balanced_flux) to.add_outputs(v1::OUTPUT_BALANCED_FLUX);
   write_limit(value.queue_time_limit, to, "queue_timeout");
   write_limit(value.run_time_limit, to, "run_timeout");
 }
@@ -234,6 +236,7 @@ records::JobSpec Translation<records::JobSpec>::read(const v1::JobSpec& from) {
   read_field(from, "load_cases", value.loads);
   value.fields = asks_for(from, v1::OUTPUT_FIELDS);
   value.indicators = asks_for(from, v1::OUTPUT_INDICATORS);
+  value.balanced_flux = asks_for(from, v1::OUTPUT_BALANCED_FLUX);
   value.queue_time_limit = limit_of(from, "queue_timeout");
   value.run_time_limit = limit_of(from, "run_timeout");
   return value;

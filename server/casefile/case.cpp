@@ -106,6 +106,7 @@ toml::table parse(const std::string& text, const std::string& name) {
 
 void read_output(const Section& root, Case& result) {
   v1::JobSpec& spec = result.spec;
+  bool balanced = false;
   if (const auto output = root.section("output")) {
     if (output->boolean("fields").value_or(false)) spec.add_outputs(v1::OUTPUT_FIELDS);
     read_list(*output, "probe", "probes", *spec.mutable_probes(), result.spots,
@@ -119,7 +120,8 @@ void read_output(const Section& root, Case& result) {
                             "[x, y], to = [x, y] and points = 101 for a line");
               });
     spec.set_without_bounds(!output->boolean("bounds").value_or(true));
-    result.spots["outputs"] = output->spot_of("fields");
+    balanced = output->boolean("balanced_flux").value_or(false);
+    result.spots["outputs"] = output->spot_of(balanced ? "balanced_flux" : "fields");
     result.spots["probes"] = output->spot_of("probe");
     result.spots["without_bounds"] = output->spot_of("bounds");
   }
@@ -127,6 +129,7 @@ void read_output(const Section& root, Case& result) {
   if (spec.has_accuracy() ||
       (spec.outputs_size() > 0 && spec.solver().has_active_set() && !spec.without_bounds()))
     spec.add_outputs(v1::OUTPUT_INDICATORS);
+  if (balanced) spec.add_outputs(v1::OUTPUT_BALANCED_FLUX);
 }
 
 }  // namespace

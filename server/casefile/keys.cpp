@@ -184,8 +184,9 @@ constexpr Keys geometry_keys{v1::Geometry::descriptor, {geometry_rows}};
 
 constexpr Key group_rows[] = {
     {"curve", structure, "{ TAG = \"meaning\" }"_form,
-     "of physical curves by their number: \"dirichlet\", \"neumann\", \"crack\", \"crack:NAME\", "
-     "\"free\", \"free:NAME\", \"inclusion:NAME\", \"delaminated:NAME\" or \"glue\""},
+     "of physical curves by their number: \"dirichlet\", \"dirichlet:NAME\", \"neumann\", "
+     "\"neumann:NAME\", \"crack\", \"crack:NAME\", \"free\", \"free:NAME\", \"inclusion:NAME\", "
+     "\"delaminated:NAME\" or \"glue\""},
     {"surface", structure, "{ TAG = \"name\" }"_form,
      "the names of subdomains by the number of their physical surface"},
 };
@@ -381,6 +382,10 @@ constexpr Keys probe_keys{v1::Probe::descriptor, {probe_rows}};
 constexpr Key output_rows[] = {
     {"fields", structure, "true or false"_form,
      "true: u on every node is kept, for figures of the membrane and export", "false"_absent},
+    {"balanced_flux", structure, "true or false"_form,
+     "true: the flux from which bounds are made is kept, which is in equilibrium with the load on "
+     "every triangle",
+     "false"_absent},
     {"bounds", structure, "true or false"_form,
      "false: answers have no bounds of their errors; many small loads take a third less time",
      "true"_absent},

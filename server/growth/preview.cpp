@@ -116,6 +116,15 @@ Preview::Place Preview::find_place(const Front& front, std::size_t position) con
   // The plus side is on the left of the interface.
   const Point& t = result.course.ahead;
   result.course.normal = front.forward ? Point{-t[1], t[0]} : Point{t[1], -t[0]};
+  // Towards the end of a path that holds the mesh is graded: edges at the end are too short for G.
+  const double shortest = result.edge;
+  if (front.forward ? here == stretch.last && stretch.holds_beyond
+                    : here == stretch.first && stretch.holds_before)
+    for (std::size_t i = stretch.first; i < stretch.last; ++i) {
+      const double edge = distance(node(i), node(i + 1));
+      const double far = distance(node(front.forward ? i : i + 1), node(here));
+      if (far <= radius * edge) result.edge = std::max(result.edge, edge);
+    }
   const std::size_t own = std::min(here, behind);
   result.inclusion = line.inclusion[own];
   if (const auto contacts = contacts_at(stretch, behind); !contacts.empty())
@@ -153,6 +162,7 @@ Preview::Place Preview::find_place(const Front& front, std::size_t position) con
   }
   std::ranges::sort(around.edges);
   take_surroundings(result, std::move(around));
+  result.edge = std::clamp(result.radius / radius, shortest, result.edge);
   return result;
 }
 

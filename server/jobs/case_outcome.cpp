@@ -75,16 +75,16 @@ Error error_of(const std::exception_ptr& failure) {
 }
 
 CaseOutcome solved_case(const Task& task, const contact::Answer& answer,
-                        const std::vector<contact::Sample>& history,
-                        std::vector<double> indicator) {
+                        const std::vector<contact::Sample>& history, std::vector<double> indicator,
+                        const std::vector<double>& balanced_flux) {
   auto record = new_record(task, answer.status);
   record->answer = answer;  // only the summary, without the arrays
   CaseOutcome outcome{std::move(record)};
   if (answer.status != Status::cancelled)
-    outcome.result =
-        spooled(*task.job->spool,
-                case_arrays(task.index, answer, history,
-                            task.job->spec->indicators ? indicator : std::vector<double>()));
+    outcome.result = spooled(
+        *task.job->spool,
+        case_arrays(task.index, answer, history,
+                    task.job->spec->indicators ? indicator : std::vector<double>(), balanced_flux));
   if (task.job->stages) outcome.indicator = std::move(indicator);
   return outcome;
 }

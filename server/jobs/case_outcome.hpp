@@ -69,7 +69,8 @@ class Recorder final : public History {
 /// answer go into the job's spool.
 CaseOutcome solved_case(const Task& task, const contact::Answer& answer,
                         const std::vector<contact::Sample>& history,
-                        std::vector<double> indicator = {});
+                        std::vector<double> indicator = {},
+                        const std::vector<double>& balanced_flux = {});
 /// Any exception as an error.
 errors::Error error_of(const std::exception_ptr& failure);
 

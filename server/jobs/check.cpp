@@ -78,6 +78,19 @@ void check_unit(const std::string& unit, const char* field) {
   }
 }
 
+void check_balanced_flux(const records::JobSpec& spec) {
+  if (!spec.sweep && !spec.growth && !spec.without_bounds &&
+      std::holds_alternative<contact::ActiveSetOptions>(spec.solver))
+    return;
+  throw Error(Reason::invalid_argument,
+              "the balanced flux is that of bounds, which {}: leave it out",
+              spec.sweep            ? "rows of a sweep do not keep"
+              : spec.growth         ? "growth does not have"
+              : spec.without_bounds ? "are not wanted here"
+                                    : "Algorithm 2 does not have")
+      .at("outputs");
+}
+
 }  // namespace
 
 void check(const records::JobSpec& spec, const EngineOptions& options) {
@@ -87,6 +100,7 @@ void check(const records::JobSpec& spec, const EngineOptions& options) {
     check_count(spec.loads.size(), options);
   if (spec.accuracy) check_accuracy(spec);
   if (spec.growth) check_growth(spec, options);
+  if (spec.balanced_flux) check_balanced_flux(spec);
   if (spec.units) {
     check_unit(spec.units->length, "units.length");
     check_unit(spec.units->force, "units.force");

@@ -23,7 +23,7 @@ namespace {
 struct Solved {
   contact::Answer answer;
   std::vector<contact::Sample> history;
-  std::vector<double> indicator;
+  std::vector<double> indicator, balanced_flux;
   std::exception_ptr failure;
 };
 
@@ -128,6 +128,7 @@ void add_bounds(const std::vector<PreparedCase>& cases, std::vector<Solved>& sol
       if (accuracy->displacement || accuracy->displacement_estimated)
         one.of_largest = accuracy->largest;
     }
+    one.keep_flux = spec_of(cases[i]).balanced_flux;
     estimates.push_back(std::move(one));
     of_estimates.push_back(&solved[i]);
   }
@@ -139,6 +140,7 @@ void add_bounds(const std::vector<PreparedCase>& cases, std::vector<Solved>& sol
   for (std::size_t i = 0; i < estimates.size(); ++i) {
     of_estimates[i]->failure = estimates[i].failure;
     of_estimates[i]->indicator = std::move(estimates[i].indicator);
+    of_estimates[i]->balanced_flux = std::move(estimates[i].balanced_flux);
   }
 }
 
@@ -180,10 +182,11 @@ std::vector<EndedCase> solve_exactly(const std::vector<PreparedCase>& cases,
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const Task& task = cases[i].task;
     try {
-      ended.push_back({task, solved[i].failure
-                                 ? failed_case(task, solved[i].failure)
-                                 : solved_case(task, solved[i].answer, solved[i].history,
-                                               std::move(solved[i].indicator))});
+      ended.push_back(
+          {task, solved[i].failure
+                     ? failed_case(task, solved[i].failure)
+                     : solved_case(task, solved[i].answer, solved[i].history,
+                                   std::move(solved[i].indicator), solved[i].balanced_flux)});
     } catch (...) {
       ended.push_back({task, failed_case(task, std::current_exception())});
     }

@@ -61,13 +61,17 @@ std::uint64_t answer_bytes(const records::JobSpec& spec,
 
 records::Block case_arrays(std::size_t index, const contact::Answer& answer,
                            const std::vector<contact::Sample>& history,
-                           const std::vector<double>& indicator) {
+                           const std::vector<double>& indicator,
+                           const std::vector<double>& balanced_flux) {
   BlockBuilder builder;
   add_traces(builder, arrays::load_traces(index), answer.traces);
   add_history(builder, arrays::load_history(index), history);
   for (std::size_t i = 0; i < answer.fields.size(); ++i)
     builder.add(fmt::format("{}{}", arrays::load_fields(index), i), answer.fields[i].u);
   if (!indicator.empty()) builder.add(arrays::load_folder(index) + "indicator", indicator);
+  if (!balanced_flux.empty())
+    builder.add(arrays::load_folder(index) + "balanced_flux", balanced_flux,
+                {balanced_flux.size() / 3, 3});
   return builder.take();
 }
 
@@ -100,7 +104,7 @@ void require_result_arrays(const records::JobSpec& spec, std::uint64_t interface
     const std::uint64_t fields = spec.fields ? subdomains : 0;
     count += rows_of(arrays::subdomain<Subdomain>) * fields +
              spec.loads.size() * (traces + rows_of(arrays::history<contact::Sample>) + fields +
-                                  (spec.indicators ? 1 : 0));
+                                  (spec.indicators ? 1 : 0) + (spec.balanced_flux ? 1 : 0));
   }
   if (count > max_arrays) {
     throw errors::Error(errors::Reason::limit_exceeded,

@@ -19,11 +19,12 @@ struct Sample;
 
 namespace anticrack::jobs {
 
-/// Traces, history, fields and indicator (may be empty) of a load case; the arrays' names have the
-/// index of the case.
+/// Traces, history, fields, indicator and flux (may be empty) of a load case; the arrays' names
+/// have the index of the case.
 records::Block case_arrays(std::size_t index, const contact::Answer& answer,
                            const std::vector<contact::Sample>& history,
-                           const std::vector<double>& indicator = {});
+                           const std::vector<double>& indicator = {},
+                           const std::vector<double>& balanced_flux = {});
 
 /// The arrays of ReadResult for the cases that have an answer, in their order; null if none has.
 /// Throws errors::Error (storage).

@@ -55,11 +55,13 @@ std::string quoted(const std::string& text) {
 void check_curve_group(const std::string& name, const std::string& field) {
   for (const char* whole : {"dirichlet", "neumann", "crack", "free", "glue"})
     if (name == whole) return;
-  for (const std::string prefix : {"crack:", "free:", "inclusion:", "delaminated:"})
+  for (const std::string prefix :
+       {"dirichlet:", "neumann:", "crack:", "free:", "inclusion:", "delaminated:"})
     if (name.starts_with(prefix) && valid_name(name.substr(prefix.size()))) return;
   refuse_option(field, field + " is " + quoted(name) +
-                           "; a curve is dirichlet, neumann, glue, crack, crack:NAME, free, "
-                           "free:NAME, inclusion:NAME or delaminated:NAME, NAME being " +
+                           "; a curve is dirichlet, dirichlet:NAME, neumann, neumann:NAME, glue, "
+                           "crack, crack:NAME, free, free:NAME, inclusion:NAME or "
+                           "delaminated:NAME, NAME being " +
                            std::string(name_rule));
 }
 

@@ -47,8 +47,9 @@ struct Interface {
 };
 ANTICRACK_FIELDS(Interface, name, nodes, kind, inclusion)
 
-/// A side or hole of the boundary, by its nodes: the edges from `first` to `last`, with the
-/// membrane on their left. first == last: all of a closed curve. Bisection keeps these nodes.
+/// A side or hole of the boundary, or a run of a named group, by its nodes: the edges from `first`
+/// to `last`, with the membrane on their left. first == last: all of a closed curve. Bisection
+/// keeps these nodes.
 struct BoundaryPart {
   std::string name;
   std::int32_t first = 0, last = 0;
@@ -77,7 +78,7 @@ struct Mesh {
   std::vector<Bend> bends;                             ///< what is left of the curves of a geometry
   std::vector<BentEdge> bent;     ///< for the mesher: edges beside these, see refine_uniform
   std::vector<ChordEdge> chords;  ///< edges on chords of curves
-  std::vector<BoundaryPart> boundary_parts;  ///< of a geometry; an uploaded mesh has no names
+  std::vector<BoundaryPart> boundary_parts;  ///< what has none is called "boundary"
   /// Lower bound, in degrees, of the angles of any bisection of the unrefined mesh. 0: not refined.
   double bisection_bound = 0;
 

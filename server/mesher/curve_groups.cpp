@@ -13,8 +13,8 @@ namespace anticrack::mesher {
 namespace {
 
 constexpr const char* choices =
-    "dirichlet, neumann, glue, crack, crack:NAME, free, free:NAME, inclusion:NAME or "
-    "delaminated:NAME";
+    "dirichlet, dirichlet:NAME, neumann, neumann:NAME, glue, crack, crack:NAME, free, free:NAME, "
+    "inclusion:NAME or delaminated:NAME";
 
 struct Keyword {
   std::string_view word;
@@ -22,8 +22,8 @@ struct Keyword {
   bool alone;  ///< whether it may stand without a name
   bool named;  ///< whether it may have a name
 };
-constexpr Keyword keywords[] = {{"dirichlet", CurveRole::dirichlet, true, false},
-                                {"neumann", CurveRole::neumann, true, false},
+constexpr Keyword keywords[] = {{"dirichlet", CurveRole::dirichlet, true, true},
+                                {"neumann", CurveRole::neumann, true, true},
                                 {"glue", CurveRole::glue, true, false},
                                 {"crack", CurveRole::crack, true, true},
                                 {"free", CurveRole::free, true, true},
@@ -48,7 +48,7 @@ std::string_view trimmed(std::string_view text) {
 void check_names(const std::map<std::int32_t, CurveGroup>& groups) {
   std::map<std::string, bool> is_crack;
   for (const auto& [tag, group] : groups) {
-    if (!group.meaning || group.meaning->name.empty()) continue;
+    if (!group.meaning || group.meaning->name.empty() || of_boundary(group.meaning->role)) continue;
     const bool crack = !is_rigid(group.meaning->role);
     if (is_crack.emplace(group.meaning->name, crack).first->second == crack) continue;
     refuse("\"{}\" is the name of a crack and of an inclusion; give each its own name",
@@ -63,10 +63,13 @@ std::string title_of(std::int32_t tag, bool physical, const std::string& name) {
 }
 
 CurveGroup named_by_file(std::int32_t tag, bool physical, const std::string& name) {
-  CurveGroup group{tag, title_of(tag, physical, name), std::nullopt};
+  CurveGroup group{tag, title_of(tag, physical, name), {}, {}};
   ReadMeaning read = read_meaning(name);
   if (!read.fault.empty()) refuse("{} {}", group.title, read.fault);
   group.meaning = std::move(read.meaning);
+  if (group.meaning || !physical) return group;
+  group.part = mesh::valid_name(name) ? name : fmt::format("group-{}", tag);
+  group.renamed = !name.empty() && group.part != name;
   return group;
 }
 

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <functional>
+#include <set>
 #include <tuple>
 #include <utility>
 
+#include "mesh/names.hpp"
 #include "mesher/messages.hpp"
 
 namespace anticrack::mesher {
@@ -44,7 +46,11 @@ std::vector<Mark> sorted_marks(std::span<const CurveEdge> lines) {
 
 /// The meaning that includes both, or null.
 const CurveMeaning* agree(const CurveMeaning& a, const CurveMeaning& b) {
-  if (a.role == b.role) return !is_rigid(a.role) || a.name == b.name ? &a : nullptr;
+  if (a.role == b.role) {
+    if (of_boundary(a.role) && b.name.empty()) return &a;
+    if (of_boundary(a.role) && a.name.empty()) return &b;
+    return !(is_rigid(a.role) || of_boundary(a.role)) || a.name == b.name ? &a : nullptr;
+  }
   if (a.name != b.name) return nullptr;
   if (a.role == CurveRole::delaminated && b.role == CurveRole::inclusion) return &a;
   if (b.role == CurveRole::delaminated && a.role == CurveRole::inclusion) return &b;
@@ -140,7 +146,7 @@ class Reading {
     const CurveGroup* group = deciding(_mesh, marks);
     if (group != nullptr) {
       check_place(uses, side, *group);
-      take(uses, side, *group->meaning);
+      take(uses, side, *group->meaning, marks);
       return;
     }
     const DoubledEdge* doubled = _welding.find(uses[0].low(), uses[0].high());
@@ -150,7 +156,7 @@ class Reading {
     const bool plain = assumed == Assumed::glue && marks.empty() && _any_meaning;
     if (!plain && marks.empty()) _assumptions.add(assumed, uses[0].low());
     for (const Mark& mark : marks) _assumptions.add(*mark.group, assumed);
-    take(uses, side, meaning_of(assumed));
+    take(uses, side, meaning_of(assumed), marks);
   }
 
   Assumed assume(Side side, const DoubledEdge* doubled, bool bare) const {
@@ -170,10 +176,9 @@ class Reading {
 
   void check_place(Uses uses, Side side, const CurveGroup& group) const {
     const CurveRole role = group.meaning->role;
-    const bool for_boundary = role == CurveRole::dirichlet || role == CurveRole::neumann;
-    if (for_boundary == (side == Side::boundary)) return;
+    if (of_boundary(role) == (side == Side::boundary)) return;
     const std::string edge = edge_of(_mesh, uses[0].from, uses[0].to) + " of " + group.title;
-    if (for_boundary) {
+    if (of_boundary(role)) {
       refuse(
           "{} lies inside the membrane, but its name is for the boundary (call it \"crack\", or "
           "\"free\" if its faces never touch)",
@@ -185,9 +190,30 @@ class Reading {
         edge, role == CurveRole::free ? ": one that is free is \"neumann\"" : "");
   }
 
-  void take(Uses uses, Side side, const CurveMeaning& meaning) {
+  /// The name of an edge of the boundary, empty for none.
+  const std::string& part_of(const CurveMeaning& meaning, std::span<const Mark> marks) {
+    const CurveGroup* first = nullptr;
+    for (const auto& [low, high, group] : marks) {
+      if (!meaning.name.empty() || group->part.empty()) continue;
+      if (first == nullptr) first = group;
+      if (group->part == first->part || !_shared.emplace(first->tag, group->tag).second) continue;
+      _mesh.warnings.push_back(
+          fmt::format("{} is in {} and in {}: answers count its force for {} alone",
+                      edge_of(_mesh, low, high), first->title, group->title, first->part));
+    }
+    if (first == nullptr) return meaning.name;
+    if (first->renamed && _shared.emplace(first->tag, first->tag).second)
+      _mesh.warnings.push_back(fmt::format("{} is {} in answers: a name there is {}", first->title,
+                                           first->part, mesh::name_rule));
+    return first->part;
+  }
+
+  void take(Uses uses, Side side, const CurveMeaning& meaning, std::span<const Mark> marks) {
     const EdgeUse& use = uses[0];
     if (meaning.role == CurveRole::dirichlet) _roles.dirichlet.push_back({use.from, use.to});
+    if (side == Side::boundary)
+      if (const std::string& part = part_of(meaning, marks); !part.empty())
+        _roles.named.push_back({use.from, use.to, part});
     // glue inside a subdomain changes nothing
     const bool nothing = side == Side::inside && meaning.role == CurveRole::glue;
     if (side == Side::boundary || nothing) return;
@@ -201,6 +227,7 @@ class Reading {
   Mesh& _mesh;
   bool _any_meaning = false;
   bool _any_dirichlet = false;
+  std::set<std::pair<std::int32_t, std::int32_t>> _shared;  ///< tags of groups with common edges
   EdgeRoles _roles;
   Assumptions _assumptions;
 };

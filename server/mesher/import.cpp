@@ -245,6 +245,7 @@ Mesh to_mesh(const MshFile& file, const mesh::MeshOptions& options) {
   take_interfaces(roles, edges.boundary_nodes(mesh.node_count()), directed, mesh);
   take_motions(options.inclusion_motions, mesh);
   mesh.dirichlet = std::move(roles.dirichlet);
+  mesh.boundary_parts = boundary_parts(roles.named, edges, mesh);
   check_contacts(edges, mesh);
   shorten(mesh.warnings);
   mesh::validate(mesh);

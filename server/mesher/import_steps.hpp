@@ -47,9 +47,14 @@ constexpr bool is_rigid(CurveRole role) noexcept {
   return role == CurveRole::inclusion || role == CurveRole::delaminated;
 }
 
+/// Whether the role is that of a part of the boundary.
+constexpr bool of_boundary(CurveRole role) noexcept {
+  return role == CurveRole::dirichlet || role == CurveRole::neumann;
+}
+
 struct CurveMeaning {
   CurveRole role = CurveRole::glue;
-  std::string name;  ///< name of the inclusion or crack, else empty
+  std::string name;  ///< of the inclusion, crack or part of the boundary, or empty
 };
 
 /// A text read as a keyword. If there is neither a meaning nor a fault, the text is no keyword.
@@ -57,14 +62,18 @@ struct ReadMeaning {
   std::optional<CurveMeaning> meaning;
   std::string fault;  ///< not empty: what is wrong with the NAME of a keyword
 };
-/// Reads dirichlet, neumann, glue, crack, crack:NAME, free, free:NAME, inclusion:NAME or
-/// delaminated:NAME, in upper or lower case, with or without blanks around the words.
+/// Reads dirichlet, dirichlet:NAME, neumann, neumann:NAME, glue, crack, crack:NAME, free,
+/// free:NAME, inclusion:NAME or delaminated:NAME, in upper or lower case, with or without blanks
+/// around the words.
 ReadMeaning read_meaning(const std::string& text);
 
 struct CurveGroup {
   std::int32_t tag = 0;
   std::string title;                    ///< for messages: curve group 7 "gamma_c"
   std::optional<CurveMeaning> meaning;  ///< none: the surroundings decide
+  std::string part;      ///< the file's name, on the boundary; "group-7" where that is no name;
+                         ///< empty: a keyword, or no physical group
+  bool renamed = false;  ///< `part` is another name than the file's
 };
 
 struct CurveGroups {
@@ -143,25 +152,40 @@ struct InterfaceEdge {
   CurveMeaning meaning;  ///< neither dirichlet nor neumann
 };
 
+/// An edge of the boundary, the membrane on its left.
+struct BoundaryEdge {
+  std::int32_t from = 0;
+  std::int32_t to = 0;
+  std::string part;  ///< a name; edges without one are left out
+};
+
 struct EdgeRoles {
   std::vector<std::array<std::int32_t, 2>> dirichlet;
+  std::vector<BoundaryEdge> named;        ///< by (low, high)
   std::vector<InterfaceEdge> interfaces;  ///< by (low, high)
 };
 
 /// Groups with a meaning decide. Several groups must agree: names that are not keywords do not
 /// count, inclusion:NAME with delaminated:NAME gives delaminated:NAME, any two cracks agree, as do
-/// any two free ones.
+/// any two free ones; of the boundary one with a NAME and one without.
 /// Without a meaning the surroundings decide:
 ///   - on the boundary: dirichlet if the edge is in a group or no boundary edge is; else neumann;
 ///   - on doubled nodes: crack, unless both sides were meshed separately;
 ///   - between two subdomains: glue;
 ///   - inside a subdomain: nothing, as for glue.
 /// mesh.warnings lists these decisions, except glue of edges in no group if the file gives any
-/// curve a meaning. `mesh` has its nodes, triangles and subdomains. Throws errors::Error
-/// (mesh_invalid): an edge with two meanings or one that does not fit its place, a line with a
-/// meaning that is not an edge, no dirichlet edge. O(m log m).
+/// curve a meaning. An edge of the boundary has the NAME of its meaning, else the name of its
+/// group, of several the first by tag, which is warned of. `mesh` has its nodes, triangles and
+/// subdomains. Throws errors::Error (mesh_invalid): an edge with two meanings or one that does not
+/// fit its place, a line with a meaning that is not an edge, no dirichlet edge. O(m log m).
 EdgeRoles read_edges(const mesh::EdgeTable& edges, std::span<const CurveEdge> lines,
                      const CurveGroups& groups, const Welding& welding, mesh::Mesh& mesh);
+
+/// The named edges of the boundary as parts, of which several may have one name. Without a name,
+/// with a warning, remain parts that begin where the boundary touches itself, and all if they have
+/// more than a thousand names. O(e log e) for e edges.
+std::vector<mesh::BoundaryPart> boundary_parts(std::span<const BoundaryEdge> named,
+                                               const mesh::EdgeTable& edges, mesh::Mesh& mesh);
 
 // Joins the edges of interfaces to chains and finds their plus sides.
 

@@ -47,7 +47,7 @@ class Names {
 
   Key key(const Edge& edge, bool free) {
     const auto found = _of.find(edge[0]);
-    return {found != _of.end() ? found->second : place_of(free ? "neumann" : "dirichlet"), free};
+    return {found != _of.end() ? found->second : place_of("boundary"), free};
   }
   const std::string& operator[](std::size_t place) const { return _all[place]; }
 

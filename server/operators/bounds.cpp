@@ -49,6 +49,29 @@ struct Material {
   double parts_energy = 0;
 };
 
+/// The fluxes of sigma through the sides of the mesh's triangles.
+std::vector<double> through_sides(const MeshOperator::Parts& parts, const estimate::CutMesh& cut,
+                                  const estimate::EquilibratedFlux& flux, const Material& of) {
+  std::vector<double> result(3 * cut.triangle_count());
+  const std::vector<ddm::Subdomain>& subdomains = parts.decomposition.subdomains;
+  for (std::size_t s = 0; s < subdomains.size(); ++s)
+    for (std::size_t t = at(cut.first_triangle[s]); t < at(cut.first_triangle[s + 1]); ++t) {
+      const double* f = of.balance.force.empty() ? nullptr : &of.balance.force[3 * t];
+      const double mean = f == nullptr ? 0 : (f[0] + f[1] + f[2]) / 3;
+      const estimate::Vector off = flux.mean_difference(t);
+      const std::int32_t* corner = &parts.mesh->triangles[3 * at(cut.triangle[t])];
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t side = 3 * t + i;
+        const std::int32_t node = subdomains[s].node[at(cut.copy[side] - cut.first_copy[s])];
+        const auto place = static_cast<std::size_t>(std::find(corner, corner + 2, node) - corner);
+        const estimate::Vector normal = flux.normal_of(side);
+        result[3 * at(cut.triangle[t]) + place] =
+            flux.flux_through(side, of.u) + off[0] * normal[0] + off[1] * normal[1] - mean;
+      }
+    }
+  return result;
+}
+
 void find_bounds(const MeshOperator::Parts& parts, const estimate::CutMesh& cut,
                  std::span<const Material> materials) {
   std::vector<estimate::Balance> balances;
@@ -83,6 +106,7 @@ void find_bounds(const MeshOperator::Parts& parts, const estimate::CutMesh& cut,
       answer.energy_geometry_error =
           estimate::chord_gap(cut, parts.decomposition.subdomains, balance, {u, across});
     }
+    if (of.keep_flux) of.balanced_flux = through_sides(parts, cut, fluxes[i], materials[i]);
     of.indicator.resize(bracket.indicator.size());
     for (std::size_t t = 0; t < bracket.indicator.size(); ++t)
       of.indicator[at(cut.triangle[t])] = bracket.indicator[t];
@@ -117,8 +141,10 @@ void MeshOperator::estimate(std::span<Estimate> all) const {
   const stop::Scope scope([all](const stop::Look&) {
     return std::ranges::all_of(all, [](const Estimate& one) { return one.stop.stop_requested(); });
   });
+  const auto kept = static_cast<std::size_t>(std::ranges::count(all, true, &Estimate::keep_flux));
   const Working counted(_parts->at_work,
-                        all.size() * _parts->mesh->triangle_count() * bytes_per_triangle_and_load);
+                        _parts->mesh->triangle_count() *
+                            (all.size() * bytes_per_triangle_and_load + kept * 3 * sizeof(double)));
   const estimate::CutMesh& cut = _parts->cut_mesh();
   std::vector<Material> materials;
   for (Estimate& one : all) {

@@ -88,7 +88,11 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
     /// If given, the indicator has the parts of the triangles in the half widths of the bounds of
     /// A, each over |A|; or, if true, over the largest |A|. Without such bounds it is as above.
     std::optional<bool> of_largest{};
+    bool keep_flux = false;
     std::vector<double> indicator{};
+    /// If it is to be kept and there are bounds: the flux of sigma out of each triangle of the mesh
+    /// through the side opposite to each corner, shape (m,3). A row sums to -int f.
+    std::vector<double> balanced_flux{};
     std::exception_ptr failure{};
   };
   /// The same for several answers at once, which is faster; the bits of each are as if it were

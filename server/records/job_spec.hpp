@@ -79,6 +79,7 @@ struct JobSpec {
   contact::SolverOptions solver;
   bool fields = false;
   bool indicators = false;                 ///< keep indicators of the error per triangle
+  bool balanced_flux = false;              ///< keep the flux behind the bounds
   bool without_bounds = false;             ///< answers have no bounds of their errors
   std::optional<SweepSpec> sweep{};        ///< loads are its basis
   std::optional<AccuracySpec> accuracy{};  ///< solved in stages
@@ -89,7 +90,8 @@ struct JobSpec {
   std::chrono::milliseconds queue_time_limit{0};  ///< from creation to start; 0: the server's limit
   std::chrono::milliseconds run_time_limit{0};    ///< from start to end; 0: the server's limit
 };
-ANTICRACK_FIELDS(JobSpec, title, mesh, loads, solver, fields, indicators, without_bounds, sweep,
-                 accuracy, growth, units, probes, priority, queue_time_limit, run_time_limit)
+ANTICRACK_FIELDS(JobSpec, title, mesh, loads, solver, fields, indicators, balanced_flux,
+                 without_bounds, sweep, accuracy, growth, units, probes, priority, queue_time_limit,
+                 run_time_limit)
 
 }  // namespace anticrack::records

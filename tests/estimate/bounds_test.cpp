@@ -9,10 +9,13 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "estimate/solved.hpp"
@@ -285,6 +288,34 @@ std::vector<double> bounds_of(const contact::Answer& answer) {
   return bounds;
 }
 
+/// Expects that what leaves a triangle is the load on it, and enters its neighbour unless an
+/// interface lies between them. `force` (m), `flux` (m,3).
+void expect_balance(const mesh::Mesh& mesh, const std::vector<double>& force,
+                    const std::vector<double>& flux) {
+  double size = 0;
+  for (const double one : flux) size = std::max(size, std::abs(one));
+  for (std::size_t t = 0; t < force.size(); ++t)
+    EXPECT_NEAR(flux[3 * t] + flux[3 * t + 1] + flux[3 * t + 2], -force[t] * mesh::area(mesh, t),
+                1e-10 * size);
+  std::set<std::pair<std::int32_t, std::int32_t>> cut;
+  for (const mesh::Interface& line : mesh.interfaces)
+    for (std::size_t k = 0; k < line.kind.size(); ++k)
+      if (line.kind[k] != mesh::Kind::glue)
+        cut.insert(std::minmax(line.nodes[k], line.nodes[k + 1]));
+  std::map<std::pair<std::int32_t, std::int32_t>, std::vector<double>> through;
+  for (std::size_t side = 0; side < flux.size(); ++side) {
+    const std::size_t first = side - side % 3;
+    through[std::minmax(mesh.triangles[first + (side + 1) % 3],
+                        mesh.triangles[first + (side + 2) % 3])]
+        .push_back(flux[side]);
+  }
+  for (const auto& [edge, two] : through) {
+    if (two.size() == 2 && !cut.contains(edge)) {
+      EXPECT_NEAR(two[0], -two[1], 1e-10 * size);
+    }
+  }
+}
+
 /// How many of a random membrane have bounds, alone and with others the same.
 int compare_alone(unsigned seed, const Variant& variant) {
   SCOPED_TRACE("seed " + std::to_string(seed));
@@ -296,11 +327,13 @@ int compare_alone(unsigned seed, const Variant& variant) {
                                                      {}, variant.condensed_up_to);
   std::vector<operators::PreparedLoad> loads;
   std::vector<contact::Answer> alone;
+  std::vector<std::vector<double>> forces;
   testing::Silent silent;
   while (loads.size() < count) {
     const Random random = random_load(membrane, mesh);
     fem::Load load = random.load;
     load.force = fem::Array{"", true, std::make_shared<const std::vector<double>>(random.force)};
+    forces.push_back(random.force);
     if (loads.size() % 2 == 1) load.boundary_value = "sin(3*x)*y";  // not linear along edges
     const fem::Load* const one[] = {&load};
     const auto prepared = std::move(op->prepare(one).front());
@@ -310,13 +343,18 @@ int compare_alone(unsigned seed, const Variant& variant) {
   }
   std::vector<contact::Answer> together = alone;
   std::vector<operators::MeshOperator::Estimate> all;
-  for (std::size_t i = 0; i < count; ++i) all.push_back({&loads[i], &together[i], {}});
+  for (std::size_t i = 0; i < count; ++i) {
+    all.push_back({&loads[i], &together[i], {}});
+    all.back().keep_flux = true;
+  }
   op->estimate(all);
   int bounded = 0;
   for (std::size_t i = 0; i < count; ++i) {
     EXPECT_FALSE(all[i].failure);
     EXPECT_EQ(op->estimate(loads[i], alone[i]), all[i].indicator);
     EXPECT_EQ(alone[i].no_bracket, together[i].no_bracket);
+    EXPECT_EQ(all[i].balanced_flux.empty(), !alone[i].energy_lower);
+    if (!all[i].balanced_flux.empty()) expect_balance(mesh, forces[i], all[i].balanced_flux);
     EXPECT_EQ(bounds_of(alone[i]), bounds_of(together[i]));
     bounded += alone[i].energy_lower ? 1 : 0;
   }

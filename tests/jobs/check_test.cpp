@@ -53,6 +53,20 @@ class Check : public ::testing::Test {
   EngineOptions options;
 };
 
+TEST_F(Check, TheBalancedFluxIsThatOfBounds) {
+  JobSpec spec = good();
+  spec.balanced_flux = true;
+  EXPECT_NO_THROW(check(spec, options));
+  const auto bad = [](const auto& spoil) {
+    return [spoil](JobSpec& spec) {
+      spec.balanced_flux = true;
+      spoil(spec);
+    };
+  };
+  EXPECT_TRUE(refuses(bad([](JobSpec& spec) { spec.without_bounds = true; }), "outputs"));
+  EXPECT_TRUE(refuses(bad([](JobSpec& spec) { uzawa(spec); }), "outputs"));
+}
+
 TEST_F(Check, CountsTheBytesOfAJob) {
   JobSpec spec = good();
   const std::uint64_t before = fields::bytes_of(spec);

@@ -108,7 +108,7 @@ TEST(MeshOptions, OfAnUploadAreChecked) {
   refused({.align = {{{0, 0}, {1, 0}}}}, "options.align");
   refused({.chord_angle = 5}, "options.chord_angle");
   for (const char* name :
-       {"", "fibre", "inclusion", "inclusion:", "crack:1", "free:", "delaminated:a b"}) {
+       {"", "fibre", "dirichlet:", "neumann:a b", "inclusion", "inclusion:", "crack:1", "free:", "delaminated:a b"}) {
     refused({.curve_groups = {{3, name}}}, "options.curve_groups[3]");
   }
   refused({.surface_groups = {{-7, "a/b"}}}, "options.surface_groups[-7]");
@@ -126,7 +126,9 @@ TEST(MeshOptions, OfAnUploadAreChecked) {
                                                            {6, "delaminated:a"},
                                                            {7, "glue"},
                                                            {8, "free"},
-                                                           {9, "free:f"}},
+                                                           {9, "free:f"},
+                                                           {10, "dirichlet:a"},
+                                                           {11, "neumann:b"}},
                                           .surface_groups = {{1, "left"}},
                                           .tension = {{"left", 2}},
                                           .inclusion_motions = {{"a", {true, {}}}}}));

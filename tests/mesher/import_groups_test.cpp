@@ -156,9 +156,11 @@ TEST(ImportGroups, AMapThatDoesNotFitIsRefused) {
   EXPECT_THAT(fault(options, "options.curve_groups[7]"),
               HasSubstr("the file has no curve group 7; its curve groups are 3, 4"));
   options.curve_groups = {{4, "fissure"}};
-  EXPECT_THAT(fault(options, "options.curve_groups[4]"),
-              AllOf(HasSubstr("curve group 4 is given as \"fissure\"; choose dirichlet, neumann"),
-                    HasSubstr("delaminated:NAME")));
+  EXPECT_THAT(
+      fault(options, "options.curve_groups[4]"),
+      AllOf(HasSubstr(
+                "curve group 4 is given as \"fissure\"; choose dirichlet, dirichlet:NAME, neumann"),
+            HasSubstr("delaminated:NAME")));
   options.curve_groups = {{4, "inclusion"}};
   EXPECT_THAT(fault(options, "options.curve_groups[4]"),
               HasSubstr("which takes a name, \"inclusion:NAME\""));
@@ -330,6 +332,107 @@ TEST(ImportGroups, KeywordsInsideOneSubdomainAreSlits) {
   mesh = import_sample(sample);
   EXPECT_THAT(mesh.interfaces, IsEmpty());
   EXPECT_THAT(mesh.warnings, IsEmpty());
+}
+
+/// Parts of the boundary as NAME: points.
+std::map<std::string, Points> parts_of(const Mesh& mesh) {
+  std::map<std::string, Points> parts;
+  for (const mesh::BoundaryPart& part : mesh.boundary_parts)
+    parts[part.name] = {testing::point_of(mesh, part.first), testing::point_of(mesh, part.last)};
+  EXPECT_EQ(parts.size(), mesh.boundary_parts.size());
+  return parts;
+}
+
+/// The square with lines of its own on each side, in the groups 5 to 8 of these names.
+MshSample square_with_sides(const std::array<std::string, 4>& names) {
+  MshSample sample = square_sample();
+  std::erase_if(sample.lines, [](const testing::MshLine& line) { return line.group == 3; });
+  std::erase_if(sample.names, [](const testing::MshName& name) { return name.tag == 3; });
+  const Points corners{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, -1}};
+  for (std::size_t side = 0; side < 4; ++side) {
+    Points line;
+    for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0})
+      line.push_back({std::lerp(corners[side][0], corners[side + 1][0], t),
+                      std::lerp(corners[side][1], corners[side + 1][1], t)});
+    if (side % 2 == 1) std::reverse(line.begin(), line.end());  // as a file may have them
+    add_lines(sample, line, 5 + static_cast<int>(side), names[side]);
+  }
+  return sample;
+}
+
+TEST(ImportGroups, PartsOfTheBoundaryHaveTheNamesOfTheirGroups) {
+  MeshOptions options;
+  options.curve_groups = {{6, "neumann"}, {7, "neumann:above"}};
+  const Mesh mesh =
+      import_sample(square_with_sides({"dirichlet:foot", "right", "top", ""}), options);
+  EXPECT_THAT(parts_of(mesh),
+              ::testing::UnorderedElementsAre(Pair("foot", Points{{-1, -1}, {1, -1}}),
+                                              Pair("right", Points{{1, -1}, {1, 1}}),
+                                              Pair("above", Points{{1, 1}, {-1, 1}}),
+                                              Pair("group-8", Points{{-1, 1}, {-1, -1}})));
+  EXPECT_EQ(mesh.dirichlet.size(), 8U);
+  EXPECT_THAT(import_sample(square_with_sides({"dirichlet", "neumann", "", ""}),
+                            {.curve_groups = {{7, "dirichlet"}}})
+                  .boundary_parts,
+              ::testing::SizeIs(2));  // keywords are no names
+  MshSample bare = square_with_sides({"", "", "", ""});
+  testing::remove_groups(bare);
+  EXPECT_THAT(import_sample(bare).boundary_parts, IsEmpty());
+}
+
+TEST(ImportGroups, APartOfTheBoundaryMayBeARingOrInPieces) {
+  MshSample sample = square_sample();
+  rename(sample, 1, 3, "rim");
+  const std::vector<mesh::BoundaryPart> ring = import_sample(sample).boundary_parts;
+  ASSERT_EQ(ring.size(), 1U);
+  EXPECT_EQ(ring[0].name, "rim");
+  EXPECT_EQ(ring[0].first, ring[0].last);
+  const Mesh mesh = import_sample(square_with_sides({"ends", "long", "", ""}),
+                                  {.curve_groups = {{7, "dirichlet:ends"}, {8, "dirichlet:long"}}});
+  std::vector<std::string> names;
+  for (const mesh::BoundaryPart& part : mesh.boundary_parts) names.push_back(part.name);
+  EXPECT_THAT(names, ::testing::UnorderedElementsAre("ends", "long", "ends", "long"));
+}
+
+TEST(ImportGroups, NamesOfTheBoundaryThatCannotBeAreSaid) {
+  MshSample sample = square_with_sides({"a", "left side", "c", "d"});
+  add_lines(sample, {{-1, -1}, {-0.5, -1}}, 9, "corner");
+  Mesh mesh = import_sample(sample);
+  EXPECT_EQ(parts_of(mesh).count("group-6"), 1U);
+  EXPECT_EQ(parts_of(mesh).count("corner"), 0U);
+  EXPECT_THAT(mesh.warnings,
+              AllOf(Contains(HasSubstr("curve group 6 \"left side\" is group-6 in answers: a name "
+                                       "there is a letter")),
+                    Contains(HasSubstr("the edge (-1, -1)-(-0.5, -1) is in curve group 5 \"a\" and "
+                                       "in curve group 9 \"corner\": answers count its force for "
+                                       "a alone"))));
+  // a NAME of the boundary decides, but two do not go together
+  rename(sample, 1, 9, "dirichlet:corner");
+  EXPECT_EQ(parts_of(import_sample(sample)).at("corner"), (Points{{-1, -1}, {-0.5, -1}}));
+  rename(sample, 1, 5, "Dirichlet: foot");
+  const auto error = testing::error_of([&] { import_sample(sample); });
+  ASSERT_TRUE(error);
+  EXPECT_THAT(error->what(), HasSubstr("which do not go together"));
+}
+
+TEST(ImportGroups, WhereTheBoundaryTouchesItselfAPartHasNoName) {
+  MshSample sample = square_with_sides({"a", "b", "c", "d"});
+  // without the squares above and below (-0.5, 0) on the left, but for one corner
+  std::map<int, std::array<double, 3>> place;
+  for (std::size_t i = 0; i < sample.tags.size(); ++i) place[sample.tags[i]] = sample.points[i];
+  std::erase_if(sample.triangles, [&](const testing::MshTriangle& t) {
+    double x = 0, y = 0;
+    for (const int node : t.nodes) x += place[node][0] / 3, y += place[node][1] / 3;
+    return (x > -0.5 && x < 0 && y > -0.5 && y < 0) || (x > 0 && x < 0.5 && y > 0 && y < 0.5);
+  });
+  std::erase_if(sample.lines, [](const testing::MshLine& line) { return line.group == 4; });
+  add_lines(sample, {{-0.5, 0}, {-0.5, -0.5}, {0, -0.5}}, 9, "neumann:hole");
+  add_lines(sample, {{0, 0}, {0, 0.5}, {0.5, 0.5}}, 10, "neumann:other");
+  const Mesh mesh = import_sample(sample);
+  EXPECT_EQ(parts_of(mesh).at("hole"), (Points{{0, -0.5}, {-0.5, 0}}));
+  EXPECT_EQ(parts_of(mesh).count("other"), 0U);
+  EXPECT_THAT(mesh.warnings, Contains(HasSubstr("touches itself in a node: what begins there of "
+                                                "\"other\" counts as \"boundary\"")));
 }
 
 TEST(ImportGroups, CracksThatCrossEndInTheirCommonNode) {

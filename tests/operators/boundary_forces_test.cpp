@@ -106,6 +106,46 @@ TEST(BoundaryForces, BalanceTheLoadWhateverTheInterfacesAre) {
   }
 }
 
+TEST(BoundaryForces, BalanceWhatHoldsAnInclusion) {
+  mesh::Mesh mesh = named({.columns = 16, .rows = 8, .kind = {}, .inclusion = {}});
+  mesh.motions = {{false, 0.5}};
+  const contact::Answer answer = answer_of(mesh, loaded());
+  ASSERT_EQ(answer.inclusions.size(), 1U);
+  EXPECT_GT(std::abs(answer.inclusions[0].resultant), 0.1);
+  expect_balance(answer, applied);
+}
+
+TEST(BoundaryForces, HaveTheMomentsOfTheLoad) {
+  const mesh::Mesh mesh = named({.columns = 16,
+                                 .rows = 8,
+                                 .kind = [](double) { return mesh::Kind::glue; },
+                                 .inclusion = {},
+                                 .inclusions = {}});
+  const contact::Answer answer = answer_of(mesh, loaded());
+  double x = 0, y = 0;
+  for (const BoundaryAnswer& one : answer.boundary) {
+    x += one.moment_x + one.resultant * one.x;
+    y += one.moment_y + one.resultant * one.y;
+  }
+  // int grad u = int g_D n is what tension adds.
+  EXPECT_NEAR(x + 4.0 / 3 + 1.5 * 0.3, 1.2, 1e-10);
+  EXPECT_NEAR(y - 4 - 1.5 * 0.6, 0, 1e-10);
+}
+
+TEST(BoundaryForces, ShareACornerByTheLengthsOfItsEdges) {
+  mesh::Mesh mesh = named({.columns = 8,
+                           .rows = 3,
+                           .kind = [](double) { return mesh::Kind::glue; },
+                           .inclusion = {},
+                           .inclusions = {}});
+  fem::Load load;
+  load.point_forces = {{-1 + 1e-9, -1 + 1e-9, 7}};  // held by the corner alone
+  const contact::Answer answer = answer_of(mesh, load);
+  const double along_x = 2.0 / 8, along_y = 1.0 / 3;
+  EXPECT_NEAR(part(answer, "bottom", false).resultant, -7 * along_x / (along_x + along_y), 1e-6);
+  EXPECT_NEAR(part(answer, "left", false).resultant, -7 * along_y / (along_x + along_y), 1e-6);
+}
+
 TEST(BoundaryForces, BalanceTractionsTooAndUnderATensor) {
   mesh::Mesh mesh = named({.columns = 16, .rows = 8, .kind = {}, .inclusion = {}});
   mesh.tension_laws = {{"1 + x*x", "2", 30}, {"3", "", 0}};
@@ -147,8 +187,8 @@ TEST(BoundaryForces, OfAMeshWithoutNamesAreOfWhatIsHeldAndWhatIsFree) {
   load.traction = "1 - y";
   const contact::Answer answer = answer_of(mesh, load);
   ASSERT_EQ(answer.boundary.size(), 2U);
-  EXPECT_NEAR(part(answer, "neumann", true).resultant, 2, 1e-12);
-  part(answer, "dirichlet", false);
+  EXPECT_NEAR(part(answer, "boundary", true).resultant, 2, 1e-12);
+  part(answer, "boundary", false);
   expect_balance(answer, applied);
 }
 

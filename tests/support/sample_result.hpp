@@ -247,6 +247,7 @@ inline results::Result with_stages(results::Result result) {
     load.stages = sample_stages(triangles);
     for (std::size_t t = 0; t < triangles; ++t) {
       load.indicator.push_back(1e-3 / static_cast<double>(t + 1));
+      for (const double side : {1.0, 2.0, -3.0}) load.balanced_flux.push_back(side);
     }
   }
   return result;

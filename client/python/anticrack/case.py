@@ -280,15 +280,16 @@ class Case:
                  solver: ActiveSet | Uzawa | None = None, accuracy: Accuracy | None = None, title: str = "",
                  units: Units | None = None, fields: bool = False, bounds: bool = True, priority: str | None = None,
                  queue_timeout: float | str | None = None, run_timeout: float | str | None = None,
-                 probes: Sequence[Probe] = (), growth: Growth | None = None) -> None:
+                 probes: Sequence[Probe] = (), growth: Growth | None = None, balanced_flux: bool = False) -> None:
         """fields: keep u on every node, which drawing the membrane needs. bounds: bound the error of each answer.
+        balanced_flux: keep the flux behind the bounds (Load.balanced_flux).
         Timeouts are seconds, or text such as "2h"."""
         job = {"priority": priority, "queue_timeout": queue_timeout, "run_timeout": run_timeout}
         tables: dict[str, Any] = {
             "title": title or None, "geometry": geometry, "mesh": mesh, "solver": solver, "accuracy": accuracy,
             "growth": growth, "units": units, "load": loads if isinstance(loads, _Table) else list(loads) or None,
             "output": ({"fields": fields, "bounds": bounds} if fields or not bounds else {})
-            | ({"probe": list(probes)} if probes else {}) or None,
+            | ({"balanced_flux": True} if balanced_flux else {}) | ({"probe": list(probes)} if probes else {}) or None,
             "job": {key: value for key, value in job.items() if value is not None} or None}
         self.tables = tables_of({key: value for key, value in tables.items() if value is not None})
         self.text, self.source, self.folder = "", "", pathlib.Path()

@@ -18,7 +18,8 @@ class Msh:
     """A mesh. points (n, 2) or (n, 3); cells: "triangle" (m, 3) and "line" (l, 2), indices of points from 0.
 
     groups: for each kind of cell a name for every cell, or "". A triangle's name is its subdomain, a line's says what
-    the line is: "dirichlet", "crack:NAME", "delaminated:NAME" and so on (see the guide on .msh files)."""
+    the line is: "dirichlet", "neumann:NAME", "crack:NAME", "delaminated:NAME" and so on (see the guide on .msh files).
+    Forces on the boundary have the names of its lines."""
     points: Array
     cells: Mapping[str, Array]
     groups: Mapping[str, Any] = field(default_factory=dict)

@@ -82,6 +82,15 @@ class Mesh:
     def inclusions(self) -> list[str]:
         return list(self.info.inclusions)
 
+    def mean_flux(self, through_sides: Array) -> Array:
+        """(m, 2) the mean over each triangle of a flux that is linear on it, of what leaves it through the sides
+        opposite to its corners (m, 3), as of Load.balanced_flux."""
+        corners = self.nodes[self.triangles]
+        (ax, ay), (bx, by) = (corners[:, 1] - corners[:, 0]).T, (corners[:, 2] - corners[:, 0]).T
+        arms = (corners.mean(axis=1)[:, None] - corners) / (ax * by - ay * bx)[:, None, None]
+        means: Array = np.einsum("ti,tid->td", through_sides, arms)
+        return means
+
     def __repr__(self) -> str:
         return (f"mesh of {counted(len(self.nodes), 'node')} and {counted(len(self.triangles), 'triangle')}; "
                 f"subdomains: {listed(self.subdomain_names)}; inclusions: {listed(self.inclusions) or 'none'}")
@@ -246,7 +255,9 @@ class Load(_walked(solve_pb2.LoadCaseAnswer, ("name", "status"))):  # type: igno
     x, y, load, displacement, G1, Gc, contact_length, energy, stable, ties; empty without growth. growth_notes: what
     happens, in words.
     contact_intervals: (index of the interface, begin, end) in arc length. fields: one for each subdomain, by its name
-    or index, where they were asked for. indicator (m): part of each triangle in the square of error_bound, or None."""
+    or index, where they were asked for. indicator (m): part of each triangle in the square of error_bound, or None.
+    balanced_flux (m, 3): of the flux behind the bounds, out of each triangle through the side opposite to each corner;
+    a row sums to minus the load on the triangle; or None. Mesh.mean_flux makes vectors of it."""
     name: str
     status: str
     warnings: list[str] = field(default_factory=list)
@@ -262,6 +273,7 @@ class Load(_walked(solve_pb2.LoadCaseAnswer, ("name", "status"))):  # type: igno
     contact_intervals: list[tuple[int, float, float]] = field(default_factory=list)
     fields: Parts[Field] = field(default_factory=lambda: Parts("subdomain"))
     indicator: Array | None = None
+    balanced_flux: Array | None = None
     units, solver = Units(), job_pb2.Solver()  # of the result
 
     @property
@@ -637,6 +649,7 @@ def _load_of(job: solve_pb2.Job, index: int, arrays: Mapping[str, Array], result
     prefix = f"loads/{index}/"
     load.traces = _traces(arrays, prefix + "traces", len(result.interfaces))
     load.history, load.indicator = _below(arrays, prefix + "history/"), arrays.get(prefix + "indicator")
+    load.balanced_flux = arrays.get(prefix + "balanced_flux")
     load.fields += [Field(name, u=arrays[f"{prefix}fields/{k}"], **_below(arrays, f"fields/{k}/"))
                     for k, name in enumerate(result.mesh.subdomain_names) if f"{prefix}fields/{k}" in arrays]
     stages = [stage for stage in job.status.stages if index < len(stage.answers)]
@@ -725,4 +738,5 @@ def _load_in(group: Any, lines_in: list[str], mesh: Mesh) -> Load:
                        for name, values in _arrays(group["stages"]).items()}
     load.fields += [Field(name, **_arrays(part)) for name, part in zip(mesh.subdomain_names, numbered("fields"))]
     load.indicator = group["indicator"][()] if "indicator" in group else None
+    load.balanced_flux = group["balanced_flux"][()] if "balanced_flux" in group else None
     return load

@@ -31,7 +31,7 @@ _DIMENSIONS = {
     **dict.fromkeys(["nodes", "s", "x", "y", "u_minus", "u_plus", "jump", "u", "displacement", "displacement_lower",
                      "displacement_upper", "displacement_mesh"], "L"),
     **{name: unit for where, name, unit, _ in _MEANINGS if where != "loads"}, "pressure": "F/L",
-    "flux": "F/L", "force": "F", "indicator": "F L", "tension": "F/L"}
+    "flux": "F/L", "force": "F", "indicator": "F L", "balanced_flux": "F", "tension": "F/L"}
 
 
 def save(result: Result, path: str | os.PathLike[str]) -> bool:

@@ -61,13 +61,13 @@ def pvd(members: Sequence[tuple[str, str, int, int]]) -> bytes:
     return f'{_HEAD.format("Collection")}  <Collection>\n{"".join(lines)}  </Collection>\n</VTKFile>\n'.encode()
 
 
-def _indicators(mesh: Mesh, indicator: Array, triangles: Array) -> Array:
-    """The indicator of each triangle, which may have its corners in another order than the mesh has them; NaN for one
+def _of_triangles(mesh: Mesh, values: Array, triangles: Array) -> Array:
+    """The values of each triangle, which may have its corners in another order than the mesh has them; NaN for one
     that is not in the mesh."""
     _, number = np.unique(np.sort(np.concatenate([mesh.triangles, triangles]), axis=1), axis=0, return_inverse=True)
-    known: Array = np.full(len(number), np.nan)
-    known[number[:len(indicator)]] = indicator
-    found: Array = known[number[len(indicator):]]
+    known: Array = np.full((len(number), *values.shape[1:]), np.nan)
+    known[number[:len(values)]] = values
+    found: Array = known[number[len(values):]]
     return found
 
 
@@ -78,7 +78,7 @@ def _unit(result: Result, dimension: str) -> str:
 def membrane(result: Result, load: Load) -> bytes:
     """The .vtu of the membrane. Subdomains share no points, which keeps both faces of cracks and slits. Points have u
     and node, cells tension, subdomain, T grad u as flux_x, flux_y and its size flux, energy_density and, where the
-    load has it, error_indicator."""
+    load has it, error_indicator and the means of the balanced flux as balanced_flux_x, balanced_flux_y."""
     parts = list(load.fields)
     node = np.concatenate([part.nodes for part in parts])
     first = np.cumsum([0, *(len(part.nodes) for part in parts)])
@@ -90,7 +90,11 @@ def membrane(result: Result, load: Load) -> bytes:
              "flux": (np.hypot(*flux.T), _unit(result, "F/L")),
              "energy_density": (np.concatenate([part.energy_density for part in parts]), _unit(result, "F/L"))}
     if load.indicator is not None:
-        cells["error_indicator"] = (_indicators(result.mesh, load.indicator, node[corners]), _unit(result, "F L"))
+        cells["error_indicator"] = (_of_triangles(result.mesh, load.indicator, node[corners]), _unit(result, "F L"))
+    if load.balanced_flux is not None:
+        means = _of_triangles(result.mesh, result.mesh.mean_flux(load.balanced_flux), node[corners])
+        for name, values in zip(("balanced_flux_x", "balanced_flux_y"), means.T):
+            cells[name] = (values, _unit(result, "F/L"))
     points = {"u": (np.concatenate([part.u for part in parts]), _unit(result, "L")), "node": (node, "")}
     return vtu(result.mesh.nodes[node], corners, points, cells)
 

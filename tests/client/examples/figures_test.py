@@ -21,7 +21,7 @@ class Figures(FolderTest):
         self.assertEqual(sizes(self.folder), sizes(FIGURES))
 
     def test_are_small_enough_for_a_page(self):
-        self.assertEqual(len(sizes(FIGURES)), 12)
+        self.assertEqual(len(sizes(FIGURES)), 14)
         for file in FIGURES.glob("*.png"):
             self.assertLess(file.stat().st_size, 450_000, file)
             self.assertLessEqual(sizes(FIGURES)[file.name][0], 1400, file)

@@ -101,6 +101,28 @@ class Paper(GalleryTest):
                            for k, text in enumerate(("0.2634", "0.0135", "0.0866", "0.0164"), 1)))
         self.assert_figures("example-1", "example-2", "example-3", "example-4")
 
+    def test_paper_tips(self):
+        answers = self.follow_one("paper-tips")
+        finest = {"example-1": (0.07583, 0.07583), "example-2": (0.00389, 0.09622), "example-3": (0.29283, 0.29283),
+                  "example-4": (0, 0.20133)}  # the same case with mesh.size = 0.01
+        for load, factors in finest.items():
+            tips = {name: column[()] for name, column in answers.file[f"loads/{load}/tips"].items()}
+            traces = answers.traces(load)
+            for tip, factor in zip((0, 1), factors):
+                self.assertEqual(bool(tips["closed"][tip]), factor == 0)
+                self.assertLess(abs(tips["intensity"][tip] - factor), 0.006 * factor + 1e-15)
+                r = numpy.abs(traces["x"] - tips["x"][tip])
+                near = (r > 1e-4) & (r < 0.05) & (numpy.abs(traces["x"]) < 0.5)
+                if factor < 0.01:  # closed, there or 0.003 away
+                    continue
+                # [u] = c r^(1/4) + d r^(3/4) + e r^(5/4): the faces' own law, another way than the integral of c
+                law = r[near, None] ** [0, 0.5, 1]
+                (c, *_), *_ = numpy.linalg.lstsq(law, traces["jump"][near] / r[near] ** 0.25, rcond=None)
+                self.assert_close(tips["intensity"][tip], c, 5e-3)
+                self.assertIn(f"{factor:.5f}", self.words)
+            self.assert_told(*((f"{factor:.4f}", tips["intensity"][k]) for k, factor in enumerate(factors) if factor))
+        self.assert_figures("example-3-traces")
+
     def test_closing(self):
         results = self.follow("closing")
         failed, solved = results["closing.h5"].loads["closing"], results["auto.h5"].loads["closing"]

@@ -22,11 +22,11 @@ def sheared_fibre(angle, a):
     return a * (1 + math.cos(b)), a / 2 * math.sin(b / 4) * (1 - math.cos(b / 2))
 
 
-def debonded_rate(b, a):
-    """G under u = y of the front at x = b of a fibre (-a, a) that is off its minus side for b < x < a, in a plate
-    without end. As in test_partly_delaminated, with the arc between psi = -arccos(b/a) and 0."""
-    psi = -math.acos(b / a)
-    mean, half = psi / 2, -psi / 2
+def debonded_rate(b, end, a):
+    """G under u = y of the front at x = b of a fibre (-a, a) that is off its minus side between b and end, in a plate
+    without end. As in test_partly_delaminated, with the arc between psi = -arccos(b/a) and that of the end."""
+    psi, other = -math.acos(b / a), -math.acos(end / a)
+    mean, half = (psi + other) / 2, abs(other - psi) / 2
     x2 = -0.5j * a
     x1 = -x2 * cmath.exp(1j * mean) * math.cos(half)
     y = 2 * (x2 * cmath.exp(0.5j * (3 * psi - mean)) + x1 * cmath.exp(0.5j * (psi - mean))).imag
@@ -38,7 +38,7 @@ class Shapes(GalleryTest):
         answers = self.follow_one("growth")
         rows = {name: column[()] for name, column in answers.file["loads/shear/growth"].items()}
         (first, second) = numpy.flatnonzero(rows["stable"])
-        exact = numpy.sqrt(rows["Gc"] / [debonded_rate(x, 0.5) for x in rows["x"]])
+        exact = numpy.sqrt(rows["Gc"] / [debonded_rate(x, 0.5, 0.5) for x in rows["x"]])
         before_the_end = rows["x"] > -0.4
         self.assertLess(numpy.abs(rows["load"] / exact - 1)[before_the_end].max(), 0.01)
         self.assertGreaterEqual(rows["x"][second - 1], -0.2)
@@ -47,6 +47,55 @@ class Shapes(GalleryTest):
                          (f"{exact[second]:.4f}", exact[second]), ("1.0592", rows["load"][second]))
         self.assertIn("comes off at once", " ".join(answers.file["loads/shear/growth_notes"].asstr()))
         self.assert_figures("shear-growth")
+
+    def test_fronts(self):
+        answers = self.follow_one("fronts")
+        rows = {name: column[()] for name, column in answers.file["loads/shear/growth"].items()}
+        sides = numpy.sign(rows["x"])
+
+        def front(side, row):
+            """Where it is in a row: where it will leave next, or the end of its path."""
+            later = rows["x"][row:][sides[row:] == side]
+            return later[0] if len(later) else 0.4 * side
+
+        exact = [[(0.15 if x > -0.25 else 0.3) / debonded_rate(x, y, 0.5),
+                  (0.1 if y < 0.3 else 0.5) / debonded_rate(y, x, 0.5)]
+                 for x, y in ((front(-1, row), front(1, row)) for row in range(len(sides)))]
+        exact = numpy.sqrt(exact)
+        ours = exact[numpy.arange(len(sides)), (sides > 0).astype(int)]
+        self.assertLess(numpy.abs(rows["load"] / ours - 1).max(), 0.01)
+        on_their_way = [abs(front(side, row)) < 0.4 for row in range(len(sides)) for side in (-1, 1)]
+        possible = numpy.where(numpy.reshape(on_their_way, exact.shape), exact, numpy.inf).min(axis=1)
+        self.assertLess((ours / possible - 1)[numpy.isfinite(possible)].max(), 0.01)  # the one with the least load goes
+        told = ("0.8436", "0.8993", "1.1306", "1.2423"), ("0.8386", "0.8954", "1.1259", "1.2390")
+        stable = numpy.flatnonzero(rows["stable"])
+        self.assertEqual(list(sides[stable]), [1, -1, -1, 1])
+        self.assert_told(*zip(told[0], rows["load"][stable]), *zip(told[1], ours[stable]))
+        self.assert_figures("shear-growth")
+
+    def test_stripe(self):
+        answers = self.follow_one("stripe")
+        rows = {name: column[()] for name, column in answers.file["loads/apart/growth"].items()}
+        rate = numpy.tanh(math.pi / 2 * rows["x"])  # of a crack |x| < a between u = 1 and -1, K_III^2 / 2
+        exact = numpy.sqrt(rows["Gc"] / rate)
+        self.assertLess(numpy.abs(rows["load"] / exact - 1).max(), 0.01)
+        self.assertLess(numpy.abs(rows["G1"] / rate - 1)[rows["x"] > 1.5].max(), 5e-4)
+        (first, second) = numpy.flatnonzero(rows["stable"])
+        self.assertEqual((rows["Gc"][second - 1], rows["Gc"][second]), (1, 2))
+        self.assert_told(("1.2447", rows["load"][first]), ("1.4744", rows["load"][second]), ("1.2349", exact[first]),
+                         ("1.4719", exact[second]))
+        self.assert_figures("apart-growth")
+
+    def test_row(self):
+        answers = self.follow_one("row")
+        tips = {name: column[()] for name, column in answers.file["loads/pulled/tips"].items()}
+        exact = math.sqrt(2 * math.tan(math.pi / 4))
+        self.assertEqual(len(tips["x"]), 6)
+        self.assertLess(numpy.abs(tips["K_III"] / exact - 1).max(), 2e-3)
+        self.assertLess((numpy.abs(tips["G"] - 1) / tips["G_spread"]).max(), 3)
+        self.assert_told(("1.413", tips["K_III"].mean()), ("0.998", tips["G"].mean()), ("1.41421", exact),
+                         ("1.253", math.sqrt(math.pi / 2)))
+        self.assert_figures("pulled-plan")
 
     def test_several_inclusions(self):
         answers = self.follow_one("several-inclusions")
@@ -76,6 +125,10 @@ class Shapes(GalleryTest):
         self.assertLess(numpy.abs(traces["jump"] - exact).max(), 0.003)
         self.assert_told(("0.0518", a / 4 * (math.sqrt(2) - 1)), ("0.0517", answers.told("opening")),
                          ("0.286", max(exact)), ("0.284", answers.opens("opening")[0]))
+        tips = {name: column[()] for name, column in answers.file["loads/opening/tips"].items()}
+        (front,) = numpy.flatnonzero(~numpy.isnan(tips["G"]))
+        self.assert_close(tips["G"][front], debonded_rate(0, -a, a), 0.01)
+        self.assert_told(("0.2370", debonded_rate(0, -a, a)), ("0.2356", tips["G"][front]))
         self.assertAlmostEqual(answers.displacement("closing"), 0, delta=1e-11)
         closed = answers.traces("closing")
         self.assertAlmostEqual(answers.loads["closing"]["contact_length"], 0.5, delta=1e-9)

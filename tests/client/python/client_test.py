@@ -239,7 +239,11 @@ class Jobs(unittest.TestCase):
                                   numpy.column_stack([corner, corner + n + 2, corner + n + 1])])
         first = n // 2 * (n + 1)
         lines = numpy.column_stack([first + numpy.arange(n), first + 1 + numpy.arange(n)])
-        names = ["glue", "glue", *["delaminated:fibre"] * (n - 4), "glue", "glue"]
+        left, along = numpy.arange(n) * (n + 1), numpy.arange(n)
+        rim = [(left, n + 1), (left + n, n + 1), (along, 1), (along + n * (n + 1), 1)]
+        lines = numpy.vstack([lines, *(numpy.column_stack([first, first + step]) for first, step in rim)])
+        names = ["glue", "glue", *["delaminated:fibre"] * (n - 4), "glue", "glue", *["dirichlet:left"] * n,
+                 *["dirichlet"] * (3 * n)]
         where = ["top" if row >= n // 2 else "below" for row in numpy.tile(corner // (n + 1), 2)]
         msh = Msh(numpy.column_stack([x, y]), {"triangle": triangles, "line": lines},
                   {"triangle": where, "line": names})
@@ -247,6 +251,8 @@ class Jobs(unittest.TestCase):
                                  progress=False)
         self.assertEqual(sorted(result.mesh.subdomain_names), ["below", "top"])
         self.assertAlmostEqual(result["opening"].inclusions["fibre"].A / LIMIT, 1, delta=0.03)
+        self.assertEqual([(part.name, part.free) for part in result["opening"].boundary],
+                         [("left", 0), ("boundary", 0)])
         file = self.client.mesh(Case(mesh=Mesh(file=EXAMPLES / "plate.msh")))
         self.assertEqual(file.name, self.client.mesh(EXAMPLES / "plate.toml").name)
 

@@ -35,7 +35,24 @@ class Fields(FolderTest):
     @classmethod
     def setUpClass(cls):
         with anticrack.local(program=ANTICRACKD) as client:
-            cls.result = client.run(case(probe=PROBES), progress=False)
+            cls.result = client.run(case(probe=PROBES, balanced_flux=True), progress=False)
+
+    def test_the_balanced_flux_balances(self):
+        mesh = self.result.mesh
+        corners = mesh.nodes[mesh.triangles]
+        a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+        areas = (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2
+        for name, force in (("held", 0 * areas), ("pulled", areas * (1 + corners[:, :, 0].mean(axis=1)))):
+            load = self.result[name]
+            flux = load.balanced_flux
+            numpy.testing.assert_allclose(flux.sum(axis=1), -force, rtol=0, atol=1e-10 * abs(flux).max())
+            # near T grad u: their distance is what bounds the error
+            parts = [(part.nodes[part.triangles], part.flux, part.areas) for part in load.fields]
+            for triangles, slopes, part_areas in parts:
+                means = vtk._of_triangles(mesh, mesh.mean_flux(flux), triangles)
+                apart, size = ((part_areas * (values**2).sum(axis=1)).sum() for values in (means - slopes, slopes))
+                self.assertLess(apart, 0.1 * size)
+                self.assertGreater(apart, 0)
 
     def test_forces_balance_the_load(self):
         for name, applied in (("held", 0.0), ("pulled", None)):
@@ -95,7 +112,11 @@ class Fields(FolderTest):
             for part, other in zip(load.fields, again.fields):
                 numpy.testing.assert_array_equal(part.flux, other.flux)
             numpy.testing.assert_array_equal(load.traces[0].force, again.traces[0].force)
+            numpy.testing.assert_array_equal(load.balanced_flux, again.balanced_flux)
         made = vtk.export(read, "result.h5", str(self.folder / "new"), ["held"])
+        membrane = next(file for file in made.files if file.endswith("held.vtu"))
+        with open(membrane, "rb") as file:
+            self.assertIn(b'"balanced_flux_x"', file.read())
         with open(next(file for file in made.files if file.endswith("held-probes.csv")), encoding="utf-8") as file:
             rows = list(csv.DictReader(file))
         self.assertEqual([float(row["u_minus"]) for row in rows],

@@ -84,6 +84,7 @@ TEST(Assemble, keeps_stages_and_adds_indicators) {
   const Result built = assembled(answers_of(result), blocks);
   EXPECT_EQ(built.loads[0].indicator, result.loads[0].indicator);
   EXPECT_TRUE(built.loads[1].indicator.empty());
+  EXPECT_EQ(built.loads[0].balanced_flux, result.loads[0].balanced_flux);
   EXPECT_EQ(built.loads[1].stages.size(), 5U);
 }
 
