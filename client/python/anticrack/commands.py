@@ -16,6 +16,7 @@ from typing import Any
 from .blocks import BlockReceiver
 from .errors import Error, package
 from .result import Result, Units
+from .study.record import Study, is_study
 from .text import harmless
 from .v1 import mesh_pb2
 
@@ -125,6 +126,9 @@ def _drawn(given: argparse.Namespace) -> Any:
     look.amplify, look.limits = given.amplify, given.limits
     if given.together and given.only:
         raise _Usage("--together and --only exclude each other; leave one out; see anticrack plot --help")
+    if is_study(given.file):
+        from .draw.studies import draw_study
+        return draw_study(Study.read(given.file), given.output, look)
     result = Result.read(given.file)
     wanted = files.Wanted(given.only, given.interface, given.load, given.all)
     return (files.draw_together if given.together else files.draw_figures)(result, given.output, wanted, look)

@@ -8,7 +8,8 @@ from .history import convergence, error_band, errors
 from .meshes import mesh
 from .plane import displacement, flux, interfaces, plan
 from .perspective import membrane
+from .studies import contours, curves
 from .sweeps import contact_length, contact_map, slopes, sweep
 
-__all__ = ["contact_length", "contact_map", "convergence", "displacement", "error_band", "errors", "flux", "growth",
+__all__ = ["contact_length", "contact_map", "contours", "convergence", "curves", "displacement", "error_band", "errors", "flux", "growth",
            "interfaces", "jump", "membrane", "mesh", "plan", "pressure", "release", "slopes", "sweep", "traces"]

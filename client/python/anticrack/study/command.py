@@ -33,11 +33,12 @@ def _parser() -> _Parser:
     parser = _Parser(
         "anticrack study", allow_abbrev=False, formatter_class=argparse.RawDescriptionHelpFormatter,
         description="Solve a case for many values of its keys, each row as a job of its own.",
-        epilog="All combinations of the --vary are solved, for each row of --csv. Keys and values are those of --set. A\n"
-               "row that is refused or fails keeps its error. Run again after Ctrl-C or a crash, it goes on from FILE;\n"
-               "jobs that ran on are found on the server. Rows that differ in loads alone share their mesh.\n\n"
-               "Exit codes: 0 all rows converged, 1 a row failed or was refused, 3 a row did not converge, 2, 4, 130 and\n"
-               "141 as of anticrack.\n\n"
+        epilog="All combinations of the --vary are solved, for each row of --csv. Keys and values are\n"
+               "those of --set. A row that is refused or fails keeps its error. Run again after Ctrl-C\n"
+               "or a crash, it goes on from FILE; jobs that ran on are found on the server. Rows that\n"
+               "differ in loads alone share their mesh.\n\n"
+               "Exit codes: 0 all rows converged, 1 a row failed or was refused, 3 a row did not\n"
+               "converge; 2, 4, 130 and 141 as of anticrack.\n\n"
                "Example:\n"
                "  anticrack study sheet.toml --vary geometry.inclusion.low.angle=0:90:19 -o angles.h5 --local\n"
                "  anticrack study case.toml --vary mesh.size=0.1,0.05 --vary load.up.f=1:2:5 -o study.h5 --dry-run\n"
@@ -50,7 +51,7 @@ def _parser() -> _Parser:
     parser.add_argument("-o", "--output", metavar="FILE", help="the study, HDF5; its rows are not solved again")
     parser.add_argument("--jobs", type=int, default=AT_ONCE, metavar="N", help=f"so many at once (default: {AT_ONCE})")
     parser.add_argument("--dry-run", action="store_true",
-                        help="say how many rows and meshes there would be, and the first and the last case; solve nothing")
+                        help="solve nothing, but say how many rows and meshes there would be, the first and last case")
     parser.add_argument("--yes", action="store_true", help=f"do not ask before more than {MOST_MESHES} meshes are made")
     parser.add_argument("--retry", action="store_true", help="solve rows that failed again")
     parser.add_argument("--show", metavar="FILE", help="only show a study")

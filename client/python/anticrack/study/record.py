@@ -234,7 +234,7 @@ def _end(key: str) -> str:
 
 def _interval(of: dict[str, float], name: str, behind: str) -> str:
     values = [of.get(name + part + behind, _NAN) for part in ("", "_lower", "_upper")]
-    return interval(*values, mesh=values[0]).partition(" (")[0] if np.isfinite(values[0]) else "-"
+    return interval(*values, values[0]).partition(" (")[0] if np.isfinite(values[0]) else "-"  # type: ignore
 
 
 def _rows_in(file: Any) -> list[Row]:

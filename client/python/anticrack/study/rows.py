@@ -37,8 +37,8 @@ def toml_of(value: Any) -> str:
         return "{ " + ", ".join(f"{json.dumps(str(key))} = {toml_of(entry)}" for key, entry in value.items()) + " }"
     if isinstance(value, (str, os.PathLike)):
         return json.dumps(os.fspath(value), ensure_ascii=False)
-    raise CaseError(f"{shown(value)} ({type(value).__name__}) is no value of a key; give a number, a text, true, false, "
-                    "or a list or table of them")
+    raise CaseError(f"{shown(value)} ({type(value).__name__}) is no value of a key; give a number, a text, true or "
+                    "false, or a list or table of them")
 
 
 def overrides_of(values: Values) -> list[str]:
@@ -80,7 +80,7 @@ def _check(count: int) -> None:
 
 
 def varied(text: str) -> tuple[str, list[Any]]:
-    """The key and the values of KEY=FIRST:LAST:COUNT, evenly spaced, or of KEY=VALUE,VALUE,... with values as in TOML."""
+    """The key and the values of KEY=FIRST:LAST:COUNT, evenly spaced, or of KEY=VALUE,... with values as in TOML."""
     key, equals, values = text.partition("=")
     if not equals or not key.strip() or not values.strip():
         raise CaseError(f"{shown(text)} varies nothing; write KEY=FIRST:LAST:COUNT, as load.opening.f=1:2:11, or "

@@ -30,9 +30,9 @@ _MOST_AT_ONCE = 1000
 
 
 class Plan:
-    """What is to be done: a study whose rows know their identity, and whose answers are those of an earlier run. meshes:
-    how many are made for what is left; notes: the server's, on the case; cases: the first and the last row's as TOML;
-    strangers: rows with answers in the file that are none of this study."""
+    """What is to be done: a study whose rows know their identity, with the answers of an earlier run. meshes: how many
+    are made for what is left; notes: the server's, on the case; cases: the first and the last row's as TOML; strangers:
+    rows with answers in the file that are none of this study."""
 
     def __init__(self, study: Study) -> None:
         self.study, self.meshes, self.strangers = study, 0, 0
@@ -186,8 +186,8 @@ async def solve(session: Session, case: Case | str | os.PathLike[str], plan: Pla
                 index = waiting.pop()
                 row = study.rows[index]
                 try:
-                    running[index] = await _job_of(session, await session.read(case, overrides=overrides_of(row.values)),
-                                                   retry)
+                    read = await session.read(case, overrides=overrides_of(row.values))
+                    running[index] = await _job_of(session, read, retry)
                 except (CaseError, ServerError) as error:
                     if isinstance(error, ServerError) and error.code not in _REFUSALS:
                         raise
@@ -250,7 +250,7 @@ async def run(session: Session, case: Case | str | os.PathLike[str], rows: list[
 
 
 def dry_text(plan: Plan) -> str:
-    """What a study would do: rows, meshes, what is wrong, and the first and the last case."""
+    """What a study would do: rows, meshes, what is wrong, the first and the last case."""
     rows = plan.study.rows
     told = [f"{counted(len(rows), 'row')}, {len(rows) - len(plan.left)} of them in the file or refused; "
             f"{counted(plan.meshes, 'mesh').replace('meshs', 'meshes')} for the rest", *map(harmless, plan.notes)]
