@@ -11,5 +11,5 @@ from .perspective import membrane
 from .studies import contours, curves
 from .sweeps import contact_length, contact_map, slopes, sweep
 
-__all__ = ["contact_length", "contact_map", "contours", "convergence", "curves", "displacement", "error_band", "errors", "flux", "growth",
-           "interfaces", "jump", "membrane", "mesh", "plan", "pressure", "release", "slopes", "sweep", "traces"]
+__all__ = ["contact_length", "contact_map", "contours", "convergence", "curves", "displacement", "error_band", "errors",
+           "flux", "growth", "interfaces", "jump", "membrane", "mesh", "plan", "pressure", "release", "slopes", "sweep", "traces"]

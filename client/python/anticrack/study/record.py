@@ -18,6 +18,7 @@ from ..names import unknown
 from ..result import Units
 from ..text import counted, harmless, html_table, interval, short, short_length, shown
 from ..v1 import solve_pb2
+from .rows import tidy
 
 FORMAT = "anticrack-study/1"
 SOLVED = ("succeeded", "not_converged")  # rows that have numbers
@@ -243,7 +244,8 @@ def _rows_in(file: Any) -> list[Row]:
     columns = []
     for i in range(len(keys := texts("keys"))):
         values = file[f"values/{i}"]
-        columns.append(values[()].tolist() if values.dtype.kind == "f" else list(map(json.loads, texts(f"values/{i}"))))
+        columns.append([tidy(value) for value in values[()].tolist()] if values.dtype.kind == "f" else
+                       [json.loads(text) for text in texts(f"values/{i}")])
     rows = [Row(dict(zip(keys, values)), *told) for *values, told in zip(*columns, zip(*map(texts, _TEXTS)))]
     names = texts("columns")
     for i, load in enumerate(texts("loads/names")):

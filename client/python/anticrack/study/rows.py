@@ -41,6 +41,11 @@ def toml_of(value: Any) -> str:
                     "false, or a list or table of them")
 
 
+def tidy(value: Any) -> Any:
+    """The same value; a whole number as int, as it is shown, and as a file that has floats gives it back."""
+    return int(value) if isinstance(value, float) and value.is_integer() else value
+
+
 def overrides_of(values: Values) -> list[str]:
     return [f"{key}={toml_of(value)}" for key, value in values.items()]
 
@@ -54,7 +59,7 @@ def grid(vary: Mapping[str, Any]) -> list[Values]:
         if not columns[-1]:
             raise CaseError(f"{key}: there are no values; give at least one")
     _check(math.prod(map(len, columns)))
-    return [dict(zip(vary, row)) for row in itertools.product(*columns)]
+    return [dict(zip(vary, map(tidy, row))) for row in itertools.product(*columns)]
 
 
 def rows_of(vary: Any) -> list[Values]:
@@ -71,7 +76,7 @@ def rows_of(vary: Any) -> list[Values]:
         if list(row) != list(rows[0]):
             raise CaseError(f"row {index} has the keys {shown(list(row))}, row 0 {shown(list(rows[0]))}; give all rows "
                             "the same keys in the same order")
-    return [{str(key): without_numpy(plain(value, CaseError)) for key, value in row.items()} for row in rows]
+    return [{str(key): tidy(without_numpy(plain(value, CaseError))) for key, value in row.items()} for row in rows]
 
 
 def _check(count: int) -> None:
@@ -131,7 +136,7 @@ def csv_rows(path: str) -> list[Values]:
         if len(line) != len(keys) or not all(word.strip() for word in line):
             raise CaseError(f"{path}: line {number} has {len([word for word in line if word.strip()])} values for "
                             f"{len(keys)} keys; write one for each, a list in quotes")
-    return [{key: value_of(word, mark == ";") for key, word in zip(keys, line)} for line in lines[1:]]
+    return [{key: tidy(value_of(word, mark == ";")) for key, word in zip(keys, line)} for line in lines[1:]]
 
 
 def product(rows: Sequence[Values], more: Sequence[Values]) -> list[Values]:
