@@ -11,6 +11,7 @@ from .arrays import Array
 from .case import Case
 from .credentials import Credentials, Path, token_of
 from .errors import ServerError, of_status
+from .notebook import job_html
 from .notes import notes_on
 from .progress import Progress
 from .reading import ReadCase, in_terms_of, places_of
@@ -69,6 +70,10 @@ class JobState:
 
     def __repr__(self) -> str:
         return f"<{harmless(self.name)}: {self.state}>"
+
+    def _repr_html_(self) -> str:
+        """The HTML that a notebook shows."""
+        return job_html(self.message, f"{self.name}: {self.state.replace('_', ' ')}", str(self.error or ""))
 
 
 def noted(result: Result) -> Result:
