@@ -9,7 +9,7 @@ import os
 import shutil
 import subprocess
 import tempfile
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -31,10 +31,12 @@ _MOST, _BEATS, _RATE = 60, 24, 20  # frames of growth and loads, of an amplitude
 _Frames = list[tuple[Any, int]]  # images, and how long each is shown [ms]
 
 
-def _image(look: Look, title: str, draw: Callable[[Sheet], float]) -> Any:
-    sheet = Sheet(dataclasses.replace(look, formats=["png"]), title)
-    content = sheet.files(draw(sheet))["png"]
-    image = package("PIL.Image").open(io.BytesIO(content)).convert("RGB")
+def _sheet(look: Look, title: str) -> Sheet:
+    return Sheet(dataclasses.replace(look, formats=["png"]), title)
+
+
+def _image(sheet: Sheet, height: float) -> Any:
+    image = package("PIL.Image").open(io.BytesIO(sheet.files(height)["png"])).convert("RGB")
     return image.crop((0, 0, image.width // 2 * 2, image.height // 2 * 2))  # films have even sides
 
 
@@ -52,7 +54,8 @@ def _shared(look: Look, result: Result, loads: Sequence[Load], rest: bool = Fals
 
 
 def _membrane(look: Look, result: Result, load: Load) -> Any:
-    return _image(look, title_of(result, load), lambda sheet: draw_membrane(sheet, result, load))
+    sheet = _sheet(look, title_of(result, load))
+    return _image(sheet, draw_membrane(sheet, result, load))
 
 
 def _scaled(load: Load, factor: float) -> Load:
@@ -79,16 +82,17 @@ def _growth(look: Look, result: Result, load: Load) -> _Frames:
     rows = load.growth
     known = np.flatnonzero(np.isfinite(rows["load"]) & (rows["front"] >= 0))
     shown = known[np.unique(np.linspace(0, len(known) - 1, min(len(known), _MOST)).round().astype(int))]
-
-    def draw(sheet: Sheet, row: int) -> float:
-        height = draw_curves(growth, sheet, result, load)
-        height += draw_curves(release, sheet, result, load, 0, height)
-        places = (place_of(rows)[row], rows["load"][row]), (rows["position"][row], rows["G1"][row])
-        for ax, (x, y) in zip(sheet.panels, places):
-            ax.plot([x], [y], "o", color="#222222", markersize=5, zorder=9, clip_on=False)
-        return height
-    title = title_of(result, load)
-    return [(_image(look, title, lambda sheet, row=row: draw(sheet, row)), 120) for row in shown]  # type: ignore
+    sheet = _sheet(look, title_of(result, load))
+    height = draw_curves(growth, sheet, result, load)
+    height += draw_curves(release, sheet, result, load, 0, height)
+    places = (place_of(rows), rows["load"]), (rows["position"], rows["G1"])
+    dots = [ax.plot([], [], "o", color="#222222", markersize=5, zorder=9, clip_on=False)[0] for ax in sheet.panels]
+    frames = []
+    for row in shown:
+        for dot, (x, y) in zip(dots, places):
+            dot.set_data([x[row]], [y[row]])
+        frames.append((_image(sheet, height), 120))
+    return frames
 
 
 def _animations(result: Result, what: str, names: Sequence[str], look: Look) -> Iterator[tuple[str, _Frames]]:
@@ -116,8 +120,19 @@ def _encoded(frames: _Frames, kind: str) -> bytes:
     if kind == "webp" and not package("PIL.features").check("webp_anim"):
         raise Error("this Pillow writes no animated WebP; choose gif")
     content = io.BytesIO()
+    if kind == "gif":
+        images = _indexed(images)
     images[0].save(content, kind, save_all=True, append_images=images[1:], duration=times, loop=0)
     return content.getvalue()
+
+
+def _indexed(images: list[Any]) -> list[Any]:
+    """The images in colours of one palette, as a palette of each would flicker."""
+    every = np.concatenate([np.asarray(image).reshape(-1, 3) for image in images[::max(1, len(images) // 8)]])
+    colours = np.unique(every, axis=0)  # each once, as most of the image is white
+    palette = package("PIL.Image").fromarray(colours[None]).quantize(255, kmeans=2)
+    palette.putpalette([*palette.getpalette()[:765], 255, 255, 255])  # the background
+    return [image.quantize(palette=palette, dither=0) for image in images]
 
 
 def _film(frames: _Frames) -> bytes:

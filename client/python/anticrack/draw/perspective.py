@@ -113,7 +113,7 @@ def membrane(result: Result, load: str | Load | None = None, ax: Any = None, cma
     shown = stretched * (high - low)
     size = float(np.sqrt(shown.prod()))
     rest = np.where(np.isfinite(surface.u), surface.u - plane, 0)
-    ends = np.array(heights if heights is not None else (rest.min(), rest.max()))
+    ends = heights if heights is not None else (float(rest.min()), float(rest.max()))
     factor = amplify or _amplification(np.ptp(ends), 0.4 * size if level else size)
     shades = surface.shades(limits, cmap)
     middle = surface.nodes.mean(axis=0)
@@ -131,7 +131,7 @@ def membrane(result: Result, load: str | Load | None = None, ax: Any = None, cma
     for i, axis in enumerate((ax.xaxis, ax.yaxis)):
         axis.set_major_locator(rounded(5 if shown[i] > shown.max() / 3 else 2))
         label_axis(axis, "xy"[i], unit_of(result), Scale(low[i], high[i], shown.max() / stretched[i]))
-    tall = Scale(*ends, factor=factor)
+    tall = Scale(ends[0], ends[1], factor=factor)
     steps = rounded(2).tick_values(*widened(*ends))
     ticks = [factor * step for step in steps if room[0] <= factor * step <= room[1]]
     ax.set_zticks(ticks if np.ptp(room) > 0.25 * size else sorted({*ticks[:1], *ticks[-1:]}))

@@ -42,7 +42,8 @@ _LOOKS: dict[str, Any] = {
 @dataclass
 class Look:
     """How pictures look. width: of a panel [mm]; an overview has two side by side; titles: show titles of case and load
-    and headings of panels; font: a family, empty for matplotlib's own; limits, heights, amplify: as for draw.membrane."""
+    and headings of panels; font: a family, empty for matplotlib's own; limits, heights and amplify:
+    as for draw.membrane."""
     formats: list[str] = field(default_factory=lambda: ["png", "svg"])
     dpi: int = 300
     titles: bool = True
