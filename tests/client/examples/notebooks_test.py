@@ -73,7 +73,8 @@ class Shown(unittest.TestCase):
         answer = solve_pb2.LoadCaseAnswer(name=self.HOSTILE, status=3, inclusions=[{"name": self.HOSTILE}])
         job = solve_pb2.Job(name="jobs/1", status={"answers": [answer]})
         curves = Curves(job_pb2.JobSpec(load_cases=[{"name": self.HOSTILE}]))
-        curves.take(solve_pb2.WatchJobResponse(samples={"load_case": [0, 0], "iteration": [1, 2], "criterion": [1, 0.1]}))
+        samples = {"load_case": [0, 0], "iteration": [1, 2], "criterion": [1, 0.1]}
+        curves.take(solve_pb2.WatchJobResponse(samples=samples))
         for text in (job_html(job, self.HOSTILE, self.HOSTILE), curves.html(self.HOSTILE)):
             found = Tags(text)
             self.assertNotIn("script", found.tags)
@@ -84,7 +85,8 @@ class Shown(unittest.TestCase):
         criteria = [1.0, 1e-2, 1e-3, 0.0, math.nan, 1e-6]
         curves = Curves(spec)
         for i, criterion in enumerate(criteria, 1):
-            curves.take(solve_pb2.WatchJobResponse(samples={"load_case": [0], "iteration": [i], "criterion": [criterion]}))
+            samples = {"load_case": [0], "iteration": [i], "criterion": [criterion]}
+            curves.take(solve_pb2.WatchJobResponse(samples=samples))
         (points,) = re.findall('points="([^"]*)"', curves.html(""))
         places = [tuple(map(float, point.split(","))) for point in points.split()]
         (x0, y0), (x1, y1) = places[0], places[-1]

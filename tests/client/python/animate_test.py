@@ -19,8 +19,8 @@ class Animations(FolderTest):
             case = anticrack.Case.read(EXAMPLES / "several-inclusions.toml")
             result = client.run(case, progress=False)
         anticrack.draw.animate(result, self.folder / "u.gif")
-        frames = [np.asarray(frame.convert("RGB"), float) for frame in
-                  ImageSequence.Iterator(Image.open(self.folder / "u.gif"))]
+        with Image.open(self.folder / "u.gif") as image:
+            frames = [np.asarray(frame.convert("RGB"), float) for frame in ImageSequence.Iterator(image)]
         far = [np.abs(frame - frames[0]).sum() for frame in frames]
         middle = len(frames) // 2
         self.assertEqual(int(np.argmax(far)), middle)
