@@ -20,10 +20,11 @@ from .result import Result
 
 if TYPE_CHECKING:
     from . import aio, draw
+    from .study import Study
 
 __all__ = ["Accuracy", "ActiveSet", "Case", "CaseError", "Client", "Crack", "Error", "Geometry", "Growth", "Hole",
            "Inclusion", "Interface", "Job", "Load", "LocalServerError", "Mesh", "Msh", "Path", "Probe", "Region",
-           "Result", "ServerError", "Side", "Units", "Uzawa", "aio", "connect", "draw", "local", "read"]
+           "Result", "ServerError", "Side", "Study", "Units", "Uzawa", "aio", "connect", "draw", "local", "read"]
 __version__ = "0.1.0"
 
 read = Result.read
@@ -33,4 +34,6 @@ def __getattr__(name: str) -> Any:
     """Imports modules that take long to import only when they are used."""
     if name in ("aio", "draw"):
         return importlib.import_module("." + name, __name__)
+    if name == "Study":
+        return importlib.import_module(".study", __name__).Study
     raise AttributeError(f"module 'anticrack' has no attribute '{name}'")

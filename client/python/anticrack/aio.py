@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import os
 from collections.abc import AsyncIterator, Sequence
-from typing import Any, TextIO
+from typing import TYPE_CHECKING, Any, TextIO
 
 import grpc
 
@@ -19,6 +19,9 @@ from .retry import Backoff
 from .session import Session, session_of_own, session_to
 from .transport import Transport
 from .v1 import mesh_pb2, server_pb2, solve_pb2
+
+if TYPE_CHECKING:
+    from .study import Study
 
 
 class AsyncTransport(Transport):
@@ -84,6 +87,12 @@ class AsyncClient:
                   tips: bool = False) -> Result:
         job = await self.submit(case, coefficients, nodal_forces, traces, bounds, tips)
         return noted(await (await job.wait(progress)).result())
+
+    async def study(self, case: Case | str | os.PathLike[str], vary: Any, path: Path | None = None, *, jobs: int = 4,
+                    progress: bool = False, most_meshes: int = 1000, retry: bool = False) -> Study:
+        from .study.rows import rows_of
+        from .study.run import Told, run
+        return await run(self._session, case, rows_of(vary), path, jobs, most_meshes, retry, Told(progress))
 
     async def mesh(self, case: Case | str | os.PathLike[str]) -> mesh_pb2.Mesh:
         return await self._session.mesh_of(case)

@@ -5,12 +5,13 @@ from __future__ import annotations
 import os
 import warnings
 from collections.abc import Iterator, Sequence
-from typing import Any, TextIO
+from typing import TYPE_CHECKING, Any, TextIO
 
 from .arrays import Array
 from .case import Case
 from .credentials import Credentials, Path, token_of
 from .errors import ServerError, of_status
+from .notebook import job_html
 from .notes import notes_on
 from .progress import Progress
 from .reading import ReadCase, in_terms_of, places_of
@@ -21,6 +22,9 @@ from .sweeps import coefficients_of
 from .text import harmless
 from .transport import Transport, each, finished
 from .v1 import mesh_pb2, server_pb2, solve_pb2
+
+if TYPE_CHECKING:
+    from .study import Study
 
 
 class JobState:
@@ -66,6 +70,10 @@ class JobState:
 
     def __repr__(self) -> str:
         return f"<{harmless(self.name)}: {self.state}>"
+
+    def _repr_html_(self) -> str:
+        """The HTML that a notebook shows."""
+        return job_html(self.message, f"{self.name}: {self.state.replace('_', ' ')}", str(self.error or ""))
 
 
 def noted(result: Result) -> Result:
@@ -138,6 +146,18 @@ class Client:
             traces: Sequence[int] = (), progress: bool = True, bounds: bool = False, tips: bool = False) -> Result:
         """Submits a case, waits and fetches the answers; warns if u is not small against the sheet."""
         return noted(self.submit(case, coefficients, nodal_forces, traces, bounds, tips).wait(progress).result())
+
+    def study(self, case: Case | str | os.PathLike[str], vary: Any, path: Path | None = None, *, jobs: int = 4,
+              progress: bool = True, most_meshes: int = 1000, retry: bool = False) -> Study:
+        """Solves a case for all combinations of values of its keys, as {"mesh.size": [0.1, 0.05]}, or for rows: a
+        DataFrame with keys as columns, or a list of mappings. Keys are those of --set. jobs: so many at once.
+
+        path: the file of the study, from which a run that was interrupted goes on; retry: also with rows that failed.
+        A row that is refused or fails raises nothing, see Row.error. Raises CaseError if all rows are refused, or if
+        more than most_meshes meshes would be made."""
+        from .study.rows import rows_of
+        from .study.run import Told, run
+        return finished(run(self._session, case, rows_of(vary), path, jobs, most_meshes, retry, Told(progress)))
 
     def mesh(self, case: Case | str | os.PathLike[str]) -> mesh_pb2.Mesh:
         """Meshes a case and returns the mesh's counts, subdomains and interfaces (Mesh in mesh.proto)."""

@@ -16,10 +16,12 @@ from typing import Any
 from .blocks import BlockReceiver
 from .errors import Error, package
 from .result import Result, Units
+from .study.record import Study, is_study
 from .text import harmless
 from .v1 import mesh_pb2
 
 FIGURES = ("overview", "membrane", "plan", "traces", "convergence", "accuracy", "growth")
+PICTURES, FILMS = ("png", "svg", "pdf"), ("gif", "webp", "mp4")
 USAGE, CLOSED = 2, 141  # exit codes, as those of `anticrack`
 
 
@@ -70,6 +72,9 @@ def _parser() -> _Parser:
     plot.add_argument("--only", type=_some(FIGURES, "{} is none of " + ", ".join(FIGURES)),
                       action="extend", default=[], metavar="LIST",
                       help=f"of {', '.join(FIGURES[:-1])} and {FIGURES[-1]} those to draw")
+    plot.add_argument("--animate", metavar="WHAT", choices=("loads", "amplitude", "growth"),
+                      help="write animations in place of figures: all loads one after another, or of each load u that "
+                      "grows to its size and back, or its growth")
     plot.add_argument("--interface", default="", metavar="NAME", help="draw the traces of this one")
     plot.add_argument("--all", action="store_true", help="of loads and interfaces, however many there are")
     plot.add_argument("--amplify", type=_number(1e-300, 1e300, float), metavar="FACTOR", help="of u in the membrane")
@@ -87,10 +92,9 @@ def _parser() -> _Parser:
                              help="this load only, of a sweep row-K; again for more")
     for command in (plot, mesh):
         command.add_argument("-o", "--output", default="figures", metavar="DIR", help="folder of the figures")
-        command.add_argument("--format", metavar="LIST", help="of png, svg and pdf those to write",
-                             default=["png", "svg"], type=_some(("png", "svg", "pdf"),
-                                                                '"{}" is none of png, svg and pdf'))
-        command.add_argument("--dpi", type=_number(50, 1200, int), default=300, help="dots an inch of PNG files")
+        command.add_argument("--format", metavar="LIST", help="of png, svg and pdf those to write, of animations gif, "
+                             "webp and mp4", type=_some(PICTURES + FILMS, '"{}" is none of png, svg and pdf'))
+        command.add_argument("--dpi", type=_number(50, 1200, int), help="dots an inch of PNG files")
         command.add_argument("--width", type=_number(40, 400, float), default=85.0, metavar="MM", help="of a panel")
         command.add_argument("--font", default="", metavar="NAME", help="family of the letters")
         command.add_argument("--no-titles", action="store_true", help="no titles of case, load and panels")
@@ -119,13 +123,26 @@ def _drawn(given: argparse.Namespace) -> Any:
     package("matplotlib").use("Agg")
     from .draw import files
     from .draw.sheet import Look
-    look = Look(given.format, given.dpi, not given.no_titles, given.width, given.font)
+    animated = given.command == "plot" and given.animate
+    known = FILMS if animated else PICTURES
+    for kind in given.format or ():
+        if kind not in known:
+            raise _Usage(f'--format: "{kind}" is none of {", ".join(known[:-1])} and {known[-1]}; see anticrack '
+                         f"{given.command} --help")
+    look = Look(given.format or list(known[:1] if animated else known[:2]), given.dpi or (150 if animated else 300),
+                not given.no_titles, given.width, given.font)
     if given.command == "mesh":
         return files.draw_mesh(_read_mesh(given), given.output, look)
     look.amplify, look.limits = given.amplify, given.limits
     if given.together and given.only:
         raise _Usage("--together and --only exclude each other; leave one out; see anticrack plot --help")
+    if is_study(given.file):
+        from .draw.studies import draw_study
+        return draw_study(Study.read(given.file), given.output, look)
     result = Result.read(given.file)
+    if animated:
+        from .draw.animate import draw_animations
+        return draw_animations(result, given.output, given.animate, given.load, look)
     wanted = files.Wanted(given.only, given.interface, given.load, given.all)
     return (files.draw_together if given.together else files.draw_figures)(result, given.output, wanted, look)
 

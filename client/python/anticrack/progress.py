@@ -10,6 +10,7 @@ from typing import Any, TextIO
 import numpy as np
 
 from . import entries
+from .notebook import Curves
 from .text import harmless
 from .v1 import job_pb2, solve_pb2
 
@@ -119,6 +120,7 @@ class Progress:
         self._state, self._name = State(job), job.name
         self._out: TextIO | None = (out or sys.stderr) if shown else None  # sys.stderr may be None without a terminal
         self._handle = _notebook_handle() if shown and out is None else None
+        self._curves = Curves(job.spec)
         self._bar = self._handle is None and _is_terminal(self._out)
         self._shown, self._next = 0, 0.0
 
@@ -133,6 +135,7 @@ class Progress:
     def _show(self, message: solve_pb2.WatchJobResponse, out: TextIO) -> None:
         before = len(self._state.stages)
         lines = self._state.take(message)
+        self._curves.take(message)
         stages = list(self._state.stages.values())
         text, ended = harmless(f"{self._name} {self._state.bar()}"), message.HasField("ended")
         if self._handle is None and not self._bar:
@@ -140,7 +143,8 @@ class Progress:
         elif len(stages) == before and not ended and time.monotonic() < self._next:
             return
         elif self._handle is not None:
-            self._handle.update({"text/plain": "\n".join([*stages, text])}, raw=True)
+            told = "\n".join([*stages, text])
+            self._handle.update({"text/plain": told, "text/html": self._curves.html(told)}, raw=True)
         else:
             text = text[:_columns(out)]
             out.write("".join("\r" + stage.ljust(self._shown) + "\n" for stage in stages[before:]))

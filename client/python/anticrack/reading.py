@@ -11,7 +11,7 @@ import numbers
 import os
 import tomllib
 import warnings
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -28,11 +28,12 @@ Places = Mapping[str, case_pb2.CasePlace]
 class Question:
     """The request to read a case. memory: the contents that the names stand for."""
 
-    def __init__(self, case: Case, loads_optional: bool) -> None:
-        """Raises CaseError for values that a case cannot have, such as functions."""
+    def __init__(self, case: Case, loads_optional: bool, overrides: Sequence[str] = ()) -> None:
+        """overrides: as of --set. Raises CaseError for values that a case cannot have, such as functions."""
         self.case = case
         self.memory: dict[str, Any] = {}
-        self.request = case_pb2.ReadCaseRequest(source=harmless(case.source), loads_optional=loads_optional)
+        self.request = case_pb2.ReadCaseRequest(source=harmless(case.source), loads_optional=loads_optional, overrides=[
+            text.encode("utf-8", "replace") for text in overrides])
         if case.text and repr(case.tables) == repr(tomllib.loads(case.text)):  # repr also compares types
             self.request.toml = case.text.encode("utf-8", "replace")  # errors then name lines
         else:
@@ -99,9 +100,14 @@ class ReadCase:
         self.mesh, self.spec, self.places = answer.mesh, answer.spec, answer.places
         self.text = answer.toml or question.case.text
 
+    @property
+    def mesh_file(self) -> str:
+        """mesh.file as the case names it; empty if it has none"""
+        return str(self._answer.mesh_file)
+
     def msh(self) -> bytes | None:
         """The content of mesh.file, or None."""
-        name = self._answer.mesh_file
+        name = self.mesh_file
         if not name or name in self._memory:
             return self._memory.get(name)
         path = self._case.folder / name
@@ -147,10 +153,15 @@ class ReadCase:
             if "options.preset" not in self.places:
                 self.mesh.options.preset = mesh_pb2.MESH_PRESET_GRADED
 
+    @property
+    def notes(self) -> list[str]:
+        """The server's warnings."""
+        return [harmless(note) for note in self._answer.notes]
+
     def warn(self) -> None:
         """Issues the server's warnings. Call it when nothing was refused, as an error should be told alone."""
-        for note in self._answer.notes:
-            warnings.warn(harmless(note))
+        for note in self.notes:
+            warnings.warn(note)
 
 
 def _name_or_index(table: Any, index: int) -> str:

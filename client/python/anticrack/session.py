@@ -24,7 +24,7 @@ from .result import Result
 from .retry import Backoff
 from .sweeps import sweep_of
 from .transport import Transport
-from .v1 import mesh_pb2, server_pb2, solve_pb2, upload_pb2
+from .v1 import job_pb2, mesh_pb2, server_pb2, solve_pb2, upload_pb2
 
 LOG = logging.getLogger("anticrack")
 CHUNK = 1 << 20
@@ -133,9 +133,10 @@ class Session:
             names += [made.name for made in (await self._tried(self.transport.upload, parts)).uploads]
         return names
 
-    async def read(self, case: Case | str | os.PathLike[str], loads_optional: bool = False) -> ReadCase:
-        """Has the server read a case. Raises CaseError if the case is wrong."""
-        question = Question(as_case(case), loads_optional)
+    async def read(self, case: Case | str | os.PathLike[str], loads_optional: bool = False,
+                   overrides: Sequence[str] = ()) -> ReadCase:
+        """Has the server read a case, with overrides as of --set. Raises CaseError if the case is wrong."""
+        question = Question(as_case(case), loads_optional, overrides)
         size = question.request.ByteSize()
         if size >= CHUNK and size > (most := (await self.info()).limits.message_bytes):
             raise CaseError(f"{question.case.source or 'the case'}: its {size / 1e6:.3g} MB are more than the server "
@@ -168,23 +169,30 @@ class Session:
                      traces: Sequence[int] = (), bounds: bool = False,
                      tips: bool = False) -> tuple[solve_pb2.Job, ReadCase]:
         read = await self.read(case, nodal_forces is not None)
-        spec, arrays = read.spec, read.arrays()
         if coefficients is not None or nodal_forces is not None:
             read.leave_out_accuracy()
         with _in_terms_of(read):
-            names = await self.upload([values.tobytes() for _, values in arrays], upload_pb2.Upload.KIND_ARRAY)
-            for (index, _), name in zip(arrays, names):
-                spec.load_cases[index].force.array.upload = name
-            matrix = sweep_of(spec, coefficients, nodal_forces, traces, bounds, tips)
+            matrix = sweep_of(read.spec, coefficients, nodal_forces, traces, bounds, tips)
             if matrix is not None:
-                target = spec.sweep.coefficients if coefficients is not None else spec.sweep.nodal_forces
+                sweep = read.spec.sweep
+                target = sweep.coefficients if coefficients is not None else sweep.nodal_forces
                 target.upload = (await self.upload([matrix], upload_pb2.Upload.KIND_ARRAY))[0]
-            read.mesh.for_job = True
-            spec.mesh = (await self._create_mesh(read)).name
-            request = solve_pb2.CreateJobRequest(spec=spec, request_id=str(uuid.uuid4()))
-            created = await self.call(self.transport.jobs.CreateJob, request)
+        created = await self.create(read, lambda spec: str(uuid.uuid4()))
         read.warn()
         return created, read
+
+    async def create(self, read: ReadCase, identify: Callable[[job_pb2.JobSpec], str]) -> solve_pb2.Job:
+        """Uploads the files of a case, asks for its mesh, and creates its job or finds the one that has its id.
+        identify: the request id of a job that asks for this."""
+        arrays = read.arrays()
+        with _in_terms_of(read):
+            names = await self.upload([values.tobytes() for _, values in arrays], upload_pb2.Upload.KIND_ARRAY)
+            for (index, _), name in zip(arrays, names):
+                read.spec.load_cases[index].force.array.upload = name
+            read.mesh.for_job = True
+            read.spec.mesh = (await self._create_mesh(read)).name
+            request = solve_pb2.CreateJobRequest(spec=read.spec, request_id=identify(read.spec))
+            return await self.call(self.transport.jobs.CreateJob, request)  # type: ignore[no-any-return]
 
     async def mesh(self, name: str) -> mesh_pb2.Mesh:
         """Returns a mesh once it is meshed or has failed."""

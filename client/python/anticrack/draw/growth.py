@@ -6,8 +6,9 @@ from typing import Any
 
 import numpy as np
 
+from ..arrays import Array
 from ..errors import Error
-from ..result import Load, Result
+from ..result import Arrays, Load, Result
 from ..text import harmless
 from .panel import CURVES, axes, load_of, named
 
@@ -19,6 +20,11 @@ def _begin(result: Result, load: str | Load | None, ax: Any) -> tuple[Any, Load]
     return ax, load
 
 
+def place_of(rows: Arrays) -> Array:
+    """(rows) the horizontal place of each row of growth: the displacement, or without inclusion the position."""
+    return rows["position"] if np.isnan(rows["displacement"]).all() else rows["displacement"]
+
+
 def growth(result: Result, load: str | Load | None = None, ax: Any = None) -> Any:
     """Draws the load at which fronts go on against the displacement of the inclusion, or without one against the
     position of the front that goes on. Thick where what is increased goes up, thin where it would have to go back:
@@ -26,7 +32,7 @@ def growth(result: Result, load: str | Load | None = None, ax: Any = None) -> An
     ax, load = _begin(result, load, ax)
     rows = load.growth
     by_position = bool(np.isnan(rows["displacement"]).all())
-    at = rows["position"] if by_position else rows["displacement"]
+    at = place_of(rows)
     label = f"{named(load.name)}: " if len(result.loads) > 1 else ""
     color = CURVES[sum(not line.get_label().startswith("_") for line in ax.lines) // 2 % len(CURVES)][0]
     ax.plot(at, rows["load"], color=color, linewidth=0.6, label=f"{label}fronts run")

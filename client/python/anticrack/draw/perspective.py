@@ -82,11 +82,20 @@ def _mark(result: Result, load: Load, height: Any, above: float, ax: Any) -> Non
                             bbox=BOX, zorder=101)
 
 
+def heights_of(result: Result, load: str | Load | None = None) -> tuple[float, float]:
+    """The lowest and the highest u that `membrane` draws, less the plane that it leaves out."""
+    surface = Surface(result, load_of(result, load))
+    rest = np.where(np.isfinite(surface.u), surface.u - _plane(surface), 0)
+    return float(rest.min()), float(rest.max())
+
+
 def membrane(result: Result, load: str | Load | None = None, ax: Any = None, cmap: Any = None,
-             amplify: float | None = None, limits: tuple[float, float] | None = None, colorbar: Any = True) -> Any:
+             amplify: float | None = None, limits: tuple[float, float] | None = None, colorbar: Any = True,
+             heights: tuple[float, float] | None = None) -> Any:
     """Draws the deformed membrane in perspective with its cracks open; u is in colours and amplified as the title says
     (or by `amplify`). Needs a case with fields. If the sheet's edges are held at different heights, the plane through
-    u is left out. limits: (lowest, highest) u of the colours, to share by several figures. colorbar: False, or axes to
+    u is left out. limits: (lowest, highest) u of the colours, to share by several figures; heights: likewise of
+    the vertical axis, see heights_of. colorbar: False, or axes to
     draw it in. `ax` has three dimensions: subplots(subplot_kw={"projection": "3d"}); `displacement` draws u on an `ax`
     of two."""
     load = load_of(result, load)
@@ -104,7 +113,8 @@ def membrane(result: Result, load: str | Load | None = None, ax: Any = None, cma
     shown = stretched * (high - low)
     size = float(np.sqrt(shown.prod()))
     rest = np.where(np.isfinite(surface.u), surface.u - plane, 0)
-    factor = amplify or _amplification(np.ptp(rest), 0.4 * size if level else size)
+    ends = heights if heights is not None else (float(rest.min()), float(rest.max()))
+    factor = amplify or _amplification(np.ptp(ends), 0.4 * size if level else size)
     shades = surface.shades(limits, cmap)
     middle = surface.nodes.mean(axis=0)
     tilt = np.linalg.lstsq(surface.nodes - middle, plane - plane.mean(), None)[0]
@@ -116,16 +126,15 @@ def membrane(result: Result, load: str | Load | None = None, ax: Any = None, cma
     def height(x: Array, y: Array, u: Array) -> Array:
         return np.asarray(factor * (u - (np.c_[x, y] - middle) @ tilt - plane.mean()))
     _mark(result, load, height, 0.06 * size, ax)
-    ends = rest.min(), rest.max()
-    heights = factor * np.mean(ends) + np.array((-0.5, 0.5)) * max(factor * np.ptp(ends), 0.15 * size)
-    ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=heights)
+    room = factor * np.mean(ends) + np.array((-0.5, 0.5)) * max(factor * np.ptp(ends), 0.15 * size)
+    ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=room)
     for i, axis in enumerate((ax.xaxis, ax.yaxis)):
         axis.set_major_locator(rounded(5 if shown[i] > shown.max() / 3 else 2))
         label_axis(axis, "xy"[i], unit_of(result), Scale(low[i], high[i], shown.max() / stretched[i]))
-    tall = Scale(*ends, factor=factor)
+    tall = Scale(ends[0], ends[1], factor=factor)
     steps = rounded(2).tick_values(*widened(*ends))
-    ticks = [factor * step for step in steps if heights[0] <= factor * step <= heights[1]]
-    ax.set_zticks(ticks if np.ptp(heights) > 0.25 * size else sorted({*ticks[:1], *ticks[-1:]}))
+    ticks = [factor * step for step in steps if room[0] <= factor * step <= room[1]]
+    ax.set_zticks(ticks if np.ptp(room) > 0.25 * size else sorted({*ticks[:1], *ticks[-1:]}))
     label_axis(ax.zaxis, "" if level else "u", unit_of(result), tall)
     for axis in (ax.xaxis, ax.yaxis, ax.zaxis):
         axis.set_pane_color((1, 1, 1, 0))
@@ -133,7 +142,7 @@ def membrane(result: Result, load: str | Load | None = None, ax: Any = None, cma
         axis.labelpad = -4 if axis is not ax.zaxis else -7 if around > -90 else -2
     ax.tick_params(pad=-2)
     ax.grid(False)
-    ax.set_box_aspect([*shown, np.ptp(heights)], zoom=1.05)
+    ax.set_box_aspect([*shown, np.ptp(room)], zoom=1.05)
     ax.view_init(up, around)
     text = "u to scale" if factor == 1 else f"u {'amplified ' if factor > 1 else ''}\u00d7{number_text(factor, 6)}"
     wider = [f", {name} stretched \u00d7{number_text(by, 6)}" for name, by in zip("xy", stretched) if by != 1]

@@ -49,7 +49,7 @@ def draw_membrane(sheet: Sheet, result: Result, load: Load, *_: float) -> float:
     height = 0.7 * wide
     bar = sheet.panel(0.24 * wide, height + 2.5, 0.52 * wide, 1.8)
     ax = sheet.panel(0, 0.5, wide, height + 1, projection="3d")
-    membrane(result, load, ax, amplify=look.amplify, limits=look.limits, colorbar=bar)
+    membrane(result, load, ax, amplify=look.amplify, limits=look.limits, heights=look.heights, colorbar=bar)
     ax.set_title(ax.get_title().partition(": ")[2], y=1 - 2.5 / (height + 1))
     sheet.centre(ax)
     return height + 12.5

@@ -42,7 +42,8 @@ _LOOKS: dict[str, Any] = {
 @dataclass
 class Look:
     """How pictures look. width: of a panel [mm]; an overview has two side by side; titles: show titles of case and load
-    and headings of panels; font: a family, empty for matplotlib's own; limits, amplify: as for draw.membrane."""
+    and headings of panels; font: a family, empty for matplotlib's own; limits, heights and amplify:
+    as for draw.membrane."""
     formats: list[str] = field(default_factory=lambda: ["png", "svg"])
     dpi: int = 300
     titles: bool = True
@@ -50,6 +51,7 @@ class Look:
     font: str = ""
     amplify: float | None = None
     limits: tuple[float, float] | None = None
+    heights: tuple[float, float] | None = None
 
     @contextlib.contextmanager
     def applied(self) -> Iterator[None]:
@@ -83,6 +85,10 @@ class Sheet:
     def height(self, down: float) -> float:
         """The height of a place so many mm below the title, as a fraction of the figure."""
         return 1 - (self._head + down) / _ROOM
+
+    @property
+    def panels(self) -> list[Any]:
+        return list(self._figure.axes)
 
     def panel(self, left: float, top: float, width: float, height: float, **options: Any) -> Any:
         """Makes axes at a place in mm from the left and from below the title."""
