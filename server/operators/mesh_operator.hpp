@@ -89,6 +89,7 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
     std::optional<bool> of_largest{};
     std::vector<double> indicator{};
     std::exception_ptr failure{};
+    bool of_energy = false;  ///< there are no bounds of A
   };
   /// The same for several answers at once, which is faster; the bits of each are as if it were
   /// alone. An error of one is stored as its `failure`.
