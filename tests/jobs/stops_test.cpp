@@ -241,7 +241,7 @@ TEST_F(JobStops, WhileAFrontGrows) {
 /// Each has meshes of its own, from their factors to bounds.
 TEST_F(JobStops, InFinalPositionsOfGrowth) {
   records::JobSpec spec;
-  spec.mesh = test.ready_mesh(0.04);
+  spec.mesh = test.ready_mesh(0.03);
   spec.loads = {{"opening", fem::Expression{"y > 0 ? 1 : -1"}, ""}};
   spec.growth.emplace().paths = {{"interface", {-0.5, 0}, {0, 0}, "0.1"}};
   spec.growth->positions = 4;
