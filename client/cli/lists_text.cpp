@@ -121,36 +121,51 @@ std::string tips_table(const std::vector<results::Load>& loads, const v1::Units&
 
 std::string growth_table(const std::vector<results::Load>& loads, const v1::Units& units,
                          bool all) {
-  const std::initializer_list<const char*> numbers{"position", "load", "displacement",
-                                                   "G1",       "Gc",   "contact_length"};
-  Rows rows{{"load case", "row", "front"}, {"", "", ""}};
-  add_heads(*v1::GrowthRow::descriptor(), numbers, units, rows);
-  rows[0].back() = "contact length";
-  rows[0].emplace_back("stable");
-  rows[1].emplace_back("");
+  struct Table {
+    std::initializer_list<const char*> numbers;
+    Rows rows{{"load case", "row", "front"}, {"", "", ""}};
+    void add(const results::Load& load, int number_of_row) {
+      const v1::GrowthRow& row = load.answer.growth(number_of_row);
+      auto& cells = rows.emplace_back(std::vector{
+          load.name(), std::to_string(number_of_row),
+          row.front() < 0 ? "all closed" : fmt::format("{} {}", row.front(), row.interface())});
+      for (const char* const name : numbers)
+        cells.push_back(number(results::number_in(row, name), 5));
+    }
+  };
+  Table mesh{{"position", "load", "displacement", "G1", "Gc", "contact_length"}},
+      own{{"position", "load", "load_lower", "load_upper", "G1", "G1_final", "G1_lower",
+           "G1_upper"}};
+  for (Table* one : {&mesh, &own}) {
+    add_heads(*v1::GrowthRow::descriptor(), one->numbers, units, one->rows);
+    for (std::string& head : one->rows[0]) std::ranges::replace(head, '_', ' ');
+  }
+  mesh.rows[0].emplace_back("stable");
+  mesh.rows[1].emplace_back("");
   std::string notes;
   bool left_out = false;
   for (const results::Load& load : loads) {
     const v1::LoadCaseAnswer& answer = load.answer;
     for (int i = 0; i < answer.growth_size(); ++i) {
+      const v1::GrowthRow& row = answer.growth(i);
+      if (row.has_g1_final() || row.has_energy_lower()) own.add(load, i);
       if (!all && answer.growth_size() > few_rows && !is_turn(answer, i)) {
         left_out = true;
         continue;
       }
-      const v1::GrowthRow& row = answer.growth(i);
-      auto& cells = rows.emplace_back(std::vector{
-          load.name(), std::to_string(i),
-          row.front() < 0 ? "all closed" : fmt::format("{} {}", row.front(), row.interface())});
-      for (const char* const name : numbers)
-        cells.push_back(number(results::number_in(row, name), 5));
-      cells.emplace_back(row.stable() ? "yes" : "no");
+      mesh.add(load, i);
+      mesh.rows.back().emplace_back(row.stable() ? "yes" : "no");
     }
     for (const std::string& note : answer.growth_notes())
       notes += sanitise(load.name()) + ": " + sanitise(note) + "\n";
   }
-  if (rows.size() == 2) return "";
-  return "\n" + table(std::move(rows), {2, 9}) +
-         (left_out ? "all rows: anticrack show RESULT --growth\n" : "") + notes;
+  if (mesh.rows.size() == 2) return "";
+  std::string text = "\n" + table(std::move(mesh.rows), {2, 9});
+  if (left_out) text += "all rows: anticrack show RESULT --growth\n";
+  if (own.rows.size() > 2)
+    text += "\non meshes of their own, with bounds of the means to the next\n" +
+            table(std::move(own.rows), {2}) + "\n";
+  return text + notes;
 }
 
 std::string stages_table(const results::Load& load) {

@@ -42,9 +42,14 @@ void JobProgress::apply(const v1::WatchJobResponse& event, double seconds) {
       break;
     case v1::WatchJobResponse::kGrowthStep: {
       const v1::GrowthRow& row = event.growth_step().row();
-      enter(v1::JobStatus::STATE_RUNNING,
-            fmt::format("front on {} at {}, load {}", row.interface(), number(row.position(), 4),
-                        number(row.load(), 4)));
+      enter(
+          v1::JobStatus::STATE_RUNNING,
+          fmt::format("front on {} at {}, load {}{}", row.interface(), number(row.position(), 4),
+                      number(row.load(), 4),
+                      row.has_g1_upper()
+                          ? fmt::format(", to the next {} to {}", number(row.load_lower(), 4),
+                                        row.has_load_upper() ? number(row.load_upper(), 4) : "any")
+                          : ""));
       break;
     }
     case v1::WatchJobResponse::kStageEnded:

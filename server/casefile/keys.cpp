@@ -300,6 +300,14 @@ constexpr Key growth_rows[] = {
     {"inclusion", "increased is the displacement of this inclusion, in place of the load",
      "the load is increased"_absent},
     {"positions", count, "about so many on all paths together, 2 to 1,000", "200"_absent},
+    {"final", count,
+     "so many of them, 2 to 1,000, are solved again, each on a mesh bisected for it, with bounds "
+     "of "
+     "G1 and of the load between them",
+     "none"_absent, "final_positions"_field},
+    {"final_error", positive,
+     "half the width of the bounds of G1 over G1 at which bisection ends, 0.001 to 1",
+     "0.05"_absent},
 };
 constexpr Keys growth_keys{v1::Growth::descriptor, {growth_rows}};
 

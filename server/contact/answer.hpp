@@ -104,9 +104,15 @@ struct GrowthRow {
   std::optional<double> energy;
   bool stable = false;
   std::int32_t ties = 0;  ///< how many others would leave at nearly this load
+  // Of a final position, on a mesh of its own:
+  std::optional<double> g1_final;
+  std::optional<double> energy_lower, energy_upper;  ///< bounds of the exact Pi under `load`
+  /// Bounds of means from here to the next final position, see growth::MeanRelease.
+  std::optional<double> g1_lower, g1_upper, load_lower, load_upper;
 };
 ANTICRACK_FIELDS(GrowthRow, front, interface, position, x, y, load, displacement, g1, toughness,
-                 contact_length, energy, stable, ties)
+                 contact_length, energy, stable, ties, g1_final, energy_lower, energy_upper,
+                 g1_lower, g1_upper, load_lower, load_upper)
 
 /// The numbers of an answer, without its status and arrays.
 struct AnswerSummary {

@@ -13,6 +13,7 @@
 #include "contact/trace_problem.hpp"
 #include "ddm/decomposition.hpp"
 #include "errors/errors.hpp"
+#include "growth/held.hpp"
 #include "mesh/refine.hpp"
 #include "stop/stop.hpp"
 #include "tips/tips.hpp"
@@ -216,14 +217,10 @@ double Preview::room(std::size_t front, const State& state) {
 /// Ties what holds on the paths.
 void Preview::tie(const State& state) {
   std::ranges::fill(_tied, 0);
-  const auto passed = [&](int front) { return front < 0 ? 0 : state.at[at(front)]; };
-  for (const Stretch& stretch : _fronts.stretches) {
-    const int any = stretch.forward >= 0 ? stretch.forward : stretch.backward;
-    if (state.fate[at(any)] == Fate::snapped) continue;
-    for (std::size_t i = stretch.first + passed(stretch.forward);
-         i <= stretch.last - passed(stretch.backward); ++i)
-      for (const std::int32_t contact : contacts_at(stretch, i)) _tied[at(contact)] = 1;
-  }
+  for (const Stretch& stretch : _fronts.stretches)
+    if (const std::optional<Held> here = held(stretch, state))
+      for (std::size_t i = here->first; i <= here->last; ++i)
+        for (const std::int32_t contact : contacts_at(stretch, i)) _tied[at(contact)] = 1;
 }
 
 contact::Answer Preview::answer(const State& state, const contact::ActiveSetOptions& options,

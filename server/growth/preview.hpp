@@ -48,6 +48,7 @@ class Preview {
           std::span<const Path> paths);
 
   std::vector<Track> tracks() const;
+  const Fronts& fronts() const noexcept { return _fronts; }
   /// The whole answer in a state, for t = 1, without fields; what holds on the paths counts as glue
   /// or bonded. Throws as measure().
   contact::Answer answer(const State& state, const contact::ActiveSetOptions& options,

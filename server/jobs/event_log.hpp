@@ -52,9 +52,10 @@ struct StageEvent {
   std::shared_ptr<const records::StageRecord> stage;
 };
 
-/// Fronts that grow under a load case have been measured in a position.
+/// Fronts that grow under a load case have been measured in a position, or again with bounds.
 struct GrowthEvent {
   std::int32_t load_case = 0;
+  std::int32_t number = 0;  ///< of the row
   std::shared_ptr<const contact::GrowthRow> row;
 };
 

@@ -29,14 +29,14 @@ struct Solved {
 
 const records::JobSpec& spec_of(const PreparedCase& prepared) { return *prepared.task.job->spec; }
 
-Solved solve(const PreparedCase& prepared, std::atomic<std::uint64_t>& iterations) {
+Solved solve(const PreparedCase& prepared, EngineCore& core) {
   Solved solved;
   const stop::Scope scope(prepared.task.job->stop.get_token());
   try {
-    Recorder recorder(prepared.task, iterations);
+    Recorder recorder(prepared.task, core.iterations);
     solved.answer =
         spec_of(prepared).growth
-            ? grow(prepared, recorder)
+            ? grow(prepared, core.catalogue, recorder)
             : prepared.task.job->mesh_operator->solve(
                   prepared.load, std::get<contact::ActiveSetOptions>(spec_of(prepared).solver),
                   false, recorder);
@@ -168,11 +168,10 @@ std::vector<PreparedCase> take_together(std::deque<PreparedCase>& prepared, int 
   return cases;
 }
 
-std::vector<EndedCase> solve_exactly(const std::vector<PreparedCase>& cases,
-                                     std::atomic<std::uint64_t>& iterations) {
+std::vector<EndedCase> solve_exactly(const std::vector<PreparedCase>& cases, EngineCore& core) {
   std::vector<Solved> solved;
   solved.reserve(cases.size());
-  for (const PreparedCase& prepared : cases) solved.push_back(solve(prepared, iterations));
+  for (const PreparedCase& prepared : cases) solved.push_back(solve(prepared, core));
   recover_fields(cases, solved);
   measure(cases, solved);
   add_bounds(cases, solved);

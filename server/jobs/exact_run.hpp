@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <atomic>
-#include <cstdint>
 #include <deque>
 #include <vector>
 
@@ -17,7 +15,6 @@ std::vector<PreparedCase> take_together(std::deque<PreparedCase>& prepared, int 
 /// Solves each case by the active set, then recovers the fields of all that need them in one pass
 /// over the factors, and computes the bounds from the fields. All cases must be on one mesh. The
 /// bits of a case do not depend on the others. Throws nothing. Call it without the lock.
-std::vector<EndedCase> solve_exactly(const std::vector<PreparedCase>& cases,
-                                     std::atomic<std::uint64_t>& iterations);
+std::vector<EndedCase> solve_exactly(const std::vector<PreparedCase>& cases, EngineCore& core);
 
 }  // namespace anticrack::jobs

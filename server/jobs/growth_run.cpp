@@ -10,6 +10,7 @@
 
 #include "contact/answer.hpp"
 #include "expression/function.hpp"
+#include "jobs/growth_final.hpp"
 #include "jobs/result_block.hpp"
 #include "operators/grow.hpp"
 
@@ -118,7 +119,8 @@ std::vector<std::string> notes_on(const std::vector<growth::Row>& rows, const Ev
   return notes;
 }
 
-contact::Answer grown(const PreparedCase& prepared, contact::Observer& observer) {
+contact::Answer grown(const PreparedCase& prepared, meshes::MeshCatalogue& catalogue,
+                      contact::Observer& observer) {
   const LiveJob& job = *prepared.task.job;
   const records::GrowthSpec& spec = *job.spec->growth;
   const std::stop_token stop = job.stop.get_token();
@@ -131,18 +133,48 @@ contact::Answer grown(const PreparedCase& prepared, contact::Observer& observer)
       evolution.state(), std::get<contact::ActiveSetOptions>(job.spec->solver), observer);
   if (answer.status != contact::Status::converged) return answer;
   std::vector<growth::Row> rows;
+  std::vector<GrownState> states;
+  const auto tell = [&](std::size_t row) {
+    job.log->append(GrowthEvent{static_cast<std::int32_t>(prepared.task.index),
+                                static_cast<std::int32_t>(row),
+                                std::make_shared<const contact::GrowthRow>(answer.growth[row])});
+  };
   while (!evolution.over()) {
     const growth::State state = evolution.state();
     const growth::Measured measured = preview.measure(state, stop);
     const std::optional<growth::Row> row = evolution.take(measured);
     if (!row) continue;
     answer.growth.push_back(row_of(*row, measured, state, evolution, control.inclusion));
-    job.log->append(GrowthEvent{static_cast<std::int32_t>(prepared.task.index),
-                                std::make_shared<const contact::GrowthRow>(answer.growth.back())});
+    tell(rows.size());
     rows.push_back(*row);
+    states.push_back({state, measured.energy});
   }
   answer.growth_notes = notes_on(rows, evolution, control);
+  if (spec.final_positions > 0)
+    add_final(prepared, catalogue, preview.fronts(), rows, states, answer, tell);
   return answer;
+}
+
+void check_final(const records::JobSpec& spec) {
+  const records::GrowthSpec& growth = *spec.growth;
+  if (growth.final_positions < 2 || growth.final_positions > most_positions)
+    throw Error(Reason::invalid_argument, "{} positions with bounds: take 2 to {}",
+                growth.final_positions, most_positions)
+        .at("growth.final_positions");
+  if (growth.final_error != 0 && !(growth.final_error >= 1e-3 && growth.final_error <= 1))
+    throw Error(Reason::invalid_argument, "{:g} is no error of G1: give a relative one, 0.001 to 1",
+                growth.final_error)
+        .at("growth.final_error");
+  if (spec.without_bounds)
+    throw Error(Reason::invalid_argument,
+                "positions of growth have bounds: leave one of the two out")
+        .at("without_bounds");
+  for (std::size_t i = 0; i < spec.loads.size(); ++i)
+    if (std::holds_alternative<fem::Array>(spec.loads[i].force))
+      throw Error(Reason::invalid_argument,
+                  "an array belongs to one mesh, and positions of growth have their own: give f as "
+                  "an expression")
+          .at(fmt::format("load_cases[{}].force", i));
 }
 
 }  // namespace
@@ -159,6 +191,7 @@ void check_growth(const records::JobSpec& spec, const EngineOptions& options) {
     throw Error(Reason::invalid_argument, "{} positions: take 2 to {}", growth.positions,
                 most_positions)
         .at("growth.positions");
+  if (growth.final_positions != 0) check_final(spec);
   for (std::size_t i = 0; i < growth.paths.size(); ++i) {
     const growth::Path& path = growth.paths[i];
     const std::string field = fmt::format("growth.paths[{}].toughness", i);
@@ -186,7 +219,7 @@ void check_growth(const records::JobSpec& spec, const EngineOptions& options) {
     throw Error(Reason::invalid_argument,
                 "a job with growth has no probes, as there are no fields: leave them out")
         .at("probes");
-  constexpr std::uint64_t a_row = 200;  // thirteen numbers and a name
+  constexpr std::uint64_t a_row = 250;  // twenty numbers and a name
   const auto rows = static_cast<std::uint64_t>(positions_of(growth)) * spec.loads.size();
   if (rows * a_row > max_answer_bytes)
     throw Error(Reason::limit_exceeded,
@@ -196,9 +229,10 @@ void check_growth(const records::JobSpec& spec, const EngineOptions& options) {
         .at("growth.positions");
 }
 
-contact::Answer grow(const PreparedCase& prepared, contact::Observer& observer) {
+contact::Answer grow(const PreparedCase& prepared, meshes::MeshCatalogue& catalogue,
+                     contact::Observer& observer) {
   try {
-    return grown(prepared, observer);
+    return grown(prepared, catalogue, observer);
   } catch (Error& error) {
     if (!error.fields().empty()) error.below("growth");
     throw;

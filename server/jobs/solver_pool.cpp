@@ -271,7 +271,7 @@ void SolverPool::solve_exactly(const Mesh& mesh, Working& working) {
         _core.schedule.unpark(mesh->id, Lane::active_set, prepared.task.job->spec->priority);
       _core.columns += static_cast<int>(cases.size());
       lock.unlock();
-      ended = jobs::solve_exactly(cases, _core.iterations);
+      ended = jobs::solve_exactly(cases, _core);
       lock.lock();
       _core.columns -= static_cast<int>(cases.size());
     }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <condition_variable>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -245,6 +246,30 @@ MeshRecord MeshCatalogue::refine(const Parent& parent, std::span<const std::uint
   _state->end_claim(record.id, &record, false);
   const LiveMesh& mesh = _state->index().known(record.id);
   return seen(mesh, std::move(record), false);
+}
+
+std::shared_ptr<const operators::MeshOperator> MeshCatalogue::operators_of(
+    const Passing& passing, std::shared_ptr<const mesh::Mesh> mesh, const std::stop_token& stop) {
+  operators::OperatorCache& cache = _state->cache;
+  require_memory(*mesh, cache.budget() - std::min(cache.budget(), passing.held));
+  constexpr int most_waits = 30;
+  for (int k = 0;; ++k) {
+    try {
+      auto found = cache.acquire(passing.name, mesh, stop, passing.owner);
+      const auto* const here = found.get();
+      return {here, [found = std::move(found), &cache, name = passing.name](const auto*) mutable {
+                found.reset();
+                cache.evict(name);
+              }};
+    } catch (const Error& error) {
+      if (error.reason() != Reason::busy || k == most_waits) throw;
+    }
+    std::mutex mutex;
+    std::unique_lock lock(mutex);
+    std::condition_variable_any().wait_for(lock, stop, operators::retry_delay,
+                                           [] { return false; });
+    if (stop.stop_requested()) throw Error(Reason::cancelled, "stopped while waiting for memory");
+  }
 }
 
 std::size_t MeshCatalogue::max_triangles() const noexcept { return _state->options.max_triangles; }

@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -63,6 +64,16 @@ class MeshCatalogue {
   records::MeshRecord refine(const Parent& parent, std::span<const std::uint8_t> levels,
                              std::size_t max_triangles);
   std::size_t max_triangles() const noexcept;  ///< most triangles of a mesh
+  struct Passing {
+    std::string name;  ///< of this mesh alone
+    std::string owner;
+    std::uint64_t held = 0;  ///< bytes of operators that the caller keeps meanwhile
+  };
+  /// The operators of a mesh that has no record, within the memory budget; they are evicted with
+  /// the last pointer to them. Waits half a minute while others use the memory. Throws
+  /// errors::Error: limit_exceeded (too large for the budget), busy, numerical, cancelled.
+  std::shared_ptr<const operators::MeshOperator> operators_of(
+      const Passing& passing, std::shared_ptr<const mesh::Mesh> mesh, const std::stop_token& stop);
 
   records::MeshRecord get(const std::string& id) const;                  ///< throws not_found
   std::vector<records::MeshRecord> list(const store::Page& page) const;  ///< newest first

@@ -110,6 +110,7 @@ void find_bounds(const MeshOperator::Parts& parts, const estimate::CutMesh& cut,
     of.indicator.resize(bracket.indicator.size());
     for (std::size_t t = 0; t < bracket.indicator.size(); ++t)
       of.indicator[at(cut.triangle[t])] = bracket.indicator[t];
+    if (of.of_energy) continue;
     primals.push_back({cut, fluxes[i], balance, lifts, u, lack, stiff});
     bounded.push_back({load, primals.back(), bracket, answer, of.stop, of.closely, of.of_largest,
                        &of.indicator, across});

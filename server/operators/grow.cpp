@@ -39,6 +39,8 @@ Growth::~Growth() = default;
 
 std::vector<growth::Track> Growth::tracks() const { return _parts->preview.tracks(); }
 
+const growth::Fronts& Growth::fronts() const noexcept { return _parts->preview.fronts(); }
+
 contact::Answer Growth::answer(const growth::State& state, const contact::ActiveSetOptions& options,
                                contact::Observer& observer) {
   contact::Answer answer = _parts->preview.answer(state, options, observer);

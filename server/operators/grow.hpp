@@ -27,6 +27,7 @@ class Growth {
   Growth& operator=(const Growth&) = delete;
 
   std::vector<growth::Track> tracks() const;
+  const growth::Fronts& fronts() const noexcept;
   /// As growth::Preview::answer.
   contact::Answer answer(const growth::State& state, const contact::ActiveSetOptions& options,
                          contact::Observer& observer);

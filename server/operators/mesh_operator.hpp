@@ -94,6 +94,7 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
     /// through the side opposite to each corner, shape (m,3). A row sums to -int f.
     std::vector<double> balanced_flux{};
     std::exception_ptr failure{};
+    bool of_energy = false;  ///< there are no bounds of A
   };
   /// The same for several answers at once, which is faster; the bits of each are as if it were
   /// alone. An error of one is stored as its `failure`.

@@ -50,10 +50,12 @@ ANTICRACK_FIELDS(AccuracySpec, energy, displacement, max_triangles, time, keep_s
 /// Growth under each load case, along paths that the mesh has as open.
 struct GrowthSpec {
   std::vector<growth::Path> paths;
-  std::string inclusion;       ///< its displacement is increased; empty: the load
-  std::int32_t positions = 0;  ///< about so many; 0: 200
+  std::string inclusion;             ///< its displacement is increased; empty: the load
+  std::int32_t positions = 0;        ///< about so many; 0: 200
+  std::int32_t final_positions = 0;  ///< how many have a mesh of their own, and bounds
+  double final_error = 0;            ///< of G1 between them, half the width of its bounds; 0: 0.05
 };
-ANTICRACK_FIELDS(GrowthSpec, paths, inclusion, positions)
+ANTICRACK_FIELDS(GrowthSpec, paths, inclusion, positions, final_positions, final_error)
 
 /// Names of units, for readers; empty: none.
 struct Units {

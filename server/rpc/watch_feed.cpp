@@ -126,6 +126,7 @@ void WatchFeed::fill(const jobs::StageEvent& stage, v1::WatchJobResponse& respon
 void WatchFeed::fill(const jobs::GrowthEvent& step, v1::WatchJobResponse& response) {
   v1::GrowthStep& growth = *response.mutable_growth_step();
   growth.set_load_case(step.load_case);
+  growth.set_number(step.number);
   api::write_fields(*step.row, *growth.mutable_row());
 }
 

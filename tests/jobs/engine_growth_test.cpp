@@ -4,8 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <future>
+#include <iterator>
 #include <thread>
 #include <variant>
 
@@ -145,6 +148,160 @@ TEST(EngineGrowth, ThatAStopInterruptsRunsAgainWithTheSameRows) {
   expect_same(again.cases.at(50).answer.growth, alone.cases.at(0).answer.growth);
 }
 
+/// Some rows have a mesh of their own: one load opens the front, under the other there is contact
+/// beside it.
+records::JobSpec final_job(const std::string& mesh) {
+  records::JobSpec spec = growing_job(mesh);
+  spec.loads.push_back({"pressed", fem::Expression{"y > 0 ? 2 : x > 0.25 ? 14 : -10"}, ""});
+  spec.growth->positions = 30;
+  spec.growth->final_positions = 4;
+  return spec;
+}
+
+bool is_final(const contact::GrowthRow& row) { return row.g1_final || row.energy_lower; }
+
+/// The rows that a watcher hears of: all as they come, then those with bounds again, in order.
+void expect_told(const std::vector<NumberedEvent>& events, std::size_t load_case,
+                 const std::vector<contact::GrowthRow>& rows) {
+  std::vector<std::size_t> expected, told;
+  for (std::size_t i = 0; i < rows.size(); ++i) expected.push_back(i);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (is_final(rows[i])) expected.push_back(i);
+  for (const NumberedEvent& event : events) {
+    const auto* step = std::get_if<GrowthEvent>(&event.event);
+    if (step == nullptr || step->load_case != static_cast<std::int32_t>(load_case)) continue;
+    const auto number = static_cast<std::size_t>(step->number);
+    EXPECT_EQ(is_final(*step->row), told.size() >= rows.size() && is_final(rows.at(number)));
+    EXPECT_EQ(step->row->position, rows.at(number).position);
+    if (is_final(*step->row)) {
+      EXPECT_EQ(step->row->g1_lower, rows[number].g1_lower);
+    }
+    told.push_back(number);
+  }
+  EXPECT_EQ(told, expected);
+}
+
+TEST(EngineGrowth, FinalPositionsHaveBoundsOnMeshesOfTheirOwn) {
+  Engine test;
+  const records::GeometrySource graded{anticrack::testing::paper_geometry(),
+                                       {mesh::Preset::graded, size}};
+  const records::JobSpec spec = final_job(test.backend.catalogue.create(graded, "", "").id);
+  const std::string id = test.submit(spec);
+  const JobRecord job = test.ended(id);
+  ASSERT_EQ(job.state, JobState::succeeded) << (job.error ? job.error->what() : "");
+  for (std::size_t load = 0; load < spec.loads.size(); ++load) {
+    const contact::AnswerSummary& answer = job.cases.at(load).answer;
+    expect_told(test.events(id), load, answer.growth);
+    std::vector<contact::GrowthRow> rows;
+    std::ranges::copy_if(answer.growth, std::back_inserter(rows), is_final);
+    ASSERT_EQ(rows.size(), 4U) << answer.growth_notes.front();
+    EXPECT_EQ(rows.front().position, answer.growth.front().position);
+    EXPECT_EQ(rows.back().position, answer.growth.back().position);
+    EXPECT_FALSE(rows.back().g1_lower);
+    double worst = 0;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const contact::GrowthRow& row = rows[k];
+      ASSERT_TRUE(row.g1_final) << k;
+      worst = std::max(worst, std::abs(std::sqrt(row.g1 / *row.g1_final) - 1));
+      // Pi of the mesh of all positions is above that of its own, and nearly between the bounds.
+      EXPECT_LT(*row.energy_lower, *row.energy);
+      EXPECT_LT(*row.energy_lower, *row.energy_upper);
+      if (k + 1 == rows.size()) continue;
+      // Bounds of the mean are those of the differences of the energies under the load 1 ...
+      const double way = std::abs(rows[k + 1].position - row.position);
+      const auto at_1 = [](const contact::GrowthRow& of, double energy) {
+        return energy / (*of.load * *of.load);
+      };
+      const double least =
+          (at_1(row, *row.energy_lower) - at_1(rows[k + 1], *rows[k + 1].energy_upper)) / way;
+      const double most =
+          (at_1(row, *row.energy_upper) - at_1(rows[k + 1], *rows[k + 1].energy_lower)) / way;
+      EXPECT_NEAR(*row.g1_lower, std::max(least, 0.0), 1e-9 * most);
+      EXPECT_NEAR(*row.g1_upper, most, 1e-9 * most);
+      EXPECT_NEAR(*row.load_lower, std::sqrt(row.toughness / *row.g1_upper), 1e-9);
+      EXPECT_NEAR(*row.load_upper, std::sqrt(row.toughness / *row.g1_lower), 1e-9);
+      // ... as close as was asked for, up to what one mesh errs in the mean that it aims by.
+      EXPECT_LT(*row.g1_upper - *row.g1_lower, 2.2 * 0.05 * (*row.g1_upper + *row.g1_lower) / 2);
+    }
+    std::printf("[ figures  ] %s: t_c is %.2f %% off a mesh of its own at most, contact %g\n",
+                spec.loads[load].name.c_str(), 100 * worst, rows.front().contact_length);
+    EXPECT_LT(worst, 0.01);
+    EXPECT_EQ(rows.front().contact_length > 0, load == 1);
+  }
+}
+
+TEST(EngineGrowth, FinalPositionsDependOnNoThreads) {
+  std::vector<std::vector<contact::GrowthRow>> found;
+  for (const int threads : {1, 3}) {
+    EngineOptions options;
+    options.threads = threads;
+    Engine test(options);
+    records::JobSpec spec = final_job(test.ready_mesh(2 * size));
+    spec.growth->final_error = 0.5;
+    const JobRecord job = test.ended(test.submit(spec));
+    ASSERT_EQ(job.state, JobState::succeeded);
+    for (const records::CaseRecord& one : job.cases) found.push_back(one.answer.growth);
+    // What its meshes took is given back.
+    EXPECT_EQ(test.backend.cache.metrics().entries, 1);
+  }
+  for (std::size_t load = 0; load < 2; ++load) {
+    expect_same(found[load], found[load + 2]);
+    for (std::size_t i = 0; i < found[load].size(); ++i) {
+      EXPECT_EQ(found[load][i].g1_final, found[load + 2][i].g1_final);
+      EXPECT_EQ(found[load][i].g1_lower, found[load + 2][i].g1_lower);
+      EXPECT_EQ(found[load][i].energy_upper, found[load + 2][i].energy_upper);
+    }
+  }
+}
+
+TEST(EngineGrowth, CancelledAmongFinalPositions) {
+  Engine test;
+  records::JobSpec spec = final_job(test.ready_mesh(size));
+  spec.growth->final_positions = 30;
+  spec.growth->final_error = 1e-3;
+  const std::string id = test.submit(spec);
+  EXPECT_TRUE(anticrack::testing::eventually(
+      [&] { return std::ranges::any_of(told_rows(test, id), is_final); }));
+  test.engine.cancel(id);
+  EXPECT_EQ(test.ended(id).state, JobState::cancelled);
+  EXPECT_TRUE(
+      anticrack::testing::eventually([&] { return test.backend.cache.metrics().entries == 1; }));
+}
+
+/// Bisection ends where the memory does, and says so.
+TEST(EngineGrowth, FinalPositionsKeepWithinTheMemoryOfTheServer) {
+  anticrack::testing::BackendOptions little;
+  {
+    Engine test;
+    test.ready_mesh(2 * size);
+    little.memory_budget = 4 * test.backend.cache.metrics().bytes;
+  }
+  Engine test({}, little);
+  records::JobSpec spec = final_job(test.ready_mesh(2 * size));
+  spec.growth->final_error = 1e-3;
+  const JobRecord job = test.ended(test.submit(spec));
+  ASSERT_EQ(job.state, JobState::succeeded) << (job.error ? job.error->what() : "");
+  const contact::AnswerSummary& answer = job.cases.at(0).answer;
+  EXPECT_EQ(std::ranges::count_if(answer.growth, is_final),
+            std::min<std::ptrdiff_t>(4, std::ssize(answer.growth)));
+  EXPECT_THAT(answer.growth_notes, ::testing::Contains(::testing::HasSubstr("memory-budget")));
+}
+
+TEST(EngineGrowth, WithoutAnyBracketSaysWhy) {
+  Engine test;
+  records::JobSpec spec = growing_job(test.ready_mesh(2 * size));
+  spec.loads[0].point_forces.push_back({0.1, 0.5, 0.1});
+  spec.growth->positions = 10;
+  spec.growth->final_positions = 2;
+  const JobRecord job = test.ended(test.submit(spec));
+  ASSERT_EQ(job.state, JobState::succeeded) << (job.error ? job.error->what() : "");
+  const contact::AnswerSummary& answer = job.cases.at(0).answer;
+  EXPECT_TRUE(answer.growth.front().g1_final);
+  EXPECT_FALSE(answer.growth.front().g1_lower);
+  EXPECT_THAT(answer.growth_notes,
+              ::testing::Contains(::testing::StartsWith("row 0 has no bounds: ")));
+}
+
 TEST(EngineGrowth, WithWhatCannotBeIsRefused) {
   Engine test;
   const std::string mesh = test.ready_mesh(size);
@@ -164,6 +321,22 @@ TEST(EngineGrowth, WithWhatCannotBeIsRefused) {
   for (const int positions : {-1, 1, 1001})
     EXPECT_TRUE(throws(submit([=](Spec& spec) { spec.growth->positions = positions; }),
                        Reason::invalid_argument, "growth.positions"));
+  for (const int positions : {-1, 1, 1001})
+    EXPECT_TRUE(throws(submit([=](Spec& spec) { spec.growth->final_positions = positions; }),
+                       Reason::invalid_argument, "growth.final_positions"));
+  const auto final_one = [&](const auto& change) {
+    return submit([change](Spec& spec) {
+      spec.growth->final_positions = 5;
+      change(spec);
+    });
+  };
+  for (const double error : {-0.1, 1e-4, 2.0, std::nan("")})
+    EXPECT_TRUE(throws(final_one([=](Spec& spec) { spec.growth->final_error = error; }),
+                       Reason::invalid_argument, "growth.final_error"));
+  EXPECT_TRUE(throws(final_one([](Spec& spec) { spec.without_bounds = true; }),
+                     Reason::invalid_argument, "without_bounds"));
+  EXPECT_TRUE(throws(final_one([](Spec& spec) { spec.loads[0].force = fem::Array{}; }),
+                     Reason::invalid_argument, "load_cases[0].force"));
   EXPECT_TRUE(throws(submit([](Spec& spec) { spec.growth->paths[0].toughness = ""; }),
                      Reason::invalid_argument, "growth.paths[0].toughness"));
   EXPECT_TRUE(throws(submit([](Spec& spec) { spec.growth->paths[0].toughness = "1 +"; }),

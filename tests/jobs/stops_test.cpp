@@ -238,5 +238,22 @@ TEST_F(JobStops, WhileAFrontGrows) {
               {"gathering triangles about a tip", 5}});
 }
 
+/// Each has meshes of its own, from their factors to bounds.
+TEST_F(JobStops, InFinalPositionsOfGrowth) {
+  records::JobSpec spec;
+  spec.mesh = test.ready_mesh(0.03);
+  spec.loads = {{"opening", fem::Expression{"y > 0 ? 1 : -1"}, ""}};
+  spec.growth.emplace().paths = {{"interface", {-0.5, 0}, {0, 0}, "0.1"}};
+  spec.growth->positions = 4;
+  spec.growth->final_positions = 2;
+  spec.growth->final_error = 0.1;
+  walk(spec, {{"listing the edges of a mesh", 2},
+              {"factorising a mesh", 2},
+              {"integrating a load", 2},
+              {"computing bounds", 2},
+              {"choosing which triangles to bisect", 1},
+              {"bisecting a mesh", 1}});
+}
+
 }  // namespace
 }  // namespace anticrack::jobs

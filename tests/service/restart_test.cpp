@@ -5,7 +5,11 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <algorithm>
 #include <chrono>
+#include <future>
+#include <numeric>
+#include <thread>
 
 #include "client/uuid.hpp"
 #include "service/daemon.hpp"
@@ -69,6 +73,54 @@ TEST(Restart, AClientsRunOutlivesAStopAndAKill) {
   EXPECT_EQ(client::list_jobs(connection, {}).jobs_size(), 1) << "nothing was submitted twice";
   EXPECT_EQ(daemon.stop(), 0);
   EXPECT_THAT(flaws_of(daemon.data()), IsEmpty());
+}
+
+/// Numbers of rows of growth that a watcher heard of, a list for each attempt of the job.
+using Heard = std::vector<std::vector<int>>;
+
+TEST(Restart, GrowthThatIsKilledEndsWithTheSameRowsAndBounds) {
+  Daemon daemon;
+  client::Connection connection(daemon.connection());
+  const Work growing = work("growth.toml", {"mesh.preset=uniform", "mesh.size=0.02",
+                                            "geometry.boundary=[[-1,-1],[1,-1],[1,1],[-1,1]]",
+                                            "growth.positions=20", "growth.final=6"});
+  const v1::Job whole = wait_for_end(connection, submit(connection, growing, "whole").name());
+  const auto& rows = whole.status().answers(0).growth();
+  ASSERT_GT(rows.size(), 6) << whole.status().DebugString();
+  std::vector<int> all(static_cast<std::size_t>(rows.size()));
+  std::iota(all.begin(), all.end(), 0);
+  for (int i = 0; i < rows.size(); ++i)
+    if (rows[i].has_g1_final()) all.push_back(i);
+  ASSERT_EQ(all.size(), static_cast<std::size_t>(rows.size()) + 6);
+
+  const std::string name = submit(connection, growing, "killed").name();
+  Heard heard;
+  std::promise<void> in_the_middle;
+  std::jthread watcher([&] {
+    client::watch_job(connection, name, 0, [&](const v1::WatchJobResponse& event) {
+      if (!event.has_growth_step()) return;
+      const v1::GrowthStep& step = event.growth_step();
+      if (step.number() == 0 && !step.row().has_g1_final()) heard.emplace_back();
+      heard.back().push_back(step.number());
+      if (heard.size() == 1 && step.row().has_g1_final() && step.number() == 0)
+        in_the_middle.set_value();
+    });
+  });
+  ASSERT_EQ(in_the_middle.get_future().wait_for(std::chrono::minutes(5)),
+            std::future_status::ready);
+  daemon.kill();
+  daemon.start();
+  watcher.join();
+  const v1::Job job = wait_for_end(connection, name);
+  EXPECT_EQ(job.status().attempt(), 2);
+  EXPECT_EQ(job.status().state(), v1::JobStatus::STATE_SUCCEEDED);
+  ASSERT_EQ(job.status().answers(0).growth_size(), rows.size());
+  for (int i = 0; i < rows.size(); ++i)
+    EXPECT_EQ(job.status().answers(0).growth(i).SerializeAsString(), rows[i].SerializeAsString());
+  ASSERT_EQ(heard.size(), 2U);
+  EXPECT_LT(heard[0].size(), all.size());
+  EXPECT_TRUE(std::equal(heard[0].begin(), heard[0].end(), all.begin())) << "no hole, no repeat";
+  EXPECT_EQ(heard[1], all);
 }
 
 TEST(Restart, ARetryGivesTheSameJobThoughLimitsHaveChanged) {

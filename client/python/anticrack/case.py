@@ -259,10 +259,13 @@ class Path(_Table):
 @dataclass(repr=False)
 class Growth(_Table):
     """Delaminations and cracks grow under each load, which is scaled. inclusion: its displacement is increased, in
-    place of the load. positions: about so many on all paths together."""
+    place of the load. positions: about so many on all paths together. final: so many of them are solved again on
+    meshes of their own, with bounds of G1 between them to final_error of it."""
     paths: list[Path]
     inclusion: str | None = None
     positions: int | None = None
+    final: int | None = None
+    final_error: float | None = None
 
 
 @dataclass(repr=False)

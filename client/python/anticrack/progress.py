@@ -56,6 +56,9 @@ class State:
         elif event == "growth_step":
             row = message.growth_step.row
             self.now = f"front on {row.interface} at {row.position:.4g}, load {row.load:.4g}"
+            if row.HasField("g1_upper"):
+                upper = f"{row.load_upper:.4g}" if row.HasField("load_upper") else "any"
+                self.now += f", to the next {row.load_lower:.4g} to {upper}"
         elif event == "stage_ended":
             self.ended = 0  # the next stage solves the load cases again
             lines += self._stage_ended(message.stage_ended)

@@ -46,7 +46,8 @@ def growth(result: Result, load: str | Load | None = None, ax: Any = None) -> An
 
 
 def release(result: Result, load: str | Load | None = None, ax: Any = None) -> Any:
-    """Draws G1, the rate under the load case itself, and Gc against the position of each front."""
+    """Draws G1, the rate under the load case itself, and Gc against the position of each front; as dots G1 of its
+    final positions, and as boxes the bounds of the means between them where no other front moves."""
     ax, load = _begin(result, load, ax)
     rows = load.growth
     fronts = sorted({int(front) for front in rows["front"] if front >= 0})
@@ -57,6 +58,15 @@ def release(result: Result, load: str | Load | None = None, ax: Any = None) -> A
         ax.plot(rows["position"][own][order], rows["G1"][own][order], color=color, label=f"G1{of}")
         ax.plot(rows["position"][own][order], rows["Gc"][own][order], color=color, linestyle=":",
                 label=f"Gc{of}")
+        final = np.flatnonzero(np.isfinite(rows.get("energy_lower", np.full(len(own), np.nan))))
+        at = final[own[final]]
+        if len(at):
+            ax.plot(rows["position"][at], rows["G1_final"][at], color=color, linestyle="", marker=".",
+                    label=f"G1 on meshes of their own{of}")
+        for here, after in zip(final, final[1:]):
+            if own[here:after + 1].all() and np.isfinite(rows["G1_lower"][here]):
+                ax.fill_between(rows["position"][[here, after]], rows["G1_lower"][here], rows["G1_upper"][here],
+                                color=color, alpha=0.25, linewidth=0)
     ax.set_yscale("log")
     ax.set_xlabel("position of the front" + result.units.label("L"))
     ax.set_ylabel("G1 and Gc" + result.units.label("F"))
