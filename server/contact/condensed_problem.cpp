@@ -176,11 +176,11 @@ std::vector<Opened> CondensedProblem::solve_open(const std::vector<char>& closed
 std::unique_ptr<RowContact> CondensedProblem::rows(const LcpOptions& options,
                                                    std::span<const char> start,
                                                    std::vector<ddm::Terms> motions,
-                                                   const MatrixXd* loads) const {
+                                                   OpenResponses* responses) const {
   MatrixXd of_jumps(static_cast<Index>(motions.size()), maps().jump_count());
   for (Index j = 0; j < of_jumps.rows(); ++j)
     of_jumps.row(j) = response(motions[at(j)]).transpose();
-  return _contact.rows(options, start, std::move(of_jumps), loads);
+  return _contact.rows(options, start, std::move(of_jumps), responses);
 }
 
 void CondensedProblem::recover_fields(std::span<const SolvedCase> cases) const {

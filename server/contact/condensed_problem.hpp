@@ -38,7 +38,7 @@ class CondensedProblem final : public ContactProblem {
                                  double tolerance) const override;
   std::unique_ptr<RowContact> rows(const LcpOptions& options, std::span<const char> start,
                                    std::vector<ddm::Terms> motions,
-                                   const Eigen::MatrixXd* loads) const override;
+                                   OpenResponses* responses) const override;
   void recover_fields(std::span<const SolvedCase> cases) const override;
   std::vector<std::vector<double>> fields_of(std::span<const Displaced> displaced) const override;
   std::size_t bytes() const noexcept override;

@@ -142,11 +142,11 @@ class ContactProblem {
                                          std::span<const Eigen::VectorXd> r,
                                          double tolerance = 0) const = 0;
   /// A solver for rows of a sweep. `start`: closed contacts, empty: all; `motions`: sums of
-  /// unknowns that RowContact::motion reports; `loads`: (contacts, loads) of which each r is a
-  /// combination, null: none. Keeps references.
+  /// unknowns that RowContact::motion reports; `responses`: to loads of which each r is a
+  /// combination; null: none are known. Keeps references.
   virtual std::unique_ptr<RowContact> rows(const LcpOptions& options, std::span<const char> start,
                                            std::vector<ddm::Terms> motions,
-                                           const Eigen::MatrixXd* loads) const = 0;
+                                           OpenResponses* responses) const = 0;
 
   /// Fills Answer::fields; the bits of a case do not depend on the other cases. O(N) each.
   virtual void recover_fields(std::span<const SolvedCase> cases) const = 0;

@@ -48,8 +48,8 @@ namespace {
 class DenseRows final : public RowContact {
  public:
   DenseRows(const DenseLcp& lcp, const LcpOptions& options, std::span<const char> start,
-            const NestedStart& nested, MatrixXd motions, const MatrixXd* loads)
-      : _contact(lcp, options, start, &nested, loads), _motions(std::move(motions)) {}
+            const NestedStart& nested, MatrixXd motions, OpenResponses* responses)
+      : _contact(lcp, options, start, &nested, responses), _motions(std::move(motions)) {}
 
   void solve(const VectorXd& r, const VectorXd& magnitude, const VectorXd& coefficients) override {
     _contact.solve(r, magnitude, {}, coefficients);
@@ -68,9 +68,9 @@ class DenseRows final : public RowContact {
 
 std::unique_ptr<RowContact> DenseContact::rows(const LcpOptions& options,
                                                std::span<const char> start, MatrixXd motions,
-                                               const MatrixXd* loads) const {
+                                               OpenResponses* responses) const {
   return std::make_unique<DenseRows>(_lcp, options, start, _nested_start, std::move(motions),
-                                     loads);
+                                     responses);
 }
 
 const OpenFactor& DenseContact::all_open() const {

@@ -27,7 +27,7 @@ class DenseContact {
   std::vector<Opened> solve_open(const std::vector<char>& closed,
                                  std::span<const Eigen::VectorXd> r) const;
   std::unique_ptr<RowContact> rows(const LcpOptions& options, std::span<const char> start,
-                                   Eigen::MatrixXd motions, const Eigen::MatrixXd* loads) const;
+                                   Eigen::MatrixXd motions, OpenResponses* responses) const;
 
   const DenseLcp& lcp() const noexcept { return _lcp; }
   std::size_t bytes() const noexcept;

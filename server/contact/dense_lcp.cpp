@@ -71,7 +71,7 @@ std::size_t DenseLcp::bytes() const noexcept {
 
 LcpSequence::LcpSequence(const DenseLcp& lcp, const LcpOptions& options,
                          std::span<const char> start, const NestedStart* nested,
-                         const MatrixXd* loads)
+                         OpenResponses* responses)
     : _lcp(lcp),
       _matrix(lcp.scaled_matrix()),
       _conditions(lcp.scaled_conditions()),
@@ -86,9 +86,9 @@ LcpSequence::LcpSequence(const DenseLcp& lcp, const LcpOptions& options,
   _r.setZero(lcp.size());
   for (VectorXd* vector : {&_d, &_force, &_lambda, &_answer.d, &_answer.lambda})
     vector->setZero(lcp.conditions());
-  if (loads != nullptr && OpenResponses::pay(lcp.size(), loads->cols()) &&
-      _conditions.rows().empty() && options.tied.empty())
-    _responses.emplace(_matrix, lcp.scale().asDiagonal() * *loads);
+  if (responses != nullptr && responses->pay() && _conditions.rows().empty() &&
+      options.tied.empty())
+    _responses = responses;
   close_tied();
 }
 
@@ -105,7 +105,7 @@ const LcpAnswer& LcpSequence::solve(const VectorXd& r, const VectorXd& magnitude
       nodes() == 0 ? 0 : scale.cwiseProduct(*_given.magnitude).lpNorm<Eigen::Infinity>();
   _unit = largest > 0 ? largest : 1;
   _r = scale.cwiseProduct(r) / _unit;
-  if (_responses) _coefficients = coefficients / _unit;
+  if (_responses != nullptr) _coefficients = coefficients / _unit;
   _d.setZero();
   if (_answer.status == LcpStatus::unbounded) close_all();
   _answer.steps = 0;
@@ -150,11 +150,11 @@ const OpenFactor& LcpSequence::factor() {
 /// Computes d for the present set, and with responses _force; returns false if S is singular on its
 /// open nodes.
 bool LcpSequence::solve_open() {
-  if (_responses) {
-    const OpenResponses::Response& response = _responses->of(_closed);
-    if (!response.regular) return false;
-    multiply(response.d, _coefficients, _d);
-    multiply(response.force, _coefficients, _force);
+  if (_responses != nullptr) {
+    const auto response = _responses->of(_closed, _matrix, _lcp.scale(), _answer.factor);
+    if (!response->regular) return false;
+    _d.noalias() = response->d.lazyProduct(_coefficients);
+    _force.noalias() = response->force.lazyProduct(_coefficients);
     return true;
   }
   if (!factor().regular()) return false;
@@ -400,10 +400,7 @@ void LcpSequence::close_undecided() {
     _conditions.add_rows(_d);
     set_multipliers();
   }
-  if (_responses)
-    set_multipliers();  // with the product itself, so that the residual is one
-  else
-    factor();  // which now has the rows closed above
+  if (_responses == nullptr) factor();  // which now has the rows closed above
 }
 
 void LcpSequence::finish() {

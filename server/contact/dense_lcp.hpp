@@ -135,9 +135,9 @@ class LcpSequence {
  public:
   /// Keeps references. `start`: closed conditions; missing nodes are closed, missing rows open.
   /// `nested`: of the same problem, gives the start for an r far from the one before; may be null.
-  /// `loads`: (c, loads) of which every r is a combination; null: none are known.
+  /// `responses`: to loads of which every r is a combination; null: none are known.
   LcpSequence(const DenseLcp& lcp, const LcpOptions& options, std::span<const char> start,
-              const NestedStart* nested = nullptr, const Eigen::MatrixXd* loads = nullptr);
+              const NestedStart* nested = nullptr, OpenResponses* responses = nullptr);
 
   /// `magnitude`: (c) sums of the absolute terms of r, the scale of its rounding errors; empty:
   /// |r|. The answer is valid until the next call; its factor is the sequence's. `coefficients`: of
@@ -185,7 +185,7 @@ class LcpSequence {
   std::optional<LcpStatus> _ended;
   // Scaled, load of size 1. _force is S d - r, less what rows carry; _lambda that where closed.
   Eigen::VectorXd _r, _d, _force, _lambda;
-  std::optional<OpenResponses> _responses;
+  OpenResponses* _responses = nullptr;
   Eigen::VectorXd _coefficients;  // of the load of size 1
   double _unit = 1;
   struct Given {

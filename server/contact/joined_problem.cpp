@@ -141,13 +141,13 @@ class JoinedRows final : public RowContact {
 std::unique_ptr<RowContact> JoinedProblem::rows(const LcpOptions& options,
                                                 std::span<const char> start,
                                                 std::vector<ddm::Terms> motions,
-                                                const MatrixXd* loads) const {
+                                                OpenResponses* responses) const {
   if (!_dense)
     return std::make_unique<JoinedRows>(*this, _by_blocks->lcp, options, start, std::move(motions));
   MatrixXd of_jumps(static_cast<Index>(motions.size()), _membrane.contacts());
   for (Index j = 0; j < of_jumps.rows(); ++j)
     of_jumps.row(j) = unit_force(motions[at(j)]).r.transpose();
-  return _dense->rows(options, start, std::move(of_jumps), loads);
+  return _dense->rows(options, start, std::move(of_jumps), responses);
 }
 
 void JoinedProblem::recover_fields(std::span<const SolvedCase> cases) const {

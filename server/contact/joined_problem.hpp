@@ -55,7 +55,7 @@ class JoinedProblem final : public ContactProblem {
                                  double tolerance) const override;
   std::unique_ptr<RowContact> rows(const LcpOptions& options, std::span<const char> start,
                                    std::vector<ddm::Terms> motions,
-                                   const Eigen::MatrixXd* loads) const override;
+                                   OpenResponses* responses) const override;
   void recover_fields(std::span<const SolvedCase> cases) const override;
   std::vector<std::vector<double>> fields_of(std::span<const Displaced> displaced) const override;
   std::unique_ptr<const OpenMembrane> open_membrane() const override;

@@ -149,7 +149,8 @@ double SweepLoads::parts_energy(std::span<const double> coefficients) const {
 }
 
 std::size_t SweepLoads::bytes() const noexcept {
-  return bytes_of(r) + bytes_of(magnitude) + bytes_of(motion) + bytes_of(energy);
+  return bytes_of(r) + bytes_of(magnitude) + bytes_of(motion) + bytes_of(energy) +
+         (responses ? responses->bytes() : 0);
 }
 
 std::vector<std::size_t> solving_order(const SweepLoads& loads,
@@ -166,7 +167,7 @@ std::vector<std::size_t> solving_order(const SweepLoads& loads,
 
 SweepSolver::SweepSolver(const ContactProblem& problem, const SweepGeometry& geometry,
                          const ActiveSetOptions& options, std::span<const char> start,
-                         const SweepLoads* basis)
+                         OpenResponses* responses)
     : _geometry(geometry),
       _forces(problem.traces().pair_forces()),
       _length(problem.traces().contact_length()),
@@ -176,8 +177,8 @@ SweepSolver::SweepSolver(const ContactProblem& problem, const SweepGeometry& geo
   std::vector<ddm::Terms> motions = sweep_motions(problem.traces().decomposition().skeleton);
   _motion.resize(static_cast<Index>(motions.size()));
   _of_jumps.resize(_motion.size());
-  _contact = problem.rows({options.tolerance, options.max_steps}, start, std::move(motions),
-                          basis != nullptr ? &basis->r : nullptr);
+  _contact =
+      problem.rows({options.tolerance, options.max_steps}, start, std::move(motions), responses);
 }
 
 void SweepSolver::solve(const SweepLoads& loads, std::span<const double> coefficients,

@@ -44,9 +44,10 @@ struct SweepGeometry {
 /// c' energy c, and everything else is linear in c. If inclusions are held at given numbers, these
 /// are one more load in the last column, which every row takes with coefficient 1.
 struct SweepLoads {
-  Eigen::MatrixXd r, magnitude;  ///< (contacts, loads), as in Reduced
-  Eigen::MatrixXd motion;        ///< (motions, loads)
-  Eigen::MatrixXd energy;        ///< (loads, loads), symmetric: Pi
+  Eigen::MatrixXd r, magnitude;                ///< (contacts, loads), as in Reduced
+  Eigen::MatrixXd motion;                      ///< (motions, loads)
+  Eigen::MatrixXd energy;                      ///< (loads, loads), symmetric: Pi
+  std::shared_ptr<OpenResponses> responses{};  ///< to r, if many rows combine the loads
 
   /// sum of |c_j c_k Pi_jk|: what may cancel in the energy of a combination. O(m^2).
   double parts_energy(std::span<const double> coefficients) const;
@@ -73,16 +74,16 @@ std::vector<std::size_t> solving_order(const SweepLoads& loads,
 ///   A  = A(closed) + what the jumps do, and so the slopes
 ///   kkt: LcpAnswer::residual, the largest |lambda - (S^ d - r)| of all summed loads, relative to
 ///        the largest force on the contacts, with d and lambda clipped at 0 and one of them 0 in
-///        each contact. It covers errors of equilibrium, gap, sign and complementarity at the
-///        contacts. The nodes between are in equilibrium to rounding, by elimination, which is not
-///        measured row by row.
+///        each contact, and S^ d - r, where OpenResponses pay, the sum of the responses. It covers
+///        errors of equilibrium, gap, sign and complementarity at the contacts. The nodes between
+///        are in equilibrium to rounding, by elimination, which is not measured row by row.
 class SweepSolver {
  public:
-  /// `start`: closed contacts to start the first row from; empty: all are closed. `basis`: the
-  /// loads of all rows; null: each row has its own.
+  /// `start`: closed contacts to start the first row from; empty: all are closed. `responses`:
+  /// to the loads that all rows combine; null: each row has its own.
   SweepSolver(const ContactProblem& problem, const SweepGeometry& geometry,
               const ActiveSetOptions& options, std::span<const char> start,
-              const SweepLoads* basis);
+              OpenResponses* responses);
 
   /// Solves and writes one row. It ends not_converged, with zeros, if max_steps is reached, if a
   /// part that only contact holds is pulled off, or if a number is beyond the range of double.

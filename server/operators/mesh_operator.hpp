@@ -25,8 +25,8 @@ namespace anticrack::contact {
 struct ActiveSetOptions;
 struct Answer;
 class Observer;
+class OpenResponses;
 struct SweepColumns;
-struct SweepLoads;
 struct TraceGeometry;
 }  // namespace anticrack::contact
 
@@ -191,7 +191,7 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
   template <class SolveRow>
   bool sweep_rows(const contact::ActiveSetOptions& options, contact::SweepColumns& rows,
                   std::vector<char>& start, const std::stop_token& stop,
-                  std::span<const std::size_t> order, const contact::SweepLoads* basis,
+                  std::span<const std::size_t> order, contact::OpenResponses* responses,
                   const SolveRow& solve_row) const;
   std::shared_ptr<const Parts> _parts;
 };

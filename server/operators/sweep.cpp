@@ -85,6 +85,7 @@ CondensedBasis basis_of(std::vector<LoadOnTraces> loads, std::vector<BalancedLoa
         result.warnings.push_back(warning);
   }
   result.reduced = contact::reduce(*parts.contact, cases, constants);
+  result.reduced.responses = std::make_shared<contact::OpenResponses>(result.reduced.r);
   result.loads = std::move(loads);
   return result;
 }
@@ -140,14 +141,14 @@ std::shared_ptr<const LoadBasis> MeshOperator::basis(std::span<const fem::Load* 
 template <class SolveRow>
 bool MeshOperator::sweep_rows(const contact::ActiveSetOptions& options, contact::SweepColumns& rows,
                               std::vector<char>& start, const std::stop_token& stop,
-                              std::span<const std::size_t> order, const contact::SweepLoads* basis,
+                              std::span<const std::size_t> order, contact::OpenResponses* responses,
                               const SolveRow& solve_row) const {
   const auto contacts = _parts->decomposition.skeleton.contacts.size();
   if (rows.inclusions != _parts->mesh->inclusions.size() ||
       rows.contacts != contact_nodes().size() || (!start.empty() && start.size() != contacts))
     throw errors::Error(errors::Reason::internal, "rows of a sweep on another mesh");
   const stop::Scope scope(stop);
-  contact::SweepSolver solver(*_parts->contact, _parts->sweep_geometry, options, start, basis);
+  contact::SweepSolver solver(*_parts->contact, _parts->sweep_geometry, options, start, responses);
   std::size_t solved = 0;
   try {
     for (; solved < rows.rows() && !stop.stop_requested(); ++solved)
@@ -171,7 +172,7 @@ bool MeshOperator::sweep(const LoadBasis& basis, std::span<const double> coeffic
   std::optional<RowBounds> bounds;
   if (shared != nullptr && !rows.energy_lower.empty()) bounds.emplace(*_parts, *shared, loads);
   return sweep_rows(options, rows, start, stop,
-                    contact::solving_order(loads, coefficients, rows.rows()), &loads,
+                    contact::solving_order(loads, coefficients, rows.rows()), loads.responses.get(),
                     [&](contact::SweepSolver& solver, std::size_t row) {
                       const auto c = coefficients.subspan(row * m, m);
                       solver.solve(loads, c, row, rows);
