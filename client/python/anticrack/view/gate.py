@@ -25,7 +25,8 @@ class Gate:
     ports, which browsers count to the same site."""
 
     def __init__(self) -> None:
-        self.host, self.token, self._used, self._secret = "", secrets.token_urlsafe(24), False, secrets.token_urlsafe(24)
+        self.host, self._used = "", False
+        self.token, self._secret = secrets.token_urlsafe(24), secrets.token_urlsafe(24)
 
     @property
     def _cookie(self) -> str:

@@ -133,8 +133,8 @@ def described(result: Result, case: str) -> dict[str, Any]:
             "warnings": list(mesh.info.warnings), "server": result.server_version,
             "loads": [_told(result, load) for load in loads], "marks": _marks(result),
             "tips": [[tip.at.x, tip.at.y] for tip in mesh.info.tips],
-            "interfaces": [{"name": line.name, "nodes": len(line.s), "opens": bool(np.isin(line.edge_kind, _OPENS).any())}
-                           for line in result.interfaces],
+            "interfaces": [{"name": line.name, "nodes": len(line.s),
+                            "opens": bool(np.isin(line.edge_kind, _OPENS).any())} for line in result.interfaces],
             "sweep": None if sweep is None else {"loads": sweep.loads, "rows": len(sweep.status), "kept": sweep.kept,
                                                  "converged": int(sweep.converged.sum())}}
 
@@ -151,7 +151,7 @@ def array(result: Result, load: Load, what: str, interface: int) -> Array:
     surface = Surface(result, load)
     if what in ("points", "triangles", "thinned", "outline", "nodes"):
         found = getattr(surface, what)
-        return found() if callable(found) else found
+        return np.asarray(found() if callable(found) else found)
     if what in _colours(load):
         return surface.of_nodes(what)
     raise KeyError(what)

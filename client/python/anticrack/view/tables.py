@@ -39,7 +39,7 @@ def _of_parts(result: Result, message: Any, parts: str) -> list[Column]:
         (load,) if not parts else _listed(getattr(load, parts)))]
     names = [name for name in entries.defaults_of(message) if not rows or hasattr(rows[0][1], name)]
     values = {name: [getattr(part, name) for _, part in rows] for name in names}
-    first = [("load", "-", "", [name for name, _ in rows])] if parts else []
+    first = [("load case", "-", "", [name for name, _ in rows])] if parts else []
     return [*first, *_columns(result, message, names, values)]
 
 
@@ -52,7 +52,8 @@ def _of_arrays(result: Result, messages: Sequence[Any], what: str) -> list[Colum
     loads = [(load.name, getattr(load, what)) for load in result.loads.values() if getattr(load, what)]
     names = list(loads[0][1]) if loads else []
     counts = [len(arrays[names[0]]) for _, arrays in loads]
-    columns: list[Column] = [("load", "-", "", [name for (name, _), count in zip(loads, counts) for _ in range(count)])]
+    told = [name for (name, _), count in zip(loads, counts) for _ in range(count)]
+    columns: list[Column] = [("load case", "-", "", told)]
     for message in messages:
         own = [name for name in names if name in entries.entries_of(message.DESCRIPTOR)]
         columns += _columns(result, message, own, {

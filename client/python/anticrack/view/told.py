@@ -62,8 +62,7 @@ class Pages:
         self.session, self.left, self._patience, self._count = session, asyncio.Event(), patience, 0
         session.pages = set()
 
-    async def _leave(self) -> None:
-        await asyncio.sleep(self._patience)
+    def _leave(self) -> None:
         if self._count == 0:
             self.left.set()
 
@@ -99,6 +98,6 @@ class Pages:
             self.session.pages.discard(queue)
             self._count -= 1
             if self._count == 0:
-                asyncio.get_running_loop().create_task(self._leave())
+                asyncio.get_running_loop().call_later(self._patience, self._leave)
             with contextlib.suppress(asyncio.CancelledError):
                 await filling

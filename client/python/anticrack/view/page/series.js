@@ -22,7 +22,7 @@ export async function draw(panel, wanted, kind) {
         'p', {class: 'quiet'}, kind === 'sweep' ? 'This result is not of a sweep.' : 'Nothing grows in this result.'));
     return;
   }
-  const own = kind === 'growth' ? currentLoad()?.name : null, loads = table.columns.find((c) => c.name === 'load');
+  const own = kind === 'growth' ? currentLoad()?.name : null, loads = table.columns.find((c) => c.name === 'load case');
   const rows = table.columns[0].values.map((_, i) => i).filter((i) => own === null || loads.values[i] === own);
   const numbers = table.columns.filter((column) => column.values.some((value) => typeof value === 'number'));
   const named = (name, otherwise) => numbers.find((column) => column.name === name) ?? otherwise;
@@ -31,7 +31,7 @@ export async function draw(panel, wanted, kind) {
   const across = named(get('across'), kind === 'growth' ? named(GROWTH, numbers[0]) : varying ?? numbers[0]);
   const up = named(
     get('up'),
-    kind === 'growth' ? named('load factor', numbers.filter((c) => c.name === 'load')[0] ?? named('G1', numbers[1])) :
+    kind === 'growth' ? named('load', named('G1', numbers[1])) :
                         numbers.find((column) => column.name.startsWith('A of')) ?? named('energy', numbers[1]));
   const sorted = rows.filter((i) => typeof across.values[i] === 'number' && typeof up.values[i] === 'number')
                    .sort((i, j) => kind === 'growth' ? i - j : across.values[i] - across.values[j]);
@@ -65,10 +65,9 @@ export async function draw(panel, wanted, kind) {
       'div', {class: 'controls'}, choice('across', numbers.map(options), across.name, (name) => set({across: name})),
       choice('up', numbers.map(options), up.name, (name) => set({up: name})),
       make('label', {}, kind === 'growth' ? 'step ' : 'row ', slider, ` ${place + 1} of ${rows.length}`)),
-    ...(
-      kind === 'growth' ? (currentLoad()?.growth_notes ?? []).map((note) => make('p', {class: 'quiet'}, plain(note))) :
-                          []),
-    chart.box, about(table, row, kind));
+    chart.box, about(table, row, kind),
+    ...(kind === 'growth' ? currentLoad()?.growth_notes ?? [] : [])
+      .map((note) => make('p', {class: 'quiet'}, plain(note))));
   chart.draw([
     {label: up.name, x: of(across), y: of(up), colour: LINES[0], dots: sorted.length < 100},
     ...bounds.map(
