@@ -31,7 +31,7 @@ def errors_in(error: Exception) -> list[dict[str, Any]]:
     """The lines of an error, each with the line of the case that it names, or 0."""
     found = []
     for line in str(error).splitlines():
-        at = re.match(rf"(?:\S*/)?{_SOURCE}:(\d+)(?::|,)? *(.*)", line) or re.search(r"\(?at line (\d+)", line)
+        at = re.search(rf"\b{_SOURCE}:(\d+)(?::|,)? *(.*)", line) or re.search(r"\(?at line (\d+)", line)
         found.append({"line": int(at[1]) if at else 0,
                       "message": harmless(at[2] if at and at.re.groups > 1 else line)})
     return found
@@ -79,7 +79,7 @@ class Editor:
         except ServerError as error:
             if error.reason != "CASE_INVALID":
                 raise
-            return reply({"errors": errors_in(error), "notes": []})
+            return reply({"errors": errors_in(CaseError(error.message)), "notes": []})
         return reply({"errors": [], "notes": [harmless(note) for note in read.notes]})
 
     async def run(self, request: web.Request) -> web.Response:

@@ -31,8 +31,9 @@ export function start(connection) {
         !jobs.some((job) => job.name === model.of);
       model.jobs = jobs;
       if (gone) {
-        notice(`${model.of} has been deleted`);
-        set({of: ''});
+        const name = model.of;
+        set({of: ''});  // which takes away older notices
+        notice(`${name} has been deleted`);
       }
       changed();
     },
