@@ -47,8 +47,9 @@ FILES = {
                 f"{DOC}/libanticrack-dev/copyright", f"{DOC}/libanticrack-dev/changelog.gz"],
     },
     "python3-anticrack": {
-        EXECUTABLE: [],
-        PLAIN: [f"{PYTHON}/anticrack/py.typed", *(f"{PYTHON}/anticrack/{part}.py" for part in ("__init__", "client", "*")),
+        EXECUTABLE: ["usr/bin/anticrack-view"],
+        PLAIN: [*(f"{PYTHON}/anticrack/view/page/{part}" for part in ("index.html", "*")),
+                f"{PYTHON}/anticrack/py.typed", *(f"{PYTHON}/anticrack/{part}.py" for part in ("__init__", "client", "*")),
                 *(f"{PYTHON}/anticrack/v1/{part}" for part in ("__init__.py", "solve_pb2.py", "solve_pb2.pyi", "solve_pb2_grpc.py",
                                                                "comments.desc", "*_pb2*.py*")),
                 *(f"{PYTHON}/anticrack.egg-info/{part}" for part in ("PKG-INFO", "*.txt")),

@@ -206,7 +206,8 @@ class InChromium(FolderTest):
 class Code(unittest.TestCase):
     def test_types(self):
         ended = run("tsc", "--checkJs", "--allowJs", "--noEmit", "--strict", "--noImplicitAny", "false",
-                    "--target", "es2022", "--module", "es2022", "--lib", "es2022,dom,dom.iterable", *sorted(PAGE.glob("*.js")))
+                    "--target", "es2022", "--module", "es2022", "--lib", "es2022,dom,dom.iterable",
+                    *sorted(PAGE.glob("*.js")))
         self.assertEqual(ended.returncode, 0, ended.stdout)
 
     def test_layout(self):
