@@ -46,6 +46,18 @@ int checked_output(int code) {
   return code == exit_ok ? exit_usage : code;
 }
 
+// The first word that is neither an option nor its value.
+std::vector<std::string>::iterator first_command(const CLI::App& app,
+                                                 std::vector<std::string>& words) {
+  auto word = words.begin();
+  for (; word != words.end() && word->starts_with('-'); ++word) {
+    const CLI::Option* option = app.get_option_no_throw(*word);
+    const bool has_value = option != nullptr && option->get_items_expected() > 0;
+    if (has_value && word + 1 != words.end()) ++word;
+  }
+  return word;
+}
+
 int parse_and_run(int argc, char** argv) {
   Globals globals;
   Command chosen;
@@ -78,11 +90,15 @@ int parse_and_run(int argc, char** argv) {
     }));
     return exit_ok;
   }
-  const std::string name = argc > 1 ? argv[1] : "";
+  std::vector<std::string> words(argv + 1, argv + argc);
+  const auto command_at = first_command(app, words);
+  const std::string name = command_at == words.end() ? "" : *command_at;
   const auto has_name = [&](const CLI::App* command) { return command->get_name() == name; };
   if (name == "plot" || app.get_subcommands(has_name).empty()) {
-    if (const auto program = external_command(name); !program.empty())
-      return guarded(globals, [&]() -> int { become(program, {argv + 2, argv + argc}); });
+    if (const auto program = external_command(name); !program.empty()) {
+      words.erase(command_at);  // options before the name are its own
+      return guarded(globals, [&]() -> int { become(program, words); });
+    }
   }
   try {
     app.parse(argc, argv);
@@ -92,7 +108,6 @@ int parse_and_run(int argc, char** argv) {
     print_document(text.str());
     return code;
   } catch (const CLI::ParseError& error) {
-    const std::vector<std::string> words(argv + 1, argv + argc);
     // Looked up here, as the parser may have stopped before it read --json.
     globals.json = std::find(words.begin(), words.end(), "--json") != words.end();
     const std::string problem = usage_text(app, error, words);

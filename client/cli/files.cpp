@@ -123,6 +123,10 @@ void add_plot(CLI::App& app, const Globals& globals, Command& chosen) {
       "Of overview, membrane, plan, traces, convergence, accuracy and growth those to draw, "
       "separated by commas (default: all that have something to show)")
       ->excludes(together);
+  add("--animate", "WHAT",
+      "Animations in place of figures: loads (one after another), amplitude (u grows to its size "
+      "and "
+      "back) or growth; --format is of gif, webp and mp4 then");
   add("--interface", "NAME",
       "Draw the traces of this interface, also in the overview and with --together (default: of "
       "all that can open; in the overview of the one that opens most, and the pressure of one in "

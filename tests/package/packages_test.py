@@ -47,8 +47,10 @@ FILES = {
                 f"{DOC}/libanticrack-dev/copyright", f"{DOC}/libanticrack-dev/changelog.gz"],
     },
     "python3-anticrack": {
-        EXECUTABLE: ["usr/bin/anticrack-study"],
-        PLAIN: [f"{PYTHON}/anticrack/py.typed", *(f"{PYTHON}/anticrack/{part}.py" for part in ("__init__", "client", "*")),
+        EXECUTABLE: ["usr/bin/anticrack-study", "usr/bin/anticrack-view"],
+        PLAIN: [*(f"{PYTHON}/anticrack/view/page/{part}" for part in ("index.html", "*")),
+                f"{PYTHON}/anticrack/py.typed",
+                *(f"{PYTHON}/anticrack/{part}.py" for part in ("__init__", "client", "*")),
                 *(f"{PYTHON}/anticrack/v1/{part}" for part in ("__init__.py", "solve_pb2.py", "solve_pb2.pyi", "solve_pb2_grpc.py",
                                                                "comments.desc", "*_pb2*.py*")),
                 *(f"{PYTHON}/anticrack.egg-info/{part}" for part in ("PKG-INFO", "*.txt")),
@@ -58,7 +60,7 @@ FILES = {
         LINK: ["../../../anticrack/examples"],
         PLAIN: [*(f"{DOC}/anticrack/{path}" for path in (
                     "README.md", ".github/CONTRIBUTING.md", ".github/CITATION.cff", "client/README.md",
-                    "client/TUTORIAL.md", "client/BASICS.md", "client/PAPER.md", "client/RESULT.md", "client/JSON.md",
+                    "client/TUTORIAL.md", "client/VIEW.md", "client/BASICS.md", "client/PAPER.md", "client/RESULT.md", "client/JSON.md",
                     "deploy/README.md", "deploy/CHANGELOG.md", "deploy/packages.txt", "deploy/COPYING", "proto/REFERENCE.md",
                     "server/PROMISES.md", "server/COMPATIBILITY.md", "server/README.md", "server/THEORY.md")),
                 f"{DOC}/anticrack-doc/copyright", f"{DOC}/anticrack-doc/changelog.gz"],

@@ -164,9 +164,18 @@ def plot() -> int:
     return main(["plot", *sys.argv[1:]])
 
 
+def view() -> int:
+    """The program anticrack-view, which `anticrack view` runs."""
+    return main(["view", *sys.argv[1:]])
+
+
 def main(words: Sequence[str]) -> int:
     """Runs a command line and returns the exit code: 0, 2 with a line on standard error, or 141 if the reader of
     standard output has closed it."""
+    if words[:1] == ["view"]:
+        package("aiohttp")
+        from .view import program
+        return program.main(words[1:])
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     signal.signal(signal.SIGXFSZ, signal.SIG_IGN)  # a file too large is an error of the write, no signal
     code, document, lines = 0, {}, []

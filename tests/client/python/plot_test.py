@@ -292,7 +292,6 @@ class Command(FolderTest):
     def test_has_the_options_of_the_command(self):
         said = self.plot("plot", "--help").stdout
         of_python = set(re.findall("(?<![a-z])--[a-z-]+", said)) - {"--json", "--quiet", "--help"}
-        of_python.discard("--animate")  # of the package alone
         told = run(os.environ["ANTICRACK"], "plot", "--help").stdout
         self.assertEqual(of_python, set(re.findall("  (?:-o,)?(--[a-z-]+)", told)) - {"--help"})
 

@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A case to edit: its errors at their lines, what its keys mean, a drawing of what the server understood, and a run."""
+from __future__ import annotations
+
+import asyncio
+import itertools
+import os
+import pathlib
+import re
+import sys
+import tempfile
+from typing import Any
+
+from aiohttp import web
+
+from ..case import Case
+from ..errors import CaseError, Error, ServerError
+from ..result import Units
+from ..text import harmless
+from ..v1 import case_pb2
+from .exports import DRAWING
+from .opened import Opened
+from .reply import reply
+from .told import Told
+
+_SOURCE = "case"  # what errors call the text in the page
+_DRAWN = 4  # drawings that are kept
+
+
+def errors_in(error: Exception) -> list[dict[str, Any]]:
+    """The lines of an error, each with the line of the case that it names, or 0."""
+    found = []
+    for line in str(error).splitlines():
+        at = re.search(rf"\b{_SOURCE}:(\d+)(?::|,)? *(.*)", line) or re.search(r"\(?at line (\d+)", line)
+        found.append({"line": int(at[1]) if at else 0,
+                      "message": harmless(at[2] if at and at.re.groups > 1 else line)})
+    return found
+
+
+def gallery() -> dict[str, pathlib.Path]:
+    """The examples by their names: those of the package, or of the sources around this file."""
+    above = pathlib.Path(__file__).resolve().parents
+    folders = [pathlib.Path(sys.prefix) / "share/anticrack/examples", *(each / "client/examples" for each in above)]
+    if "ANTICRACK_EXAMPLES" in os.environ:
+        folders.insert(0, pathlib.Path(os.environ["ANTICRACK_EXAMPLES"]))
+    found = next((folder for folder in folders if (folder / "opening.toml").is_file()), None)
+    return {path.stem: path for path in sorted(found.glob("*.toml"))} if found else {}
+
+
+class Editor:
+    """path: the case that the command line names; files that a text names are looked for beside it."""
+
+    def __init__(self, session: Told, opened: Opened, path: pathlib.Path | None) -> None:
+        self._session, self._opened, self._path = session, opened, path
+        self._gallery, self._numbers = gallery(), itertools.count()
+        self._drawings: dict[str, bytes] = {}
+
+    def _case(self, asked: Any) -> Case:
+        example = self._gallery.get(str(asked.get("example", "")))
+        folder = (example or self._path or pathlib.Path("case.toml")).parent
+        return Case.parse(str(asked["text"]), _SOURCE, folder)
+
+    async def first(self, _: web.Request) -> web.Response:
+        """The case of the command line, and the examples to begin from."""
+        text = self._path.read_text(encoding="utf-8") if self._path else ""
+        return reply({"text": text, "examples": list(self._gallery)})
+
+    async def example(self, request: web.Request) -> web.Response:
+        path = self._gallery.get(request.query["name"])
+        if path is None:
+            raise Error(f"there is no example {harmless(request.query['name'])}")
+        return reply({"text": path.read_text(encoding="utf-8")})
+
+    async def check(self, request: web.Request) -> web.Response:
+        asked = await request.json()
+        question = case_pb2.ReadCaseRequest(toml=str(asked["text"]).encode("utf-8", "replace"), source=_SOURCE)
+        try:
+            read = await self._session.call(self._session.transport.cases.ReadCase, question)
+        except ServerError as error:
+            if error.reason != "CASE_INVALID":
+                raise
+            return reply({"errors": errors_in(CaseError(error.message)), "notes": []})
+        return reply({"errors": [], "notes": [harmless(note) for note in read.notes]})
+
+    async def run(self, request: web.Request) -> web.Response:
+        asked = await request.json()
+        try:
+            return reply({"name": await self.submit(self._case(asked))})
+        except (CaseError, ServerError) as error:
+            return reply({"errors": errors_in(error)})
+
+    async def submit(self, case: Case) -> str:
+        job, read = await self._session.submit(case)
+        self._opened.cases[job.name] = read.text
+        return str(job.name)
+
+    async def draw(self, request: web.Request) -> web.Response:
+        """Meshes the case and draws the mesh; the page then asks for the drawing by its number."""
+        case = self._case(await request.json())
+        try:
+            mesh = await self._session.mesh_of(case)
+        except (CaseError, ServerError) as error:
+            return reply({"errors": errors_in(error)})
+        arrays = await self._session.mesh_arrays(mesh.name)
+        units = case.tables.get("units", {})
+        number = str(next(self._numbers))
+        async with DRAWING:
+            self._drawings[number] = await asyncio.to_thread(_drawn, mesh, arrays, Units(str(units.get("length", ""))))
+        for old in list(self._drawings)[:-_DRAWN]:
+            del self._drawings[old]
+        return reply({"number": number, "triangles": mesh.triangle_count, "nodes": mesh.node_count,
+                      "warnings": list(mesh.warnings)})
+
+    async def drawing(self, request: web.Request) -> web.Response:
+        return web.Response(body=self._drawings[request.query["number"]], content_type="image/svg+xml")
+
+    async def keys(self, _: web.Request) -> web.Response:
+        answer = await self._session.call(self._session.transport.cases.ListCaseKeys, case_pb2.ListCaseKeysRequest())
+        return reply([{"names": list(key.names), "form": key.form, "default": key.if_absent, "unit": key.unit,
+                       "meaning": key.meaning} for key in answer.keys])
+
+
+def _drawn(mesh: Any, arrays: Any, units: Units) -> bytes:
+    from ..draw.files import draw_mesh
+    from ..draw.meshes import Plan
+    from ..draw.sheet import Look
+    with tempfile.TemporaryDirectory() as folder:
+        made = draw_mesh(Plan(mesh, arrays, units), folder, Look(["svg"], 150))
+        return pathlib.Path(made.files[0]).read_bytes()
+
+
+def add_routes(app: web.Application, editor: Editor) -> None:
+    app.router.add_get("/api/case", editor.first)
+    app.router.add_get("/api/example", editor.example)
+    app.router.add_get("/api/keys", editor.keys)
+    app.router.add_get("/api/drawing", editor.drawing)
+    app.router.add_post("/api/check", editor.check)
+    app.router.add_post("/api/draw", editor.draw)
+    app.router.add_post("/api/run", editor.run)

@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Jobs of the server: a list that is kept up to date, the events of one, and what may be done with it."""
+from __future__ import annotations
+
+import asyncio
+import uuid
+from collections.abc import AsyncIterator
+from typing import Any
+
+from aiohttp import web
+
+from .. import entries
+from ..errors import Error, ServerError, of_status
+from ..v1 import solve_pb2
+from .opened import Opened
+from .reply import reply
+from .told import Event, Pages, Told
+
+_MOST = 200  # jobs that are listed, the newest
+_PAUSE = 0.5  # between looks at the list [s]
+
+
+def told(job: solve_pb2.Job) -> dict[str, Any]:
+    """A job in a line of the list."""
+    status, task = job.status, job.spec.WhichOneof("task")
+    rows = status.sweep_answer
+    done, total = status.load_cases_ended, status.load_case_count
+    if task == "sweep":
+        done, total = rows.converged + rows.not_converged + rows.failed, rows.rows
+    return {"name": job.name, "title": job.spec.title, "owner": job.owner, "state": _word(status.state), "done": done,
+            "total": total, "task": task or "", "created": status.create_time.ToMilliseconds(),
+            "result": status.result_state == solve_pb2.JobStatus.RESULT_STATE_AVAILABLE,
+            "error": str(of_status(status.error)) if status.HasField("error") else ""}
+
+
+def _word(state: int) -> str:
+    return str(solve_pb2.JobStatus.State.Name(state)).removeprefix("STATE_").lower()  # type: ignore[arg-type]
+
+
+def _whole(job: solve_pb2.Job) -> dict[str, Any]:
+    """A job with its loads and its timeline."""
+    return told(job) | {
+        "loads": [load.name for load in job.spec.load_cases], "not_reached": job.status.not_reached,
+        "solver": job.spec.solver.WhichOneof("method") or "",
+        "timeline": [{"time": step.time.ToMilliseconds(), "state": _word(step.state), "detail": step.detail,
+                      "attempt": step.attempt} for step in job.status.timeline],
+        "stages": list(map(_stage, job.status.stages)),
+        "answers": [_answer(i, answer) for i, answer in enumerate(job.status.answers)]}
+
+
+def _stage(stage: solve_pb2.Stage) -> dict[str, Any]:
+    return {**entries.values_of(stage), "answers": [entries.values_of(answer) for answer in stage.answers]}
+
+
+def _answer(index: int, answer: solve_pb2.LoadCaseAnswer) -> dict[str, Any]:
+    return {"load": index, **entries.values_of(answer),
+            "inclusions": [entries.values_of(part) for part in answer.inclusions]}
+
+
+def event_of(message: solve_pb2.WatchJobResponse) -> list[Event]:
+    """What a message of a watch tells the page, in order: load cases that ended come behind their samples."""
+    found: list[Event] = []
+    kind, number = message.WhichOneof("event"), message.sequence
+    if kind == "samples":
+        samples = message.samples
+        found.append((kind, {field.name: list(getattr(samples, field.name)) for field in samples.DESCRIPTOR.fields},
+                      number))
+    found += [("answer", _answer(ended.load_case, ended.answer), number) for ended in message.load_cases_ended]
+    if kind == "snapshot":
+        found.append((kind, _whole(message.snapshot.job), None))
+    elif kind == "phase":
+        found.append((kind, {"state": _word(message.phase.state), "detail": message.phase.detail}, number))
+    elif kind == "stage_ended":
+        found.append(("stage", _stage(message.stage_ended), number))
+    elif kind == "sweep_rows":
+        found.append(("rows", {"count": len(message.sweep_rows.status)}, number))
+    elif kind == "growth_step":
+        step = message.growth_step
+        found.append(("growth", {"load": step.load_case, **entries.values_of(step.row)}, number))
+    elif kind == "ended":
+        found.append((kind, _whole(message.ended), number))
+    return found
+
+
+async def _follow(session: Told, name: str, after: int) -> AsyncIterator[Event]:
+    async for message in session.events(name, after):
+        for event in event_of(message):
+            yield event
+
+
+async def _listed(session: Told) -> AsyncIterator[Event]:
+    """The list whenever it has changed. It goes on for ever, also while the server is away."""
+    last: Any = None
+    while True:
+        try:
+            jobs = [told(job) for job in await session.jobs(_MOST)]
+            if jobs != last:
+                yield "jobs", jobs, None
+            last = jobs
+        except ServerError as error:
+            if not error.lost:
+                raise
+            session.tell(str(error))
+            last = None
+        await asyncio.sleep(_PAUSE)
+
+
+async def _again(session: Told, name: str) -> str:
+    """Submits the same job once more."""
+    job = await session.job(name)
+    spec = job.spec
+    for matrix in (spec.sweep.coefficients, spec.sweep.nodal_forces) if spec.HasField("sweep") else ():
+        if matrix.sha256:
+            matrix.upload = f"uploads/{matrix.sha256}"  # the server keeps what was packed under this name
+            matrix.sha256 = ""
+    request = solve_pb2.CreateJobRequest(spec=spec, request_id=str(uuid.uuid4()))
+    return str((await session.call(session.transport.jobs.CreateJob, request)).name)
+
+
+def add_routes(app: web.Application, session: Told, pages: Pages, opened: Opened) -> None:
+    async def listed(request: web.Request) -> web.StreamResponse:
+        return await pages.stream(request, lambda: _listed(session))
+
+    async def watch(request: web.Request) -> web.StreamResponse:
+        after = int(request.headers.get("Last-Event-ID", 0))
+        return await pages.stream(request, lambda: _follow(session, request.query["of"], after))
+
+    async def act(request: web.Request) -> web.Response:
+        asked = await request.json()
+        name = str(asked["name"])
+        if asked["action"] == "cancel":
+            await session.cancel(name)
+        elif asked["action"] == "delete":
+            await session.delete(name)
+            opened.forget(name)
+        elif asked["action"] == "again":
+            again = await _again(session, name)
+            opened.cases[again] = opened.cases.get(name, "")
+            name = again
+        else:
+            raise Error("a job can be cancelled, deleted, or submitted again")
+        return reply({"name": name})
+    app.router.add_get("/api/jobs", listed)
+    app.router.add_get("/api/watch", watch)
+    app.router.add_post("/api/job", act)

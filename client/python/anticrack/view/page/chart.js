@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Lines over an axis, by Chart.js.
+import {make, number} from './dom.js';
+
+const Chart = /** @type {any} */ (globalThis).Chart;
+
+/**
+ * @typedef {{label: string, x: ArrayLike<number>, y: ArrayLike<number>, colour: string, dash?:
+ * number[], dots?: boolean}} Line
+ */
+
+/** @param {string} name */
+const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+
+/**
+ * At most four points in each of `columns` equal parts of the axis: the first, the least, the
+ * largest, the last. Nothing that sticks out is lost. x must not fall.
+ * @param {ArrayLike<number>} x
+ * @param {ArrayLike<number>} y
+ * @param {number} columns
+ * @return {{x: number, y: number}[]}
+ */
+export function thinned(x, y, columns) {
+  const point = (i) => ({x: x[i], y: y[i]});
+  if (x.length <= 4 * columns) return Array.from(x, (_, i) => point(i));
+  const found = [], width = (x[x.length - 1] - x[0]) / columns || 1;
+  for (let i = 0; i < x.length;) {
+    const end = x[0] + (Math.floor((x[i] - x[0]) / width) + 1) * width, first = i;
+    let low = i, high = i;
+    for (; i < x.length && (x[i] < end || i === first); ++i) {
+      if (y[i] < y[low]) low = i;
+      if (y[i] > y[high]) high = i;
+    }
+    for (const each of [...new Set([first, low, high, i - 1])].sort((a, b) => a - b)) found.push(point(each));
+  }
+  return found;
+}
+
+const cursor = {
+  id: 'cursor',
+  beforeDatasetsDraw(chart) {
+    const {ctx, chartArea: area, scales: {x}} = chart;
+    ctx.save();
+    ctx.fillStyle = css('--contact');
+    for (const [from, to] of chart.shaded ?? []) {
+      const left = Math.max(x.getPixelForValue(from), area.left), right = Math.min(x.getPixelForValue(to), area.right);
+      if (right >= left) ctx.fillRect(left, area.top, Math.max(right - left, 1), area.bottom - area.top);
+    }
+    if (chart.cursor !== undefined) {
+      ctx.fillStyle = css('--text');
+      ctx.fillRect(x.getPixelForValue(chart.cursor), area.top, 1, area.bottom - area.top);
+    }
+    ctx.restore();
+  },
+};
+
+/** A chart in a box of its own: `box` is the element. */
+export class Lines {
+  /**
+   * @param {{title: string, x: string, y: string, log?: boolean, short?: boolean}} options
+   * @param {(x: number, y: number) => void} [pointed] told where the pointer is, or was clicked
+   * @param {'mousemove'|'click'} on
+   */
+  constructor(options, pointed, on = 'mousemove') {
+    this.canvas = make('canvas', {role: 'img', tabindex: '0', 'aria-label': options.title});
+    this.box = make('figure', {class: options.short ? 'chart short' : 'chart'}, make('div', {}, this.canvas));
+    this.options = options;
+    if (pointed) {
+      this.canvas.addEventListener(on, (event) => {
+        const {x, y} = this.chart?.scales ?? {};
+        if (x) pointed(x.getValueForPixel(event.offsetX), y.getValueForPixel(event.offsetY));
+      });
+    }
+    /** @type {any} */
+    this.chart = null;
+  }
+
+  /**
+   * @param {Line[]} lines
+   * @param {[number, number][]} shaded stretches of x
+   */
+  draw(lines, shaded = []) {
+    const columns = Math.max(this.canvas.clientWidth, 300), log = this.options.log ?? false;
+    const datasets = lines.map((line) => ({
+                                 label: line.label,
+                                 data: thinned(line.x, line.y, columns).filter((point) => !log || point.y > 0),
+                                 borderColor: line.colour,
+                                 backgroundColor: line.colour,
+                                 borderWidth: 1.5,
+                                 borderDash: line.dash ?? [],
+                                 pointRadius: line.dots ? 3 : 0,
+                                 pointHitRadius: 6,
+                                 tension: 0,
+                                 showLine: true,
+                               }));
+    if (this.chart) {
+      this.chart.data.datasets = datasets;
+    } else {
+      this.chart = new Chart(this.canvas, {type: 'line', data: {datasets}, options: this.look(log), plugins: [cursor]});
+    }
+    this.chart.shaded = shaded;
+    this.chart.update('none');
+  }
+
+  /** @param {boolean} log */
+  look(log) {
+    const text = css('--text'), grid = css('--line');
+    const axis = (name, type) => ({
+      type,
+      grid: {color: grid, borderColor: grid},
+      title: {display: true, text: name, color: text, padding: 2},
+      ticks: {color: text, maxTicksLimit: 7, maxRotation: 0, callback: (v) => number(v, 4)},
+    });
+    return {
+      animation: false,
+      parsing: false,
+      normalized: true,
+      responsive: true,
+      maintainAspectRatio: false,
+      interaction: {mode: 'nearest', intersect: false},
+      scales: {x: axis(this.options.x, 'linear'), y: axis(this.options.y, log ? 'logarithmic' : 'linear')},
+      plugins: {
+        legend: {labels: {color: text, boxWidth: 18, boxHeight: 1, padding: 8}, position: 'top', align: 'end'},
+        title: {display: true, text: this.options.title, color: text, align: 'start', padding: 0},
+        tooltip: {callbacks: {title: (items) => items.length ? number(items[0].parsed.x) : ''}},
+      },
+    };
+  }
+
+  /** @param {number|undefined} x */
+  mark(x) {
+    if (!this.chart) return;
+    this.chart.cursor = x;
+    this.chart.draw();
+  }
+
+  destroy() { this.chart?.destroy(); }
+}

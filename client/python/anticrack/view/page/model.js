@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is shown now: a job as it runs, and a result once there is one.
+import {array, ask, events, notice} from './net.js';
+import {get} from './state.js';
+
+/** @type {{of: string, result: any, live: Live|null, jobs: any[], tables: any[]|null}} */
+export const model = {
+  of: '',
+  result: null,
+  live: null,
+  jobs: [],
+  tables: null
+};
+
+/** @type {Set<() => void>} */
+const listeners = new Set();
+let waiting = 0;
+
+/** @param {() => void} listener told once a frame at most */
+export const watch = (listener) => listeners.add(listener);
+
+export function changed() {
+  waiting ||= requestAnimationFrame(() => {
+    waiting = 0;
+    for (const listener of listeners) listener();
+  });
+}
+
+const HISTORY = [
+  'iteration', 'criterion', 'energy', 'contact_count', 'kkt_equilibrium', 'kkt_gap', 'kkt_sign', 'kkt_complementarity'
+];
+
+/** A job that is watched. samples: arrays by name for each load, of its last stage. */
+class Live {
+  /** @param {string} name @param {(lost: any) => void} connection */
+  constructor(name, connection) {
+    /** @type {any} */
+    this.job = {name, state: '', loads: [], timeline: [], stages: [], answers: [], done: 0, total: 0};
+    /** @type {any[]} */
+    this.samples = [];
+    this.rows = 0;
+    /** @type {any[]} */
+    this.growth = [];
+    const change = (handle) => (data) => {
+      handle(data);
+      changed();
+    };
+    this.close = events('watch', {of: name}, {
+      connection,
+      snapshot: change((job) => this.job = job),
+      samples: change((data) => this.sample(data)),
+      phase: change((data) => {
+        Object.assign(this.job, {state: data.state});
+        const last = this.job.timeline[this.job.timeline.length - 1];
+        if (last?.state !== data.state || last?.detail !== data.detail)
+          this.job.timeline.push({time: Date.now(), ...data});
+      }),
+      answer: change((data) => this.job.answers[data.load] = data),
+      stage: change((data) => {
+        const at = this.job.stages.findIndex((stage) => stage.mesh === data.mesh);
+        this.job.stages.splice(at < 0 ? this.job.stages.length : at, 1, data);
+      }),
+      rows: change((data) => this.rows += data.count),
+      growth: change((data) => this.growth.push(data)),
+      ended: change((job) => {
+        this.job = job;
+        this.close();
+        if (job.result)
+          load(job.name);
+        else
+          notice(`${job.name} ${job.state}: ${job.error || 'it has no answers'}`);
+      }),
+      failed: (data) => {
+        this.close();
+        notice(data.error);
+      },
+    });
+  }
+
+  /** @param {any} data */
+  sample(data) {
+    for (let i = 0; i < data.iteration.length; ++i) {
+      const at = data.load_case[i];
+      let to = this.samples[at];
+      if (!to || data.iteration[i] <= to.iteration[to.iteration.length - 1])  // the first, of a new stage,
+                                                                              // or of another attempt
+        to = this.samples[at] = Object.fromEntries(HISTORY.map((name) => [name, []]));
+      for (const name of HISTORY) to[name].push(data[name][i]);
+    }
+  }
+}
+
+/** Reads the result of a job, or of the file. @param {string} of */
+async function load(of) {
+  try {
+    const result = await ask('result', {of});
+    if (model.of !== of) return;
+    model.result = result;
+    changed();
+  } catch (error) {
+    notice(error instanceof Error ? error.message : error);
+  }
+}
+
+/**
+ * Shows a job ("jobs/ID"), the file ("file"), or nothing ("").
+ * @param {string} of
+ * @param {(lost: any) => void} connection
+ */
+export function show(of, connection) {
+  model.live?.close();
+  Object.assign(model, {of, result: null, live: null, tables: null});
+  if (of === 'file')
+    load(of);
+  else if (of)
+    model.live = new Live(of, connection);
+  changed();
+}
+
+/** The index of the load that is looked at. */
+export const loadIndex = () =>
+  Math.min(Math.max(Number(get('load')) || 0, 0), Math.max((model.result?.loads.length ?? 1) - 1, 0));
+
+/** The load that is looked at; undefined if there is none. */
+export const currentLoad = () => model.result?.loads[loadIndex()];
+
+/** Tables of the result, read when they are first wanted. */
+export async function tables() {
+  const of = model.of;
+  const found = model.tables ?? await ask('tables', {of});
+  if (model.of === of) model.tables = found;
+  return found;
+}
+
+/**
+ * An array of the result.
+ * @param {string} what
+ * @param {number} load
+ * @param {number} line
+ */
+export const values = (what, load = loadIndex(), line = 0) => array({of: model.of, what, load, interface: line});
+
+/**
+ * The history of a load case by name: as it comes, or of the result.
+ * @param {number} index
+ * @return {Promise<Record<string, ArrayLike<number>>|undefined>}
+ */
+export async function history(index) {
+  if (!model.result) return model.live?.samples[index];
+  const steps = model.result.loads[index]?.steps;
+  if (!steps) return model.live?.samples[index];
+  const packed = await values('history', index);
+  return Object.fromEntries(HISTORY.map((name, i) => [name, packed.subarray(i * steps, (i + 1) * steps)]));
+}

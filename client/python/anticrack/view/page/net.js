@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is asked of the page's server.
+import {byId, fill, make} from './dom.js';
+
+/**
+ * Says something above the page until it is taken away.
+ * @param {any} text
+ */
+export function notice(text) {
+  const close = make('button', {'aria-label': 'close', onclick: () => line.remove()}, '\u00d7');
+  const line = make('p', {}, String(text), close);
+  byId('notices').append(line);
+  while (byId('notices').children.length > 4) byId('notices').firstChild.remove();
+}
+
+/** Takes away what was said. */
+export const quiet = () => fill(byId('notices'));
+
+/**
+ * @param {string} path
+ * @param {Record<string, any>} query
+ */
+export const address = (path, query = {}) => `/api/${path}?${new URLSearchParams(query)}`;
+
+/**
+ * @param {string} where
+ * @param {any} [options]
+ */
+async function answered(where, options) {
+  const answer = await fetch(where, options).catch(() => {
+    throw new Error('anticrack view has ended; start it again');
+  });
+  if (answer.ok) return answer;
+  const text = await answer.text();
+  let told = text;
+  try {
+    told = JSON.parse(text).error;
+  } catch {
+    // not JSON: the text itself says it
+  }
+  throw new Error(told);
+}
+
+/**
+ * @param {string} path
+ * @param {Record<string, any>} query
+ * @return {Promise<any>}
+ */
+export const ask = async (path, query = {}) => (await answered(address(path, query))).json();
+
+/**
+ * @param {string} path
+ * @param {any} body
+ * @return {Promise<any>}
+ */
+export const post = async (path, body) =>
+  (await answered(`/api/${path}`, {method: 'POST', body: JSON.stringify(body)})).json();
+
+/** @type {Map<string, Promise<any>>} */
+const kept = new Map();
+const MOST = 24;
+
+/**
+ * An array of a result as a typed array; the last ones are kept.
+ * @param {Record<string, any>} query
+ * @return {Promise<any>}
+ */
+export function array(query) {
+  const where = address('array', query);
+  const found = kept.get(where) ?? answered(where).then(async (answer) => {
+    const buffer = await answer.arrayBuffer();
+    return answer.headers.get('X-Array') === 'i4' ? new Int32Array(buffer) : new Float64Array(buffer);
+  });
+  kept.delete(where);
+  kept.set(where, found);
+  found.catch(() => kept.delete(where));
+  if (kept.size > MOST) kept.delete(/** @type {string} */ (kept.keys().next().value));
+  return found;
+}
+
+/**
+ * Listens to server-sent events; the browser restores a lost connection. Returns what ends it.
+ * @param {string} path
+ * @param {Record<string, any>} query
+ * @param {Record<string, (data: any) => void>} handlers
+ */
+export function events(path, query, handlers) {
+  const source = new EventSource(address(path, query));
+  for (const [name, handle] of Object.entries(handlers))
+    source.addEventListener(name, (event) => handle(JSON.parse(/** @type {any} */ (event).data)));
+  source.onerror = () => handlers.connection({server: '', lost: 'anticrack view does not answer; trying again'});
+  return () => source.close();
+}

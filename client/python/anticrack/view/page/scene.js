@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The membrane in space, by three.js. Coordinates are those of the result, moved to its middle and
+// over its size; u rises by a number that the shaders multiply, so that deforming costs nothing. No
+// light: normals of slivers at tips would be noise.
+import {byId, fill, make, plain} from './dom.js';
+import {colours} from './palette.js';
+import {pick} from './pick.js';
+
+const T = /** @type {any} */ (globalThis).THREE;
+export const MANY = 200_000;  // triangles, above which a thinned mesh is shown while the view moves
+const UNKNOWN = -1e30;
+
+const VERTEX = `attribute float u; attribute float value; uniform float rise; varying float v;
+void main() { v = value; gl_Position = projectionMatrix * modelViewMatrix * vec4(position.xy, u * rise, 1.0); }`;
+const FACE = `uniform sampler2D palette; uniform float low, high, contours; varying float v;
+void main() {
+  float t = clamp((v - low) / (high - low), 0.0, 1.0);
+  vec3 colour = v < -1e29 ? vec3(0.62) : texture2D(palette, vec2((t * 255.0 + 0.5) / 256.0, 0.5)).rgb;
+  float k = t * contours, width = fwidth(k);
+  if (contours > 0.0 && t > 0.0 && t < 1.0)
+    colour *= 0.35 + 0.65 * smoothstep(0.4, 1.4, (0.5 - abs(fract(k) - 0.5)) / max(width, 1e-6));
+  gl_FragColor = vec4(colour, 1.0);
+}`;
+const LINE = `uniform vec3 colour; uniform float opacity; void main() { gl_FragColor = vec4(colour, opacity); }`;
+const DOT = VERTEX.replace('void main() {', 'uniform float size; void main() { gl_PointSize = size;');
+const DOTS = `uniform vec3 colour; void main() {
+  float r = length(gl_PointCoord - 0.5);
+  if (r > 0.5) discard;
+  gl_FragColor = vec4(r > 0.34 ? vec3(1.0) : colour, 1.0);
+}`;
+
+export class Scene {
+  /** @param {(hit: any) => void} clicked */
+  constructor(clicked) {
+    this.canvas = byId('scene');
+    this.renderer = new T.WebGLRenderer({canvas: this.canvas, antialias: true, alpha: true});
+    this.camera = new T.OrthographicCamera(-1, 1, 1, -1, -50, 50);
+    this.camera.up.set(0, 0, 1);
+    this.controls = new T.OrbitControls(this.camera, this.canvas);
+    this.controls.screenSpacePanning = true;
+    this.scene = new T.Scene();
+    this.uniforms = {rise: {value: 1}, low: {value: 0}, high: {value: 1}, contours: {value: 0}, palette: {value: null}};
+    this.group = new T.Group();
+    this.scene.add(this.group);
+    /** @type {any} */
+    this.surface = null;
+    /** @type {{node: any, x: number, y: number, u: number}[]} */
+    this.names = [];
+    /** @type {any} */
+    this.edges = null;
+    /** @type {any} */
+    this.geometryOf = null;
+    /** @type {any} */
+    this.add = null;
+    this.marker = this.dots([[0, 0, 0]], '#e02020', 12);
+    this.marker.visible = false;
+    this.scene.add(this.marker);
+    this.controls.addEventListener('change', () => this.draw());
+    this.controls.addEventListener('start', () => this.move(true));
+    this.controls.addEventListener('end', () => this.move(false));
+    this.canvas.addEventListener('wheel', () => this.wheel(), {passive: true});
+    let down = [0, 0];
+    this.canvas.addEventListener('pointerdown', (e) => down = [e.clientX, e.clientY]);
+    this.canvas.addEventListener('click', (e) => {
+      if (Math.hypot(e.clientX - down[0], e.clientY - down[1]) > 4 || !this.surface) return;
+      const box = this.canvas.getBoundingClientRect();
+      clicked(pick(this, (e.clientX - box.left) / box.width * 2 - 1, 1 - (e.clientY - box.top) / box.height * 2));
+    });
+    this.canvas.addEventListener('keydown', (e) => this.key(e));
+    new ResizeObserver(() => this.resize()).observe(byId('holder'));
+    /** @type {(view: string) => void} */
+    this.moved = () => {};
+    this.waiting = 0;
+    this.settle = 0;
+  }
+
+  /** @param {string} colour @param {number} opacity */
+  lineMaterial(colour, opacity = 1) {
+    return new T.ShaderMaterial({
+      vertexShader: VERTEX,
+      fragmentShader: LINE,
+      transparent: opacity < 1,
+      uniforms: {rise: this.uniforms.rise, colour: {value: new T.Color(colour)}, opacity: {value: opacity}},
+    });
+  }
+
+  /**
+   * @param {number[][]} places x, y, u
+   * @param {string} colour
+   * @param {number} size
+   */
+  dots(places, colour, size) {
+    const material = new T.ShaderMaterial({
+      vertexShader: DOT,
+      fragmentShader: DOTS,
+      depthTest: false,
+      uniforms: {rise: this.uniforms.rise, colour: {value: new T.Color(colour)}, size: {value: size}},
+    });
+    const points = new T.Points(this.geometry(places), material);
+    points.renderOrder = 3;
+    points.frustumCulled = false;
+    return points;
+  }
+
+  /** @param {number[][]} places x, y in the scene, u */
+  geometry(places) {
+    const geometry = new T.BufferGeometry();
+    geometry.setAttribute('position', new T.Float32BufferAttribute(places.flatMap(([x, y]) => [x, y, 0]), 3));
+    geometry.setAttribute('u', new T.Float32BufferAttribute(places.map((place) => place[2]), 1));
+    return geometry;
+  }
+
+  /**
+   * Shows another surface: what membrane.js reads of the result, and its middle and size.
+   * @param {any} surface
+   */
+  show(surface) {
+    this.clear();
+    this.surface = surface;
+    const count = surface.points.length / 2, position = new Float32Array(3 * count);
+    for (let i = 0; i < count; ++i)
+      for (let c = 0; c < 2; ++c) position[3 * i + c] = (surface.points[2 * i + c] - surface.middle[c]) / surface.size;
+    surface.position = position;
+    surface.height = Float32Array.from(surface.u ?? new Float64Array(count), (u) => Number.isFinite(u) ? u : 0);
+    const shared = {
+      position: new T.BufferAttribute(position, 3),
+      u: new T.BufferAttribute(surface.height, 1),
+      value: new T.BufferAttribute(new Float32Array(count).fill(UNKNOWN), 1),
+    };
+    this.values = shared.value;
+    const geometry = (index) => {
+      const made = new T.BufferGeometry();
+      for (const [name, attribute] of Object.entries(shared)) made.setAttribute(name, attribute);
+      made.setIndex(new T.BufferAttribute(new Uint32Array(index.buffer, index.byteOffset, index.length), 1));
+      return made;
+    };
+    const face = new T.ShaderMaterial({
+      vertexShader: VERTEX,
+      fragmentShader: FACE,
+      uniforms: this.uniforms,
+      side: T.DoubleSide,
+      extensions: {derivatives: true},
+      polygonOffset: true,
+      polygonOffsetFactor: 1,
+      polygonOffsetUnits: 1,
+    });
+    const add = (object) => {
+      object.frustumCulled = false;
+      this.group.add(object);
+      return object;
+    };
+    this.full = add(new T.Mesh(geometry(surface.triangles), face));
+    this.thin = surface.thinned && add(new T.Mesh(geometry(surface.thinned), face));
+    if (this.thin) this.thin.visible = false;
+    this.edges = null;
+    this.geometryOf = geometry;
+    this.add = add;
+    this.outline = add(new T.LineSegments(geometry(surface.outline), this.lineMaterial('#333333')));
+  }
+
+  clear() {
+    this.group.traverse((object) => object.geometry?.dispose());
+    this.group.remove(...this.group.children);
+    fill(byId('labels'));
+    this.names = [];
+    this.marker.visible = false;
+    this.surface = null;
+  }
+
+  /** Lines of the mesh, made when they are first wanted. @param {boolean} wanted */
+  lines(wanted) {
+    if (!this.surface) return;
+    if (wanted && !this.edges) {
+      const from = this.surface.triangles, edges = new Int32Array(2 * from.length);
+      let used = 0;
+      for (let i = 0; i < from.length; ++i) {
+        const a = from[i], b = from[i % 3 === 2 ? i - 2 : i + 1];
+        if (a < b) edges[used++] = a,
+                   edges[used++] = b;  // the triangle beside it has b, a; the outline has the rest
+      }
+      this.edges =
+        this.add(new T.LineSegments(this.geometryOf(edges.subarray(0, used)), this.lineMaterial('#000000', 0.25)));
+    }
+    if (this.edges) this.edges.visible = wanted;
+    this.meshed = wanted;
+  }
+
+  /**
+   * Colours of the nodes.
+   * @param {ArrayLike<number>|null} values
+   * @param {number} low
+   * @param {number} high
+   * @param {boolean} diverging
+   * @param {number} contours
+   */
+  paint(values, low, high, diverging, contours) {
+    const to = this.values.array;
+    for (let i = 0; i < to.length; ++i) to[i] = values && Number.isFinite(values[i]) ? values[i] : UNKNOWN;
+    this.values.needsUpdate = true;
+    this.uniforms.low.value = low;
+    this.uniforms.high.value = high > low ? high : low + 1;
+    this.uniforms.contours.value = contours;
+    /** @type {any} */
+    const palette = new T.DataTexture(colours(diverging), 256, 1, T.RGBAFormat);
+    palette.needsUpdate = true;
+    this.uniforms.palette = Object.assign(this.uniforms.palette, {value: palette});
+  }
+
+  /** @param {number} amplify */
+  rise(amplify) {
+    this.uniforms.rise.value = this.surface ? amplify / this.surface.size : 1;
+    this.draw();
+  }
+
+  /** A place of the result in the scene. @param {number} x @param {number} y @param {number} u */
+  place(x, y, u) {
+    const {middle, size} = this.surface;
+    return [(x - middle[0]) / size, (y - middle[1]) / size, Number.isFinite(u) ? u : 0];
+  }
+
+  /** @param {number[][]} line places x, y, u @param {string} colour */
+  line(line, colour) {
+    const drawn = new T.Line(this.geometry(line.map(([x, y, u]) => this.place(x, y, u))), this.lineMaterial(colour));
+    drawn.renderOrder = 1;
+    this.add(drawn);
+  }
+
+  /** @param {string} name @param {number} x @param {number} y @param {number} u */
+  name(name, x, y, u) {
+    const node = make('span', {}, plain(name, 40));
+    byId('labels').append(node);
+    const [px, py, pu] = this.place(x, y, u);
+    this.names.push({node, x: px, y: py, u: pu});
+  }
+
+  /** Marks a place, or none. @param {number[]|null} place x, y, u */
+  mark(place) {
+    this.marker.visible = place !== null && this.surface !== null;
+    if (this.marker.visible && place) {
+      const [x, y, u] = this.place(place[0], place[1], place[2]);
+      this.marker.geometry.attributes.position.setXYZ(0, x, y, 0).needsUpdate = true;
+      this.marker.geometry.attributes.u.setX(0, u).needsUpdate = true;
+    }
+    this.draw();
+  }
+
+  /** @param {boolean} begins */
+  move(begins) {
+    clearTimeout(this.settle);
+    const change = () => {
+      if (this.thin) {
+        this.thin.visible = begins;
+        this.full.visible = !begins;
+        if (this.edges) this.edges.visible = !begins && this.meshed;
+        byId('moving').hidden = !begins;
+        fill(
+          byId('moving'),
+          `while it moves: ${this.surface.thinned.length / 3} of ${this.surface.triangles.length / 3} triangles`);
+      }
+      if (!begins) this.moved(this.view());
+      this.draw();
+    };
+    if (begins)
+      change();
+    else
+      this.settle = setTimeout(change, 200);
+  }
+
+  wheel() {
+    this.move(true);
+    this.move(false);
+  }
+
+  /** @param {KeyboardEvent} event */
+  key(event) {
+    const turns = {ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, -0.1], ArrowDown: [0, 0.1]};
+    const turn = /** @type {any} */ (turns)[event.key],
+          zoom = /** @type {any} */ ({'+': 1.2, '=': 1.2, '-': 1 / 1.2})[event.key];
+    if (turn && this.controls.enableRotate) {
+      const place = new T.Spherical().setFromVector3(this.offset());
+      place.theta += turn[0];
+      place.phi = Math.min(Math.max(place.phi + turn[1], 0.01), 3.1);
+      this.look(place.theta, place.phi);
+    } else if (zoom) {
+      this.camera.zoom *= zoom;
+    } else {
+      return;
+    }
+    event.preventDefault();
+    this.camera.updateProjectionMatrix();
+    this.controls.update();
+    this.wheel();
+  }
+
+  /** From the target to the camera, with y up as three's spherical coordinates have it. */
+  offset() {
+    const d = this.camera.position.clone().sub(this.controls.target);
+    return new T.Vector3(d.x, d.z, -d.y);
+  }
+
+  /** @param {number} theta @param {number} phi */
+  look(theta, phi) {
+    const d = new T.Vector3().setFromSpherical(new T.Spherical(3, phi, theta));
+    this.camera.position.set(d.x, -d.z, d.y).add(this.controls.target);
+    this.controls.update();
+  }
+
+  /** The view as a text for the fragment. */
+  view() {
+    const at = new T.Spherical().setFromVector3(this.offset()), {x, y, z} = this.controls.target;
+    return [at.theta, at.phi, this.camera.zoom, x, y, z].map((value) => Number(value.toPrecision(4))).join(',');
+  }
+
+  /** @param {string} view @param {boolean} plan */
+  setView(view, plan) {
+    const given = view.split(',').map(Number);
+    const [theta, phi, zoom, x, y, z] =
+      given.length === 6 && given.every(Number.isFinite) ? given : [0.5, 1, 1, 0, 0, 0];
+    this.controls.enableRotate = !plan;
+    this.controls.target.set(x, y, plan ? 0 : z);
+    this.camera.zoom = zoom;
+    this.look(plan ? 0 : theta, plan ? 1e-4 : phi);
+    this.resize();
+  }
+
+  resize() {
+    const {clientWidth: width, clientHeight: height} = byId('holder');
+    if (!width || !height) return;
+    this.renderer.setPixelRatio(devicePixelRatio);
+    this.renderer.setSize(width, height, false);
+    const half = 0.72, across = Math.max(width / height, 1), down = Math.max(height / width, 1);
+    Object.assign(this.camera, {left: -half * across, right: half * across, top: half * down, bottom: -half * down});
+    this.camera.updateProjectionMatrix();
+    this.draw();
+  }
+
+  draw() {
+    if (!this.waiting) this.waiting = requestAnimationFrame(() => this.render());
+  }
+
+  render() {
+    this.waiting = 0;
+    this.renderer.render(this.scene, this.camera);
+    const {clientWidth: width, clientHeight: height} = this.canvas;
+    for (const {node, x, y, u} of this.names) {
+      const at = new T.Vector3(x, y, u * this.uniforms.rise.value).project(this.camera);
+      node.style.transform =
+        `translate(${(at.x + 1) / 2 * width}px, ${(1 - at.y) / 2 * height}px) translate(-50%, -130%)`;
+    }
+    this.canvas.dataset.frames = String(Number(this.canvas.dataset.frames ?? 0) + 1);
+  }
+}
