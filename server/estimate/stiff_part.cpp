@@ -165,7 +165,7 @@ class Continuation {
   }
 
  private:
-  static constexpr std::size_t most_edges = 2000, most_stiff = 200'000;
+  static constexpr std::size_t most_edges = 1000, most_stiff = 200'000;
 
   bool in_stiff(std::size_t side) const { return _stiff[side / 3] != 0; }
   bool on_interface(std::size_t side) const {

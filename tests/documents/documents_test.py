@@ -22,9 +22,11 @@ DOCUMENTS = [PROJECT / "README.md", *sorted(document for folder in (".github", "
 BLOCK = re.compile(r"^```(\w*)\n(.*?)^```$", re.M | re.S)
 TABLE = re.compile(r"^<!-- printed above -->\n\|.*\n\|-.*\n((?:\|.*\n)+)", re.M)
 
-# Commands that build, install or want root: what runs them instead.
+# Commands that build, install, want root or serve until they are stopped: what runs them instead.
 ELSEWHERE = {
     "./deploy/quickstart": ".ci/run",
+    "anticrack view": "tests/client/view/page_test.py",
+    "anticrack --local view": "tests/client/view/page_test.py",
 }
 
 # One command after another in one shell, so that export, cd and & mean what they mean for who types them.

@@ -61,7 +61,7 @@ def pvd(members: Sequence[tuple[str, str, int, int]]) -> bytes:
     return f'{_HEAD.format("Collection")}  <Collection>\n{"".join(lines)}  </Collection>\n</VTKFile>\n'.encode()
 
 
-def _of_triangles(mesh: Mesh, values: Array, triangles: Array) -> Array:
+def of_triangles(mesh: Mesh, values: Array, triangles: Array) -> Array:
     """The values of each triangle, which may have its corners in another order than the mesh has them; NaN for one
     that is not in the mesh."""
     _, number = np.unique(np.sort(np.concatenate([mesh.triangles, triangles]), axis=1), axis=0, return_inverse=True)
@@ -90,9 +90,9 @@ def membrane(result: Result, load: Load) -> bytes:
              "flux": (np.hypot(*flux.T), _unit(result, "F/L")),
              "energy_density": (np.concatenate([part.energy_density for part in parts]), _unit(result, "F/L"))}
     if load.indicator is not None:
-        cells["error_indicator"] = (_of_triangles(result.mesh, load.indicator, node[corners]), _unit(result, "F L"))
+        cells["error_indicator"] = (of_triangles(result.mesh, load.indicator, node[corners]), _unit(result, "F L"))
     if load.balanced_flux is not None:
-        means = _of_triangles(result.mesh, result.mesh.mean_flux(load.balanced_flux), node[corners])
+        means = of_triangles(result.mesh, result.mesh.mean_flux(load.balanced_flux), node[corners])
         for name, values in zip(("balanced_flux_x", "balanced_flux_y"), means.T):
             cells[name] = (values, _unit(result, "F/L"))
     points = {"u": (np.concatenate([part.u for part in parts]), _unit(result, "L")), "node": (node, "")}

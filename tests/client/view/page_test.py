@@ -18,7 +18,7 @@ from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.by import By
 
 import anticrack
-from processes import ANTICRACKD, Daemon, FolderTest, run
+from processes import ANTICRACK, ANTICRACKD, Daemon, FolderTest, run
 
 EXAMPLES = pathlib.Path(os.environ["EXAMPLES"])
 PAGE = pathlib.Path(os.environ["PAGE"])
@@ -26,10 +26,10 @@ HOSTILE = '<img src=x onerror="window.harmed=1"><script>window.harmed=1</script>
 
 
 @contextlib.contextmanager
-def viewing(*words):
+def viewing(*words, command=(sys.executable, "-m", "anticrack", "view")):
     """Runs anticrack view; yields the process and its address."""
     programs = os.path.dirname(ANTICRACKD)
-    process = subprocess.Popen([sys.executable, "-m", "anticrack", "view", "--no-browser", *map(str, words)], text=True,
+    process = subprocess.Popen([*command, "--no-browser", *map(str, words)], text=True,
                                stdout=subprocess.PIPE, env={**os.environ, "PATH": f"{programs}:{os.environ['PATH']}"})
     try:
         yield process, process.stdout.readline().rpartition(" ")[2].strip()
@@ -187,7 +187,7 @@ class InChromium(FolderTest):
                     self.until("return document.getElementById('notices').textContent.includes('deleted')")
 
     def test_a_case_is_corrected_and_run(self):
-        with viewing("--local") as (_, address):
+        with viewing(command=(ANTICRACK, "--local", "view")) as (_, address):  # anticrack --local view
             self.open(address)
             self.until("return document.querySelector('textarea')")
             write = "const t = document.querySelector('textarea'); t.value = {}; t.dispatchEvent(new Event('input'))"

@@ -12,7 +12,7 @@ from ..arrays import Array
 from ..notes import notes_on
 from ..result import CRACK, DELAMINATED, FREE, KKT, Load, Result, fields_cure
 from ..text import with_bounds
-from ..vtk import _indicators
+from ..vtk import of_triangles
 from .opened import Opened, load_of
 from .reply import reply
 
@@ -50,7 +50,7 @@ class Surface:
             return np.concatenate([part.energy_density for part in parts])
         assert self.load.indicator is not None
         areas = np.concatenate([part.areas for part in parts])
-        values = _indicators(self.result.mesh, self.load.indicator, self.nodes[self.triangles])
+        values = of_triangles(self.result.mesh, self.load.indicator, self.nodes[self.triangles])
         return np.divide(values, areas, out=np.zeros_like(areas), where=areas > 0)
 
     def of_nodes(self, what: str) -> Array:
