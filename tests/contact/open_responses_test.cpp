@@ -12,23 +12,23 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index contacts = 24, loads = 3;
+constexpr Index size = 24, columns = 3;
 
 /// Contacts 0 and 1 hold each other: S is singular where both are open.
 struct Problem {
-  MatrixXd s = MatrixXd::Identity(contacts, contacts), r = MatrixXd::Random(contacts, loads);
-  VectorXd scale = VectorXd::LinSpaced(contacts, 0.5, 2);
+  MatrixXd s = MatrixXd::Identity(size, size), r = MatrixXd::Random(size, columns);
+  VectorXd scale = VectorXd::LinSpaced(size, 0.5, 2);
   OpenFactor work;
   Problem() {
-    const MatrixXd half = MatrixXd::Random(contacts - 2, contacts - 2);
-    MatrixXd rest = half * half.transpose() + MatrixXd::Identity(contacts - 2, contacts - 2);
+    const MatrixXd half = MatrixXd::Random(size - 2, size - 2);
+    MatrixXd rest = half * half.transpose() + MatrixXd::Identity(size - 2, size - 2);
     const VectorXd unit = rest.diagonal().cwiseSqrt().cwiseInverse();
-    s.bottomRightCorner(contacts - 2, contacts - 2) = unit.asDiagonal() * rest * unit.asDiagonal();
+    s.bottomRightCorner(size - 2, size - 2) = unit.asDiagonal() * rest * unit.asDiagonal();
     s(0, 1) = s(1, 0) = -1;
   }
   static std::vector<char> set(unsigned bits) {
-    std::vector<char> closed(contacts, 1);
-    for (Index i = 0; i < contacts; ++i) closed[static_cast<std::size_t>(i)] = bits >> i & 1U;
+    std::vector<char> closed(size, 1);
+    for (Index i = 0; i < size; ++i) closed[static_cast<std::size_t>(i)] = bits >> i & 1U;
     return closed;
   }
 };
@@ -43,7 +43,7 @@ TEST(OpenResponses, SolveForEachSet) {
     const auto found = responses.of(closed, of.s, of.scale, of.work);
     ASSERT_TRUE(found->regular);
     EXPECT_LT((of.s * found->d - scaled - found->force).norm(), 1e-12 * scaled.norm());
-    for (Index i = 0; i < contacts; ++i) {
+    for (Index i = 0; i < size; ++i) {
       const bool shut = closed[static_cast<std::size_t>(i)] != 0;
       EXPECT_LT((shut ? found->d : found->force).row(i).norm(), 1e-12 * scaled.norm()) << i;
     }
@@ -56,13 +56,13 @@ TEST(OpenResponses, KeepNoMoreThanTheySay) {
   Problem of;
   OpenResponses responses(of.r);
   const auto first = responses.of(Problem::set(1), of.s, of.scale, of.work);
-  const std::size_t most = responses.bytes() / (2 * sizeof(double) * contacts * loads);
+  const std::size_t most = responses.bytes() / (2 * sizeof(double) * size * columns);
   for (unsigned bits = 2; bits < 2 + most; ++bits)
     responses.of(Problem::set(bits << 2U | 1U), of.s, of.scale, of.work);
   const auto again = responses.of(Problem::set(1), of.s, of.scale, of.work);
   EXPECT_NE(again, first);        // it had been forgotten,
   EXPECT_EQ(again->d, first->d);  // and has the same bits
-  EXPECT_EQ(OpenResponses(MatrixXd::Random(contacts, contacts)).bytes(), 0U);
+  EXPECT_EQ(OpenResponses(MatrixXd::Random(size, size)).bytes(), 0U);
 }
 
 }  // namespace
