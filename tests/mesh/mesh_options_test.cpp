@@ -107,8 +107,8 @@ TEST(MeshOptions, OfAnUploadAreChecked) {
   refused({.size = nan_value}, "options.size");
   refused({.align = {{{0, 0}, {1, 0}}}}, "options.align");
   refused({.chord_angle = 5}, "options.chord_angle");
-  for (const char* name :
-       {"", "fibre", "dirichlet:", "neumann:a b", "inclusion", "inclusion:", "crack:1", "free:", "delaminated:a b"}) {
+  for (const char* name : {"", "fibre", "dirichlet:", "neumann:a b", "inclusion",
+                           "inclusion:", "crack:1", "free:", "delaminated:a b"}) {
     refused({.curve_groups = {{3, name}}}, "options.curve_groups[3]");
   }
   refused({.surface_groups = {{-7, "a/b"}}}, "options.surface_groups[-7]");
