@@ -172,6 +172,9 @@ def view() -> int:
 def main(words: Sequence[str]) -> int:
     """Runs a command line and returns the exit code: 0, 2 with a line on standard error, or 141 if the reader of
     standard output has closed it."""
+    if words[:1] == ["study"]:
+        from .study import command
+        return command.main(words[1:])
     if words[:1] == ["view"]:
         package("aiohttp")
         from .view import program
