@@ -49,7 +49,7 @@ class Fields(FolderTest):
             # near T grad u: their distance is what bounds the error
             parts = [(part.nodes[part.triangles], part.flux, part.areas) for part in load.fields]
             for triangles, slopes, part_areas in parts:
-                means = vtk._of_triangles(mesh, mesh.mean_flux(flux), triangles)
+                means = vtk.of_triangles(mesh, mesh.mean_flux(flux), triangles)
                 apart, size = ((part_areas * (values**2).sum(axis=1)).sum() for values in (means - slopes, slopes))
                 self.assertLess(apart, 0.1 * size)
                 self.assertGreater(apart, 0)
