@@ -37,6 +37,8 @@ struct MeshRecord;
 
 namespace anticrack::store {
 
+class Queue;
+
 /// A page of a list, newest first: `count` records after the one with id `after` (empty: from the
 /// start); only those of `owner`, if one is given.
 struct Page {
@@ -176,6 +178,10 @@ class Store {
   /// Removes uploads made before `before` to which no unfinished job and no mesh without a
   /// triangulation refers; returns how many.
   virtual std::size_t expire_uploads(records::Clock::time_point before) = 0;
+
+  /// The queue that all servers on this store share; null for a store that belongs to one server,
+  /// whose queue is in its memory.
+  virtual Queue* queue() { return nullptr; }
 
   /// The bytes as counted; only for the database it asks the disk.
   virtual Usage usage() const = 0;
