@@ -17,6 +17,7 @@
 #include "log/log.hpp"
 #include "metrics/metrics.hpp"
 #include "operators/mesh_operator.hpp"
+#include "postgres/store.hpp"
 #include "rpc/version.hpp"
 
 namespace anticrack::app {
@@ -43,7 +44,9 @@ struct Service::Parts {
         drain_time(config.drain_time),
         metrics(rpc::version(), rpc::build()),
         folder(config.store.folder),
-        store(store::open(config.store)),
+        store(config.store.url.empty()
+                  ? store::open(config.store)
+                  : std::make_unique<postgres::Store>(config.store, config.store.url)),
         cache(config.limits.memory_budget_bytes, factorise_function(config),
               [this](std::chrono::duration<double> time) { factorised(metrics, time); }),
         catalogue(with_listener(catalogue_options(config)), *store, cache),

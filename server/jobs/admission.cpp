@@ -58,20 +58,18 @@ void Admission::check(const std::string& owner, const std::string& mesh, std::ui
   if (!owner.empty() && held.own_jobs > 0) {
     if (!access::may_have(held.own_jobs, 1, held.jobs, _limits.jobs)) {
       throw full(fmt::format("you have {} jobs that have not ended, one user may have {} now",
-                             held.own_jobs,
-                             access::share(held.own_jobs, held.jobs, _limits.jobs)));
+                             held.own_jobs, access::share(held.own_jobs, held.jobs, _limits.jobs)));
     }
     if (!access::may_have(held.own_bytes, bytes, held.bytes, _limits.memory)) {
-      throw full(
-          fmt::format("your jobs that have not ended take {} bytes and this one {}, those of one "
-                      "user may take {} now",
-                      held.own_bytes, bytes,
-                      access::share(held.own_bytes, held.bytes, _limits.memory)));
+      throw full(fmt::format(
+          "your jobs that have not ended take {} bytes and this one {}, those of one "
+          "user may take {} now",
+          held.own_bytes, bytes, access::share(held.own_bytes, held.bytes, _limits.memory)));
     }
   }
   if (held.mesh_cases + cases > _limits.cases) {
-    throw full(fmt::format("{} load cases of meshes/{} have not ended, at most {}",
-                           held.mesh_cases, mesh, _limits.cases));
+    throw full(fmt::format("{} load cases of meshes/{} have not ended, at most {}", held.mesh_cases,
+                           mesh, _limits.cases));
   }
   if (held.bytes + bytes > _limits.memory) {
     throw full(fmt::format("jobs use {} bytes of memory, at most {}", held.bytes, _limits.memory));

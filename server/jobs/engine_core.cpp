@@ -62,7 +62,8 @@ EngineCore::EngineCore(EngineOptions engine_options, store::Store& records,
 void EngineCore::quit() {
   const std::lock_guard lock(mutex);
   quitting = true;
-  for (auto* changed : {&solvers, &ending, &sweeping, &limits, &claiming, &telling}) changed->notify_all();
+  for (auto* changed : {&solvers, &ending, &sweeping, &limits, &claiming, &telling})
+    changed->notify_all();
 }
 
 std::jthread EngineCore::start(std::function<void()> work) {

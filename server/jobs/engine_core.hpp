@@ -103,9 +103,9 @@ class EngineCore {
   bool queue_changed = false;       ///< whether there may be a job to claim, or room for one
   bool flags_changed = false;       ///< whether a job here may have been cancelled elsewhere
   int claims_under_way = 0;
-  bool draining = false;            ///< whether no job may start any more
-  bool interrupting = false;        ///< ends that the store refuses are left to the next start
-  bool stop_noted = false;          ///< whether the store has a note of it
+  bool draining = false;      ///< whether no job may start any more
+  bool interrupting = false;  ///< ends that the store refuses are left to the next start
+  bool stop_noted = false;    ///< whether the store has a note of it
   bool quitting = false;
   bool ended_since_sweep = true;
 

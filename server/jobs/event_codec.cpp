@@ -103,8 +103,7 @@ std::vector<SampleEvent> read_samples(const v1::Samples& from) {
 
 RowsEvent read_rows(const v1::SweepRows& from) {
   const auto rows = static_cast<std::size_t>(from.status_size());
-  const auto inclusions =
-      rows == 0 ? 0 : static_cast<std::size_t>(from.displacement_size()) / rows;
+  const auto inclusions = rows == 0 ? 0 : static_cast<std::size_t>(from.displacement_size()) / rows;
   auto columns = std::make_shared<contact::SweepColumns>(rows, inclusions, 0);
   for (std::size_t row = 0; row < rows; ++row)
     columns->status[row] = static_cast<contact::Status>(from.status(static_cast<int>(row)));
@@ -135,10 +134,10 @@ Event read_event(const WatchJobResponse& from, const store::EventRow& row) {
     }
     default:
       if (from.load_cases_ended_size() != 1) throw damaged(row);
-      return CaseEvent{from.load_cases_ended(0).load_case(),
-                       std::make_shared<const records::CaseRecord>(
-                           api::Translation<records::CaseRecord>::read(
-                               from.load_cases_ended(0).answer()))};
+      return CaseEvent{
+          from.load_cases_ended(0).load_case(),
+          std::make_shared<const records::CaseRecord>(
+              api::Translation<records::CaseRecord>::read(from.load_cases_ended(0).answer()))};
   }
 }
 
@@ -173,10 +172,9 @@ void unpack(const store::EventRow& row, EventLog& log) {
   if (body.has_samples()) {
     const v1::Samples& from = body.samples();
     const int count = from.load_case_size();
-    for (const int other :
-         {from.iteration_size(), from.criterion_size(), from.energy_size(),
-          from.contact_count_size(), from.kkt_gap_size(), from.kkt_sign_size(),
-          from.kkt_complementarity_size(), from.kkt_equilibrium_size()})
+    for (const int other : {from.iteration_size(), from.criterion_size(), from.energy_size(),
+                            from.contact_count_size(), from.kkt_gap_size(), from.kkt_sign_size(),
+                            from.kkt_complementarity_size(), from.kkt_equilibrium_size()})
       if (other != count) throw damaged(row);
     log.jump(row.last - static_cast<std::uint64_t>(count));
     log.append(read_samples(from));

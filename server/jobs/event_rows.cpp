@@ -143,8 +143,8 @@ void EventRows::catch_up(const Logs& logs) {
     const std::optional<records::JobRecord> record = _core.store.job(job);
     // The rows of a job that ended long ago are gone: its end has a number above all others.
     if (record && log->latest() == 0) log->jump(sequence_base(record->attempt + 1));
-    log->append(EndEvent{record ? std::make_shared<const records::JobRecord>(*record)
-                                : deleted(job)});
+    log->append(
+        EndEvent{record ? std::make_shared<const records::JobRecord>(*record) : deleted(job)});
     const std::lock_guard lock(_mutex);
     _followed.erase(job);
   }

@@ -1,25 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <utility>
-#include <variant>
 
 #include "mesh/codec.hpp"
 #include "records/mesh_record.hpp"
 #include "store/durable_store.hpp"
 #include "store/record_codec.hpp"
+#include "store/requests.hpp"
 
 namespace anticrack::store {
 
 using errors::Error;
 using errors::Reason;
-
-namespace {
-
-std::string upload_of(const records::MeshRecord& record) {
-  const auto* upload = std::get_if<records::UploadRef>(&record.definition);
-  return upload == nullptr ? std::string() : upload->sha256;
-}
-
-}  // namespace
 
 void DurableStore::save(Connection& connection, const records::MeshRecord& record,
                         const std::string& bytes) {

@@ -77,6 +77,7 @@ struct EndedJob {
 struct StoreOptions {
   std::string folder;             ///< if missing, it is made, accessible to its owner only
   std::uint64_t disk_budget = 0;  ///< bytes for all of it; 0: the disk's size is the limit
+  std::string url{};              ///< of a PostgreSQL database; empty: SQLite in the folder
 };
 
 /// An upload that is complete, in a file of new_upload_path().

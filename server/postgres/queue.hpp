@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The queue of jobs in PostgreSQL.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "postgres/database.hpp"
+#include "postgres/leases.hpp"
+#include "store/queue.hpp"
+
+namespace anticrack::postgres {
+
+/// One statement a method, so that nothing is half done and no lock outlives a network: but
+/// create(), where the owner's lock comes first.
+class Queue final : public store::Queue {
+ public:
+  /// `name`: of this server, the same after its restart; no two servers may have one. If there is
+  /// an earlier epoch of it, that process has died, and the jobs it ran count a crash.
+  Queue(Database& database, std::string name);
+  ~Queue() override;
+
+  records::JobRecord create(const records::JobRecord& record, const std::string& fingerprint,
+                            const store::QueuedSize& size,
+                            const std::function<void(const store::QueueTotals&)>& admit) override;
+  std::vector<Claim> claim(std::size_t count, const std::vector<std::string>& held) override;
+  std::optional<Claim> claim_to_cancel(const std::string& job) override;
+  News beat(const std::vector<std::string>& known) override;
+  void give_back(const std::vector<std::string>& known) override;
+  void leave() override;
+  bool needs(const std::string& mesh) const override;
+  void append(const std::vector<store::EventRow>& rows) override;
+  std::vector<store::EventRow> events(
+      const std::vector<store::EventCursor>& cursors) const override;
+  std::vector<std::string> ended(const std::vector<std::string>& jobs) const override;
+  void listen(std::function<void(bool cancelled)> wake) override;
+
+  // For the store, which writes with this server's fence:
+  /// Replaces the record of a job that runs here; throws JobTaken.
+  void put(const records::JobRecord& record, const std::string& bytes);
+  /// Ends a job that runs here, whose result has this many bytes; throws JobTaken.
+  void finish(const records::JobRecord& record, const std::string& bytes,
+              std::uint64_t result_bytes);
+
+ private:
+  std::vector<Claim> claims_of(const Rows& rows);
+  void notify(const char* channel);
+  void enter(bool started);
+  void hear();
+
+  Database& _database;
+  const std::string _name;
+  std::atomic<std::int64_t> _epoch{0};
+  std::mutex _beating;  ///< of the next two
+  Leases _leases;
+  int _beats = 0;
+  std::mutex _listening;
+  std::function<void(bool cancelled)> _wake;
+  std::jthread _ears;
+};
+
+}  // namespace anticrack::postgres

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "postgres/schema.hpp"
+
+namespace anticrack::postgres {
+
+namespace {
+
+constexpr std::int64_t schema_version = 1;
+
+/// `queue` has the jobs that have not ended, and nothing else. `runner`: the epoch of the server
+/// that has the job; `tried`: the epochs in which it began to run. A server that has died stays in
+/// `servers` (dead) until its next start, which knows then that the process has ended. Pieces of
+/// blobs are of one megabyte.
+constexpr const char* tables = R"(
+CREATE TABLE store (version integer NOT NULL);
+CREATE TABLE servers (
+  epoch bigint GENERATED ALWAYS AS IDENTITY PRIMARY KEY,
+  name text NOT NULL,
+  beats bigint NOT NULL DEFAULT 0,
+  dead boolean NOT NULL DEFAULT false
+);
+CREATE TABLE meshes (
+  number bigint GENERATED ALWAYS AS IDENTITY PRIMARY KEY,
+  id text NOT NULL UNIQUE,
+  owner text NOT NULL,
+  sha256 text NOT NULL,
+  upload text NOT NULL,
+  record bytea NOT NULL
+);
+CREATE INDEX ON meshes (owner, number);
+CREATE INDEX ON meshes (sha256) WHERE sha256 <> '';
+CREATE TABLE mesh_pieces (
+  mesh text NOT NULL REFERENCES meshes (id) ON DELETE CASCADE,
+  n integer NOT NULL,
+  body bytea NOT NULL,
+  PRIMARY KEY (mesh, n)
+);
+ALTER TABLE mesh_pieces ALTER body SET STORAGE EXTERNAL;
+CREATE TABLE jobs (
+  number bigint GENERATED ALWAYS AS IDENTITY PRIMARY KEY,
+  id text NOT NULL UNIQUE,
+  owner text NOT NULL,
+  request text NOT NULL,
+  fingerprint text NOT NULL,
+  uploads text[] NOT NULL,
+  ended bigint,
+  result integer NOT NULL DEFAULT 0,
+  result_bytes bigint NOT NULL DEFAULT 0,
+  record bytea NOT NULL
+);
+CREATE INDEX ON jobs (owner, number);
+CREATE UNIQUE INDEX ON jobs (owner, request) WHERE request <> '';
+CREATE INDEX ON jobs (ended) WHERE ended IS NOT NULL;
+CREATE TABLE results (
+  job text NOT NULL REFERENCES jobs (id) ON DELETE CASCADE,
+  attempt integer NOT NULL,
+  n integer NOT NULL,
+  body bytea NOT NULL,
+  PRIMARY KEY (job, attempt, n)
+);
+ALTER TABLE results ALTER body SET STORAGE EXTERNAL;
+CREATE TABLE uploads (
+  sha256 text NOT NULL,
+  owner text NOT NULL,
+  created bigint NOT NULL,
+  bytes bigint NOT NULL,
+  array_file boolean NOT NULL,
+  PRIMARY KEY (owner, sha256)
+);
+CREATE TABLE upload_pieces (
+  owner text NOT NULL,
+  sha256 text NOT NULL,
+  n integer NOT NULL,
+  body bytea NOT NULL,
+  PRIMARY KEY (owner, sha256, n),
+  FOREIGN KEY (owner, sha256) REFERENCES uploads (owner, sha256) ON DELETE CASCADE
+);
+ALTER TABLE upload_pieces ALTER body SET STORAGE EXTERNAL;
+CREATE TABLE queue (
+  number bigint GENERATED ALWAYS AS IDENTITY PRIMARY KEY,
+  job text NOT NULL UNIQUE REFERENCES jobs (id) ON DELETE CASCADE,
+  owner text NOT NULL,
+  mesh text NOT NULL,
+  class smallint NOT NULL,
+  tag bigint NOT NULL,
+  cases bigint NOT NULL,
+  bytes bigint NOT NULL,
+  queued timestamptz NOT NULL DEFAULT now(),
+  claimed timestamptz,
+  runner bigint,
+  attempt integer NOT NULL DEFAULT 0,
+  crashes integer NOT NULL DEFAULT 0,
+  tried bigint[] NOT NULL DEFAULT '{}',
+  cancelled boolean NOT NULL DEFAULT false
+) WITH (fillfactor = 50);
+CREATE INDEX ON queue (class, tag, number) WHERE runner IS NULL;
+CREATE INDEX ON queue (mesh, class, tag, number) WHERE runner IS NULL;
+CREATE INDEX ON queue (owner, class, tag);
+CREATE INDEX ON queue (runner) WHERE runner IS NOT NULL;
+CREATE TABLE events (
+  job text NOT NULL REFERENCES jobs (id) ON DELETE CASCADE,
+  last bigint NOT NULL,
+  written timestamptz NOT NULL DEFAULT now(),
+  body bytea NOT NULL,
+  PRIMARY KEY (job, last)
+);
+)";
+
+}  // namespace
+
+void make_tables(Database& database) {
+  const std::int64_t version = database.transact([](Connection& connection) {
+    constexpr int any_number = 7433;
+    connection.run("SELECT pg_advisory_xact_lock($1::bigint)", {any_number});
+    if (connection.run("SELECT to_regclass('servers')").is_null(0, 0)) {
+      connection.script(tables);
+      connection.run("INSERT INTO store VALUES ($1)", {schema_version});
+    }
+    return connection.run("SELECT version FROM store").integer(0, 0);
+  });
+  if (version == schema_version) return;
+  throw errors::Error(errors::Reason::storage,
+                      "store: the database has schema {} and this anticrackd knows {}: start the "
+                      "version that made it, or give another database",
+                      version, schema_version);
+}
+
+}  // namespace anticrack::postgres
