@@ -14,10 +14,10 @@
 #include "app/machine.hpp"
 #include "app/options.hpp"
 #include "app/security.hpp"
+#include "group/store.hpp"
 #include "log/log.hpp"
 #include "metrics/metrics.hpp"
 #include "operators/mesh_operator.hpp"
-#include "postgres/store.hpp"
 #include "rpc/version.hpp"
 
 namespace anticrack::app {
@@ -46,7 +46,7 @@ struct Service::Parts {
         folder(config.store.folder),
         store(config.store.url.empty()
                   ? store::open(config.store)
-                  : std::make_unique<postgres::Store>(config.store, config.store.url)),
+                  : std::make_unique<group::Store>(config.store, config.store.url)),
         cache(config.limits.memory_budget_bytes, factorise_function(config),
               [this](std::chrono::duration<double> time) { factorised(metrics, time); }),
         catalogue(with_listener(catalogue_options(config)), *store, cache),

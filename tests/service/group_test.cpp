@@ -18,8 +18,8 @@
 #include "client/uuid.hpp"
 #include "service/daemon.hpp"
 #include "service/workload.hpp"
+#include "support/database.hpp"
 #include "support/eventually.hpp"
-#include "support/postgres.hpp"
 
 namespace anticrack::service_test {
 namespace {
@@ -31,11 +31,7 @@ constexpr std::uint64_t numbers_of_an_attempt = std::uint64_t{1} << 40U;
 
 class Group : public ::testing::Test {
  protected:
-  void SetUp() override {
-    if (!anticrack::testing::Postgres::installed()) GTEST_SKIP() << "postgresql is not installed";
-    postgres = std::make_unique<anticrack::testing::Postgres>();
-    url = postgres->new_database();
-  }
+  void SetUp() override { url = database.address(); }
 
   Daemon& add(std::vector<std::string> more = {}) {
     std::vector<std::string> options{"--store", url, "--threads", "1", "--crashes", "0"};
@@ -43,7 +39,7 @@ class Group : public ::testing::Test {
     return *servers.emplace_back(std::make_unique<Daemon>(options));
   }
 
-  std::unique_ptr<anticrack::testing::Postgres> postgres;
+  anticrack::testing::Database database;
   std::string url;
   std::vector<std::unique_ptr<Daemon>> servers;
 };
@@ -93,10 +89,18 @@ TEST_F(Group, AnswersForAnyJobAtAnyServer) {
   EXPECT_EQ(ends[0].SerializeAsString(), ends[2].SerializeAsString());
   EXPECT_EQ(last[0], last[1]) << "events have the same numbers everywhere";
   EXPECT_EQ(last[0], last[2]);
-  const client::Block block = client::read_result(a, job.name());
-  EXPECT_EQ(difference(client::read_result(b, job.name()), block), "");
   client::delete_job(c, job.name());
   EXPECT_EQ(client::list_jobs(a, {}).jobs_size(), 0);
+
+  const Work quick = work("slit.toml");
+  const client::Block expected = alone(quick);
+  const std::string request = client::make_uuid();
+  const std::string name = submit(a, quick, request).name();
+  for (client::Connection* one : all) {
+    EXPECT_EQ(submit(*one, quick, request).name(), name);
+    EXPECT_TRUE(ran_to_its_end(wait_for_end(*one, name)));
+    EXPECT_EQ(difference(client::read_result(*one, name), expected), "");
+  }
 }
 
 TEST_F(Group, TakesOverWhatADeadServerRanWhileWatchersWatch) {
@@ -156,9 +160,8 @@ TEST_F(Group, ADrainedServerGivesItsJobsBackAtOnce) {
   ASSERT_TRUE(iterates(a, names[0], 1));
   client::Connection b(add().connection());
   EXPECT_EQ(first.stop(), 0);
-  EXPECT_EQ(postgres->ask(url,
-                          "SELECT count(*) FROM queue WHERE runner NOT IN "
-                          "(SELECT epoch FROM servers)"),
+  EXPECT_EQ(database.sql("SELECT count(*) FROM anticrack.queue WHERE runner NOT IN "
+                         "(SELECT epoch FROM anticrack.servers)"),
             "0");
   for (const std::string& name : names) EXPECT_TRUE(ran_to_its_end(wait_for_end(b, name)));
 }
@@ -201,7 +204,10 @@ TEST_F(Group, EachAcknowledgedJobEndsOnceUnderKills) {
     const std::size_t before = heard();
     eventually([&] { return heard() > before; });
     std::this_thread::sleep_for(std::chrono::milliseconds(random() % 400));
-    if (kill == kills / 2) postgres->crash();
+    if (kill == kills / 2) {
+      database.stop();
+      database.start();
+    }
     Daemon& victim = *servers[random() % servers.size()];
     victim.kill();
     victim.start();
@@ -221,8 +227,8 @@ TEST_F(Group, EachAcknowledgedJobEndsOnceUnderKills) {
         << works[one.work].name;
     EXPECT_EQ(submit(connection, works[one.work], one.request).name(), one.name);
   }
-  EXPECT_EQ(postgres->ask(url, "SELECT count(*) FROM jobs"), std::to_string(jobs.size()));
-  EXPECT_EQ(postgres->ask(url, "SELECT count(*) FROM queue"), "0");
+  EXPECT_EQ(database.sql("SELECT count(*) FROM anticrack.jobs"), std::to_string(jobs.size()));
+  EXPECT_EQ(database.sql("SELECT count(*) FROM anticrack.queue"), "0");
 }
 
 }  // namespace

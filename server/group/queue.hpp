@@ -4,17 +4,17 @@
 #pragma once
 
 #include <atomic>
-#include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
-#include "postgres/database.hpp"
-#include "postgres/leases.hpp"
+#include "group/leases.hpp"
+#include "postgres/listener.hpp"
+#include "postgres/pool.hpp"
 #include "store/queue.hpp"
 
-namespace anticrack::postgres {
+namespace anticrack::group {
 
 /// One statement a method, so that nothing is half done and no lock outlives a network: but
 /// create(), where the owner's lock comes first.
@@ -22,8 +22,7 @@ class Queue final : public store::Queue {
  public:
   /// `name`: of this server, the same after its restart; no two servers may have one. If there is
   /// an earlier epoch of it, that process has died, and the jobs it ran count a crash.
-  Queue(Database& database, std::string name);
-  ~Queue() override;
+  Queue(postgres::Pool& pool, std::string name);
 
   records::JobRecord create(const records::JobRecord& record, const std::string& fingerprint,
                             const store::QueuedSize& size,
@@ -48,20 +47,17 @@ class Queue final : public store::Queue {
               std::uint64_t result_bytes);
 
  private:
-  std::vector<Claim> claims_of(const Rows& rows);
+  std::vector<Claim> claims_of(const postgres::Result& rows);
   void notify(const char* channel);
   void enter(bool started);
-  void hear();
 
-  Database& _database;
+  postgres::Pool& _pool;
   const std::string _name;
   std::atomic<std::int64_t> _epoch{0};
   std::mutex _beating;  ///< of the next two
   Leases _leases;
   int _beats = 0;
-  std::mutex _listening;
-  std::function<void(bool cancelled)> _wake;
-  std::jthread _ears;
+  std::optional<postgres::Listener> _listener;
 };
 
-}  // namespace anticrack::postgres
+}  // namespace anticrack::group

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "postgres/store.hpp"
+#include "group/store.hpp"
 
 #include <fmt/format.h>
 
@@ -14,8 +14,8 @@
 #include <span>
 #include <utility>
 
+#include "group/tables.hpp"
 #include "mesh/codec.hpp"
-#include "postgres/schema.hpp"
 #include "records/job_record.hpp"
 #include "records/mesh_record.hpp"
 #include "stop/stop.hpp"
@@ -24,12 +24,16 @@
 #include "store/requests.hpp"
 #include "store/result_file.hpp"
 
-namespace anticrack::postgres {
+namespace anticrack::group {
 
 namespace {
 
 using errors::Error;
 using errors::Reason;
+using postgres::Result;
+using postgres::transact;
+using postgres::Transaction;
+using postgres::Value;
 using records::JobRecord;
 using records::MeshRecord;
 using store::FileKind;
@@ -58,7 +62,7 @@ void in_pieces(std::uint64_t size,
 }
 
 template <class Record>
-Record record_of(const std::string& id, const std::string& owner, const std::string& bytes,
+Record record_of(const std::string& id, const std::string& owner, std::string_view bytes,
                  Record (*decode)(std::string_view)) {
   try {
     Record record = decode(bytes);
@@ -76,17 +80,22 @@ Record record_of(const std::string& id, const std::string& owner, const std::str
 
 /// Rows of id, owner, record.
 template <class Record>
-std::vector<Record> records_of(const Rows& rows, Record (*decode)(std::string_view)) {
+std::vector<Record> records_of(const Result& rows, Record (*decode)(std::string_view)) {
   std::vector<Record> records;
-  for (int row = 0; row < rows.size(); ++row)
-    records.push_back(record_of(rows.text(row, 0), rows.text(row, 1), rows.text(row, 2), decode));
+  for (std::size_t row = 0; row < rows.rows(); ++row)
+    records.push_back(record_of(rows.text(row, 0), rows.text(row, 1), rows.view(row, 2), decode));
   return records;
 }
 
 template <class Record>
-std::optional<Record> first_of(const Rows& rows, Record (*decode)(std::string_view)) {
+std::optional<Record> first_of(const Result& rows, Record (*decode)(std::string_view)) {
   if (rows.empty()) return std::nullopt;
   return std::move(records_of(rows, decode).front());
+}
+
+postgres::Settings settings_of(const std::string& url) {
+  postgres::Settings settings{postgres::Address(url)};
+  return settings;
 }
 
 /// The name of the server of this data folder, made at its first start.
@@ -135,26 +144,22 @@ class Pieces {
 }  // namespace
 
 Store::Store(const store::StoreOptions& options, const std::string& url)
-    : _database(url),
+    : _pool(settings_of(url)),
       _usage(options.disk_budget),
       _results(options.folder, FileKind::result, _usage),
       _uploads(options.folder, FileKind::upload, _usage),
-      _queue((make_tables(_database), _database), name_of(options.folder)) {
+      _queue((postgres::make_tables(_pool, tables()), _pool), name_of(options.folder)) {
   for (store::Files* files : {&_results, &_uploads})
     for (const std::string& name : files->sweep([](const std::string&) { return false; }))
       files->remove(name);
 }
 
-Rows Store::ask(const std::string& sql, const std::vector<Value>& values) const {
-  return _database.run([&](Connection& connection) { return connection.run(sql, values); });
-}
-
-Rows Store::page(const std::string& table, const store::Page& page) const {
+Result Store::page(const std::string& table, const store::Page& page) const {
   const std::string owner = page.owner.value_or("");
   const std::string of_owner = page.owner ? " AND owner = $2" : " AND $2 = ''";
   std::int64_t last = page.oldest_first ? 0 : std::numeric_limits<std::int64_t>::max();
   if (!page.after.empty()) {
-    const Rows after =
+    const Result after =
         ask("SELECT number FROM " + table + " WHERE id = $1" + of_owner, {page.after, owner});
     if (after.empty()) throw unknown(table, page.after);
     last = after.integer(0, 0);
@@ -173,14 +178,11 @@ constexpr const char* upsert_mesh =
     "ON CONFLICT (id) DO UPDATE SET owner = excluded.owner, sha256 = excluded.sha256, "
     "upload = excluded.upload, record = excluded.record";
 
-std::vector<Value> row_of(const MeshRecord& record, const std::string& bytes) {
-  return {record.id, record.owner, record.sha256, store::upload_of(record), Value::blob(bytes)};
-}
-
 }  // namespace
 
 void Store::put(const MeshRecord& record) {
-  ask(upsert_mesh, row_of(record, store::encode(record)));
+  ask(upsert_mesh, {record.id, record.owner, record.sha256, store::upload_of(record),
+                    Value::bytes(store::encode(record))});
 }
 
 void Store::put(const MeshRecord& record, const mesh::Mesh& triangulation) {
@@ -188,15 +190,15 @@ void Store::put(const MeshRecord& record, const mesh::Mesh& triangulation) {
   if (store::sha256_of(encoded) != record.sha256)
     throw Error(Reason::internal, "meshes/{} comes with another triangulation", record.id);
   const std::string bytes = store::encode(record);
-  _database.transact([&](Connection& connection) {
-    connection.run(upsert_mesh, row_of(record, bytes));
-    connection.run("DELETE FROM mesh_pieces WHERE mesh = $1", {record.id});
+  transact(_pool, [&](Transaction& transaction) {
+    transaction.run(upsert_mesh, {record.id, record.owner, record.sha256, store::upload_of(record),
+                                  Value::bytes(bytes)});
+    transaction.run("DELETE FROM mesh_pieces WHERE mesh = $1", {record.id});
     for (std::uint64_t at = 0; at < encoded.size(); at += piece)
-      connection.run("INSERT INTO mesh_pieces VALUES ($1, $2, $3)",
-                     {record.id, static_cast<int>(at / piece),
-                      Value::blob(chars(std::span(encoded).subspan(
-                          at, std::min<std::uint64_t>(piece, encoded.size() - at))))});
-    return true;
+      transaction.run("INSERT INTO mesh_pieces VALUES ($1, $2, $3)",
+                      {record.id, static_cast<int>(at / piece),
+                       Value::bytes(chars(std::span(encoded).subspan(
+                           at, std::min<std::uint64_t>(piece, encoded.size() - at))))});
   });
 }
 
@@ -220,13 +222,13 @@ void Store::erase_mesh(const std::string& id) {
 std::shared_ptr<const mesh::Mesh> Store::triangulation(const std::string& sha256) const {
   if (!store::is_sha256(sha256)) return nullptr;
   if (auto held = _triangulations.find(sha256)) return held;
-  const Rows rows =
+  const Result rows =
       ask("SELECT body FROM mesh_pieces WHERE mesh = (SELECT id FROM meshes WHERE sha256 = $1 "
           "ORDER BY number LIMIT 1) ORDER BY n",
           {sha256});
   if (rows.empty()) return nullptr;
   std::string bytes;
-  for (int row = 0; row < rows.size(); ++row) bytes += rows.text(row, 0);
+  for (std::size_t row = 0; row < rows.rows(); ++row) bytes += rows.text(row, 0);
   const std::span whole = std::as_bytes(std::span(bytes));
   if (store::sha256_of(whole) != sha256)
     throw Error(
@@ -245,7 +247,7 @@ std::optional<JobRecord> Store::created_before(const std::string& owner,
                                                const std::string& request_id,
                                                const std::string& fingerprint) const {
   if (request_id.empty()) return std::nullopt;
-  const Rows rows =
+  const Result rows =
       ask("SELECT id, owner, record, fingerprint FROM jobs WHERE owner = $1 AND request = $2",
           {owner, request_id});
   if (!rows.empty())
@@ -280,7 +282,7 @@ void Store::finish(const JobRecord& record, std::shared_ptr<const records::Block
         [&](int n, std::string_view part) {
           ask("INSERT INTO results VALUES ($1, $2, $3, $4) ON CONFLICT (job, attempt, n) "
               "DO UPDATE SET body = excluded.body",
-              {record.id, record.attempt, n, Value::blob(part)});
+              {record.id, record.attempt, n, Value::bytes(part)});
         });
   }
   _queue.finish(record, store::encode(record), bytes);
@@ -306,24 +308,24 @@ std::vector<JobRecord> Store::unfinished() const {
 bool Store::set_running(bool /*running*/) { return false; }
 
 std::vector<store::EndedJob> Store::ended() const {
-  const Rows rows =
+  const Result rows =
       ask("SELECT id, ended, result_bytes, owner FROM jobs WHERE ended IS NOT NULL "
           "ORDER BY ended, number");
   std::vector<store::EndedJob> jobs;
-  for (int row = 0; row < rows.size(); ++row)
+  for (std::size_t row = 0; row < rows.rows(); ++row)
     jobs.push_back({rows.text(row, 0), store::time_of(rows.integer(row, 1)),
                     static_cast<std::uint64_t>(rows.integer(row, 2)), rows.text(row, 3)});
   return jobs;
 }
 
 std::shared_ptr<const records::BlockSource> Store::result(const std::string& job) const {
-  const Rows rows = ask("SELECT result, result_bytes FROM jobs WHERE id = $1", {job});
+  const Result rows = ask("SELECT result, result_bytes FROM jobs WHERE id = $1", {job});
   if (rows.empty() || rows.integer(0, 1) == 0) return nullptr;
   const std::int64_t attempt = rows.integer(0, 0);
   const auto bytes = static_cast<std::uint64_t>(rows.integer(0, 1));
   const auto fetch = [this, job, attempt](int n) {
-    const Rows found = ask("SELECT body FROM results WHERE job = $1 AND attempt = $2 AND n = $3",
-                           {job, attempt, n});
+    const Result found = ask("SELECT body FROM results WHERE job = $1 AND attempt = $2 AND n = $3",
+                             {job, attempt, n});
     return found.empty() ? std::string() : found.text(0, 0);
   };
   const auto pieces = std::make_shared<Pieces>(fetch, bytes);
@@ -333,18 +335,17 @@ std::shared_ptr<const records::BlockSource> Store::result(const std::string& job
 }
 
 void Store::expire(const std::string& job, records::Clock::time_point now) {
-  _database.transact([&](Connection& connection) {
-    const Rows rows = connection.run("SELECT record FROM jobs WHERE id = $1 FOR UPDATE", {job});
+  transact(_pool, [&](Transaction& transaction) {
+    const Result rows = transaction.run("SELECT record FROM jobs WHERE id = $1 FOR UPDATE", {job});
     if (rows.empty()) throw unknown("jobs", job);
     JobRecord record = store::decode_job_record(rows.text(0, 0));
     if (!records::ended(record.state))
       throw Error(Reason::in_use, "jobs/{} has not ended: cancel it first", job);
     record.expired = now;
     record.result_bytes = 0;
-    connection.run("UPDATE jobs SET record = $2, result_bytes = 0 WHERE id = $1",
-                   {job, Value::blob(store::encode(record))});
-    connection.run("DELETE FROM results WHERE job = $1", {job});
-    return true;
+    transaction.run("UPDATE jobs SET record = $2, result_bytes = 0 WHERE id = $1",
+                    {job, Value::bytes(store::encode(record))});
+    transaction.run("DELETE FROM results WHERE job = $1", {job});
   });
 }
 
@@ -362,7 +363,7 @@ std::optional<std::string> Store::upload_path(const std::string& sha256,
   {
     std::ofstream file(part.path(), std::ios::binary);
     for (int n = 0;; ++n) {
-      const Rows rows =
+      const Result rows =
           ask("SELECT body FROM upload_pieces WHERE owner = $1 AND sha256 = $2 AND n = $3",
               {owner, sha256, n});
       if (rows.empty()) break;
@@ -395,31 +396,29 @@ records::Clock::time_point Store::keep_uploads(const std::vector<store::Upload>&
       throw Error(Reason::internal, "{} is not an upload on its way", upload.path);
   }
   const records::Clock::time_point now = records::Clock::now();
-  _database.transact([&](Connection& connection) {
+  transact(_pool, [&](Transaction& transaction) {
     for (const store::Upload& upload : uploads) {
       const base::Descriptor file = store::open_to_read(upload.path);
       const std::uint64_t size = store::file_size(file, upload.path);
       std::array<std::byte, 16> buffer{};
       const std::span start = std::span(buffer).first(std::min<std::uint64_t>(buffer.size(), size));
       store::read_at(file, upload.path, 0, start);
-      connection.run(
+      transaction.run(
           "INSERT INTO uploads VALUES ($1, $2, $3, $4, $5) ON CONFLICT (owner, sha256) "
           "DO UPDATE SET created = excluded.created",
-          {upload.sha256, owner, store::to_disk(now), size,
-           store::begins_like_msh(start) ? "false" : "true"});
+          {upload.sha256, owner, store::to_disk(now), size, !store::begins_like_msh(start)});
       in_pieces(
           size,
           [&](std::uint64_t at, std::span<std::byte> to) {
             store::read_at(file, upload.path, at, to);
           },
           [&](int n, std::string_view part) {
-            connection.run(
+            transaction.run(
                 "INSERT INTO upload_pieces VALUES ($1, $2, $3, $4) ON CONFLICT (owner, sha256, n) "
                 "DO UPDATE SET body = excluded.body",
-                {owner, upload.sha256, n, Value::blob(part)});
+                {owner, upload.sha256, n, Value::bytes(part)});
           });
     }
-    return true;
   });
   for (const store::Upload& upload : uploads) {
     _parts.forget(upload.path);
@@ -430,9 +429,9 @@ records::Clock::time_point Store::keep_uploads(const std::vector<store::Upload>&
 
 namespace {
 
-std::vector<store::UploadRecord> uploads_of_rows(const Rows& rows) {
+std::vector<store::UploadRecord> uploads_of_rows(const Result& rows) {
   std::vector<store::UploadRecord> found;
-  for (int row = 0; row < rows.size(); ++row)
+  for (std::size_t row = 0; row < rows.rows(); ++row)
     found.push_back({rows.text(row, 0), rows.text(row, 1), store::time_of(rows.integer(row, 2)),
                      static_cast<std::uint64_t>(rows.integer(row, 3)), rows.integer(row, 4) != 0});
   return found;
@@ -477,7 +476,7 @@ std::size_t Store::expire_uploads(records::Clock::time_point before) {
 }
 
 store::Usage Store::usage() const {
-  const Rows rows =
+  const Result rows =
       ask("SELECT pg_database_size(current_database()), pg_total_relation_size('results'), "
           "pg_total_relation_size('mesh_pieces'), pg_total_relation_size('upload_pieces')");
   const auto bytes = [&](int column) {
@@ -488,15 +487,15 @@ store::Usage Store::usage() const {
 }
 
 std::vector<store::OwnerUsage> Store::owners() const {
-  const Rows rows =
+  const Result rows =
       ask("SELECT owner, count(*), count(*) FILTER (WHERE ended IS NULL), "
           "coalesce(sum(result_bytes), 0)::bigint FROM jobs GROUP BY owner");
   std::vector<store::OwnerUsage> owners;
-  for (int row = 0; row < rows.size(); ++row)
+  for (std::size_t row = 0; row < rows.rows(); ++row)
     owners.push_back({rows.text(row, 0), static_cast<std::uint64_t>(rows.integer(row, 1)),
                       static_cast<std::uint64_t>(rows.integer(row, 2)),
                       static_cast<std::uint64_t>(rows.integer(row, 3))});
   return owners;
 }
 
-}  // namespace anticrack::postgres
+}  // namespace anticrack::group

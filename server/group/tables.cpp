@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "postgres/schema.hpp"
+#include "group/tables.hpp"
 
-namespace anticrack::postgres {
+#include <array>
+
+namespace anticrack::group {
 
 namespace {
-
-constexpr std::int64_t schema_version = 1;
 
 /// `queue` has the jobs that have not ended, and nothing else. `runner`: the epoch of the server
 /// that has the job; `tried`: the epochs in which it began to run. A server that has died stays in
 /// `servers` (dead) until its next start, which knows then that the process has ended. Pieces of
 /// blobs are of one megabyte.
-constexpr const char* tables = R"(
-CREATE TABLE store (version integer NOT NULL);
+constexpr const char* first = R"(
 CREATE TABLE servers (
   epoch bigint GENERATED ALWAYS AS IDENTITY PRIMARY KEY,
   name text NOT NULL,
@@ -108,21 +107,9 @@ CREATE TABLE events (
 
 }  // namespace
 
-void make_tables(Database& database) {
-  const std::int64_t version = database.transact([](Connection& connection) {
-    constexpr int any_number = 7433;
-    connection.run("SELECT pg_advisory_xact_lock($1::bigint)", {any_number});
-    if (connection.run("SELECT to_regclass('servers')").is_null(0, 0)) {
-      connection.script(tables);
-      connection.run("INSERT INTO store VALUES ($1)", {schema_version});
-    }
-    return connection.run("SELECT version FROM store").integer(0, 0);
-  });
-  if (version == schema_version) return;
-  throw errors::Error(errors::Reason::storage,
-                      "store: the database has schema {} and this anticrackd knows {}: start the "
-                      "version that made it, or give another database",
-                      version, schema_version);
+postgres::Tables tables() {
+  static constexpr std::array steps{first};
+  return {steps, 1};
 }
 
-}  // namespace anticrack::postgres
+}  // namespace anticrack::group

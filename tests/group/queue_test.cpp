@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The queue of several servers in a real PostgreSQL; each server is a Queue of its own here.
-#include "postgres/queue.hpp"
+#include "group/queue.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,13 +10,13 @@
 #include <set>
 #include <thread>
 
-#include "postgres/store.hpp"
+#include "group/store.hpp"
 #include "records/case_record.hpp"
+#include "support/database.hpp"
 #include "support/errors.hpp"
 #include "support/eventually.hpp"
-#include "support/postgres.hpp"
 
-namespace anticrack::postgres {
+namespace anticrack::group {
 namespace {
 
 using anticrack::testing::eventually;
@@ -27,9 +27,15 @@ using records::JobRecord;
 using records::JobState;
 using Claims = std::vector<store::Queue::Claim>;
 
-anticrack::testing::Postgres& server() {
-  static anticrack::testing::Postgres one;
+anticrack::testing::Database& server() {
+  static anticrack::testing::Database one;
   return one;
+}
+
+/// The name of the database in an address of Database::fresh().
+std::string database_of(const std::string& url) {
+  const std::size_t end = url.find('?'), begin = url.rfind('/', end) + 1;
+  return url.substr(begin, end - begin);
 }
 
 JobRecord job(const std::string& id, const std::string& owner = "a",
@@ -51,8 +57,7 @@ JobRecord ended(JobRecord record) {
 class QueueTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (!anticrack::testing::Postgres::installed()) GTEST_SKIP() << "postgresql is not installed";
-    url = server().new_database();
+    url = server().fresh();
     a = std::make_unique<Store>(store::StoreOptions{folder_a.path(), 0}, url);
     b = std::make_unique<Store>(store::StoreOptions{folder_b.path(), 0}, url);
   }
@@ -152,7 +157,9 @@ TEST_F(QueueTest, AcceptsNothingFromAServerThatHasLostTheJob) {
   JobRecord old = claim(*a).at(0).record;
   old.state = JobState::running;
   a->put(old);
-  server().ask(url, "UPDATE servers SET dead = true WHERE epoch = (SELECT runner FROM queue)");
+  server().sql(
+      "UPDATE anticrack.servers SET dead = true WHERE epoch = (SELECT runner FROM anticrack.queue)",
+      database_of(url));
   b->queue()->beat({});
   const Claims again = claim(*b);
   ASSERT_EQ(again.size(), 1U);
@@ -221,11 +228,12 @@ TEST_F(QueueTest, TellsTheRunnerThatAClientCancels) {
 TEST_F(QueueTest, OutlivesACrashOfTheDatabase) {
   submit(*a, job("one"));
   const JobRecord record = claim(*a).at(0).record;
-  server().crash();
+  server().stop();
+  server().start();
   EXPECT_FALSE(a->queue()->beat({"one"}).lost);
   a->finish(ended(record), nullptr);
   EXPECT_EQ(b->job("one")->state, JobState::succeeded);
 }
 
 }  // namespace
-}  // namespace anticrack::postgres
+}  // namespace anticrack::group

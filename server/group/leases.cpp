@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "postgres/leases.hpp"
+#include "group/leases.hpp"
 
 #include <utility>
 
-namespace anticrack::postgres {
+namespace anticrack::group {
 
 std::vector<Beat> Leases::silent(const std::vector<Beat>& read, Time now) {
   const bool gap = now - std::exchange(_last, now) > longest_gap;
@@ -20,4 +20,4 @@ std::vector<Beat> Leases::silent(const std::vector<Beat>& read, Time now) {
   return result;
 }
 
-}  // namespace anticrack::postgres
+}  // namespace anticrack::group

@@ -10,15 +10,15 @@
 #include <string>
 #include <vector>
 
-#include "postgres/database.hpp"
-#include "postgres/queue.hpp"
+#include "group/queue.hpp"
+#include "postgres/pool.hpp"
 #include "store/disk_usage.hpp"
 #include "store/files.hpp"
 #include "store/store.hpp"
 #include "store/triangulations.hpp"
 #include "store/upload_parts.hpp"
 
-namespace anticrack::postgres {
+namespace anticrack::group {
 
 class Store final : public store::Store {
  public:
@@ -70,11 +70,13 @@ class Store final : public store::Store {
 
  private:
   /// Runs one statement on any connection.
-  Rows ask(const std::string& sql, const std::vector<Value>& values = {}) const;
-  Rows page(const std::string& table, const store::Page& page) const;
+  postgres::Result ask(const std::string& sql, postgres::Values values = {}) const {
+    return postgres::query(_pool, sql, values);
+  }
+  postgres::Result page(const std::string& table, const store::Page& page) const;
   store::DiskUsage::Reservation reserve(std::uint64_t bytes) { return _usage.reserve(bytes, 0); }
 
-  mutable Database _database;
+  mutable postgres::Pool _pool;
   mutable store::DiskUsage _usage;  ///< of the data folder
   store::Files _results;
   mutable store::Files _uploads;
@@ -83,4 +85,4 @@ class Store final : public store::Store {
   Queue _queue;
 };
 
-}  // namespace anticrack::postgres
+}  // namespace anticrack::group

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Who is judged to be dead, by a clock that the test moves.
-#include "postgres/leases.hpp"
+#include "group/leases.hpp"
 
 #include <gtest/gtest.h>
 
-namespace anticrack::postgres {
+namespace anticrack::group {
 namespace {
 
 using namespace std::chrono_literals;
@@ -44,4 +44,4 @@ TEST(Leases, BeginAnewAfterAPauseOfTheReader) {
 }
 
 }  // namespace
-}  // namespace anticrack::postgres
+}  // namespace anticrack::group

@@ -8,7 +8,7 @@
 #include <map>
 #include <vector>
 
-namespace anticrack::postgres {
+namespace anticrack::group {
 
 /// A server, and how often it has beaten.
 struct Beat {
@@ -35,4 +35,4 @@ class Leases {
   Time _last{};
 };
 
-}  // namespace anticrack::postgres
+}  // namespace anticrack::group
