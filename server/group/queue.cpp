@@ -173,6 +173,7 @@ std::optional<Queue::Claim> Queue::claim_to_cancel(const std::string& job) {
 Queue::News Queue::beat(const std::vector<std::string>& known) {
   const std::lock_guard lock(_beating);
   News news;
+  if (_left) return news;
   news.lost = query(_pool, "UPDATE servers SET beats = beats + 1 WHERE epoch = $1 AND NOT dead",
                     {_epoch.load()})
                   .affected() == 0;
@@ -200,11 +201,15 @@ Queue::News Queue::beat(const std::vector<std::string>& known) {
       query(_pool, "SELECT job FROM queue WHERE runner = $1 AND cancelled", {_epoch.load()});
   for (std::size_t row = 0; row < flagged.rows(); ++row)
     news.cancelled.push_back(flagged.text(row, 0));
-  if (_beats++ % beats_between_cleaning == 0)
-    query(_pool,
-          "DELETE FROM events e WHERE written < now() - $1::text::interval AND NOT EXISTS "
-          "(SELECT FROM queue q WHERE q.job = e.job)",
-          {events_kept});
+  if (_beats++ % beats_between_cleaning != 0) return news;
+  query(_pool,
+        "DELETE FROM events e WHERE written < now() - $1::text::interval AND NOT EXISTS "
+        "(SELECT FROM queue q WHERE q.job = e.job)",
+        {events_kept});
+  // One that no job has tried any more tells nothing of crashes.
+  query(_pool,
+        "DELETE FROM servers WHERE dead AND NOT EXISTS (SELECT FROM queue WHERE epoch = ANY "
+        "(tried))");
   return news;
 }
 
@@ -216,6 +221,8 @@ void Queue::give_back(const std::vector<std::string>& known) {
 }
 
 void Queue::leave() {
+  const std::lock_guard lock(_beating);
+  _left = true;
   give_back({});
   query(_pool, "DELETE FROM servers WHERE epoch = $1", {_epoch.load()});
 }

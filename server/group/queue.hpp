@@ -54,9 +54,10 @@ class Queue final : public store::Queue {
   postgres::Pool& _pool;
   const std::string _name;
   std::atomic<std::int64_t> _epoch{0};
-  std::mutex _beating;  ///< of the next two
+  std::mutex _beating;  ///< of the next three
   Leases _leases;
   int _beats = 0;
+  bool _left = false;
   std::optional<postgres::Listener> _listener;
 };
 

@@ -194,7 +194,8 @@ JobPtr take_up(EngineCore& core, JobRecord record, const std::string& why) {
   if (!record.stages.empty()) {
     try {
       stage_use = core.catalogue.use(record.stages.back().mesh);
-    } catch (const Error&) {
+    } catch (const Error& error) {
+      if (error.reason() != Reason::not_found) throw;
       record.stages.clear();  // the mesh of its stage is gone, so it begins anew
     }
   }
@@ -202,6 +203,7 @@ JobPtr take_up(EngineCore& core, JobRecord record, const std::string& why) {
   try {
     mesh_use = use(core, record.spec.mesh);
   } catch (const Error& error) {
+    if (error.reason() != Reason::not_found) throw;  // the store cannot be reached
     gone = mesh_failed(record.spec.mesh, error);
   }
   const auto waited = waits_since_it_was_made ? records::Clock::now() - record.created

@@ -129,7 +129,10 @@ void start_job(EngineCore& core, std::shared_ptr<const operators::MeshOperator> 
   } catch (const store::JobTaken&) {
     core.stop(job, Stop::interrupted);
   } catch (...) {
-    core.stop(job, Stop::failed, error_of(std::current_exception()));
+    const Error error = error_of(std::current_exception());
+    const bool out_of_reach =
+        error.reason() == errors::Reason::storage && error.retry_delay().count() > 0;
+    if (!out_of_reach) core.stop(job, Stop::failed, error);
   }
   lock.lock();
   if (!stored) {

@@ -231,6 +231,8 @@ void Preparation::record_outcome(Run& run) {
 }
 
 void Preparation::fail(Run& run, Error error) {
+  if (error.reason() == Reason::storage && error.retry_delay().count() > 0)  // out of reach
+    error = Error(Reason::busy, "{}", error.what()).retry_after(error.retry_delay());
   auto [held, mesh] = lock_to_write(run);
   if (mesh == nullptr) return;
   run.writing = false;

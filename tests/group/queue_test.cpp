@@ -54,7 +54,7 @@ JobRecord ended(JobRecord record) {
   return record;
 }
 
-class QueueTest : public ::testing::Test {
+class GroupQueue : public ::testing::Test {
  protected:
   void SetUp() override {
     url = server().fresh();
@@ -76,7 +76,7 @@ class QueueTest : public ::testing::Test {
   std::unique_ptr<Store> a, b;
 };
 
-TEST_F(QueueTest, GivesEachJobToOneServer) {
+TEST_F(GroupQueue, GivesEachJobToOneServer) {
   constexpr int jobs = 200;
   for (int i = 0; i < jobs; ++i) submit(*a, job("j" + std::to_string(i)));
   const auto drain = [](Store& by) {
@@ -98,7 +98,7 @@ TEST_F(QueueTest, GivesEachJobToOneServer) {
   EXPECT_EQ(std::set<std::string>(ids.begin(), ids.end()).size(), ids.size());
 }
 
-TEST_F(QueueTest, AnswersARequestThatItKnows) {
+TEST_F(GroupQueue, AnswersARequestThatItKnows) {
   JobRecord first = job("one"), second = job("two");
   first.request_id = second.request_id = "request";
   submit(*a, first);
@@ -111,7 +111,7 @@ TEST_F(QueueTest, AnswersARequestThatItKnows) {
   EXPECT_EQ(claim(*a, 9).size(), 1U);
 }
 
-TEST_F(QueueTest, CountsOverAllServersAndTakesNothingThatIsRefused) {
+TEST_F(GroupQueue, CountsOverAllServersAndTakesNothingThatIsRefused) {
   submit(*a, job("one", "a", "m"));
   submit(*b, job("two", "b", "m"));
   submit(*b, job("three", "a", "n"));
@@ -129,7 +129,7 @@ TEST_F(QueueTest, CountsOverAllServersAndTakesNothingThatIsRefused) {
   EXPECT_FALSE(a->job("four"));
 }
 
-TEST_F(QueueTest, LetsJobsOnHeldMeshesJumpAheadButNotForEver) {
+TEST_F(GroupQueue, LetsJobsOnHeldMeshesJumpAheadButNotForEver) {
   constexpr int greedy = 300, modest = 10;
   for (int i = 0; i < greedy; ++i) submit(*a, job("g" + std::to_string(i), "greedy", "m"));
   for (int i = 0; i < modest; ++i) submit(*a, job("m" + std::to_string(i), "modest", "n"));
@@ -146,13 +146,13 @@ TEST_F(QueueTest, LetsJobsOnHeldMeshesJumpAheadButNotForEver) {
   EXPECT_LT(last_modest, 5 * modest) << "a modest owner does not wait for all of a greedy one";
 }
 
-TEST_F(QueueTest, LeavesAJobToAServerThatHoldsItsMeshForAWhile) {
+TEST_F(GroupQueue, LeavesAJobToAServerThatHoldsItsMeshForAWhile) {
   submit(*a, job("one"));
   EXPECT_TRUE(claim(*a, 1, {}).empty());
   EXPECT_TRUE(eventually([&] { return claim(*a, 1, {}).size() == 1; }));
 }
 
-TEST_F(QueueTest, AcceptsNothingFromAServerThatHasLostTheJob) {
+TEST_F(GroupQueue, AcceptsNothingFromAServerThatHasLostTheJob) {
   submit(*a, job("one"));
   JobRecord old = claim(*a).at(0).record;
   old.state = JobState::running;
@@ -179,7 +179,7 @@ TEST_F(QueueTest, AcceptsNothingFromAServerThatHasLostTheJob) {
   EXPECT_EQ(a->queue()->ended({"one"}).size(), 1U);
 }
 
-TEST_F(QueueTest, CountsACrashOnlyOfAProcessThatDiedWhileTheJobRan) {
+TEST_F(GroupQueue, CountsACrashOnlyOfAProcessThatDiedWhileTheJobRan) {
   for (const char* id : {"ran", "waited"}) submit(*b, job(id));
   Claims claims = claim(*a, 2);
   ASSERT_EQ(claims.size(), 2U);
@@ -198,7 +198,7 @@ TEST_F(QueueTest, CountsACrashOnlyOfAProcessThatDiedWhileTheJobRan) {
   }
 }
 
-TEST_F(QueueTest, GivesBackWhatTheServerDoesNotKnow) {
+TEST_F(GroupQueue, GivesBackWhatTheServerDoesNotKnow) {
   submit(*a, job("one"));
   submit(*a, job("two"));
   ASSERT_EQ(claim(*a, 2).size(), 2U);
@@ -212,7 +212,7 @@ TEST_F(QueueTest, GivesBackWhatTheServerDoesNotKnow) {
   EXPECT_EQ(claim(*b, 2).size(), 1U);
 }
 
-TEST_F(QueueTest, TellsTheRunnerThatAClientCancels) {
+TEST_F(GroupQueue, TellsTheRunnerThatAClientCancels) {
   submit(*a, job("one"));
   submit(*a, job("two"));
   const std::string mine = claim(*a).at(0).record.id;
@@ -225,7 +225,7 @@ TEST_F(QueueTest, TellsTheRunnerThatAClientCancels) {
   EXPECT_FALSE(b->queue()->claim_to_cancel("none"));
 }
 
-TEST_F(QueueTest, OutlivesACrashOfTheDatabase) {
+TEST_F(GroupQueue, OutlivesACrashOfTheDatabase) {
   submit(*a, job("one"));
   const JobRecord record = claim(*a).at(0).record;
   server().stop();
