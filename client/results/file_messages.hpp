@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,10 +17,20 @@
 
 namespace anticrack::results::hdf5 {
 
-/// Writes values as attributes of the group, lists of texts as datasets, lists of messages as
-/// groups of columns.
-void put_message(const Handle& group, const v1::Units& units,
-                 const google::protobuf::Message& message);
+/// Writes the messages of one file; must not outlive the file.
+class Messages {
+ public:
+  explicit Messages(const v1::Units& units) : _units(units) {}
+
+  /// Writes values as attributes of the group, lists of texts as datasets, lists of messages as
+  /// groups of columns. A list that is empty is written once and linked into every group that has
+  /// it: of many loads with short answers most datasets would be empty ones.
+  void put(const Handle& group, const google::protobuf::Message& message);
+
+ private:
+  const v1::Units& _units;
+  std::map<const google::protobuf::FieldDescriptor*, Handle> _empty;  ///< lists, as written
+};
 void get_message(const Handle& group, std::uint64_t budget, google::protobuf::Message& message);
 
 /// Writes messages of a type as datasets of a group, one dataset for each entry.

@@ -101,18 +101,6 @@ hid_t one_chunk() {
   return id;
 }
 
-/// Transfer properties with a small buffer for texts, which are few: by default HDF5 clears a
-/// megabyte for each list of texts.
-hid_t text_transfer() {
-  static const hid_t id = [] {
-    const std::string what = "HDF5 has no transfer properties";
-    Handle transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose, what);
-    require(H5Pset_buffer(transfer.get(), 4096, nullptr, nullptr), what);
-    return transfer.release();
-  }();
-  return id;
-}
-
 }  // namespace
 
 Quiet::Quiet() {
@@ -124,6 +112,16 @@ Quiet::Quiet() {
 }
 
 Quiet::~Quiet() { H5Eset_auto2(H5E_DEFAULT, _function, _data); }
+
+hid_t text_transfer() {
+  static const hid_t id = [] {
+    const std::string what = "HDF5 has no transfer properties";
+    Handle transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose, what);
+    require(H5Pset_buffer(transfer.get(), 4096, nullptr, nullptr), what);
+    return transfer.release();
+  }();
+  return id;
+}
 
 Handle without_times(hid_t property_class) {
   const std::string what = "HDF5 has no creation properties";
@@ -143,6 +141,11 @@ Handle create_group(const Handle& parent, const std::string& name) {
   }();
   return {H5Gcreate2(parent.get(), name.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT), H5Gclose,
           "cannot create group " + name};
+}
+
+void link(const Handle& object, const Handle& group, const std::string& name) {
+  require(H5Lcreate_hard(object.get(), ".", group.get(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+          "cannot link " + name);
 }
 
 void put_attribute(const Handle& object, const std::string& name, ValueType type,
