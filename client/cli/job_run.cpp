@@ -6,17 +6,13 @@
 #include <optional>
 #include <vector>
 
-#include "cli/accuracy_text.hpp"
-#include "cli/answers.hpp"
-#include "cli/exit_codes.hpp"
-#include "cli/follow.hpp"
-#include "cli/job_text.hpp"
 #include "cli/json.hpp"
 #include "cli/progress.hpp"
+#include "cli/report.hpp"
+#include "cli/tables.hpp"
 #include "cli/text.hpp"
 #include "client/jobs.hpp"
 #include "client/meshes.hpp"
-#include "client/uuid.hpp"
 #include "output/file.hpp"
 #include "results/file.hpp"
 
@@ -181,6 +177,18 @@ fs::path result_file(const std::string& case_file, const std::string& output) {
     throw results::Error(file.string(), "is the case itself", "name another file for the results");
   output::check_writable(file);
   return file;
+}
+
+fs::path csv_file(const std::string& csv, const fs::path& result_file) {
+  if (csv.empty()) return {};
+  output::check_writable(csv);
+  const output::Target target = output::target_of(csv);
+  if (target.kind == output::Target::Kind::file &&
+      fs::weakly_canonical(target.path) ==
+          fs::weakly_canonical(output::target_of(result_file).path)) {
+    throw CaseError("--csv " + csv, "this is also the result file; name another one");
+  }
+  return csv;
 }
 
 int run_job(Session& session, const Case& the_case, const fs::path& output,

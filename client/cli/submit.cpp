@@ -11,14 +11,14 @@
 #include <optional>
 #include <utility>
 
-#include "cli/exit_codes.hpp"
-#include "cli/job_text.hpp"
 #include "cli/json.hpp"
+#include "cli/report.hpp"
+#include "cli/tables.hpp"
 #include "cli/to_result.hpp"
 #include "client/jobs.hpp"
 #include "client/meshes.hpp"
-#include "results/array_file.hpp"
-#include "results/error.hpp"
+#include "results/file.hpp"
+#include "results/result.hpp"
 
 namespace anticrack::cli {
 namespace {

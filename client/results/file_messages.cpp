@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "results/file_messages.hpp"
+#include "results/file_parts.hpp"
 
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/message.h>

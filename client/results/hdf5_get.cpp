@@ -5,8 +5,8 @@
 #include <array>
 #include <map>
 
-#include "results/error.hpp"
 #include "results/hdf5.hpp"
+#include "results/result.hpp"
 
 namespace anticrack::results::hdf5 {
 namespace {

@@ -6,10 +6,8 @@
 #include <vector>
 
 #include "output/file.hpp"
-#include "output/target.hpp"
 #include "results/file.hpp"
-#include "results/file_messages.hpp"
-#include "results/file_tables.hpp"
+#include "results/file_parts.hpp"
 #include "results/tables.hpp"
 
 namespace anticrack::results {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/answers.hpp"
+#include "cli/tables.hpp"
 
 #include <gmock/gmock.h>
 #include <google/protobuf/struct.pb.h>
@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <string>
 
-#include "cli/lists_text.hpp"
 #include "results/entries.hpp"
 #include "support/sample_result.hpp"
 

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "cli/commands.hpp"
-#include "cli/exit_codes.hpp"
 #include "cli/report.hpp"
 
 namespace anticrack::cli {

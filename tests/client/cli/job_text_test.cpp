@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/job_text.hpp"
+#include "cli/tables.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cli/exit_codes.hpp"
+#include "cli/report.hpp"
 #include "cli/submit.hpp"
 #include "cli/text.hpp"
 

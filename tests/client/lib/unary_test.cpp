@@ -7,7 +7,6 @@
 
 #include "client/jobs.hpp"
 #include "client/lib/scripted_server.hpp"
-#include "client/uuid.hpp"
 
 namespace anticrack::client {
 namespace {

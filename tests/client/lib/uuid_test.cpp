@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "client/uuid.hpp"
+#include "client/jobs.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
