@@ -59,7 +59,7 @@ std::vector<std::string> causes(const Case& the_case, const v1::Job& job) {
 
 // Prints the warnings of an import: what it assumed, or repaired.
 void tell_warnings(Session& session, const v1::Job& job, const std::stop_token& stop,
-                   const Ahead* ahead) {
+                   const Fetched* ahead) {
   const v1::Mesh mesh = ahead != nullptr
                             ? ahead->mesh
                             : client::get_mesh(session.connection(), job.spec().mesh(), stop);
@@ -131,7 +131,7 @@ std::optional<results::Result> results_of(Session& session, const Case& the_case
   // The signal that cancelled the job must not prevent saving what it had solved.
   const std::stop_token stop =
       followed.how == Followed::How::cancelled ? std::stop_token() : session.stop();
-  Ahead* const ahead = followed.ahead.get().get();
+  Fetched* const ahead = followed.ahead.get().get();
   or_later(session, job, [&] { tell_warnings(session, job, stop, ahead); });
   if (job.status().result_bytes() == 0) {
     for (const std::string& line : causes(the_case, job)) complain(line);

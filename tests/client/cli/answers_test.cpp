@@ -151,15 +151,6 @@ TEST(AnswersTable, SaysWhatJustTouchesAndWarns) {
                                    "opening: warning: f is rough\n"));
 }
 
-TEST(AnswersTable, NamesInclusionsWhereThereAreSeveral) {
-  results::Result result = two_loads();
-  *result.loads[0].answer.add_inclusions() = inclusion("rod", -0.5);
-  const std::string text = answers_table(result);
-  EXPECT_THAT(text, ::testing::HasSubstr("A fibre"));
-  EXPECT_THAT(text, ::testing::HasSubstr("A rod"));
-  EXPECT_THAT(text, ::testing::HasSubstr("-0.5"));
-}
-
 TEST(AnswersTable, HasSlopeAndMomentOfWhatTilts) {
   results::Result result = two_loads();
   v1::LoadCaseAnswer& answer = result.loads[0].answer;
