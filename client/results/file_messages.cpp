@@ -67,8 +67,10 @@ Handle put_list(const Handle& group, const v1::Units& units, const Message& mess
   std::vector<const Message*> items;
   items.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) items.push_back(&fields.GetRepeatedMessage(message, &field, i));
-  Handle columns = create_group(group, field.name());
-  put_columns(columns, units, *field.message_type(), items);
+  const Descriptor& type = *field.message_type();
+  Handle columns =
+      create_group(group, field.name(), static_cast<unsigned>(entries_of(type).size()));
+  put_columns(columns, units, type, items);
   return columns;
 }
 

@@ -95,7 +95,8 @@ std::vector<std::byte> file_image(const std::function<void(const Handle& root)>&
 
 /// Creation properties of a class that record no times, so that equal results give equal bytes.
 Handle without_times(hid_t property_class);
-Handle create_group(const Handle& parent, const std::string& name);
+/// `members`: how many are expected, at most 32, for which the group's header has room at once.
+Handle create_group(const Handle& parent, const std::string& name, unsigned members = 4);
 /// Makes the object a member of another group, too.
 void link(const Handle& object, const Handle& group, const std::string& name);
 

@@ -130,16 +130,20 @@ Handle without_times(hid_t property_class) {
   return properties;
 }
 
-Handle create_group(const Handle& parent, const std::string& name) {
-  static const hid_t creation = [] {
+Handle create_group(const Handle& parent, const std::string& name, unsigned members) {
+  static std::map<unsigned, hid_t> known;  // by members
+  const auto place = known.try_emplace(members, H5I_INVALID_HID).first;
+  if (place->second < 0) {
     const std::string what = "HDF5 has no creation properties";
     Handle properties = without_times(H5P_GROUP_CREATE);
     // Keeps a load's attributes and members in its header; by default HDF5 makes a heap beyond 8.
     require(H5Pset_attr_phase_change(properties.get(), 64, 32), what);
     require(H5Pset_link_phase_change(properties.get(), 32, 16), what);
-    return properties.release();
-  }();
-  return {H5Gcreate2(parent.get(), name.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT), H5Gclose,
+    constexpr unsigned name_bytes = 10;  // of a member, on average
+    require(H5Pset_est_link_info(properties.get(), members, name_bytes), what);
+    place->second = properties.release();
+  }
+  return {H5Gcreate2(parent.get(), name.c_str(), H5P_DEFAULT, place->second, H5P_DEFAULT), H5Gclose,
           "cannot create group " + name};
 }
 

@@ -21,15 +21,15 @@ using hdf5::put_values;
 
 void put_load(const Handle& parent, std::size_t index, const Load& load, const v1::Units& units,
               hdf5::Messages& messages) {
-  const Handle group = create_group(parent, load.name());
+  const Handle group = create_group(parent, load.name(), 16);
   put(group, "index", static_cast<std::int32_t>(index));
   messages.put(group, load.answer);
   put_arrays(group, units, load, tables::of_triangles);
   const Handle traces = create_group(group, "traces");
   for (std::size_t i = 0; i < load.traces.size(); ++i)
-    put_arrays(create_group(traces, std::to_string(i)), units, load.traces[i],
+    put_arrays(create_group(traces, std::to_string(i), 8), units, load.traces[i],
                arrays::trace<Trace>);
-  put_arrays(create_group(group, "history"), units, load.history, arrays::history<History>);
+  put_arrays(create_group(group, "history", 8), units, load.history, arrays::history<History>);
   if (!load.stages.empty()) {
     std::vector<const google::protobuf::Message*> stages, answers;
     for (const v1::Stage& stage : load.stages) {
