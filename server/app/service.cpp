@@ -46,7 +46,7 @@ struct Service::Parts {
         folder(config.store.folder),
         store(config.store.url.empty()
                   ? store::open(config.store)
-                  : std::make_unique<group::Store>(config.store, config.store.url)),
+                  : std::make_unique<group::Store>(config.store)),
         cache(config.limits.memory_budget_bytes, factorise_function(config),
               [this](std::chrono::duration<double> time) { factorised(metrics, time); }),
         catalogue(with_listener(catalogue_options(config)), *store, cache),

@@ -5,6 +5,8 @@
 #include <span>
 #include <utility>
 
+#include "group/blobs.hpp"
+#include "group/rows.hpp"
 #include "store/record_codec.hpp"
 #include "store/requests.hpp"
 
@@ -59,7 +61,7 @@ WITH candidates AS (
   FROM mates m WHERE q.number = m.number
   RETURNING q.job, q.attempt, q.crashes, q.cancelled, q.tag, q.number
 )
-SELECT t.job, t.attempt, t.crashes, t.cancelled, j.record
+SELECT j.id, j.owner, j.checksum, j.record, t.attempt, t.crashes, t.cancelled
 FROM taken t JOIN jobs j ON j.id = t.job ORDER BY t.tag, t.number)";
 
 }  // namespace
@@ -94,45 +96,61 @@ void Queue::notify(const char* channel) {
 JobRecord Queue::create(const JobRecord& record, const std::string& fingerprint,
                         const store::QueuedSize& size,
                         const std::function<void(const store::QueueTotals&)>& admit) {
+  JobRecord stored = insert(record, fingerprint, size, admit, false);
+  if (stored.id == record.id) notify(queue_channel);
+  return stored;
+}
+
+JobRecord Queue::create_here(const JobRecord& record, const std::string& fingerprint) {
+  return insert(
+      record, fingerprint, {record.spec.loads.size(), 0}, [](const auto&) {}, true);
+}
+
+JobRecord Queue::insert(const JobRecord& record, const std::string& fingerprint,
+                        const store::QueuedSize& size,
+                        const std::function<void(const store::QueueTotals&)>& admit, bool here) {
   const std::string bytes = store::encode(record);
+  const std::string owner = to_column(record.owner), request = to_column(record.request_id),
+                    mesh = to_column(record.spec.mesh);
+  std::vector<std::string> uploads = store::uploads_of(record.spec);
+  for (std::string& upload : uploads) upload = to_column(upload);
   const int priority = static_cast<int>(record.spec.priority);
   JobRecord stored;
   transact(_pool, [&](Transaction& transaction) {
-    transaction.run("SELECT pg_advisory_xact_lock(hashtextextended($1, 0))", {record.owner});
-    const Result before = transaction.run(
-        "SELECT id, fingerprint, record FROM jobs WHERE id = $1 OR (owner = $2 AND request = $3 "
-        "AND request <> '')",
-        {record.id, record.owner, record.request_id});
-    if (!before.empty()) {
-      store::require_same_request(record.request_id, before.text(0, 0), before.text(0, 1),
-                                  fingerprint);
-      stored = store::decode_job_record(before.view(0, 2));
+    transaction.run("SELECT pg_advisory_xact_lock(hashtextextended($1, 0))", {owner});
+    if (const auto before = same_request(transaction.run(select_request, {owner, request}),
+                                         record.request_id, fingerprint)) {
+      stored = store::job_of(*before);
       return;
     }
+    stored = record;
+    if (transaction.repeated() &&
+        !transaction.run("SELECT FROM jobs WHERE id = $1", {record.id}).empty())
+      return;
+    hold_uploads(transaction, owner, uploads);
     const Result held = transaction.run(
         "SELECT count(*), coalesce(sum(bytes), 0)::bigint, count(*) FILTER (WHERE owner = $1), "
         "coalesce(sum(bytes) FILTER (WHERE owner = $1), 0)::bigint, "
         "coalesce(sum(cases) FILTER (WHERE mesh = $2), 0)::bigint FROM queue",
-        {record.owner, record.spec.mesh});
+        {owner, mesh});
     const auto number = [&](int column) {
       return static_cast<std::uint64_t>(held.integer(0, column));
     };
     admit({number(0), number(1), number(2), number(3), number(4)});
     transaction.run(
-        "INSERT INTO jobs (id, owner, request, fingerprint, uploads, record) "
-        "VALUES ($1, $2, $3, $4, $5::text[], $6)",
-        {record.id, record.owner, record.request_id, fingerprint,
-         Value(store::uploads_of(record.spec)), Value::bytes(bytes)});
+        "INSERT INTO jobs (id, owner, request, fingerprint, uploads, record, checksum) "
+        "VALUES ($1, $2, $3, $4, $5, $6, $7)",
+        {record.id, owner, request, fingerprint, uploads, Value::bytes(bytes),
+         row_checksum(record.id, record.owner, bytes)});
     transaction.run(
-        "INSERT INTO queue (job, owner, mesh, class, cases, bytes, tag) "
-        "SELECT $1, $2, $3, $4::smallint, $5::bigint, $6::bigint, greatest(0, "
-        "(SELECT min(tag) FROM queue WHERE runner IS NULL AND class = $4::smallint), "
+        "INSERT INTO queue (job, owner, mesh, class, cases, bytes, runner, attempt, tag) "
+        "SELECT $1, $2, $3, $4::smallint, $5::bigint, $6::bigint, $7::bigint, $8::integer, "
+        "greatest(0, (SELECT min(tag) FROM queue WHERE runner IS NULL AND class = $4::smallint), "
         "(SELECT max(tag) + 1 FROM queue WHERE runner IS NULL AND class = $4::smallint "
         "AND owner = $2))",
-        {record.id, record.owner, record.spec.mesh, priority, size.cases, size.bytes});
-    stored = record;
+        {record.id, owner, mesh, priority, size.cases, size.bytes,
+         here ? std::optional(_epoch.load()) : std::nullopt, here ? record.attempt : 0});
   });
-  if (stored.id == record.id) notify(queue_channel);
   return stored;
 }
 
@@ -140,9 +158,9 @@ std::vector<Queue::Claim> Queue::claims_of(const Result& rows) {
   std::vector<Claim> claims;
   for (std::size_t row = 0; row < rows.rows(); ++row) {
     try {
-      Claim claim{store::decode_job_record(rows.view(row, 4)), rows.integer(row, 3) != 0};
-      claim.record.attempt = static_cast<int>(rows.integer(row, 1));
-      claim.record.crashes = static_cast<int>(rows.integer(row, 2));
+      Claim claim{store::read_job(row_at(rows, row)), rows.integer(row, 6) != 0};
+      claim.record.attempt = static_cast<int>(rows.integer(row, 4));
+      claim.record.crashes = static_cast<int>(rows.integer(row, 5));
       claims.push_back(std::move(claim));
     } catch (const Error&) {  // damaged; its readers are told so
       query(_pool, "DELETE FROM queue WHERE job = $1", {rows.view(row, 0)});
@@ -162,7 +180,8 @@ std::optional<Queue::Claim> Queue::claim_to_cancel(const std::string& job) {
       query(_pool,
             "WITH taken AS (UPDATE queue SET runner = $2, attempt = attempt + 1, claimed = now() "
             "WHERE job = $1 AND runner IS NULL RETURNING job, attempt, crashes, cancelled) "
-            "SELECT t.job, t.attempt, t.crashes, t.cancelled, j.record FROM taken t "
+            "SELECT j.id, j.owner, j.checksum, j.record, t.attempt, t.crashes, t.cancelled "
+            "FROM taken t "
             "JOIN jobs j ON j.id = t.job",
             {job, _epoch.load()}));
   if (!claims.empty()) return std::move(claims.front());
@@ -287,28 +306,38 @@ void Queue::put(const JobRecord& record, const std::string& bytes) {
       query(_pool,
             "WITH mine AS (UPDATE queue SET tried = CASE WHEN $5 AND NOT tried @> ARRAY[runner] "
             "THEN tried || runner ELSE tried END WHERE job = $1 AND runner = $2 AND attempt = $3 "
-            "RETURNING job) UPDATE jobs SET record = $4 FROM mine WHERE jobs.id = mine.job",
-            {record.id, _epoch.load(), record.attempt, Value::bytes(bytes), running});
+            "RETURNING job) UPDATE jobs SET record = $4, checksum = $6 FROM mine WHERE jobs.id = "
+            "mine.job",
+            {record.id, _epoch.load(), record.attempt, Value::bytes(bytes), running,
+             row_checksum(record.id, record.owner, bytes)});
   if (done.affected() == 0) throw store::JobTaken(record.id);
 }
 
-void Queue::finish(const JobRecord& record, const std::string& bytes, std::uint64_t result_bytes) {
-  const Result ended =
-      query(_pool,
-            "WITH gone AS (DELETE FROM queue WHERE job = $1 AND runner = $2 AND attempt = $3 "
-            "RETURNING job), "
-            "done AS (UPDATE jobs SET record = $4, ended = $5, result = $3, result_bytes = $6 "
-            "FROM gone WHERE jobs.id = gone.job RETURNING id), "
-            "old AS (DELETE FROM results r USING done WHERE r.job = done.id AND r.attempt <> $3) "
-            "SELECT id FROM done",
-            {record.id, _epoch.load(), record.attempt, Value::bytes(bytes),
-             store::to_disk(record.ended.value_or(record.created)), result_bytes});
-  if (!ended.empty()) return;
-  // The reply to the first try may have been lost.
-  if (query(_pool, "SELECT FROM jobs WHERE id = $1 AND ended IS NOT NULL AND record = $2",
-            {record.id, Value::bytes(bytes)})
+bool Queue::may_end(Transaction& transaction, const JobRecord& record,
+                    const std::string& bytes) const {
+  if (!transaction
+           .run("SELECT FROM queue WHERE job = $1 AND runner = $2 AND attempt = $3",
+                {record.id, _epoch.load(), record.attempt})
+           .empty())
+    return true;
+  if (transaction
+          .run("SELECT FROM jobs WHERE id = $1 AND ended IS NOT NULL AND record = $2",
+               {record.id, Value::bytes(bytes)})
           .empty())
     throw store::JobTaken(record.id);
+  return false;
+}
+
+void Queue::end(Transaction& transaction, const JobRecord& record, const std::string& bytes,
+                const std::string& result, std::uint64_t result_bytes) {
+  const Result ended = transaction.run(
+      "WITH gone AS (DELETE FROM queue WHERE job = $1 AND runner = $2 AND attempt = $3 "
+      "RETURNING job) UPDATE jobs SET record = $4, checksum = $5, ended = $6, "
+      "result = nullif($7, ''), result_bytes = $8 FROM gone WHERE jobs.id = gone.job",
+      {record.id, _epoch.load(), record.attempt, Value::bytes(bytes),
+       row_checksum(record.id, record.owner, bytes),
+       store::to_disk(record.ended.value_or(record.created)), result, result_bytes});
+  if (ended.affected() == 0) throw store::JobTaken(record.id);
 }
 
 void Queue::listen(std::function<void(bool cancelled)> wake) {

@@ -17,7 +17,8 @@
 namespace anticrack::group {
 
 /// One statement a method, so that nothing is half done and no lock outlives a network: but
-/// create(), where the owner's lock comes first.
+/// create(), where the owner's lock comes first, and the end of a job, which comes after its
+/// result.
 class Queue final : public store::Queue {
  public:
   /// `name`: of this server, the same after its restart; no two servers may have one. If there is
@@ -40,13 +41,23 @@ class Queue final : public store::Queue {
   void listen(std::function<void(bool cancelled)> wake) override;
 
   // For the store, which writes with this server's fence:
+  /// The same for a job that this server has from the start, as the attempt of the record.
+  records::JobRecord create_here(const records::JobRecord& record, const std::string& fingerprint);
   /// Replaces the record of a job that runs here; throws JobTaken.
   void put(const records::JobRecord& record, const std::string& bytes);
-  /// Ends a job that runs here, whose result has this many bytes; throws JobTaken.
-  void finish(const records::JobRecord& record, const std::string& bytes,
-              std::uint64_t result_bytes);
+  /// Whether the job runs here; no: it has ended with this very record, whose reply was lost.
+  /// Throws JobTaken if neither is so.
+  bool may_end(postgres::Transaction& transaction, const records::JobRecord& record,
+               const std::string& bytes) const;
+  /// Ends a job that runs here, with its result in this blob (empty: none); throws JobTaken.
+  void end(postgres::Transaction& transaction, const records::JobRecord& record,
+           const std::string& bytes, const std::string& result, std::uint64_t result_bytes);
 
  private:
+  /// `here`: the job is this server's at once.
+  records::JobRecord insert(const records::JobRecord& record, const std::string& fingerprint,
+                            const store::QueuedSize& size,
+                            const std::function<void(const store::QueueTotals&)>& admit, bool here);
   std::vector<Claim> claims_of(const postgres::Result& rows);
   void notify(const char* channel);
   void enter(bool started);

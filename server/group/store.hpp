@@ -4,8 +4,8 @@
 // without: uploads on their way and copies of those that were read, and results of jobs that run.
 #pragma once
 
+#include <chrono>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +14,7 @@
 #include "postgres/pool.hpp"
 #include "store/disk_usage.hpp"
 #include "store/files.hpp"
+#include "store/rows.hpp"
 #include "store/store.hpp"
 #include "store/triangulations.hpp"
 #include "store/upload_parts.hpp"
@@ -23,8 +24,8 @@ namespace anticrack::group {
 class Store final : public store::Store {
  public:
   /// Makes the tables where there are none. Throws errors::Error (storage): the database cannot be
-  /// reached, or is of another version.
-  Store(const store::StoreOptions& options, const std::string& url);
+  /// reached, lets nobody in or is of another version, or the folder is a store of its own.
+  explicit Store(const store::StoreOptions& options);
 
   void put(const records::MeshRecord& record) override;
   void put(const records::MeshRecord& record, const mesh::Mesh& triangulation) override;
@@ -67,14 +68,17 @@ class Store final : public store::Store {
   store::Queue* queue() override { return &_queue; }
   store::Usage usage() const override;
   std::vector<store::OwnerUsage> owners() const override;
+  std::chrono::milliseconds unreachable() const override { return _pool.unreachable(); }
 
  private:
-  /// Runs one statement on any connection.
-  postgres::Result ask(const std::string& sql, postgres::Values values = {}) const {
-    return postgres::query(_pool, sql, values);
-  }
-  postgres::Result page(const std::string& table, const store::Page& page) const;
-  store::DiskUsage::Reservation reserve(std::uint64_t bytes) { return _usage.reserve(bytes, 0); }
+  void save(const records::MeshRecord& record, const std::vector<std::byte>* triangulation);
+  std::optional<store::Row> row(const char* table, const std::string& id) const;
+  std::vector<store::Row> page(const char* table, const store::Page& page) const;
+  std::vector<store::UploadRecord> uploads_where(const char* comparison, const std::string& owner,
+                                                 const std::string& sha256,
+                                                 std::size_t count) const;
+  /// Removes copies of uploads that nobody has any more.
+  void remove_copies();
 
   mutable postgres::Pool _pool;
   mutable store::DiskUsage _usage;  ///< of the data folder

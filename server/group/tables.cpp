@@ -9,8 +9,12 @@ namespace {
 
 /// `queue` has the jobs that have not ended, and nothing else. `runner`: the epoch of the server
 /// that has the job; `tried`: the epochs in which it began to run. A server that has died stays in
-/// `servers` (dead) until its next start, which knows then that the process has ended. Pieces of
-/// blobs are of one megabyte.
+/// `servers` (dead) until its next start, which knows then that the process has ended.
+///
+/// Blobs are named by the SHA-256 of their content, results by that of what comes before their
+/// bytes (result_file.hpp), and are shared by all rows that refer to them; `kind` is a FileKind.
+/// Doubles do not get smaller by compression, so pieces are stored as they are. `checksum` is that
+/// of id, owner and record (rows.hpp).
 constexpr const char* first = R"(
 CREATE TABLE servers (
   epoch bigint GENERATED ALWAYS AS IDENTITY PRIMARY KEY,
@@ -18,23 +22,31 @@ CREATE TABLE servers (
   beats bigint NOT NULL DEFAULT 0,
   dead boolean NOT NULL DEFAULT false
 );
+CREATE TABLE blobs (
+  sha256 text PRIMARY KEY,
+  kind smallint NOT NULL,
+  bytes bigint NOT NULL
+);
+CREATE TABLE pieces (
+  sha256 text NOT NULL REFERENCES blobs ON DELETE CASCADE,
+  n integer NOT NULL,
+  body bytea NOT NULL,
+  PRIMARY KEY (sha256, n)
+);
+ALTER TABLE pieces ALTER body SET STORAGE EXTERNAL;
 CREATE TABLE meshes (
   number bigint GENERATED ALWAYS AS IDENTITY PRIMARY KEY,
   id text NOT NULL UNIQUE,
   owner text NOT NULL,
   sha256 text NOT NULL,
   upload text NOT NULL,
-  record bytea NOT NULL
+  blob text REFERENCES blobs,
+  record bytea NOT NULL,
+  checksum bigint NOT NULL
 );
 CREATE INDEX ON meshes (owner, number);
-CREATE INDEX ON meshes (sha256) WHERE sha256 <> '';
-CREATE TABLE mesh_pieces (
-  mesh text NOT NULL REFERENCES meshes (id) ON DELETE CASCADE,
-  n integer NOT NULL,
-  body bytea NOT NULL,
-  PRIMARY KEY (mesh, n)
-);
-ALTER TABLE mesh_pieces ALTER body SET STORAGE EXTERNAL;
+CREATE INDEX ON meshes (blob) WHERE blob IS NOT NULL;
+CREATE INDEX ON meshes (owner, upload) WHERE upload <> '';
 CREATE TABLE jobs (
   number bigint GENERATED ALWAYS AS IDENTITY PRIMARY KEY,
   id text NOT NULL UNIQUE,
@@ -43,38 +55,24 @@ CREATE TABLE jobs (
   fingerprint text NOT NULL,
   uploads text[] NOT NULL,
   ended bigint,
-  result integer NOT NULL DEFAULT 0,
+  result text REFERENCES blobs,
   result_bytes bigint NOT NULL DEFAULT 0,
-  record bytea NOT NULL
+  record bytea NOT NULL,
+  checksum bigint NOT NULL
 );
 CREATE INDEX ON jobs (owner, number);
 CREATE UNIQUE INDEX ON jobs (owner, request) WHERE request <> '';
+CREATE INDEX ON jobs (number) WHERE ended IS NULL;
 CREATE INDEX ON jobs (ended) WHERE ended IS NOT NULL;
-CREATE TABLE results (
-  job text NOT NULL REFERENCES jobs (id) ON DELETE CASCADE,
-  attempt integer NOT NULL,
-  n integer NOT NULL,
-  body bytea NOT NULL,
-  PRIMARY KEY (job, attempt, n)
-);
-ALTER TABLE results ALTER body SET STORAGE EXTERNAL;
+CREATE INDEX ON jobs (result) WHERE result IS NOT NULL;
 CREATE TABLE uploads (
-  sha256 text NOT NULL,
   owner text NOT NULL,
+  sha256 text NOT NULL REFERENCES blobs,
   created bigint NOT NULL,
-  bytes bigint NOT NULL,
-  array_file boolean NOT NULL,
+  is_array boolean NOT NULL,
   PRIMARY KEY (owner, sha256)
 );
-CREATE TABLE upload_pieces (
-  owner text NOT NULL,
-  sha256 text NOT NULL,
-  n integer NOT NULL,
-  body bytea NOT NULL,
-  PRIMARY KEY (owner, sha256, n),
-  FOREIGN KEY (owner, sha256) REFERENCES uploads (owner, sha256) ON DELETE CASCADE
-);
-ALTER TABLE upload_pieces ALTER body SET STORAGE EXTERNAL;
+CREATE INDEX ON uploads (sha256);
 CREATE TABLE queue (
   number bigint GENERATED ALWAYS AS IDENTITY PRIMARY KEY,
   job text NOT NULL UNIQUE REFERENCES jobs (id) ON DELETE CASCADE,

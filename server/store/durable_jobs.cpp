@@ -96,13 +96,6 @@ void end(Connection& connection, const records::JobRecord& record, const ResultC
       .run();
 }
 
-std::vector<records::JobRecord> jobs_of(const std::vector<Row>& rows) {
-  std::vector<records::JobRecord> records;
-  records.reserve(rows.size());
-  for (const Row& row : rows) records.push_back(job_of(row));
-  return records;
-}
-
 }  // namespace
 
 records::JobRecord DurableStore::create(const records::JobRecord& record,

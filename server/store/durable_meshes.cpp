@@ -41,8 +41,7 @@ void DurableStore::put(const records::MeshRecord& record) {
 
 void DurableStore::put(const records::MeshRecord& record, const mesh::Mesh& triangulation) {
   const mesh::Bytes encoded = mesh::encode(triangulation);
-  if (sha256_of(encoded) != record.sha256)
-    throw Error(Reason::internal, "meshes/{} comes with another triangulation", record.id);
+  require_triangulation(record, encoded);
   const std::string bytes = encode(record);
   const DiskUsage::Reservation reservation = reserve(encoded.size());
   Part part = _meshes.write(encoded);

@@ -53,8 +53,8 @@ struct EventCursor {
 /// 1. A job is in the queue from create() until Store::finish. At most one server runs it; a server
 ///    is an epoch, new with each registration, and each claim of a job is another attempt.
 /// 2. Store::put(JobRecord) and Store::finish of a queued job throw JobTaken unless this server's
-///    present epoch has the attempt of the record. A job whose end this server wrote before ends
-///    once, whatever replies were lost.
+///    present epoch has the attempt of the record; so do they for one that was erased. A job whose
+///    end this server wrote before ends once, whatever replies were lost.
 /// 3. A server whose beat does not change for a lease, by the clock of the server that looks, loses
 ///    its jobs to others.
 /// 4. Methods may be called from any thread and throw errors::Error (storage, busy) while the

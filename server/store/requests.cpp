@@ -7,6 +7,7 @@
 #include "errors/errors.hpp"
 #include "records/job_record.hpp"
 #include "records/mesh_record.hpp"
+#include "store/files.hpp"
 
 namespace anticrack::store {
 
@@ -31,6 +32,23 @@ void require_same_request(const std::string& request_id, const std::string& id,
                       "request id for each job",
                       request_id, id)
       .at("request_id");
+}
+
+void require_triangulation(const records::MeshRecord& record, std::span<const std::byte> encoded) {
+  if (sha256_of(encoded) != record.sha256)
+    throw errors::Error(errors::Reason::internal, "meshes/{} comes with another triangulation",
+                        record.id);
+}
+
+errors::Error unknown(const std::string& collection, const std::string& id) {
+  return {errors::Reason::not_found, "there is no " + collection + "/" + id};
+}
+
+errors::Error upload_in_use(const std::string& sha256) {
+  return {errors::Reason::in_use,
+          "uploads/{} is needed by a job that has not ended or a mesh that is not meshed: delete "
+          "it later, or cancel the job or delete the mesh first",
+          sha256};
 }
 
 }  // namespace anticrack::store

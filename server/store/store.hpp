@@ -19,6 +19,7 @@
 // another store is refused.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -151,7 +152,8 @@ class Store {
   virtual bool set_running(bool running) = 0;
   virtual std::vector<EndedJob> ended() const = 0;  ///< oldest end first
   /// The result of a job; null if it has none. Throws storage if its record, a small result or the
-  /// layout of a large one is damaged. Does not read the whole file.
+  /// layout of a large one is damaged. Does not read all of a large one, whose reader gets
+  /// result_expired from PostgreSQL if it is removed meanwhile.
   virtual std::shared_ptr<const records::BlockSource> result(const std::string& job) const = 0;
   /// Removes the result of an ended job and notes the time `now`; throws not_found.
   virtual void expire(const std::string& job, records::Clock::time_point now) = 0;
@@ -188,6 +190,9 @@ class Store {
   virtual Usage usage() const = 0;
   /// The usage of every owner of a job. O(jobs).
   virtual std::vector<OwnerUsage> owners() const = 0;
+
+  /// How long what keeps the records has been out of reach; 0: it answered last time.
+  virtual std::chrono::milliseconds unreachable() const { return std::chrono::milliseconds(0); }
 };
 
 /// Opens or makes the folder. Throws errors::Error (storage): the folder cannot be written, or the

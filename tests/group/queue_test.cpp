@@ -20,17 +20,13 @@ namespace anticrack::group {
 namespace {
 
 using anticrack::testing::eventually;
+using anticrack::testing::shared_database;
 using anticrack::testing::TemporaryFolder;
 using anticrack::testing::throws;
 using errors::Reason;
 using records::JobRecord;
 using records::JobState;
 using Claims = std::vector<store::Queue::Claim>;
-
-anticrack::testing::Database& server() {
-  static anticrack::testing::Database one;
-  return one;
-}
 
 /// The name of the database in an address of Database::fresh().
 std::string database_of(const std::string& url) {
@@ -57,9 +53,9 @@ JobRecord ended(JobRecord record) {
 class GroupQueue : public ::testing::Test {
  protected:
   void SetUp() override {
-    url = server().fresh();
-    a = std::make_unique<Store>(store::StoreOptions{folder_a.path(), 0}, url);
-    b = std::make_unique<Store>(store::StoreOptions{folder_b.path(), 0}, url);
+    url = shared_database().fresh();
+    a = std::make_unique<Store>(store::StoreOptions{folder_a.path(), 0, url});
+    b = std::make_unique<Store>(store::StoreOptions{folder_b.path(), 0, url});
   }
 
   static void submit(Store& to, const JobRecord& record) {
@@ -157,7 +153,7 @@ TEST_F(GroupQueue, AcceptsNothingFromAServerThatHasLostTheJob) {
   JobRecord old = claim(*a).at(0).record;
   old.state = JobState::running;
   a->put(old);
-  server().sql(
+  shared_database().sql(
       "UPDATE anticrack.servers SET dead = true WHERE epoch = (SELECT runner FROM anticrack.queue)",
       database_of(url));
   b->queue()->beat({});
@@ -188,7 +184,7 @@ TEST_F(GroupQueue, CountsACrashOnlyOfAProcessThatDiedWhileTheJobRan) {
     one.record.state = JobState::running;
     a->put(one.record);
   }
-  a = std::make_unique<Store>(store::StoreOptions{folder_a.path(), 0}, url);  // it did not leave
+  a = std::make_unique<Store>(store::StoreOptions{folder_a.path(), 0, url});  // it did not leave
   b->queue()->beat({});
   claims = claim(*b, 2);
   ASSERT_EQ(claims.size(), 2U);
@@ -228,8 +224,8 @@ TEST_F(GroupQueue, TellsTheRunnerThatAClientCancels) {
 TEST_F(GroupQueue, OutlivesACrashOfTheDatabase) {
   submit(*a, job("one"));
   const JobRecord record = claim(*a).at(0).record;
-  server().stop();
-  server().start();
+  shared_database().stop();
+  shared_database().start();
   EXPECT_FALSE(a->queue()->beat({"one"}).lost);
   a->finish(ended(record), nullptr);
   EXPECT_EQ(b->job("one")->state, JobState::succeeded);

@@ -77,4 +77,9 @@ std::string Database::sql(const std::string& text, const std::string& database) 
       {programs + "/psql", "-XqAt", "-v", "ON_ERROR_STOP=1", "-d", address(database), "-c", text});
 }
 
+Database& shared_database() {
+  static Database one;
+  return one;
+}
+
 }  // namespace anticrack::testing

@@ -41,4 +41,7 @@ class Database {
   int _made = 0;
 };
 
+/// One server for all tests of the process.
+Database& shared_database();
+
 }  // namespace anticrack::testing
