@@ -4,7 +4,10 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <condition_variable>
 #include <exception>
+#include <mutex>
+#include <stop_token>
 #include <thread>
 #include <utility>
 
@@ -23,6 +26,19 @@
 namespace anticrack::app {
 
 namespace {
+
+/// How long the store may be out of reach before clients are sent elsewhere.
+constexpr std::chrono::seconds patience_with_store{5};
+
+std::unique_ptr<store::Store> open_store(const store::StoreOptions& options) {
+  if (options.url.empty()) return store::open(options);
+  try {
+    return std::make_unique<group::Store>(options);
+  } catch (const errors::Error& error) {
+    if (error.reason() != errors::Reason::invalid_argument) throw;
+    throw ConfigError(std::string("store: ") + error.what());
+  }
+}
 
 /// Warns if the memory limits are too low, as the kernel kills a process that takes more.
 void warn_of_memory(const Config& config) {
@@ -44,9 +60,7 @@ struct Service::Parts {
         drain_time(config.drain_time),
         metrics(rpc::version(), rpc::build()),
         folder(config.store.folder),
-        store(config.store.url.empty()
-                  ? store::open(config.store)
-                  : std::make_unique<group::Store>(config.store)),
+        store(open_store(config.store)),
         cache(config.limits.memory_budget_bytes, factorise_function(config),
               [this](std::chrono::duration<double> time) { factorised(metrics, time); }),
         catalogue(with_listener(catalogue_options(config)), *store, cache),
@@ -62,23 +76,47 @@ struct Service::Parts {
     };
     server = std::make_unique<rpc::Server>(options, rpc::Backend{engine, catalogue, cache, *store});
     ready = true;
+    if (!config.store.url.empty())
+      watcher = std::jthread([this](const std::stop_token& stop) { watch_store(stop); });
     if (config.metrics_listen.empty()) return;
     const std::string where = metrics.listen(config.metrics_listen, [this] { return page(); });
     log::info("metrics", {{"url", "http://" + where + "/metrics"}});
   }
 
+  /// Tells balancers when the store has been out of reach for too long, and when it is back.
+  void watch_store(const std::stop_token& stop) {
+    std::mutex mutex;
+    std::condition_variable_any stopped;
+    std::unique_lock lock(mutex);
+    while (!stopped.wait_for(lock, stop, std::chrono::milliseconds(500),
+                             [&] { return stop.stop_requested(); })) {
+      const bool usable = store->unreachable() < patience_with_store;
+      if (usable == ready) continue;
+      ready = usable;
+      server->announce(usable);
+      if (usable)
+        log::info("store", {{"reached", "again"}});
+      else
+        log::error("store", {{"out_of_reach_for_s", patience_with_store.count()},
+                             {"cure", "check that PostgreSQL runs and can be reached from here"}});
+    }
+  }
+
   metrics::Snapshot page() const {
     metrics::Snapshot now = snapshot();
-    now.owners = store->owners();
+    if (store_answers()) now.owners = store->owners();
     return now;
   }
+
+  /// One that does not would make who asks wait, and readiness unknown.
+  bool store_answers() const { return store->unreachable().count() == 0; }
 
   metrics::Snapshot snapshot() const {
     const rpc::Server::Metrics calls = server->metrics();
     metrics::Snapshot now;
     now.engine = engine.metrics();
     now.cache = cache.metrics();
-    now.disk = store->usage();
+    if (store_answers()) now.disk = store->usage();
     now.meshings = catalogue.meshings();
     now.pending_meshes = catalogue.pending();
     now.connections = calls.connections;
@@ -114,6 +152,7 @@ struct Service::Parts {
   meshes::MeshCatalogue catalogue;
   jobs::JobEngine engine;
   std::unique_ptr<rpc::Server> server;
+  std::jthread watcher;
 };
 
 Service::Service(const Config& config) {
@@ -126,6 +165,7 @@ Service::Service(const Config& config) {
 }
 
 Service::~Service() {
+  _parts->watcher = {};
   _parts->metrics.stop();
   _parts->server.reset();
   if (!_parts->address.socket_path.empty()) ::unlink(_parts->address.socket_path.c_str());
@@ -155,8 +195,9 @@ void Service::reload() noexcept {
 }
 
 void Service::drain() {
+  _parts->watcher = {};
   _parts->ready = false;
-  _parts->server->announce_stop();
+  _parts->server->announce(false);
   std::this_thread::sleep_for(_parts->drain_delay);
   _parts->server->drain(_parts->drain_time);
   _parts->engine.stop(std::chrono::milliseconds(0));

@@ -34,6 +34,17 @@ std::string own_folder(const std::string& folder) {
   return folder;
 }
 
+/// The command line, where lists of processes show it, has no password.
+postgres::Settings settings_of(const std::string& url) {
+  postgres::Settings settings{postgres::Address(url)};
+  for (const postgres::Options& server : settings.address.servers())
+    if (server.contains("password"))
+      throw Error(Reason::invalid_argument,
+                  "there is a password in the address, where others see it: give it in ~/.pgpass, "
+                  "PGPASSFILE or PGPASSWORD");
+  return settings;
+}
+
 /// The name of the server of this data folder, made at its first start.
 std::string name_of(const std::string& folder) {
   const std::string path = folder + "/server";
@@ -48,7 +59,7 @@ std::string name_of(const std::string& folder) {
 }  // namespace
 
 Store::Store(const store::StoreOptions& options)
-    : _pool(postgres::Settings{postgres::Address(options.url)}),
+    : _pool(settings_of(options.url)),
       _usage(options.disk_budget),
       _results(own_folder(options.folder), store::FileKind::result, _usage),
       _uploads(options.folder, store::FileKind::upload, _usage),

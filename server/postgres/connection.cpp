@@ -111,7 +111,12 @@ void Connection::connect(const Options& server) {
   PostgresPollingStatusType status = PGRES_POLLING_WRITING;
   if (PQstatus(_connection.get()) == CONNECTION_BAD) status = PGRES_POLLING_FAILED;
   while (status != PGRES_POLLING_OK) {
-    if (status == PGRES_POLLING_FAILED) fail(PQerrorMessage(_connection.get()));
+    if (status == PGRES_POLLING_FAILED) {
+      // Libpq asks for none where none was given, so the server has not refused it.
+      if (PQconnectionNeedsPassword(_connection.get()) != 0)
+        throw Failure("28P01", _place, "no password was given");
+      fail(PQerrorMessage(_connection.get()));
+    }
     wait(status == PGRES_POLLING_READING ? POLLIN : POLLOUT, deadline);
     status = PQconnectPoll(_connection.get());
   }

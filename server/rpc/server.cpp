@@ -144,7 +144,7 @@ void Server::replace(const Security& security) {
   _state->edge.authentication.replace(security.tokens);
 }
 
-void Server::announce_stop() { _state->set_serving(false); }
+void Server::announce(bool serving) { _state->set_serving(serving); }
 
 void Server::drain(std::chrono::milliseconds grace) {
   std::call_once(_state->drained, [&] {

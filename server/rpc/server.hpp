@@ -65,9 +65,9 @@ class Server {
   /// them. Throws as require_usable() does (rpc/tls.hpp), and then changes nothing.
   void replace(const Security& security);
 
-  /// Makes health report NOT_SERVING from now on, while all else goes on. This is for balancers,
-  /// which take a moment to stop sending calls.
-  void announce_stop();
+  /// Makes health report NOT_SERVING, or SERVING again, while all else goes on. This is for
+  /// balancers, which take a moment to stop sending calls.
+  void announce(bool serving);
   /// Stops gently. Health reports NOT_SERVING; new meshes, jobs, watches and transfers are refused
   /// (UNAVAILABLE); the engine is stopped: running jobs, and watches of them, go on for at most
   /// `grace`. Then watches and transfers end with UNAVAILABLE and a retry delay (a watch whose job

@@ -159,7 +159,7 @@ TEST(Server, ListsEveryLimit) {
 
 TEST(Server, StopsBeingReadyWhenAStopIsAnnouncedAndServesOn) {
   RunningServer server;
-  server.server().announce_stop();
+  server.server().announce(false);
   std::string answer;
   EXPECT_TRUE(call(server, "/grpc.health.v1.Health/Check", "", answer).ok());
   EXPECT_EQ(answer, "\x08\x02");

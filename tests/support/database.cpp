@@ -5,6 +5,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <fstream>
 #include <stdexcept>
 
 namespace anticrack::testing {
@@ -32,7 +33,10 @@ Database::Database() {
   }
   run(as_user({programs + "/initdb", "--auth=trust", "--username=test", "--encoding=UTF8",
                "--locale=C", "--no-sync", "--no-instructions", _folder.path() + "/cluster"}));
+  std::ofstream(_folder.path() + "/cluster/pg_hba.conf")
+      << "local all " << guarded << " scram-sha-256\nlocal all all trust\n";
   start();
+  sql(std::string("CREATE ROLE ") + guarded + " LOGIN PASSWORD '" + guarded + "'");
 }
 
 Database::~Database() {

@@ -17,6 +17,9 @@ namespace anticrack::testing {
 /// kill of the server leaves is in the system's cache.
 class Database {
  public:
+  /// A user who needs a password, which is the name; all others need none.
+  static constexpr const char* guarded = "guarded";
+
   Database();
   ~Database();
   Database(const Database&) = delete;
