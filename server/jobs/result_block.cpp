@@ -72,6 +72,10 @@ records::Block case_arrays(std::size_t index, const contact::Answer& answer,
   if (!balanced_flux.empty())
     builder.add(arrays::load_folder(index) + "balanced_flux", balanced_flux,
                 {balanced_flux.size() / 3, 3});
+  if (!answer.membrane_rows.empty()) {
+    builder.add(arrays::load_folder(index) + "membrane_rows", answer.membrane_rows);
+    builder.add(arrays::load_folder(index) + "membranes", answer.membranes);
+  }
   return builder.take();
 }
 
@@ -104,7 +108,8 @@ void require_result_arrays(const records::JobSpec& spec, std::uint64_t interface
     const std::uint64_t fields = spec.fields ? subdomains : 0;
     count += rows_of(arrays::subdomain<Subdomain>) * fields +
              spec.loads.size() * (traces + rows_of(arrays::history<contact::Sample>) + fields +
-                                  (spec.indicators ? 1 : 0) + (spec.balanced_flux ? 1 : 0));
+                                  (spec.indicators ? 1 : 0) + (spec.balanced_flux ? 1 : 0) +
+                                  (spec.growth && spec.fields ? 2 : 0));
   }
   if (count > max_arrays) {
     throw errors::Error(errors::Reason::limit_exceeded,
