@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -89,17 +90,23 @@ std::string bound_part(const MeshOperator::Parts& parts, const UnitValue& value,
   target.goal.compliance = 0;  // |z|^2, which chooses the first cone
   for (std::size_t t = 0; t < cut.triangle_count(); ++t)
     target.goal.compliance += primal.flux.energy_of(t, z);
-  // What is unknown of the load is led out by the Dirichlet boundary, where z is not 0 here.
-  double largest = 1;
-  for (const double one : z) largest = std::max(largest, std::abs(one));
+  // What is unknown of the load is led out by the Dirichlet boundary, where z is not 0 here. Forces
+  // in nodes are sums of T grad u, whose rounding errors are relative to T |u|.
+  const auto largest = [](std::span<const double> values) {
+    double most = 0;
+    for (const double one : values) most = std::max(most, std::abs(one));
+    return most;
+  };
+  const double margin =
+      (2 * primal.load.unknown + 1e-13 * cut.shapes.largest_tension * largest(primal.u)) *
+      largest(z);
   double ends[2] = {};
   for (const estimate::Side side : {estimate::Side::lower, estimate::Side::upper}) {
     Search search(parts, target, side);
     try_cones(parts, value, search);
     if (own.stop.stop_requested()) return "";
     const double sign = side == estimate::Side::upper ? 1 : -1;
-    ends[side == estimate::Side::upper ? 0 : 1] =
-        -(search.best().value + sign * 2 * primal.load.unknown * largest);
+    ends[side == estimate::Side::upper ? 0 : 1] = -(search.best().value + sign * margin);
   }
   if (!std::isfinite(ends[0]) || !std::isfinite(ends[1])) return "the contacts leave every cone";
   row.resultant_lower = ends[0];

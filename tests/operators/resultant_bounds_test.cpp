@@ -71,7 +71,9 @@ TEST(BoundsOfForces, AreRefusedInWords) {
   EXPECT_FALSE(top(held).resultant_lower);
   const contact::Answer answer = cracked(8, true);
   for (const BoundaryAnswer& one : answer.boundary)
-    if (one.free) EXPECT_NE(one.no_bounds, "");
+    if (one.free) {
+      EXPECT_NE(one.no_bounds, "");
+    }
 }
 
 }  // namespace
