@@ -271,7 +271,7 @@ void check_growth(const records::JobSpec& spec, const EngineOptions& options) {
   if (!spec.probes.empty())
     throw Error(Reason::invalid_argument, "a job with growth has no probes: leave them out")
         .at("probes");
-  constexpr std::uint64_t a_row = 250;  // twenty numbers and a name
+  constexpr std::uint64_t a_row = 260;  // 21 numbers and a name
   const auto rows = static_cast<std::uint64_t>(positions_of(growth)) * spec.loads.size();
   if (rows * a_row > max_answer_bytes)
     throw Error(Reason::limit_exceeded,

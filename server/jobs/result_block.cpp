@@ -121,8 +121,8 @@ void require_result_arrays(const records::JobSpec& spec, std::uint64_t interface
 
 bool has_room(const records::JobSpec& spec, const std::vector<std::string>& inclusions,
               std::size_t parts, std::size_t tips) {
-  constexpr std::uint64_t a_part = 128;  // six numbers and a name of at most 64 letters
-  constexpr std::uint64_t a_tip = 200;   // nine numbers, names and a reason
+  constexpr std::uint64_t a_part = 300;  // eight numbers, a name of at most 64 letters and a reason
+  constexpr std::uint64_t a_tip = 210;   // ten numbers, names and a reason
   return spec.loads.size() * (answer_bytes(spec, inclusions) + a_part * parts + a_tip * tips) <=
          max_answer_bytes;
 }
