@@ -249,6 +249,8 @@ TipAnswer Tips::told(std::size_t index, const Integrals& integrals, bool touchin
   else
     row.intensity = std::copysign(singular.intensity_of(rates.back()), dual);
   if (kind == TipKind::crack_tip) row.k_iii = singular.k_iii(*row.intensity);
+  if (kind == TipKind::delaminated_end)
+    row.release_factor = singular.release_factor(*row.intensity);
   return row;
 }
 

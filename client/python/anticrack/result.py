@@ -3,6 +3,7 @@
 and displacements are in the units of the case; an unknown number is NaN."""
 from __future__ import annotations
 
+import dataclasses
 import os
 import re
 import warnings
@@ -258,7 +259,8 @@ class Load(_walked(solve_pb2.LoadCaseAnswer, ("name", "status"))):  # type: igno
     contact_intervals: (index of the interface, begin, end) in arc length. fields: one for each subdomain, by its name
     or index, where they were asked for. indicator (m): part of each triangle in the square of error_bound, or None.
     balanced_flux (m, 3): of the flux behind the bounds, out of each triangle through the side opposite to each corner;
-    a row sums to minus the load on the triangle; or None. Mesh.mean_flux makes vectors of it."""
+    a row sums to minus the load on the triangle; or None. Mesh.mean_flux makes vectors of it. membrane_rows, membranes:
+    rows of growth whose membranes are kept, and u of each in the nodes of all fields; see grown."""
     name: str
     status: str
     warnings: list[str] = field(default_factory=list)
@@ -275,6 +277,8 @@ class Load(_walked(solve_pb2.LoadCaseAnswer, ("name", "status"))):  # type: igno
     fields: Parts[Field] = field(default_factory=lambda: Parts("subdomain"))
     indicator: Array | None = None
     balanced_flux: Array | None = None
+    membrane_rows: Array | None = None
+    membranes: Array | None = None
     units, solver = Units(), job_pb2.Solver()  # of the result
 
     @property
@@ -301,6 +305,21 @@ class Load(_walked(solve_pb2.LoadCaseAnswer, ("name", "status"))):  # type: igno
             points.setdefault(point.name, []).append(point)
         return {name: {key: np.array([getattr(point, key) for point in all_of])
                        for key in ("s", "x", "y", "u_minus", "u_plus")} for name, all_of in points.items()}
+
+    def grown(self, row: int) -> Load:
+        """This load in a row of growth whose membrane is kept: its fields are u under the load of that row. It has
+        neither traces nor growth. Raises Error for another row."""
+        kept = [] if self.membrane_rows is None else [int(one) for one in self.membrane_rows]
+        if row not in kept or self.membranes is None:
+            raise Error(f"the membrane of row {row} of growth is not kept; " + (
+                f"those of rows {', '.join(map(str, kept))} are" if kept else
+                "solve with Case(fields=True), in TOML [output] fields = true"))
+        values = self.membranes.reshape(len(kept), -1)[kept.index(row)]
+        ends = np.cumsum([len(part.nodes) for part in self.fields])[:-1]
+        fields: Parts[Field] = Parts("subdomain")
+        fields += [dataclasses.replace(part, u=u) for part, u in zip(self.fields, np.split(values, ends))]
+        return dataclasses.replace(self, name=f"{self.name}, row {row}", fields=fields, traces=Parts("interface"),
+                                   growth={}, growth_notes=[], membrane_rows=None, membranes=None)
 
     def displacements(self) -> dict[str, float]:
         """A of every inclusion, by its name."""
@@ -651,6 +670,7 @@ def _load_of(job: solve_pb2.Job, index: int, arrays: Mapping[str, Array], result
     load.traces = _traces(arrays, prefix + "traces", len(result.interfaces))
     load.history, load.indicator = _below(arrays, prefix + "history/"), arrays.get(prefix + "indicator")
     load.balanced_flux = arrays.get(prefix + "balanced_flux")
+    load.membrane_rows, load.membranes = (arrays.get(prefix + name) for name in ("membrane_rows", "membranes"))
     load.fields += [Field(name, u=arrays[f"{prefix}fields/{k}"], **_below(arrays, f"fields/{k}/"))
                     for k, name in enumerate(result.mesh.subdomain_names) if f"{prefix}fields/{k}" in arrays]
     stages = [stage for stage in job.status.stages if index < len(stage.answers)]
@@ -740,4 +760,6 @@ def _load_in(group: Any, lines_in: list[str], mesh: Mesh) -> Load:
     load.fields += [Field(name, **_arrays(part)) for name, part in zip(mesh.subdomain_names, numbered("fields"))]
     load.indicator = group["indicator"][()] if "indicator" in group else None
     load.balanced_flux = group["balanced_flux"][()] if "balanced_flux" in group else None
+    load.membrane_rows, load.membranes = (group[name][()] if name in group else None
+                                          for name in ("membrane_rows", "membranes"))
     return load
