@@ -6,13 +6,12 @@ from __future__ import annotations
 
 import hashlib
 import os
-import sys
 import time
 from typing import TextIO
 
 from ..case import Case, as_case
 from ..errors import CaseError, ServerError, package
-from ..progress import _columns, _is_terminal, _notebook_handle
+from ..progress import PAUSE, Place
 from ..reading import ReadCase
 from ..result import Units
 from ..session import ENDED as JOB_ENDED
@@ -44,45 +43,25 @@ class Plan:
 
 
 class Told:
-    """Tells how far a study is: a bar on a terminal and in a notebook, lines elsewhere."""
+    """Tells how far a study is."""
 
     def __init__(self, shown: bool, out: TextIO | None = None) -> None:
-        self._out = (out or sys.stderr) if shown else None
-        self._handle = _notebook_handle() if shown and out is None else None
-        self._bar = self._handle is None and _is_terminal(self._out)
-        self._width = 0
+        self._place = Place(out, shown)
+        self._pause = PAUSE if self._place.replaces else 2.0
         self.begin()
 
     def begin(self) -> None:
         self._began = time.monotonic()
         self._next = self._began + self._pause
 
-    @property
-    def _pause(self) -> float:
-        return 0.1 if self._bar or self._handle is not None else 2.0
-
     def show(self, what: str, done: int, of: int, new: int, more: str = "", last: bool = False) -> None:
         """new: how many of those that are done were done in this run, by which the rest of the time is estimated."""
         now = time.monotonic()
-        if self._out is None or (now < self._next and not last):
+        if now < self._next and not last:
             return
         self._next = now + self._pause
-        text = f"{what} {done}/{of}{more}"
-        if 0 < new and done < of:
-            text += f", about {_duration((now - self._began) / new * (of - done))} left"
-        text = harmless(text)
-        try:
-            if self._handle is not None:
-                self._handle.update({"text/plain": text}, raw=True)
-            elif self._bar:
-                text = text[:_columns(self._out)]
-                self._out.write("\r" + text.ljust(self._width) + "\n" * last)
-                self._width = 0 if last else len(text)
-            else:
-                self._out.write(text + "\n")
-            self._out.flush()
-        except (OSError, ValueError):  # it is closed or full
-            self._out = None
+        left = f", about {_duration((now - self._began) / new * (of - done))} left" if 0 < new and done < of else ""
+        self._place.show(f"{what} {done}/{of}{more}{left}", last)
 
 
 def _duration(seconds: float) -> str:

@@ -13,9 +13,11 @@ from typing import Any
 
 from aiohttp import web
 
+from ..arrays import is_number
 from ..case import Case
 from ..errors import CaseError, Error, ServerError
 from ..result import Units
+from ..study.rows import rows_in
 from ..text import harmless
 from ..v1 import case_pb2
 from .exports import DRAWING
@@ -25,6 +27,7 @@ from .told import Told
 
 _SOURCE = "case"  # what errors call the text in the page
 _DRAWN = 4  # drawings that are kept
+_TRACES = 100  # rows of a sweep whose traces are kept, the first
 
 
 def errors_in(error: Exception) -> list[dict[str, Any]]:
@@ -85,12 +88,13 @@ class Editor:
     async def run(self, request: web.Request) -> web.Response:
         asked = await request.json()
         try:
-            return reply({"name": await self.submit(self._case(asked))})
+            return reply({"name": await self.submit(self._case(asked), **_sweep(asked))})
         except (CaseError, ServerError) as error:
             return reply({"errors": errors_in(error)})
 
-    async def submit(self, case: Case) -> str:
-        job, read = await self._session.submit(case)
+    async def submit(self, case: Case, **sweep: Any) -> str:
+        """Submits the case, or a sweep of it, and returns the job's name."""
+        job, read = await self._session.submit(case, **sweep)
         self._opened.cases[job.name] = read.text
         return str(job.name)
 
@@ -118,6 +122,18 @@ class Editor:
         answer = await self._session.call(self._session.transport.cases.ListCaseKeys, case_pb2.ListCaseKeysRequest())
         return reply([{"names": list(key.names), "form": key.form, "default": key.if_absent, "unit": key.unit,
                        "meaning": key.meaning} for key in answer.keys])
+
+
+def _sweep(asked: Any) -> dict[str, Any]:
+    """What the page asks of a sweep, as Session.submit takes it; empty if it asks for none."""
+    if "sweep" not in asked:
+        return {}
+    rows = rows_in(str(asked["sweep"]), "the sweep")
+    if not all(is_number(value) for row in rows for value in row.values()):
+        raise CaseError("the sweep: below the names of loads there are numbers only")
+    columns = {name: [row[name] for row in rows] for name in rows[0]}
+    return {"coefficients": columns, "traces": range(min(len(rows), _TRACES)), "bounds": asked["bounds"] is True,
+            "tips": asked["tips"] is True}
 
 
 def _drawn(mesh: Any, arrays: Any, units: Units) -> bytes:

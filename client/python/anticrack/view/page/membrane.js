@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The membrane with its controls.
-import {byId, choice, fill, make, number, parse, tick} from './dom.js';
-import {currentLoad, loadIndex, model, values} from './model.js';
-import {notice} from './net.js';
+// The membrane with its controls, or the mesh of a stage.
+import {button, byId, choice, fill, make, number, parse, tick} from './dom.js';
+import {currentLoad, currentStage, loadIndex, model, stages, unit, values} from './model.js';
+import {array, notice} from './net.js';
 import {stops} from './palette.js';
 import {MANY, Scene} from './scene.js';
 import {get, on, set} from './state.js';
@@ -14,11 +14,15 @@ const NAMES = /** @type {Record<string, string[]>} */ ({
   indicator: ['log10 of error indicator over area', ''],
 });
 const KINDS =
-  ['', '#8a8f98', '#d55e00', '#1f6fd0', '#c2188f', '#e69f00'];  // glue, crack, bonded, delaminated, free crack
+  ['', '#8a8f98', '#d55e00', '#1f6fd0', '#c2188f', '#e69f00']; // glue, crack, bonded, delaminated, free crack
+const BARE = {
+  name: '',
+  colours: /** @type {string[]} */ ([])
+}; // a stage, of which u is not kept
 /** @type {Scene|null} */
 let scene = null;
-let shown = '';     // what the scene's geometry is of
-let automatic = 1;  // the amplification that shows u best
+let shown = '';    // what the scene's geometry is of
+let automatic = 1; // the amplification that shows u best
 let task = 0;
 
 /** What was clicked, for the column of numbers. @type {{hit: any}} */
@@ -31,41 +35,48 @@ export const mark = (place) => scene?.mark(place);
 
 /** Shows the membrane of the load that is looked at. @param {(hit: any) => void} clicked */
 export async function draw(clicked) {
-  const load = currentLoad(), mine = ++task;
+  const stage = currentStage(), load = stage ? BARE : currentLoad(), mine = ++task, wanted = () => mine === task;
   if (!load) return;
   try {
     scene ??= new Scene(clicked);
     scene.moved = (view) => set({view}, true);
-    await surface(scene, load, () => mine === task);
-    if (mine === task) await paint(scene, load, () => mine === task);
+    const key = [model.of, loadIndex(), stage?.mesh, get('plan'), get('names')].join(' ');
+    if (key !== shown && !await (stage ? mesh(scene, stage.mesh, wanted) : surface(scene, load, wanted))) return;
+    if (key !== shown) scene.setView(get('view'), on('plan'));
+    shown = key;
+    await paint(scene, load, wanted);
   } catch (error) {
-    notice(error instanceof Error ? error.message : error);
+    notice(error);
   }
+}
+
+/** Shows the mesh of a stage. @param {Scene} to @param {string} name @param {() => boolean} wanted */
+async function mesh(to, name, wanted) {
+  const parts = ['points', 'triangles', 'outline'].map((what) => array({mesh: name, what}));
+  const [points, triangles, outline] = await Promise.all(parts);
+  if (wanted())
+    to.show({
+      points,
+      triangles,
+      outline,
+      thinned: triangles.length / 3 > MANY ? await array({mesh: name, what: 'thinned'}) : null
+    });
+  return wanted();
 }
 
 /** @param {Scene} to @param {any} load @param {() => boolean} wanted */
 async function surface(to, load, wanted) {
-  const key = `${model.of} ${loadIndex()}`;
-  if (key === shown) return;
-  const {low, high, triangles: count, interfaces, marks, tips} = model.result;
-  const many = count > MANY, u = load.colours.length ? values('u') : null;
-  const [points, triangles, outline, thinned, heights, ...traces] = await Promise.all([
-    values('points'),
-    values('triangles'),
-    values('outline'),
-    many ? values('thinned') : null,
-    u,
+  const {triangles: count, interfaces, marks, tips} = model.result;
+  const [points, triangles, outline, thinned, u, ...traces] = await Promise.all([
+    values('points'), values('triangles'), values('outline'), count > MANY ? values('thinned') : null,
+    load.colours.length ? values('u') : null,
     ...interfaces.map(
-      (_, i) => Promise.all([values('line', loadIndex(), i), load.traces ? values('trace', loadIndex(), i) : null])),
+      (_, i) => Promise.all([values('line', loadIndex(), i), load.traces ? values('trace', loadIndex(), i) : null]))
   ]);
-  if (!wanted()) return;
-  shown = key;
-  const size = Math.max(high[0] - low[0], high[1] - low[1]);
-  to.show(
-    {points, triangles, outline, thinned, u: heights, middle: [(low[0] + high[0]) / 2, (low[1] + high[1]) / 2], size});
-  let most = 0;
-  for (const value of heights ?? []) most = Math.max(most, Math.abs(value) || 0);
-  automatic = most > 0 ? Number((0.25 * size / most).toPrecision(2)) : 1;
+  if (!wanted()) return false;
+  to.show({points, triangles, outline, thinned, u});
+  const most = (u ?? []).reduce((largest, value) => Math.max(largest, Math.abs(value) || 0), 0);
+  automatic = most > 0 ? Number((0.25 * to.surface.size / most).toPrecision(2)) : 1;
   /** @type {number[][]} */
   const places = [];
   traces.forEach(([line, trace], i) => {
@@ -79,17 +90,14 @@ async function surface(to, load, wanted) {
     }
     for (let j = 0; j < k; ++j) places.push(at(j, 1));
   });
-  const height = (at) => {  // of the nearest node of an interface
-    const near = places.reduce((best, place) => {
-      const d = Math.hypot(place[0] - at[0], place[1] - at[1]);
-      return d < best[0] ? [d, place[2]] : best;
-    }, [Infinity, 0]);
-    return near[1];
+  const height = (at) => { // of the nearest node of an interface
+    const far = (place) => Math.hypot(place[0] - at[0], place[1] - at[1]);
+    return places.length ? places.reduce((best, place) => far(place) < far(best) ? place : best)[2] : 0;
   };
   if (on('names', true))
     for (const {name, at} of marks.slice(0, 40)) to.name(name, at[0], at[1], height(at));
   if (tips.length) to.add(to.dots(tips.map((at) => to.place(at[0], at[1], height(at))), '#222222', 8));
-  to.setView(get('view'), on('plan'));
+  return true;
 }
 
 /** @param {Scene} to @param {any} load @param {() => boolean} wanted */
@@ -99,14 +107,13 @@ async function paint(to, load, wanted) {
     const found = await values(what, index);
     return what === 'indicator' ? found.map((v) => v > 0 ? Math.log10(v) : NaN) : found;
   };
-  const colours = what ? await of (loadIndex()) : null;
-  const others = what && on('same') ?
+  const same = what && on('same') ?
     model.result.loads.map((_, i) => i).filter((i) => model.result.loads[i].colours.includes(what)).slice(0, 12) :
     [];
-  const all = colours ? [colours, ...await Promise.all(others.map(of))] : [];
+  const [colours, ...others] = what ? await Promise.all([loadIndex(), ...same].map(of)) : [null];
   if (!wanted()) return;
   let [low, high] = [Infinity, -Infinity];
-  for (const each of all) {
+  for (const each of colours ? [colours, ...others] : []) {
     for (const value of each) {
       if (value < low) low = value;
       if (value > high) high = value;
@@ -117,25 +124,32 @@ async function paint(to, load, wanted) {
   const given = get('limits').split(',').map(Number);
   if (given.length === 2 && given[0] < given[1]) [low, high] = given;
   to.paint(colours, low, high, both, on('contours') ? 12 : 0);
-  to.lines(on('mesh'));
+  to.lines(on('mesh') || load === BARE);
   const amplify = on('plan') ? 0 : get('amplify') ? Number(get('amplify')) : automatic;
   to.rise(amplify);
   controls(to, load, what, low, high, amplify);
   bar(what, low, high, both);
-  byId('scene').setAttribute(
-    'aria-label',
-    `membrane under ${load.name}, ${what ? NAMES[what][0] : 'no u'} from ${number(low)} to ${number(high)}`);
+  byId('scene').setAttribute('aria-label',
+    !what ? 'mesh' : `membrane under ${load.name}, ${NAMES[what][0]} from ${number(low)} to ${number(high)}`);
+}
+
+/** A choice that is also stepped through. @param {string} what @param {string[]} names @param {number} index */
+function stepped(what, names, index) {
+  const step = (by, text, label) =>
+    button(text, () => set({[what]: index + by}), {'aria-label': label, disabled: !names[index + by]});
+  return names.length < 2 ? null : [
+    step(-1, '\u25c0', `${what} before`),
+    choice(what, names.map((name, i) => [String(i), name]), String(index), (value) => set({[what]: value})),
+    step(1, '\u25b6', `next ${what}`)
+  ];
 }
 
 /**
- * @param {Scene} to @param {any} load @param {string} what @param {number} low @param {number}
- *     high @param {number} amplify
+ * @param {Scene} to @param {any} load @param {string} what @param {number} low @param {number} high @param {number}
+ *   amplify
  */
 function controls(to, load, what, low, high, amplify) {
-  const focused = document.activeElement?.getAttribute('aria-label') ?? '';
-  const names = model.result.loads.map((each) => each.name), index = loadIndex();
-  const step = (by, text, label) =>
-    make('button', {'aria-label': label, disabled: !names[index + by], onclick: () => set({load: index + by})}, text);
+  const focused = document.activeElement?.getAttribute('aria-label') ?? '', all = stages(), stage = currentStage();
   const limit = (label, at) => make('input', {
     type: 'text',
     inputmode: 'decimal',
@@ -147,7 +161,7 @@ function controls(to, load, what, low, high, amplify) {
       const limits = [low, high];
       limits[at] = parse(event.target.value);
       set({limits: limits[0] < limits[1] ? limits.join(',') : ''});
-    },
+    }
   });
   const slider = make('input', {
     type: 'range',
@@ -162,60 +176,47 @@ function controls(to, load, what, low, high, amplify) {
       set({amplify: Number(wanted.toPrecision(3))}, true);
       to.rise(wanted);
       fill(event.target.nextSibling, `\u00d7${number(wanted, 3)}`);
-    },
+    }
   });
-  fill(
-    byId('stage-controls'),
-    names.length > 1 ?
+  const whole = () => {
+    set({view: ''}, true);
+    to.setView('', on('plan'));
+  };
+  fill(byId('stage-controls'),
+    stepped('stage', all.map((each, i) => `${i + 1}: ${each.triangles} triangles`),
+      stage ? all.indexOf(stage) : all.length - 1),
+    load === BARE ? null : stepped('load', model.result.loads.map((each) => each.name), loadIndex()),
+    what ?
       [
-        step(-1, '\u25c0', 'load before'),
-        choice('load', names.map((name, i) => [String(i), name]), String(index), (load) => set({load})),
-        step(1, '\u25b6', 'next load')
+        choice('colour', load.colours.map((key) => [key, NAMES[key][0]]), what, (colour) => set({colour, limits: ''})),
+        make('span', {}, 'from ', limit('lowest colour', 0), ' to ', limit('highest colour', 1))
       ] :
       null,
-    load.colours.length ?
-      choice('colour', load.colours.map((key) => [key, NAMES[key][0]]), what, (colour) => set({colour, limits: ''})) :
-      null,
-    what ? make('span', {}, 'from ', limit('lowest colour', 0), ' to ', limit('highest colour', 1)) : null,
-    get('limits') ? make('button', {onclick: () => set({limits: ''})}, 'all values') : null,
+    get('limits') && what ? button('all values', () => set({limits: ''})) : null,
     on('plan') || !what ? null :
                           make('label', {}, 'deform ', slider, make('output', {}, `\u00d7${number(amplify, 3)}`)),
-    choice(
-      'as', [['', 'in space'], ['1', 'plan']], get('plan') === '1' ? '1' : '',
-      (plan) => {
-        shown = '';
-        set({plan, view: ''});
-      }),
-    tick('mesh', on('mesh'), (mesh) => set({mesh})), tick('contours', on('contours'), (contours) => set({contours})),
-    tick(
-      'names', on('names', true),
-      (names) => {
-        shown = '';
-        set({names});
-      }),
-    names.length > 1 ? tick('same colours for all loads', on('same'), (same) => set({same, limits: ''})) : null,
-    make(
-      'button', {
-        onclick: () => {
-          set({view: ''}, true);
-          to.setView('', on('plan'));
-        }
-      },
-      'whole view'));
+    choice('as', [['', 'in space'], ['1', 'plan']], get('plan') === '1' ? '1' : '', (plan) => set({plan, view: ''})),
+    load === BARE ? null :
+                    [
+                      tick('mesh', on('mesh'), (mesh) => set({mesh})),
+                      tick('contours', on('contours'), (contours) => set({contours})),
+                      tick('names', on('names', true), (names) => set({names})),
+                      model.result.loads.length > 1 ?
+                        tick('same colours for all loads', on('same'), (same) => set({same, limits: ''})) :
+                        null
+                    ],
+    button('whole view', whole));
   if (focused) /** @type {any} */
     (byId('stage-controls').querySelector(`[aria-label="${CSS.escape(focused)}"]`))?.focus();
 }
 
 /** @param {string} what @param {number} low @param {number} high @param {boolean} both */
 function bar(what, low, high, both) {
-  if (!what) {
-    fill(byId('bar'), make('span', {}, 'u is not known in the membrane'));
-    return;
-  }
+  if (!what)
+    return fill(byId('bar'),
+      make('span', {}, currentStage() ? 'the mesh; u of a stage is not kept' : 'u is not known in the membrane'));
   const paint = make('i', {});
   paint.style.background = `linear-gradient(to right, ${stops(both).join(',')})`;
-  const unit = model.result.units[NAMES[what][1]];
-  fill(
-    byId('bar'), make('span', {}, NAMES[what][0] + (unit && unit !== '-' ? ` [${unit}]` : '')),
-    make('span', {}, number(low, 4)), paint, make('span', {}, number(high, 4)));
+  fill(byId('bar'), make('span', {}, NAMES[what][0] + unit(NAMES[what][1], true)), make('span', {}, number(low, 4)),
+    paint, make('span', {}, number(high, 4)));
 }
