@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import os
 import sys
 from typing import Any
@@ -21,6 +22,16 @@ class Usage(Error):
 class Parser(argparse.ArgumentParser):
     def error(self, message: str) -> Any:
         raise Usage(f"{message.replace('argument ', '')}; see {self.prog} --help")
+
+
+def number(low: float, high: float, kind: Any) -> Any:
+    """Makes a parser of numbers in a range."""
+    def read(text: str) -> Any:
+        with contextlib.suppress(ValueError):
+            if low <= kind(text) <= high:
+                return kind(text)
+        raise argparse.ArgumentTypeError(f"{text} is no number from {low:g} to {high:g}")
+    return read
 
 
 def add_server(parser: argparse.ArgumentParser) -> None:

@@ -14,7 +14,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from .blocks import BlockReceiver
-from .command_line import CLOSED, USAGE, Parser, Usage, complain, document_of
+from .command_line import CLOSED, USAGE, Parser, Usage, complain, document_of, number
 from .errors import Error, package
 from .result import Result, Units
 from .study.record import Study, is_study
@@ -38,15 +38,6 @@ def _some(known: Sequence[str], wrong: str) -> Any:
     return some
 
 
-def _number(low: float, high: float, kind: Any) -> Any:
-    def number(text: str) -> Any:
-        with contextlib.suppress(ValueError):
-            if low <= kind(text) <= high:
-                return kind(text)
-        raise argparse.ArgumentTypeError(f"{text} is no number from {low:g} to {high:g}")
-    return number
-
-
 def _limits(text: str) -> tuple[float, float]:
     with contextlib.suppress(ValueError):
         low, high = map(float, text.split(","))
@@ -68,7 +59,7 @@ def _parser() -> Parser:
                       "grows to its size and back, its stages, or its growth")
     plot.add_argument("--interface", default="", metavar="NAME", help="draw the traces of this one")
     plot.add_argument("--all", action="store_true", help="of loads and interfaces, however many there are")
-    plot.add_argument("--amplify", type=_number(1e-300, 1e300, float), metavar="FACTOR", help="of u in the membrane")
+    plot.add_argument("--amplify", type=number(1e-300, 1e300, float), metavar="FACTOR", help="of u in the membrane")
     plot.add_argument("--limits", type=_limits, metavar="LOW,HIGH", help="of the colours of u in the membrane")
     mesh = commands.add_parser("mesh", allow_abbrev=False, help="draw the mesh that anticrack mesh show reads: on "
                                "standard input Mesh, BlockLayout and the bytes of ReadMesh, with its length (8 bytes, "
@@ -85,8 +76,8 @@ def _parser() -> Parser:
         command.add_argument("-o", "--output", default="figures", metavar="DIR", help="folder of the figures")
         command.add_argument("--format", metavar="LIST", help="of png, svg and pdf those to write, of animations gif, "
                              "webp and mp4", type=_some(PICTURES + FILMS, '"{}" is none of png, svg and pdf'))
-        command.add_argument("--dpi", type=_number(50, 1200, int), help="dots an inch of PNG files")
-        command.add_argument("--width", type=_number(40, 400, float), default=85.0, metavar="MM", help="of a panel")
+        command.add_argument("--dpi", type=number(50, 1200, int), help="dots an inch of PNG files")
+        command.add_argument("--width", type=number(40, 400, float), default=85.0, metavar="MM", help="of a panel")
         command.add_argument("--font", default="", metavar="NAME", help="family of the letters")
         command.add_argument("--no-titles", action="store_true", help="no titles of case, load and panels")
     for command in (plot, mesh, exports):

@@ -30,29 +30,24 @@ def _parser() -> Parser:
         description="Solve a case for many values of its keys, each row as a job of its own.",
         epilog="All combinations of the --vary are solved, for each row of --csv. Keys and values are\n"
                "those of --set. A row that is refused or fails keeps its error. Run again after Ctrl-C\n"
-               "or a crash, it goes on from FILE; jobs that ran on are found on the server. Rows that\n"
-               "differ in loads alone share their mesh.\n\n"
+               "or a crash, it goes on from FILE.\n\n"
                "Exit codes: 0 all rows converged, 1 a row failed or was refused, 3 a row did not\n"
-               "converge; 2, 4, 130 and 141 as of anticrack.\n\n"
-               "Example:\n"
-               "  anticrack study sheet.toml --vary geometry.inclusion.low.angle=0:90:19 -o angles.h5 --local\n"
-               "  anticrack study case.toml --vary mesh.size=0.1,0.05 --vary load.up.f=1:2:5 -o study.h5 --dry-run\n"
-               "  anticrack study --show angles.h5\n  anticrack plot angles.h5 -o figures")
+               "converge; 2, 4, 130 and 141 as of anticrack.")
     parser.add_argument("case", nargs="?", metavar="CASE", help="a case, TOML")
-    parser.add_argument("--vary", action="append", default=[], metavar="KEY=VALUES",
-                        help="FIRST:LAST:COUNT, evenly spaced, or VALUE,VALUE,...; again for more keys")
+    for flag, metavar, what in (
+            ("--vary", "KEY=VALUES", "FIRST:LAST:COUNT, evenly spaced, or VALUE,VALUE,...; again for more keys"),
+            ("--set", "KEY=VALUE", "a value for all rows")):
+        parser.add_argument(flag, action="append", default=[], metavar=metavar, help=what)
     parser.add_argument("--csv", metavar="FILE", help="rows: a line of keys, then a line of values for each row")
-    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="a value for all rows")
     parser.add_argument("-o", "--output", metavar="FILE", help="the study, HDF5; its rows are not solved again")
     parser.add_argument("--jobs", type=int, default=AT_ONCE, metavar="N", help=f"so many at once (default: {AT_ONCE})")
-    parser.add_argument("--dry-run", action="store_true",
-                        help="solve nothing, but say how many rows and meshes there would be, the first and last case")
-    parser.add_argument("--yes", action="store_true", help=f"do not ask before more than {MOST_MESHES} meshes are made")
-    parser.add_argument("--retry", action="store_true", help="solve rows that failed again")
     parser.add_argument("--show", metavar="FILE", help="only show a study")
+    for flag, what in (("--dry-run", "solve nothing, but say what would be solved"),
+                       ("--yes", f"do not ask before more than {MOST_MESHES} meshes are made"),
+                       ("--retry", "solve rows that failed again"), ("--json", "one JSON document on standard output"),
+                       ("--quiet", "nothing but errors")):
+        parser.add_argument(flag, action="store_true", help=what)
     add_server(parser)
-    parser.add_argument("--json", action="store_true", help="one JSON document on standard output")
-    parser.add_argument("--quiet", action="store_true", help="nothing but errors")
     return parser
 
 

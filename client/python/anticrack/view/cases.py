@@ -22,7 +22,7 @@ from ..text import harmless
 from ..v1 import case_pb2
 from .exports import DRAWING
 from .opened import Opened
-from .reply import reply
+from .gate import reply
 from .told import Told
 
 _SOURCE = "case"  # what errors call the text in the page

@@ -13,7 +13,7 @@ from .. import entries
 from ..errors import Error, ServerError, of_status
 from ..v1 import solve_pb2
 from .opened import Opened
-from .reply import reply
+from .gate import reply
 from .told import Event, Pages, Told
 
 _MOST = 200  # jobs that are listed, the newest
@@ -82,12 +82,6 @@ def event_of(message: solve_pb2.WatchJobResponse) -> list[Event]:
     return found
 
 
-async def _follow(session: Told, name: str, after: int) -> AsyncIterator[Event]:
-    async for message in session.events(name, after):
-        for event in event_of(message):
-            yield event
-
-
 async def _listed(session: Told) -> AsyncIterator[Event]:
     """The list whenever it has changed. It goes on for ever, also while the server is away."""
     last: Any = None
@@ -123,7 +117,8 @@ def add_routes(app: web.Application, session: Told, pages: Pages, opened: Opened
 
     async def watch(request: web.Request) -> web.StreamResponse:
         after = int(request.headers.get("Last-Event-ID", 0))
-        return await pages.stream(request, lambda: _follow(session, request.query["of"], after))
+        return await pages.stream(request, lambda: (
+            event async for message in session.events(request.query["of"], after) for event in event_of(message)))
 
     async def act(request: web.Request) -> web.Response:
         asked = await request.json()

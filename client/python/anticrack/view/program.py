@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import asyncio
-import contextlib
 import pathlib
 import signal
 import webbrowser
@@ -14,35 +13,27 @@ from aiohttp import web
 
 from ..aio import AsyncTransport
 from ..case import Case
-from ..command_line import Parser, add_server, code_of, complain, credentials
+from ..command_line import Parser, add_server, code_of, complain, credentials, number
 from ..credentials import Credentials, address_of
 from ..errors import Error
 from ..private_server import Server
 from ..retry import Backoff
 from . import cases, exports, jobs, scene, tables
-from .gate import Gate, add_headers
+from .gate import Gate, add_headers, reply
 from .opened import FILE, Opened
 from .pages import Pages as Files
-from .reply import reply
 from .told import Pages, Told
 
 _MESSAGE = 16 << 20  # bytes of the longest request: the text of a case
 
 
-def _port(text: str) -> int:
-    with contextlib.suppress(ValueError):
-        if 0 <= int(text) <= 65535:
-            return int(text)
-    raise argparse.ArgumentTypeError(f"{text} is no port, 1 to 65535, or 0 for a free one")
-
-
 def _parser() -> Parser:
     parser = Parser("anticrack view", allow_abbrev=False, description="Shows jobs as they run and results in a "
-                     "browser. Only this machine is served, and only the browser that opens the printed address.",
-                     epilog="Example: anticrack view opening.h5")
+                    "browser. Only this machine is served, and only the browser that opens the printed address.",
+                    epilog="Example: anticrack view opening.h5")
     parser.add_argument("what", nargs="?", default="", metavar="RESULT.h5 | STUDY.h5 | jobs/ID | CASE.toml",
                         help="a file of a result or a study; a job of the server; or a case, which is run and shown")
-    parser.add_argument("--port", type=_port, default=0, help="of this machine, default: a free one")
+    parser.add_argument("--port", type=number(0, 65535, int), default=0, help="of this machine, default: a free one")
     parser.add_argument("--no-browser", action="store_true", help="print the address and open nothing")
     parser.add_argument("--until-closed", action="store_true", help="end when the last page has been closed")
     add_server(parser)
@@ -58,8 +49,8 @@ def _session(given: argparse.Namespace) -> Told:
 
 async def _serve(given: argparse.Namespace) -> None:
     stop, loop = asyncio.Event(), asyncio.get_running_loop()
-    for number in (signal.SIGINT, signal.SIGTERM):
-        loop.add_signal_handler(number, stop.set)
+    for sign in (signal.SIGINT, signal.SIGTERM):
+        loop.add_signal_handler(sign, stop.set)
     session = _session(given)
     try:
         opened, gate, pages = Opened(session), Gate(), Pages(session)

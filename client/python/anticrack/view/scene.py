@@ -15,7 +15,7 @@ from ..study.record import Study
 from ..text import with_bounds
 from ..vtk import of_triangles
 from .opened import FILE, Opened, load_of
-from .reply import reply
+from .gate import reply
 
 TRACES = ("u_minus", "u_plus", "jump", "pressure", "flux", "force", "contact")
 HISTORY = ("iteration", "criterion", "energy", "contact_count", *(f"kkt_{name}" for name in KKT))

@@ -16,7 +16,7 @@ from ..result import Result, Sweep
 from ..study.record import Study
 from ..v1 import solve_pb2
 from .opened import FILE, Opened
-from .reply import reply
+from .gate import reply
 
 Column = tuple[str, str, str, list[Any]]  # name, unit, meaning, values
 
@@ -37,15 +37,11 @@ def _columns(result: Result, message: Any, names: list[str], values: dict[str, l
 def _of_parts(result: Result, message: Any, parts: str) -> list[Column]:
     """A row for each part of each load; "" for the loads themselves."""
     rows = [(load.name, part) for load in result.loads.values() for part in (
-        (load,) if not parts else _listed(getattr(load, parts)))]
+        (load,) if not parts else getattr(getattr(load, parts), "values", getattr(load, parts).__iter__)())]
     names = [name for name in entries.defaults_of(message) if not rows or hasattr(rows[0][1], name)]
     values = {name: [getattr(part, name) for _, part in rows] for name in names}
     first = [("load case", "-", "", [name for name, _ in rows])] if parts else []
     return [*first, *_columns(result, message, names, values)]
-
-
-def _listed(parts: Any) -> Sequence[Any]:
-    return list(parts.values()) if isinstance(parts, dict) else list(parts)
 
 
 def _of_arrays(result: Result, messages: Sequence[Any], what: str) -> list[Column]:

@@ -14,7 +14,7 @@ from ..retry import Backoff
 from ..session import Session
 from ..text import harmless
 from ..v1 import job_pb2, solve_pb2
-from .reply import text_of
+from .gate import text_of
 
 Event = tuple[str, Any, int | None]  # its name, its data, and the sequence number to go on after
 _PAUSE = 1.0  # between signs of life to a page, whose loss is noticed by them [s]

@@ -72,15 +72,14 @@ export class Lines {
   /** @param {Line[]} lines @param {[number, number][]} shaded stretches of x */
   draw(lines, shaded = []) {
     const columns = Math.max(this.canvas.clientWidth, 300), log = this.options.log ?? false;
-    const datasets = lines.map(({label, x, y, colour, dash, dots}) => ({
-      label,
-      borderColor: colour,
-      backgroundColor: colour,
-      borderDash: dash ?? [],
-      pointRadius: dots ? 3 : 0,
-      pointHitRadius: 6,
-      borderWidth: 1.5,
-      data: thinned(x, y, columns).filter((point) => !log || point.y > 0)
+    const points = ({x, y}) => thinned(x, y, columns).filter((point) => !log || point.y > 0);
+    const datasets = lines.map((line) => ({
+      label: line.label,
+      data: points(line),
+      borderColor: line.colour,
+      backgroundColor: line.colour,
+      borderDash: line.dash ?? [],
+      pointRadius: line.dots ? 3 : 0
     }));
     if (this.chart)
       this.chart.data.datasets = datasets;
@@ -110,8 +109,8 @@ export class Lines {
       animation: false,
       parsing: false,
       normalized: true,
-      responsive: true,
       maintainAspectRatio: false,
+      elements: {line: {borderWidth: 1.5}, point: {hitRadius: 6}},
       interaction: {mode: 'nearest', intersect: false},
       scales: {x: axis(this.options.x, 'linear'), y: axis(this.options.y, log ? 'logarithmic' : 'linear')},
       plugins: {

@@ -6,12 +6,8 @@ import {history, model, RESIDUALS, unit} from './model.js';
 import {lineColour} from './palette.js';
 import {get, set} from './state.js';
 
-const NAMES = {
-  energy: 'middle',
-  energy_lower: 'lower bound',
-  energy_upper: 'upper bound',
-  displacement_error: 'A'
-};
+const NAMES = /** @type {any} */ (
+  {energy: 'middle', energy_lower: 'lower bound', energy_upper: 'upper bound', displacement_error: 'A'});
 const NO_STEPS = 'No iterations are kept of this; the active set often takes a single step.';
 const NO_TIMES = 'A result file has no timeline; a job of the server does.';
 /** @type {{key: string, residuals: Lines, energy: Lines, error: Lines, time: any, head: any}|null} */
@@ -26,18 +22,12 @@ export async function draw(panel, wanted) {
   if (!wanted()) return;
   if (parts?.key !== key || !panel.contains(parts.time)) {
     for (const chart of [parts?.residuals, parts?.energy, parts?.error]) chart?.destroy();
-    parts = {
-      key,
-      head: make('p', {class: 'quiet'}),
-      time: make('ol', {class: 'timeline'}),
-      residuals: new Lines({
-        title: all ? `${words(mode)} of every load` : 'residuals, absolute, and criterion',
-        x: 'iteration',
-        log: true
-      }),
-      energy: new Lines({title: `bounds of the energy${unit('F L', true)}`, x: 'triangles', short: true}),
-      error: new Lines({title: 'proved relative error of A', x: 'triangles', log: true, short: true}),
-    };
+    const chart = (title, x, log, short) => new Lines({title, x, log, short}), triangles = 'triangles';
+    const residuals =
+      chart(all ? `${words(mode)} of every load` : 'residuals, absolute, and criterion', 'iteration', true, false);
+    const energy = chart(`bounds of the energy${unit('F L', true)}`, triangles, false, true);
+    const error = chart('proved relative error of A', triangles, true, true);
+    parts = {key, residuals, energy, error, head: make('p', {class: 'quiet'}), time: make('ol', {class: 'timeline'})};
     const options = [
       ...names.map((name, i) => [String(i), `all of ${plain(name, 40)}`]),
       ...RESIDUALS.map((name) => [name, `${words(name)}, every load`])
@@ -54,8 +44,8 @@ export async function draw(panel, wanted) {
   })));
   const count = found.reduce((sum, samples) => sum + (samples?.iteration.length ?? 0), 0);
   fill(parts.head,
-    !count ? NO_STEPS :
-             `${count} sample${count === 1 ? '' : 's'}. ` +
+    !count ? NO_STEPS
+           : `${count} sample${count === 1 ? '' : 's'}. ` +
         'Of more than 4 samples a pixel the first, least, largest and last are drawn.');
   parts.residuals.box.hidden = !lines.length;
   if (lines.length) parts.residuals.draw(lines);

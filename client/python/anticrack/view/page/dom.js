@@ -38,7 +38,8 @@ export function make(tag, options = {}, ...children) {
 
 /** Replaces the children of an element. @param {any} node @param {...any} children */
 export function fill(node, ...children) {
-  const wanted = children.flat(2).filter((child) => child !== null && child !== undefined && child !== false);
+  const wanted =
+    children.flat(2).filter((child) => child !== null && child !== undefined && child !== false && child !== '');
   node.replaceChildren(...wanted.map((child) => child instanceof Node ? child : plain(child, 4000)));
   return node;
 }
@@ -90,6 +91,10 @@ export function choice(label, options, value, changed) {
   select.value = value;
   return make('label', {}, label + ' ', select);
 }
+
+/** @param {string} label @param {number[]} range lowest, highest, step @param {number} value @param {any} options */
+export const slider = (label, [min, max, step], value, options) =>
+  make('input', {type: 'range', min, max, step, 'aria-label': label, ...options, value});
 
 /** A labelled box to tick. @param {string} label @param {boolean} checked @param {(on: boolean) => void} changed */
 export const tick = (label, checked, changed) => make('label', {class: 'tick'},

@@ -73,14 +73,13 @@ async function made() {
     explain(parts);
   }, () => fill(key, 'Keys are explained when the server answers.'));
   return make('div', {class: 'editor'},
-    make('div', {class: 'controls'}, first.examples.length ? choice('begin from', from, '', begin) : null,
+    make('div', {class: 'controls'}, first.examples.length > 0 && choice('begin from', from, '', begin),
       button('Case of this result', take), button('Draw', run('draw', drawn)),
       button('Run', run('run', show), {class: 'main'})),
     make('div', {class: 'sides'}, make('div', {class: 'code'}, lines, text),
       make('div', {class: 'beside'}, errors, key, sweep, drawing)));
 }
 
-/** @param {any} parts */
 function later(parts) {
   numbered(parts, []);
   clearTimeout(timer);
@@ -99,9 +98,9 @@ function say(parts, errors, notes) {
   numbered(parts, errors.map((error) => error.line));
   fill(parts.errors,
     errors.map(({line, message}) => make('li', {class: 'error'},
-                 line ? button(`line ${line}`, () => select(parts.text, line)) : null, ' ' + plain(message, 1000))),
+                 line > 0 && button(`line ${line}`, () => select(parts.text, line)), ' ' + plain(message, 1000))),
     notes.map((note) => make('li', {}, plain(note))),
-    errors.length || notes.length ? null : make('li', {class: 'good'}, 'The server understands this case.'));
+    !errors.length && !notes.length && make('li', {class: 'good'}, 'The server understands this case.'));
 }
 
 /** @param {any} parts @param {number[]} wrong */
@@ -130,6 +129,6 @@ function explain(parts) {
   const found = keys.find((each) => each.names.some((key) => bare(key) === name));
   fill(parts.key, !found ? aside('Put the cursor on a key to learn what it means.') : [
     make('strong', {}, name), ` ${found.form}`, found.unit ? ` [${found.unit}]` : '',
-    make('p', {}, plain(found.meaning, 1500)), found.default ? aside(`default: ${found.default}`) : null
+    make('p', {}, plain(found.meaning, 1500)), found.default && aside(`default: ${found.default}`)
   ]);
 }

@@ -44,8 +44,7 @@ export function draw() {
   const focused = document.activeElement?.getAttribute('data-key');
   const owners = new Set(model.jobs.map((job) => job.owner)).size > 1;
   fill(list, shown.map((job) => item(job, owners)),
-    shown.length ? null :
-                   make('li', {class: 'quiet'}, model.jobs.length ? 'no job is like this' : 'there is no job yet'));
+    !shown.length && make('li', {class: 'quiet'}, model.jobs.length ? 'no job is like this' : 'there is no job yet'));
   if (focused) /** @type {any} */
     (list.querySelector(`[data-key="${CSS.escape(focused)}"]`))?.focus();
 }
@@ -61,19 +60,18 @@ function item(job, owners) {
       [
         make('strong', {}, plain(job.title, 80) || job.name.slice(5, 17)),
         make('span', {class: `state ${state}`}, words(state) + (phase && !ended ? `: ${phase}` : '')),
-        ended ? null : make('progress', {max: '1', value: part, 'aria-label': 'progress'}),
+        !ended && make('progress', {max: '1', value: part, 'aria-label': 'progress'}),
         make('small', {}, new Date(job.created).toLocaleTimeString(),
           owners ? ` \u00b7 ${plain(job.owner || 'nobody', 40)}` : '',
           job.total > 1 ? ` \u00b7 ${job.done} of ${job.total}` : '', job.task ? ` \u00b7 ${job.task}` : '')
       ],
       () => set({of: job.name, load: ''}),
       {class: 'job', 'data-key': job.name, 'aria-pressed': String(here), title: job.name}),
-    here ? make('div', {class: 'actions'}, ended ? null : does('Cancel', () => act(job, 'cancel')),
-             does('Submit again', () => act(job, 'again')), ended ? does('Delete\u2026', () => ask(job)) : null) :
-           null);
+    here &&
+      make('div', {class: 'actions'}, !ended && does('Cancel', () => act(job, 'cancel')),
+        does('Submit again', () => act(job, 'again')), ended && does('Delete\u2026', () => ask(job))));
 }
 
-/** @param {any} job */
 function ask(job) {
   const box = byId('question'), about = `Delete ${plain(job.title, 80) || 'this job'} (${job.name}) with its results?`;
   const close = (yes) => {

@@ -52,6 +52,7 @@ async function draw() {
   drawn = here;
   try {
     if (surface) membrane.draw(clicked);
+    if (name === 'membrane') membrane.mark(null);
     if (needs && !model.result && !surface)
       fill(box, aside(model.of ? LATER : 'Choose a job, or write a case and run it.'));
     else if (needs && !load && !surface && name !== 'sweep' && name !== 'tables')
@@ -63,7 +64,6 @@ async function draw() {
   }
 }
 
-/** @param {any} hit */
 function clicked(hit) {
   numbers.clicked(hit).catch(notice);
   if (hit && current() === 'growth') series.chosen(hit.x, hit.y);
@@ -71,24 +71,18 @@ function clicked(hit) {
 
 /** @param {string} name */
 function tabs(name) {
-  const {result} = model, hidden = {
-    sweep: result && !result.sweep,
-    growth: result && !currentLoad()?.growth.length,
-    interfaces: result?.sweep?.jobs,
-    membrane: result?.sweep?.jobs,
-    convergence: result?.sweep?.jobs
-  };
-  const bar = byId('tabs'), focused = bar.contains(document.activeElement);
-  fill(bar,
-    Object.keys(TABS)
-      .filter((tab) => !hidden[tab])
-      .map((tab) => button(tab === 'sweep' && result?.sweep?.jobs ? 'Study' : TABS[tab][0], () => set({tab}), {
-        role: 'tab',
-        id: `tab-${tab}`,
-        'aria-selected': String(tab === name),
-        'aria-controls': 'panel',
-        tabindex: tab === name ? '0' : '-1'
-      })));
+  const {result} = model, study = result?.sweep?.jobs, bar = byId('tabs'),
+        focused = bar.contains(document.activeElement);
+  const useless = study ? ['membrane', 'interfaces', 'convergence', 'growth']
+                        : [result && !result.sweep && 'sweep', result && !currentLoad()?.growth.length && 'growth'];
+  const made = (tab) => button(study && tab === 'sweep' ? 'Study' : TABS[tab][0], () => set({tab}), {
+    role: 'tab',
+    id: `tab-${tab}`,
+    'aria-selected': String(tab === name),
+    'aria-controls': 'panel',
+    tabindex: tab === name ? '0' : '-1'
+  });
+  fill(bar, Object.keys(TABS).filter((tab) => !useless.includes(tab)).map(made));
   if (focused) byId(`tab-${name}`)?.focus();
 }
 
@@ -106,10 +100,9 @@ function links(tab) {
   const link = (kind, text) =>
     make('a', {href: address('export', {of, load, kind, figure, ...look}), download: true}, text);
   fill(byId('export-links'),
-    currentLoad() ?
-      [link('png', `Figure of ${figure}, PNG`), link('svg', `Figure of ${figure}, SVG`), link('vtu', 'ParaView, VTU')] :
-      null,
-    link('h5', 'Result, HDF5'), model.result.case ? link('toml', 'Case, TOML') : null);
+    currentLoad() &&
+      [link('png', `Figure of ${figure}, PNG`), link('svg', `Figure of ${figure}, SVG`), link('vtu', 'ParaView, VTU')],
+    link('h5', 'Result, HDF5'), model.result.case && link('toml', 'Case, TOML'));
 }
 
 /** @param {{server: string, lost: string}} told */

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The membrane with its controls, or the mesh of a stage.
-import {button, byId, choice, fill, make, number, parse, tick} from './dom.js';
+import {button, byId, choice, fill, make, number, parse, slider, tick} from './dom.js';
 import {currentLoad, currentStage, loadIndex, model, stages, unit, values} from './model.js';
 import {array, notice} from './net.js';
 import {stops} from './palette.js';
@@ -24,14 +24,17 @@ let scene = null;
 let shown = '';    // what the scene's geometry is of
 let automatic = 1; // the amplification that shows u best
 let task = 0;
+/** @type {number[]|null} */
+let marked = null;
 
-/** What was clicked, for the column of numbers. @type {{hit: any}} */
-export const picked = {
-  hit: null
-};
+/** What was clicked, for the column of numbers. */
+export const picked = /** @type {{hit: any}} */ ({hit: null});
 
 /** @param {number[]|null} place */
-export const mark = (place) => scene?.mark(place);
+export function mark(place) {
+  marked = place;
+  scene?.mark(place);
+}
 
 /** Shows the membrane of the load that is looked at. @param {(hit: any) => void} clicked */
 export async function draw(clicked) {
@@ -44,6 +47,7 @@ export async function draw(clicked) {
     if (key !== shown && !await (stage ? mesh(scene, stage.mesh, wanted) : surface(scene, load, wanted))) return;
     if (key !== shown) scene.setView(get('view'), on('plan'));
     shown = key;
+    scene.mark(marked);
     await paint(scene, load, wanted);
   } catch (error) {
     notice(error);
@@ -52,15 +56,10 @@ export async function draw(clicked) {
 
 /** Shows the mesh of a stage. @param {Scene} to @param {string} name @param {() => boolean} wanted */
 async function mesh(to, name, wanted) {
-  const parts = ['points', 'triangles', 'outline'].map((what) => array({mesh: name, what}));
-  const [points, triangles, outline] = await Promise.all(parts);
-  if (wanted())
-    to.show({
-      points,
-      triangles,
-      outline,
-      thinned: triangles.length / 3 > MANY ? await array({mesh: name, what: 'thinned'}) : null
-    });
+  const of = (what) => array({mesh: name, what});
+  const [points, triangles, outline] = await Promise.all(['points', 'triangles', 'outline'].map(of));
+  const thinned = triangles.length / 3 > MANY ? await of ('thinned') : null;
+  if (wanted()) to.show({points, triangles, outline, thinned});
   return wanted();
 }
 
@@ -107,9 +106,9 @@ async function paint(to, load, wanted) {
     const found = await values(what, index);
     return what === 'indicator' ? found.map((v) => v > 0 ? Math.log10(v) : NaN) : found;
   };
-  const same = what && on('same') ?
-    model.result.loads.map((_, i) => i).filter((i) => model.result.loads[i].colours.includes(what)).slice(0, 12) :
-    [];
+  const same = what && on('same')
+    ? model.result.loads.map((_, i) => i).filter((i) => model.result.loads[i].colours.includes(what)).slice(0, 12)
+    : [];
   const [colours, ...others] = what ? await Promise.all([loadIndex(), ...same].map(of)) : [null];
   if (!wanted()) return;
   let [low, high] = [Infinity, -Infinity];
@@ -137,74 +136,55 @@ async function paint(to, load, wanted) {
 function stepped(what, names, index) {
   const step = (by, text, label) =>
     button(text, () => set({[what]: index + by}), {'aria-label': label, disabled: !names[index + by]});
-  return names.length < 2 ? null : [
+  return names.length > 1 && [
     step(-1, '\u25c0', `${what} before`),
     choice(what, names.map((name, i) => [String(i), name]), String(index), (value) => set({[what]: value})),
     step(1, '\u25b6', `next ${what}`)
   ];
 }
 
-/**
- * @param {Scene} to @param {any} load @param {string} what @param {number} low @param {number} high @param {number}
- *   amplify
- */
+/** @param {Scene} to @param {any} load @param {string} what */
 function controls(to, load, what, low, high, amplify) {
   const focused = document.activeElement?.getAttribute('aria-label') ?? '', all = stages(), stage = currentStage();
+  const limited = (at) => (event) => {
+    const limits = [low, high];
+    limits[at] = parse(event.target.value);
+    set({limits: limits[0] < limits[1] ? limits.join(',') : ''});
+  };
   const limit = (label, at) => make('input', {
-    type: 'text',
-    inputmode: 'decimal',
-    size: '7',
     'aria-label': label,
     title: `${label}: as 0.5 or 0,5`,
+    size: '7',
+    inputmode: 'decimal',
     value: number([low, high][at], 4),
-    onchange: (event) => {
-      const limits = [low, high];
-      limits[at] = parse(event.target.value);
-      set({limits: limits[0] < limits[1] ? limits.join(',') : ''});
-    }
+    onchange: limited(at)
   });
-  const slider = make('input', {
-    type: 'range',
-    min: '-2',
-    max: '2',
-    step: '0.02',
-    'aria-label': 'deform',
-    title: `u is drawn ${number(amplify, 3)} times as large`,
-    value: amplify > 0 ? Math.log10(amplify / automatic) : -2,
-    oninput: (event) => {
-      const wanted = Number(event.target.value) <= -2 ? 0 : automatic * 10 ** Number(event.target.value);
-      set({amplify: Number(wanted.toPrecision(3))}, true);
-      to.rise(wanted);
-      fill(event.target.nextSibling, `\u00d7${number(wanted, 3)}`);
-    }
-  });
+  const risen = (event) => {
+    const wanted = Number(event.target.value) <= -2 ? 0 : automatic * 10 ** Number(event.target.value);
+    set({amplify: Number(wanted.toPrecision(3))}, true);
+    to.rise(wanted);
+    fill(event.target.nextSibling, `\u00d7${number(wanted, 3)}`);
+  };
+  const deform = slider('deform', [-2, 2, 0.02], amplify > 0 ? Math.log10(amplify / automatic) : -2,
+    {oninput: risen, title: `u is drawn ${number(amplify, 3)} times as large`});
   const whole = () => {
     set({view: ''}, true);
     to.setView('', on('plan'));
   };
-  fill(byId('stage-controls'),
-    stepped('stage', all.map((each, i) => `${i + 1}: ${each.triangles} triangles`),
-      stage ? all.indexOf(stage) : all.length - 1),
-    load === BARE ? null : stepped('load', model.result.loads.map((each) => each.name), loadIndex()),
-    what ?
-      [
-        choice('colour', load.colours.map((key) => [key, NAMES[key][0]]), what, (colour) => set({colour, limits: ''})),
-        make('span', {}, 'from ', limit('lowest colour', 0), ' to ', limit('highest colour', 1))
-      ] :
-      null,
-    get('limits') && what ? button('all values', () => set({limits: ''})) : null,
-    on('plan') || !what ? null :
-                          make('label', {}, 'deform ', slider, make('output', {}, `\u00d7${number(amplify, 3)}`)),
+  const at = stage ? all.indexOf(stage) : all.length - 1;
+  const names = load !== BARE && model.result.loads.map((each) => each.name);
+  fill(byId('stage-controls'), stepped('stage', all.map((each, i) => `${i + 1}: ${each.triangles} triangles`), at),
+    names && stepped('load', names, loadIndex()),
+    what &&
+      choice('colour', load.colours.map((key) => [key, NAMES[key][0]]), what, (colour) => set({colour, limits: ''})),
+    what && make('span', {}, 'from ', limit('lowest colour', 0), ' to ', limit('highest colour', 1)),
+    what && get('limits') && button('all values', () => set({limits: ''})),
+    what && !on('plan') && make('label', {}, 'deform ', deform, make('output', {}, `\u00d7${number(amplify, 3)}`)),
     choice('as', [['', 'in space'], ['1', 'plan']], get('plan') === '1' ? '1' : '', (plan) => set({plan, view: ''})),
-    load === BARE ? null :
-                    [
-                      tick('mesh', on('mesh'), (mesh) => set({mesh})),
-                      tick('contours', on('contours'), (contours) => set({contours})),
-                      tick('names', on('names', true), (names) => set({names})),
-                      model.result.loads.length > 1 ?
-                        tick('same colours for all loads', on('same'), (same) => set({same, limits: ''})) :
-                        null
-                    ],
+    names && tick('mesh', on('mesh'), (mesh) => set({mesh})),
+    what && tick('contours', on('contours'), (contours) => set({contours})),
+    names && tick('names', on('names', true), (names) => set({names})),
+    what && names.length > 1 && tick('same colours for all loads', on('same'), (same) => set({same, limits: ''})),
     button('whole view', whole));
   if (focused) /** @type {any} */
     (byId('stage-controls').querySelector(`[aria-label="${CSS.escape(focused)}"]`))?.focus();
@@ -212,9 +192,7 @@ function controls(to, load, what, low, high, amplify) {
 
 /** @param {string} what @param {number} low @param {number} high @param {boolean} both */
 function bar(what, low, high, both) {
-  if (!what)
-    return fill(byId('bar'),
-      make('span', {}, currentStage() ? 'the mesh; u of a stage is not kept' : 'u is not known in the membrane'));
+  if (!what) return fill(byId('bar'), currentStage() ? 'the mesh; u of a stage is not kept' : 'u is not known here');
   const paint = make('i', {});
   paint.style.background = `linear-gradient(to right, ${stops(both).join(',')})`;
   fill(byId('bar'), make('span', {}, NAMES[what][0] + unit(NAMES[what][1], true)), make('span', {}, number(low, 4)),

@@ -3,14 +3,8 @@
 import {array, ask, events, notice} from './net.js';
 import {get} from './state.js';
 
-/** @type {{of: string, result: any, live: Live|null, jobs: any[], tables: any[]|null}} */
-export const model = {
-  of: '',
-  result: null,
-  live: null,
-  jobs: [],
-  tables: null
-};
+/** @typedef {{of: string, result: any, live: Live|null, jobs: any[], tables: any[]|null}} Model */
+export const model = /** @type {Model} */ ({of: '', result: null, live: null, jobs: [], tables: null});
 /** @type {Set<() => void>} */
 const listeners = new Set();
 let waiting = 0;
@@ -119,8 +113,9 @@ export const loadIndex = () =>
 /** The load that is looked at; undefined if there is none. */
 export const currentLoad = () => model.result?.loads[loadIndex()];
 
-/** The stages of the job that have a mesh. */
-export const stages = () => model.live?.job.stages.filter((stage) => stage.mesh) ?? [];
+/** The stages of the job that have a mesh, which the first tab steps through. */
+export const stages = () =>
+  !['', 'membrane'].includes(get('tab')) ? [] : model.live?.job.stages.filter((stage) => stage.mesh) ?? [];
 
 /** The stage that is looked at in place of the result: an earlier one, or while the job runs the last. */
 export function currentStage() {

@@ -139,7 +139,6 @@ export class Scene {
     this.add(new T.LineSegments(geometry(surface.outline), this.lineMaterial('#333333')));
   }
 
-  /** @param {any} object */
   add(object) {
     object.frustumCulled = false;
     this.group.add(object);
@@ -186,7 +185,6 @@ export class Scene {
     this.uniforms.low.value = low;
     this.uniforms.high.value = high > low ? high : low + 1;
     this.uniforms.contours.value = contours;
-    /** @type {any} */
     const palette = new T.DataTexture(colours(diverging), 256, 1, T.RGBAFormat);
     palette.needsUpdate = true;
     this.uniforms.palette.value?.dispose();
@@ -262,10 +260,8 @@ export class Scene {
     const turn = /** @type {any} */ (turns)[event.key],
           zoom = /** @type {any} */ ({'+': 1.2, '=': 1.2, '-': 1 / 1.2})[event.key];
     if (turn && this.controls.enableRotate) {
-      const place = new T.Spherical().setFromVector3(this.offset());
-      place.theta += turn[0];
-      place.phi = Math.min(Math.max(place.phi + turn[1], 0.01), 3.1);
-      this.look(place.theta, place.phi);
+      const {theta, phi} = this.direction();
+      this.look(theta + turn[0], Math.min(Math.max(phi + turn[1], 0.01), 3.1));
     } else if (zoom) {
       this.camera.zoom *= zoom;
     } else if (event.key === 'Enter') {
@@ -280,9 +276,9 @@ export class Scene {
   }
 
   /** From the target to the camera, with y up as three's spherical coordinates have it. */
-  offset() {
+  direction() {
     const d = this.camera.position.clone().sub(this.controls.target);
-    return new T.Vector3(d.x, d.z, -d.y);
+    return new T.Spherical().setFromVector3(new T.Vector3(d.x, d.z, -d.y));
   }
 
   /** @param {number} theta @param {number} phi */
@@ -294,7 +290,7 @@ export class Scene {
 
   /** The view as a text for the fragment. */
   view() {
-    const at = new T.Spherical().setFromVector3(this.offset()), {x, y, z} = this.controls.target;
+    const at = this.direction(), {x, y, z} = this.controls.target;
     return [at.theta, at.phi, this.camera.zoom, x, y, z].map((value) => Number(value.toPrecision(4))).join(',');
   }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Rows of a sweep or a study and steps of growth: any column against any other; a click chooses a row.
 import {Lines} from './chart.js';
-import {aside, button, choice, fill, make, number, plain} from './dom.js';
+import {aside, button, choice, fill, make, number, plain, slider} from './dom.js';
 import {mark} from './membrane.js';
 import {currentLoad, model, tables} from './model.js';
 import {lineColour} from './palette.js';
@@ -30,8 +30,8 @@ export async function draw(panel, wanted, kind) {
   const swept = model.result.sweep?.loads ?? [];
   const varying = numbers.find((column) => swept.includes(column.name) && new Set(column.values).size > 1);
   const across = named(get('across'), grows ? named('position', numbers[0]) : varying ?? numbers[0]);
-  const first = grows ? named('load', named('G1', numbers[1])) :
-                        numbers.find((column) => column.name.startsWith('A of')) ?? named('energy', numbers[1]);
+  const first = grows ? named('load', named('G1', numbers[1]))
+                      : numbers.find((column) => column.name.startsWith('A of')) ?? named('energy', numbers[1]);
   const up = named(get('up'), first);
   const sorted = rows.filter((i) => typeof across.values[i] === 'number' && typeof up.values[i] === 'number')
                    .sort((i, j) => grows ? i - j : across.values[i] - across.values[j]);
@@ -48,24 +48,16 @@ export async function draw(panel, wanted, kind) {
     if (sorted.length) choose(sorted.reduce((best, i) => far(i) < far(best) ? i : best));
   }, 'click');
   const row = rows.includes(Number(get('row') || NaN)) ? Number(get('row')) : rows[0], place = rows.indexOf(row);
-  const slider = make('input', {
-    type: 'range',
-    min: '0',
-    max: rows.length - 1,
-    step: '1',
-    value: place,
-    'aria-label': grows ? 'step' : 'row',
-    onchange: (event) => choose(rows[Number(event.target.value)])
-  });
+  const steps = slider(grows ? 'step' : 'row', [0, rows.length - 1, 1], place,
+    {onchange: (event) => choose(rows[Number(event.target.value)])});
   const options = numbers.map((column) => [column.name, title(column)]);
   fill(panel,
     make('div', {class: 'controls'}, choice('across', options, across.name, (name) => set({across: name})),
       choice('up', options, up.name, (name) => set({up: name})),
-      names.length > 1 && !grows ?
-        choice('load', names.map((name, i) => [String(i), name]), String(names.indexOf(own)), (among) => set({among})) :
-        null,
-      make('label', {}, grows ? 'step ' : 'row ', slider, ` ${place + 1} of ${rows.length}`)),
-    chart.box, about(table, row, kind), grows ? (currentLoad()?.growth_notes ?? []).map(aside) : null);
+      names.length > 1 && !grows &&
+        choice('load', names.map((name, i) => [String(i), name]), String(names.indexOf(own)), (among) => set({among})),
+      make('label', {}, grows ? 'step ' : 'row ', steps, ` ${place + 1} of ${rows.length}`)),
+    chart.box, about(table, row, kind), grows && (currentLoad()?.growth_notes ?? []).map(aside));
   chart.draw([
     {label: up.name, x: of(across), y: of(up), colour: lineColour(0), dots: sorted.length < 100},
     ...bounds.map(
@@ -91,13 +83,13 @@ export let chosen = (_x, _y) => {};
  */
 function about(table, row, kind) {
   const {kept = [], jobs} = model.result.sweep ?? {}, at = kept.indexOf(row), job = jobs?.[row];
-  const way = jobs ?
-    job ? button(`Show the job of row ${table.columns[0].values[row]}`, () => set({of: job, load: '', tab: ''})) :
-          'This row has no job.' :
-    at < 0 ? `Traces of row ${row} were not kept; a sweep keeps those of --traces.` :
-             button(`Show row ${row} on the interfaces`, () => set({load: at, tab: 'interfaces'}));
+  const way = jobs ? job
+      ? button(`Show the job of row ${table.columns[0].values[row]}`, () => set({of: job, load: '', tab: ''}))
+      : 'This row has no job.'
+    : at < 0 ? `Traces of row ${row} were not kept; a sweep keeps those of --traces.`
+             : button(`Show row ${row} on the interfaces`, () => set({load: at, tab: 'interfaces'}));
   const value = (of) => typeof of === 'number' ? number(of, 7) : plain(of ?? '\u2013', 200);
-  return make('div', {class: 'wide'}, kind === 'sweep' ? make('p', {}, way) : null,
+  return make('div', {class: 'wide'}, kind === 'sweep' && make('p', {}, way),
     make('table', {class: 'row'},
       table.columns.map(
         (column) => make('tr', {}, make('th', {scope: 'row', title: column.meaning}, plain(column.name, 60)),

@@ -33,21 +33,21 @@ export async function draw(panel, wanted) {
   const head = table.columns.map(
     (column, i) => make('th',
       {scope: 'col',
-        'aria-sort': i !== at ? 'none' :
-          down                ? 'descending' :
-                                'ascending',
+        'aria-sort': i !== at ? 'none'
+          : down              ? 'descending'
+                              : 'ascending',
         title: column.meaning},
       button(
         [
           plain(column.name, 60), column.unit === '-' ? null : make('small', {}, ` ${plain(column.unit, 30)}`),
-          i !== at ? '' :
-            down   ? ' \u25be' :
-                     ' \u25b4'
+          i !== at ? ''
+            : down ? ' \u25be'
+                   : ' \u25b4'
         ],
         () => set({sort: `${column.name} ${i === at && !down ? 'down' : 'up'}`}))));
-  const cell = (value) => typeof value === 'number' ?
-    make('td', {class: 'number', title: String(value)}, number(value, 7)) :
-    make('td', {}, plain(value === null ? '\u2013' : value, 200));
+  const cell = (value) => typeof value === 'number'
+    ? make('td', {class: 'number', title: String(value)}, number(value, 7))
+    : make('td', {}, plain(value === null ? '\u2013' : value, 200));
   fill(panel,
     make('div', {class: 'controls'},
       choice('table', all.map((each) => [each.name, each.name]), table.name, (name) => set({table: name, sort: ''})),
@@ -58,5 +58,5 @@ export async function draw(panel, wanted) {
     make('div', {class: 'wide'},
       make('table', {}, make('thead', {}, make('tr', {}, head)),
         make('tbody', {}, rows.map((row) => make('tr', {}, table.columns.map((column) => cell(column.values[row]))))))),
-    count > most ? button(`show more of the ${count - most} others`, () => set({rows: most + 5 * ROWS})) : null);
+    count > most && button(`show more of the ${count - most} others`, () => set({rows: most + 5 * ROWS})));
 }

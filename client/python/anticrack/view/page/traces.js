@@ -55,22 +55,19 @@ export async function draw(panel, wanted) {
   ];
   charts = parts.map(({chart}) => chart);
   const toggled = (i, wanted) =>
-    set(/** @type {any} */ (i === own ? {load: have.find((other) => other !== i) ?? i} :
-                                        {over: (wanted ? [...over, i] : over.filter((each) => each !== i)).join(',')}));
+    set(/** @type {any} */ (i === own ? {load: have.find((other) => other !== i) ?? i}
+                                      : {over: (wanted ? [...over, i] : over.filter((each) => each !== i)).join(',')}));
   fill(panel,
     make('div', {class: 'controls'},
       choice(
         'interface', interfaces.map((each, i) => [String(i), each.name]), String(line), (name) => set({line: name})),
-      have.length < 2 ? null :
-                        have.slice(0, 40).map(
-                          (i) => tick(plain(loads[i].name, 40), shown.includes(i), (wanted) => toggled(i, wanted)))),
+      have.length > 1 &&
+        have.slice(0, 40).map(
+          (i) => tick(plain(loads[i].name, 40), shown.includes(i), (wanted) => toggled(i, wanted)))),
     charts.map((chart) => chart.box), table);
   for (const {chart, rows} of parts) {
     chart.draw(shown.flatMap((i, n) => rows.map((row) => ({
-      label: plain(loads[i].name, 30) +
-        (rows.length === 1 ? '' :
-            row            ? ' u+' :
-                             ' u\u2212'),
+      label: plain(loads[i].name, 30) + (rows.length > 1 ? [' u\u2212', ' u+'][row] : ''),
       x: s,
       y: traces[n][row],
       colour: lineColour(n),
