@@ -18,6 +18,7 @@ from ..case import Case
 from ..errors import CaseError, Error, ServerError
 from ..result import Units
 from ..study.rows import rows_in
+from ..sweeps import coefficients_of
 from ..text import harmless
 from ..v1 import case_pb2
 from .exports import DRAWING
@@ -96,6 +97,9 @@ class Editor:
         """Submits the case, or a sweep of it, and returns the job's name."""
         job, read = await self._session.submit(case, **sweep)
         self._opened.cases[job.name] = read.text
+        if sweep:
+            self._opened.coefficients[job.name] = coefficients_of(sweep["coefficients"],
+                                                                  [load.name for load in job.spec.load_cases])
         return str(job.name)
 
     async def draw(self, request: web.Request) -> web.Response:

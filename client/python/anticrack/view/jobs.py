@@ -130,7 +130,8 @@ def add_routes(app: web.Application, session: Told, pages: Pages, opened: Opened
             opened.forget(name)
         elif asked["action"] == "again":
             again = await _again(session, name)
-            opened.cases[again] = opened.cases.get(name, "")
+            for known in (opened.cases, opened.coefficients):
+                known.update({again: known[name]} if name in known else {})
             name = again
         else:
             raise Error("a job can be cancelled, deleted, or submitted again")

@@ -25,6 +25,7 @@ class Opened:
         self.path: pathlib.Path | None = None
         self.study: Study | None = None
         self.cases: dict[str, str] = {}  # texts of the cases of jobs that were submitted here
+        self.coefficients: dict[str, Array] = {}  # of sweeps that were; the server does not give them back
 
     async def open_file(self, path: pathlib.Path) -> None:
         """Reads a file of a result or a study. Raises Error if it is neither."""
@@ -63,7 +64,10 @@ class Opened:
     async def _read(self, name: str) -> Result:
         if name == FILE and self.path is not None:
             return await asyncio.to_thread(Result.read, self.path)
-        return await self._session.result(name, self.cases.get(name, ""))
+        result = await self._session.result(name, self.cases.get(name, ""))
+        if result.sweep is not None:
+            result.sweep.coefficients = self.coefficients.get(name)
+        return result
 
     def forget(self, name: str) -> None:
         self._kept.pop(name, None)

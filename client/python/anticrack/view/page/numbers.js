@@ -30,7 +30,7 @@ export function draw() {
     make('dl', {class: 'quiet'},
       result.triangles && row('mesh', `${result.triangles} triangles, ${result.nodes} nodes`),
       load?.iterations > 0 && row('steps', String(load.iterations)), result.job && row('job', plain(result.job, 40))),
-    load && !load.colours.length && !sweep && aside(`u in the membrane is not kept; ${plain(result.cure)}`),
+    load && !load.colours.length && !sweep && aside(`Fields are not kept; ${plain(result.cure)}`),
     [...(load?.warnings ?? []), ...result.warnings, ...result.notes].slice(0, 20).map(warning));
 }
 
