@@ -23,6 +23,7 @@ from .v1 import mesh_pb2
 
 FIGURES = ("overview", "membrane", "plan", "traces", "convergence", "accuracy", "growth")
 PICTURES, FILMS = ("png", "svg", "pdf"), ("gif", "webp", "mp4")
+ANIMATED = ("loads", "amplitude", "stages", "growth")
 
 
 def _some(known: Sequence[str], wrong: str) -> Any:
@@ -54,7 +55,7 @@ def _parser() -> Parser:
     plot.add_argument("--only", type=_some(FIGURES, "{} is none of " + ", ".join(FIGURES)),
                       action="extend", default=[], metavar="LIST",
                       help=f"of {', '.join(FIGURES[:-1])} and {FIGURES[-1]} those to draw")
-    plot.add_argument("--animate", metavar="WHAT", choices=("loads", "amplitude", "stages", "growth"),
+    plot.add_argument("--animate", metavar="WHAT", choices=ANIMATED,
                       help="write animations in place of figures: all loads one after another, or of each load u that "
                       "grows to its size and back, its stages, or its growth")
     plot.add_argument("--interface", default="", metavar="NAME", help="draw the traces of this one")

@@ -100,6 +100,20 @@ class Shown(InChromium):
             self.assertLess(len(self.script("return document.getElementById('title').textContent")), 200)
             self.require_clean()
 
+    def test_hostile_names_of_a_server_do_nothing(self):
+        case = anticrack.Case.read(EXAMPLES / "slit.toml")
+        case.tables["title"] = HOSTILE[:100]
+        with Daemon(self.folder) as server, anticrack.connect(f"127.0.0.1:{server.port}") as client:
+            job = client.submit(case).wait(False)
+            with self.page("--server", f"127.0.0.1:{server.port}", job.name):
+                self.until("return document.querySelector('.here strong')?.textContent.startsWith('<img') && "
+                           "!document.getElementById('export').hidden")
+                self.tabs()
+                self.click("[data-key$='Delete\u2026']")
+                self.until("return document.querySelector('#question p')?.textContent.includes('<img')")
+                self.assertIsNone(self.script("return window.harmed ?? document.querySelector('img, #jobs script')"))
+                self.require_clean()
+
     def test_a_server_that_dies_and_comes_back_and_a_job_that_goes(self):
         with Daemon(self.folder) as first:
             with anticrack.connect(f"127.0.0.1:{first.port}") as client:

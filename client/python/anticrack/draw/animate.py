@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from .. import output
+from ..commands import ANIMATED, FILMS
 from ..errors import Error, package
 from ..output import Made
 from ..result import Load, Result, chosen
@@ -25,8 +26,6 @@ from .perspective import heights_of
 from .pictures import draw_accuracy, draw_curves, draw_membrane, title_of
 from .sheet import Look, Sheet
 
-WHAT = ("loads", "amplitude", "stages", "growth")
-FORMATS = ("gif", "webp", "mp4")
 DPI = 150
 _MOST, _BEATS, _RATE = 60, 24, 20  # frames of growth and loads, of an amplitude, and a second of a film
 _Frames = list[tuple[Any, int]]  # images, and how long each is shown [ms]
@@ -119,8 +118,8 @@ _OF_LOADS: dict[str, tuple[Any, str, Any]] = {
 
 def _animations(result: Result, what: str, names: Sequence[str], look: Look) -> Iterator[tuple[str, _Frames]]:
     """The animations with their stems. Raises Error if there is nothing to show."""
-    if what not in WHAT:
-        raise Error(f"{harmless(what)} is none of {', '.join(WHAT)}")
+    if what not in ANIMATED:
+        raise Error(f"{harmless(what)} is none of {', '.join(ANIMATED)}")
     has, cure, draw = _OF_LOADS[what if what != "loads" else "amplitude"]
     loads = [load for load in chosen(result, names) if has(load)]
     if not loads:
@@ -190,8 +189,8 @@ def animate(result: Result, path: str | os.PathLike[str], what: str = "amplitude
     """Writes an animation, GIF, WebP or MP4 by the path's end. what: "loads" (one after another), "amplitude" (u of a
     load, by default the first, to its size and back), "stages" or "growth". The first two need fields."""
     kind = os.path.splitext(os.fspath(path))[1][1:].lower()
-    if kind not in FORMATS:
-        raise Error(f"{os.fspath(path)}: its name ends in none of .{', .'.join(FORMATS)}")
+    if kind not in FILMS:
+        raise Error(f"{os.fspath(path)}: its name ends in none of .{', .'.join(FILMS)}")
     names = [load] if load is not None else [] if what == "loads" else list(result.loads)[:1]
     look = Look([kind], DPI)
     with look.applied():

@@ -44,8 +44,7 @@ class Row:
         """Takes what has come of a job that has ended."""
         status = job.status
         self.job = job.name
-        self.status = status_name(status.state, solve_pb2.JobStatus.State.DESCRIPTOR) if status.state != (
-            solve_pb2.JobStatus.STATE_NOT_CONVERGED) else "not_converged"
+        self.status = status_name(status.state, solve_pb2.JobStatus.State.DESCRIPTOR)
         self.error = status.not_reached or status.error.message
         for answer in status.answers:
             if answer.status not in (answer.STATUS_CONVERGED, answer.STATUS_NOT_CONVERGED):
@@ -164,7 +163,7 @@ class Study:
         """A line for each row and load, with the row's index: its values by key, how it ended, its numbers."""
         numbers = dict.fromkeys(self.columns, _NAN)
         return [(index, {"row": index, **row.values, "load case": load, "status": row.status, "error": row.error,
-                         "job": row.job, **numbers, **row.answers.get(load, {})})
+                         "job": row.job, **(numbers | row.answers.get(load, {}))})
                 for index, row in enumerate(self.rows) for load in list(row.answers) or [""]]
 
     def frame(self) -> Any:

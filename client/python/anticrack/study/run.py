@@ -5,6 +5,7 @@ what the job asks for."""
 from __future__ import annotations
 
 import hashlib
+import itertools
 import os
 import time
 from typing import TextIO
@@ -186,7 +187,9 @@ async def solve(session: Session, case: Case | str | os.PathLike[str], plan: Pla
                     file.changed()
             file.look()
             done = len(study.rows) - len(left) + ended
-            told.show("row", done, len(study.rows), ended, _wrong(study), last=not (waiting or running))
+            wrong = sum(row.status not in ("", "succeeded") for row in study.rows)
+            told.show("row", done, len(study.rows), ended, f", {wrong} without all answers" * (wrong > 0),
+                      last=not (waiting or running))
             pause = min(1.5 * pause, _LONGEST) if ended == before else _FIRST
             if running and ended == before:
                 await session.transport.sleep(pause)
@@ -195,22 +198,16 @@ async def solve(session: Session, case: Case | str | os.PathLike[str], plan: Pla
     return study
 
 
-def _wrong(study: Study) -> str:
-    wrong = sum(row.status not in ("", "succeeded") for row in study.rows)
-    return f", {wrong} without all answers" if wrong else ""
-
-
 async def _job_of(session: Session, read: ReadCase, retry: bool) -> solve_pb2.Job:
     """Creates the job of a row, or finds the one that an earlier run created. One that was cancelled is left alone, and
     with `retry` one that failed."""
     useless = [solve_pb2.JobStatus.STATE_CANCELLED] + [solve_pb2.JobStatus.STATE_FAILED] * retry
-    attempt = 0
-    while True:
+    for attempt in itertools.count():
         job = await session.create(read, lambda spec: (
             f"study-{_digest(spec.SerializeToString(deterministic=True))}-{attempt}"))
         if job.status.state not in useless:
-            return job
-        attempt += 1
+            break
+    return job
 
 
 def check_size(plan: Plan, most_meshes: int, cure: str) -> None:

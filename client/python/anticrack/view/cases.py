@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import itertools
-import os
 import pathlib
 import re
 import sys
@@ -45,8 +44,6 @@ def gallery() -> dict[str, pathlib.Path]:
     """The examples by their names: those of the package, or of the sources around this file."""
     above = pathlib.Path(__file__).resolve().parents
     folders = [pathlib.Path(sys.prefix) / "share/anticrack/examples", *(each / "client/examples" for each in above)]
-    if "ANTICRACK_EXAMPLES" in os.environ:
-        folders.insert(0, pathlib.Path(os.environ["ANTICRACK_EXAMPLES"]))
     found = next((folder for folder in folders if (folder / "opening.toml").is_file()), None)
     return {path.stem: path for path in sorted(found.glob("*.toml"))} if found else {}
 

@@ -34,14 +34,13 @@ def told(job: solve_pb2.Job) -> dict[str, Any]:
 
 
 def _word(state: int) -> str:
-    return str(solve_pb2.JobStatus.State.Name(state)).removeprefix("STATE_").lower()  # type: ignore[arg-type]
+    return entries.status_name(state, solve_pb2.JobStatus.State.DESCRIPTOR)
 
 
 def _whole(job: solve_pb2.Job) -> dict[str, Any]:
     """A job with its loads and its timeline."""
     return told(job) | {
         "loads": [load.name for load in job.spec.load_cases], "not_reached": job.status.not_reached,
-        "solver": job.spec.solver.WhichOneof("method") or "",
         "timeline": [{"time": step.time.ToMilliseconds(), "state": _word(step.state), "detail": step.detail,
                       "attempt": step.attempt} for step in job.status.timeline],
         "stages": list(map(_stage, job.status.stages)),
@@ -130,8 +129,7 @@ def add_routes(app: web.Application, session: Told, pages: Pages, opened: Opened
             opened.forget(name)
         elif asked["action"] == "again":
             again = await _again(session, name)
-            for known in (opened.cases, opened.coefficients):
-                known.update({again: known[name]} if name in known else {})
+            opened.again(name, again)
             name = again
         else:
             raise Error("a job can be cancelled, deleted, or submitted again")

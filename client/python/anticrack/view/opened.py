@@ -24,8 +24,8 @@ class Opened:
         self._kept: dict[str, asyncio.Task[Any]] = {}
         self.path: pathlib.Path | None = None
         self.study: Study | None = None
-        self.cases: dict[str, str] = {}  # texts of the cases of jobs that were submitted here
-        self.coefficients: dict[str, Array] = {}  # of sweeps that were; the server does not give them back
+        # Of jobs that were submitted here: texts of their cases, and coefficients, which the server does not give back.
+        self.cases, self.coefficients = dict[str, str](), dict[str, Array | None]()
 
     async def open_file(self, path: pathlib.Path) -> None:
         """Reads a file of a result or a study. Raises Error if it is neither."""
@@ -68,6 +68,9 @@ class Opened:
         if result.sweep is not None:
             result.sweep.coefficients = self.coefficients.get(name)
         return result
+
+    def again(self, name: str, other: str) -> None:
+        self.cases[other], self.coefficients[other] = self.cases.get(name, ""), self.coefficients.get(name)
 
     def forget(self, name: str) -> None:
         self._kept.pop(name, None)

@@ -19,7 +19,9 @@ from .gate import reply
 
 TRACES = ("u_minus", "u_plus", "jump", "pressure", "flux", "force", "contact")
 HISTORY = ("iteration", "criterion", "energy", "contact_count", *(f"kkt_{name}" for name in KKT))
+_STAGES = ("triangles", "energy", "energy_lower", "energy_upper", "displacement_error")
 _MOVING = 60_000  # triangles of the thinned mesh, about
+_SINGULAR = ("flux", "energy_density")
 _OPENS = (CRACK, DELAMINATED, FREE)
 
 
@@ -82,6 +84,12 @@ class Values(Surface):
         values = of_triangles(self.result.mesh, self.load.indicator, self.nodes[self.triangles])
         return np.divide(values, areas, out=np.zeros_like(areas), where=areas > 0)
 
+    def cut(self, what: str) -> float:
+        """The value above which there are 2 % of the area, around tips, whose colours would hide all else."""
+        values, areas = self.of_triangles(what), self._joined("areas")
+        order = np.argsort(values)
+        return float(values[order[np.searchsorted(np.cumsum(areas[order]), 0.98 * areas.sum())]])
+
     def of_nodes(self, what: str) -> Array:
         """(n) u, or the means of the triangles at a node, weighted by area"""
         if what == "u":
@@ -101,12 +109,10 @@ def _told(result: Result, load: Load) -> dict[str, Any]:
             "steps": len(load.history.get("iteration", ())), "traces": len(load.traces),
             "energy": with_bounds(load, "energy", units.behind("F L")), "growth_notes": load.growth_notes,
             "growth": [[float(x), float(y)] for x, y in zip(load.growth["x"], load.growth["y"])] if load.growth else [],
-            "contact_length": load.contact_length, "iterations": load.iterations, "kkt": load.kkt,
-            "inclusions": [{"name": part.name, "A": with_bounds(part, "A", units.behind("L")),
-                            "resultant": part.resultant} for part in load.inclusions.values()],
-            "stages": {name: load.stages[name].tolist() for name in ("triangles", "energy", "energy_lower",
-                                                                     "energy_upper", "displacement_error")
-                       if name in load.stages}}
+            "contact_length": load.contact_length, "iterations": load.iterations,
+            "inclusions": [{"name": part.name, "A": with_bounds(part, "A", units.behind("L"))}
+                           for part in load.inclusions.values()],
+            "stages": {name: load.stages[name].tolist() for name in _STAGES if name in load.stages}}
 
 
 def _marks(result: Result) -> list[dict[str, Any]]:
@@ -187,14 +193,16 @@ def add_routes(app: web.Application, opened: Opened) -> None:
         return reply(await asyncio.to_thread(described, result, opened.cases.get(name, "")))
 
     async def send(request: web.Request) -> web.Response:
-        what, index = request.query["what"], int(request.query.get("interface", 0))
+        what, index, headers = request.query["what"], int(request.query.get("interface", 0)), dict[str, str]()
         if "mesh" in request.query:
             mesh = await opened.mesh(request.query["mesh"])
             values = await asyncio.to_thread(shape, Surface.of_mesh(mesh["nodes"], mesh["triangles"]), what)
         else:
-            values = await asyncio.to_thread(array, *await load_of(opened, request.query), what, index)
-        kind = "i4" if values.dtype.kind in "iu" else "f8"
-        return web.Response(body=np.ascontiguousarray(values, "<" + kind).tobytes(), headers={"X-Array": kind},
+            values = await asyncio.to_thread(array, *(loaded := await load_of(opened, request.query)), what, index)
+            if what in _SINGULAR:
+                headers["X-Cut"] = str(await asyncio.to_thread(Values(*loaded).cut, what))
+        headers["X-Array"] = kind = "i4" if values.dtype.kind in "iu" else "f8"
+        return web.Response(body=np.ascontiguousarray(values, "<" + kind).tobytes(), headers=headers,
                             content_type="application/octet-stream")
 
     async def pick(request: web.Request) -> web.Response:

@@ -4,10 +4,7 @@ import {make, number} from './dom.js';
 
 const Chart = /** @type {any} */ (globalThis).Chart;
 
-/**
- * @typedef {{label: string, x: ArrayLike<number>, y: ArrayLike<number>, colour: string, dash?: number[], dots?:
- * boolean}} Line
- */
+/** @typedef {{label: string, x: any, y: any, colour: string, dash?: number[], dots?: boolean}} Line */
 
 /** @param {string} name */
 const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
@@ -55,9 +52,8 @@ export class Lines {
   /**
    * @param {{title: string, x: string, y?: string, log?: boolean, short?: boolean}} options
    * @param {(x: number, y: number) => void} [pointed] told where the pointer is, or was clicked
-   * @param {'mousemove'|'click'} on
    */
-  constructor(options, pointed, on = 'mousemove') {
+  constructor(options, pointed, on = /** @type {'mousemove'|'click'} */ ('mousemove')) {
     this.canvas = make('canvas', {role: 'img', tabindex: '0', 'aria-label': options.title});
     this.box = make('figure', {class: options.short ? 'chart short' : 'chart'}, make('div', {}, this.canvas));
     this.options = options;

@@ -17,10 +17,8 @@ export function plain(text, most = 400) {
 }
 
 /**
- * An element; text children become text nodes.
- * @param {string} tag
- * @param {Record<string, any>} [options] on...: listeners; others are attributes
- * @param {...any} children
+ * An element; text children become text nodes. options: on... are listeners, others attributes.
+ * @param {string} tag @param {Record<string, any>} [options] @param {...any} children
  * @return {any}
  */
 export function make(tag, options = {}, ...children) {
@@ -64,10 +62,7 @@ export function number(value, digits = 6) {
   return (text.includes('e') ? text.replace(/\.?0+e/, 'e') : text.replace(/\.?0+$/, '')).replace(/-/g, '\u2212');
 }
 
-/**
- * A number as people write or paste it, German or English: 1.234,5 and 1,234.5 are the same. NaN if it is none.
- * @param {string} text
- */
+/** A number, German or English: 1.234,5 and 1,234.5 are the same. NaN if it is none. @param {string} text */
 export function parse(text) {
   let digits = text.trim().replace(/[\s'\u00a0\u202f]/g, '').replace(/[\u2212\u2013]/g, '-');
   const comma = digits.lastIndexOf(','), point = digits.lastIndexOf('.');
@@ -79,11 +74,8 @@ export function parse(text) {
 }
 
 /**
- * A labelled choice.
- * @param {string} label
- * @param {[string, any][]} options value and text
- * @param {string} value
- * @param {(value: string) => void} changed
+ * A labelled choice. options: value and text of each.
+ * @param {string} label @param {[string, any][]} options @param {string} value @param {(to: string) => void} changed
  */
 export function choice(label, options, value, changed) {
   const select = make('select', {onchange: (event) => changed(event.target.value)},

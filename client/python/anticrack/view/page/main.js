@@ -105,9 +105,10 @@ function links(tab) {
     link('h5', 'Result, HDF5'), model.result.case && link('toml', 'Case, TOML'));
 }
 
-/** @param {{server: string, lost: string}} told */
-function connection({server, lost}) {
+/** @param {{server: string, lost: string, met: boolean}} told met: whether the server has ever answered */
+function connection({server, lost, met}) {
   const line = byId('connection'), before = line.className;
+  if (lost && !met) return fill(line, `no server answers at ${plain(server, 60)}`);
   line.className = lost ? 'lost' : '';
   fill(
     line, lost ? `connection lost: ${plain(lost, 120)}` : plain(server, 60) + (before ? ': connection restored' : ''));

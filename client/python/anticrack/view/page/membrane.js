@@ -113,11 +113,11 @@ async function paint(to, load, wanted) {
   if (!wanted()) return;
   let [low, high] = [Infinity, -Infinity];
   for (const each of colours ? [colours, ...others] : []) {
-    for (const value of each) {
-      if (value < low) low = value;
-      if (value > high) high = value;
-    }
+    low = each.reduce((least, value) => value < least ? value : least, low);
+    high = each.reduce((most, value) => value > most ? value : most, high);
   }
+  const cut = Math.min(high, colours?.cut ?? high) < high;
+  if (cut) high = colours.cut;
   const both = what === 'u' && Math.min(-low, high) > 0.05 * Math.max(-low, high);
   if (both) [low, high] = [-Math.max(-low, high), Math.max(-low, high)];
   const given = get('limits').split(',').map(Number);
@@ -127,7 +127,7 @@ async function paint(to, load, wanted) {
   const amplify = on('plan') ? 0 : get('amplify') ? Number(get('amplify')) : automatic;
   to.rise(amplify);
   controls(to, load, what, low, high, amplify);
-  bar(what, low, high, both);
+  bar(what, low, high, both, cut && !get('limits'));
   byId('scene').setAttribute('aria-label',
     !what ? 'mesh' : `membrane under ${load.name}, ${NAMES[what][0]} from ${number(low)} to ${number(high)}`);
 }
@@ -163,6 +163,7 @@ function controls(to, load, what, low, high, amplify) {
     const wanted = Number(event.target.value) <= -2 ? 0 : automatic * 10 ** Number(event.target.value);
     set({amplify: Number(wanted.toPrecision(3))}, true);
     to.rise(wanted);
+    to.wheel(); // many triangles are thinned meanwhile
     fill(event.target.nextSibling, `\u00d7${number(wanted, 3)}`);
   };
   const deform = slider('deform', [-2, 2, 0.02], amplify > 0 ? Math.log10(amplify / automatic) : -2,
@@ -190,11 +191,11 @@ function controls(to, load, what, low, high, amplify) {
     (byId('stage-controls').querySelector(`[aria-label="${CSS.escape(focused)}"]`))?.focus();
 }
 
-/** @param {string} what @param {number} low @param {number} high @param {boolean} both */
-function bar(what, low, high, both) {
+/** @param {string} what @param {number} low @param {number} high @param {boolean} both @param {boolean} cut */
+function bar(what, low, high, both, cut) {
   if (!what) return fill(byId('bar'), currentStage() ? 'the mesh; u of a stage is not kept' : 'u is not known here');
   const paint = make('i', {});
   paint.style.background = `linear-gradient(to right, ${stops(both).join(',')})`;
   fill(byId('bar'), make('span', {}, NAMES[what][0] + unit(NAMES[what][1], true)), make('span', {}, number(low, 4)),
-    paint, make('span', {}, number(high, 4)));
+    paint, make('span', {}, number(high, 4) + (cut ? ' and more, on 2 % of the area' : '')));
 }

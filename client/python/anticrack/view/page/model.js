@@ -142,9 +142,7 @@ export async function tables() {
 export const values = (what, load = loadIndex(), line = 0) => array({of: model.of, what, load, interface: line});
 
 /**
- * The history of a load case by name: as it comes, or of the result.
- * @param {number} index
- * @return {Promise<Record<string, ArrayLike<number>>|undefined>}
+ * The history of a load case by name: as it comes, or of the result; undefined if there is none. @param {number} index
  */
 export async function history(index) {
   const steps = model.result?.loads[index]?.steps;

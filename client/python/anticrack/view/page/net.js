@@ -44,7 +44,8 @@ export function array(query) {
   const where = address('array', query);
   const found = kept.get(where) ?? answered(where).then(async (answer) => {
     const buffer = await answer.arrayBuffer();
-    return answer.headers.get('X-Array') === 'i4' ? new Int32Array(buffer) : new Float64Array(buffer);
+    const values = answer.headers.get('X-Array') === 'i4' ? new Int32Array(buffer) : new Float64Array(buffer);
+    return Object.assign(values, {cut: Number(answer.headers.get('X-Cut') ?? Infinity)});
   });
   kept.delete(where);
   kept.set(where, found);
@@ -55,14 +56,13 @@ export function array(query) {
 
 /**
  * Listens to server-sent events; the browser restores a lost connection. Returns what ends it.
- * @param {string} path
- * @param {Record<string, any>} query
- * @param {Record<string, (data: any) => void>} handlers
+ * @param {string} path @param {Record<string, any>} query @param {Record<string, (data: any) => void>} handlers
  */
 export function events(path, query, handlers) {
   const source = new EventSource(address(path, query));
   for (const [name, handle] of Object.entries(handlers))
     source.addEventListener(name, (event) => handle(JSON.parse(/** @type {any} */ (event).data)));
-  source.onerror = () => handlers.connection({server: '', lost: 'anticrack view does not answer; trying again'});
+  source.onerror = () =>
+    handlers.connection({server: '', met: true, lost: 'anticrack view does not answer; trying again'});
   return () => source.close();
 }

@@ -134,8 +134,8 @@ export class Scene {
     this.edges = null;
     this.geometryOf = geometry;
     this.full = this.add(new T.Mesh(geometry(surface.triangles), face));
-    this.thin = surface.thinned && this.add(new T.Mesh(geometry(surface.thinned), face));
-    if (this.thin) this.thin.visible = false;
+    const thin = () => Object.assign(new T.Mesh(geometry(surface.thinned), face), {visible: false});
+    this.thin = surface.thinned && this.add(thin());
     this.add(new T.LineSegments(geometry(surface.outline), this.lineMaterial('#333333')));
   }
 
@@ -264,10 +264,8 @@ export class Scene {
       this.look(theta + turn[0], Math.min(Math.max(phi + turn[1], 0.01), 3.1));
     } else if (zoom) {
       this.camera.zoom *= zoom;
-    } else if (event.key === 'Enter') {
-      return this.clicked(0, 0); // what lies in the middle
     } else {
-      return;
+      return event.key === 'Enter' && this.clicked(0, 0); // what lies in the middle
     }
     event.preventDefault();
     this.camera.updateProjectionMatrix();

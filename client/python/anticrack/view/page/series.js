@@ -7,10 +7,6 @@ import {currentLoad, model, tables} from './model.js';
 import {lineColour} from './palette.js';
 import {get, set} from './state.js';
 
-const NONE = {
-  sweep: 'This result is not of a sweep.',
-  growth: 'Nothing grows in this result.'
-};
 /** @type {Lines|null} */
 let chart = null;
 
@@ -21,7 +17,7 @@ const choose = (row) => set({row});
 export async function draw(panel, wanted, kind) {
   const table = (await tables()).find((each) => each.name === kind), grows = kind === 'growth';
   if (!wanted()) return;
-  if (!table) return fill(panel, aside(NONE[kind]));
+  if (!table) return fill(panel, aside(grows ? 'Nothing grows in this result.' : 'This result is not of a sweep.'));
   const loads = table.columns.find((column) => column.name === 'load case')?.values ?? [];
   const names = [...new Set(loads)], own = grows ? currentLoad()?.name : names[Number(get('among')) || 0];
   const rows = table.columns[0].values.map((_, i) => i).filter((i) => !loads.length || loads[i] === own);
