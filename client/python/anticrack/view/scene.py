@@ -21,7 +21,7 @@ TRACES = ("u_minus", "u_plus", "jump", "pressure", "flux", "force", "contact")
 HISTORY = ("iteration", "criterion", "energy", "contact_count", *(f"kkt_{name}" for name in KKT))
 _STAGES = ("triangles", "energy", "energy_lower", "energy_upper", "displacement_error")
 _MOVING = 60_000  # triangles of the thinned mesh, about
-_SINGULAR = ("flux", "energy_density")
+_SINGULAR = ("flux", "energy_density", "indicator")
 _OPENS = (CRACK, DELAMINATED, FREE)
 
 

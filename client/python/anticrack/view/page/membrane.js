@@ -104,7 +104,8 @@ async function paint(to, load, wanted) {
   const what = load.colours.includes(get('colour', 'u')) ? get('colour', 'u') : load.colours[0];
   const of = async (index) => {
     const found = await values(what, index);
-    return what === 'indicator' ? found.map((v) => v > 0 ? Math.log10(v) : NaN) : found;
+    const logarithms = () => Object.assign(found.map((v) => v > 0 ? Math.log10(v) : NaN), {cut: Math.log10(found.cut)});
+    return what === 'indicator' ? logarithms() : found;
   };
   const same = what && on('same')
     ? model.result.loads.map((_, i) => i).filter((i) => model.result.loads[i].colours.includes(what)).slice(0, 12)
@@ -118,6 +119,7 @@ async function paint(to, load, wanted) {
   }
   const cut = Math.min(high, colours?.cut ?? high) < high;
   if (cut) high = colours.cut;
+  if (what === 'indicator') low = Math.max(low, high - 6); // decades that can be told apart
   const both = what === 'u' && Math.min(-low, high) > 0.05 * Math.max(-low, high);
   if (both) [low, high] = [-Math.max(-low, high), Math.max(-low, high)];
   const given = get('limits').split(',').map(Number);
