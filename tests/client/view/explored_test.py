@@ -267,7 +267,7 @@ class OfAFile(InChromium):
         self.assertEqual(got["toml"].decode(), result.case)
 
     def test_looks_as_the_guide_shows_it(self):
-        kept = EXAMPLES / "figures/view.png"
+        kept = EXAMPLES.parent / "view.png"
         with self.page("--local", EXAMPLES / "opening.toml"):
             self.until(PICTURE)
             self.until("return document.querySelector('#bar i') && document.querySelector('.here .succeeded')")
