@@ -161,9 +161,9 @@ class Study:
 
     def lines(self) -> list[tuple[int, dict[str, Any]]]:
         """A line for each row and load, with the row's index: its values by key, how it ended, its numbers."""
-        numbers = dict.fromkeys(self.columns, _NAN)
+        numbers: dict[str, Any] = dict.fromkeys(self.columns, _NAN)
         return [(index, {"row": index, **row.values, "load case": load, "status": row.status, "error": row.error,
-                         "job": row.job, **(numbers | row.answers.get(load, {}))})
+                         "job": row.job, **numbers, **(row.answers.get(load) or {})})
                 for index, row in enumerate(self.rows) for load in list(row.answers) or [""]]
 
     def frame(self) -> Any:
