@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/accuracy_text.hpp"
+#include "cli/tables.hpp"
 
 #include <fmt/core.h>
 

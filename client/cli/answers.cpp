@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/answers.hpp"
+#include "cli/tables.hpp"
 
 #include <fmt/core.h>
 
@@ -17,13 +17,10 @@
 #include <vector>
 
 #include "cli/json.hpp"
-#include "cli/lists_text.hpp"
 #include "cli/progress.hpp"
-#include "cli/sweep_text.hpp"
 #include "cli/text.hpp"
 #include "results/entries.hpp"
-#include "results/interval.hpp"
-#include "results/notes.hpp"
+#include "results/result.hpp"
 
 namespace anticrack::cli {
 namespace {

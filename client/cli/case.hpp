@@ -12,7 +12,7 @@
 #include "anticrack/v1/case.pb.h"
 #include "anticrack/v1/job.pb.h"
 #include "anticrack/v1/mesh.pb.h"
-#include "cli/case_error.hpp"
+#include "cli/report.hpp"
 #include "cli/session.hpp"
 
 namespace anticrack::cli {

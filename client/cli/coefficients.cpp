@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/coefficients.hpp"
+#include "cli/sweep_input.hpp"
 
 #include <fmt/core.h>
 

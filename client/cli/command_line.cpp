@@ -11,11 +11,10 @@
 
 #include "cli/commands.hpp"
 #include "cli/connection_flags.hpp"
-#include "cli/exit_codes.hpp"
 #include "cli/external.hpp"
 #include "cli/json.hpp"
 #include "cli/report.hpp"
-#include "guide/completion.hpp"
+#include "guide/guide.hpp"
 #include "output/standard.hpp"
 
 namespace anticrack::cli {

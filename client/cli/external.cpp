@@ -13,10 +13,9 @@
 #include <span>
 #include <system_error>
 
-#include "cli/exit_codes.hpp"
-#include "cli/find_program.hpp"
 #include "cli/json.hpp"
-#include "cli/spawn.hpp"
+#include "cli/programs.hpp"
+#include "cli/report.hpp"
 #include "output/write_all.hpp"
 
 namespace anticrack::cli {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <CLI/CLI.hpp>
 
-#include "cli/options.hpp"
+#include "cli/commands.hpp"
 
 namespace anticrack::cli {
 

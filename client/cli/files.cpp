@@ -10,18 +10,16 @@
 #include <utility>
 #include <vector>
 
-#include "cli/answers.hpp"
 #include "cli/commands.hpp"
-#include "cli/csv_file.hpp"
-#include "cli/exit_codes.hpp"
 #include "cli/external.hpp"
+#include "cli/job_run.hpp"
 #include "cli/json.hpp"
-#include "cli/lists_text.hpp"
-#include "cli/options.hpp"
+#include "cli/report.hpp"
+#include "cli/tables.hpp"
 #include "cli/text.hpp"
 #include "output/file.hpp"
-#include "results/error.hpp"
 #include "results/file.hpp"
+#include "results/result.hpp"
 #include "words/nearest.hpp"
 
 namespace anticrack::cli {

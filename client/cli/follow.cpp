@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/follow.hpp"
+#include "cli/job_run.hpp"
 
 #include <google/protobuf/util/time_util.h>
 
@@ -14,9 +14,9 @@
 #include <utility>
 #include <vector>
 
-#include "cli/frames.hpp"
 #include "cli/live_view.hpp"
 #include "cli/progress.hpp"
+#include "cli/terminal.hpp"
 #include "cli/text.hpp"
 #include "client/jobs.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/follow.hpp"
+#include "cli/job_run.hpp"
 
 #include <chrono>
 #include <cmath>
@@ -7,8 +7,8 @@
 #include <mutex>
 #include <vector>
 
-#include "cli/frames.hpp"
 #include "cli/progress.hpp"
+#include "cli/terminal.hpp"
 #include "cli/text.hpp"
 #include "client/meshes.hpp"
 

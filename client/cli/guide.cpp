@@ -10,11 +10,10 @@
 #include <string>
 
 #include "cli/commands.hpp"
-#include "cli/exit_codes.hpp"
 #include "cli/json.hpp"
+#include "cli/report.hpp"
 #include "cli/session.hpp"
-#include "guide/completion.hpp"
-#include "guide/manual.hpp"
+#include "guide/guide.hpp"
 #include "output/file.hpp"
 
 namespace anticrack::cli {

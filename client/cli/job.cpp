@@ -9,21 +9,17 @@
 #include <string>
 #include <utility>
 
-#include "cli/accuracy_text.hpp"
-#include "cli/answers.hpp"
-#include "cli/exit_codes.hpp"
-#include "cli/follow.hpp"
-#include "cli/job_text.hpp"
+#include "cli/commands.hpp"
+#include "cli/job_run.hpp"
 #include "cli/json.hpp"
-#include "cli/options.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
 #include "cli/resource_names.hpp"
 #include "cli/submit.hpp"
+#include "cli/tables.hpp"
 #include "cli/text.hpp"
 #include "cli/to_result.hpp"
 #include "client/jobs.hpp"
-#include "client/uuid.hpp"
 #include "output/file.hpp"
 #include "results/file.hpp"
 

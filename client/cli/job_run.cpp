@@ -6,17 +6,13 @@
 #include <optional>
 #include <vector>
 
-#include "cli/accuracy_text.hpp"
-#include "cli/answers.hpp"
-#include "cli/exit_codes.hpp"
-#include "cli/follow.hpp"
-#include "cli/job_text.hpp"
 #include "cli/json.hpp"
 #include "cli/progress.hpp"
+#include "cli/report.hpp"
+#include "cli/tables.hpp"
 #include "cli/text.hpp"
 #include "client/jobs.hpp"
 #include "client/meshes.hpp"
-#include "client/uuid.hpp"
 #include "output/file.hpp"
 #include "results/file.hpp"
 
@@ -63,7 +59,7 @@ std::vector<std::string> causes(const Case& the_case, const v1::Job& job) {
 
 // Prints the warnings of an import: what it assumed, or repaired.
 void tell_warnings(Session& session, const v1::Job& job, const std::stop_token& stop,
-                   const Ahead* ahead) {
+                   const Fetched* ahead) {
   const v1::Mesh mesh = ahead != nullptr
                             ? ahead->mesh
                             : client::get_mesh(session.connection(), job.spec().mesh(), stop);
@@ -135,7 +131,7 @@ std::optional<results::Result> results_of(Session& session, const Case& the_case
   // The signal that cancelled the job must not prevent saving what it had solved.
   const std::stop_token stop =
       followed.how == Followed::How::cancelled ? std::stop_token() : session.stop();
-  Ahead* const ahead = followed.ahead.get().get();
+  Fetched* const ahead = followed.ahead.get().get();
   or_later(session, job, [&] { tell_warnings(session, job, stop, ahead); });
   if (job.status().result_bytes() == 0) {
     for (const std::string& line : causes(the_case, job)) complain(line);
@@ -181,6 +177,18 @@ fs::path result_file(const std::string& case_file, const std::string& output) {
     throw results::Error(file.string(), "is the case itself", "name another file for the results");
   output::check_writable(file);
   return file;
+}
+
+fs::path csv_file(const std::string& csv, const fs::path& result_file) {
+  if (csv.empty()) return {};
+  output::check_writable(csv);
+  const output::Target target = output::target_of(csv);
+  if (target.kind == output::Target::Kind::file &&
+      fs::weakly_canonical(target.path) ==
+          fs::weakly_canonical(output::target_of(result_file).path)) {
+    throw CaseError("--csv " + csv, "this is also the result file; name another one");
+  }
+  return csv;
 }
 
 int run_job(Session& session, const Case& the_case, const fs::path& output,

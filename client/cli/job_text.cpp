@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/job_text.hpp"
 
 #include <fmt/core.h>
 #include <google/protobuf/util/time_util.h>
@@ -7,9 +6,8 @@
 #include <array>
 #include <vector>
 
-#include "cli/accuracy_text.hpp"
-#include "cli/answers.hpp"
 #include "cli/progress.hpp"
+#include "cli/tables.hpp"
 #include "cli/text.hpp"
 #include "cli/to_result.hpp"
 

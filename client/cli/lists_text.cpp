@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/lists_text.hpp"
+#include "cli/tables.hpp"
 
 #include <fmt/core.h>
 
@@ -10,7 +10,7 @@
 #include <variant>
 
 #include "cli/text.hpp"
-#include "results/interval.hpp"
+#include "results/result.hpp"
 
 namespace anticrack::cli {
 namespace {

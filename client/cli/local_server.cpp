@@ -19,8 +19,7 @@
 #include <thread>
 #include <vector>
 
-#include "cli/find_program.hpp"
-#include "cli/spawn.hpp"
+#include "cli/programs.hpp"
 #include "cli/text.hpp"
 #include "client/error.hpp"
 

@@ -8,16 +8,15 @@
 #include <memory>
 #include <optional>
 
-#include "cli/exit_codes.hpp"
+#include "cli/commands.hpp"
 #include "cli/external.hpp"
-#include "cli/follow.hpp"
+#include "cli/job_run.hpp"
 #include "cli/json.hpp"
-#include "cli/mesh_text.hpp"
-#include "cli/options.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
 #include "cli/resource_names.hpp"
 #include "cli/submit.hpp"
+#include "cli/tables.hpp"
 #include "cli/text.hpp"
 #include "cli/to_result.hpp"
 

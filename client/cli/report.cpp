@@ -5,11 +5,9 @@
 #include <sstream>
 #include <string>
 
-#include "cli/case_error.hpp"
-#include "cli/exit_codes.hpp"
 #include "cli/external.hpp"
 #include "cli/json.hpp"
-#include "results/error.hpp"
+#include "results/result.hpp"
 
 namespace anticrack::cli {
 namespace {

@@ -7,7 +7,7 @@
 #include <charconv>
 #include <string_view>
 
-#include "cli/case_error.hpp"
+#include "cli/report.hpp"
 
 namespace anticrack::cli {
 

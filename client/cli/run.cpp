@@ -4,8 +4,8 @@
 #include <chrono>
 #include <memory>
 
+#include "cli/commands.hpp"
 #include "cli/job_run.hpp"
-#include "cli/options.hpp"
 
 namespace anticrack::cli {
 namespace {

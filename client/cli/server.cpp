@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "cli/commands.hpp"
-#include "cli/exit_codes.hpp"
 #include "cli/json.hpp"
+#include "cli/report.hpp"
 #include "cli/text.hpp"
 #include "client/jobs.hpp"
 

@@ -7,8 +7,8 @@
 #include "cli/report.hpp"
 #include "cli/terminal.hpp"
 #include "cli/text.hpp"
+#include "output/file.hpp"
 #include "output/standard.hpp"
-#include "output/target.hpp"
 #include "words/shown.hpp"
 
 namespace anticrack::cli {

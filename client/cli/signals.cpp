@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <utility>
 
-#include "cli/exit_codes.hpp"
+#include "cli/report.hpp"
 
 namespace anticrack::cli {
 namespace {

@@ -11,14 +11,13 @@
 #include <optional>
 #include <utility>
 
-#include "cli/exit_codes.hpp"
-#include "cli/job_text.hpp"
 #include "cli/json.hpp"
-#include "cli/to_result.hpp"
+#include "cli/report.hpp"
+#include "cli/tables.hpp"
 #include "client/jobs.hpp"
 #include "client/meshes.hpp"
-#include "results/array_file.hpp"
-#include "results/error.hpp"
+#include "results/file.hpp"
+#include "results/result.hpp"
 
 namespace anticrack::cli {
 namespace {
@@ -59,15 +58,20 @@ void upload_forces(Session& session, const Case& the_case, v1::JobSpec& spec) {
   }
 }
 
-std::shared_ptr<Ahead> fetch_now(Session& session, const std::string& mesh) {
-  auto ahead = std::make_shared<Ahead>();
-  client::Connection& connection = session.connection();
-  const std::stop_token stop = session.stop();
-  ahead->mesh = client::get_mesh(connection, mesh, stop);
-  if (ahead->mesh.state() != v1::Mesh::STATE_READY) return nullptr;
-  ahead->server = client::server_info(connection, stop);
-  ahead->mesh_block = client::read_mesh(connection, mesh, stop);
-  return ahead;
+// The mesh with its arrays, and the server.
+Fetched fetch_arrays(client::Connection& connection, v1::Mesh mesh, const std::stop_token& stop) {
+  Fetched fetched;
+  fetched.server = client::server_info(connection, stop);
+  fetched.mesh_block = client::read_mesh(connection, mesh.name(), stop);
+  fetched.mesh = std::move(mesh);
+  return fetched;
+}
+
+std::shared_ptr<Fetched> fetch_now(Session& session, const std::string& name) {
+  v1::Mesh mesh = client::get_mesh(session.connection(), name, session.stop());
+  if (mesh.state() != v1::Mesh::STATE_READY) return nullptr;
+  return std::make_shared<Fetched>(
+      fetch_arrays(session.connection(), std::move(mesh), session.stop()));
 }
 
 }  // namespace
@@ -183,20 +187,13 @@ void tell_submitted(const Session& session, const v1::Job& job) {
 }
 
 results::Result fetch(Session& session, const v1::Job& job, const std::stop_token& stop,
-                      Ahead* ahead) {
+                      Fetched* ahead) {
   client::Connection& connection = session.connection();
-  Fetched fetched;
+  Fetched fetched =
+      ahead != nullptr
+          ? std::move(*ahead)
+          : fetch_arrays(connection, client::get_mesh(connection, mesh_of(job), stop), stop);
   fetched.job = job;
-  if (ahead != nullptr) {
-    fetched.mesh = ahead->mesh;
-    fetched.server = ahead->server;
-    fetched.mesh_block = std::move(ahead->mesh_block);
-  } else {
-    const std::string mesh = mesh_of(job);
-    fetched.mesh = client::get_mesh(connection, mesh, stop);
-    fetched.server = client::server_info(connection, stop);
-    fetched.mesh_block = client::read_mesh(connection, mesh, stop);
-  }
   fetched.result_block = client::read_result(connection, job.name(), stop);
   return to_result(fetched);
 }
@@ -217,16 +214,15 @@ void complain_of_failure(const v1::Job& job) {
 }
 
 AheadFuture fetch_ahead(Session& session, const v1::Job& job) {
-  return std::async(std::launch::async,
-                    [&session, mesh = job.spec().mesh(),
-                     in_stages = job.spec().has_accuracy()]() -> std::shared_ptr<Ahead> {
-                      try {
-                        return in_stages ? nullptr : fetch_now(session, mesh);
-                      } catch (const std::exception&) {
-                        return nullptr;
-                      }
-                    })
-      .share();
+  const auto fetch = [&session, mesh = job.spec().mesh(),
+                      in_stages = job.spec().has_accuracy()]() -> std::shared_ptr<Fetched> {
+    try {
+      return in_stages ? nullptr : fetch_now(session, mesh);
+    } catch (const std::exception&) {
+      return nullptr;
+    }
+  };
+  return std::async(std::launch::async, fetch).share();
 }
 
 }  // namespace anticrack::cli

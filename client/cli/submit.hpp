@@ -12,11 +12,10 @@
 #include <vector>
 
 #include "anticrack/v1/mesh.pb.h"
-#include "anticrack/v1/server.pb.h"
 #include "anticrack/v1/solve.pb.h"
 #include "cli/case.hpp"
 #include "cli/session.hpp"
-#include "client/block.hpp"
+#include "cli/to_result.hpp"
 #include "results/file.hpp"
 
 namespace CLI {
@@ -60,25 +59,19 @@ v1::Job submit(Session& session, const Case& the_case, const std::string& reques
 /// The message of a command that submits and does not wait.
 void tell_submitted(const Session& session, const v1::Job& job);
 
-/// The data that a result file needs besides the answers, fetched while the job is solved.
-struct Ahead {
-  v1::Mesh mesh;
-  v1::ServerInfo server;
-  client::Block mesh_block;
-};
-
-/// Null if the mesh was not READY yet or something failed. Then everything is fetched at the end,
-/// which also reports errors.
-using AheadFuture = std::shared_future<std::shared_ptr<Ahead>>;
+/// What a result needs besides the job and its answers, fetched while the job is solved. Null if
+/// the mesh was not READY yet or something failed: then everything is fetched at the end, which
+/// also reports errors.
+using AheadFuture = std::shared_future<std::shared_ptr<Fetched>>;
 
 /// Begins to fetch on another thread; null for a job in stages, which ends on another mesh. The
 /// session must outlive the future.
 AheadFuture fetch_ahead(Session& session, const v1::Job& job);
 
 /// Fetches everything about a job that has ended and has results. `ahead`: the data that are here
-/// already, whose block is taken; may be null.
+/// already, which are taken; may be null.
 results::Result fetch(Session& session, const v1::Job& job, const std::stop_token& stop,
-                      Ahead* ahead = nullptr);
+                      Fetched* ahead = nullptr);
 
 /// The exit code for a job that has ended: exit_ok, exit_not_converged, or exit_job_failed if it or
 /// one of its load cases failed or was cancelled.

@@ -6,16 +6,14 @@
 #include <memory>
 #include <utility>
 
-#include "cli/csv_file.hpp"
-#include "cli/exit_codes.hpp"
-#include "cli/follow.hpp"
+#include "cli/commands.hpp"
 #include "cli/job_run.hpp"
-#include "cli/options.hpp"
+#include "cli/report.hpp"
 #include "cli/sweep_input.hpp"
-#include "cli/sweep_text.hpp"
+#include "cli/tables.hpp"
 #include "cli/text.hpp"
+#include "client/jobs.hpp"
 #include "client/meshes.hpp"
-#include "client/uuid.hpp"
 #include "output/file.hpp"
 
 namespace anticrack::cli {

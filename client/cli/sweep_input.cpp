@@ -8,8 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "cli/coefficients.hpp"
-#include "results/array_file.hpp"
+#include "results/file.hpp"
 #include "words/nearest.hpp"
 
 namespace anticrack::cli {

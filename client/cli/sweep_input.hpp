@@ -5,6 +5,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <istream>
 #include <string>
 #include <vector>
 
@@ -60,5 +62,18 @@ v1::Sweep::Matrix& matrix_of(const SweepInput& input, v1::JobSpec& spec);
 /// overlapping. Returns each row once, ascending. Throws CaseError for anything else, and for a row
 /// outside 0..rows. O(rows) if no range is there many times.
 std::vector<std::uint32_t> select_rows(const std::string& text, std::size_t rows);
+
+/// Comma-separated numbers, a line per row; separated by semicolons where the first line has one,
+/// and then decimal commas are read, too. Blank lines and lines that begin with # are skipped.
+/// The first line may name the loads, in any order; without it the columns follow `loads`. Quotes
+/// around a field are removed. Returns (rows, loads) row-major, in the order of `loads`: at least
+/// one row, all values finite. Throws CaseError with `source`, line, column, value and cure.
+/// O(length).
+std::vector<double> parse_coefficients(std::istream& text, const std::string& source,
+                                       const std::vector<std::string>& loads);
+
+/// The same for a file.
+std::vector<double> read_coefficients(const std::filesystem::path& file,
+                                      const std::vector<std::string>& loads);
 
 }  // namespace anticrack::cli

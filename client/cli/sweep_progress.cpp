@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/sweep_progress.hpp"
+#include "cli/progress.hpp"
 
 #include <algorithm>
 

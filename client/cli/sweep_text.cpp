@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/sweep_text.hpp"
 
 #include <fmt/core.h>
 
@@ -8,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "cli/answers.hpp"
+#include "cli/tables.hpp"
 #include "cli/text.hpp"
 #include "results/result.hpp"
 

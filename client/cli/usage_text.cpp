@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "guide/command_tree.hpp"
+#include "guide/guide.hpp"
 #include "words/nearest.hpp"
 
 namespace anticrack::cli {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "guide/command_tree.hpp"
+#include "guide/guide.hpp"
 
 #include <CLI/CLI.hpp>
 

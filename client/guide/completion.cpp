@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "guide/completion.hpp"
 
 #include <algorithm>
 
-#include "guide/command_tree.hpp"
+#include "guide/guide.hpp"
 
 namespace anticrack::guide {
 namespace {

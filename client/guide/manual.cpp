@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "guide/manual.hpp"
 
 #include <fmt/core.h>
 
@@ -7,7 +6,7 @@
 #include <cctype>
 #include <sstream>
 
-#include "guide/command_tree.hpp"
+#include "guide/guide.hpp"
 
 namespace anticrack::guide {
 namespace {

@@ -1,10 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "client/jobs.hpp"
 
+#include <fstream>
+#include <stdexcept>
+
 #include "client/channel.hpp"
-#include "client/read_block.hpp"
 
 namespace anticrack::client {
+
+std::string make_uuid() {
+  std::string uuid;
+  if (!(std::ifstream("/proc/sys/kernel/random/uuid") >> uuid))
+    throw std::runtime_error("Linux gives no random UUID: /proc is not mounted; mount it");
+  return uuid;
+}
 
 v1::Job create_job(Connection& connection, const v1::JobSpec& spec, const std::string& request_id,
                    const std::stop_token& stop) {

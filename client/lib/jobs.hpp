@@ -25,6 +25,9 @@
 
 namespace anticrack::client {
 
+/// A random UUID (version 4), 36 characters, which makes a submission idempotent.
+std::string make_uuid();
+
 /// Submits a job and returns it with its name, QUEUED or WAITING_FOR_MESH; it outlives this client
 /// and the server's restarts from then on. `request_id` (see make_uuid) makes retries safe: one
 /// id, one job. If it is empty, a lost response may leave two.

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "client/channel.hpp"
-#include "client/read_block.hpp"
 
 namespace anticrack::client {
 namespace {

@@ -12,9 +12,7 @@
 #include <system_error>
 #include <utility>
 
-#include "output/error.hpp"
 #include "output/standard.hpp"
-#include "output/target.hpp"
 #include "output/write_all.hpp"
 
 namespace anticrack::output {

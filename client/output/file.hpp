@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The only code that writes files.
+// The only code that writes files, and the target for which an output path stands.
 #pragma once
 
 #include <cstddef>
 #include <filesystem>
 #include <span>
+#include <stdexcept>
+#include <string>
 #include <string_view>
 
 namespace anticrack::output {
@@ -30,5 +32,43 @@ void check_writable(const std::filesystem::path& path);
 /// Creates `folder` and its parents if they are missing. Throws Error if that fails or the folder
 /// is not writable.
 void make_folder(const std::filesystem::path& folder);
+
+/// The error of a file that cannot be written, read or understood: what() is "SUBJECT: CAUSE;
+/// CURE".
+class Error : public std::runtime_error {
+ public:
+  Error(const std::string& subject, const std::string& cause, const std::string& cure)
+      : std::runtime_error(subject + ": " + cause + (cure.empty() ? "" : "; " + cure)),
+        _subject(subject),
+        _cause(cause),
+        _cure(cure) {}
+
+  /// The path, or the source of the data.
+  const std::string& subject() const noexcept { return _subject; }
+  const std::string& cause() const noexcept { return _cause; }
+  const std::string& cure() const noexcept { return _cure; }  ///< may be empty
+
+ private:
+  std::string _subject, _cause, _cure;
+};
+
+/// A file, which is replaced as a whole, or a stream, which is written from its present position.
+struct Target {
+  enum class Kind { file, folder, stream };
+
+  Kind kind = Kind::file;
+  std::filesystem::path path;  ///< with all symbolic links resolved, as they are written through
+  int descriptor = -1;  ///< of a stream that this process already has open, like standard output
+
+  /// Whether it is standard output, by whichever name.
+  bool is_standard_output() const noexcept { return kind == Kind::stream && descriptor == 1; }
+};
+
+/// "-" is standard output, and so is any path that leads to the same file: /dev/stdout, a link to
+/// it, or the file to which it was redirected; likewise standard error. /dev/fd/N is the file that
+/// this process has open as N. Devices and named pipes are streams; a path that does not exist is a
+/// file. Throws Error for a path that is a loop of links, cannot be examined, or is a disk or a
+/// socket.
+Target target_of(const std::filesystem::path& path);
 
 }  // namespace anticrack::output

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "output/target.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -11,7 +10,7 @@
 #include <string>
 #include <system_error>
 
-#include "output/error.hpp"
+#include "output/file.hpp"
 
 namespace anticrack::output {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "results/array_file.hpp"
+#include "results/file.hpp"
 
 #include <fmt/core.h>
 
@@ -9,8 +9,8 @@
 #include <optional>
 #include <utility>
 
-#include "results/error.hpp"
 #include "results/hdf5.hpp"
+#include "results/result.hpp"
 
 namespace anticrack::results {
 namespace {

@@ -7,7 +7,6 @@
 #include <span>
 
 #include "anticrack/v1/mesh.pb.h"
-#include "results/error.hpp"
 #include "results/result.hpp"
 
 namespace anticrack::results {

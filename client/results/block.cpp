@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "results/entries.hpp"
-#include "results/error.hpp"
+#include "results/result.hpp"
 
 namespace anticrack::results {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "results/file_messages.hpp"
+#include "results/file_parts.hpp"
 
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/message.h>
@@ -55,6 +55,25 @@ void add_meanings(const std::string& where, const Descriptor& type, const v1::Un
   });
 }
 
+/// Writes a list of a message; returns its dataset or group.
+Handle put_list(const Handle& group, const v1::Units& units, const Message& message,
+                const FieldDescriptor& field, int count) {
+  const Reflection& fields = *message.GetReflection();
+  if (field.cpp_type() == FieldDescriptor::CPPTYPE_STRING) {
+    const auto texts = fields.GetRepeatedFieldRef<std::string>(message, &field);
+    const std::vector<std::string> values(texts.begin(), texts.end());
+    return put_array(group, field.name(), ValueType::text, values.data(), values.size(), {});
+  }
+  std::vector<const Message*> items;
+  items.reserve(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) items.push_back(&fields.GetRepeatedMessage(message, &field, i));
+  const Descriptor& type = *field.message_type();
+  Handle columns =
+      create_group(group, field.name(), static_cast<unsigned>(entries_of(type).size()));
+  put_columns(columns, units, type, items);
+  return columns;
+}
+
 }  // namespace
 
 void put_columns(const Handle& group, const v1::Units& units, const Descriptor& type,
@@ -87,23 +106,17 @@ void get_columns(const Handle& group, std::uint64_t budget, const std::string& w
   }
 }
 
-void put_message(const Handle& group, const v1::Units& units, const Message& message) {
-  for (const Entry& entry : entries_of(*message.GetDescriptor())) {
-    std::visit([&](const auto& value) { put(group, entry.name, value); }, get(message, entry));
-  }
+void Messages::put(const Handle& group, const Message& message) {
+  for (const Entry& entry : entries_of(*message.GetDescriptor()))
+    std::visit([&](const auto& value) { hdf5::put(group, entry.name, value); },
+               get(message, entry));
   const Reflection& fields = *message.GetReflection();
   for_each_list(*message.GetDescriptor(), [&](const FieldDescriptor* field) {
     const int count = fields.FieldSize(message, field);
-    if (field->cpp_type() == FieldDescriptor::CPPTYPE_STRING) {
-      const auto texts = fields.GetRepeatedFieldRef<std::string>(message, field);
-      const std::vector<std::string> values(texts.begin(), texts.end());
-      put_array(group, field->name(), ValueType::text, values.data(), values.size(), {});
-      return;
-    }
-    std::vector<const Message*> items;
-    items.reserve(static_cast<std::size_t>(count));
-    for (int i = 0; i < count; ++i) items.push_back(&fields.GetRepeatedMessage(message, field, i));
-    put_columns(create_group(group, field->name()), units, *field->message_type(), items);
+    const auto known = _empty.find(field);
+    if (count == 0 && known != _empty.end()) return link(known->second, group, field->name());
+    Handle list = put_list(group, _units, message, *field, count);
+    if (count == 0) _empty.emplace(field, std::move(list));
   });
 }
 

@@ -83,6 +83,9 @@ struct Row {
 
 /// HDF5's type of numbers in memory.
 hid_t native(ValueType type);
+/// Transfer properties with a small buffer for texts, which are few: by default HDF5 clears a
+/// megabyte for each list of texts.
+hid_t text_transfer();
 
 // Writing.
 
@@ -92,7 +95,10 @@ std::vector<std::byte> file_image(const std::function<void(const Handle& root)>&
 
 /// Creation properties of a class that record no times, so that equal results give equal bytes.
 Handle without_times(hid_t property_class);
-Handle create_group(const Handle& parent, const std::string& name);
+/// `members`: how many are expected, at most 32, for which the group's header has room at once.
+Handle create_group(const Handle& parent, const std::string& name, unsigned members = 4);
+/// Makes the object a member of another group, too.
+void link(const Handle& object, const Handle& group, const std::string& name);
 
 /// Writes an attribute: one value or, with `count`, a list of doubles, int32 or std::string.
 void put_attribute(const Handle& object, const std::string& name, ValueType type,

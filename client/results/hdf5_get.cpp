@@ -5,8 +5,8 @@
 #include <array>
 #include <map>
 
-#include "results/error.hpp"
 #include "results/hdf5.hpp"
+#include "results/result.hpp"
 
 namespace anticrack::results::hdf5 {
 namespace {
@@ -63,8 +63,8 @@ void read_attribute(const Attribute& attribute, const std::string& name, ValueTy
 }
 
 Handle open_dataset(const Handle& group, const std::string& name) {
-  const Handle object(H5Oopen(group.get(), name.c_str(), H5P_DEFAULT), H5Oclose,
-                      "dataset " + name + " is damaged");
+  Handle object(H5Oopen(group.get(), name.c_str(), H5P_DEFAULT), H5Oclose,
+                "dataset " + name + " is damaged");
   const H5I_type_t kind = H5Iget_type(object.get());
   if (kind == H5I_GROUP) {
     const std::vector<std::string> names = names_in(object);
@@ -72,8 +72,7 @@ Handle open_dataset(const Handle& group, const std::string& name) {
                 (names.empty() ? ", and has nothing in it" : "; it has " + listed(names)));
   }
   if (kind == H5I_DATATYPE) throw Fault("\"" + name + "\" is a named type, not a dataset");
-  return {H5Dopen2(group.get(), name.c_str(), H5P_DEFAULT), H5Dclose,
-          "dataset " + name + " is damaged"};
+  return object;
 }
 
 /// Describes the type of a file in words, for the message that another type was expected.
@@ -265,7 +264,8 @@ void read_values(const Dataset& dataset, void* values) {
   const std::string what = "dataset " + dataset.name + " is damaged";
   const Handle type(H5Dget_type(dataset.id.get()), H5Tclose, what);
   read_entries(dataset.type, type, dataset.count(), values, [&](hid_t memory, void* to) {
-    if (H5Dread(dataset.id.get(), memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, to) < 0) throw Fault(what);
+    const hid_t transfer = dataset.type == ValueType::text ? text_transfer() : H5P_DEFAULT;
+    if (H5Dread(dataset.id.get(), memory, H5S_ALL, H5S_ALL, transfer, to) < 0) throw Fault(what);
   });
 }
 

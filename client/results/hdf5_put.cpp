@@ -101,18 +101,6 @@ hid_t one_chunk() {
   return id;
 }
 
-/// Transfer properties with a small buffer for texts, which are few: by default HDF5 clears a
-/// megabyte for each list of texts.
-hid_t text_transfer() {
-  static const hid_t id = [] {
-    const std::string what = "HDF5 has no transfer properties";
-    Handle transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose, what);
-    require(H5Pset_buffer(transfer.get(), 4096, nullptr, nullptr), what);
-    return transfer.release();
-  }();
-  return id;
-}
-
 }  // namespace
 
 Quiet::Quiet() {
@@ -125,6 +113,16 @@ Quiet::Quiet() {
 
 Quiet::~Quiet() { H5Eset_auto2(H5E_DEFAULT, _function, _data); }
 
+hid_t text_transfer() {
+  static const hid_t id = [] {
+    const std::string what = "HDF5 has no transfer properties";
+    Handle transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose, what);
+    require(H5Pset_buffer(transfer.get(), 4096, nullptr, nullptr), what);
+    return transfer.release();
+  }();
+  return id;
+}
+
 Handle without_times(hid_t property_class) {
   const std::string what = "HDF5 has no creation properties";
   Handle properties(H5Pcreate(property_class), H5Pclose, what);
@@ -132,17 +130,26 @@ Handle without_times(hid_t property_class) {
   return properties;
 }
 
-Handle create_group(const Handle& parent, const std::string& name) {
-  static const hid_t creation = [] {
+Handle create_group(const Handle& parent, const std::string& name, unsigned members) {
+  static std::map<unsigned, hid_t> known;  // by members
+  const auto place = known.try_emplace(members, H5I_INVALID_HID).first;
+  if (place->second < 0) {
     const std::string what = "HDF5 has no creation properties";
     Handle properties = without_times(H5P_GROUP_CREATE);
     // Keeps a load's attributes and members in its header; by default HDF5 makes a heap beyond 8.
     require(H5Pset_attr_phase_change(properties.get(), 64, 32), what);
     require(H5Pset_link_phase_change(properties.get(), 32, 16), what);
-    return properties.release();
-  }();
-  return {H5Gcreate2(parent.get(), name.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT), H5Gclose,
+    constexpr unsigned name_bytes = 10;  // of a member, on average
+    require(H5Pset_est_link_info(properties.get(), members, name_bytes), what);
+    place->second = properties.release();
+  }
+  return {H5Gcreate2(parent.get(), name.c_str(), H5P_DEFAULT, place->second, H5P_DEFAULT), H5Gclose,
           "cannot create group " + name};
+}
+
+void link(const Handle& object, const Handle& group, const std::string& name) {
+  require(H5Lcreate_hard(object.get(), ".", group.get(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+          "cannot link " + name);
 }
 
 void put_attribute(const Handle& object, const std::string& name, ValueType type,

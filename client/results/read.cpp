@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "results/file.hpp"
-#include "results/file_messages.hpp"
-#include "results/file_tables.hpp"
+#include "results/file_parts.hpp"
 #include "results/tables.hpp"
 
 namespace anticrack::results {

@@ -17,9 +17,13 @@
 
 #include "anticrack/v1/mesh.pb.h"
 #include "anticrack/v1/solve.pb.h"
+#include "output/file.hpp"
 #include "results/sweep.hpp"
 
 namespace anticrack::results {
+
+/// A result that cannot be written, read or assembled.
+using output::Error;
 
 struct Mesh {
   v1::Mesh info;                        ///< without the definition and the interfaces' segments
@@ -146,5 +150,17 @@ std::string method_of(const v1::Solver& solver);
 /// columns of a sweep): "sweep.steps has 20 entries instead of 21"; empty if all hold. Arrays of
 /// the mesh and of load cases go from the server into the file as they are. O(size).
 std::string first_fault(const Result& result);
+
+/// Writes a value, the middle of its bounds, and how far they are from it: "0.1038 +- 0.0010". The
+/// distance has two digits, or one at 1e-6 of the value if it is smaller than that, and is rounded
+/// so that the printed interval contains the bounds. Large or small numbers are
+/// "(1.038 +- 0.010)e-5". Returns "-" if a bound is not finite. Python's text.interval writes the
+/// same.
+std::string interval(double value, double lower, double upper);
+
+/// What a reader should know before believing the answers: that one of the units is missing; if
+/// the case gives a unit of length, that u exceeds a tenth of the sheet's smaller side, as the
+/// equation holds for small slopes. Empty if there is nothing to say.
+std::vector<std::string> notes_on(const Result& result);
 
 }  // namespace anticrack::results

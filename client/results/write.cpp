@@ -6,10 +6,8 @@
 #include <vector>
 
 #include "output/file.hpp"
-#include "output/target.hpp"
 #include "results/file.hpp"
-#include "results/file_messages.hpp"
-#include "results/file_tables.hpp"
+#include "results/file_parts.hpp"
 #include "results/tables.hpp"
 
 namespace anticrack::results {
@@ -21,16 +19,17 @@ using hdf5::put;
 using hdf5::put_arrays;
 using hdf5::put_values;
 
-void put_load(const Handle& parent, std::size_t index, const Load& load, const v1::Units& units) {
-  const Handle group = create_group(parent, load.name());
+void put_load(const Handle& parent, std::size_t index, const Load& load, const v1::Units& units,
+              hdf5::Messages& messages) {
+  const Handle group = create_group(parent, load.name(), 16);
   put(group, "index", static_cast<std::int32_t>(index));
-  hdf5::put_message(group, units, load.answer);
+  messages.put(group, load.answer);
   put_arrays(group, units, load, tables::of_triangles);
   const Handle traces = create_group(group, "traces");
   for (std::size_t i = 0; i < load.traces.size(); ++i)
-    put_arrays(create_group(traces, std::to_string(i)), units, load.traces[i],
+    put_arrays(create_group(traces, std::to_string(i), 8), units, load.traces[i],
                arrays::trace<Trace>);
-  put_arrays(create_group(group, "history"), units, load.history, arrays::history<History>);
+  put_arrays(create_group(group, "history", 8), units, load.history, arrays::history<History>);
   if (!load.stages.empty()) {
     std::vector<const google::protobuf::Message*> stages, answers;
     for (const v1::Stage& stage : load.stages) {
@@ -48,10 +47,11 @@ void put_load(const Handle& parent, std::size_t index, const Load& load, const v
                arrays::subdomain<Field>, arrays::field<Field>);
 }
 
-void put_sweep(const Handle& root, const Sweep& sweep, const v1::Units& units) {
+void put_sweep(const Handle& root, const Sweep& sweep, const v1::Units& units,
+               hdf5::Messages& messages) {
   const Handle group = create_group(root, "sweep");
   put(group, "description", std::string("row k of every dataset belongs to load case k"));
-  hdf5::put_message(group, units, sweep.answer);
+  messages.put(group, sweep.answer);
   put_values(group, sweep, tables::sweep);
   put_arrays(group, units, sweep, tables::sweep_arrays);
 }
@@ -61,18 +61,20 @@ void put_all(const Handle& root, const Result& result) {
   put(root, "format", std::string(format));
   put_values(root, result, tables::result);
   hdf5::put_meanings(root, units);
-  hdf5::put_message(create_group(root, "units"), units, units);
-  hdf5::put_message(create_group(root, "solver"), units, result.solver);
+  hdf5::Messages messages(units);
+  messages.put(create_group(root, "units"), units);
+  messages.put(create_group(root, "solver"), result.solver);
   const Handle mesh = create_group(root, "mesh");
-  hdf5::put_message(mesh, units, result.mesh.info);
+  messages.put(mesh, result.mesh.info);
   put_arrays(mesh, units, result.mesh, tables::mesh);
   const Handle interfaces = create_group(root, "interfaces");
   for (std::size_t i = 0; i < result.interfaces.size(); ++i)
     put_arrays(create_group(interfaces, std::to_string(i)), units, result.interfaces[i],
                arrays::interface_nodes<Interface>, tables::edges);
   const Handle loads = create_group(root, "loads");
-  for (std::size_t i = 0; i < result.loads.size(); ++i) put_load(loads, i, result.loads[i], units);
-  if (result.sweep) put_sweep(root, *result.sweep, units);
+  for (std::size_t i = 0; i < result.loads.size(); ++i)
+    put_load(loads, i, result.loads[i], units, messages);
+  if (result.sweep) put_sweep(root, *result.sweep, units, messages);
 }
 
 /// Whether the existing file is a result of the same job or case, so that replacing it loses

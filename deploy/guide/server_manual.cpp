@@ -6,7 +6,7 @@
 #include <iostream>
 
 #include "app/command_line.hpp"
-#include "guide/manual.hpp"
+#include "guide/guide.hpp"
 
 int main() {
   using namespace anticrack;

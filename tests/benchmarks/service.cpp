@@ -17,7 +17,6 @@
 #include "benchmarks/plain_mesh.hpp"
 #include "client/jobs.hpp"
 #include "client/meshes.hpp"
-#include "client/uuid.hpp"
 #include "service/processes.hpp"
 #include "service/workload.hpp"
 

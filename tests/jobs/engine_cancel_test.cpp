@@ -15,7 +15,6 @@
 namespace anticrack::jobs {
 namespace {
 
-using anticrack::testing::BackendOptions;
 using anticrack::testing::eventually;
 using anticrack::testing::throws;
 using contact::Status;
@@ -45,18 +44,6 @@ TEST(EngineCancel, OfAQueuedJobNeedsNoSolverThread) {
   EXPECT_EQ(test.engine.metrics().jobs_queued, 0);
   EXPECT_EQ(test.state(running), JobState::running);
   EXPECT_TRUE(throws([&] { test.engine.result(queued); }, Reason::not_ready));
-}
-
-TEST(EngineCancel, WhileTheMeshIsMade) {
-  BackendOptions hanging;
-  hanging.mesher_hangs = true;
-  Engine test({}, hanging);
-  const std::string id = test.submit(short_job(test.backend.create()));
-  ASSERT_TRUE(eventually([&] { return test.told(id, "meshing"); }));
-  EXPECT_EQ(test.state(id), JobState::waiting_for_mesh);
-  EXPECT_EQ(test.engine.metrics().jobs_queued, 1);
-  test.engine.cancel(id);
-  expect_cancelled(test.ended(id));
 }
 
 TEST(EngineCancel, WhileFactorising) {

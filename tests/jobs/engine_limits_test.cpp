@@ -302,23 +302,6 @@ TEST(EngineSchedule, JobsOnOneMeshShareOneFactorisation) {
   EXPECT_EQ(test.backend.catalogue.meshings(), 1U);
 }
 
-TEST(EngineSchedule, StartsJobsInTheOrderTheyCame) {
-  Engine test(one_thread());
-  const std::string mesh = test.ready_mesh();
-  const std::string blocker = test.submit(endless_job(mesh));
-  ASSERT_TRUE(test.iterating(blocker));
-  std::vector<std::string> ids;
-  for (int i = 0; i < 5; ++i) {
-    ids.push_back(test.submit(short_job(mesh)));
-  }
-  test.engine.cancel(blocker);
-  std::vector<records::Clock::time_point> starts;
-  for (const std::string& id : ids) {
-    starts.push_back(test.ended(id).started.value());
-  }
-  EXPECT_TRUE(std::is_sorted(starts.begin(), starts.end()));
-}
-
 TEST(EngineSchedule, AJobWaitsForMemoryThatAnotherHolds) {
   std::uint64_t larger = 0;
   {

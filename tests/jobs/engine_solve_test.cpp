@@ -238,23 +238,6 @@ TEST(EngineSolve, TellsTheWarningsOfALoad) {
   EXPECT_EQ(record.cases[0].answer.warnings.size(), 1U);
 }
 
-TEST(EngineSolve, StopsWhileALoadIsIntegrated) {
-  Engine test;
-  records::JobSpec spec = short_job(test.ready_mesh());
-  spec.loads.resize(1000, spec.loads[0]);  // hours, if they were not stopped
-  for (std::size_t i = 0; i < spec.loads.size(); ++i) {
-    spec.loads[i].name = std::to_string(i);
-    spec.loads[i].force =
-        fem::Expression{"sin(1e5*x*y)/sqrt(abs(x - 0.03)) + 1e-9*" + std::to_string(i)};
-  }
-  const std::string id = test.submit(spec);
-  ASSERT_TRUE(test.reaches(id, JobState::running));
-  test.engine.cancel(id);
-  const JobRecord record = test.ended(id);
-  EXPECT_EQ(record.state, JobState::cancelled);
-  EXPECT_FALSE(record.error);
-}
-
 TEST(EngineFailure, OfTheMeshFailsTheJob) {
   Engine test;
   const records::UploadRef upload = test.backend.upload("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n");

@@ -9,7 +9,6 @@
 namespace anticrack::jobs {
 namespace {
 
-using anticrack::testing::BackendOptions;
 using contact::Status;
 using errors::Reason;
 using records::JobRecord;
@@ -49,14 +48,6 @@ TEST(EngineTime, EndsWhileAJobIsQueued) {
   EXPECT_EQ(test.state(running), JobState::running);
 }
 
-TEST(EngineTime, EndsWhileTheMeshIsMade) {
-  BackendOptions hanging;
-  hanging.mesher_hangs = true;
-  Engine test({}, hanging);
-  expect_timed_out(test.ended(test.submit(waits_briefly(short_job(test.backend.create())))),
-                   "queue_timeout");
-}
-
 TEST(EngineTime, EndsWhileFactorising) {
   Engine test;
   test.backend.door.shut();
@@ -70,21 +61,6 @@ TEST(EngineTime, EndsWhileIterating) {
   const JobRecord record = test.ended(test.submit(runs_briefly(endless_job(test.ready_mesh()))));
   expect_timed_out(record, "run_timeout");
   EXPECT_TRUE(record.started);
-}
-
-TEST(EngineTime, EndsWhileALoadIsIntegrated) {
-  Engine test(one_thread());
-  records::JobSpec spec = runs_briefly(short_job(test.ready_mesh()));
-  spec.solver = contact::ActiveSetOptions{};
-  spec.loads.resize(1000, spec.loads[0]);  // hours
-  for (std::size_t i = 0; i < spec.loads.size(); ++i) {
-    spec.loads[i].name = std::to_string(i);
-    spec.loads[i].force =
-        fem::Expression{"sin(1e5*x*y)/sqrt(abs(x - 0.03)) + 1e-9*" + std::to_string(i)};
-  }
-  const JobRecord record = test.ended(test.submit(spec));
-  EXPECT_EQ(record.state, JobState::failed);
-  EXPECT_EQ(record.cases.back().error->reason(), Reason::timed_out);
 }
 
 TEST(EngineTime, LeavesTheLoadCasesThatEnded) {

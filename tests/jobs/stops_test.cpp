@@ -246,7 +246,7 @@ TEST_F(JobStops, InFinalPositionsOfGrowth) {
   spec.growth.emplace().paths = {{"interface", {-0.5, 0}, {0, 0}, "0.1"}};
   spec.growth->positions = 4;
   spec.growth->final_positions = 2;
-  spec.growth->final_error = 0.1;
+  spec.growth->final_error = 0.5;
   walk(spec, {{"listing the edges of a mesh", 2},
               {"factorising a mesh", 2},
               {"integrating a load", 2},

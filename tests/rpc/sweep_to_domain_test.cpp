@@ -43,12 +43,6 @@ TEST(SweepToDomain, NamesAPackedMatrixByItsHash) {
   EXPECT_EQ(spec.loads.size(), 3u);
 }
 
-TEST(SweepToDomain, TakesAnUpload) {
-  v1::JobSpec job = good_sweep();
-  job.mutable_sweep()->mutable_coefficients()->set_upload("uploads/" + sha256);
-  EXPECT_EQ(to_spec(job, sweep_limits).sweep->upload, sha256);
-}
-
 TEST(SweepToDomain, TakesNodalForces) {
   v1::JobSpec job = good_sweep();
   job.clear_load_cases();
@@ -57,12 +51,6 @@ TEST(SweepToDomain, TakesNodalForces) {
   EXPECT_EQ(spec.sweep->cases, records::SweepSpec::Cases::nodal_forces);
   EXPECT_EQ(spec.sweep->upload, sha256);
   EXPECT_TRUE(spec.loads.empty());
-}
-
-TEST(SweepToDomain, HasNoneWhereNoneWasAskedFor) {
-  v1::JobSpec job = good_sweep();
-  job.clear_sweep();
-  EXPECT_FALSE(to_spec(job, sweep_limits).sweep);
 }
 
 TEST(SweepToDomain, TakesAMatrixOfAMegabyteInAJobThatWouldBeTooLargeWithoutIt) {

@@ -14,7 +14,7 @@
 #include <set>
 #include <thread>
 
-#include "client/uuid.hpp"
+#include "client/jobs.hpp"
 #include "service/daemon.hpp"
 #include "service/stored_data.hpp"
 #include "service/workload.hpp"

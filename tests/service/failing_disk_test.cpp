@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-#include "client/uuid.hpp"
+#include "client/jobs.hpp"
 #include "service/daemon.hpp"
 #include "service/stored_data.hpp"
 #include "service/workload.hpp"

@@ -12,8 +12,8 @@
 #include <string>
 #include <utility>
 
+#include "client/jobs.hpp"
 #include "client/meshes.hpp"
-#include "client/uuid.hpp"
 #include "service/daemon.hpp"
 #include "service/stored_data.hpp"
 #include "service/workload.hpp"

@@ -20,7 +20,7 @@
 #include <random>
 #include <thread>
 
-#include "client/uuid.hpp"
+#include "client/jobs.hpp"
 #include "digest/digest.hpp"
 #include "service/daemon.hpp"
 #include "service/workload.hpp"

@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "client/uuid.hpp"
+#include "client/jobs.hpp"
 #include "service/daemon.hpp"
 #include "service/workload.hpp"
 #include "support/eventually.hpp"

@@ -11,7 +11,7 @@
 #include <numeric>
 #include <thread>
 
-#include "client/uuid.hpp"
+#include "client/jobs.hpp"
 #include "service/daemon.hpp"
 #include "service/stored_data.hpp"
 #include "service/workload.hpp"

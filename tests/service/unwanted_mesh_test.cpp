@@ -10,7 +10,6 @@
 
 #include "client/jobs.hpp"
 #include "client/meshes.hpp"
-#include "client/uuid.hpp"
 #include "service/daemon.hpp"
 #include "service/workload.hpp"
 #include "support/eventually.hpp"

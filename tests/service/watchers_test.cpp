@@ -9,7 +9,7 @@
 #include <mutex>
 
 #include "anticrack/v1/solve.grpc.pb.h"
-#include "client/uuid.hpp"
+#include "client/jobs.hpp"
 #include "service/daemon.hpp"
 #include "service/workload.hpp"
 #include "support/eventually.hpp"

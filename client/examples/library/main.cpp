@@ -5,7 +5,6 @@
 #include <google/protobuf/text_format.h>
 #include <anticrack/client/jobs.hpp>
 #include <anticrack/client/meshes.hpp>
-#include <anticrack/client/uuid.hpp>
 
 #include <iostream>
 #include <stdexcept>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/accuracy_text.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "cli/live_view.hpp"
+#include "cli/tables.hpp"
 #include "cli/text.hpp"
 #include "client/cli/sample_stages.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/answers.hpp"
+#include "cli/tables.hpp"
 
 #include <gmock/gmock.h>
 #include <google/protobuf/struct.pb.h>
@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <string>
 
-#include "cli/lists_text.hpp"
 #include "results/entries.hpp"
 #include "support/sample_result.hpp"
 
@@ -150,15 +149,6 @@ TEST(AnswersTable, SaysWhatJustTouchesAndWarns) {
   EXPECT_THAT(answers_table(result),
               ::testing::HasSubstr("opening: 1 node just touches: neither jump nor pressure\n"
                                    "opening: warning: f is rough\n"));
-}
-
-TEST(AnswersTable, NamesInclusionsWhereThereAreSeveral) {
-  results::Result result = two_loads();
-  *result.loads[0].answer.add_inclusions() = inclusion("rod", -0.5);
-  const std::string text = answers_table(result);
-  EXPECT_THAT(text, ::testing::HasSubstr("A fibre"));
-  EXPECT_THAT(text, ::testing::HasSubstr("A rod"));
-  EXPECT_THAT(text, ::testing::HasSubstr("-0.5"));
 }
 
 TEST(AnswersTable, HasSlopeAndMomentOfWhatTilts) {

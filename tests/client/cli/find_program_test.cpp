@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "cli/find_program.hpp"
+#include "cli/programs.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace anticrack::cli {

@@ -8,9 +8,8 @@
 
 #include <sstream>
 
-#include "cli/job_text.hpp"
 #include "cli/json.hpp"
-#include "cli/mesh_text.hpp"
+#include "cli/tables.hpp"
 #include "words/shown.hpp"
 
 namespace anticrack::cli {

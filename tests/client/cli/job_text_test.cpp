@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/job_text.hpp"
+#include "cli/tables.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cli/exit_codes.hpp"
+#include "cli/report.hpp"
 #include "cli/submit.hpp"
 #include "cli/text.hpp"
 
@@ -70,22 +70,6 @@ TEST(Shortfalls, CountTheRowsOfASweep) {
   EXPECT_THAT(shortfalls(job), ElementsAre("of 9 rows 2 did not converge, 0 failed"));
 }
 
-TEST(JobText, GivesAOfEveryInclusion) {
-  v1::Job job = sample_job();
-  job.mutable_spec()->add_load_cases()->set_name("opening");
-  v1::LoadCaseAnswer& answer = *job.mutable_status()->add_answers();
-  answer.set_name("opening");
-  answer.set_status(v1::LoadCaseAnswer::STATUS_CONVERGED);
-  answer.mutable_kkt();
-  v1::InclusionAnswer& fibre = *answer.add_inclusions();
-  fibre.set_name("fibre");
-  fibre.set_displacement(0.25);
-  EXPECT_THAT(job_text(job), HasSubstr("     KKT     A  energy  contact length"));
-  EXPECT_THAT(job_text(job), HasSubstr("0.00e+00  0.25       0"));
-  answer.add_inclusions()->set_name("second");
-  EXPECT_THAT(job_text(job), HasSubstr("     KKT  A fibre  A second  energy  contact length"));
-}
-
 TEST(JobText, CountsTheRowsOfASweepInPlaceOfAnswers) {
   v1::Job job = sample_job();
   job.mutable_spec()->add_load_cases()->set_name("skew");
@@ -125,12 +109,6 @@ TEST(JobText, OfExpiredResultsGivesTheCure) {
   job.mutable_status()->set_result_state(v1::JobStatus::RESULT_STATE_EXPIRED);
   EXPECT_THAT(job_text(job), HasSubstr(": done\n")) << "what happened is not forgotten";
   EXPECT_THAT(job_text(job), HasSubstr("run the case again"));
-}
-
-TEST(JobText, SaysThatNotEveryLoadCaseConverged) {
-  v1::Job job = sample_job();
-  job.mutable_status()->set_state(v1::JobStatus::STATE_NOT_CONVERGED);
-  EXPECT_THAT(job_text(job), HasSubstr(": not converged\n"));
 }
 
 TEST(ExitCode, IsThatOfTheEnd) {

@@ -46,19 +46,5 @@ TEST(ToJson, ShowsTheDetailsOfErrors) {
   EXPECT_THAT(text, ::testing::HasSubstr("google.rpc.FromTheFuture"));
 }
 
-TEST(ToJson, KeepsTheProtosFieldNamesAndZeros) {
-  v1::Job job;
-  job.set_name("jobs/1");
-  job.mutable_status()->set_state(v1::JobStatus::STATE_RUNNING);
-  job.mutable_spec()->add_load_cases()->set_name("one");
-  const std::string text = to_json(job);
-  EXPECT_THAT(text, ::testing::HasSubstr("\"load_cases\""));
-  EXPECT_THAT(text, ::testing::HasSubstr("\"result_bytes\": \"0\""));
-  EXPECT_THAT(text, ::testing::HasSubstr("\"STATE_RUNNING\""));
-  v1::Job back;
-  ASSERT_TRUE(google::protobuf::util::JsonStringToMessage(text, &back).ok());
-  EXPECT_EQ(back.SerializeAsString(), job.SerializeAsString());
-}
-
 }  // namespace
 }  // namespace anticrack::cli

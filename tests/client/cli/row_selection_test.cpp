@@ -6,7 +6,7 @@
 
 #include <utility>
 
-#include "cli/case_error.hpp"
+#include "cli/report.hpp"
 
 namespace anticrack::cli {
 namespace {

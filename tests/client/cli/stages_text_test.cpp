@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/lists_text.hpp"
+#include "cli/tables.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

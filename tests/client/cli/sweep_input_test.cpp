@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <functional>
 
 #include "client/sample_sweep.hpp"
 #include "results/file.hpp"
@@ -16,7 +15,6 @@ namespace {
 
 using anticrack::testing::TemporaryFolder;
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 Case two_load_case() {
   Case the_case;
@@ -31,16 +29,6 @@ std::string written(const TemporaryFolder& folder, const std::string& name,
                     const std::string& text) {
   std::ofstream(folder / name) << text;
   return folder / name;
-}
-
-/// What is said of `call`.
-std::string complaint_of(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "accepted";
 }
 
 TEST(SweepInput, ReadsTextAndDatasetsAlike) {
@@ -61,28 +49,6 @@ TEST(SweepInput, ReadsTextAndDatasetsAlike) {
       read_sweep_input({"", folder / "a.h5:/sweep/coefficients", "none"}, two_load_case());
   EXPECT_TRUE(nodal.nodal);
   EXPECT_EQ(nodal.columns, 2U);
-}
-
-TEST(SweepInput, RefusesWhatCannotBeReadWithFileAndCure) {
-  const TemporaryFolder folder;
-  results::write(folder / "a.h5", anticrack::testing::sample_sweep(5));
-  const std::string h5 = folder / "a.h5";
-  const auto coefficients = [](const std::string& file) {
-    return complaint_of([&] { read_sweep_input({file, "", "none"}, two_load_case()); });
-  };
-  const auto nodal = [](const std::string& file) {
-    return complaint_of([&] { read_sweep_input({"", file, "none"}, two_load_case()); });
-  };
-  EXPECT_THAT(coefficients(h5), HasSubstr("\"coefficients\" is missing, there is"));
-  EXPECT_THAT(coefficients(h5 + ":/sweep/x"), HasSubstr("\"x\" is missing, there is coefficients"));
-  EXPECT_THAT(coefficients(h5 + ":/sweep/energy"), HasSubstr("is not of shape (rows,columns)"));
-  EXPECT_THAT(coefficients(h5 + ":/sweep/displacement"),
-              HasSubstr("it has 1 columns, the case 2 loads; write one column for each load"));
-  EXPECT_THAT(coefficients(folder / "no.csv"), HasSubstr("cannot be read"));
-  EXPECT_THAT(coefficients(folder / "no.h5:/x"), HasSubstr("no such file"));
-  EXPECT_THAT(coefficients(written(folder, "b.csv", "1,2\n1,x\n")), HasSubstr("b.csv:2: column 2"));
-  EXPECT_THAT(nodal("f.csv"), HasSubstr("no dataset is named"));
-  EXPECT_THAT(nodal(written(folder, "c.csv", "1\n") + ":/x"), HasSubstr("is not an HDF5 file"));
 }
 
 TEST(SweepInput, LeavesOutTheAccuracyAndItsCoarseMesh) {
@@ -133,12 +99,6 @@ TEST(MakeSweep, OfNodalForcesHasNoLoads) {
   EXPECT_TRUE(the_case.spec.sweep().has_nodal_forces());
   EXPECT_EQ(the_case.spec.load_cases_size(), 0);
   EXPECT_TRUE(the_case.force_files.empty());
-}
-
-TEST(CheckNodes, WantsAColumnForEachNode) {
-  EXPECT_EQ(complaint_of([] { check_nodes(rows_of_two(1), 2); }), "accepted");
-  EXPECT_THAT(complaint_of([] { check_nodes(rows_of_two(1), 3); }),
-              HasSubstr("c.csv: it has 2 columns, the mesh 3 nodes; write f on every node"));
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/sweep_text.hpp"
 
 #include <gmock/gmock.h>
 #include <google/protobuf/struct.pb.h>
@@ -8,7 +7,7 @@
 
 #include <sstream>
 
-#include "cli/answers.hpp"
+#include "cli/tables.hpp"
 #include "client/sample_sweep.hpp"
 
 namespace anticrack::cli {

@@ -7,7 +7,7 @@
 #include <ctime>
 #include <limits>
 
-#include "results/interval.hpp"
+#include "results/result.hpp"
 #include "words/shown.hpp"
 
 namespace anticrack::cli {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "client/cli/sample_stages.hpp"
-#include "results/error.hpp"
+#include "results/result.hpp"
 #include "support/block_maker.hpp"
 
 namespace anticrack::cli {

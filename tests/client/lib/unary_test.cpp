@@ -3,14 +3,22 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <set>
 #include <stdexcept>
 
 #include "client/jobs.hpp"
 #include "client/lib/scripted_server.hpp"
-#include "client/uuid.hpp"
 
 namespace anticrack::client {
 namespace {
+
+TEST(Uuid, IsVersionFourAndNewEveryTime) {
+  std::set<std::string> seen;
+  for (int i = 0; i < 1000; ++i) seen.insert(make_uuid());
+  EXPECT_EQ(seen.size(), 1000U);
+  EXPECT_THAT(seen, ::testing::Each(::testing::MatchesRegex("[0-9a-f]{8}-[0-9a-f]{4}-4[0-9a-f]{3}-"
+                                                            "[89ab][0-9a-f]{3}-[0-9a-f]{12}")));
+}
 
 TEST(CreateJob, RetriesUnderTheSameId) {
   ScriptedServer server;

@@ -17,8 +17,6 @@
 #include <string>
 #include <thread>
 
-#include "output/error.hpp"
-#include "output/target.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace anticrack::output {

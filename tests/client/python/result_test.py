@@ -38,12 +38,14 @@ force = "N"
 
 
 def units_in(path):
-    """Of each dataset of a file."""
-    found = {}
+    """Of each dataset of a file, by all its names."""
+    def walk(group, name):
+        if isinstance(group, h5py.Dataset):
+            return {name: group.attrs["units"]}
+        return {key: unit for part in group for key, unit in walk(group[part], f"{name}/{part}").items()}
+
     with h5py.File(path) as file:
-        file.visititems(lambda name, item: found.update({name: item.attrs["units"]})
-                        if isinstance(item, h5py.Dataset) else None)
-    return found
+        return walk(file, "")
 
 
 class Results(FolderTest):

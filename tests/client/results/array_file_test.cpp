@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "results/array_file.hpp"
+#include "results/file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 #include <limits>
 #include <utility>
 
-#include "results/error.hpp"
+#include "results/result.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace anticrack::results {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "results/interval.hpp"
+#include "results/result.hpp"
 
 #include <gtest/gtest.h>
 

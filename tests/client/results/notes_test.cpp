@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "results/notes.hpp"
+#include "results/result.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -120,28 +120,6 @@ TEST(SweepFile, HoldsASweepWithoutCoefficientsInclusionsAndCracks) {
   EXPECT_TRUE(same(*back.sweep, sweep));
 }
 
-TEST(SweepFile, IsNoSweepWithoutOne) {
-  EXPECT_FALSE(written_and_read(anticrack::testing::sample_result(2)).sweep);
-}
-
-TEST(SweepFile, SaysWhatItsColumnsAre) {
-  const TemporaryFolder folder;
-  write(folder / "a.h5", tilting_sweep());
-  const hid_t file = H5Fopen((folder / "a.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  ASSERT_GE(file, 0);
-  for (const char* name : {"status", "steps", "energy", "contact_length", "kkt", "kept",
-                           "contact_nodes", "displacement", "slope", "contact", "coefficients"}) {
-    const std::string path = std::string("/sweep/") + name;
-    for (const char* attribute : {"units", "meaning"}) {
-      EXPECT_GT(H5Aexists_by_name(file, path.c_str(), attribute, H5P_DEFAULT), 0) << path;
-    }
-  }
-  for (const char* attribute : {"description", "source", "loads", "inclusions", "converged"}) {
-    EXPECT_GT(H5Aexists_by_name(file, "/sweep", attribute, H5P_DEFAULT), 0) << attribute;
-  }
-  H5Fclose(file);
-}
-
 using Spoil = std::function<void(Result&)>;
 
 TEST(Sweep, IsNotWrittenFromWhatDoesNotFitTogether) {
@@ -173,16 +151,6 @@ TEST(Sweep, IsNotWrittenFromWhatDoesNotFitTogether) {
     const TemporaryFolder folder;
     EXPECT_THROW(write(folder / "a.h5", result), Error) << fault;
   }
-}
-
-TEST(SweepFile, ThatWasTamperedWithIsRefused) {
-  const TemporaryFolder folder;
-  write(folder / "a.h5", sample_sweep());
-  const hid_t file = H5Fopen((folder / "a.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
-  ASSERT_GE(file, 0);
-  ASSERT_GE(H5Ldelete(file, "/sweep/energy", H5P_DEFAULT), 0);
-  H5Fclose(file);
-  EXPECT_THROW(read(folder / "a.h5"), Error);
 }
 
 TEST(SweepSummary, SpansTheConvergedRows) {
