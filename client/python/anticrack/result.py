@@ -40,6 +40,11 @@ class Units:
             return "-"
         return "".join(names.get(letter, letter) for letter in dimension)
 
+    def of_column(self, name: str) -> str:
+        """The unit of a column of sweeps and studies, such as energy_lower or "A of fibre"; "-" if it has none."""
+        kind = "L" if name in ("G_x", "G_y") else re.split("[ _]", name, maxsplit=1)[0]
+        return self.of({"energy": "F L", "contact": "L", "A": "L", "L": "L", "G": "F"}.get(kind, ""))
+
     def behind(self, dimension: str) -> str:
         """The unit to write after a number: " N/mm^2"; empty if there is none."""
         unit = self.of(dimension)
@@ -186,6 +191,14 @@ class Field:
         return (f"{harmless(self.name)}: {counted(len(self.nodes), 'node')}, "
                 f"{counted(len(self.triangles), 'triangle')}, "
                 f"u from {self.u.min():.4g} to {self.u.max():.4g}{self.units.behind('L')}")
+
+
+def joined(parts: Sequence[Field]) -> tuple[Array, Array, Array]:
+    """All subdomains together; faces of cracks and slits have nodes of their own. nodes (n): of the mesh; part (n): the
+    subdomain of each; triangles (m, 3): indices into nodes."""
+    first = np.cumsum([0, *(len(part.nodes) for part in parts)])
+    return (np.concatenate([part.nodes for part in parts]), np.repeat(np.arange(len(parts)), np.diff(first)),
+            np.concatenate([part.triangles + start for part, start in zip(parts, first)]))
 
 
 def _walked(message: Any, but: tuple[str, ...], **other: Any) -> Any:
@@ -400,10 +413,8 @@ class Sweep:
         """(rows) whether the row converged"""
         return np.asarray(self.status == solve_pb2.LoadCaseAnswer.STATUS_CONVERGED)
 
-    def frame(self) -> Any:
-        """A pandas.DataFrame with a line for each row: coefficients, A, its bounds and slopes by name, and numbers of
-        tips; needs pandas."""
-        pandas = package("pandas")
+    def columns(self) -> dict[str, Any]:
+        """Arrays (rows) by name: coefficients, status, A, its bounds and slopes by name, and numbers of tips."""
         columns: dict[str, Any] = {}
         if self.coefficients is not None:
             columns.update((name, self.coefficients[:, i]) for i, name in enumerate(self.loads))
@@ -420,8 +431,11 @@ class Sweep:
                              ("G_spread", self.energy_release_rate_spread)):
             for i in range(0 if values is None else values.shape[1]):
                 columns[f"{what} of tip {i}"] = values[:, i]
-        columns = {name: column for name, column in columns.items() if column is not None}
-        return pandas.DataFrame(columns).rename_axis("row")
+        return {name: column for name, column in columns.items() if column is not None}
+
+    def frame(self) -> Any:
+        """The columns as a pandas.DataFrame; needs pandas."""
+        return package("pandas").DataFrame(self.columns()).rename_axis("row")
 
     def __repr__(self) -> str:
         return (f"sweep of {counted(len(self.status), 'row')}, {int(self.converged.sum())} converged; loads: "

@@ -114,7 +114,7 @@ class _Drawing:
                 self.drawn.add(f"{stem}-growth-{row}", pictures.picture(pictures.draw_membrane, look, result,
                                                                         load.grown(int(row))))
         if has("accuracy") and len(bounded(load)["triangles"]) > 1:
-            self.drawn.add(f"{stem}-accuracy", pictures.accuracy_picture(look, result, load))
+            self.drawn.add(f"{stem}-accuracy", pictures.picture(pictures.draw_accuracy, look, result, load))
         elif has("accuracy") and (load.stages or self.wanted.only):
             self.note(f"{told}: no accuracy drawn, fewer than two stages have bounds")
 
