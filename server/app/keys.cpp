@@ -138,6 +138,10 @@ const std::vector<Key>& keys() {
       text("data-dir", "DIR",
            "Folder of all data; default $XDG_STATE_HOME/anticrack or ~/.local/state/anticrack",
            &Store::folder),
+      text("store", "URL",
+           "postgresql://USER@HOST/DATABASE, which other servers may share (the password is in "
+           "PGPASSFILE); default: SQLite in the data folder",
+           &Store::url),
       bytes("disk-budget", "Limit of the data folder; 0: the size of the disk", &Store::disk_budget,
             0),
       count("kept-jobs",

@@ -14,6 +14,7 @@
 #include "app/machine.hpp"
 #include "app/options.hpp"
 #include "app/security.hpp"
+#include "group/store.hpp"
 #include "log/log.hpp"
 #include "metrics/metrics.hpp"
 #include "operators/mesh_operator.hpp"
@@ -43,7 +44,9 @@ struct Service::Parts {
         drain_time(config.drain_time),
         metrics(rpc::version(), rpc::build()),
         folder(config.store.folder),
-        store(store::open(config.store)),
+        store(config.store.url.empty()
+                  ? store::open(config.store)
+                  : std::make_unique<group::Store>(config.store)),
         cache(config.limits.memory_budget_bytes, factorise_function(config),
               [this](std::chrono::duration<double> time) { factorised(metrics, time); }),
         catalogue(with_listener(catalogue_options(config)), *store, cache),

@@ -12,6 +12,8 @@ namespace anticrack::app {
 
 int check_store(const Config& config, bool repair, std::ostream& out) {
   constexpr int flawed = 3;
+  if (!config.store.url.empty())
+    throw ConfigError("check-store: --store is a database: check it with pg_amcheck");
   const std::string& data = config.store.folder;
   if (!std::filesystem::is_directory(data)) {
     throw ConfigError("data-dir: " + data +

@@ -30,43 +30,49 @@ void require_possible(std::uint64_t value, std::uint64_t limit, const char* what
 
 }  // namespace
 
-std::chrono::milliseconds Admission::retry_delay() const noexcept {
-  const auto jobs = static_cast<std::int64_t>(std::min<std::size_t>(_jobs, 1'000'000));
-  return std::min(longest_delay, shortest_delay + delay_per_job * jobs);
+std::chrono::milliseconds Admission::retry_delay(std::uint64_t jobs) noexcept {
+  const auto counted = static_cast<std::int64_t>(std::min<std::uint64_t>(jobs, 1'000'000));
+  return std::min(longest_delay, shortest_delay + delay_per_job * counted);
 }
 
 void Admission::check(const std::string& owner, const std::string& mesh, std::uint64_t cases,
                       std::uint64_t bytes, std::uint64_t memory) const {
+  const auto held = _owners.find(owner);
+  const Held own = held == _owners.end() ? Held() : held->second;
+  const auto waiting = _cases.find(mesh);
+  check(owner, mesh, cases, bytes,
+        {_jobs, memory, own.jobs, own.bytes, waiting == _cases.end() ? 0 : waiting->second});
+}
+
+void Admission::check(const std::string& owner, const std::string& mesh, std::uint64_t cases,
+                      std::uint64_t bytes, const store::QueueTotals& held) const {
   require_possible(cases, _limits.cases, "load cases");
   require_possible(bytes, _limits.memory, "bytes of load cases");
   const auto full = [&](const std::string& what) {
     Error error(Reason::busy, "the queue is full (" + what + "): try again in a while");
-    return error.retry_after(retry_delay());
+    return error.retry_after(retry_delay(held.jobs));
   };
-  if (_jobs >= _limits.jobs) {
-    throw full(fmt::format("{} jobs have not ended, at most {}", _jobs, _limits.jobs));
+  if (held.jobs >= _limits.jobs) {
+    throw full(fmt::format("{} jobs have not ended, at most {}", held.jobs, _limits.jobs));
   }
-  if (const auto held = _owners.find(owner); held != _owners.end() && !owner.empty()) {
-    const auto& [own_jobs, own_bytes] = held->second;
-    if (!access::may_have(own_jobs, 1, _jobs, _limits.jobs)) {
+  if (!owner.empty() && held.own_jobs > 0) {
+    if (!access::may_have(held.own_jobs, 1, held.jobs, _limits.jobs)) {
       throw full(fmt::format("you have {} jobs that have not ended, one user may have {} now",
-                             own_jobs, access::share(own_jobs, _jobs, _limits.jobs)));
+                             held.own_jobs, access::share(held.own_jobs, held.jobs, _limits.jobs)));
     }
-    if (!access::may_have(own_bytes, bytes, memory, _limits.memory)) {
-      throw full(
-          fmt::format("your jobs that have not ended take {} bytes and this one {}, those of one "
-                      "user may take {} now",
-                      own_bytes, bytes, access::share(own_bytes, memory, _limits.memory)));
+    if (!access::may_have(held.own_bytes, bytes, held.bytes, _limits.memory)) {
+      throw full(fmt::format(
+          "your jobs that have not ended take {} bytes and this one {}, those of one "
+          "user may take {} now",
+          held.own_bytes, bytes, access::share(held.own_bytes, held.bytes, _limits.memory)));
     }
   }
-  const auto found = _cases.find(mesh);
-  const std::uint64_t waiting = found == _cases.end() ? 0 : found->second;
-  if (waiting + cases > _limits.cases) {
-    throw full(fmt::format("{} load cases of meshes/{} have not ended, at most {}", waiting, mesh,
-                           _limits.cases));
+  if (held.mesh_cases + cases > _limits.cases) {
+    throw full(fmt::format("{} load cases of meshes/{} have not ended, at most {}", held.mesh_cases,
+                           mesh, _limits.cases));
   }
-  if (memory + bytes > _limits.memory) {
-    throw full(fmt::format("jobs use {} bytes of memory, at most {}", memory, _limits.memory));
+  if (held.bytes + bytes > _limits.memory) {
+    throw full(fmt::format("jobs use {} bytes of memory, at most {}", held.bytes, _limits.memory));
   }
 }
 

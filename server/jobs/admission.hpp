@@ -9,6 +9,8 @@
 #include <string>
 #include <unordered_map>
 
+#include "store/queue.hpp"
+
 namespace anticrack::jobs {
 
 struct AdmissionLimits {
@@ -29,6 +31,9 @@ class Admission {
   /// `memory`: the bytes that all jobs use.
   void check(const std::string& owner, const std::string& mesh, std::uint64_t cases,
              std::uint64_t bytes, std::uint64_t memory) const;
+  /// The same where not this object but the queue of several servers counts.
+  void check(const std::string& owner, const std::string& mesh, std::uint64_t cases,
+             std::uint64_t bytes, const store::QueueTotals& held) const;
   void add(const std::string& owner, const std::string& mesh, std::uint64_t cases,
            std::uint64_t bytes);
 
@@ -41,7 +46,7 @@ class Admission {
   std::size_t waiting() const noexcept { return _waiting; }  ///< jobs that have not started
   std::uint64_t bytes() const noexcept { return _bytes; }
   /// The delay in a refusal; grows with the number of jobs that have not ended.
-  std::chrono::milliseconds retry_delay() const noexcept;
+  static std::chrono::milliseconds retry_delay(std::uint64_t jobs) noexcept;
 
  private:
   AdmissionLimits _limits;

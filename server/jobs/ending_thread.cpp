@@ -10,6 +10,7 @@
 
 #include "errors/errors.hpp"
 #include "fields/walk.hpp"
+#include "jobs/event_rows.hpp"
 #include "jobs/result_block.hpp"
 #include "jobs/sweep_result.hpp"
 #include "records/case_record.hpp"
@@ -132,7 +133,7 @@ void EndingThread::write(End end) {
   lock.unlock();
   if (finish(end)) return announce(end);
   lock.lock();
-  if (_core.interrupting) return leave_to_next_start(end);
+  if (end.taken || _core.interrupting) return leave_to_next_start(end);
   end.next_try = Clock::now() + retry_write;
   _waiting.push_back(std::move(end));
   if (job->phase == Phase::refused) return;
@@ -145,10 +146,14 @@ void EndingThread::write(End end) {
 bool EndingThread::finish(End& end) {
   try {
     const stop::Scope scope(end.result ? end.stop : std::stop_token());
+    if (_core.rows) _core.rows->publish({end.job});
     _core.store.finish(end.record, end.result);
     return true;
   } catch (const std::bad_alloc&) {
     return false;  // treated like a disk that refuses
+  } catch (const store::JobTaken&) {
+    end.taken = true;
+    return false;
   } catch (const std::exception& exception) {
     const auto* error = dynamic_cast<const Error*>(&exception);
     if (!end.result || (error && is_of_the_disk(*error))) return false;
@@ -171,7 +176,7 @@ void EndingThread::announce(const End& end) {
   _core.ended_since_sweep = true;
   _core.sweeping.notify_one();
   _core.logs.add(job->id(), job->log, log_bytes);
-  _core.jobs.erase(job->id());
+  if (_core.jobs.at(job->id()) == job) _core.jobs.erase(job->id());
   _core.admission.ended(job->created.owner, job->spec_bytes);
   ++_core.ended;  // before the end event, so that watchers find the job counted
   lock.unlock();
@@ -179,6 +184,8 @@ void EndingThread::announce(const End& end) {
   lock.lock();
   --_core.not_announced;
   _core.settled.notify_all();
+  _core.queue_changed = true;
+  _core.claiming.notify_all();
 }
 
 void EndingThread::forget_meshes(const LiveJob& job) {
@@ -200,6 +207,7 @@ void EndingThread::leave_to_next_start(const End& end) {
   _core.admission.ended(end.job->created.owner, end.job->spec_bytes);
   --_core.not_announced;
   _core.settled.notify_all();
+  _core.give_up(end.job);
 }
 
 std::optional<EndingThread::End> EndingThread::next_waiting() {

@@ -38,6 +38,7 @@ class EndingThread {
     records::JobRecord record;
     std::shared_ptr<const records::BlockSource> result;
     std::stop_token stop = {};  ///< stops the writing
+    bool taken = false;         ///< another server has the job
     Clock::time_point next_try{};
 
     /// Makes the job fail, as its result can never be written.

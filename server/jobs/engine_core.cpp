@@ -9,6 +9,7 @@
 #include "fields/walk.hpp"
 #include "jobs/accuracy.hpp"
 #include "jobs/block_run.hpp"
+#include "jobs/event_rows.hpp"
 #include "operators/freed_memory.hpp"
 #include "records/case_record.hpp"
 
@@ -47,6 +48,8 @@ EngineCore::EngineCore(EngineOptions engine_options, store::Store& records,
     : options(std::move(engine_options)),
       store(records),
       catalogue(mesh_catalogue),
+      queue(records.queue()),
+      rows(queue != nullptr ? std::make_shared<EventRows>(*this) : nullptr),
       admission({static_cast<std::size_t>(std::max(0, options.max_queued_jobs)),
                  static_cast<std::uint64_t>(std::max(0, options.max_queued_cases)),
                  options.max_job_memory}),
@@ -59,7 +62,8 @@ EngineCore::EngineCore(EngineOptions engine_options, store::Store& records,
 void EngineCore::quit() {
   const std::lock_guard lock(mutex);
   quitting = true;
-  for (auto* changed : {&solvers, &ending, &sweeping, &limits}) changed->notify_all();
+  for (auto* changed : {&solvers, &ending, &sweeping, &limits, &claiming, &telling})
+    changed->notify_all();
 }
 
 std::jthread EngineCore::start(std::function<void()> work) {
@@ -72,7 +76,7 @@ std::jthread EngineCore::start(std::function<void()> work) {
 }
 
 void EngineCore::add(const JobPtr& job) {
-  jobs.emplace(job->id(), job);
+  jobs.insert_or_assign(job->id(), job);  // one that this server lost may still be winding down
   numbers.emplace(job->number, job);
   ++live;
   if (const auto mesh = enter_mesh(job); !mesh->phase.empty()) {
@@ -165,12 +169,22 @@ void EngineCore::settle(const JobPtr& job) {
     job->sweep.reset();
     job->sweep_record = {};
     job->stages.reset();
+    give_up(job);
   } else {
     ++not_announced;
     to_end.push(job->created.owner, job);
     ending.notify_one();
   }
   settled.notify_all();
+  queue_changed = true;
+  claiming.notify_all();
+}
+
+void EngineCore::give_up(const JobPtr& job) {
+  if (queue == nullptr) return;
+  if (const auto found = jobs.find(job->id()); found != jobs.end() && found->second == job)
+    jobs.erase(found);
+  rows->follow(job->id(), job->log);
 }
 
 void EngineCore::leave(const JobPtr& job) {

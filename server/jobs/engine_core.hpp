@@ -39,10 +39,12 @@
 #include "jobs/schedule.hpp"
 #include "jobs/sweep_chunk.hpp"
 #include "operators/mesh_operator.hpp"
+#include "store/queue.hpp"
 
 namespace anticrack::jobs {
 
 class BlockRun;
+class EventRows;
 
 /// A load case that is condensed for the active set; any thread may solve it.
 struct PreparedCase {
@@ -88,15 +90,22 @@ class EngineCore {
   const EngineOptions options;
   store::Store& store;
   meshes::MeshCatalogue& catalogue;
+  /// Of several servers on one store; null where this one is alone, and `rows` as well.
+  store::Queue* const queue;
+  const std::shared_ptr<EventRows> rows;
   std::atomic<std::uint64_t> iterations{0};
 
   mutable std::mutex mutex;
   /// Signalled when there is work for the kind of thread.
   std::condition_variable solvers, ending, sweeping, limits;
-  std::condition_variable settled;  ///< signalled when fewer jobs are live or ending
-  bool draining = false;            ///< whether no job may start any more
-  bool interrupting = false;        ///< ends that the store refuses are left to the next start
-  bool stop_noted = false;          ///< whether the store has a note of it
+  std::condition_variable claiming, telling;
+  std::condition_variable settled;  ///< signalled when fewer jobs are live, ending or claimed
+  bool queue_changed = false;       ///< whether there may be a job to claim, or room for one
+  bool flags_changed = false;       ///< whether a job here may have been cancelled elsewhere
+  int claims_under_way = 0;
+  bool draining = false;      ///< whether no job may start any more
+  bool interrupting = false;  ///< ends that the store refuses are left to the next start
+  bool stop_noted = false;    ///< whether the store has a note of it
   bool quitting = false;
   bool ended_since_sweep = true;
 
@@ -144,6 +153,8 @@ class EngineCore {
   void settle(const JobPtr& job);
   /// Ends the wait for the operators, if there is one: they are in use now, or not wanted.
   void end_wait(MeshWork& mesh);
+  /// A job here was left to another server or to the next start: it is not live here any more.
+  void give_up(const JobPtr& job);
   /// Releases the mesh's operator if nothing needs it.
   void release(const std::shared_ptr<MeshWork>& mesh);
 

@@ -88,6 +88,12 @@ std::size_t kept_bytes(const Event& event) {
   return bytes;
 }
 
+/// After the event `counted`, sequence numbers are `ahead` of the count of events.
+struct Jump {
+  std::uint64_t counted = 0;
+  std::uint64_t ahead = 0;
+};
+
 Batch as_batch(const Event& event) {
   return std::visit(
       []<class Kind>(const Kind& kind) -> Batch {
@@ -122,6 +128,7 @@ struct EventLog::State {
   SampleQueue samples;
   std::deque<Kept> others;
   std::size_t other_bytes = 0;
+  std::deque<Jump> jumps;  ///< ascending; numbers here and below are counts
   std::uint64_t earliest;
   std::uint64_t latest;
   bool ended = false;
@@ -165,8 +172,26 @@ struct EventLog::State {
     }
   }
 
-  void require_kept(std::uint64_t after) const {
-    if (after + 1 < earliest || after > latest) throw trimmed(after, earliest, latest);
+  /// The sequence number of an event by its count.
+  std::uint64_t sequence_of(std::uint64_t counted) const {
+    const auto jump = std::find_if(jumps.rbegin(), jumps.rend(),
+                                   [&](const Jump& one) { return one.counted < counted; });
+    return jump == jumps.rend() ? counted : counted + jump->ahead;
+  }
+  /// The count of the last event whose sequence number is at most `sequence`.
+  std::uint64_t count_of(std::uint64_t sequence) const {
+    std::uint64_t last = jumps.empty() ? sequence : latest;
+    for (auto jump = jumps.rbegin(); jump != jumps.rend(); last = (jump++)->counted)
+      if (sequence > jump->counted + jump->ahead) return std::min(sequence - jump->ahead, last);
+    return std::min(sequence, last);
+  }
+
+  /// The count for a reader's sequence number. Throws if what comes next is not kept.
+  std::uint64_t kept(std::uint64_t after) const {
+    const std::uint64_t counted = count_of(after);
+    if (counted + 1 < earliest || counted > latest)
+      throw trimmed(after, sequence_of(earliest), sequence_of(latest));
+    return counted;
   }
 
   /// The positions after event `after`: first event that is not a sample, and first sample.
@@ -248,14 +273,24 @@ void EventLog::append(std::span<const SampleEvent> samples) {
   });
 }
 
+void EventLog::jump(std::uint64_t sequence) {
+  const std::lock_guard lock(_state->mutex);
+  State& log = *_state;
+  const std::uint64_t latest = log.sequence_of(log.latest);
+  if (log.ended || sequence < latest || (sequence == latest && !log.jumps.empty())) return;
+  while (!log.jumps.empty() && log.jumps.back().counted == log.latest) log.jumps.pop_back();
+  while (log.jumps.size() > 1 && log.jumps[1].counted < log.earliest) log.jumps.pop_front();
+  log.jumps.push_back({log.latest, sequence - log.latest});
+}
+
 std::uint64_t EventLog::earliest() const {
   const std::lock_guard lock(_state->mutex);
-  return _state->earliest;
+  return _state->sequence_of(_state->earliest);
 }
 
 std::uint64_t EventLog::latest() const {
   const std::lock_guard lock(_state->mutex);
-  return _state->latest;
+  return _state->sequence_of(_state->latest);
 }
 
 std::size_t EventLog::bytes() const {
@@ -270,14 +305,16 @@ bool EventLog::complete() const {
 
 NumberedBatch EventLog::batch(std::uint64_t after, std::size_t count) const {
   const std::lock_guard lock(_state->mutex);
-  _state->require_kept(after);
-  return _state->batch(after, count);
+  const std::uint64_t counted = _state->kept(after);
+  NumberedBatch batch = _state->batch(counted, count);
+  batch.last = batch.last == counted ? after : _state->sequence_of(batch.last);
+  return batch;
 }
 
 std::vector<NumberedEvent> EventLog::read(std::uint64_t after, std::size_t count) const {
   std::vector<NumberedEvent> events;
   const std::lock_guard lock(_state->mutex);
-  _state->require_kept(after);
+  after = _state->kept(after);
   const std::size_t size = std::min<std::uint64_t>(count, _state->latest - after);
   events.reserve(size);
   auto [other, sample] = _state->next(after);
@@ -286,7 +323,7 @@ std::vector<NumberedEvent> EventLog::read(std::uint64_t after, std::size_t count
       events.push_back((other++)->numbered);
     else
       events.push_back({after + 1, _state->samples.runs(sample++, 1).front()[0]});
-    ++after;
+    events.back().sequence = _state->sequence_of(++after);
   }
   return events;
 }

@@ -105,6 +105,10 @@ class EventLog {
   void append(Event event);
   /// Appends the samples one after the other, with one lock and one wake. O(samples).
   void append(std::span<const SampleEvent> samples);
+  /// The next event gets the number `sequence` + 1, if that is not used already. A log with a jump
+  /// follows that of another server, so a reader may be ahead of it: he gets what comes after his
+  /// number, and numbers that are left out are nobody's loss.
+  void jump(std::uint64_t sequence);
 
   std::uint64_t earliest() const;  ///< sequence of the oldest event kept; else latest()+1
   std::uint64_t latest() const;    ///< `base` before the first event

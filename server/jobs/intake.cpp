@@ -123,6 +123,26 @@ bool crashed(EngineCore& core) {
   }
 }
 
+/// Puts a job into the queue of all servers, within the limits over all of them.
+TakenIn queue_for_all(EngineCore& core, const Submission& submission, const JobRecord& record,
+                      std::uint64_t cases) {
+  const std::uint64_t bytes = fields::bytes_of(record.spec);
+  EngineCore::Lock lock(core.mutex);
+  if (core.draining) throw Error(Reason::draining, "the server is stopping: submit to another one");
+  const Admission& admission = core.admission;
+  lock.unlock();
+  JobRecord stored = core.queue->create(
+      record, submission.fingerprint, {cases, bytes}, [&](const store::QueueTotals& held) {
+        admission.check(record.owner, record.spec.mesh, cases, bytes, held);
+      });
+  const bool is_new = stored.id == record.id;
+  lock.lock();
+  core.created += is_new ? 1 : 0;
+  core.queue_changed = true;
+  core.claiming.notify_all();
+  return {std::move(stored), is_new};
+}
+
 std::optional<Error> too_many_crashes(const JobRecord& record, const EngineOptions& options) {
   if (options.max_crashes == 0 || record.crashes < options.max_crashes) return std::nullopt;
   return Error(Reason::internal,
@@ -146,6 +166,7 @@ TakenIn take_in(EngineCore& core, const Submission& submission) {
   require_arrays(record.spec.loads, core.store, record.owner);
   if (record.spec.sweep) measure(*record.spec.sweep, record, core);
   const std::uint64_t cases = queued_cases(record.spec, core.store, record.owner);
+  if (core.queue != nullptr) return queue_for_all(core, submission, record, cases);
   Place place(core, record, cases);
   JobRecord stored = core.store.create(record, submission.fingerprint);
   if (stored.id != record.id)
@@ -162,49 +183,59 @@ TakenIn take_in(EngineCore& core, const Submission& submission) {
   return {std::move(stored), true};
 }
 
+JobPtr take_up(EngineCore& core, JobRecord record, const std::string& why) {
+  const bool waits_since_it_was_made = !record.started;
+  record.state = JobState::queued;
+  record.started.reset();
+  if (record.stages.size() < 2) record.cases.assign(case_count(record.spec), {});
+  record.sweep = {};
+  if (!why.empty()) add_step(record.timeline, JobState::queued, why);
+  std::shared_ptr<void> mesh_use, stage_use;
+  if (!record.stages.empty()) {
+    try {
+      stage_use = core.catalogue.use(record.stages.back().mesh);
+    } catch (const Error& error) {
+      if (error.reason() != Reason::not_found) throw;
+      record.stages.clear();  // the mesh of its stage is gone, so it begins anew
+    }
+  }
+  std::optional<Error> gone = too_many_crashes(record, core.options);
+  try {
+    mesh_use = use(core, record.spec.mesh);
+  } catch (const Error& error) {
+    if (error.reason() != Reason::not_found) throw;  // the store cannot be reached
+    gone = mesh_failed(record.spec.mesh, error);
+  }
+  const auto waited = waits_since_it_was_made ? records::Clock::now() - record.created
+                                              : records::Clock::duration::zero();
+  const std::uint64_t cases = queued_cases(record.spec, core.store, record.owner);
+  EngineCore::Lock lock(core.mutex);
+  const std::uint64_t number = ++core.last_number;
+  lock.unlock();
+  const auto job =
+      std::make_shared<LiveJob>(number, std::move(record), cases, core.options.event_log_bytes,
+                                std::move(mesh_use), core.memory, core.queue != nullptr);
+  if (job->stages) job->stages->mesh_use = std::move(stage_use);
+  lock.lock();
+  core.admission.add(job->created.owner, job->spec->mesh, cases, job->spec_bytes);
+  queue(core, job,
+        job->since + queue_limit(*job, core.options) -
+            std::chrono::duration_cast<EngineCore::Clock::duration>(waited));
+  lock.unlock();
+  if (gone) core.stop(job, Stop::failed, gone);
+  return job;
+}
+
 void recover(EngineCore& core) {
-  const bool after_crash = crashed(core);
   for (store::EndedJob& job : core.store.ended()) core.retention.add(std::move(job));
+  if (core.queue != nullptr) return;
+  const bool after_crash = crashed(core);
   for (JobRecord& record : core.store.unfinished()) {
     if (record.state == JobState::running) {
       ++record.attempt;
       record.crashes += after_crash ? 1 : 0;
     }
-    const bool waits_since_it_was_made = !record.started;
-    record.state = JobState::queued;
-    record.started.reset();
-    if (record.stages.size() < 2) record.cases.assign(case_count(record.spec), {});
-    record.sweep = {};
-    add_step(record.timeline, JobState::queued, "the server was started");
-    std::shared_ptr<void> mesh_use, stage_use;
-    if (!record.stages.empty()) {
-      try {
-        stage_use = core.catalogue.use(record.stages.back().mesh);
-      } catch (const Error&) {
-        record.stages.clear();  // the mesh of its stage is gone, so it begins anew
-      }
-    }
-    std::optional<Error> gone = too_many_crashes(record, core.options);
-    try {
-      mesh_use = use(core, record.spec.mesh);
-    } catch (const Error& error) {
-      gone = mesh_failed(record.spec.mesh, error);
-    }
-    const auto waited = waits_since_it_was_made ? records::Clock::now() - record.created
-                                                : records::Clock::duration::zero();
-    const std::uint64_t cases = queued_cases(record.spec, core.store, record.owner);
-    const auto job =
-        std::make_shared<LiveJob>(++core.last_number, std::move(record), cases,
-                                  core.options.event_log_bytes, std::move(mesh_use), core.memory);
-    if (job->stages) job->stages->mesh_use = std::move(stage_use);
-    {
-      const std::lock_guard lock(core.mutex);
-      core.admission.add(job->created.owner, job->spec->mesh, cases, job->spec_bytes);
-      queue(core, job,
-            job->since + queue_limit(*job, core.options) -
-                std::chrono::duration_cast<EngineCore::Clock::duration>(waited));
-    }
-    if (gone) core.stop(job, Stop::failed, gone);
+    take_up(core, std::move(record), "the server was started");
   }
 }
 

@@ -15,8 +15,12 @@ struct TakenIn {
 /// Does the work of JobEngine::submit. Call it without the lock.
 TakenIn take_in(EngineCore& core, const Submission& submission);
 
-/// Queues the unfinished jobs of the store and adds the ended ones to retention. Call it once,
-/// before there are threads.
+/// Makes a job of the store live here, for its first attempt or another. `why`: what is told of
+/// another one. Without the lock.
+JobPtr take_up(EngineCore& core, records::JobRecord record, const std::string& why);
+
+/// Adds the ended jobs of the store to retention; if the store belongs to this server alone, takes
+/// up those that have not ended. Call it once, before there are threads.
 void recover(EngineCore& core);
 
 }  // namespace anticrack::jobs

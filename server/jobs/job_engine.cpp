@@ -7,8 +7,10 @@
 
 #include "errors/errors.hpp"
 #include "jobs/check.hpp"
+#include "jobs/claims.hpp"
 #include "jobs/ending_thread.hpp"
 #include "jobs/engine_core.hpp"
+#include "jobs/event_rows.hpp"
 #include "jobs/intake.hpp"
 #include "jobs/solver_pool.hpp"
 #include "jobs/upkeep.hpp"
@@ -71,10 +73,13 @@ struct JobEngine::State {
         : ending(core),
           retention(core.start([&core] { remove_what_is_too_old(core); })),
           limits(core.start([&core] { keep_time_limits(core); })),
-          solvers(core) {}
+          solvers(core) {
+      if (core.queue != nullptr) claims.emplace(core);
+    }
     EndingThread ending;
     std::jthread retention, limits;
     SolverPool solvers;
+    std::optional<Claims> claims;  ///< of one of several servers
   };
 
   EngineCore core;
@@ -118,13 +123,18 @@ std::vector<JobRecord> JobEngine::list(const store::Page& page) const {
 }
 
 JobRecord JobEngine::cancel(const std::string& id) {
-  if (const JobPtr job = _state->live(id)) _state->core.stop(job, Stop::cancelled);
+  if (const JobPtr job = _state->live(id))
+    _state->core.stop(job, Stop::cancelled);
+  else if (_state->core.queue != nullptr)
+    cancel_in_group(_state->core, id);
   return get(id);
 }
 
 void JobEngine::erase(const std::string& id) {
   if (_state->live(id)) throw Error(Reason::in_use, "jobs/{} has not ended: cancel it first", id);
   EngineCore& core = _state->core;
+  if (core.queue != nullptr && !records::ended(_state->stored(id).state))
+    throw Error(Reason::in_use, "jobs/{} has not ended: cancel it first", id);
   core.store.erase_job(id);
   const std::lock_guard lock(core.mutex);
   core.retention.remove(id);
@@ -138,7 +148,8 @@ std::shared_ptr<EventLog> JobEngine::events(const std::string& id) const {
     if (const JobPtr job = _state->find(id)) return job->log;
     if (std::shared_ptr<EventLog> log = core.logs.find(id)) return log;
   }
-  return end_alone(_state->stored(id));
+  const JobRecord record = _state->stored(id);
+  return core.rows ? core.rows->follow(record) : end_alone(record);
 }
 
 std::shared_ptr<const records::BlockSource> JobEngine::result(const std::string& id) const {
@@ -159,6 +170,8 @@ std::shared_ptr<const records::BlockSource> JobEngine::result(const std::string&
 void JobEngine::stop(std::chrono::milliseconds grace) {
   EngineCore& core = _state->core;
   _state->interrupt([](const LiveJob& job) { return !job.started; });
+  std::optional<Claims>& claims = _state->pools->claims;
+  if (claims) claims->give_back();
   const auto all_ended = [&] { return core.live == 0 && core.not_announced == 0; };
   EngineCore::Lock lock(core.mutex);
   core.settled.wait_for(lock, grace, all_ended);
@@ -170,6 +183,7 @@ void JobEngine::stop(std::chrono::milliseconds grace) {
   core.settled.wait(lock, all_ended);
   if (std::exchange(core.stop_noted, true)) return;
   lock.unlock();
+  if (claims) return claims->leave();
   try {
     core.store.set_running(false);
   } catch (const Error&) {

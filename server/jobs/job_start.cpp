@@ -58,6 +58,8 @@ bool store_start(EngineCore& core, const JobSnapshot& snapshot,
     add_step(record.timeline, JobState::running, {});
     core.store.put(record);
     return true;
+  } catch (const store::JobTaken&) {
+    throw;
   } catch (const std::exception&) {
     return false;
   }
@@ -124,8 +126,13 @@ void start_job(EngineCore& core, std::shared_ptr<const operators::MeshOperator> 
     probes = std::make_shared<const PlacedProbes>(place_probes(job->spec->probes, *mesh_operator));
     plan = plan_of(core, *job, *mesh_operator);
     stored = another_stage || store_start(core, snapshot, plan, job->stages.get());
+  } catch (const store::JobTaken&) {
+    core.stop(job, Stop::interrupted);
   } catch (...) {
-    core.stop(job, Stop::failed, error_of(std::current_exception()));
+    const Error error = error_of(std::current_exception());
+    const bool out_of_reach =
+        error.reason() == errors::Reason::storage && error.retry_delay().count() > 0;
+    if (!out_of_reach) core.stop(job, Stop::failed, error);
   }
   lock.lock();
   if (!stored) {

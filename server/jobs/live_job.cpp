@@ -78,14 +78,15 @@ void fall_back(LiveJob& job) {
 
 LiveJob::LiveJob(std::uint64_t submission, JobRecord record, std::uint64_t cases_in_queue,
                  std::size_t event_log_bytes, std::shared_ptr<void> mesh_in_use,
-                 const std::shared_ptr<MemoryBudget>& budget)
+                 const std::shared_ptr<MemoryBudget>& budget, bool shared)
     : number(submission),
       created(without_lists(record)),
       spec(std::make_shared<const records::JobSpec>(std::move(record.spec))),
       spec_bytes(fields::bytes_of(*spec)),
       lane(lane_of(*spec)),
       since(std::chrono::steady_clock::now()),
-      log(std::make_shared<EventLog>(event_log_bytes, sequence_base(created.attempt), budget)),
+      log(std::make_shared<EventLog>(event_log_bytes, shared ? 0 : sequence_base(created.attempt),
+                                     budget)),
       arrays(spec->loads, created.owner),
       timeline(created.timeline),
       mesh(spec->mesh),
@@ -93,7 +94,9 @@ LiveJob::LiveJob(std::uint64_t submission, JobRecord record, std::uint64_t cases
       cases(case_count(*spec)),
       units(spec->sweep ? 1 : cases.size()),
       queued_cases(cases_in_queue),
-      memory(budget, spec_bytes) {
+      memory(budget, spec_bytes),
+      published(sequence_base(created.attempt)) {
+  if (shared) log->jump(published);
   if (!spec->accuracy) return;
   stages = std::make_unique<LiveStages>();
   stages->records = std::move(record.stages);

@@ -81,10 +81,11 @@ enum class Stop {
 struct PlacedProbes;
 
 struct LiveJob {
-  /// `cases_in_queue`: the load cases that `admission` counted for it.
+  /// `cases_in_queue`: the load cases that `admission` counted for it; `shared`: other servers may
+  /// have run it before, whose watchers come here.
   LiveJob(std::uint64_t submission, records::JobRecord record, std::uint64_t cases_in_queue,
           std::size_t event_log_bytes, std::shared_ptr<void> mesh_in_use,
-          const std::shared_ptr<MemoryBudget>& budget = {});
+          const std::shared_ptr<MemoryBudget>& budget = {}, bool shared = false);
 
   const std::uint64_t number;        ///< in the order of submission
   const records::JobRecord created;  ///< as it was submitted or recovered, without its lists
@@ -128,6 +129,7 @@ struct LiveJob {
   MemoryShare memory;
   Stop why = Stop::none;
   std::optional<errors::Error> failure;
+  std::uint64_t published;  ///< number of the last event in the store; EventRows guards it
 };
 
 using JobPtr = std::shared_ptr<LiveJob>;

@@ -33,6 +33,8 @@ class Retention {
   /// Adds a job that has ended; removes one that was erased.
   void add(store::EndedJob job);
   void remove(const std::string& id);
+  /// Replaces all of them; `jobs`: the oldest end first.
+  void replace(std::vector<store::EndedJob> jobs) { _jobs = {jobs.begin(), jobs.end()}; }
   void expired(const std::string& id);  ///< the job's result has been deleted
 
   /// What has to be deleted at `now`, each job in one of the two lists: all that is too old; then,

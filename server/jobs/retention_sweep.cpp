@@ -16,7 +16,10 @@ using Clock = EngineCore::Clock;
 constexpr std::chrono::minutes sweep_every{1};
 
 void sweep(EngineCore& core, bool uploads) {
+  std::vector<store::EndedJob> all;  // those that other servers ended as well
+  if (uploads && core.queue != nullptr) all = core.store.ended();
   EngineCore::Lock lock(core.mutex);
+  if (!all.empty()) core.retention.replace(std::move(all));
   core.ended_since_sweep = false;
   const auto now = records::Clock::now();
   const Expiry expiry = core.retention.due(now);

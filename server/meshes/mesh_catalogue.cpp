@@ -18,6 +18,7 @@
 #include "meshes/size_class.hpp"
 #include "meshes/summary.hpp"
 #include "meshes/triangulation.hpp"
+#include "store/queue.hpp"
 
 namespace anticrack::meshes {
 
@@ -159,6 +160,7 @@ MeshRecord MeshCatalogue::create(const records::MeshDefinition& definition,
   const std::size_t triangles = check_definition(definition, owner, _state->options, _state->store);
   const std::string id = identity(definition, owner).substr(0, id_digits);
   Preparation& preparation = _state->preparation;
+  preparation.look_again(id);
   {
     auto lock = preparation.lock_settled(id);
     if (_state->resume(_state->index().find(id), id, for_job)) {
@@ -308,6 +310,7 @@ std::shared_ptr<const records::BlockSource> MeshCatalogue::read(const std::strin
 }
 
 MeshRecord MeshCatalogue::warm(const std::string& id, bool pin) {
+  _state->preparation.look_again(id);
   {
     const auto lock = _state->preparation.lock_settled(id);
     LiveMesh& mesh = _state->index().known(id);
@@ -344,9 +347,12 @@ MeshRecord MeshCatalogue::evict(const std::string& id) {
 void MeshCatalogue::erase(const std::string& id) {
   Preparation& preparation = _state->preparation;
   MeshIndex& index = preparation.index();
+  preparation.look_again(id);
+  const store::Queue* const queue = _state->store.queue();
+  const bool needed = queue != nullptr && queue->needs(id);
   auto lock = preparation.lock_settled(id);
   LiveMesh& mesh = index.known(id);
-  if (!mesh.users.expired())
+  if (needed || !mesh.users.expired())
     throw in_use(id, "a job that has not ended needs it; wait for it or cancel it");
   preparation.fail_waits(mesh, Error(Reason::not_found, "meshes/{} was deleted", id));
   const std::shared_ptr<Run> run = preparation.give_up(mesh);
@@ -372,6 +378,7 @@ void MeshCatalogue::erase(const std::string& id) {
 }
 
 std::shared_ptr<void> MeshCatalogue::use(const std::string& id) {
+  _state->preparation.look_again(id);
   const auto lock = _state->preparation.lock();
   LiveMesh& mesh = _state->index().known(id);
   std::shared_ptr<void> user = mesh.users.lock();
@@ -394,6 +401,16 @@ bool MeshCatalogue::ready(const std::string& id) const {
 bool MeshCatalogue::pinned(const std::string& id) const {
   const std::string key = _state->key(id);
   return !key.empty() && _state->cache.pinned(key);
+}
+
+std::vector<std::string> MeshCatalogue::in_memory() const {
+  auto lock = _state->preparation.lock();
+  auto meshes = _state->index().measured();
+  lock.unlock();
+  std::vector<std::string> ids;
+  for (auto& [id, sha256] : meshes)
+    if (_state->cache.contains(sha256)) ids.push_back(std::move(id));
+  return ids;
 }
 
 std::uint64_t MeshCatalogue::meshings() const noexcept { return _state->preparation.meshings(); }

@@ -96,6 +96,9 @@ class MeshCatalogue {
   /// Whether the operators are in memory.
   bool ready(const std::string& id) const;
 
+  /// The meshes whose operators are in memory. O(meshes).
+  std::vector<std::string> in_memory() const;
+
   bool pinned(const std::string& id) const;  ///< by warm(), for any owner of an equal mesh
   std::uint64_t meshings() const noexcept;   ///< runs of the helper so far
   int pending() const;                       ///< meshes that wait for the mesher or are in it

@@ -61,6 +61,14 @@ LiveMesh& MeshIndex::known(const std::string& id) {
   return *mesh;
 }
 
+std::vector<std::pair<std::string, std::string>> MeshIndex::measured() const {
+  std::vector<std::pair<std::string, std::string>> found;
+  for (const auto& [id, mesh] : _meshes)
+    if (mesh.stage == Stage::meshed && mesh.operators.bytes > 0)
+      found.emplace_back(id, mesh.sha256);
+  return found;
+}
+
 int MeshIndex::pending() const {
   return static_cast<int>(std::count_if(_meshes.begin(), _meshes.end(), [](const auto& item) {
     return item.second.stage == Stage::pending && item.second.run;

@@ -10,6 +10,7 @@
 #include <stop_token>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "errors/errors.hpp"
@@ -103,6 +104,8 @@ class MeshIndex {
   /// Like find(), but throws errors::Error (not_found) for a missing or absent mesh.
   LiveMesh& known(const std::string& id);
 
+  /// The meshes whose operators were measured.
+  std::vector<std::pair<std::string, std::string>> measured() const;  ///< id, sha256
   /// Meshes that wait for the mesher or are in it. O(n).
   int pending() const;
   /// Another mesh with the same definition that has a triangulation; empty if there is none. O(n).

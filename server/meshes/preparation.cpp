@@ -132,7 +132,24 @@ MeshRecord Preparation::stored(const std::string& id) const {
   return std::move(*record);
 }
 
+void Preparation::look_again(const std::string& id) {
+  if (_store.queue() == nullptr) return;
+  const std::optional<MeshRecord> record = _store.mesh(id);
+  const auto held = lock();
+  LiveMesh* mesh = _index.find(id);
+  if (mesh != nullptr && (mesh->claimed || mesh->run || !mesh->waits.empty())) return;
+  if (!record) {
+    if (mesh != nullptr && mesh->users.expired()) _index.remove(id);
+    return;
+  }
+  const bool failed = record->state == MeshState::failed;
+  if (mesh != nullptr && mesh->sha256 == record->sha256 && (mesh->stage == Stage::failed) == failed)
+    return;
+  ++_index.add(*record).version;
+}
+
 MeshRecord Preparation::record(const std::string& id) {
+  look_again(id);
   for (;;) {
     Lock held = lock();
     const std::uint64_t version = _index.known(id).version;

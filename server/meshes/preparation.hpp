@@ -70,6 +70,9 @@ class Preparation {
   std::size_t queued() const;
 
   // Without the lock:
+  /// Where other servers make and erase meshes of the store, too: brings the index up to the
+  /// record, unless this server is at work on the mesh.
+  void look_again(const std::string& id);
   /// The record with its current state. Throws errors::Error (not_found).
   records::MeshRecord record(const std::string& id);
   /// The last job that used the mesh has ended: stops its run if nobody else wants it.

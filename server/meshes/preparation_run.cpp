@@ -109,7 +109,9 @@ std::shared_ptr<const mesh::Mesh> Preparation::triangulate(Run& run) {
   }
   const MeshRecord record = stored(run.id);
   std::optional<Triangulation> made;
-  if (!twin.empty()) {
+  if (!record.sha256.empty()) {  // another server has made it meanwhile
+    if (auto there = _store.triangulation(record.sha256)) made = {std::move(there), record};
+  } else if (!twin.empty()) {
     const stop::Scope scope(run.stop.get_token());
     made = copy_of(twin, record, _store);
   }
@@ -229,6 +231,8 @@ void Preparation::record_outcome(Run& run) {
 }
 
 void Preparation::fail(Run& run, Error error) {
+  if (error.reason() == Reason::storage && error.retry_delay().count() > 0)  // out of reach
+    error = Error(Reason::busy, "{}", error.what()).retry_after(error.retry_delay());
   auto [held, mesh] = lock_to_write(run);
   if (mesh == nullptr) return;
   run.writing = false;

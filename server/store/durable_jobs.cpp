@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <set>
 #include <utility>
-#include <variant>
 
 #include "digest/digest.hpp"
 #include "records/job_record.hpp"
 #include "stop/stop.hpp"
 #include "store/durable_store.hpp"
 #include "store/record_codec.hpp"
+#include "store/requests.hpp"
 #include "store/result_file.hpp"
 
 namespace anticrack::store {
@@ -21,14 +20,6 @@ namespace {
 /// of which takes as long as the flush of the database that follows; a few more pages cost the
 /// latter nothing.
 constexpr std::size_t most_small_result = std::size_t{32} << 10U;
-
-std::set<std::string> uploads_of(const records::JobSpec& spec) {
-  std::set<std::string> uploads;
-  for (const fem::Load& load : spec.loads)
-    if (const auto* array = std::get_if<fem::Array>(&load.force)) uploads.insert(array->upload);
-  if (spec.sweep) uploads.insert(spec.sweep->upload);
-  return uploads;
-}
 
 void bind_end(Statement& statement, const records::JobRecord& record) {
   if (ended(record.state))
@@ -68,13 +59,7 @@ std::optional<Row> find_request(Connection& connection, const std::string& owner
   if (!select.bind(std::string_view(owner)).bind(std::string_view(request_id)).step())
     return std::nullopt;
   std::optional<Row> row = find_row(connection, FileKind::result, select.text(0));
-  if (row && row->intact && select.text(1) != fingerprint) {
-    throw Error(Reason::request_id_reused,
-                "request id \"{}\" was used for jobs/{}, which is another job: make a new request "
-                "id for each job",
-                request_id, row->id)
-        .at("request_id");
-  }
+  if (row && row->intact) require_same_request(request_id, row->id, select.text(1), fingerprint);
   return row;
 }
 
@@ -109,13 +94,6 @@ void end(Connection& connection, const records::JobRecord& record, const ResultC
       .bind(std::string_view(record.owner))
       .bind(std::string_view(record.request_id))
       .run();
-}
-
-std::vector<records::JobRecord> jobs_of(const std::vector<Row>& rows) {
-  std::vector<records::JobRecord> records;
-  records.reserve(rows.size());
-  for (const Row& row : rows) records.push_back(job_of(row));
-  return records;
 }
 
 }  // namespace

@@ -1,25 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <utility>
-#include <variant>
 
 #include "mesh/codec.hpp"
 #include "records/mesh_record.hpp"
 #include "store/durable_store.hpp"
 #include "store/record_codec.hpp"
+#include "store/requests.hpp"
 
 namespace anticrack::store {
 
 using errors::Error;
 using errors::Reason;
-
-namespace {
-
-std::string upload_of(const records::MeshRecord& record) {
-  const auto* upload = std::get_if<records::UploadRef>(&record.definition);
-  return upload == nullptr ? std::string() : upload->sha256;
-}
-
-}  // namespace
 
 void DurableStore::save(Connection& connection, const records::MeshRecord& record,
                         const std::string& bytes) {
@@ -50,8 +41,7 @@ void DurableStore::put(const records::MeshRecord& record) {
 
 void DurableStore::put(const records::MeshRecord& record, const mesh::Mesh& triangulation) {
   const mesh::Bytes encoded = mesh::encode(triangulation);
-  if (sha256_of(encoded) != record.sha256)
-    throw Error(Reason::internal, "meshes/{} comes with another triangulation", record.id);
+  require_triangulation(record, encoded);
   const std::string bytes = encode(record);
   const DiskUsage::Reservation reservation = reserve(encoded.size());
   Part part = _meshes.write(encoded);

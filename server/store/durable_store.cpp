@@ -57,10 +57,6 @@ Connection open_reader(const std::string& folder) {
 
 }  // namespace
 
-Error unknown(const std::string& collection, const std::string& id) {
-  return {Reason::not_found, "there is no " + collection + "/" + id};
-}
-
 DurableStore::DurableStore(const StoreOptions& options)
     : _folder(made(options.folder)),
       _usage(options.disk_budget),

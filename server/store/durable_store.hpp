@@ -16,6 +16,7 @@
 #include "store/disk_usage.hpp"
 #include "store/files.hpp"
 #include "store/group_commit.hpp"
+#include "store/requests.hpp"
 #include "store/rows.hpp"
 #include "store/sqlite.hpp"
 #include "store/store.hpp"
@@ -106,8 +107,5 @@ class DurableStore final : public Store {
   mutable std::mutex _reader_mutex;
   mutable Connection _reader;
 };
-
-/// The error (not_found) for an unknown id.
-errors::Error unknown(const std::string& collection, const std::string& id);
 
 }  // namespace anticrack::store

@@ -42,18 +42,7 @@ std::optional<std::string> DurableStore::upload_path(const std::string& sha256,
 }
 
 std::string DurableStore::new_upload_path(std::uint64_t bytes) {
-  const auto reserved = [&] {
-    try {
-      return reserve(bytes);
-    } catch (const Error&) {  // lost parts may still hold room
-      _parts.forget_lost();
-      return reserve(bytes);
-    }
-  };
-  DiskUsage::Reservation reservation = reserved();
-  std::string path = _uploads.new_part();
-  _parts.add(path, std::move(reservation));
-  return path;
+  return _parts.begin(_uploads, [&] { return reserve(bytes); });
 }
 
 records::Clock::time_point DurableStore::keep_uploads(const std::vector<Upload>& uploads,
@@ -63,13 +52,7 @@ records::Clock::time_point DurableStore::keep_uploads(const std::vector<Upload>&
   std::vector<bool> damaged;  // whether the file that has the name already is damaged
   std::vector<Part> copies;   // of the bytes; removed at the end if they still have this name
   for (const Upload& upload : uploads) {
-    if (!is_sha256(upload.sha256)) {
-      throw Error(Reason::invalid_argument,
-                  "\"{}\" is not a sha256: give its 64 lower-case hexadecimal digits",
-                  upload.sha256);
-    }
-    if (!_uploads.is_part(upload.path))
-      throw Error(Reason::internal, "{} is not an upload on its way", upload.path);
+    require_part(upload, _uploads);
     const std::string there = sha256_of(_uploads.path(upload.sha256));
     damaged.push_back(!there.empty() && there != upload.sha256);
     if (damaged.back() || _parts.unflushed(upload.path)) {
@@ -153,10 +136,7 @@ void DurableStore::erase_upload(const std::string& sha256, const std::string& ow
     if (any("SELECT 1 FROM job_uploads r JOIN jobs j ON j.number = r.job "
             "WHERE r.upload = ? AND j.owner = ? AND j.ended IS NULL") ||
         any("SELECT 1 FROM meshes WHERE upload = ? AND owner = ? AND sha256 = ''")) {
-      throw Error(Reason::in_use,
-                  "uploads/{} is needed by a job that has not ended or a mesh that is not meshed: "
-                  "delete it later, or cancel the job or delete the mesh first",
-                  sha256);
+      throw upload_in_use(sha256);
     }
     if (!any("DELETE FROM uploads WHERE sha256 = ? AND owner = ? RETURNING 1"))
       throw unknown("uploads", sha256);

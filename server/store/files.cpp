@@ -30,12 +30,6 @@ constexpr std::string_view part_prefix = "part-";
 
 constexpr std::size_t copy_bytes = std::size_t{1} << 20U;
 
-base::Descriptor open_to_write(const std::string& path) {
-  base::Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
-  if (!file) throw disk_error("open " + path, errno);
-  return file;
-}
-
 void flush_file(const base::Descriptor& file, const std::string& path) {
   if (::fsync(file.get()) != 0) throw disk_error("flush " + path, errno);
 }
@@ -120,6 +114,12 @@ std::optional<std::uint64_t> file_size(const std::string& path) noexcept {
 base::Descriptor open_to_read(const std::string& path) {
   base::Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (!file && errno != ENOENT) throw disk_error("open " + path, errno);
+  return file;
+}
+
+base::Descriptor open_to_write(const std::string& path) {
+  base::Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+  if (!file) throw disk_error("open " + path, errno);
   return file;
 }
 

@@ -39,6 +39,8 @@ std::optional<std::uint64_t> file_size(const std::string& path) noexcept;
 
 /// Opens a file for reading; empty if there is no such file. Throws as disk_error does.
 base::Descriptor open_to_read(const std::string& path);
+/// Opens a file that is there for writing. Throws as disk_error does.
+base::Descriptor open_to_write(const std::string& path);
 /// The size of a file in bytes. Throws as disk_error does.
 std::uint64_t file_size(const base::Descriptor& file, const std::string& path);
 /// Fills `bytes` from `offset` on. Throws errors::Error (storage), also if the file is shorter.
@@ -83,6 +85,8 @@ class Files {
 
   /// The path of the file with this name, whether it exists or not.
   std::string path(const std::string& sha256) const { return _folder + "/" + sha256; }
+  /// The names of the files. Throws as disk_error does.
+  std::vector<std::string> names() const { return file_names(_folder); }
   /// Whether a path is one that new_part() gives.
   bool is_part(const std::string& path) const;
   /// A new empty file.

@@ -130,6 +130,11 @@ std::shared_ptr<const records::BlockSource> open_result(std::string stored,
   return block;
 }
 
+std::shared_ptr<const records::BlockSource> open_result(Read read, std::uint64_t size,
+                                                        const std::string& place) {
+  return open_at(std::move(read), size, place, {});
+}
+
 void require_whole(const records::BlockSource& block, const std::string& place) {
   const auto read = [&](std::uint64_t offset, std::span<std::byte> bytes) {
     block.read(offset, bytes);

@@ -5,7 +5,9 @@
 // file's name is the hash of all that comes before the bytes, which includes the hash of the bytes.
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "records/block.hpp"
@@ -24,6 +26,10 @@ std::shared_ptr<const records::BlockSource> open_result(base::Descriptor file,
 /// The same for the content of such a file in memory. `place`: for messages.
 std::shared_ptr<const records::BlockSource> open_result(std::string stored,
                                                         const std::string& place);
+/// The same for `size` bytes that read(offset, bytes) gives; those of the block are not read.
+std::shared_ptr<const records::BlockSource> open_result(
+    std::function<void(std::uint64_t offset, std::span<std::byte> bytes)> read, std::uint64_t size,
+    const std::string& place);
 /// Reads all bytes. Throws errors::Error (storage) if they do not have their hash.
 void require_whole(const records::BlockSource& block, const std::string& place);
 

@@ -89,6 +89,13 @@ records::MeshRecord mesh_of(const Row& row) { return record_of(row, read_mesh); 
 
 records::JobRecord job_of(const Row& row) { return record_of(row, read_job); }
 
+std::vector<records::JobRecord> jobs_of(const std::vector<Row>& rows) {
+  std::vector<records::JobRecord> records;
+  records.reserve(rows.size());
+  for (const Row& row : rows) records.push_back(job_of(row));
+  return records;
+}
+
 bool is_referenced(Connection& connection, FileKind kind, const std::string& sha256, bool by_rows) {
   const Table& table = table_of(kind);
   return connection

@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "store/disk_usage.hpp"
 #include "store/sqlite.hpp"
@@ -51,6 +52,7 @@ records::JobRecord read_job(const Row& row);
 /// known.
 records::MeshRecord mesh_of(const Row& row);
 records::JobRecord job_of(const Row& row);
+std::vector<records::JobRecord> jobs_of(const std::vector<Row>& rows);
 
 /// Whether a row refers to the file. `by_rows`: reads the rows instead of an index, in O(rows).
 bool is_referenced(Connection& connection, FileKind kind, const std::string& sha256,

@@ -19,6 +19,7 @@
 // another store is refused.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -36,6 +37,8 @@ struct MeshRecord;
 }  // namespace anticrack::records
 
 namespace anticrack::store {
+
+class Queue;
 
 /// A page of a list, newest first: `count` records after the one with id `after` (empty: from the
 /// start); only those of `owner`, if one is given.
@@ -75,6 +78,7 @@ struct EndedJob {
 struct StoreOptions {
   std::string folder;             ///< if missing, it is made, accessible to its owner only
   std::uint64_t disk_budget = 0;  ///< bytes for all of it; 0: the disk's size is the limit
+  std::string url{};              ///< of a PostgreSQL database; empty: SQLite in the folder
 };
 
 /// An upload that is complete, in a file of new_upload_path().
@@ -148,7 +152,8 @@ class Store {
   virtual bool set_running(bool running) = 0;
   virtual std::vector<EndedJob> ended() const = 0;  ///< oldest end first
   /// The result of a job; null if it has none. Throws storage if its record, a small result or the
-  /// layout of a large one is damaged. Does not read the whole file.
+  /// layout of a large one is damaged. Does not read all of a large one, whose reader gets
+  /// result_expired from PostgreSQL if it is removed meanwhile.
   virtual std::shared_ptr<const records::BlockSource> result(const std::string& job) const = 0;
   /// Removes the result of an ended job and notes the time `now`; throws not_found.
   virtual void expire(const std::string& job, records::Clock::time_point now) = 0;
@@ -177,10 +182,17 @@ class Store {
   /// triangulation refers; returns how many.
   virtual std::size_t expire_uploads(records::Clock::time_point before) = 0;
 
+  /// The queue that all servers on this store share; null for a store that belongs to one server,
+  /// whose queue is in its memory.
+  virtual Queue* queue() { return nullptr; }
+
   /// The bytes as counted; only for the database it asks the disk.
   virtual Usage usage() const = 0;
   /// The usage of every owner of a job. O(jobs).
   virtual std::vector<OwnerUsage> owners() const = 0;
+
+  /// How long what keeps the records has been out of reach; 0: it answered last time.
+  virtual std::chrono::milliseconds unreachable() const { return std::chrono::milliseconds(0); }
 };
 
 /// Opens or makes the folder. Throws errors::Error (storage): the folder cannot be written, or the

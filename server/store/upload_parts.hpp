@@ -7,18 +7,45 @@
 #include <string>
 #include <utility>
 
+#include "errors/errors.hpp"
 #include "store/disk_usage.hpp"
 #include "store/files.hpp"
+#include "store/store.hpp"
 
 namespace anticrack::store {
+
+/// Throws errors::Error unless the upload has a hash (invalid_argument) and a file of new_part()
+/// (internal).
+inline void require_part(const Upload& upload, const Files& files) {
+  if (!is_sha256(upload.sha256)) {
+    throw errors::Error(errors::Reason::invalid_argument,
+                        "\"{}\" is not a sha256: give its 64 lower-case hexadecimal digits",
+                        upload.sha256);
+  }
+  if (!files.is_part(upload.path)) {
+    throw errors::Error(errors::Reason::internal, "{} is not an upload on its way", upload.path);
+  }
+}
 
 /// Uploads that are being received: how many bytes each may take, and which could not be flushed.
 /// The receiver of an upload removes its file when it gives it up, so uploads without a file are
 /// forgotten. Thread-safe.
 class UploadParts {
  public:
-  /// To be called when an upload begins.
-  void add(const std::string& path, DiskUsage::Reservation reservation) {
+  /// To be called when an upload begins: makes its file. `reserve` makes the reservation.
+  template <class Reserve>
+  std::string begin(const Files& files, const Reserve& reserve) {
+    const auto reserved = [&] {
+      try {
+        return reserve();
+      } catch (const errors::Error&) {  // lost parts may still hold room
+        const std::lock_guard lock(_mutex);
+        drop_lost();
+        return reserve();
+      }
+    };
+    DiskUsage::Reservation reservation = reserved();
+    std::string path = files.new_part();
     const std::lock_guard lock(_mutex);
     // Looking at all uploads for each new one would take time in the square of their number.
     if (_reserved.size() >= _look_at) {
@@ -26,11 +53,7 @@ class UploadParts {
       _look_at = 2 * _reserved.size() + 16;
     }
     _reserved.emplace(path, std::move(reservation));
-  }
-  /// Forgets uploads whose files were removed.
-  void forget_lost() {
-    const std::lock_guard lock(_mutex);
-    drop_lost();
+    return path;
   }
   /// To be called when an upload has ended.
   void forget(const std::string& path) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "store/contract_fixture.hpp"
 #include "store/record_fields.hpp"
-#include "store/sqlite.hpp"
-#include "store/store_fixture.hpp"
 
 namespace anticrack::store {
 namespace {
@@ -13,9 +12,9 @@ using errors::Reason;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-class StoredJobs : public StoreTest {};
+class StoredJobs : public ContractTest {};
 
-TEST_F(StoredJobs, ComeBackWholeAfterAnotherStart) {
+TEST_P(StoredJobs, ComeBackWholeAfterAnotherStart) {
   auto record = AnyValue(3).make<records::JobRecord>();
   record.id = "j";
   record.request_id.clear();
@@ -23,7 +22,7 @@ TEST_F(StoredJobs, ComeBackWholeAfterAnotherStart) {
   EXPECT_EQ(Listing::of(*store->job("j")), Listing::of(record));
   reopen();
   EXPECT_EQ(Listing::of(*store->job("j")), Listing::of(record));
-  record.attempt = 17;
+  record.attempt = attempt("j");
   record.timeline.push_back(
       {records::Clock::time_point(std::chrono::nanoseconds(5)), records::JobState::running, "x"});
   store->put(record);
@@ -32,7 +31,7 @@ TEST_F(StoredJobs, ComeBackWholeAfterAnotherStart) {
   EXPECT_FALSE(store->job("other"));
 }
 
-TEST_F(StoredJobs, AreListedNewestFirstAndStablyUnderInsertion) {
+TEST_P(StoredJobs, AreListedNewestFirstAndStablyUnderInsertion) {
   for (const char* id : {"a", "b", "c", "d"}) create(id);
   EXPECT_THAT(jobs({"", 2, {}}), ElementsAre("d", "c"));
   create("e");
@@ -47,7 +46,7 @@ TEST_F(StoredJobs, AreListedNewestFirstAndStablyUnderInsertion) {
   EXPECT_TRUE(throws([&] { jobs({"gone", 2, {}}); }, Reason::not_found));
 }
 
-TEST_F(StoredJobs, AreListedByOwner) {
+TEST_P(StoredJobs, AreListedByOwner) {
   create("a", "ann");
   create("b", "bob");
   create("c", "ann");
@@ -60,7 +59,7 @@ TEST_F(StoredJobs, AreListedByOwner) {
   EXPECT_TRUE(throws([&] { jobs({"b", 9, "ann"}); }, Reason::not_found));
 }
 
-TEST_F(StoredJobs, AreMadeOnceForARequest) {
+TEST_P(StoredJobs, AreMadeOnceForARequest) {
   EXPECT_EQ(create("a", "ann", "request", "print").id, "a");
   EXPECT_EQ(create("b", "ann", "request", "print").id, "a");
   EXPECT_FALSE(store->job("b"));
@@ -76,7 +75,7 @@ TEST_F(StoredJobs, AreMadeOnceForARequest) {
   EXPECT_EQ(create("h", "ann", "request", "other").id, "h");
 }
 
-TEST_F(StoredJobs, AnswerARepeatedRequestWithWhatBecameOfIt) {
+TEST_P(StoredJobs, AnswerARepeatedRequestWithWhatBecameOfIt) {
   create("a", "ann", "request", "print");
   records::JobRecord record = *store->job("a");
   record.state = records::JobState::running;
@@ -84,7 +83,7 @@ TEST_F(StoredJobs, AnswerARepeatedRequestWithWhatBecameOfIt) {
   EXPECT_EQ(create("b", "ann", "request", "print").state, records::JobState::running);
 }
 
-TEST_F(StoredJobs, TellOfARepeatedRequestWithoutMakingAny) {
+TEST_P(StoredJobs, TellOfARepeatedRequestWithoutMakingAny) {
   create("a", "ann", "request", "print");
   EXPECT_EQ(store->created_before("ann", "request", "print").value().id, "a");
   EXPECT_TRUE(throws([&] { store->created_before("ann", "request", "other"); },
@@ -93,22 +92,22 @@ TEST_F(StoredJobs, TellOfARepeatedRequestWithoutMakingAny) {
   EXPECT_FALSE(store->created_before("bob", "", "print"));
 }
 
-TEST_F(StoredJobs, DoNotComeBackWhenErased) {
+TEST_P(StoredJobs, DoNotComeBackWhenErased) {
   create("a");
   store->erase_job("a");
   EXPECT_FALSE(store->job("a"));
-  EXPECT_TRUE(throws([&] { store->put(job_record("a")); }, Reason::not_found));
-  EXPECT_TRUE(throws([&] { store->finish(ended_record("a"), block(1)); }, Reason::not_found));
+  EXPECT_TRUE(throws([&] { store->put(job_record("a")); }, gone()));
+  EXPECT_TRUE(throws([&] { store->finish(ended_record("a"), block(1)); }, gone()));
   EXPECT_TRUE(
       throws([&] { store->expire("a", records::Clock::time_point(std::chrono::seconds(9))); },
              Reason::not_found));
   EXPECT_TRUE(throws([&] { store->erase_job("a"); }, Reason::not_found));
   EXPECT_FALSE(store->job("a"));
   EXPECT_EQ(store->result("a"), nullptr);
-  EXPECT_EQ(files("results"), 0U);
+  EXPECT_EQ(blobs(FileKind::result), 0U);
 }
 
-TEST_F(StoredJobs, AreUnfinishedUntilTheyEnd) {
+TEST_P(StoredJobs, AreUnfinishedUntilTheyEnd) {
   for (const char* id : {"a", "b", "c"}) create(id);
   end("d", nullptr);
   records::JobRecord running = job_record("b");
@@ -121,7 +120,7 @@ TEST_F(StoredJobs, AreUnfinishedUntilTheyEnd) {
   EXPECT_THAT(ids, ElementsAre("b", "c"));
 }
 
-TEST_F(StoredJobs, EndWithTheirResults) {
+TEST_P(StoredJobs, EndWithTheirResults) {
   end("late", block(1), 20);
   end("early", block(2, 3), 10);
   end("empty", nullptr, 15);
@@ -142,7 +141,7 @@ TEST_F(StoredJobs, EndWithTheirResults) {
   EXPECT_EQ(store->result("nobody"), nullptr);
 }
 
-TEST_F(StoredJobs, GiveTheirResultPieceByPiece) {
+TEST_P(StoredJobs, GiveTheirResultPieceByPiece) {
   records::BlockBuilder builder;
   builder.add("u", std::vector<double>{1, 2, 3, 4, 5, 6}, {2, 3});
   builder.add("contact", std::vector<std::int32_t>{7, 8});
@@ -168,7 +167,7 @@ TEST_F(StoredJobs, GiveTheirResultPieceByPiece) {
   }
 }
 
-TEST_F(StoredJobs, LetAReaderFinishWhatExpires) {
+TEST_P(StoredJobs, LetAReaderFinishWhatExpires) {
   end("j", block(3, many));
   const auto held = store->result("j");
   store->expire("j", records::Clock::time_point(std::chrono::seconds(9)));
@@ -177,7 +176,7 @@ TEST_F(StoredJobs, LetAReaderFinishWhatExpires) {
   EXPECT_EQ(store->job("j")->result_bytes, 0U);
   EXPECT_EQ(store->result("j"), nullptr);
   EXPECT_EQ(store->ended()[0].result_bytes, 0U);
-  EXPECT_EQ(files("results"), 0U);
+  EXPECT_EQ(blobs(FileKind::result), 0U);
   EXPECT_EQ(store->usage().results, 0U);
   EXPECT_EQ(values(*held), std::vector<double>(many, 3.0));
   reopen();
@@ -185,7 +184,7 @@ TEST_F(StoredJobs, LetAReaderFinishWhatExpires) {
   EXPECT_EQ(store->job("j")->expired, records::Clock::time_point(std::chrono::seconds(9)));
 }
 
-TEST_F(StoredJobs, DoNotExpireBeforeTheyEnd) {
+TEST_P(StoredJobs, DoNotExpireBeforeTheyEnd) {
   create("j");
   EXPECT_TRUE(
       throws([&] { store->expire("j", records::Clock::time_point(std::chrono::seconds(9))); },
@@ -193,80 +192,23 @@ TEST_F(StoredJobs, DoNotExpireBeforeTheyEnd) {
   EXPECT_EQ(store->job("j")->state, records::JobState::queued);
 }
 
-TEST_F(StoredJobs, ShareEqualResultsUntilTheLastGoes) {
+TEST_P(StoredJobs, ShareEqualResultsUntilTheLastGoes) {
   end("a", block(1, many));
   end("b", block(1, many));
   end("c", block(1, many, "another name"));  // the same bytes, but not the same result
-  EXPECT_EQ(files("results"), 2U);
+  EXPECT_EQ(blobs(FileKind::result), 2U);
   EXPECT_EQ(store->result("c")->arrays()[0].name, "another name");
   store->expire("a", records::Clock::time_point(std::chrono::seconds(9)));
-  EXPECT_EQ(files("results"), 2U);
+  EXPECT_EQ(blobs(FileKind::result), 2U);
   EXPECT_EQ(values(*store->result("b")), std::vector<double>(many, 1.0));
   store->erase_job("b");
-  EXPECT_EQ(files("results"), 1U);
+  EXPECT_EQ(blobs(FileKind::result), 1U);
   store->erase_job("c");
-  EXPECT_EQ(files("results"), 0U);
+  EXPECT_EQ(blobs(FileKind::result), 0U);
   EXPECT_EQ(store->usage().results, 0U);
 }
 
-TEST_F(StoredJobs, ReplaceTheirResult) {
-  end("j", block(1, many));
-  store->finish(ended_record("j"), block(2, many));
-  EXPECT_EQ(files("results"), 1U);
-  EXPECT_EQ(values(*store->result("j")), std::vector<double>(many, 2.0));
-  store->put(ended_record("j"));  // the record alone
-  EXPECT_EQ(values(*store->result("j")), std::vector<double>(many, 2.0));
-}
-
-TEST_F(StoredJobs, HaveASmallResultInTheDatabase) {
-  end("j", block(1));
-  EXPECT_EQ(files("results"), 0U);
-  EXPECT_EQ(store->job("j")->id, "j");
-  const auto held = store->result("j");
-  store->finish(ended_record("j"), block(2, many));
-  EXPECT_EQ(files("results"), 1U);
-  EXPECT_EQ(values(*store->result("j")), std::vector<double>(many, 2.0));
-  store->finish(ended_record("j"), block(3));
-  EXPECT_EQ(files("results"), 0U);
-  store->put(ended_record("j"));  // the record alone
-  reopen();
-  EXPECT_EQ(values(*store->result("j")), std::vector<double>(5, 3.0));
-  store->expire("j", records::Clock::time_point(std::chrono::seconds(9)));
-  EXPECT_EQ(store->result("j"), nullptr);
-  EXPECT_EQ(values(*held), std::vector<double>(5, 1.0));
-}
-
-TEST_F(StoredJobs, SayWhenASmallResultIsDamaged) {
-  const std::string damages[] = {
-      "UPDATE jobs SET small_result = substr(small_result, 1, length(small_result) - 1)",
-      "UPDATE jobs SET small_result = substr(small_result, 1, 10)",
-      "UPDATE jobs SET small_result = CAST(replace(hex(small_result), '0', 'x') AS BLOB)"};
-  for (const std::string& damage : damages) {
-    end(damage, block(1));
-    store.reset();
-    Connection(folder / "anticrack.db").execute(damage);
-    reopen();
-    EXPECT_TRUE(throws([&] { store->result(damage); }, Reason::storage)) << damage;
-    EXPECT_TRUE(store->job(damage));
-    store->erase_job(damage);
-  }
-}
-
-TEST_F(StoredJobs, SayWhenAResultIsDamagedOrLost) {
-  end("j", block(1, many));
-  std::filesystem::path path;
-  for (const auto& entry : std::filesystem::directory_iterator(folder / "results")) path = entry;
-  const auto size = std::filesystem::file_size(path);
-  std::filesystem::resize_file(path, size - 1);
-  EXPECT_TRUE(throws([&] { store->result("j"); }, Reason::storage));
-  std::filesystem::resize_file(path, 10);
-  EXPECT_TRUE(throws([&] { store->result("j"); }, Reason::storage));
-  std::ofstream(path) << std::string(size, 'x');
-  EXPECT_TRUE(throws([&] { store->result("j"); }, Reason::storage));
-  std::filesystem::remove(path);
-  EXPECT_TRUE(throws([&] { store->result("j"); }, Reason::storage));
-  EXPECT_TRUE(store->job("j"));
-}
+INSTANTIATE_TEST_SUITE_P(All, StoredJobs, stores, name_of_store);
 
 }  // namespace
 }  // namespace anticrack::store

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "store/contract_fixture.hpp"
 #include "store/record_fields.hpp"
-#include "store/store_fixture.hpp"
 
 namespace anticrack::store {
 namespace {
@@ -11,9 +11,9 @@ using anticrack::testing::throws;
 using errors::Reason;
 using ::testing::ElementsAre;
 
-class StoredMeshes : public StoreTest {};
+class StoredMeshes : public ContractTest {};
 
-TEST_F(StoredMeshes, ComeBackWholeAfterAnotherStart) {
+TEST_P(StoredMeshes, ComeBackWholeAfterAnotherStart) {
   auto record = AnyValue(5).make<records::MeshRecord>();
   record.id = "m";
   store->put(record);
@@ -26,7 +26,7 @@ TEST_F(StoredMeshes, ComeBackWholeAfterAnotherStart) {
   EXPECT_FALSE(store->mesh("other"));
 }
 
-TEST_F(StoredMeshes, AreListedNewestFirstByOwner) {
+TEST_P(StoredMeshes, AreListedNewestFirstByOwner) {
   EXPECT_EQ(store->mesh_count(), 0U);
   store->put(mesh_record("a", "ann"));
   store->put(mesh_record("b", "bob"));
@@ -40,7 +40,7 @@ TEST_F(StoredMeshes, AreListedNewestFirstByOwner) {
   EXPECT_TRUE(throws([&] { meshes({"gone", 9, {}}); }, Reason::not_found));
 }
 
-TEST_F(StoredMeshes, KeepTheirTriangulations) {
+TEST_P(StoredMeshes, KeepTheirTriangulations) {
   const mesh::Mesh mesh = strip(4);
   const records::MeshRecord record = meshed_record("m", mesh);
   EXPECT_EQ(store->triangulation(record.sha256), nullptr);
@@ -55,47 +55,49 @@ TEST_F(StoredMeshes, KeepTheirTriangulations) {
   EXPECT_EQ(store->triangulation(""), nullptr);
 }
 
-TEST_F(StoredMeshes, ShareEqualTriangulationsUntilTheLastGoes) {
+TEST_P(StoredMeshes, ShareEqualTriangulationsUntilTheLastGoes) {
   const mesh::Mesh mesh = strip(4);
   const records::MeshRecord a = meshed_record("a", mesh);
   store->put(a, mesh);
   store->put(meshed_record("b", mesh), mesh);
-  EXPECT_EQ(files("meshes"), 1U);
+  EXPECT_EQ(blobs(FileKind::mesh), 1U);
   store->erase_mesh("a");
   EXPECT_NE(store->triangulation(a.sha256), nullptr);
   const auto held = store->triangulation(a.sha256);
   store->erase_mesh("b");
   EXPECT_EQ(store->triangulation(a.sha256), nullptr);
-  EXPECT_EQ(files("meshes"), 0U);
+  EXPECT_EQ(blobs(FileKind::mesh), 0U);
   EXPECT_EQ(store->usage().meshes, 0U);
   EXPECT_EQ(mesh::encode(*held), mesh::encode(mesh));
   EXPECT_TRUE(throws([&] { store->erase_mesh("b"); }, Reason::not_found));
 }
 
-TEST_F(StoredMeshes, DropATriangulationThatAnotherReplaces) {
+TEST_P(StoredMeshes, DropATriangulationThatAnotherReplaces) {
   store->put(meshed_record("m", strip(4)), strip(4));
   const records::MeshRecord finer = meshed_record("m", strip(8));
   store->put(finer, strip(8));
-  EXPECT_EQ(files("meshes"), 1U);
+  EXPECT_EQ(blobs(FileKind::mesh), 1U);
   EXPECT_NE(store->triangulation(finer.sha256), nullptr);
   store->put(mesh_record("m"));
-  EXPECT_EQ(files("meshes"), 0U);
+  EXPECT_EQ(blobs(FileKind::mesh), 0U);
 }
 
-TEST_F(StoredMeshes, RefuseAnotherTriangulation) {
+TEST_P(StoredMeshes, RefuseAnotherTriangulation) {
   EXPECT_TRUE(
       throws([&] { store->put(meshed_record("m", strip(4)), strip(5)); }, Reason::internal));
   EXPECT_FALSE(store->mesh("m"));
 }
 
-TEST_F(StoredMeshes, SayWhenATriangulationIsDamaged) {
+TEST_P(StoredMeshes, SayWhenATriangulationIsDamaged) {
   const records::MeshRecord record = meshed_record("m", strip(4));
   store->put(record, strip(4));
-  std::fstream(folder / ("meshes/" + record.sha256), std::ios::in | std::ios::out) << 'x';
+  damage(FileKind::mesh, record.sha256);
   EXPECT_TRUE(throws([&] { store->triangulation(record.sha256); }, Reason::storage));
   store->put(record, strip(4));
   EXPECT_NE(store->triangulation(record.sha256), nullptr);
 }
+
+INSTANTIATE_TEST_SUITE_P(All, StoredMeshes, stores, name_of_store);
 
 }  // namespace
 }  // namespace anticrack::store

@@ -11,6 +11,9 @@
 #include <string>
 #include <vector>
 
+#ifdef ANTICRACK_POSTGRESQL
+#include "group/store.hpp"
+#endif
 #include "store/sample_records.hpp"
 #include "store/store.hpp"
 #include "support/errors.hpp"
@@ -18,11 +21,21 @@
 
 namespace anticrack::store {
 
+/// The store of the options, as the server makes it.
+inline std::unique_ptr<Store> open_any(const StoreOptions& options) {
+#ifdef ANTICRACK_POSTGRESQL
+  if (!options.url.empty()) return std::make_unique<group::Store>(options);
+#endif
+  return open(options);
+}
+
 class StoreTest : public ::testing::Test {
  protected:
+  /// `database`: the address of a PostgreSQL database; empty: SQLite.
+  explicit StoreTest(std::string database = {}) : url(std::move(database)) {}
   void reopen(std::uint64_t disk_budget = 0) {
     store.reset();
-    store = open({folder.path(), disk_budget});
+    store = open_any({folder.path(), disk_budget, url});
   }
   records::JobRecord create(const std::string& id, const std::string& owner = {},
                             const std::string& request = {}, const std::string& fingerprint = {}) {
@@ -62,7 +75,8 @@ class StoreTest : public ::testing::Test {
   }
 
   anticrack::testing::TemporaryFolder folder;
-  std::unique_ptr<Store> store = open({folder.path(), 0});
+  const std::string url;
+  std::unique_ptr<Store> store = open_any({folder.path(), 0, url});
 };
 
 }  // namespace anticrack::store

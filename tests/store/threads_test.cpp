@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thread>
 
-#include "store/store_fixture.hpp"
+#include "store/contract_fixture.hpp"
 
 namespace anticrack::store {
 namespace {
 
 using ::testing::Each;
 
-class StoreThreads : public StoreTest {
+class StoreThreads : public ContractTest {
  protected:
   static constexpr int workers = 4;
 
@@ -21,7 +21,7 @@ class StoreThreads : public StoreTest {
   }
 };
 
-TEST_F(StoreThreads, MakeOneJobOfARequest) {
+TEST_P(StoreThreads, MakeOneJobOfARequest) {
   constexpr int rounds = 20;
   std::vector<std::vector<std::string>> answers(workers);
   together([&](int t) {
@@ -35,20 +35,19 @@ TEST_F(StoreThreads, MakeOneJobOfARequest) {
   EXPECT_EQ(jobs({"", 1000, {}}).size(), static_cast<std::size_t>(rounds));
 }
 
-TEST_F(StoreThreads, EachGetTheErrorOfTheirOwnChange) {
+TEST_P(StoreThreads, EachGetTheErrorOfTheirOwnChange) {
   together([&](int t) {
     for (int round = 0; round < 20; ++round) {
       const std::string id = std::to_string(t) + "-" + std::to_string(round);
       create(id);
       EXPECT_TRUE(anticrack::testing::throws([&] { create(id); }, errors::Reason::internal));
-      EXPECT_TRUE(anticrack::testing::throws([&] { store->put(job_record("nobody")); },
-                                             errors::Reason::not_found));
+      EXPECT_TRUE(anticrack::testing::throws([&] { store->put(job_record("nobody")); }, gone()));
     }
   });
   EXPECT_EQ(jobs({"", 1000, {}}).size(), 20U * workers);
 }
 
-TEST_F(StoreThreads, ShareAResultThatComesAndGoes) {
+TEST_P(StoreThreads, ShareAResultThatComesAndGoes) {
   together([&](int t) {
     const std::string id = std::to_string(t);
     for (int round = 0; round < 15; ++round) {
@@ -63,11 +62,11 @@ TEST_F(StoreThreads, ShareAResultThatComesAndGoes) {
       store->erase_job(id);
     }
   });
-  EXPECT_EQ(files("results"), 0U);
+  EXPECT_EQ(blobs(FileKind::result), 0U);
   EXPECT_EQ(store->usage().results, 0U);
 }
 
-TEST_F(StoreThreads, ShareATriangulationThatComesAndGoes) {
+TEST_P(StoreThreads, ShareATriangulationThatComesAndGoes) {
   const mesh::Mesh mesh = strip(4);
   together([&](int t) {
     const records::MeshRecord record = meshed_record(std::to_string(t), mesh);
@@ -80,10 +79,10 @@ TEST_F(StoreThreads, ShareATriangulationThatComesAndGoes) {
       store->erase_mesh(record.id);
     }
   });
-  EXPECT_EQ(files("meshes"), 0U);
+  EXPECT_EQ(blobs(FileKind::mesh), 0U);
 }
 
-TEST_F(StoreThreads, ShareAnUploadThatComesAndGoes) {
+TEST_P(StoreThreads, ShareAnUploadThatComesAndGoes) {
   together([&](int t) {
     const std::string owner = std::to_string(t);
     for (int round = 0; round < 15; ++round) {
@@ -93,9 +92,11 @@ TEST_F(StoreThreads, ShareAnUploadThatComesAndGoes) {
       store->usage();
     }
   });
-  EXPECT_EQ(files("uploads"), 0U);
+  EXPECT_EQ(blobs(FileKind::upload), 0U);
   EXPECT_EQ(store->usage().uploads, 0U);
 }
+
+INSTANTIATE_TEST_SUITE_P(All, StoreThreads, stores, name_of_store);
 
 }  // namespace
 }  // namespace anticrack::store

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <iterator>
 
-#include "store/store_fixture.hpp"
+#include "store/contract_fixture.hpp"
 
 namespace anticrack::store {
 namespace {
@@ -14,12 +14,12 @@ std::string content(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-class StoredUploads : public StoreTest {
+class StoredUploads : public ContractTest {
  protected:
   static constexpr records::Clock::time_point for_ever = records::Clock::time_point::max();
 };
 
-TEST_F(StoredUploads, AreFoundByWhoMadeThem) {
+TEST_P(StoredUploads, AreFoundByWhoMadeThem) {
   const std::string hash = upload("$MeshFormat", "ann");
   ASSERT_TRUE(store->upload_path(hash, "ann"));
   EXPECT_EQ(content(*store->upload_path(hash, "ann")), "$MeshFormat");
@@ -27,13 +27,13 @@ TEST_F(StoredUploads, AreFoundByWhoMadeThem) {
   EXPECT_FALSE(store->upload_path(hash, ""));
   EXPECT_EQ(upload("$MeshFormat", "bob"), hash);
   EXPECT_TRUE(store->upload_path(hash, "bob"));
-  EXPECT_EQ(files("uploads"), 1U);
+  EXPECT_EQ(blobs(FileKind::upload), 1U);
   reopen();
   EXPECT_TRUE(store->upload_path(hash, "ann"));
   EXPECT_EQ(store->usage().uploads, 11U);
 }
 
-TEST_F(StoredUploads, LoseTheirPartsAtTheNextStart) {
+TEST_P(StoredUploads, LoseTheirPartsAtTheNextStart) {
   const std::string part = store->new_upload_path(10);
   EXPECT_NE(part, store->new_upload_path(10));
   ASSERT_TRUE(std::filesystem::exists(part));
@@ -41,7 +41,7 @@ TEST_F(StoredUploads, LoseTheirPartsAtTheNextStart) {
   EXPECT_FALSE(std::filesystem::exists(part));
 }
 
-TEST_F(StoredUploads, NeverLeaveTheirFolder) {
+TEST_P(StoredUploads, NeverLeaveTheirFolder) {
   std::ofstream(folder / "secret") << "x";
   EXPECT_FALSE(store->upload_path("../secret", ""));
   const std::string part = store->new_upload_path(1);
@@ -65,7 +65,7 @@ TEST_F(StoredUploads, NeverLeaveTheirFolder) {
   EXPECT_TRUE(std::filesystem::exists(folder / "secret"));
 }
 
-TEST_F(StoredUploads, SayWhenTheirPartIsGone) {
+TEST_P(StoredUploads, SayWhenTheirPartIsGone) {
   const std::string part = store->new_upload_path(1);
   std::filesystem::remove(part);
   EXPECT_TRUE(throws(
@@ -76,17 +76,17 @@ TEST_F(StoredUploads, SayWhenTheirPartIsGone) {
   EXPECT_FALSE(store->upload_path(std::string(64, 'a'), ""));
 }
 
-TEST_F(StoredUploads, ExpireByAge) {
+TEST_P(StoredUploads, ExpireByAge) {
   const std::string hash = upload("old", "ann");
   upload("old", "bob");
   EXPECT_EQ(store->expire_uploads(records::Clock::time_point{}), 0U);
   EXPECT_EQ(store->expire_uploads(for_ever), 2U);
   EXPECT_FALSE(store->upload_path(hash, "ann"));
-  EXPECT_EQ(files("uploads"), 0U);
+  EXPECT_EQ(blobs(FileKind::upload), 0U);
   EXPECT_EQ(store->usage().uploads, 0U);
 }
 
-TEST_F(StoredUploads, StayWhileAJobNeedsThem) {
+TEST_P(StoredUploads, StayWhileAJobNeedsThem) {
   const std::string hash = upload("array");
   records::JobRecord record = job_record("j");
   record.spec.loads.push_back({"load", fem::Array{hash, false, nullptr}});
@@ -94,7 +94,7 @@ TEST_F(StoredUploads, StayWhileAJobNeedsThem) {
   store->create(record, "");
   reopen();
   EXPECT_EQ(store->expire_uploads(for_ever), 0U);
-  store->finish(ended_record("j"), nullptr);
+  end_later("j");
   EXPECT_EQ(store->expire_uploads(for_ever), 1U);
 
   upload("array");
@@ -104,19 +104,19 @@ TEST_F(StoredUploads, StayWhileAJobNeedsThem) {
   EXPECT_EQ(store->expire_uploads(for_ever), 1U);
 }
 
-TEST_F(StoredUploads, StayWhileASweepNeedsThem) {
+TEST_P(StoredUploads, StayWhileASweepNeedsThem) {
   const std::string matrix = upload("matrix");
   records::JobRecord record = job_record("j");
   record.spec.sweep.emplace().upload = matrix;
   store->create(record, "");
   reopen();
   EXPECT_EQ(store->expire_uploads(for_ever), 0U);
-  store->finish(ended_record("j"), nullptr);
+  end_later("j");
   EXPECT_EQ(store->expire_uploads(for_ever), 1U);
   EXPECT_FALSE(store->upload_path(matrix, ""));
 }
 
-TEST_F(StoredUploads, AreErasedByWhoMadeThemUnlessNeeded) {
+TEST_P(StoredUploads, AreErasedByWhoMadeThemUnlessNeeded) {
   const std::string hash = upload("$MeshFormat", "ann");
   upload("$MeshFormat", "bob");
   EXPECT_TRUE(throws([&] { store->erase_upload(hash, "eve"); }, Reason::not_found));
@@ -133,7 +133,7 @@ TEST_F(StoredUploads, AreErasedByWhoMadeThemUnlessNeeded) {
   store->erase_job("j");
   EXPECT_TRUE(throws([&] { store->erase_upload(hash, "ann"); }, Reason::in_use));
   store->erase_upload(hash, "bob");  // the file stays while another has it
-  EXPECT_EQ(files("uploads"), 1U);
+  EXPECT_EQ(blobs(FileKind::upload), 1U);
   ASSERT_EQ(store->uploads("ann", "", 10).size(), 1U);
   EXPECT_EQ(store->uploads("ann", "", 10)[0].bytes, 11U);
   EXPECT_FALSE(store->uploads("ann", "", 10)[0].array);
@@ -141,10 +141,10 @@ TEST_F(StoredUploads, AreErasedByWhoMadeThemUnlessNeeded) {
   EXPECT_FALSE(store->upload(hash, "bob"));
   store->erase_mesh("m");
   store->erase_upload(hash, "ann");
-  EXPECT_EQ(files("uploads"), 0U);
+  EXPECT_EQ(blobs(FileKind::upload), 0U);
 }
 
-TEST_F(StoredUploads, StayUntilTheirMeshIsMade) {
+TEST_P(StoredUploads, StayUntilTheirMeshIsMade) {
   const std::string hash = upload("msh");
   records::MeshRecord record = meshed_record("m", strip(2));
   const std::string sha256 = std::exchange(record.sha256, "");
@@ -155,6 +155,8 @@ TEST_F(StoredUploads, StayUntilTheirMeshIsMade) {
   store->put(record, strip(2));
   EXPECT_EQ(store->expire_uploads(for_ever), 1U);
 }
+
+INSTANTIATE_TEST_SUITE_P(All, StoredUploads, stores, name_of_store);
 
 }  // namespace
 }  // namespace anticrack::store

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cstring>
+#include <utility>
+
+#include "digest/digest.hpp"
+#include "group/blobs.hpp"
+#include "group/rows.hpp"
+#include "group/store.hpp"
+#include "records/job_record.hpp"
+#include "stop/stop.hpp"
+#include "store/record_codec.hpp"
+#include "store/requests.hpp"
+#include "store/result_file.hpp"
+
+namespace anticrack::group {
+
+using errors::Error;
+using errors::Reason;
+using postgres::Result;
+using postgres::Value;
+using records::JobRecord;
+
+JobRecord Store::create(const JobRecord& record, const std::string& fingerprint) {
+  return _queue.create_here(record, fingerprint);
+}
+
+std::optional<JobRecord> Store::created_before(const std::string& owner,
+                                               const std::string& request_id,
+                                               const std::string& fingerprint) const {
+  const auto row = same_request(
+      postgres::query(_pool, select_request, {to_column(owner), to_column(request_id)}), request_id,
+      fingerprint);
+  return row ? std::optional(store::job_of(*row)) : std::nullopt;
+}
+
+void Store::put(const JobRecord& record) { _queue.put(record, store::encode(record)); }
+
+std::shared_ptr<store::Spool> Store::new_spool() {
+  return std::make_shared<store::Spool>(
+      [this] { return _results.nameless(); },
+      [this](std::uint64_t bytes) { return _usage.reserve(bytes, 0); });
+}
+
+void Store::finish(const JobRecord& record, std::shared_ptr<const records::BlockSource> result) {
+  const std::string bytes = store::encode(record);
+  const std::string header = result ? store::result_header(*result) : std::string();
+  const std::string name = result ? digest::Sha256().add(header).finish() : std::string();
+  const auto read = [&](std::uint64_t offset, std::span<std::byte> to) {
+    stop::look("writing a result");
+    if (offset < header.size()) {
+      const std::size_t count = std::min<std::size_t>(to.size(), header.size() - offset);
+      std::memcpy(to.data(), header.data() + offset, count);
+      offset += count;
+      to = to.subspan(count);
+    }
+    if (!to.empty()) result->read(offset - header.size(), to);
+  };
+  transact(_pool, [&](postgres::Transaction& transaction) {
+    if (!_queue.may_end(transaction, record, bytes)) return;
+    if (result)
+      write_blob(transaction, store::FileKind::result, name, header.size() + result->size(), read);
+    _queue.end(transaction, record, bytes, name, result ? result->size() : 0);
+  });
+}
+
+std::optional<JobRecord> Store::job(const std::string& id) const {
+  const std::optional<store::Row> found = row("jobs", id);
+  return found ? std::optional(store::job_of(*found)) : std::nullopt;
+}
+
+std::vector<JobRecord> Store::jobs(const store::Page& asked) const {
+  return store::jobs_of(page("jobs", asked));
+}
+
+std::vector<JobRecord> Store::unfinished() const {
+  const Result rows = postgres::query(_pool, std::string("SELECT ") + row_columns +
+                                                 " FROM jobs WHERE ended IS NULL ORDER BY number");
+  std::vector<JobRecord> records;
+  for (std::size_t i = 0; i < rows.rows(); ++i) {
+    JobRecord record = store::job_of(row_at(rows, i));
+    if (!records::ended(record.state)) records.push_back(std::move(record));
+  }
+  return records;
+}
+
+bool Store::set_running(bool /*running*/) { return false; }  // the queue counts crashes
+
+std::vector<store::EndedJob> Store::ended() const {
+  const Result rows = postgres::query(_pool,
+                                      "SELECT id, ended, result_bytes, owner FROM jobs "
+                                      "WHERE ended IS NOT NULL ORDER BY ended, number");
+  std::vector<store::EndedJob> jobs;
+  for (std::size_t row = 0; row < rows.rows(); ++row)
+    jobs.push_back({rows.text(row, 0), store::time_of(rows.integer(row, 1)),
+                    static_cast<std::uint64_t>(rows.integer(row, 2)),
+                    of_column(rows.view(row, 3))});
+  return jobs;
+}
+
+std::shared_ptr<const records::BlockSource> Store::result(const std::string& job) const {
+  // One statement, so that all of it is of one moment.
+  const Result found = postgres::query(
+      _pool,
+      "SELECT j.id, j.owner, j.checksum, j.record, j.result, b.bytes, p.body, j.result_bytes "
+      "FROM jobs j LEFT JOIN blobs b ON b.sha256 = j.result "
+      "LEFT JOIN pieces p ON p.sha256 = j.result AND p.n = 0 WHERE j.id = $1",
+      {job});
+  if (found.empty()) return nullptr;
+  store::read_job(row_at(found, 0));  // throws if the record is damaged
+  const std::string place = "the rows of jobs/" + job;
+  if (found.is_null(0, 4) || found.is_null(0, 6)) {
+    if (found.is_null(0, 4) && found.integer(0, 7) == 0) return nullptr;
+    throw Error(Reason::storage, "the result in {} is damaged: delete its job and run it again",
+                place);
+  }
+  const auto size = static_cast<std::uint64_t>(found.integer(0, 5));
+  if (size <= piece_bytes) return store::open_result(found.text(0, 6), place);
+  return store::open_result(reader_of_blob(_pool, found.text(0, 4), size), size, place);
+}
+
+void Store::expire(const std::string& job, records::Clock::time_point now) {
+  transact(_pool, [&](postgres::Transaction& transaction) {
+    const Result found = transaction.run(
+        std::string("SELECT ") + row_columns + ", result FROM jobs WHERE id = $1 FOR UPDATE",
+        {job});
+    if (found.empty()) throw store::unknown("jobs", job);
+    JobRecord record = store::read_job(row_at(found, 0));
+    if (!records::ended(record.state))
+      throw Error(Reason::in_use, "jobs/{} has not ended: cancel it first", job);
+    record.expired = now;
+    record.result_bytes = 0;
+    const std::string bytes = store::encode(record);
+    transaction.run(
+        "UPDATE jobs SET record = $2, checksum = $3, result = NULL, result_bytes = 0 WHERE id = $1",
+        {job, Value::bytes(bytes), row_checksum(record.id, record.owner, bytes)});
+    remove_unreferenced(transaction, {found.text(0, 4)});
+  });
+}
+
+void Store::erase_job(const std::string& id) {
+  transact(_pool, [&](postgres::Transaction& transaction) {
+    const Result erased = transaction.run("DELETE FROM jobs WHERE id = $1 RETURNING result", {id});
+    if (!erased.empty())
+      remove_unreferenced(transaction, {erased.text(0, 0)});
+    else if (!transaction.repeated())
+      throw store::unknown("jobs", id);
+  });
+}
+
+}  // namespace anticrack::group

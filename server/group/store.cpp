@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "group/store.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <random>
+#include <span>
+
+#include "errors/errors.hpp"
+#include "group/rows.hpp"
+#include "group/tables.hpp"
+#include "store/requests.hpp"
+
+namespace anticrack::group {
+
+namespace {
+
+using errors::Error;
+using errors::Reason;
+using postgres::Result;
+
+/// The folder, for a server on a database: all files in it are removed at each start.
+std::string own_folder(const std::string& folder) {
+  if (store::file_size(store::database_path(folder))) {
+    throw Error(Reason::storage,
+                "the data folder {} is a store of its own, of a server without --store: give "
+                "another --data-dir",
+                folder);
+  }
+  store::make_folder(folder);
+  return folder;
+}
+
+/// The name of the server of this data folder, made at its first start.
+std::string name_of(const std::string& folder) {
+  const std::string path = folder + "/server";
+  std::string name;
+  if (std::ifstream(path) >> name) return name;
+  std::random_device random;
+  name = fmt::format("{:08x}{:08x}", random(), random());
+  store::replace_file(path, std::as_bytes(std::span(name)));
+  return name;
+}
+
+}  // namespace
+
+Store::Store(const store::StoreOptions& options)
+    : _pool(postgres::Settings{postgres::Address(options.url)}),
+      _usage(options.disk_budget),
+      _results(own_folder(options.folder), store::FileKind::result, _usage),
+      _uploads(options.folder, store::FileKind::upload, _usage),
+      _queue((postgres::make_tables(_pool, tables()), _pool), name_of(options.folder)) {
+  for (store::Files* files : {&_results, &_uploads})
+    for (const std::string& name : files->sweep([](const std::string&) { return false; }))
+      files->remove(name);
+}
+
+std::optional<store::Row> Store::row(const char* table, const std::string& id) const {
+  const Result rows = postgres::query(
+      _pool, fmt::format("SELECT {} FROM {} WHERE id = $1", row_columns, table), {id});
+  return rows.empty() ? std::nullopt : std::optional(row_at(rows, 0));
+}
+
+std::vector<store::Row> Store::page(const char* table, const store::Page& page) const {
+  const std::string owner = to_column(page.owner.value_or(""));
+  std::int64_t last = page.oldest_first ? 0 : std::numeric_limits<std::int64_t>::max();
+  if (!page.after.empty()) {
+    const Result after = postgres::query(
+        _pool, fmt::format("SELECT number FROM {} WHERE id = $1 AND (NOT $2 OR owner = $3)", table),
+        {page.after, page.owner.has_value(), owner});
+    if (after.empty()) throw store::unknown(table, page.after);
+    last = after.integer(0, 0);
+  }
+  constexpr std::size_t most = std::numeric_limits<std::int64_t>::max();
+  const std::string select =
+      fmt::format("SELECT {} FROM {} WHERE number {} $1 {} ORDER BY number {} LIMIT $2",
+                  row_columns, table, page.oldest_first ? ">" : "<",
+                  page.owner ? "AND owner = $3" : "", page.oldest_first ? "" : "DESC");
+  const std::size_t count = std::min(page.count, most);
+  const Result found = page.owner ? postgres::query(_pool, select, {last, count, owner})
+                                  : postgres::query(_pool, select, {last, count});
+  std::vector<store::Row> rows;
+  for (std::size_t i = 0; i < found.rows(); ++i) rows.push_back(row_at(found, i));
+  return rows;
+}
+
+store::Usage Store::usage() const {
+  store::Usage usage;
+  const Result sums =
+      postgres::query(_pool, "SELECT kind, sum(bytes)::bigint FROM blobs GROUP BY kind");
+  for (std::size_t row = 0; row < sums.rows(); ++row) {
+    const auto bytes = static_cast<std::uint64_t>(sums.integer(row, 1));
+    switch (static_cast<store::FileKind>(sums.integer(row, 0))) {
+      case store::FileKind::mesh:
+        usage.meshes = bytes;
+        break;
+      case store::FileKind::result:
+        usage.results = bytes;
+        break;
+      case store::FileKind::upload:
+        usage.uploads = bytes;
+        break;
+    }
+  }
+  usage.database = static_cast<std::uint64_t>(
+      postgres::query(_pool,
+                      "SELECT greatest(0, pg_database_size(current_database()) - "
+                      "pg_total_relation_size('pieces'))")
+          .integer(0, 0));
+  return usage;
+}
+
+std::vector<store::OwnerUsage> Store::owners() const {
+  const Result rows =
+      postgres::query(_pool,
+                      "SELECT owner, count(*), count(*) FILTER (WHERE ended IS NULL), "
+                      "sum(result_bytes)::bigint FROM jobs GROUP BY owner");
+  const auto number = [&](std::size_t row, int column) {
+    return static_cast<std::uint64_t>(rows.integer(row, column));
+  };
+  std::vector<store::OwnerUsage> owners;
+  for (std::size_t row = 0; row < rows.rows(); ++row)
+    owners.push_back(
+        {of_column(rows.view(row, 0)), number(row, 1), number(row, 2), number(row, 3)});
+  return owners;
+}
+
+}  // namespace anticrack::group

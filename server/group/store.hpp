@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The store in PostgreSQL, for any number of servers. The data folder of each has what it can do
+// without: uploads on their way and copies of those that were read, and results of jobs that run.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "group/queue.hpp"
+#include "postgres/pool.hpp"
+#include "store/disk_usage.hpp"
+#include "store/files.hpp"
+#include "store/rows.hpp"
+#include "store/store.hpp"
+#include "store/triangulations.hpp"
+#include "store/upload_parts.hpp"
+
+namespace anticrack::group {
+
+class Store final : public store::Store {
+ public:
+  /// Makes the tables where there are none. Throws errors::Error (storage): the database cannot be
+  /// reached, lets nobody in or is of another version, or the folder is a store of its own.
+  explicit Store(const store::StoreOptions& options);
+
+  void put(const records::MeshRecord& record) override;
+  void put(const records::MeshRecord& record, const mesh::Mesh& triangulation) override;
+  std::optional<records::MeshRecord> mesh(const std::string& id) const override;
+  std::vector<records::MeshRecord> meshes(const store::Page& page) const override;
+  std::size_t mesh_count() const override;
+  void erase_mesh(const std::string& id) override;
+  std::shared_ptr<const mesh::Mesh> triangulation(const std::string& sha256) const override;
+
+  records::JobRecord create(const records::JobRecord& record,
+                            const std::string& fingerprint) override;
+  std::optional<records::JobRecord> created_before(const std::string& owner,
+                                                   const std::string& request_id,
+                                                   const std::string& fingerprint) const override;
+  void put(const records::JobRecord& record) override;
+  std::shared_ptr<store::Spool> new_spool() override;
+  void finish(const records::JobRecord& record,
+              std::shared_ptr<const records::BlockSource> result) override;
+  std::optional<records::JobRecord> job(const std::string& id) const override;
+  std::vector<records::JobRecord> jobs(const store::Page& page) const override;
+  std::vector<records::JobRecord> unfinished() const override;
+  bool set_running(bool running) override;
+  std::vector<store::EndedJob> ended() const override;
+  std::shared_ptr<const records::BlockSource> result(const std::string& job) const override;
+  void expire(const std::string& job, records::Clock::time_point now) override;
+  void erase_job(const std::string& id) override;
+
+  std::optional<std::string> upload_path(const std::string& sha256,
+                                         const std::string& owner) const override;
+  std::string new_upload_path(std::uint64_t bytes) override;
+  records::Clock::time_point keep_uploads(const std::vector<store::Upload>& uploads,
+                                          const std::string& owner) override;
+  std::optional<store::UploadRecord> upload(const std::string& sha256,
+                                            const std::string& owner) const override;
+  std::vector<store::UploadRecord> uploads(const std::string& owner, const std::string& after,
+                                           std::size_t count) const override;
+  void erase_upload(const std::string& sha256, const std::string& owner) override;
+  std::size_t expire_uploads(records::Clock::time_point before) override;
+
+  store::Queue* queue() override { return &_queue; }
+  store::Usage usage() const override;
+  std::vector<store::OwnerUsage> owners() const override;
+  std::chrono::milliseconds unreachable() const override { return _pool.unreachable(); }
+
+ private:
+  void save(const records::MeshRecord& record, const std::vector<std::byte>* triangulation);
+  std::optional<store::Row> row(const char* table, const std::string& id) const;
+  std::vector<store::Row> page(const char* table, const store::Page& page) const;
+  std::vector<store::UploadRecord> uploads_where(const char* comparison, const std::string& owner,
+                                                 const std::string& sha256,
+                                                 std::size_t count) const;
+  /// Removes copies of uploads that nobody has any more.
+  void remove_copies();
+
+  mutable postgres::Pool _pool;
+  mutable store::DiskUsage _usage;  ///< of the data folder
+  store::Files _results;
+  mutable store::Files _uploads;
+  store::UploadParts _parts;
+  mutable store::Triangulations _triangulations;
+  Queue _queue;
+};
+
+}  // namespace anticrack::group
