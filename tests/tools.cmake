@@ -37,8 +37,9 @@ set(needs_client.python.client openssl .pandas)
 set(needs_client.python.package .ensurepip .flake8 .mypy .pip .wheel)
 set(needs_client.python.result .pandas)
 set(needs_client.python.study .pandas)
-set(needs_client.view.page chromium chromedriver tsc clang-format .aiohttp .selenium /usr/share/javascript/three/three.min.js
+set(needs_client.view.explored chromium chromedriver .aiohttp .selenium /usr/share/javascript/three/three.min.js
     /usr/share/javascript/chart.js/chart.min.js)
+set(needs_client.view.page ${needs_client.view.explored} tsc clang-format)
 set(needs_deploy.administration openssl)
 set(needs_deploy.blas ${serial_openblas})
 set(needs_deploy.certificates openssl)

@@ -81,6 +81,12 @@ int parse_and_run(int argc, char** argv) {
   add_files(app, globals, chosen);
   add_server(app, globals, chosen);
   add_explain(app, globals, chosen);
+  std::vector<std::string> words(argv + 1, argv + argc);
+  auto command_at = first_command(app, words);
+  const std::string name = command_at == words.end() ? "" : *command_at;
+  std::vector<std::string> others = words;  // options before the name are the command's own
+  if (!name.empty()) others.erase(others.begin() + (command_at - words.begin()));
+  add_programs(app, others, chosen);
   add_guide(app, globals, chosen);
   if (argc > 1 && std::string_view(argv[1]) == "--complete") {
     print_document(guide::completions(app, {argv + 2, argv + argc}, [&] {
@@ -89,14 +95,10 @@ int parse_and_run(int argc, char** argv) {
     }));
     return exit_ok;
   }
-  std::vector<std::string> words(argv + 1, argv + argc);
-  const auto command_at = first_command(app, words);
-  const std::string name = command_at == words.end() ? "" : *command_at;
   const auto has_name = [&](const CLI::App* command) { return command->get_name() == name; };
   if (name == "plot" || app.get_subcommands(has_name).empty()) {
     if (const auto program = external_command(name); !program.empty()) {
-      words.erase(command_at);  // options before the name are its own
-      return guarded(globals, [&]() -> int { become(program, words); });
+      return guarded(globals, [&]() -> int { become(program, others); });
     }
   }
   try {

@@ -25,6 +25,8 @@ void add_mesh(CLI::App& app, const Globals& globals, Command& chosen);
 void add_job(CLI::App& app, const Globals& globals, Command& chosen);
 void add_files(CLI::App& app, const Globals& globals, Command& chosen);  ///< show, plot, export
 void add_server(CLI::App& app, const Globals& globals, Command& chosen);
+/// Adds study and view, which pass on `words`, the command line without the command.
+void add_programs(CLI::App& app, const std::vector<std::string>& words, Command& chosen);
 void add_explain(CLI::App& app, const Globals& globals, Command& chosen);
 /// The keys of cases that the server knows, for completion; empty if it does not answer within a
 /// second.

@@ -70,7 +70,15 @@ void add_file(CLI::App& command, std::string& file, std::vector<std::string>& lo
       ->type_name("NAME");
 }
 
-int show_file(const ShowOptions& options, const Globals& given) {
+int show_study(const ShowOptions& options, const Globals& globals) {
+  const auto program = external_command("study");
+  if (program.empty() || !options.csv.empty() || !options.loads.empty()) throw;
+  std::vector<std::string> words{"--show", options.file};
+  if (globals.json) words.emplace_back("--json");
+  become(program, words);
+}
+
+int show_file(const ShowOptions& options, const Globals& given) try {
   const Globals globals = with_outputs(given, {options.csv});
   const std::filesystem::path csv = csv_file(options.csv, options.file);
   const results::Result result = read_result(options);
@@ -97,6 +105,8 @@ int show_file(const ShowOptions& options, const Globals& given) {
                                                   : answers_table(result)) +
                             (options.all ? numbers_table(result) : "") + foot);
   return exit_ok;
+} catch (const results::IsStudy&) {
+  return show_study(options, given);
 }
 
 int pass_to_python(const PassedOn& options, const Globals& globals) {
@@ -123,8 +133,7 @@ void add_plot(CLI::App& app, const Globals& globals, Command& chosen) {
       ->excludes(together);
   add("--animate", "WHAT",
       "Animations in place of figures: loads (one after another), amplitude (u grows to its size "
-      "and "
-      "back) or growth; --format is of gif, webp and mp4 then");
+      "and back), stages or growth; --format is of gif, webp and mp4 then");
   add("--interface", "NAME",
       "Draw the traces of this interface, also in the overview and with --together (default: of "
       "all that can open; in the overview of the one that opens most, and the pressure of one in "

@@ -31,12 +31,14 @@ void add_load(const Block& block, std::size_t index, std::size_t interfaces, int
   load.fields.clear();
   load.indicator.clear();
   load.balanced_flux.clear();
+  load.membrane_rows.clear();
+  load.membranes.clear();
   load.history = {};
   if (const std::string at = arrays::load_traces(index); solved || block.has_below(at))
     load.traces = traces_of(block, at, interfaces);
   if (const std::string at = arrays::load_history(index); solved || block.has_below(at))
     get_arrays(block, at, load.history, arrays::history<History>);
-  get_arrays(block, arrays::load_folder(index), load, tables::of_triangles);
+  get_arrays(block, arrays::load_folder(index), load, tables::of_load);
   if (!block.has_below(arrays::load_fields(index))) return;
   for (std::size_t i = 0; i < static_cast<std::size_t>(subdomains); ++i) {
     Field& field = load.fields.emplace_back();

@@ -18,6 +18,12 @@ namespace anticrack::results {
 
 inline constexpr std::string_view format = "anticrack-result/2";
 
+/// The error if a file is no result but a study, as the Python package writes it.
+class IsStudy : public Error {
+ public:
+  using Error::Error;
+};
+
 /// Writes the file completely or not at all, as output::write_file. Needs memory for a copy of the
 /// file. Two threads may not call it at once unless HDF5 is thread-safe. An existing file is kept
 /// as FILE~ unless it is a result of the same job, or of the same case without a sweep. Returns a
@@ -25,9 +31,9 @@ inline constexpr std::string_view format = "anticrack-result/2";
 std::string write(const std::filesystem::path& path, const Result& result);
 
 /// Reads of a file of `format` what can be shown: values, sweeps, and u for the notes on it, but no
-/// interfaces, histories, indicators and triangles. Throws Error for a file that is not HDF5,
-/// truncated, not a result, of another format version or inconsistent. Sizes are checked before
-/// memory is allocated.
+/// interfaces, histories, indicators and triangles. Throws IsStudy, or Error for a file that is not
+/// HDF5, truncated, not a result, of another format version or inconsistent. Sizes are checked
+/// before memory is allocated.
 Result read(const std::filesystem::path& path);
 
 /// Reads a one-dimensional float64 dataset of any HDF5 file; `dataset` is its path, as "/f" or

@@ -136,6 +136,8 @@ void check_format(const fs::path& path, const Handle& root) {
                 "has format \"" + found + "\", this client reads \"" + std::string(format) + "\"",
                 version > version_of(format) ? "use a newer anticrack" : "run the case again");
   }
+  if (found.starts_with("anticrack-study/"))
+    throw IsStudy(path.string(), "is a study, no result", "see anticrack study --show");
   throw Error(path.string(), "has format \"" + found + "\", no result of anticrack", cure);
 }
 

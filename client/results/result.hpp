@@ -95,7 +95,9 @@ struct Load {
   std::vector<Field> fields;  ///< one per subdomain, or none (not asked for)
   /// (m) the part of each triangle in error_bound^2; empty if not asked for or without bounds.
   std::vector<double> indicator;
-  std::vector<double> balanced_flux;  ///< (m,3) as in tables.hpp; empty as `indicator`
+  std::vector<double> balanced_flux;        ///< (m,3) as in tables.hpp; empty as `indicator`
+  std::vector<std::int32_t> membrane_rows;  ///< (k) of growth with fields
+  std::vector<double> membranes;            ///< (k times the nodes of all fields) as in tables.hpp
   /// Stages of a job with an accuracy, each on a finer mesh than the stage before and with the
   /// answer to this load only.
   std::vector<v1::Stage> stages;

@@ -47,7 +47,7 @@ inline constexpr auto edges = std::tuple{
 
 // The datasets of /loads/NAME, beside the answer.
 
-inline constexpr auto of_triangles = std::tuple{
+inline constexpr auto of_load = std::tuple{
     optional(explained("indicator", "m", &Load::indicator,
                        "part of each triangle in the square of error_bound; none where it was not "
                        "asked for or there are no bounds",
@@ -58,6 +58,14 @@ inline constexpr auto of_triangles = std::tuple{
                   "flux behind the bounds, which is in equilibrium: the three sum to minus the "
                   "load on it; where it was asked for",
                   "F")),
+    optional(
+        explained("membrane_rows", "k", &Load::membrane_rows,
+                  "with growth and fields: rows of growth whose membranes are kept, the first, "
+                  "the last, and those where fronts begin to run or stop")),
+    optional(explained("membranes", "k*n", &Load::membranes,
+                       "u of these rows under their loads, one row after another, each in the "
+                       "nodes of all fields one after another",
+                       "L")),
 };
 
 // Attributes and datasets of /sweep, beside the message SweepAnswer and the arrays of ReadResult.

@@ -24,7 +24,7 @@ void put_load(const Handle& parent, std::size_t index, const Load& load, const v
   const Handle group = create_group(parent, load.name(), 16);
   put(group, "index", static_cast<std::int32_t>(index));
   messages.put(group, load.answer);
-  put_arrays(group, units, load, tables::of_triangles);
+  put_arrays(group, units, load, tables::of_load);
   const Handle traces = create_group(group, "traces");
   for (std::size_t i = 0; i < load.traces.size(); ++i)
     put_arrays(create_group(traces, std::to_string(i), 8), units, load.traces[i],

@@ -70,9 +70,10 @@ struct TipAnswer {
   std::optional<double> energy_release_rate;         ///< -dPi/da when it moves ahead by a
   std::optional<double> energy_release_rate_spread;  ///< largest less least of three radii
   std::string reason;
+  std::optional<double> release_factor;  ///< of a delaminated end, see tips/singular.hpp
 };
 ANTICRACK_FIELDS(TipAnswer, x, y, interface, kind, closed, exponent, intensity, k_iii,
-                 energy_release_rate, energy_release_rate_spread, reason)
+                 energy_release_rate, energy_release_rate_spread, reason, release_factor)
 
 /// The force on a side or a hole of the boundary, see operators/boundary_forces.
 struct BoundaryAnswer {
@@ -81,8 +82,11 @@ struct BoundaryAnswer {
   double resultant = 0;               ///< int T du/dn ds, n outwards
   double moment_x = 0, moment_y = 0;  ///< int T du/dn (x - x0) ds, (y - y0)
   double x = 0, y = 0;                ///< (x0, y0), the middle of its bounding box
+  std::optional<double> resultant_lower = {}, resultant_upper = {};  ///< bounds of the exact one
+  std::string no_bounds = {};                                        ///< why there are none
 };
-ANTICRACK_FIELDS(BoundaryAnswer, name, free, resultant, moment_x, moment_y, x, y)
+ANTICRACK_FIELDS(BoundaryAnswer, name, free, resultant, moment_x, moment_y, x, y, resultant_lower,
+                 resultant_upper, no_bounds)
 
 /// u at a point of a probe; both are one but on an interface.
 struct ProbeAnswer {
@@ -104,6 +108,8 @@ struct GrowthRow {
   std::optional<double> energy;
   bool stable = false;
   std::int32_t ties = 0;  ///< how many others would leave at nearly this load
+  /// Of the first row of a crack that leaves an open delaminated end: its length under the load 1.
+  std::optional<double> initial_length;
   // Of a final position, on a mesh of its own:
   std::optional<double> g1_final;
   std::optional<double> energy_lower, energy_upper;  ///< bounds of the exact Pi under `load`
@@ -111,8 +117,8 @@ struct GrowthRow {
   std::optional<double> g1_lower, g1_upper, load_lower, load_upper;
 };
 ANTICRACK_FIELDS(GrowthRow, front, interface, position, x, y, load, displacement, g1, toughness,
-                 contact_length, energy, stable, ties, g1_final, energy_lower, energy_upper,
-                 g1_lower, g1_upper, load_lower, load_upper)
+                 contact_length, energy, stable, ties, initial_length, g1_final, energy_lower,
+                 energy_upper, g1_lower, g1_upper, load_lower, load_upper)
 
 /// The numbers of an answer, without its status and arrays.
 struct AnswerSummary {
@@ -177,6 +183,10 @@ struct Answer : AnswerSummary {
   /// u on the trace of each subdomain of the decomposition; fields are recovered from it.
   std::vector<std::vector<double>> side_traces;
   std::vector<Field> fields;  ///< one per Mesh::subdomains, when asked for
+  /// Of growth with fields: u under the load of some rows of `growth`, one row after another, each
+  /// of the subdomains one after another.
+  std::vector<std::int32_t> membrane_rows;
+  std::vector<double> membranes;
 };
 
 }  // namespace anticrack::contact

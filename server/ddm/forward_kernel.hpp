@@ -48,11 +48,19 @@ inline void solve_panel(const double* l, int height, int own, const int* rows, i
                       [rows](int i) { return rows[i]; });
 }
 
+/// Whether all of y is 0, as beside a force on a few nodes: then its columns of L change nothing.
+inline bool is_zero(const double* y, long count) {
+  long i = 0;
+  while (i < count && y[i] == 0) ++i;
+  return i == count;
+}
+
 void solve_one(const Supernodes& factor, double* y) {
   Turns turns(factor, 1);
   for (int s = 0; s < factor.count && factor.super[s] < factor.columns; ++s) {
     const int first = factor.super[s];
     const int end = factor.super[s + 1] < factor.columns ? factor.super[s + 1] : factor.columns;
+    if (is_zero(y + first, end - first)) continue;
     const int* rows = factor.rows + factor.row_begin[s];
     const int height = factor.row_begin[s + 1] - factor.row_begin[s];
     const int own = factor.super[s + 1] - first;  // these rows are consecutive
@@ -106,11 +114,12 @@ void solve_block(const Supernodes& factor, Lanes* y) {
   for (int s = 0; s < factor.count && factor.super[s] < factor.columns; ++s) {
     const int first = factor.super[s];
     const int end = factor.super[s + 1] < factor.columns ? factor.super[s + 1] : factor.columns;
+    Lanes* x = y + static_cast<long>(first) * groups;
+    if (is_zero(reinterpret_cast<const double*>(x), long{groups} * lanes * (end - first))) continue;
     const int* rows = factor.rows + factor.row_begin[s];
     const int height = factor.row_begin[s + 1] - factor.row_begin[s];
     const int own = factor.super[s + 1] - first;
     const double* l = factor.values + factor.value_begin[s];
-    Lanes* x = y + static_cast<long>(first) * groups;
     for (int begin = 0; begin < end - first; begin += panel_columns) {
       turns.take(panel_columns, height);
       const int stop = begin + panel_columns < end - first ? begin + panel_columns : end - first;

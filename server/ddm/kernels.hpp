@@ -36,7 +36,8 @@ struct Kernels {
   /// `y`: a row of `width` doubles for each unknown; rows of a block are aligned to 64 bytes. The
   /// bits of a column depend neither on the width nor on the other columns, since all entries are
   /// formed by the same operations in the same order. They may differ between processors, as each
-  /// uses its best kernel. O(nnz(L) width); one load costs about reading L once. No allocation.
+  /// uses its best kernel. O(nnz(L) width); one load costs about reading L once, or
+  /// forward, of a force on a few nodes, what L has on their ways to the root. No allocation.
   void (*forward)(const Supernodes& factor, int width, double* y);
   void (*backward)(const Supernodes& factor, int width, double* y);
   /// eliminate_front() (multifrontal.hpp) by plain loops, for fronts too small for BLAS. Bits may

@@ -89,13 +89,14 @@ void for_tiles(int rows, int columns, const Take& take) {
 /// Solves columns in blocks of up to columns_at_once(rows): `solve(width, block)` works on a
 /// row-major block. `put` and `take` (column, begin, end, at, stride) write and read rows [begin,
 /// end) of a column; row i of the block is at[i * stride]. If rows are permuted, begin and end
-/// count rows of the column, not of the block.
+/// count rows of the column, not of the block. `more_rows`: after these, for `solve` alone.
 template <class Put, class Solve, class Take>
-void in_blocks(int rows, int columns, const Put& put, const Solve& solve, const Take& take) {
+void in_blocks(int rows, int columns, const Put& put, const Solve& solve, const Take& take,
+               int more_rows = 0) {
   const auto whole = [](int count) { return count == 1 ? 1 : (count + lanes - 1) / lanes * lanes; };
-  const int most = static_cast<int>(columns_at_once(rows));
+  const int most = static_cast<int>(columns_at_once(rows + more_rows));
   const int widest = whole(std::min(columns, most));
-  const Values y = make_values(at(rows) * at(widest));
+  const Values y = make_values(at(rows + more_rows) * at(widest));
   for (int first = 0; first < columns; first += most) {
     const int count = std::min(most, columns - first);
     const std::ptrdiff_t width = whole(count);
@@ -171,7 +172,7 @@ void SubdomainFactor::forward(const Eigen::Ref<const Eigen::MatrixXd>& f,
       static_cast<int>(f.rows()), static_cast<int>(f.cols()),
       [&](int j, int begin, int end, double* to, std::ptrdiff_t stride) {
         const double* from = f.data() + j * f.outerStride();
-        for (int i = begin; i < end; ++i) to[place[i] * stride] = from[i];
+        for (int i = begin; i < end; ++i) to[place[i] * stride] = from[i] + 0.0;  // -0 as 0
       },
       [&](int width, double* y) { best_kernels().forward(_factor->l, width, y); },
       [&](int j, int begin, int end, const double* from, std::ptrdiff_t stride) {
@@ -203,16 +204,29 @@ void SubdomainFactor::recover(std::span<Backward> columns) const {
 
 void SubdomainFactor::solve(const Eigen::Ref<const Eigen::MatrixXd>& f,
                             Eigen::Ref<Eigen::MatrixXd> x) const {
-  Eigen::MatrixXd all(_interior + _trace, f.cols());
-  all.topRows(_interior) = f;
-  all.bottomRows(_trace).setZero();
-  const std::vector<Forward> half = forward(all);
-  const Eigen::VectorXd at_rest = Eigen::VectorXd::Zero(_trace);
-  std::vector<Backward> columns;
-  for (Eigen::Index j = 0; j < f.cols(); ++j)
-    columns.push_back({half[at(j)].z_interior, at_rest, all.col(j)});
-  recover(columns);
-  x = all.topRows(_interior);
+  if (!_factor || f.cols() == 0) return;
+  const int* place = _factor->place.data();
+  const auto interior = static_cast<int>(_interior);
+  in_blocks(
+      interior, static_cast<int>(f.cols()),
+      [&](int j, int begin, int end, double* to, std::ptrdiff_t stride) {
+        const double* from = f.data() + j * f.outerStride();
+        for (int i = begin; i < end; ++i) to[place[i] * stride] = from[i] + 0.0;  // -0 as 0
+      },
+      [&](int width, double* y) {
+        const auto clear_trace = [&] {
+          std::fill(y + _interior * width, y + (_interior + _trace) * width, 0.0);
+        };
+        clear_trace();
+        best_kernels().forward(_factor->l, width, y);
+        clear_trace();  // from the condensed load to u there
+        best_kernels().backward(_factor->l, width, y);
+      },
+      [&](int j, int begin, int end, const double* from, std::ptrdiff_t stride) {
+        double* to = x.data() + j * x.outerStride();
+        for (int i = begin; i < end; ++i) to[i] = from[place[i] * stride];
+      },
+      static_cast<int>(_trace));
 }
 
 Eigen::VectorXd SubdomainFactor::apply_schur(const Eigen::VectorXd& trace_values) const {

@@ -82,6 +82,7 @@ LoadBalance load_balance(const CutMesh& cut, const std::vector<fem::ForceParts>&
     if (amount == 0) return;
     source.resize(cut.triangle_count(), 0);
     source[t] += amount;
+    balance.unknown += amount;
   };
   for (std::size_t s = 0; s < force.size(); ++s) {
     const auto first = at(cut.first_triangle[s]);

@@ -29,6 +29,8 @@ struct LoadBalance {
   /// (triangles) m with |int_K (f - f_h) z| <= m max |z| for linear z; infinite on triangles where
   /// int (g - g_h) z is not known. Empty if `oscillation` is.
   std::vector<double> moments;
+  /// Sum over the triangles and edges of what is unknown of the integral of the load.
+  double unknown = 0;
 };
 
 /// `traction`: per subdomain, or empty. O(m). The oscillation is infinite if an unknown part has no

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -60,15 +61,21 @@ class Finder {
     const End first = end_of(stretch, stretch.first), last = end_of(stretch, stretch.last);
     stretch.holds_before = first == End::holds;
     stretch.holds_beyond = last == End::holds;
-    if (first != End::front && last != End::front) {
+    const auto starts = [](End end) { return end == End::front || end == End::open_end; };
+    if (!starts(first) && !starts(last)) {
       throw Error(Reason::invalid_argument,
                   "nothing open meets {}, so no front starts there: let it begin where the "
                   "inclusion has come off or the crack ends",
                   shown(path));
     }
+    std::array<std::pair<std::ptrdiff_t, double>, 2> ends{{{-1, 0}, {-1, 0}}};
+    for (const bool forward : {true, false})
+      if ((forward ? first : last) == End::open_end)
+        ends[forward ? 0 : 1] = leave(path, forward, stretch);
     const Track from_first = track_of(path, stretch, arc);
     const auto add_front = [&](bool forward, End beyond, int facing) {
-      Front front{all.stretches.size(), forward, from_first};
+      const auto [end, length] = ends[forward ? 0 : 1];
+      Front front{all.stretches.size(), forward, from_first, end, length};
       if (!forward) {
         std::ranges::reverse(front.track.position);
         std::ranges::reverse(front.track.place);
@@ -80,14 +87,39 @@ class Finder {
       all.fronts.push_back(std::move(front));
     };
     const auto count = static_cast<int>(all.fronts.size());
-    const bool both = first == End::front && last == End::front;
-    if (first == End::front) add_front(true, last, both ? count + 1 : -1);
-    if (last == End::front) add_front(false, first, both ? count : -1);
+    const bool both = starts(first) && starts(last);
+    if (starts(first)) add_front(true, last, both ? count + 1 : -1);
+    if (starts(last)) add_front(false, first, both ? count : -1);
     all.stretches.push_back(stretch);
   }
 
  private:
-  enum class End { front, holds, breaks_through };
+  /// open_end: of a delaminated inclusion, which a crack leaves.
+  enum class End { front, open_end, holds, breaks_through };
+
+  /// Lets a stretch begin where its front is far enough from the delaminated end for G to be
+  /// computed. The node of the end, and the distance.
+  std::pair<std::ptrdiff_t, double> leave(const Path& path, bool forward, Stretch& stretch) const {
+    const mesh::Interface& line = _mesh.interfaces[stretch.interface];
+    const auto place = [&](std::size_t i) { return mesh::position(_mesh, line.nodes[i]); };
+    const auto far = [](const mesh::Point& a, const mesh::Point& b) {
+      return std::hypot(a[0] - b[0], a[1] - b[1]);
+    };
+    std::size_t& here = forward ? stretch.first : stretch.last;
+    const std::size_t end = here;
+    while (stretch.first + 1 < stretch.last) {
+      const std::size_t behind = here;
+      forward ? ++here : --here;
+      const double length = far(place(here), place(end));
+      if (length >= least_radius * far(place(here), place(behind)))
+        return {static_cast<std::ptrdiff_t>(end), length};
+    }
+    throw Error(
+        Reason::invalid_argument,
+        "{} leaves the end of an inclusion that has come off, and is followed from where it "
+        "is ten edges long: take a finer mesh along it, or a longer path",
+        shown(path));
+  }
 
   /// The node of an interface that is nearest to a point, which may be an edge's length away.
   std::size_t nearest(const Path& path, const mesh::Interface& line, const mesh::Point& x) const {
@@ -169,7 +201,7 @@ class Finder {
       if (other.interface == stretch.interface && beside && other.kind == kind && same)
         return End::front;
       if (rigid) return other.kind == Kind::inclusion && same ? End::holds : End::breaks_through;
-      return End::holds;
+      return other.kind == Kind::delaminated ? End::open_end : End::holds;
     }
     const bool meets_open = std::ranges::any_of(here, [&](const Incident& other) {
       return (other.interface != stretch.interface || other.edge != own) && is_open(other.kind);

@@ -65,8 +65,7 @@ Preview::Preview(const contact::ContactProblem& problem, const mesh::Mesh& mesh,
   _closed_energy = closed.u.dot(closed.internal) / 2 - closed.u.dot(closed.load);
   for (const ddm::CondensedLoad& one : _load.loads.subdomains)
     _closed_energy += one.energy_constant;
-  const State first{std::vector<std::size_t>(_fronts.fronts.size(), 0),
-                    std::vector<Fate>(_fronts.fronts.size(), Fate::grows)};
+  const State first = first_state();
   for (std::size_t i = 0; i < _fronts.fronts.size(); ++i) {
     const Place& here = place(i, 0);
     const double enough = least_radius * here.edge, found = room(i, first);
@@ -86,6 +85,41 @@ std::vector<Track> Preview::tracks() const {
   std::vector<Track> tracks;
   for (const Front& front : _fronts.fronts) tracks.push_back(front.track);
   return tracks;
+}
+
+struct Preview::Solution {
+  contact::LcpAnswer contact;
+  contact::Answer answer;  ///< fields and the motions of inclusions
+  double energy = 0;
+};
+
+std::vector<contact::TipAnswer> Preview::ends() {
+  std::vector<contact::TipAnswer> ends(_fronts.fronts.size());
+  if (std::ranges::none_of(_fronts.fronts, &Front::leaves)) return ends;
+  Fronts whole = _fronts;
+  for (const Front& front : _fronts.fronts)
+    if (front.leaves()) {
+      Stretch& stretch = whole.stretches[front.stretch];
+      (front.forward ? stretch.first : stretch.last) = at(front.end);
+    }
+  const State first = first_state();
+  tie(whole.stretches, first);
+  const tips::Tips tips(mesh_of(_mesh, whole, first), _decomposition);
+  const tips::Solved solved{solve().answer, _load.force, _load.point_forces};
+  const std::vector<contact::TipAnswer> rows = tips.without_numbers({});
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    const Front& front = _fronts.fronts[i];
+    if (!front.leaves()) continue;
+    const Point x =
+        mesh::position(_mesh, line_of(_fronts.stretches[front.stretch]).nodes[at(front.end)]);
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      if (rows[k].x != x[0] || rows[k].y != x[1]) continue;
+      ends[i] = rows[k];
+      ends[i].reason = tips.obstacle(k, _load.point_forces);
+      if (ends[i].reason.empty()) ends[i] = tips.told(k, tips.integrals(k, solved), false);
+    }
+  }
+  return ends;
 }
 
 /// Independent contacts of an interface node.
@@ -214,10 +248,15 @@ double Preview::room(std::size_t front, const State& state) {
   return room;
 }
 
+State Preview::first_state() const {
+  return {std::vector<std::size_t>(_fronts.fronts.size(), 0),
+          std::vector<Fate>(_fronts.fronts.size(), Fate::grows)};
+}
+
 /// Ties what holds on the paths.
-void Preview::tie(const State& state) {
+void Preview::tie(std::span<const Stretch> stretches, const State& state) {
   std::ranges::fill(_tied, 0);
-  for (const Stretch& stretch : _fronts.stretches)
+  for (const Stretch& stretch : stretches)
     if (const std::optional<Held> here = held(stretch, state))
       for (std::size_t i = here->first; i <= here->last; ++i)
         for (const std::int32_t contact : contacts_at(stretch, i)) _tied[at(contact)] = 1;
@@ -225,18 +264,17 @@ void Preview::tie(const State& state) {
 
 contact::Answer Preview::answer(const State& state, const contact::ActiveSetOptions& options,
                                 contact::Observer& observer) {
-  tie(state);
+  tie(_fronts.stretches, state);
   return contact::solve_active_set(_problem, _mesh, _load.loads, options, false, observer, {},
                                    _tied);
 }
 
-Measured Preview::measure(const State& state) {
-  stop::look("growing cracks and delaminations");
-  tie(state);
+/// Solves with what is tied.
+Preview::Solution Preview::solve() {
   contact::LcpOptions options;
   options.max_steps = most_steps;
   options.tied = _tied;
-  const contact::LcpAnswer solution = _problem.solve_contact(_reduced, options, _closed, {});
+  contact::LcpAnswer solution = _problem.solve_contact(_reduced, options, _closed, {});
   if (solution.status == contact::LcpStatus::unbounded)
     throw Error(Reason::numerical,
                 "a part of the membrane that only the paths and contact hold slides off: hold it, "
@@ -247,18 +285,36 @@ Measured Preview::measure(const State& state) {
                 most_steps);
   _closed = solution.closed;
   const VectorXd d = solution.d.head(_reduced.r.size());
-  const VectorXd w = _problem.values(_problem.solve(_reduced, d), d, _reduced.p);
+  VectorXd w = _problem.values(_problem.solve(_reduced, d), d, _reduced.p);
   contact::Answer answer;
   for (const VectorXd& trace : _problem.traces().scatter(w))
     answer.side_traces.emplace_back(trace.begin(), trace.end());
   const contact::SolvedCase solved{_load.loads.subdomains, answer};
   _problem.recover_fields({&solved, 1});
 
+  for (const ddm::RigidMotion& motion : _decomposition.skeleton.motions) {
+    contact::InclusionAnswer& body = answer.inclusions.emplace_back();
+    body.displacement_mesh = contact::sum_of(motion.displacement, w);
+    body.slope_x_mesh = contact::sum_of(motion.slope_x, w);
+    body.slope_y_mesh = contact::sum_of(motion.slope_y, w);
+  }
+  const double energy = _closed_energy - _reduced.r.dot(d) / 2;
+  return {std::move(solution), std::move(answer), energy};
+}
+
+std::vector<contact::Field> Preview::fields(const State& state) {
+  tie(_fronts.stretches, state);
+  return solve().answer.fields;
+}
+
+Measured Preview::measure(const State& state) {
+  stop::look("growing cracks and delaminations");
+  tie(_fronts.stretches, state);
+  const auto [solution, answer, energy] = solve();
   Measured measured;
-  measured.energy = _closed_energy - _reduced.r.dot(d) / 2;
-  const std::vector<ddm::RigidMotion>& motions = _decomposition.skeleton.motions;
-  for (const ddm::RigidMotion& motion : motions)
-    measured.displacement.push_back(contact::sum_of(motion.displacement, w));
+  measured.energy = energy;
+  for (const contact::InclusionAnswer& body : answer.inclusions)
+    measured.displacement.push_back(body.displacement_mesh);
   for (std::size_t p = 0; p < _decomposition.pairs.size(); ++p) {
     const std::int32_t contact = _decomposition.pairs[p].contact;
     if (contact >= 0 && solution.pressed[at(contact)] != 0)
@@ -272,8 +328,8 @@ Measured Preview::measure(const State& state) {
     if (outer < least_radius * here.edge) continue;
     Point slope{};
     if (here.inclusion >= 0) {
-      const ddm::RigidMotion& motion = motions[at(here.inclusion)];
-      slope = {contact::sum_of(motion.slope_x, w), contact::sum_of(motion.slope_y, w)};
+      const contact::InclusionAnswer& body = answer.inclusions[at(here.inclusion)];
+      slope = {body.slope_x_mesh, body.slope_y_mesh};
     }
     const bool closed = here.behind >= 0 && solution.closed[at(here.behind)] != 0;
     measured.release.back() = closed ? 0 : release(here, outer, answer, slope);

@@ -25,11 +25,12 @@
 #include "tips/support.hpp"
 #include "tips/tensor.hpp"
 
-namespace anticrack::growth {
+namespace anticrack::contact {
+struct Field;
+struct TipAnswer;
+}  // namespace anticrack::contact
 
-/// Radii of the integral for G over the edges at the front. On meshes without symmetry a smaller
-/// one errs by some per cent, whatever the mesh.
-constexpr double least_radius = 10, radius = 16;
+namespace anticrack::growth {
 
 /// A load on the mesh, and its parts on triangles.
 struct PreviewLoad {
@@ -53,6 +54,11 @@ class Preview {
   /// or bonded. Throws as measure().
   contact::Answer answer(const State& state, const contact::ActiveSetOptions& options,
                          contact::Observer& observer);
+  /// u in a state, for t = 1. Cost as measure().
+  std::vector<contact::Field> fields(const State& state);
+  /// For each front that leaves an open delaminated end, that end before anything leaves it, with a
+  /// reason where it has no numbers. Costs a state.
+  std::vector<contact::TipAnswer> ends();
   /// Solves a state. O(c^3) a step of the active set with c open contacts, and O(N). Throws
   /// errors::Error: numerical where a part of the membrane slides off or the steps do not end;
   /// cancelled.
@@ -70,13 +76,17 @@ class Preview {
     std::int32_t inclusion = -1;
   };
 
+  struct Solution;
+
   const Place& place(std::size_t front, std::size_t position);
   Place find_place(const Front& front, std::size_t position) const;
   void take_surroundings(Place& place, tips::Place around) const;
   double room(std::size_t front, const State& state);
   double release(const Place& here, double outer, const contact::Answer& solved,
                  const mesh::Point& slope) const;
-  void tie(const State& state);
+  State first_state() const;
+  void tie(std::span<const Stretch> stretches, const State& state);
+  Solution solve();
   std::vector<std::int32_t> contacts_at(const Stretch& stretch, std::size_t node) const;
   const mesh::Interface& line_of(const Stretch& stretch) const {
     return _mesh.interfaces[stretch.interface];

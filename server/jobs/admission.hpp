@@ -46,9 +46,11 @@ class Admission {
   std::size_t waiting() const noexcept { return _waiting; }  ///< jobs that have not started
   std::uint64_t bytes() const noexcept { return _bytes; }
   /// The delay in a refusal; grows with the number of jobs that have not ended.
-  static std::chrono::milliseconds retry_delay(std::uint64_t jobs) noexcept;
+  std::chrono::milliseconds retry_delay() const noexcept { return retry_delay(_jobs); }
 
  private:
+  static std::chrono::milliseconds retry_delay(std::uint64_t jobs) noexcept;
+
   AdmissionLimits _limits;
   std::size_t _jobs = 0;
   std::size_t _waiting = 0;

@@ -88,7 +88,7 @@ bool fits(const LiveJob& job, std::size_t parts, std::size_t tips, const char* w
 /// Fills in probes, forces on the boundary and tips.
 void measure(const std::vector<PreparedCase>& cases, std::vector<Solved>& solved) {
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    if (solved[i].failure || solved[i].answer.fields.empty()) continue;
+    if (solved[i].failure || spec_of(cases[i]).growth || solved[i].answer.fields.empty()) continue;
     const auto& job = *cases[i].task.job;
     try {
       const stop::Scope scope(job.stop.get_token());

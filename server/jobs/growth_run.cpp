@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <optional>
+#include <set>
 #include <utility>
 #include <variant>
 
@@ -119,6 +122,51 @@ std::vector<std::string> notes_on(const std::vector<growth::Row>& rows, const Ev
   return notes;
 }
 
+/// l0 under the load 1 of the fronts that leave an open delaminated end, with a note on each.
+std::vector<std::optional<double>> initial_lengths(const growth::Fronts& fronts,
+                                                   const std::vector<contact::TipAnswer>& ends,
+                                                   std::vector<std::string>& notes) {
+  std::vector<std::optional<double>> lengths(ends.size());
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    const growth::Front& front = fronts.fronts[i];
+    if (!front.leaves()) continue;
+    std::string& note = notes.emplace_back(
+        fmt::format("the crack on \"{}\" leaves a delaminated end: ", front.track.name));
+    if (!ends[i].release_factor) {
+      note += "no l0, as " + ends[i].reason;
+    } else if (ends[i].closed) {
+      note += "it is closed, so that nothing starts there at first";
+    } else {
+      const double power = 1 / (1 - 2 * *ends[i].exponent);
+      lengths[i] = std::pow(*ends[i].release_factor / front.track.toughness.front(), power);
+      note += fmt::format(
+          "it starts under every load t, at first with the length l0 = {} t^{}, and is followed "
+          "from the length {} on",
+          errors::shown(*lengths[i]), errors::shown(2 * power), errors::shown(front.length));
+    }
+  }
+  return lengths;
+}
+
+/// Fills in u of the first and the last row, and of rows at which fronts begin to run, or stop.
+void add_membranes(const std::vector<growth::Row>& rows, const std::vector<GrownState>& states,
+                   growth::Control control, operators::Growth& preview, const std::stop_token& stop,
+                   contact::Answer& answer) {
+  constexpr std::size_t most = 8;
+  std::set<std::size_t> chosen{0, rows.size() - 1};
+  for (const growth::Jump& jump : growth::jumps(rows, control))
+    for (const std::size_t row : {jump.from, jump.to.value_or(jump.from)})
+      if (chosen.size() < most) chosen.insert(row);
+  for (const std::size_t row : chosen) {
+    std::vector<contact::Field> fields = preview.fields(states[row].state, stop);
+    answer.membrane_rows.push_back(static_cast<std::int32_t>(row));
+    for (const contact::Field& field : fields)
+      for (const double u : field.u)
+        answer.membranes.push_back(rows[row].leader < 0 ? u : rows[row].load * u);
+    if (row == 0) answer.fields = std::move(fields);
+  }
+}
+
 contact::Answer grown(const PreparedCase& prepared, meshes::MeshCatalogue& catalogue,
                       contact::Observer& observer) {
   const LiveJob& job = *prepared.task.job;
@@ -132,6 +180,8 @@ contact::Answer grown(const PreparedCase& prepared, meshes::MeshCatalogue& catal
   contact::Answer answer = preview.answer(
       evolution.state(), std::get<contact::ActiveSetOptions>(job.spec->solver), observer);
   if (answer.status != contact::Status::converged) return answer;
+  std::vector<std::optional<double>> initial =
+      initial_lengths(preview.fronts(), preview.ends(stop), answer.growth_notes);
   std::vector<growth::Row> rows;
   std::vector<GrownState> states;
   const auto tell = [&](std::size_t row) {
@@ -145,11 +195,16 @@ contact::Answer grown(const PreparedCase& prepared, meshes::MeshCatalogue& catal
     const std::optional<growth::Row> row = evolution.take(measured);
     if (!row) continue;
     answer.growth.push_back(row_of(*row, measured, state, evolution, control.inclusion));
+    if (row->leader >= 0)  // of its first row only
+      std::swap(answer.growth.back().initial_length,
+                initial[static_cast<std::size_t>(row->leader)]);
     tell(rows.size());
     rows.push_back(*row);
     states.push_back({state, measured.energy});
   }
-  answer.growth_notes = notes_on(rows, evolution, control);
+  std::ranges::copy(notes_on(rows, evolution, control), std::back_inserter(answer.growth_notes));
+  if (job.spec->fields && !rows.empty())
+    add_membranes(rows, states, control, preview, stop, answer);
   if (spec.final_positions > 0)
     add_final(prepared, catalogue, preview.fronts(), rows, states, answer, tell);
   return answer;
@@ -210,16 +265,13 @@ void check_growth(const records::JobSpec& spec, const EngineOptions& options) {
     throw Error(Reason::invalid_argument,
                 "growth takes the method \"active-set\": fronts are contacts that are tied")
         .at("solver.uzawa");
-  if (spec.fields || spec.indicators)
-    throw Error(Reason::invalid_argument,
-                "a job with growth has traces, and no fields or "
-                "indicators: leave them out")
+  if (spec.indicators)
+    throw Error(Reason::invalid_argument, "a job with growth has no indicators: leave them out")
         .at("outputs");
   if (!spec.probes.empty())
-    throw Error(Reason::invalid_argument,
-                "a job with growth has no probes, as there are no fields: leave them out")
+    throw Error(Reason::invalid_argument, "a job with growth has no probes: leave them out")
         .at("probes");
-  constexpr std::uint64_t a_row = 250;  // twenty numbers and a name
+  constexpr std::uint64_t a_row = 260;  // 21 numbers and a name
   const auto rows = static_cast<std::uint64_t>(positions_of(growth)) * spec.loads.size();
   if (rows * a_row > max_answer_bytes)
     throw Error(Reason::limit_exceeded,

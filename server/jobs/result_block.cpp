@@ -72,6 +72,10 @@ records::Block case_arrays(std::size_t index, const contact::Answer& answer,
   if (!balanced_flux.empty())
     builder.add(arrays::load_folder(index) + "balanced_flux", balanced_flux,
                 {balanced_flux.size() / 3, 3});
+  if (!answer.membrane_rows.empty()) {
+    builder.add(arrays::load_folder(index) + "membrane_rows", answer.membrane_rows);
+    builder.add(arrays::load_folder(index) + "membranes", answer.membranes);
+  }
   return builder.take();
 }
 
@@ -104,7 +108,8 @@ void require_result_arrays(const records::JobSpec& spec, std::uint64_t interface
     const std::uint64_t fields = spec.fields ? subdomains : 0;
     count += rows_of(arrays::subdomain<Subdomain>) * fields +
              spec.loads.size() * (traces + rows_of(arrays::history<contact::Sample>) + fields +
-                                  (spec.indicators ? 1 : 0) + (spec.balanced_flux ? 1 : 0));
+                                  (spec.indicators ? 1 : 0) + (spec.balanced_flux ? 1 : 0) +
+                                  (spec.growth && spec.fields ? 2 : 0));
   }
   if (count > max_arrays) {
     throw errors::Error(errors::Reason::limit_exceeded,
@@ -116,8 +121,8 @@ void require_result_arrays(const records::JobSpec& spec, std::uint64_t interface
 
 bool has_room(const records::JobSpec& spec, const std::vector<std::string>& inclusions,
               std::size_t parts, std::size_t tips) {
-  constexpr std::uint64_t a_part = 128;  // six numbers and a name of at most 64 letters
-  constexpr std::uint64_t a_tip = 200;   // nine numbers, names and a reason
+  constexpr std::uint64_t a_part = 300;  // eight numbers, a name of at most 64 letters and a reason
+  constexpr std::uint64_t a_tip = 210;   // ten numbers, names and a reason
   return spec.loads.size() * (answer_bytes(spec, inclusions) + a_part * parts + a_tip * tips) <=
          max_answer_bytes;
 }

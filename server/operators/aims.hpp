@@ -27,12 +27,13 @@ struct Aim {
   std::optional<double> contact::InclusionAnswer::*lower, contact::InclusionAnswer::*upper;
   std::optional<double> contact::InclusionAnswer::*estimate = nullptr;
   std::optional<double> contact::InclusionAnswer::*scale = nullptr;
+  std::optional<double> known = {};  ///< the value on the mesh, if it is no inclusion's
 
   fem::Load force(const mesh::Mesh& mesh) const;
   /// The unit force as forces on all inclusions, of which there are `inclusions`.
   std::vector<estimate::ForceOn> unit(std::size_t inclusions) const;
   double value_in(const contact::Answer& answer) const {
-    return answer.inclusions[inclusion].*value;
+    return known ? *known : answer.inclusions[inclusion].*value;
   }
   void set(contact::Answer& answer, double low, double high) const {
     answer.inclusions[inclusion].*lower = low;

@@ -206,6 +206,21 @@ std::vector<contact::BoundaryAnswer> BoundaryForces::of(const contact::Answer& a
   return rows;
 }
 
+std::vector<Eigen::VectorXd> BoundaryForces::isolated(std::size_t row) const {
+  std::vector<Eigen::VectorXd> weights;
+  if (_rows[row].free) return weights;
+  for (std::size_t s = 0; s < _local.size(); ++s) {
+    const ddm::Subdomain& subdomain = _decomposition.subdomains[s];
+    weights.emplace_back(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(subdomain.dirichlet)));
+    for (const Share& share : _local[s].held) {
+      if (at(share.row) != row) continue;
+      if (share.part != 1) return {};
+      weights.back()[share.node - static_cast<Eigen::Index>(subdomain.free())] = 1;
+    }
+  }
+  return weights;
+}
+
 std::size_t BoundaryForces::bytes() const noexcept {
   std::size_t bytes = _rows.capacity() * sizeof(contact::BoundaryAnswer);
   for (const Local& local : _local)

@@ -3,6 +3,7 @@
 // Forces on the sides and holes of the boundary:  int T du/dn phi_i ds  in its nodes i.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -29,6 +30,9 @@ class BoundaryForces {
   /// The forces of an answer with fields to this load, which has parts. O(boundary).
   std::vector<contact::BoundaryAnswer> of(const contact::Answer& answer,
                                           const LoadOnTraces& load) const;
+  /// Per subdomain, 1 in the Dirichlet nodes of a row and 0 in the others; empty if the row is
+  /// free, or has a node together with another row where u is given.
+  std::vector<Eigen::VectorXd> isolated(std::size_t row) const;
   std::size_t size() const noexcept { return _rows.size(); }  ///< rows
   std::size_t bytes() const noexcept;                         ///< memory
 

@@ -11,6 +11,7 @@
 #include "estimate/chord_gap.hpp"
 #include "operators/displacement_bounds.hpp"
 #include "operators/load_bounds.hpp"
+#include "operators/resultant_bounds.hpp"
 #include "stop/stop.hpp"
 
 namespace anticrack::operators {
@@ -116,6 +117,7 @@ void find_bounds(const MeshOperator::Parts& parts, const estimate::CutMesh& cut,
                        &of.indicator, across});
   }
   bound_displacements(parts, bounded);
+  bound_resultants(parts, bounded);
   for (const Bounded& one : bounded) contact::take_middles(one.answer);
 }
 

@@ -41,6 +41,17 @@ std::vector<growth::Track> Growth::tracks() const { return _parts->preview.track
 
 const growth::Fronts& Growth::fronts() const noexcept { return _parts->preview.fronts(); }
 
+std::vector<contact::Field> Growth::fields(const growth::State& state,
+                                           const std::stop_token& stop) {
+  const stop::Scope scope(stop);
+  return _parts->preview.fields(state);
+}
+
+std::vector<contact::TipAnswer> Growth::ends(const std::stop_token& stop) {
+  const stop::Scope scope(stop);
+  return _parts->preview.ends();
+}
+
 contact::Answer Growth::answer(const growth::State& state, const contact::ActiveSetOptions& options,
                                contact::Observer& observer) {
   contact::Answer answer = _parts->preview.answer(state, options, observer);

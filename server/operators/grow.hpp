@@ -12,6 +12,11 @@
 #include "growth/fronts.hpp"
 #include "operators/mesh_operator.hpp"
 
+namespace anticrack::contact {
+struct Field;
+struct TipAnswer;
+}  // namespace anticrack::contact
+
 namespace anticrack::operators {
 
 /// Numbers of the fronts of some paths, wherever these are (growth/preview.hpp). Keeps the
@@ -28,6 +33,10 @@ class Growth {
 
   std::vector<growth::Track> tracks() const;
   const growth::Fronts& fronts() const noexcept;
+  /// As growth::Preview::fields.
+  std::vector<contact::Field> fields(const growth::State& state, const std::stop_token& stop = {});
+  /// As growth::Preview::ends.
+  std::vector<contact::TipAnswer> ends(const std::stop_token& stop = {});
   /// As growth::Preview::answer.
   contact::Answer answer(const growth::State& state, const contact::ActiveSetOptions& options,
                          contact::Observer& observer);

@@ -91,6 +91,7 @@ BalancedLoad combine(std::span<const BalancedLoad> loads, std::span<const double
     add(sum.balance.traction, loads[j].balance.traction, c);
     add(sum.balance.oscillation, loads[j].balance.oscillation, std::abs(c));
     add(sum.balance.moments, loads[j].balance.moments, std::abs(c));
+    sum.balance.unknown += std::abs(c) * loads[j].balance.unknown;
     add(sum.boundary.values, loads[j].boundary.values, c);
     add(sum.boundary.unknown, loads[j].boundary.unknown, std::abs(c));
     add(sum.across_chords, loads[j].across_chords, c);

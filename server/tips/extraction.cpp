@@ -68,7 +68,7 @@ void Extraction::add(const Corners& at, const Tensor& tension, std::size_t side,
 
     // grad w in (s, d) and in (x, y), by r and theta, X and Y.
     const double by_r = power * phi * (chi_1 - alpha * chi / r), by_angle = chi * power * phi_1 / r,
-                 c = std::cos(theta), s = std::sin(theta), w_x = c * by_r - s * by_angle,
+                 c = flat_x / r, s = flat_y / r, w_x = c * by_r - s * by_angle,
                  w_y = s * by_r + c * by_angle;
     const Point slope{w_x, flat.stretch * w_y - flat.slant * w_x},
         of_tip = product(flat.tip, slope);

@@ -73,6 +73,10 @@ double Singular::k_iii(double intensity) const {
   return intensity * _theta_mean * std::sqrt(pi / 2);
 }
 
+double Singular::release_factor(double intensity) const {
+  return 2 * pi * std::pow(_exponent * intensity, 2) * _root[1] / std::pow(16, _exponent);
+}
+
 std::array<Tensor, 2> tensors_at(const Place& place, std::span<const Law> laws) {
   std::array<Tensor, 2> result{};
   for (std::size_t side = 0; side < 2; ++side) {

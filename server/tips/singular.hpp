@@ -41,6 +41,9 @@ class Singular {
   double intensity_of(double rate) const;
   /// K_III = lim (2 pi r)^1/2 T du/dn ahead of a crack tip.
   double k_iii(double intensity) const;
+  /// Of an open delaminated end: G l^(1 - 2 alpha) = 2 pi alpha^2 D+ c^2 / 16^alpha of a short
+  /// crack of length l that leaves it straight ahead (THEORY.md).
+  double release_factor(double intensity) const;
 
  private:
   mesh::TipKind _kind;

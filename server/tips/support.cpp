@@ -15,18 +15,34 @@
 namespace anticrack::tips {
 namespace {
 
+constexpr const char* gathering = "gathering triangles about a tip";
+
 double distance_to_edge(const Point& x, const Point& a, const Point& b) {
   const Point along = minus(b, a), from = minus(x, a);
   const double part = std::clamp(dot(from, along) / dot(along, along), 0.0, 1.0);
-  return std::hypot(from[0] - part * along[0], from[1] - part * along[1]);
+  const Point off{from[0] - part * along[0], from[1] - part * along[1]};
+  return std::sqrt(dot(off, off));
 }
 
 }  // namespace
 
 Surroundings::Surroundings(const mesh::Mesh& mesh, const mesh::EdgeTable& edges,
                            const std::vector<mesh::EdgeEnd>& ends)
-    : _mesh(mesh), _edges(edges), _ends(ends), _on_interface(mesh.node_count(), 0) {
+    : _mesh(mesh),
+      _edges(edges),
+      _ends(ends),
+      _on_interface(mesh.node_count(), 0),
+      _across(mesh.triangles.size(), -1) {
   for (const mesh::EdgeEnd& end : ends) _on_interface[at(end.node)] = 1;
+  std::size_t turn = 0;
+  edges.each([&](std::span<const mesh::EdgeUse> uses) {
+    stop::look_at_turn(turn++, gathering);
+    for (std::size_t k = 0; uses.size() == 2 && k < 2; ++k) {
+      const std::int32_t* const node = &mesh.triangles[3 * at(uses[k].triangle)];
+      const auto side = std::find(node, node + 3, uses[k].from) - mesh.triangles.data();
+      _across[at(side)] = uses[1 - k].triangle;
+    }
+  });
 }
 
 bool Surroundings::is_obstacle(std::int32_t a, std::int32_t b, const Place& place) const {
@@ -53,7 +69,7 @@ Support Surroundings::of(const Place& place) const {
   }
   std::vector<Near> found;
   while (!waiting.empty()) {
-    stop::look_at_turn(found.size(), "gathering triangles about a tip");
+    stop::look_at_turn(found.size(), gathering);
     const auto [nearest, triangle] = waiting.top();
     waiting.pop();
     if (nearest >= support.radius) break;
@@ -69,13 +85,12 @@ Support Surroundings::of(const Place& place) const {
                                   ? 0
                                   : distance_to_edge(tip, position(_mesh, a), position(_mesh, b));
       if (distance >= support.radius) continue;
-      const auto uses = _edges.find(a, b);
-      if (uses.size() < 2 || is_obstacle(a, b, place)) {
+      const std::int32_t other = _across[3 * at(triangle) + i];
+      if (other < 0 || is_obstacle(a, b, place)) {
         support.radius = std::min(support.radius, distance);
         continue;
       }
-      for (const mesh::EdgeUse& use : uses)
-        if (use.triangle != triangle) add(use.triangle, std::max(nearest, distance));
+      add(other, std::max(nearest, distance));
     }
   }
   if (found.empty()) return support;

@@ -25,14 +25,14 @@ struct Support {
 /// Most triangles of a support: more make its numbers no better than the mesh is elsewhere.
 constexpr std::size_t most_triangles = 60'000;
 
-/// Finds supports on one mesh. Keeps references to its arguments.
+/// Finds supports on one mesh. Keeps references to the mesh, the edges and their ends.
 class Surroundings {
  public:
   /// `ends`: of mesh::edge_ends. O(m).
   Surroundings(const mesh::Mesh& mesh, const mesh::EdgeTable& edges,
                const std::vector<mesh::EdgeEnd>& ends);
 
-  /// The support of a place without a reason. O(n log m) for the n triangles in it.
+  /// The support of a place without a reason. O(n log n) for the n triangles in it.
   Support of(const Place& place) const;
 
  private:
@@ -41,7 +41,8 @@ class Surroundings {
   const mesh::Mesh& _mesh;
   const mesh::EdgeTable& _edges;
   const std::vector<mesh::EdgeEnd>& _ends;
-  std::vector<char> _on_interface;  ///< (nodes)
+  std::vector<char> _on_interface;    ///< (nodes)
+  std::vector<std::int32_t> _across;  ///< (sides i, i + 1) the triangle there; -1: none
 };
 
 }  // namespace anticrack::tips

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/at.hpp"
+#include "base/at_once.hpp"
 #include "ddm/decomposition.hpp"
 #include "errors/errors.hpp"
 #include "mesh/edges.hpp"
@@ -47,10 +48,12 @@ Tips::Tips(const mesh::Mesh& mesh, const ddm::Decomposition& decomposition)
   const Surroundings around(mesh, edges, ends);
   const std::vector<Law> laws = laws_of(mesh);
   const std::vector<Cell> cells = cells_of(mesh, decomposition);
-  for (Place& place : find_places(mesh, edges, ends)) {
-    stop::look(measuring, _tips.size());
-    Tip& tip = _tips.emplace_back(Tip{std::move(place), 0, 0, {}});
-    if (!tip.place.reason.empty()) continue;
+  for (Place& place : find_places(mesh, edges, ends))
+    _tips.push_back(Tip{std::move(place), 0, 0, {}});
+  const auto prepare_one = [&](std::size_t i) {
+    stop::look(measuring, i);
+    Tip& tip = _tips[i];
+    if (!tip.place.reason.empty()) return;
     try {
       tip.singular.emplace_back(singular_at(tip.place, laws));
       prepare(mesh, cells, around, laws, tip);
@@ -59,7 +62,8 @@ Tips::Tips(const mesh::Mesh& mesh, const ddm::Decomposition& decomposition)
       tip.place.reason = error.what();  // T is not finite a little off a triangle
     }
     if (!tip.place.reason.empty()) tip.cells = {};
-  }
+  };
+  base::at_once(_tips.size(), base::Threads::allowed(), [&] { return prepare_one; });
 }
 
 void Tips::prepare(const mesh::Mesh& mesh, std::span<const Cell> local, const Surroundings& around,
@@ -249,6 +253,8 @@ TipAnswer Tips::told(std::size_t index, const Integrals& integrals, bool touchin
   else
     row.intensity = std::copysign(singular.intensity_of(rates.back()), dual);
   if (kind == TipKind::crack_tip) row.k_iii = singular.k_iii(*row.intensity);
+  if (kind == TipKind::delaminated_end)
+    row.release_factor = singular.release_factor(*row.intensity);
   return row;
 }
 

@@ -132,10 +132,16 @@ TEST(SubdomainFactor, SolvesColumnsTogetherAsItSolvesEachAlone) {
   const Eigen::MatrixXd f = random_vector(n * columns).reshaped(n, columns);
   const std::vector<SubdomainFactor::Forward> together = factor.forward(f);
   ASSERT_EQ(together.size(), static_cast<std::size_t>(columns));
+  Eigen::MatrixXd solved(factor.interior(), columns);
+  factor.solve(f.topRows(factor.interior()), solved);
+  const Eigen::VectorXd at_rest = Eigen::VectorXd::Zero(factor.trace());
   for (Eigen::Index j = 0; j < columns; ++j) {
     const SubdomainFactor::Forward alone = factor.forward(f.col(j)).front();
     EXPECT_EQ(together[static_cast<std::size_t>(j)].z_interior, alone.z_interior);
     EXPECT_EQ(together[static_cast<std::size_t>(j)].g, alone.g);
+    EXPECT_EQ(
+        solved.col(j),
+        anticrack::testing::recovered(factor, alone.z_interior, at_rest).head(factor.interior()));
   }
   EXPECT_TRUE(factor.forward(f.leftCols(0)).empty());
 }

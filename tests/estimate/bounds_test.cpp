@@ -13,12 +13,14 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "estimate/solved.hpp"
+#include "mesh/edges.hpp"
 #include "mesh/refine_uniform.hpp"
 #include "operators/mesh_operator.hpp"
 #include "reference/random_fibres.hpp"
@@ -33,7 +35,7 @@ namespace anticrack::estimate {
 namespace {
 
 struct Contained {
-  int energies = 0, displacements = 0, slopes = 0, by_slope = 0, none = 0, without = 0,
+  int energies = 0, displacements = 0, forces = 0, slopes = 0, by_slope = 0, none = 0, without = 0,
       unsolved = 0;
   double widest = 0;   // half an interval over the error, both of A
   double nearest = 1;  // room left beside the finer answer, over half the interval
@@ -74,7 +76,8 @@ contact::Answer solve(const mesh::Mesh& mesh, const Random& random, std::size_t 
   if (const auto* error = std::get_if<errors::Error>(&prepared)) throw errors::Error(*error);
   const auto& ready = std::get<operators::PreparedLoad>(prepared);
   testing::Silent silent;
-  contact::Answer answer = testing::solve(*op, ready, contact::ActiveSetOptions{}, bounds, silent);
+  contact::Answer answer = testing::solve(*op, ready, contact::ActiveSetOptions{}, true, silent);
+  op->find_boundary(ready, answer);
   if (bounds) op->estimate(ready, answer);
   return answer;
 }
@@ -103,12 +106,34 @@ struct Variant {
   double decades = 0;  // of the tension
 };
 
+/// Names the stretches of the boundary where u is given, which do not touch each other.
+void name_stretches(mesh::Mesh& mesh) {
+  std::set<std::pair<std::int32_t, std::int32_t>> held;
+  for (const auto& [a, b] : mesh.dirichlet) held.emplace(std::min(a, b), std::max(a, b));
+  std::map<std::int32_t, std::int32_t> next;
+  std::set<std::int32_t> seconds;
+  mesh::EdgeTable(mesh.triangles).each([&](std::span<const mesh::EdgeUse> uses) {
+    if (uses.size() != 1 || !held.contains({uses[0].low(), uses[0].high()})) return;
+    next[uses[0].from] = uses[0].to;
+    seconds.insert(uses[0].to);
+  });
+  for (auto& [a, b] : mesh.dirichlet)  // the membrane on their left
+    if (const auto on = next.find(a); on == next.end() || on->second != b) std::swap(a, b);
+  for (const auto& [first, second] : next) {
+    if (seconds.contains(first)) continue;
+    std::int32_t last = second;
+    while (next.contains(last)) last = next[last];
+    mesh.boundary_parts.push_back({"stretch " + std::to_string(first), first, last});
+  }
+}
+
 template <class Membrane>
 void check_bounds(Membrane membrane, const Variant& variant, Contained& tally) {
   mesh::Mesh mesh = membrane.mesh();
   if constexpr (std::is_same_v<Membrane, reference::RandomMembrane>)
     if (variant.laws) reference::add_laws(membrane, true, mesh);
   add_contrast(membrane, variant.decades, mesh);
+  name_stretches(mesh);
   const mesh::Mesh finer = mesh::refine_uniform(mesh::refine_uniform(mesh));
   Random random = random_load(membrane, mesh);
   if (variant.kinked) random.load.boundary_value += kink(mesh);
@@ -144,6 +169,11 @@ void check_bounds(Membrane membrane, const Variant& variant, Contained& tally) {
     tally.slopes += check_interval(one.slope_y_lower, one.slope_y_upper, one.slope_y_mesh,
                                    better.slope_y_mesh, "By", tally);
   }
+  for (const contact::BoundaryAnswer& one : coarse.boundary)
+    for (const contact::BoundaryAnswer& better : fine.boundary)
+      if (one.name == better.name && one.free == better.free)
+        tally.forces += check_interval(one.resultant_lower, one.resultant_upper, one.resultant,
+                                       better.resultant, "R", tally);
 }
 
 class Bounds : public ::testing::TestWithParam<Variant> {};
@@ -158,11 +188,12 @@ TEST_P(Bounds, ContainTheAnswersOfAMeshTwoLevelsFiner) {
     check_bounds(reference::RandomMembrane(first + k, GetParam().rich), GetParam(), tally);
   }
   std::printf(
-      "[ figures  ] seeds from %u: %d energies, %d A (%d by the slope of Pi), %d slopes, %d "
+      "[ figures  ] seeds from %u: %d energies, %d A (%d by the slope of Pi), %d forces, %d "
+      "slopes, %d "
       "inclusions without (held ones included), %d without bounds, %d unsolved; widest %.0f times, "
       "nearest %.2f\n",
-      first, tally.energies, tally.displacements, tally.by_slope, tally.slopes, tally.none,
-      tally.without, tally.unsolved, tally.widest, tally.nearest);
+      first, tally.energies, tally.displacements, tally.by_slope, tally.forces, tally.slopes,
+      tally.none, tally.without, tally.unsolved, tally.widest, tally.nearest);
   EXPECT_GT(tally.energies, static_cast<int>(count) / 2);
   EXPECT_GT(tally.displacements, static_cast<int>(count) / 4);
 }

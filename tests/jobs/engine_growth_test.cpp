@@ -94,6 +94,40 @@ TEST(EngineGrowth, TellsRowsAsTheyCome) {
   EXPECT_NEAR(*few[0].load, *answer.growth[0].load / 2, 1e-8 * *few[0].load);
 }
 
+/// The membranes that are kept are those of their rows: the inclusion is where the row says, and
+/// what holds is closed.
+TEST(EngineGrowth, KeepsTheMembraneOfSomeRows) {
+  Engine test;
+  records::JobSpec spec = growing_job(test.ready_mesh(size));
+  spec.fields = true;
+  const std::string id = test.submit(spec);
+  const JobRecord job = test.ended(id);
+  ASSERT_EQ(job.state, JobState::succeeded) << (job.error ? job.error->what() : "");
+  const std::vector<contact::GrowthRow>& rows = job.cases.at(0).answer.growth;
+  const auto block = test.engine.result(id);
+  const auto kept = array<std::int32_t>(*block, "loads/0/membrane_rows");
+  const auto all = array<double>(*block, "loads/0/membranes");
+  ASSERT_TRUE(kept && all);
+  EXPECT_EQ(kept->front(), 0);
+  EXPECT_EQ(kept->back(), static_cast<std::int32_t>(rows.size()) - 1);
+  const auto first = array<double>(*block, "loads/0/fields/0");
+  EXPECT_NEAR((*all)[first->size() / 2], *rows[0].load * (*first)[first->size() / 2], 1e-12);
+  const auto x = array<double>(*block, "interfaces/0/x");
+  const auto lower = static_cast<std::ptrdiff_t>(first->size()),
+             nodes = static_cast<std::ptrdiff_t>(all->size() / kept->size());
+  for (std::size_t k = 0; k < kept->size(); ++k) {
+    const contact::GrowthRow& row = rows[static_cast<std::size_t>((*kept)[k])];
+    const auto at = all->begin() + static_cast<std::ptrdiff_t>(k) * nodes;
+    const auto raised = [&](double u) { return std::abs(u - *row.displacement) < 1e-9; };
+    const auto on_line = [&](double end) {
+      return std::ranges::count_if(*x, [=](double one) { return one > -0.501 && one < end; });
+    };
+    EXPECT_GE(std::count_if(at + lower, at + nodes, raised), on_line(0.501));
+    EXPECT_GE(std::count_if(at, at + lower, raised), on_line(row.x + 1e-9));
+    EXPECT_LT(std::count_if(at, at + lower, raised), on_line(0.501));
+  }
+}
+
 TEST(EngineGrowth, IsIncreasedByADisplacement) {
   Engine test;
   records::JobSpec spec = growing_job(test.ready_mesh(size));
@@ -344,8 +378,8 @@ TEST(EngineGrowth, WithWhatCannotBeIsRefused) {
                      Reason::expression_invalid, "growth.paths[0].toughness"));
   EXPECT_TRUE(throws(submit([](Spec& spec) { spec.solver = contact::UzawaOptions{}; }),
                      Reason::invalid_argument, "solver.uzawa"));
-  EXPECT_TRUE(
-      throws(submit([](Spec& spec) { spec.fields = true; }), Reason::invalid_argument, "outputs"));
+  EXPECT_TRUE(throws(submit([](Spec& spec) { spec.indicators = true; }), Reason::invalid_argument,
+                     "outputs"));
   EXPECT_TRUE(throws(submit([](Spec& spec) { spec.probes.emplace_back().name = "middle"; }),
                      Reason::invalid_argument, "probes"));
   EXPECT_TRUE(throws(submit([](Spec& spec) {

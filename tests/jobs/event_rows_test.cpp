@@ -86,7 +86,7 @@ std::vector<NumberedEvent> a_job(std::uint64_t first) {
   for (int i = 1; i <= 1000; ++i) events.emplace_back(sample(i % 3 == 0 ? 1 : 0, i));
   auto answer = std::make_shared<records::CaseRecord>();
   answer->status = contact::Status::converged;
-  answer->energy = -0.1;
+  answer->answer.energy = -0.1;
   events.emplace_back(CaseEvent{1, answer});
   for (int i = 1; i <= 5; ++i) events.emplace_back(sample(0, 1000 + i));
   auto columns = std::make_shared<contact::SweepColumns>(3, 2, 0);
@@ -149,7 +149,7 @@ TEST(EventRows, KeepWhatTheyAreAndTheirNumbers) {
   EXPECT_EQ(std::get<RowsEvent>(of(3)).first_row, 7U);
   EXPECT_EQ(std::get<RowsEvent>(of(3)).rows->inclusions, 2U);
   EXPECT_EQ(std::get<RowsEvent>(of(3)).rows->displacement, (std::vector<double>{1, 2, 3, 4, 5, 6}));
-  EXPECT_EQ(std::get<CaseEvent>(of(9)).record->energy, -0.1);
+  EXPECT_EQ(std::get<CaseEvent>(of(9)).record->answer.energy, -0.1);
 }
 
 TEST(EventRows, ThatAreDamagedAreRefused) {

@@ -71,8 +71,8 @@ TEST(FromDomain, AJobThatIsTakenFitsInAMessage) {
                                         1.0,  1.1, 1.2, 1.3, 1.4, 1.5, 1.6, 1.7, 1.8, 1.9});
     answer.answer.contact_intervals.push_back({name, 0.1, 0.2});
     answer.answer.tips.push_back(
-        {0.1, 0.2, name, mesh::TipKind::front, false, 0.5, 0.3, {}, 0.4, 0.1, ""});
-    answer.answer.boundary.push_back({name, false, 0.1, 0.2, 0.3, 0.4, 0.5});
+        {0.1, 0.2, name, mesh::TipKind::front, false, 0.5, 0.3, {}, 0.4, 0.1, "", 0.2});
+    answer.answer.boundary.push_back({name, false, 0.1, 0.2, 0.3, 0.4, 0.5, 0.1, 0.3, ""});
   }
   for (; taken(); record.cases.push_back(answer)) {
     fem::Load load;

@@ -70,7 +70,7 @@ struct ResultBlocks {
     for (std::size_t i = 0; i < load.traces.size(); ++i)
       answer.add_all(arrays::load_traces(index) + std::to_string(i) + "/", load.traces[i],
                      arrays::trace<results::Trace>);
-    answer.add_all(arrays::load_folder(index), load, results::tables::of_triangles);
+    answer.add_all(arrays::load_folder(index), load, results::tables::of_load);
     answer.add_all(arrays::load_history(index), load.history, arrays::history<results::History>);
     for (std::size_t i = 0; i < load.fields.size(); ++i)
       answer.add(arrays::load_fields(index) + std::to_string(i), load.fields[i].u);

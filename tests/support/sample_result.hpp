@@ -248,6 +248,8 @@ inline results::Result with_stages(results::Result result) {
     for (std::size_t t = 0; t < triangles; ++t) {
       load.indicator.push_back(1e-3 / static_cast<double>(t + 1));
       for (const double side : {1.0, 2.0, -3.0}) load.balanced_flux.push_back(side);
+      load.membrane_rows.push_back(static_cast<std::int32_t>(t));
+      load.membranes.push_back(0.5 * static_cast<double>(t));
     }
   }
   return result;

@@ -14,6 +14,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from .blocks import BlockReceiver
+from .command_line import CLOSED, USAGE, Parser, Usage, complain, document_of, number
 from .errors import Error, package
 from .result import Result, Units
 from .study.record import Study, is_study
@@ -22,16 +23,7 @@ from .v1 import mesh_pb2
 
 FIGURES = ("overview", "membrane", "plan", "traces", "convergence", "accuracy", "growth")
 PICTURES, FILMS = ("png", "svg", "pdf"), ("gif", "webp", "mp4")
-USAGE, CLOSED = 2, 141  # exit codes, as those of `anticrack`
-
-
-class _Usage(Error):
-    """The command line is wrong."""
-
-
-class _Parser(argparse.ArgumentParser):
-    def error(self, message: str) -> Any:
-        raise _Usage(f"{message.replace('argument ', '')}; see {self.prog} --help")
+ANIMATED = ("loads", "amplitude", "stages", "growth")
 
 
 def _some(known: Sequence[str], wrong: str) -> Any:
@@ -47,15 +39,6 @@ def _some(known: Sequence[str], wrong: str) -> Any:
     return some
 
 
-def _number(low: float, high: float, kind: Any) -> Any:
-    def number(text: str) -> Any:
-        with contextlib.suppress(ValueError):
-            if low <= kind(text) <= high:
-                return kind(text)
-        raise argparse.ArgumentTypeError(f"{text} is no number from {low:g} to {high:g}")
-    return number
-
-
 def _limits(text: str) -> tuple[float, float]:
     with contextlib.suppress(ValueError):
         low, high = map(float, text.split(","))
@@ -64,20 +47,20 @@ def _limits(text: str) -> tuple[float, float]:
     raise argparse.ArgumentTypeError(f"{text} is not LOW,HIGH, as -0.1,0.4")
 
 
-def _parser() -> _Parser:
-    parser = _Parser("anticrack", description="Draws results and meshes of anticrack.", allow_abbrev=False)
-    commands = parser.add_subparsers(dest="command", required=True, parser_class=_Parser)
+def _parser() -> Parser:
+    parser = Parser("anticrack", description="Draws results and meshes of anticrack.", allow_abbrev=False)
+    commands = parser.add_subparsers(dest="command", required=True, parser_class=Parser)
     plot = commands.add_parser("plot", allow_abbrev=False, help="draw the figures of a result file")
     plot.add_argument("--together", action="store_true", help="up to 8 loads over each other on one interface")
     plot.add_argument("--only", type=_some(FIGURES, "{} is none of " + ", ".join(FIGURES)),
                       action="extend", default=[], metavar="LIST",
                       help=f"of {', '.join(FIGURES[:-1])} and {FIGURES[-1]} those to draw")
-    plot.add_argument("--animate", metavar="WHAT", choices=("loads", "amplitude", "growth"),
+    plot.add_argument("--animate", metavar="WHAT", choices=ANIMATED,
                       help="write animations in place of figures: all loads one after another, or of each load u that "
-                      "grows to its size and back, or its growth")
+                      "grows to its size and back, its stages, or its growth")
     plot.add_argument("--interface", default="", metavar="NAME", help="draw the traces of this one")
     plot.add_argument("--all", action="store_true", help="of loads and interfaces, however many there are")
-    plot.add_argument("--amplify", type=_number(1e-300, 1e300, float), metavar="FACTOR", help="of u in the membrane")
+    plot.add_argument("--amplify", type=number(1e-300, 1e300, float), metavar="FACTOR", help="of u in the membrane")
     plot.add_argument("--limits", type=_limits, metavar="LOW,HIGH", help="of the colours of u in the membrane")
     mesh = commands.add_parser("mesh", allow_abbrev=False, help="draw the mesh that anticrack mesh show reads: on "
                                "standard input Mesh, BlockLayout and the bytes of ReadMesh, with its length (8 bytes, "
@@ -94,8 +77,8 @@ def _parser() -> _Parser:
         command.add_argument("-o", "--output", default="figures", metavar="DIR", help="folder of the figures")
         command.add_argument("--format", metavar="LIST", help="of png, svg and pdf those to write, of animations gif, "
                              "webp and mp4", type=_some(PICTURES + FILMS, '"{}" is none of png, svg and pdf'))
-        command.add_argument("--dpi", type=_number(50, 1200, int), help="dots an inch of PNG files")
-        command.add_argument("--width", type=_number(40, 400, float), default=85.0, metavar="MM", help="of a panel")
+        command.add_argument("--dpi", type=number(50, 1200, int), help="dots an inch of PNG files")
+        command.add_argument("--width", type=number(40, 400, float), default=85.0, metavar="MM", help="of a panel")
         command.add_argument("--font", default="", metavar="NAME", help="family of the letters")
         command.add_argument("--no-titles", action="store_true", help="no titles of case, load and panels")
     for command in (plot, mesh, exports):
@@ -127,15 +110,15 @@ def _drawn(given: argparse.Namespace) -> Any:
     known = FILMS if animated else PICTURES
     for kind in given.format or ():
         if kind not in known:
-            raise _Usage(f'--format: "{kind}" is none of {", ".join(known[:-1])} and {known[-1]}; see anticrack '
-                         f"{given.command} --help")
+            raise Usage(f'--format: "{kind}" is none of {", ".join(known[:-1])} and {known[-1]}; see anticrack '
+                        f"{given.command} --help")
     look = Look(given.format or list(known[:1] if animated else known[:2]), given.dpi or (150 if animated else 300),
                 not given.no_titles, given.width, given.font)
     if given.command == "mesh":
         return files.draw_mesh(_read_mesh(given), given.output, look)
     look.amplify, look.limits = given.amplify, given.limits
     if given.together and given.only:
-        raise _Usage("--together and --only exclude each other; leave one out; see anticrack plot --help")
+        raise Usage("--together and --only exclude each other; leave one out; see anticrack plot --help")
     if is_study(given.file):
         from .draw.studies import draw_study
         return draw_study(Study.read(given.file), given.output, look)
@@ -188,10 +171,9 @@ def main(words: Sequence[str]) -> int:
         document = {"files": made.files, "notes": made.notes}
         lines = [] if given.quiet else [*made.files, *made.notes]
     except Error as error:
-        code, kind = USAGE, "USAGE" if isinstance(error, _Usage) else "FIGURES"
-        document = {"error": {"code": kind, "reason": "", "message": str(error), "fields": []}}
-        for line in str(error).splitlines():
-            print("anticrack:", harmless(line), file=sys.stderr)
+        code, kind = USAGE, "USAGE" if isinstance(error, Usage) else "FIGURES"
+        document = document_of(error, kind)
+        complain(error)
     if "--json" in words:
         lines = [json.dumps(document, indent=1, ensure_ascii=False)]
     try:

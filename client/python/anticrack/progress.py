@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 import time
+from collections.abc import Sequence
 from typing import Any, TextIO
 
 import numpy as np
@@ -116,47 +117,61 @@ def _errors(stage: solve_pb2.Stage, asked: job_pb2.Accuracy) -> str:
     return told + (f"; {harmless(stage.forecast)}" if stage.forecast else "")
 
 
+class Place:
+    """Where progress is shown: a text that is replaced, on a terminal or in the notebook that it finds itself in, or
+    else lines. Nothing is shown once `out` is closed or full, no reason to lose the work."""
+
+    def __init__(self, out: TextIO | None = None, shown: bool = True) -> None:
+        self._out = (out or sys.stderr) if shown else None  # sys.stderr may be None without a terminal
+        self._handle = _notebook_handle() if shown and out is None else None
+        self._width = 0
+        self.open = self._out is not None
+        self.replaces = self._handle is not None or _is_terminal(self._out)
+
+    def show(self, text: str, last: bool = False, above: Sequence[str] = (),
+             page: dict[str, str] | None = None) -> None:
+        """above: lines that stay above a text that is replaced; page: what a notebook shows in place of it."""
+        if self._out is None:
+            return
+        text = harmless(text)
+        try:
+            if self._handle is not None:
+                self._handle.update(page or {"text/plain": text}, raw=True)
+                return
+            if self.replaces:
+                text = text[:_columns(self._out)]
+                self._out.write("".join("\r" + line.ljust(self._width) + "\n" for line in above)
+                                + "\r" + text.ljust(self._width) + "\n" * last)
+                self._width = 0 if last else len(text)
+            else:
+                self._out.write(text + "\n")
+            self._out.flush()
+        except (OSError, ValueError):
+            self._out, self.open = None, False
+
+
 class Progress:
     """Shows the progress of a job on `out`, or in the notebook that it finds itself in."""
 
     def __init__(self, job: solve_pb2.Job, out: TextIO | None = None, shown: bool = True) -> None:
-        self._state, self._name = State(job), job.name
-        self._out: TextIO | None = (out or sys.stderr) if shown else None  # sys.stderr may be None without a terminal
-        self._handle = _notebook_handle() if shown and out is None else None
-        self._curves = Curves(job.spec)
-        self._bar = self._handle is None and _is_terminal(self._out)
-        self._shown, self._next = 0, 0.0
+        self._state, self._name, self._place = State(job), job.name, Place(out, shown)
+        self._curves, self._next = Curves(job.spec), 0.0
 
     def take(self, message: solve_pb2.WatchJobResponse) -> None:
-        if self._out is None:
+        if not self._place.open:
             return
-        try:
-            self._show(message, self._out)
-        except (OSError, ValueError):  # `out` is closed or full, no reason to lose the job
-            self._out = None
-
-    def _show(self, message: solve_pb2.WatchJobResponse, out: TextIO) -> None:
         before = len(self._state.stages)
         lines = self._state.take(message)
         self._curves.take(message)
-        stages = list(self._state.stages.values())
-        text, ended = harmless(f"{self._name} {self._state.bar()}"), message.HasField("ended")
-        if self._handle is None and not self._bar:
-            out.write("".join(harmless(f"{self._name}: {part}") + "\n" for part in lines))
-        elif len(stages) == before and not ended and time.monotonic() < self._next:
-            return
-        elif self._handle is not None:
-            told = "\n".join([*stages, text])
-            self._handle.update({"text/plain": told, "text/html": self._curves.html(told)}, raw=True)
-        else:
-            text = text[:_columns(out)]
-            out.write("".join("\r" + stage.ljust(self._shown) + "\n" for stage in stages[before:]))
-            out.write("\r" + text.ljust(self._shown) + "\n" * ended)
-            self._shown = len(text)
-        if self._handle is None:
-            out.flush()
-        if len(stages) == before and not ended:
-            self._next = time.monotonic() + PAUSE
+        stages, ended = list(self._state.stages.values()), message.HasField("ended")
+        if not self._place.replaces:
+            for line in lines:
+                self._place.show(f"{self._name}: {line}")
+        elif len(stages) > before or ended or time.monotonic() >= self._next:
+            text = f"{self._name} {self._state.bar()}"
+            told = "\n".join([*stages, harmless(text)])
+            self._place.show(text, ended, stages[before:], {"text/plain": told, "text/html": self._curves.html(told)})
+            self._next = time.monotonic() + (0 if len(stages) > before or ended else PAUSE)
 
 
 def _columns(out: TextIO) -> int:

@@ -3,6 +3,7 @@
 and displacements are in the units of the case; an unknown number is NaN."""
 from __future__ import annotations
 
+import dataclasses
 import os
 import re
 import warnings
@@ -38,6 +39,11 @@ class Units:
         if not dimension or any(letter in dimension and not name for letter, name in names.items()):
             return "-"
         return "".join(names.get(letter, letter) for letter in dimension)
+
+    def of_column(self, name: str) -> str:
+        """The unit of a column of sweeps and studies, such as energy_lower or "A of fibre"; "-" if it has none."""
+        kind = "L" if name in ("G_x", "G_y") else re.split("[ _]", name, maxsplit=1)[0]
+        return self.of({"energy": "F L", "contact": "L", "A": "L", "L": "L", "G": "F"}.get(kind, ""))
 
     def behind(self, dimension: str) -> str:
         """The unit to write after a number: " N/mm^2"; empty if there is none."""
@@ -187,6 +193,14 @@ class Field:
                 f"u from {self.u.min():.4g} to {self.u.max():.4g}{self.units.behind('L')}")
 
 
+def joined(parts: Sequence[Field]) -> tuple[Array, Array, Array]:
+    """All subdomains together; faces of cracks and slits have nodes of their own. nodes (n): of the mesh; part (n): the
+    subdomain of each; triangles (m, 3): indices into nodes."""
+    first = np.cumsum([0, *(len(part.nodes) for part in parts)])
+    return (np.concatenate([part.nodes for part in parts]), np.repeat(np.arange(len(parts)), np.diff(first)),
+            np.concatenate([part.triangles + start for part, start in zip(parts, first)]))
+
+
 def _walked(message: Any, but: tuple[str, ...], **other: Any) -> Any:
     """Makes a class with the values of a message except `but`; unknown values default to `other` or to "not known"."""
     defaults = {name: value for name, value in {**entries.defaults_of(message), **other}.items() if name not in but}
@@ -258,7 +272,8 @@ class Load(_walked(solve_pb2.LoadCaseAnswer, ("name", "status"))):  # type: igno
     contact_intervals: (index of the interface, begin, end) in arc length. fields: one for each subdomain, by its name
     or index, where they were asked for. indicator (m): part of each triangle in the square of error_bound, or None.
     balanced_flux (m, 3): of the flux behind the bounds, out of each triangle through the side opposite to each corner;
-    a row sums to minus the load on the triangle; or None. Mesh.mean_flux makes vectors of it."""
+    a row sums to minus the load on the triangle; or None. Mesh.mean_flux makes vectors of it. membrane_rows, membranes:
+    rows of growth whose membranes are kept, and u of each in the nodes of all fields; see grown."""
     name: str
     status: str
     warnings: list[str] = field(default_factory=list)
@@ -275,6 +290,8 @@ class Load(_walked(solve_pb2.LoadCaseAnswer, ("name", "status"))):  # type: igno
     fields: Parts[Field] = field(default_factory=lambda: Parts("subdomain"))
     indicator: Array | None = None
     balanced_flux: Array | None = None
+    membrane_rows: Array | None = None
+    membranes: Array | None = None
     units, solver = Units(), job_pb2.Solver()  # of the result
 
     @property
@@ -301,6 +318,21 @@ class Load(_walked(solve_pb2.LoadCaseAnswer, ("name", "status"))):  # type: igno
             points.setdefault(point.name, []).append(point)
         return {name: {key: np.array([getattr(point, key) for point in all_of])
                        for key in ("s", "x", "y", "u_minus", "u_plus")} for name, all_of in points.items()}
+
+    def grown(self, row: int) -> Load:
+        """This load in a row of growth whose membrane is kept: its fields are u under the load of that row. It has
+        neither traces nor growth. Raises Error for another row."""
+        kept = [] if self.membrane_rows is None else [int(one) for one in self.membrane_rows]
+        if row not in kept or self.membranes is None:
+            raise Error(f"the membrane of row {row} of growth is not kept; " + (
+                f"those of rows {', '.join(map(str, kept))} are" if kept else
+                "solve with Case(fields=True), in TOML [output] fields = true"))
+        values = self.membranes.reshape(len(kept), -1)[kept.index(row)]
+        ends = np.cumsum([len(part.nodes) for part in self.fields])[:-1]
+        fields: Parts[Field] = Parts("subdomain")
+        fields += [dataclasses.replace(part, u=u) for part, u in zip(self.fields, np.split(values, ends))]
+        return dataclasses.replace(self, name=f"{self.name}, row {row}", fields=fields, traces=Parts("interface"),
+                                   growth={}, growth_notes=[], membrane_rows=None, membranes=None)
 
     def displacements(self) -> dict[str, float]:
         """A of every inclusion, by its name."""
@@ -381,10 +413,8 @@ class Sweep:
         """(rows) whether the row converged"""
         return np.asarray(self.status == solve_pb2.LoadCaseAnswer.STATUS_CONVERGED)
 
-    def frame(self) -> Any:
-        """A pandas.DataFrame with a line for each row: coefficients, A, its bounds and slopes by name, and numbers of
-        tips; needs pandas."""
-        pandas = package("pandas")
+    def columns(self) -> dict[str, Any]:
+        """Arrays (rows) by name: coefficients, status, A, its bounds and slopes by name, and numbers of tips."""
         columns: dict[str, Any] = {}
         if self.coefficients is not None:
             columns.update((name, self.coefficients[:, i]) for i, name in enumerate(self.loads))
@@ -401,8 +431,11 @@ class Sweep:
                              ("G_spread", self.energy_release_rate_spread)):
             for i in range(0 if values is None else values.shape[1]):
                 columns[f"{what} of tip {i}"] = values[:, i]
-        columns = {name: column for name, column in columns.items() if column is not None}
-        return pandas.DataFrame(columns).rename_axis("row")
+        return {name: column for name, column in columns.items() if column is not None}
+
+    def frame(self) -> Any:
+        """The columns as a pandas.DataFrame; needs pandas."""
+        return package("pandas").DataFrame(self.columns()).rename_axis("row")
 
     def __repr__(self) -> str:
         return (f"sweep of {counted(len(self.status), 'row')}, {int(self.converged.sum())} converged; loads: "
@@ -651,6 +684,7 @@ def _load_of(job: solve_pb2.Job, index: int, arrays: Mapping[str, Array], result
     load.traces = _traces(arrays, prefix + "traces", len(result.interfaces))
     load.history, load.indicator = _below(arrays, prefix + "history/"), arrays.get(prefix + "indicator")
     load.balanced_flux = arrays.get(prefix + "balanced_flux")
+    load.membrane_rows, load.membranes = (arrays.get(prefix + name) for name in ("membrane_rows", "membranes"))
     load.fields += [Field(name, u=arrays[f"{prefix}fields/{k}"], **_below(arrays, f"fields/{k}/"))
                     for k, name in enumerate(result.mesh.subdomain_names) if f"{prefix}fields/{k}" in arrays]
     stages = [stage for stage in job.status.stages if index < len(stage.answers)]
@@ -740,4 +774,6 @@ def _load_in(group: Any, lines_in: list[str], mesh: Mesh) -> Load:
     load.fields += [Field(name, **_arrays(part)) for name, part in zip(mesh.subdomain_names, numbered("fields"))]
     load.indicator = group["indicator"][()] if "indicator" in group else None
     load.balanced_flux = group["balanced_flux"][()] if "balanced_flux" in group else None
+    load.membrane_rows, load.membranes = (group[name][()] if name in group else None
+                                          for name in ("membrane_rows", "membranes"))
     return load

@@ -29,7 +29,7 @@ _MEANINGS = [*entries.meanings(job_pb2.Solver.DESCRIPTOR, "solver"),
 # Dimensions of datasets, as Units.of takes them; a name means the same in every group.
 _DIMENSIONS = {
     **dict.fromkeys(["nodes", "s", "x", "y", "u_minus", "u_plus", "jump", "u", "displacement", "displacement_lower",
-                     "displacement_upper", "displacement_mesh"], "L"),
+                     "displacement_upper", "displacement_mesh", "membranes"], "L"),
     **{name: unit for where, name, unit, _ in _MEANINGS if where != "loads"}, "pressure": "F/L",
     "flux": "F/L", "force": "F", "indicator": "F L", "balanced_flux": "F", "tension": "F/L"}
 

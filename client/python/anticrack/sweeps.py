@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, cast
 
 from .arrays import Array, array_of, is_array
@@ -16,7 +16,7 @@ def sweep_of(spec: job_pb2.JobSpec, coefficients: Any, nodal_forces: Any, traces
              bounds: bool, tips: bool) -> bytes | None:
     """Makes a job a sweep; returns the matrix to upload, or None if neither coefficients nor nodal_forces are given.
 
-    coefficients (rows, loads) in the order of the case's loads, or a DataFrame with their names as columns;
+    coefficients (rows, loads) in the order of the case's loads, or a DataFrame or a dict with their names as columns;
     nodal_forces (rows, nodes): f on the nodes of the mesh. traces: rows whose traces are kept. bounds: bound every
     row. tips: numbers of every tip in each row."""
     if coefficients is None and nodal_forces is None:
@@ -44,11 +44,13 @@ def sweep_of(spec: job_pb2.JobSpec, coefficients: Any, nodal_forces: Any, traces
 
 
 def coefficients_of(values: Any, loads: Sequence[str]) -> Array:
-    """The coefficients as an array (rows, loads); columns of a DataFrame are found by name, in any order."""
+    """The coefficients as an array (rows, loads); columns of a DataFrame or a dict are found by name, in any order."""
     def fail(problem: str) -> CaseError:
         return CaseError(f"coefficients: {problem}")
-    if hasattr(values, "columns"):
-        columns = [str(name) for name in values.columns]
+    if isinstance(values, Mapping) or hasattr(values, "columns"):
+        columns = [str(name) for name in getattr(values, "columns", values)]
+        if isinstance(values, Mapping):
+            values = list(zip(*values.values(), strict=True))
         if sorted(columns) != sorted(loads):
             raise fail(f"columns {columns} are not the loads {list(loads)}")
         return array_of(values, ("rows", len(loads)), fail)[:, [columns.index(name) for name in loads]].copy()

@@ -12,7 +12,7 @@ import numpy as np
 from . import output
 from .arrays import Array
 from .errors import Error
-from .result import Load, Mesh, Result, chosen, fields_cure
+from .result import Load, Mesh, Result, chosen, fields_cure, joined
 from .text import harmless
 
 _LINE, _TRIANGLE = 3, 5  # VTK's numbers of cells, by their corners below
@@ -80,9 +80,7 @@ def membrane(result: Result, load: Load) -> bytes:
     and node, cells tension, subdomain, T grad u as flux_x, flux_y and its size flux, energy_density and, where the
     load has it, error_indicator and the means of the balanced flux as balanced_flux_x, balanced_flux_y."""
     parts = list(load.fields)
-    node = np.concatenate([part.nodes for part in parts])
-    first = np.cumsum([0, *(len(part.nodes) for part in parts)])
-    corners = np.concatenate([part.triangles + start for part, start in zip(parts, first)])
+    node, _, corners = joined(parts)
     subdomain = np.repeat(np.arange(len(parts), dtype=np.int32), [len(part.triangles) for part in parts])
     flux = np.concatenate([part.flux for part in parts])
     cells = {"tension": (result.mesh.tension[subdomain], _unit(result, "F/L")), "subdomain": (subdomain, ""),

@@ -8,7 +8,7 @@ COMMANDS = [
     # The command line itself.
     ("", 2,
      "a command is missing after anticrack; known are completion, explain, export, job, manual, mesh, "
-     "plot, run, server, show, sweep"),
+     "plot, run, server, show, study, sweep, view"),
     ("rnu case.toml", 2,
      "unknown command rnu; did you mean run?"),
     ("case.toml", 2,

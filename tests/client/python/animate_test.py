@@ -2,6 +2,7 @@
 """Animations: u grows to its size and back, under the same colours and heights."""
 import os
 import pathlib
+import shutil
 
 import numpy as np
 from PIL import Image, ImageSequence
@@ -14,6 +15,20 @@ EXAMPLES = pathlib.Path(os.environ["EXAMPLES"])
 
 
 class Animations(FolderTest):
+    def test_stages_and_growth_have_a_frame_each(self):
+        with anticrack.local(program=ANTICRACKD) as client:
+            result = client.run(EXAMPLES / "opening.toml", progress=False)
+        anticrack.draw.animate(result, self.folder / "s.gif", "stages")
+        with Image.open(self.folder / "s.gif") as image:
+            frames = [np.asarray(frame.convert("RGB"), float) for frame in ImageSequence.Iterator(image)]
+        (load,) = result.loads.values()
+        self.assertEqual(len(frames), len(load.stages["triangles"]))
+        for before, after in zip(frames, frames[1:]):
+            self.assertGreater(np.abs(after - before).max(), 100, "the dots go on")
+        if shutil.which("ffmpeg"):
+            anticrack.draw.animate(result, self.folder / "s.mp4", "stages")
+            self.assertEqual((self.folder / "s.mp4").read_bytes()[4:8], b"ftyp")
+
     def test_an_amplitude_goes_and_comes_back(self):
         with anticrack.local(program=ANTICRACKD) as client:
             case = anticrack.Case.read(EXAMPLES / "several-inclusions.toml")

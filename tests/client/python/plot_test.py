@@ -270,7 +270,7 @@ class Plots(FolderTest):
         look = Look(["png"], 80)
         with look.applied():
             made = {"overview": pictures.overview_picture(look, self.several, self.several["pulled"], 0, 0),
-                    "accuracy": pictures.accuracy_picture(look, self.accurate, self.accurate["opening"]),
+                    "accuracy": pictures.picture(pictures.draw_accuracy, look, self.accurate, self.accurate["opening"]),
                     "convergence": pictures.picture(pictures.draw_convergence, look, self.uzawa,
                                                     self.uzawa["example-2"]),
                     "together": pictures.together_picture(look, self.several, list(self.several.loads.values()), 0),

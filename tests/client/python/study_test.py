@@ -239,6 +239,7 @@ class Command(FolderTest):
         self.assertEqual(json.loads(self.study("--show", "s.h5", "--json").stdout)["rows"], rows)
         shown = self.study("--show", "s.h5").stdout.splitlines()
         self.assertEqual(len(shown), 2 + len(rows))
+        self.assertEqual(run(ANTICRACK, "show", "s.h5", cwd=self.folder).stdout.splitlines(), shown)
         refused = local("case.toml", "--vary", "geometry.inclusion.0.length=1,-1", "-o", "t.h5")
         self.assertEqual(refused.returncode, 1, refused.stderr)
         for words, code, told in ((("case.toml", "-o", "x.h5", "--vary", "mesh.siz=1,2"), 2, "did you mean size"),

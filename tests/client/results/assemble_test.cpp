@@ -85,6 +85,8 @@ TEST(Assemble, keeps_stages_and_adds_indicators) {
   EXPECT_EQ(built.loads[0].indicator, result.loads[0].indicator);
   EXPECT_TRUE(built.loads[1].indicator.empty());
   EXPECT_EQ(built.loads[0].balanced_flux, result.loads[0].balanced_flux);
+  EXPECT_EQ(built.loads[0].membrane_rows, result.loads[0].membrane_rows);
+  EXPECT_EQ(built.loads[0].membranes, result.loads[0].membranes);
   EXPECT_EQ(built.loads[1].stages.size(), 5U);
 }
 

@@ -95,7 +95,7 @@ std::string result_table() {
          line("/loads/LOAD",
               "`warnings` (w) text: e.g. of a load not integrated as exactly as "
               "asked; `growth_notes` (g) text: with growth, jumps, what snaps and why it ends; " +
-                  entries<Load>(tables::of_triangles)) +
+                  entries<Load>(tables::of_load)) +
          line("/loads/LOAD/stages", "with an accuracy: " + entries(*v1::Stage::descriptor()) +
                                         "; " + entries(*v1::StageAnswer::descriptor())) +
          line("/loads/LOAD/inclusions", entries(*v1::InclusionAnswer::descriptor())) +

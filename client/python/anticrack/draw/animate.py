@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Animations: load cases one after another, u growing to its size and back, fronts that grow. Pillow writes GIF and
-WebP, ffmpeg MP4. All frames of an animation have the same colours, heights and size."""
+"""Animations: load cases one after another, u growing to its size and back, stages, growing fronts. Pillow writes GIF
+and WebP, ffmpeg MP4. All frames of an animation have the same colours, heights and size."""
 from __future__ import annotations
 
 import dataclasses
@@ -15,17 +15,17 @@ from typing import Any
 import numpy as np
 
 from .. import output
+from ..commands import ANIMATED, FILMS
 from ..errors import Error, package
 from ..output import Made
 from ..result import Load, Result, chosen
 from ..text import harmless
 from .growth import growth, place_of, release
+from .history import bounded
 from .perspective import heights_of
-from .pictures import draw_curves, draw_membrane, title_of
+from .pictures import draw_accuracy, draw_curves, draw_membrane, title_of
 from .sheet import Look, Sheet
 
-WHAT = ("loads", "amplitude", "growth")
-FORMATS = ("gif", "webp", "mp4")
 DPI = 150
 _MOST, _BEATS, _RATE = 60, 24, 20  # frames of growth and loads, of an amplitude, and a second of a film
 _Frames = list[tuple[Any, int]]  # images, and how long each is shown [ms]
@@ -85,24 +85,45 @@ def _growth(look: Look, result: Result, load: Load) -> _Frames:
     sheet = _sheet(look, title_of(result, load))
     height = draw_curves(growth, sheet, result, load)
     height += draw_curves(release, sheet, result, load, 0, height)
-    places = (place_of(rows), rows["load"]), (rows["position"], rows["G1"])
+    return _followed(sheet, height, [(place_of(rows)[shown], rows["load"][shown]),
+                                     (rows["position"][shown], rows["G1"][shown])], 120)
+
+
+def _stages(look: Look, result: Result, load: Load) -> _Frames:
+    sheet, at = _sheet(look, title_of(result, load)), bounded(load)
+    height = draw_accuracy(sheet, result, load)
+    energies = dict(zip(load.stages["triangles"].tolist(), load.stages["energy"].tolist()))
+    triangles = at["triangles"]
+    return _followed(sheet, height, [(triangles, at["error"]), (triangles, [energies[n] for n in triangles])], 900)
+
+
+def _followed(sheet: Sheet, height: float, curves: Sequence[tuple[Any, Any]], time: int) -> _Frames:
+    """A dot on the curve (x, y) of each panel goes from point to point."""
     dots = [ax.plot([], [], "o", color="#222222", markersize=5, zorder=9, clip_on=False)[0] for ax in sheet.panels]
     frames = []
-    for row in shown:
-        for dot, (x, y) in zip(dots, places):
-            dot.set_data([x[row]], [y[row]])
-        frames.append((_image(sheet, height), 120))
+    for i in range(len(curves[0][0])):
+        for dot, (x, y) in zip(dots, curves):
+            dot.set_data([x[i]], [y[i]])
+        frames.append((_image(sheet, height), time))
     return frames
+
+
+# Of an animation of each load: what a load needs to have, what to write in the case if none has, and its frames.
+_OF_LOADS: dict[str, tuple[Any, str, Any]] = {
+    "amplitude": (lambda load: load.fields, "no load has fields: solve with [output] fields = true", _amplitude),
+    "stages": (lambda load: len(bounded(load)["triangles"]) > 1,
+               "no load has two stages with bounds: write [accuracy] in the case", _stages),
+    "growth": (lambda load: load.growth, "no load grows: write [growth] in the case", _growth)}
 
 
 def _animations(result: Result, what: str, names: Sequence[str], look: Look) -> Iterator[tuple[str, _Frames]]:
     """The animations with their stems. Raises Error if there is nothing to show."""
-    if what not in WHAT:
-        raise Error(f"{harmless(what)} is none of {', '.join(WHAT)}")
-    loads = [load for load in chosen(result, names) if (load.growth if what == "growth" else load.fields)]
+    if what not in ANIMATED:
+        raise Error(f"{harmless(what)} is none of {', '.join(ANIMATED)}")
+    has, cure, draw = _OF_LOADS[what if what != "loads" else "amplitude"]
+    loads = [load for load in chosen(result, names) if has(load)]
     if not loads:
-        raise Error("no load grows: write [growth] in the case" if what == "growth" else
-                    "no load has fields: solve with [output] fields = true")
+        raise Error(cure)
     if what == "loads":
         if len(loads) > _MOST:
             raise Error(f"{len(loads)} loads are more than {_MOST}; choose some with --load")
@@ -110,7 +131,7 @@ def _animations(result: Result, what: str, names: Sequence[str], look: Look) -> 
         yield "loads", [(_membrane(shared, result, load), 1200) for load in loads]
         return
     for load, stem in zip(loads, output.stems((load.name for load in loads), [f"-{what}"])):
-        yield f"{stem}-{what}", (_growth if what == "growth" else _amplitude)(look, result, load)
+        yield f"{stem}-{what}", draw(look, result, load)
 
 
 def _encoded(frames: _Frames, kind: str) -> bytes:
@@ -155,7 +176,7 @@ def _film(frames: _Frames) -> bytes:
 
 
 def draw_animations(result: Result, folder: str, what: str, names: Sequence[str], look: Look) -> Made:
-    """Writes the animation "loads", or LOAD-amplitude or LOAD-growth of each load, in the look's formats."""
+    """Writes the animation "loads", or LOAD-amplitude, -stages or -growth of each load, in the look's formats."""
     drawn = Made(folder)
     output.make_folder(folder)
     with look.applied():
@@ -166,10 +187,10 @@ def draw_animations(result: Result, folder: str, what: str, names: Sequence[str]
 
 def animate(result: Result, path: str | os.PathLike[str], what: str = "amplitude", load: str | None = None) -> None:
     """Writes an animation, GIF, WebP or MP4 by the path's end. what: "loads" (one after another), "amplitude" (u of a
-    load, the first by default, to its size and back) or "growth". The first two need a case with fields."""
+    load, by default the first, to its size and back), "stages" or "growth". The first two need fields."""
     kind = os.path.splitext(os.fspath(path))[1][1:].lower()
-    if kind not in FORMATS:
-        raise Error(f"{os.fspath(path)}: its name ends in none of .{', .'.join(FORMATS)}")
+    if kind not in FILMS:
+        raise Error(f"{os.fspath(path)}: its name ends in none of .{', .'.join(FILMS)}")
     names = [load] if load is not None else [] if what == "loads" else list(result.loads)[:1]
     look = Look([kind], DPI)
     with look.applied():

@@ -110,8 +110,11 @@ class _Drawing:
             self.drawn.add(f"{stem}-convergence", pictures.picture(pictures.draw_convergence, look, result, load))
         if has("growth") and load.growth:
             self.drawn.add(f"{stem}-growth", pictures.growth_picture(look, result, load))
+            for row in load.membrane_rows if load.membrane_rows is not None else ():
+                self.drawn.add(f"{stem}-growth-{row}", pictures.picture(pictures.draw_membrane, look, result,
+                                                                        load.grown(int(row))))
         if has("accuracy") and len(bounded(load)["triangles"]) > 1:
-            self.drawn.add(f"{stem}-accuracy", pictures.accuracy_picture(look, result, load))
+            self.drawn.add(f"{stem}-accuracy", pictures.picture(pictures.draw_accuracy, look, result, load))
         elif has("accuracy") and (load.stages or self.wanted.only):
             self.note(f"{told}: no accuracy drawn, fewer than two stages have bounds")
 
@@ -165,9 +168,9 @@ class _Drawing:
 
 def draw_figures(result: Result, folder: str, wanted: Wanted, look: Look) -> Made:
     """Draws LOAD-membrane, LOAD-plan, LOAD-traces (-2 and so on for further interfaces), LOAD-convergence,
-    LOAD-accuracy, LOAD-growth and the overview LOAD for every load with traces; for a sweep, sweep, sweep-slope,
-    sweep-contact and the traces of kept rows. Makes the folder. Raises Error if it cannot be written or a name does
-    not exist."""
+    LOAD-accuracy, LOAD-growth, LOAD-growth-ROW of membranes that are kept and the overview LOAD for every load with
+    traces; for a sweep, sweep, sweep-slope, sweep-contact and the traces of kept rows. Makes the folder. Raises Error
+    if it cannot be written or a name does not exist."""
     drawing = _Drawing(result, folder, wanted, look)
     output.make_folder(folder)
     with look.applied():

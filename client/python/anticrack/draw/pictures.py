@@ -195,8 +195,9 @@ def _stacked(look: Look, result: Result, draw: list[Any], more: str = "") -> Fil
     return sheet.files(bottom + sheet.legend(panels[-1], 3, handles))
 
 
-def accuracy_picture(look: Look, result: Result, load: Load) -> Files:
-    sheet, high = Sheet(look, title_of(result, load)), 0.4 * look.width
+def draw_accuracy(sheet: Sheet, result: Result, load: Load) -> float:
+    """Draws the errors over the triangles of the stages, and the band of the energy below."""
+    high = 0.4 * sheet.look.width
     upper = sheet.axes(0, ABOVE, high)
     errors(result, load, upper)
     legend_below(upper, 1, 1.2 / INCH)
@@ -204,7 +205,7 @@ def accuracy_picture(look: Look, result: Result, load: Load) -> Files:
     lower = sheet.axes(0, top, high, sharex=upper)
     error_band(result, load, lower)
     _over_one_axis([upper, lower])
-    return sheet.files(top + high + BELOW + sheet.legend(lower, 1, _handles(lower)))
+    return top + high + BELOW + sheet.legend(lower, 1, _handles(lower))
 
 
 def _rows(result: Result) -> str:

@@ -38,7 +38,7 @@ def _label(column: str) -> str:
 
 
 def _unit(study: Study, column: str) -> str:
-    return study.unit_of(column).replace("-", "")
+    return study.units.of_column(column).replace("-", "")
 
 
 def curves(study: Study, name: str = "A", load: str | None = None, x: str | None = None, ax: Any = None) -> Any:

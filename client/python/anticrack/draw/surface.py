@@ -11,7 +11,7 @@ from matplotlib.artist import allow_rasterization
 
 from ..arrays import Array
 from ..errors import Error
-from ..result import Load, Result
+from ..result import Load, Result, joined
 from ..text import harmless
 from .panel import widened
 
@@ -32,10 +32,9 @@ class Surface:
         if not parts:
             raise Error(f"{harmless(load.name)} has no fields; solve with Case(fields=True), in TOML [output] "
                         "fields = true")
-        firsts = np.cumsum([0, *(len(part.nodes) for part in parts)])
-        self.nodes = result.mesh.nodes[np.concatenate([part.nodes for part in parts])]
+        nodes, _, self.triangles = joined(parts)
+        self.nodes = result.mesh.nodes[nodes]
         self.u = np.concatenate([part.u for part in parts])
-        self.triangles = np.concatenate([part.triangles + first for part, first in zip(parts, firsts)])
         known = np.isfinite(self.u[self.triangles]).all(axis=1)
         self.triangles = self.triangles[known]
         self.areas, slopes, fluxes = (np.concatenate([getattr(part, name) for part in parts])[known].T

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import dataclasses
 import json
 import math
 import os
@@ -13,58 +14,40 @@ from typing import Any
 
 from .. import client as clients
 from ..case import as_case
-from ..errors import CaseError, Error, LocalServerError, ServerError
+from ..command_line import (CLOSED, FAILED, INTERRUPTED, NOT_CONVERGED, Parser, add_server, code_of, complain,
+                            credentials, document_of)
+from ..errors import CaseError, Error, ServerError
 from ..text import harmless, shown
 from ..transport import finished
 from .record import SOLVED, Study
 from .rows import csv_rows, grid, product, value_of, varied
 from .run import AT_ONCE, MOST_MESHES, Plan, Told, check_size, dry_text, plan_of, solve
 
-FAILED, USAGE, NOT_CONVERGED, SERVER, INTERRUPTED, CLOSED = 1, 2, 3, 4, 130, 141  # exit codes, as those of `anticrack`
-_CONNECTION = ("ca", "cert", "key", "token_file")
 
-
-class _Parser(argparse.ArgumentParser):
-    def error(self, message: str) -> Any:
-        raise CaseError(f"{message.replace('argument ', '')}; see anticrack study --help")
-
-
-def _parser() -> _Parser:
-    parser = _Parser(
+def _parser() -> Parser:
+    parser = Parser(
         "anticrack study", allow_abbrev=False, formatter_class=argparse.RawDescriptionHelpFormatter,
         description="Solve a case for many values of its keys, each row as a job of its own.",
         epilog="All combinations of the --vary are solved, for each row of --csv. Keys and values are\n"
                "those of --set. A row that is refused or fails keeps its error. Run again after Ctrl-C\n"
-               "or a crash, it goes on from FILE; jobs that ran on are found on the server. Rows that\n"
-               "differ in loads alone share their mesh.\n\n"
+               "or a crash, it goes on from FILE.\n\n"
                "Exit codes: 0 all rows converged, 1 a row failed or was refused, 3 a row did not\n"
-               "converge; 2, 4, 130 and 141 as of anticrack.\n\n"
-               "Example:\n"
-               "  anticrack study sheet.toml --vary geometry.inclusion.low.angle=0:90:19 -o angles.h5 --local\n"
-               "  anticrack study case.toml --vary mesh.size=0.1,0.05 --vary load.up.f=1:2:5 -o study.h5 --dry-run\n"
-               "  anticrack study --show angles.h5\n  anticrack plot angles.h5 -o figures")
+               "converge; 2, 4, 130 and 141 as of anticrack.")
     parser.add_argument("case", nargs="?", metavar="CASE", help="a case, TOML")
-    parser.add_argument("--vary", action="append", default=[], metavar="KEY=VALUES",
-                        help="FIRST:LAST:COUNT, evenly spaced, or VALUE,VALUE,...; again for more keys")
+    for flag, metavar, what in (
+            ("--vary", "KEY=VALUES", "FIRST:LAST:COUNT, evenly spaced, or VALUE,VALUE,...; again for more keys"),
+            ("--set", "KEY=VALUE", "a value for all rows")):
+        parser.add_argument(flag, action="append", default=[], metavar=metavar, help=what)
     parser.add_argument("--csv", metavar="FILE", help="rows: a line of keys, then a line of values for each row")
-    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="a value for all rows")
     parser.add_argument("-o", "--output", metavar="FILE", help="the study, HDF5; its rows are not solved again")
     parser.add_argument("--jobs", type=int, default=AT_ONCE, metavar="N", help=f"so many at once (default: {AT_ONCE})")
-    parser.add_argument("--dry-run", action="store_true",
-                        help="solve nothing, but say how many rows and meshes there would be, the first and last case")
-    parser.add_argument("--yes", action="store_true", help=f"do not ask before more than {MOST_MESHES} meshes are made")
-    parser.add_argument("--retry", action="store_true", help="solve rows that failed again")
     parser.add_argument("--show", metavar="FILE", help="only show a study")
-    parser.add_argument("--local", action="store_true", help="start a private anticrackd, and stop it after")
-    parser.add_argument("--server", metavar="ADDRESS", help="HOST:PORT or unix:PATH of anticrackd "
-                        "(default: ANTICRACK_SERVER, or 127.0.0.1:7433)")
-    parser.add_argument("--tls", action="store_true", help="encrypt, and know the server by the roots of this system")
-    for name in _CONNECTION:
-        flag = name.replace("_", "-")
-        parser.add_argument(f"--{flag}", metavar="FILE", default=os.environ.get(f"ANTICRACK_{name.upper()}"),
-                            help=f"as of anticrack --{flag}")
-    parser.add_argument("--json", action="store_true", help="one JSON document on standard output")
-    parser.add_argument("--quiet", action="store_true", help="nothing but errors")
+    for flag, what in (("--dry-run", "solve nothing, but say what would be solved"),
+                       ("--yes", f"do not ask before more than {MOST_MESHES} meshes are made"),
+                       ("--retry", "solve rows that failed again"), ("--json", "one JSON document on standard output"),
+                       ("--quiet", "nothing but errors")):
+        parser.add_argument(flag, action="store_true", help=what)
+    add_server(parser)
     return parser
 
 
@@ -90,7 +73,7 @@ def _rows(given: argparse.Namespace) -> list[dict[str, Any]]:
 def _client(given: argparse.Namespace) -> clients.Client:
     if given.local:
         return clients.local()
-    return clients.connect(given.server, tls=given.tls, **{name: getattr(given, name) for name in _CONNECTION})
+    return clients.connect(given.server, **dataclasses.asdict(credentials(given)))
 
 
 def _ask(plan: Plan, yes: bool) -> None:
@@ -163,9 +146,7 @@ def main(words: Sequence[str] | None = None) -> int:
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # no second error at exit
         return CLOSED
     except Error as error:
-        for line in str(error).splitlines():
-            print("anticrack:", harmless(line), file=sys.stderr)
+        complain(error)
         if "--json" in words:
-            print(json.dumps({"error": {"code": "SERVER" if isinstance(error, ServerError) else "USAGE", "reason": "",
-                                        "message": str(error), "fields": []}}, indent=1))
-        return SERVER if isinstance(error, (ServerError, LocalServerError)) else USAGE
+            print(json.dumps(document_of(error, "SERVER" if isinstance(error, ServerError) else "USAGE"), indent=1))
+        return code_of(error)

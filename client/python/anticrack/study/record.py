@@ -44,8 +44,7 @@ class Row:
         """Takes what has come of a job that has ended."""
         status = job.status
         self.job = job.name
-        self.status = status_name(status.state, solve_pb2.JobStatus.State.DESCRIPTOR) if status.state != (
-            solve_pb2.JobStatus.STATE_NOT_CONVERGED) else "not_converged"
+        self.status = status_name(status.state, solve_pb2.JobStatus.State.DESCRIPTOR)
         self.error = status.not_reached or status.error.message
         for answer in status.answers:
             if answer.status not in (answer.STATUS_CONVERGED, answer.STATUS_NOT_CONVERGED):
@@ -118,12 +117,6 @@ class Study:
         return [key for key in self.keys if _numbers([row.values[key] for row in self.rows])
                 and any(row.values[key] != self.rows[0].values[key] for row in self.rows)]
 
-    def unit_of(self, column: str) -> str:
-        """The unit of a number, "-" if it has none."""
-        kind = column.partition(" ")[0].partition("_")[0]
-        return self.units.of({"energy": "F L", "contact": "L", "A": "L", "G": "L" if column in ("G_x", "G_y") else "F"}[
-            kind])
-
     def table(self) -> tuple[list[str], list[list[str]]]:
         """The head and the lines of a table, one for each row and load, with A as its middle and the distance of its
         bounds."""
@@ -166,11 +159,16 @@ class Study:
         """The HTML that a notebook shows."""
         return html_table(self._title(), *self.table())
 
+    def lines(self) -> list[tuple[int, dict[str, Any]]]:
+        """A line for each row and load, with the row's index: its values by key, how it ended, its numbers."""
+        numbers: dict[str, Any] = dict.fromkeys(self.columns, _NAN)
+        return [(index, {"row": index, **row.values, "load case": load, "status": row.status, "error": row.error,
+                         "job": row.job, **numbers, **(row.answers.get(load) or {})})
+                for index, row in enumerate(self.rows) for load in list(row.answers) or [""]]
+
     def frame(self) -> Any:
-        """A pandas.DataFrame with a line for each row and load; needs pandas."""
-        return package("pandas").DataFrame([
-            {"row": index, **row.values, "load": load, "status": row.status, "error": row.error, "job": row.job,
-             **row.answers.get(load, {})} for index, row in enumerate(self.rows) for load in list(row.answers) or [""]])
+        """The lines as a pandas.DataFrame; needs pandas."""
+        return package("pandas").DataFrame([line for _, line in self.lines()])
 
     def save(self, path: str | os.PathLike[str], keep: bool = False) -> None:
         """Writes the file as a whole or not at all. keep: an existing file becomes PATH~."""
@@ -195,7 +193,7 @@ class Study:
             for i, load in enumerate(self.loads):
                 for name in columns:
                     put(f"loads/{i}/{name}", [row.answers.get(load, {}).get(name, _NAN) for row in self.rows])
-                    file[f"loads/{i}/{name}"].attrs["units"] = self.unit_of(name)
+                    file[f"loads/{i}/{name}"].attrs["units"] = self.units.of_column(name)
         output.write(path, image.getbuffer(), keep=keep)
 
     @classmethod

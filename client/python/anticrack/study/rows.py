@@ -4,10 +4,12 @@ the server applies as it does for --set."""
 from __future__ import annotations
 
 import csv
+import io
 import itertools
 import json
 import math
 import os
+import pathlib
 import re
 import tomllib
 from collections.abc import Iterable, Mapping, Sequence
@@ -119,15 +121,17 @@ def value_of(word: str, comma: bool = False) -> Any:
 def csv_rows(path: str) -> list[Values]:
     """The rows of comma-separated text, or of text with semicolons, whose first line names the keys."""
     try:
-        with open(path, encoding="utf-8-sig", newline="") as file:
-            head = file.readline()
-            file.seek(0)
-            mark = next((mark for mark in ";\t" if mark in head), ",")
-            lines = [line for line in csv.reader(file, delimiter=mark, skipinitialspace=True) if line]
+        return rows_in(pathlib.Path(path).read_text("utf-8-sig"), path)
     except OSError as error:
         raise CaseError(f"{path}: cannot be read: {error.strerror}") from None
     except (UnicodeDecodeError, csv.Error) as error:
         raise CaseError(f"{path}: this is no text with commas: {harmless(error)}") from None
+
+
+def rows_in(text: str, path: str) -> list[Values]:
+    """The rows of such a text; `path` is what errors call it. Numbers between semicolons may have decimal commas."""
+    mark = next((mark for mark in ";\t" if mark in text.partition("\n")[0]), ",")
+    lines = [line for line in csv.reader(io.StringIO(text), delimiter=mark, skipinitialspace=True) if line]
     keys = [key.strip() for key in lines[0]] if lines else []
     if not all(keys) or len(set(keys)) < len(keys) or len(lines) < 2:
         raise CaseError(f"{path}: write a line of keys, each once, and then a line of values for each row")
@@ -136,7 +140,7 @@ def csv_rows(path: str) -> list[Values]:
         if len(line) != len(keys) or not all(word.strip() for word in line):
             raise CaseError(f"{path}: line {number} has {len([word for word in line if word.strip()])} values for "
                             f"{len(keys)} keys; write one for each, a list in quotes")
-    return [{key: tidy(value_of(word, mark == ";")) for key, word in zip(keys, line)} for line in lines[1:]]
+    return [{key: tidy(value_of(word, mark != ",")) for key, word in zip(keys, line)} for line in lines[1:]]
 
 
 def product(rows: Sequence[Values], more: Sequence[Values]) -> list[Values]:

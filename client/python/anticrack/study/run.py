@@ -5,14 +5,14 @@ what the job asks for."""
 from __future__ import annotations
 
 import hashlib
+import itertools
 import os
-import sys
 import time
 from typing import TextIO
 
 from ..case import Case, as_case
 from ..errors import CaseError, ServerError, package
-from ..progress import _columns, _is_terminal, _notebook_handle
+from ..progress import PAUSE, Place
 from ..reading import ReadCase
 from ..result import Units
 from ..session import ENDED as JOB_ENDED
@@ -44,45 +44,25 @@ class Plan:
 
 
 class Told:
-    """Tells how far a study is: a bar on a terminal and in a notebook, lines elsewhere."""
+    """Tells how far a study is."""
 
     def __init__(self, shown: bool, out: TextIO | None = None) -> None:
-        self._out = (out or sys.stderr) if shown else None
-        self._handle = _notebook_handle() if shown and out is None else None
-        self._bar = self._handle is None and _is_terminal(self._out)
-        self._width = 0
+        self._place = Place(out, shown)
+        self._pause = PAUSE if self._place.replaces else 2.0
         self.begin()
 
     def begin(self) -> None:
         self._began = time.monotonic()
         self._next = self._began + self._pause
 
-    @property
-    def _pause(self) -> float:
-        return 0.1 if self._bar or self._handle is not None else 2.0
-
     def show(self, what: str, done: int, of: int, new: int, more: str = "", last: bool = False) -> None:
         """new: how many of those that are done were done in this run, by which the rest of the time is estimated."""
         now = time.monotonic()
-        if self._out is None or (now < self._next and not last):
+        if now < self._next and not last:
             return
         self._next = now + self._pause
-        text = f"{what} {done}/{of}{more}"
-        if 0 < new and done < of:
-            text += f", about {_duration((now - self._began) / new * (of - done))} left"
-        text = harmless(text)
-        try:
-            if self._handle is not None:
-                self._handle.update({"text/plain": text}, raw=True)
-            elif self._bar:
-                text = text[:_columns(self._out)]
-                self._out.write("\r" + text.ljust(self._width) + "\n" * last)
-                self._width = 0 if last else len(text)
-            else:
-                self._out.write(text + "\n")
-            self._out.flush()
-        except (OSError, ValueError):  # it is closed or full
-            self._out = None
+        left = f", about {_duration((now - self._began) / new * (of - done))} left" if 0 < new and done < of else ""
+        self._place.show(f"{what} {done}/{of}{more}{left}", last)
 
 
 def _duration(seconds: float) -> str:
@@ -207,7 +187,9 @@ async def solve(session: Session, case: Case | str | os.PathLike[str], plan: Pla
                     file.changed()
             file.look()
             done = len(study.rows) - len(left) + ended
-            told.show("row", done, len(study.rows), ended, _wrong(study), last=not (waiting or running))
+            wrong = sum(row.status not in ("", "succeeded") for row in study.rows)
+            told.show("row", done, len(study.rows), ended, f", {wrong} without all answers" * (wrong > 0),
+                      last=not (waiting or running))
             pause = min(1.5 * pause, _LONGEST) if ended == before else _FIRST
             if running and ended == before:
                 await session.transport.sleep(pause)
@@ -216,22 +198,16 @@ async def solve(session: Session, case: Case | str | os.PathLike[str], plan: Pla
     return study
 
 
-def _wrong(study: Study) -> str:
-    wrong = sum(row.status not in ("", "succeeded") for row in study.rows)
-    return f", {wrong} without all answers" if wrong else ""
-
-
 async def _job_of(session: Session, read: ReadCase, retry: bool) -> solve_pb2.Job:
     """Creates the job of a row, or finds the one that an earlier run created. One that was cancelled is left alone, and
     with `retry` one that failed."""
     useless = [solve_pb2.JobStatus.STATE_CANCELLED] + [solve_pb2.JobStatus.STATE_FAILED] * retry
-    attempt = 0
-    while True:
+    for attempt in itertools.count():
         job = await session.create(read, lambda spec: (
             f"study-{_digest(spec.SerializeToString(deterministic=True))}-{attempt}"))
         if job.status.state not in useless:
-            return job
-        attempt += 1
+            break
+    return job
 
 
 def check_size(plan: Plan, most_meshes: int, cure: str) -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import itertools
-import os
 import pathlib
 import re
 import sys
@@ -13,18 +12,22 @@ from typing import Any
 
 from aiohttp import web
 
+from ..arrays import is_number
 from ..case import Case
 from ..errors import CaseError, Error, ServerError
 from ..result import Units
+from ..study.rows import rows_in
+from ..sweeps import coefficients_of
 from ..text import harmless
 from ..v1 import case_pb2
 from .exports import DRAWING
 from .opened import Opened
-from .reply import reply
+from .gate import reply
 from .told import Told
 
 _SOURCE = "case"  # what errors call the text in the page
 _DRAWN = 4  # drawings that are kept
+_TRACES = 100  # rows of a sweep whose traces are kept, the first
 
 
 def errors_in(error: Exception) -> list[dict[str, Any]]:
@@ -41,8 +44,6 @@ def gallery() -> dict[str, pathlib.Path]:
     """The examples by their names: those of the package, or of the sources around this file."""
     above = pathlib.Path(__file__).resolve().parents
     folders = [pathlib.Path(sys.prefix) / "share/anticrack/examples", *(each / "client/examples" for each in above)]
-    if "ANTICRACK_EXAMPLES" in os.environ:
-        folders.insert(0, pathlib.Path(os.environ["ANTICRACK_EXAMPLES"]))
     found = next((folder for folder in folders if (folder / "opening.toml").is_file()), None)
     return {path.stem: path for path in sorted(found.glob("*.toml"))} if found else {}
 
@@ -85,13 +86,17 @@ class Editor:
     async def run(self, request: web.Request) -> web.Response:
         asked = await request.json()
         try:
-            return reply({"name": await self.submit(self._case(asked))})
+            return reply({"name": await self.submit(self._case(asked), **_sweep(asked))})
         except (CaseError, ServerError) as error:
             return reply({"errors": errors_in(error)})
 
-    async def submit(self, case: Case) -> str:
-        job, read = await self._session.submit(case)
+    async def submit(self, case: Case, **sweep: Any) -> str:
+        """Submits the case, or a sweep of it, and returns the job's name."""
+        job, read = await self._session.submit(case, **sweep)
         self._opened.cases[job.name] = read.text
+        if sweep:
+            self._opened.coefficients[job.name] = coefficients_of(sweep["coefficients"],
+                                                                  [load.name for load in job.spec.load_cases])
         return str(job.name)
 
     async def draw(self, request: web.Request) -> web.Response:
@@ -118,6 +123,18 @@ class Editor:
         answer = await self._session.call(self._session.transport.cases.ListCaseKeys, case_pb2.ListCaseKeysRequest())
         return reply([{"names": list(key.names), "form": key.form, "default": key.if_absent, "unit": key.unit,
                        "meaning": key.meaning} for key in answer.keys])
+
+
+def _sweep(asked: Any) -> dict[str, Any]:
+    """What the page asks of a sweep, as Session.submit takes it; empty if it asks for none."""
+    if "sweep" not in asked:
+        return {}
+    rows = rows_in(str(asked["sweep"]), "the sweep")
+    if not all(is_number(value) for row in rows for value in row.values()):
+        raise CaseError("the sweep: below the names of loads there are numbers only")
+    columns = {name: [row[name] for row in rows] for name in rows[0]}
+    return {"coefficients": columns, "traces": range(min(len(rows), _TRACES)), "bounds": asked["bounds"] is True,
+            "tips": asked["tips"] is True}
 
 
 def _drawn(mesh: Any, arrays: Any, units: Units) -> bytes:

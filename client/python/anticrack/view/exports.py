@@ -31,8 +31,7 @@ def _figure(result: Result, load: Load, kind: str, query: Any) -> bytes:
     if query.get("amplify"):
         look.amplify = float(query["amplify"])
     if query.get("limits"):
-        low, high = map(float, query["limits"].split(","))
-        look.limits = low, high
+        look.limits = float(query["limits"].split(",")[0]), float(query["limits"].split(",")[1])
     wanted = files.Wanted([figure], query.get("interface", ""), [load.name])
     with tempfile.TemporaryDirectory() as folder:
         made = files.draw_figures(result, folder, wanted, look)

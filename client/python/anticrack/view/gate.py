@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Who may ask the page's server: the browser that opened the printed address, and only that page in it."""
+"""Who may ask the page's server: the browser that opened the printed address, and only that page in it; and answers."""
 from __future__ import annotations
 
 import hmac
+import json
+import math
 import secrets
 from typing import Any
 
@@ -72,8 +74,27 @@ class Gate:
             return refused(error, 400)
 
 
+def finite(value: Any) -> Any:
+    """JSON as browsers read it: numbers that are not finite are None."""
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    if isinstance(value, dict):
+        return {key: finite(entry) for key, entry in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [finite(entry) for entry in value]
+    return value
+
+
+def text_of(value: Any) -> str:
+    return json.dumps(finite(value), allow_nan=False, separators=(",", ":"))
+
+
+def reply(value: Any, status: int = 200) -> web.Response:
+    return web.Response(text=text_of(value), content_type="application/json", status=status)
+
+
 def refused(error: Exception, status: int) -> web.Response:
-    return web.json_response({"error": harmless(error, "\n")}, status=status)
+    return reply({"error": harmless(error, "\n")}, status)
 
 
 async def add_headers(_: web.Request, response: web.StreamResponse) -> None:

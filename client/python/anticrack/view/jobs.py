@@ -13,7 +13,7 @@ from .. import entries
 from ..errors import Error, ServerError, of_status
 from ..v1 import solve_pb2
 from .opened import Opened
-from .reply import reply
+from .gate import reply
 from .told import Event, Pages, Told
 
 _MOST = 200  # jobs that are listed, the newest
@@ -34,14 +34,13 @@ def told(job: solve_pb2.Job) -> dict[str, Any]:
 
 
 def _word(state: int) -> str:
-    return str(solve_pb2.JobStatus.State.Name(state)).removeprefix("STATE_").lower()  # type: ignore[arg-type]
+    return entries.status_name(state, solve_pb2.JobStatus.State.DESCRIPTOR)
 
 
 def _whole(job: solve_pb2.Job) -> dict[str, Any]:
     """A job with its loads and its timeline."""
     return told(job) | {
         "loads": [load.name for load in job.spec.load_cases], "not_reached": job.status.not_reached,
-        "solver": job.spec.solver.WhichOneof("method") or "",
         "timeline": [{"time": step.time.ToMilliseconds(), "state": _word(step.state), "detail": step.detail,
                       "attempt": step.attempt} for step in job.status.timeline],
         "stages": list(map(_stage, job.status.stages)),
@@ -82,12 +81,6 @@ def event_of(message: solve_pb2.WatchJobResponse) -> list[Event]:
     return found
 
 
-async def _follow(session: Told, name: str, after: int) -> AsyncIterator[Event]:
-    async for message in session.events(name, after):
-        for event in event_of(message):
-            yield event
-
-
 async def _listed(session: Told) -> AsyncIterator[Event]:
     """The list whenever it has changed. It goes on for ever, also while the server is away."""
     last: Any = None
@@ -123,7 +116,8 @@ def add_routes(app: web.Application, session: Told, pages: Pages, opened: Opened
 
     async def watch(request: web.Request) -> web.StreamResponse:
         after = int(request.headers.get("Last-Event-ID", 0))
-        return await pages.stream(request, lambda: _follow(session, request.query["of"], after))
+        return await pages.stream(request, lambda: (
+            event async for message in session.events(request.query["of"], after) for event in event_of(message)))
 
     async def act(request: web.Request) -> web.Response:
         asked = await request.json()
@@ -135,7 +129,7 @@ def add_routes(app: web.Application, session: Told, pages: Pages, opened: Opened
             opened.forget(name)
         elif asked["action"] == "again":
             again = await _again(session, name)
-            opened.cases[again] = opened.cases.get(name, "")
+            opened.again(name, again)
             name = again
         else:
             raise Error("a job can be cancelled, deleted, or submitted again")

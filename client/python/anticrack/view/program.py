@@ -4,81 +4,53 @@ from __future__ import annotations
 
 import argparse
 import asyncio
-import contextlib
 import pathlib
 import signal
-import sys
 import webbrowser
 from collections.abc import Sequence
-from typing import Any
 
 from aiohttp import web
 
 from ..aio import AsyncTransport
 from ..case import Case
-from ..credentials import Credentials, address_of, token_of
+from ..command_line import Parser, add_server, code_of, complain, credentials, number
+from ..credentials import Credentials, address_of
 from ..errors import Error
 from ..private_server import Server
 from ..retry import Backoff
-from ..text import harmless
 from . import cases, exports, jobs, scene, tables
-from .gate import Gate, add_headers
+from .gate import Gate, add_headers, reply
 from .opened import FILE, Opened
 from .pages import Pages as Files
-from .reply import reply
 from .told import Pages, Told
 
-_USAGE = 2
 _MESSAGE = 16 << 20  # bytes of the longest request: the text of a case
 
 
-class _Usage(Error):
-    """The command line is wrong."""
-
-
-class _Parser(argparse.ArgumentParser):
-    def error(self, message: str) -> Any:
-        raise _Usage(f"{message.replace('argument ', '')}; see {self.prog} --help")
-
-
-def _port(text: str) -> int:
-    with contextlib.suppress(ValueError):
-        if 0 <= int(text) <= 65535:
-            return int(text)
-    raise argparse.ArgumentTypeError(f"{text} is no port, 1 to 65535, or 0 for a free one")
-
-
-def _parser() -> _Parser:
-    parser = _Parser("anticrack view", allow_abbrev=False, description="Shows jobs as they run and results in a "
-                     "browser. Only this machine is served, and only the browser that opens the printed address.",
-                     epilog="Example: anticrack view opening.h5")
-    parser.add_argument("what", nargs="?", default="", metavar="RESULT.h5 | jobs/ID | CASE.toml",
-                        help="a result file; a job of the server; or a case, which is run and shown")
-    parser.add_argument("--port", type=_port, default=0, help="of this machine, default: a free one")
+def _parser() -> Parser:
+    parser = Parser("anticrack view", allow_abbrev=False, description="Shows jobs as they run and results in a "
+                    "browser. Only this machine is served, and only the browser that opens the printed address.",
+                    epilog="Example: anticrack view opening.h5")
+    parser.add_argument("what", nargs="?", default="", metavar="RESULT.h5 | STUDY.h5 | jobs/ID | CASE.toml",
+                        help="a file of a result or a study; a job of the server; or a case, which is run and shown")
+    parser.add_argument("--port", type=number(0, 65535, int), default=0, help="of this machine, default: a free one")
     parser.add_argument("--no-browser", action="store_true", help="print the address and open nothing")
     parser.add_argument("--until-closed", action="store_true", help="end when the last page has been closed")
-    parser.add_argument("--local", action="store_true", help="start a private anticrackd, which ends with this")
-    parser.add_argument("--server", metavar="HOST:PORT", help="default: ANTICRACK_SERVER, or 127.0.0.1:7433")
-    parser.add_argument("--tls", action="store_true", help="encrypt, trusting the system's authorities")
-    for name, what in (("ca", "trust this authority"), ("cert", "of this client"), ("key", "of --cert"),
-                       ("token-file", "file of the token, default: the variable ANTICRACK_TOKEN")):
-        parser.add_argument(f"--{name}", metavar="FILE", help=what)
+    add_server(parser)
     return parser
 
 
 def _session(given: argparse.Namespace) -> Told:
-    if given.local:
-        server = Server()
-        return Told(AsyncTransport(server.address, Credentials(), server), server.address, Backoff(300.0, 3.0))
-    secrets = Credentials(given.tls, given.ca, given.cert, given.key, token_of(None, given.token_file))
-    address = address_of(given.server)
-    return Told(AsyncTransport(address, secrets), address, Backoff(300.0, 3.0))
+    server = Server() if given.local else None
+    address = server.address if server else address_of(given.server)
+    secrets = Credentials() if server else credentials(given)
+    return Told(AsyncTransport(address, secrets, server), address, Backoff(300.0, 3.0))
 
 
 async def _serve(given: argparse.Namespace) -> None:
     stop, loop = asyncio.Event(), asyncio.get_running_loop()
-    for number in (signal.SIGINT, signal.SIGTERM):
-        loop.add_signal_handler(number, stop.set)
+    for sign in (signal.SIGINT, signal.SIGTERM):
+        loop.add_signal_handler(sign, stop.set)
     session = _session(given)
     try:
         opened, gate, pages = Opened(session), Gate(), Pages(session)
@@ -132,11 +104,10 @@ async def _listen(runner: web.AppRunner, gate: Gate, given: argparse.Namespace, 
 
 
 def main(words: Sequence[str]) -> int:
-    """Runs a command line and returns the exit code: 0, or 2 with a line on standard error."""
+    """Runs a command line and returns the exit code: 0, 2, or 4 if the server cannot be reached."""
     try:
         asyncio.run(_serve(_parser().parse_args(words)))
     except Error as error:
-        for line in str(error).splitlines():
-            print("anticrack:", harmless(line), file=sys.stderr)
-        return _USAGE
+        complain(error)
+        return code_of(error)
     return 0

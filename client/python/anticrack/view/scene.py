@@ -10,59 +10,31 @@ from aiohttp import web
 
 from ..arrays import Array
 from ..notes import notes_on
-from ..result import CRACK, DELAMINATED, FREE, KKT, Load, Result, fields_cure
+from ..result import CRACK, DELAMINATED, FREE, KKT, Load, Result, Units, fields_cure, joined
+from ..study.record import Study
 from ..text import with_bounds
 from ..vtk import of_triangles
-from .opened import Opened, load_of
-from .reply import reply
+from .opened import FILE, Opened, load_of
+from .gate import reply
 
 TRACES = ("u_minus", "u_plus", "jump", "pressure", "flux", "force", "contact")
 HISTORY = ("iteration", "criterion", "energy", "contact_count", *(f"kkt_{name}" for name in KKT))
+_STAGES = ("triangles", "energy", "energy_lower", "energy_upper", "displacement_error")
 _MOVING = 60_000  # triangles of the thinned mesh, about
+_SINGULAR = ("flux", "energy_density", "indicator")
 _OPENS = (CRACK, DELAMINATED, FREE)
 
 
 class Surface:
-    """All subdomains together; the faces of an open crack have nodes of their own. nodes (n): of the mesh; part (n):
-    the subdomain; triangles (m, 3): indices into nodes. Without fields it is the mesh, and u is not known."""
+    """A surface of triangles. nodes (n): of the mesh; part (n): the subdomain; points (n, 2); triangles (m, 3): indices
+    into nodes."""
 
-    def __init__(self, result: Result, load: Load) -> None:
-        self.result, self.load, parts = result, load, load.fields
-        if parts:
-            first = np.cumsum([0, *(len(part.nodes) for part in parts)])
-            self.nodes = np.concatenate([part.nodes for part in parts])
-            self.part = np.repeat(np.arange(len(parts)), np.diff(first))
-            self.triangles = np.concatenate([part.triangles + start for part, start in zip(parts, first)])
-        else:
-            self.nodes, self.triangles = np.arange(len(result.mesh.nodes)), result.mesh.triangles
-            self.part = np.zeros(len(self.nodes), int)
+    def __init__(self, points: Array, nodes: Array, part: Array, triangles: Array) -> None:
+        self.points, self.nodes, self.part, self.triangles = points[nodes], nodes, part, triangles
 
-    @property
-    def points(self) -> Array:
-        return self.result.mesh.nodes[self.nodes]  # type: ignore[no-any-return]
-
-    def of_triangles(self, what: str) -> Array:
-        """(m) |T grad u|, the density of energy, or the error indicator over the area"""
-        parts = list(self.load.fields)
-        if what == "flux":
-            return np.hypot(*np.concatenate([part.flux for part in parts]).T)  # type: ignore[no-any-return]
-        if what == "energy_density":
-            return np.concatenate([part.energy_density for part in parts])
-        assert self.load.indicator is not None
-        areas = np.concatenate([part.areas for part in parts])
-        values = of_triangles(self.result.mesh, self.load.indicator, self.nodes[self.triangles])
-        return np.divide(values, areas, out=np.zeros_like(areas), where=areas > 0)
-
-    def of_nodes(self, what: str) -> Array:
-        """(n) u, or the means of the triangles at a node, weighted by area"""
-        if what == "u":
-            return np.concatenate([part.u for part in self.load.fields])
-        areas = np.concatenate([part.areas for part in self.load.fields])
-
-        def summed(values: Array) -> Array:
-            return np.bincount(self.triangles.ravel(), np.repeat(values, 3), len(self.nodes))
-        around = summed(areas)
-        return np.divide(summed(areas * self.of_triangles(what)), around, out=np.zeros_like(around), where=around > 0)
+    @classmethod
+    def of_mesh(cls, points: Array, triangles: Array) -> Surface:
+        return cls(points, np.arange(len(points)), np.zeros(len(points), int), triangles)
 
     def outline(self) -> Array:
         """(e, 2) edges of one triangle only: the boundary, and both faces of interfaces"""
@@ -88,25 +60,59 @@ class Surface:
         return found[(a != b) & (b != c) & (c != a)]  # type: ignore[no-any-return]
 
 
-def _colours(load: Load) -> list[str]:
-    if not load.fields:
-        return []
-    return ["u", "flux", "energy_density", *["indicator"] * (load.indicator is not None)]
+class Values(Surface):
+    """The membrane of a load. Without fields it is the mesh, and nothing is known on it."""
+
+    def __init__(self, result: Result, load: Load) -> None:
+        self.result, self.load, mesh, parts = result, load, result.mesh, list(load.fields)
+        if parts:
+            super().__init__(mesh.nodes, *joined(parts))
+        else:
+            vars(self).update(vars(Surface.of_mesh(mesh.nodes, mesh.triangles)))
+        self.known = ["u", "flux", "energy_density", *["indicator"] * (load.indicator is not None)] if parts else []
+
+    def _joined(self, what: str) -> Array:
+        return np.concatenate([getattr(part, what) for part in self.load.fields])
+
+    def of_triangles(self, what: str) -> Array:
+        """(m) |T grad u|, the density of energy, or the error indicator over the area"""
+        if what != "indicator":
+            values = self._joined(what)
+            return np.hypot(*values.T) if what == "flux" else values  # type: ignore[no-any-return]
+        assert self.load.indicator is not None
+        areas = self._joined("areas")
+        values = of_triangles(self.result.mesh, self.load.indicator, self.nodes[self.triangles])
+        return np.divide(values, areas, out=np.zeros_like(areas), where=areas > 0)
+
+    def cut(self, what: str) -> float:
+        """The value above which there are 2 % of the area, around tips, whose colours would hide all else."""
+        values, areas = self.of_triangles(what), self._joined("areas")
+        order = np.argsort(values)
+        return float(values[order[np.searchsorted(np.cumsum(areas[order]), 0.98 * areas.sum())]])
+
+    def of_nodes(self, what: str) -> Array:
+        """(n) u, or the means of the triangles at a node, weighted by area"""
+        if what == "u":
+            return self._joined("u")
+        areas = self._joined("areas")
+
+        def summed(values: Array) -> Array:
+            return np.bincount(self.triangles.ravel(), np.repeat(values, 3), len(self.nodes))
+        around = summed(areas)
+        return np.divide(summed(areas * self.of_triangles(what)), around, out=np.zeros_like(around), where=around > 0)
 
 
 def _told(result: Result, load: Load) -> dict[str, Any]:
     units = result.units
     return {"name": load.name, "status": load.status, "reason": load.reason, "error": load.error,
-            "warnings": load.warnings[:50], "no_bracket": load.no_bracket, "colours": _colours(load),
+            "warnings": load.warnings[:50], "no_bracket": load.no_bracket, "colours": Values(result, load).known,
             "steps": len(load.history.get("iteration", ())), "traces": len(load.traces),
             "energy": with_bounds(load, "energy", units.behind("F L")), "growth_notes": load.growth_notes,
             "growth": [[float(x), float(y)] for x, y in zip(load.growth["x"], load.growth["y"])] if load.growth else [],
-            "contact_length": load.contact_length, "iterations": load.iterations, "kkt": load.kkt,
-            "inclusions": [{"name": part.name, "A": with_bounds(part, "A", units.behind("L")),
-                            "resultant": part.resultant} for part in load.inclusions.values()],
-            "stages": {name: load.stages[name].tolist() for name in ("triangles", "energy", "energy_lower",
-                                                                     "energy_upper", "displacement_error")
-                       if name in load.stages}}
+            "contact_length": load.contact_length, "iterations": load.iterations,
+            "inclusions": [{"name": part.name, "A": with_bounds(part, "A", units.behind("L"))}
+                           for part in load.inclusions.values()],
+            "stages": {name: load.stages[name].tolist() for name in _STAGES if name in load.stages}}
 
 
 def _marks(result: Result) -> list[dict[str, Any]]:
@@ -124,19 +130,27 @@ def _marks(result: Result) -> list[dict[str, Any]]:
 
 def described(result: Result, case: str) -> dict[str, Any]:
     mesh, loads, sweep = result.mesh, list(result.loads.values()), result.sweep
-    units = {dimension: result.units.of(dimension) for dimension in ("L", "F", "F/L", "F L", "F/L^2")}
-    low, high = mesh.nodes.min(axis=0), mesh.nodes.max(axis=0)
-    return {"title": result.title, "job": result.job, "units": units, "case": case or result.case,
-            "triangles": len(mesh.triangles), "nodes": len(mesh.nodes), "low": low.tolist(), "high": high.tolist(),
-            "not_reached": result.not_reached, "notes": notes_on(result), "moving": _MOVING,
+    return {"title": result.title, "job": result.job, "units": _units(result.units), "case": case or result.case,
+            "triangles": len(mesh.triangles), "nodes": len(mesh.nodes), "not_reached": result.not_reached,
+            "notes": notes_on(result), "warnings": list(mesh.info.warnings), "marks": _marks(result),
             "cure": fields_cure(result) if any(not load.fields for load in loads) else "",
-            "warnings": list(mesh.info.warnings), "server": result.server_version,
-            "loads": [_told(result, load) for load in loads], "marks": _marks(result),
-            "tips": [[tip.at.x, tip.at.y] for tip in mesh.info.tips],
+            "loads": [_told(result, load) for load in loads], "tips": [[tip.at.x, tip.at.y] for tip in mesh.info.tips],
             "interfaces": [{"name": line.name, "nodes": len(line.s),
                             "opens": bool(np.isin(line.edge_kind, _OPENS).any())} for line in result.interfaces],
             "sweep": None if sweep is None else {"loads": sweep.loads, "rows": len(sweep.status), "kept": sweep.kept,
                                                  "converged": int(sweep.converged.sum())}}
+
+
+def described_study(study: Study) -> dict[str, Any]:
+    """A study, as a sweep without loads: its rows have jobs, one for each line of its table."""
+    empty: dict[str, list[Any]] = {name: [] for name in ("notes", "warnings", "marks", "loads", "tips", "interfaces")}
+    return empty | {"title": study.title, "units": _units(study.units), "case": study.case, "sweep": {
+        "loads": study.varying() or study.keys, "rows": len(study.rows), "converged": int(study.converged.sum()),
+        "jobs": [study.rows[index].job for index, _ in study.lines()]}}
+
+
+def _units(units: Units) -> dict[str, str]:
+    return {dimension: units.of(dimension) for dimension in ("L", "F", "F/L", "F L")}
 
 
 def array(result: Result, load: Load, what: str, interface: int) -> Array:
@@ -148,37 +162,47 @@ def array(result: Result, load: Load, what: str, interface: int) -> Array:
         return np.stack([getattr(load.traces[interface], name) for name in TRACES])
     if what == "history":
         return np.stack([load.history[name] for name in HISTORY])
-    surface = Surface(result, load)
-    if what in ("points", "triangles", "thinned", "outline", "nodes"):
-        found = getattr(surface, what)
-        return np.asarray(found() if callable(found) else found)
-    if what in _colours(load):
-        return surface.of_nodes(what)
-    raise KeyError(what)
+    surface = Values(result, load)
+    return surface.of_nodes(what) if what in surface.known else shape(surface, what)
+
+
+def shape(surface: Surface, what: str) -> Array:
+    """The points or triangles of a surface, its outline, or fewer triangles. Raises KeyError."""
+    if what in ("points", "triangles"):
+        return getattr(surface, what)  # type: ignore[no-any-return]
+    return {"outline": surface.outline, "thinned": surface.thinned}[what]()
 
 
 def triangle(result: Result, load: Load, index: int) -> dict[str, Any]:
     """What is known in a triangle of the surface."""
-    surface = Surface(result, load)
+    surface = Values(result, load)
     if not 0 <= index < len(surface.triangles):
         raise IndexError(f"there is no triangle {index}")
-    corners = surface.nodes[surface.triangles[index]]
-    return {"nodes": corners.tolist(), "subdomain": result.mesh.subdomain_names[int(surface.part[
-        surface.triangles[index][0]])] if load.fields else "",
-            **{what: float(surface.of_triangles(what)[index]) for what in _colours(load) if what != "u"}}
+    corners = surface.triangles[index]
+    return {"nodes": surface.nodes[corners].tolist(),
+            "subdomain": result.mesh.subdomain_names[int(surface.part[corners[0]])] if load.fields else "",
+            **{what: float(surface.of_triangles(what)[index]) for what in surface.known if what != "u"}}
 
 
 def add_routes(app: web.Application, opened: Opened) -> None:
     async def describe(request: web.Request) -> web.Response:
         name = request.query["of"]
+        if name == FILE and opened.study is not None:
+            return reply(described_study(opened.study))
         result = await opened.result(name)
         return reply(await asyncio.to_thread(described, result, opened.cases.get(name, "")))
 
     async def send(request: web.Request) -> web.Response:
-        what, index = request.query["what"], int(request.query.get("interface", 0))
-        values = await asyncio.to_thread(array, *await load_of(opened, request.query), what, index)
-        kind = "i4" if values.dtype.kind in "iu" else "f8"
-        return web.Response(body=np.ascontiguousarray(values, "<" + kind).tobytes(), headers={"X-Array": kind},
+        what, index, headers = request.query["what"], int(request.query.get("interface", 0)), dict[str, str]()
+        if "mesh" in request.query:
+            mesh = await opened.mesh(request.query["mesh"])
+            values = await asyncio.to_thread(shape, Surface.of_mesh(mesh["nodes"], mesh["triangles"]), what)
+        else:
+            values = await asyncio.to_thread(array, *(loaded := await load_of(opened, request.query)), what, index)
+            if what in _SINGULAR:
+                headers["X-Cut"] = str(await asyncio.to_thread(Values(*loaded).cut, what))
+        headers["X-Array"] = kind = "i4" if values.dtype.kind in "iu" else "f8"
+        return web.Response(body=np.ascontiguousarray(values, "<" + kind).tobytes(), headers=headers,
                             content_type="application/octet-stream")
 
     async def pick(request: web.Request) -> web.Response:

@@ -13,9 +13,10 @@ from aiohttp import web
 
 from .. import entries
 from ..result import Result, Sweep
+from ..study.record import Study
 from ..v1 import solve_pb2
-from .opened import Opened
-from .reply import reply
+from .opened import FILE, Opened
+from .gate import reply
 
 Column = tuple[str, str, str, list[Any]]  # name, unit, meaning, values
 
@@ -36,15 +37,11 @@ def _columns(result: Result, message: Any, names: list[str], values: dict[str, l
 def _of_parts(result: Result, message: Any, parts: str) -> list[Column]:
     """A row for each part of each load; "" for the loads themselves."""
     rows = [(load.name, part) for load in result.loads.values() for part in (
-        (load,) if not parts else _listed(getattr(load, parts)))]
+        (load,) if not parts else getattr(getattr(load, parts), "values", getattr(load, parts).__iter__)())]
     names = [name for name in entries.defaults_of(message) if not rows or hasattr(rows[0][1], name)]
     values = {name: [getattr(part, name) for _, part in rows] for name in names}
     first = [("load case", "-", "", [name for name, _ in rows])] if parts else []
     return [*first, *_columns(result, message, names, values)]
-
-
-def _listed(parts: Any) -> Sequence[Any]:
-    return list(parts.values()) if isinstance(parts, dict) else list(parts)
 
 
 def _of_arrays(result: Result, messages: Sequence[Any], what: str) -> list[Column]:
@@ -63,26 +60,16 @@ def _of_arrays(result: Result, messages: Sequence[Any], what: str) -> list[Colum
 
 def _of_sweep(result: Result, sweep: Sweep) -> list[Column]:
     """A row for each row, as Sweep.frame has it."""
-    length, energy, force = (result.units.of(unit) for unit in ("L", "F L", "F"))
-    status = solve_pb2.LoadCaseAnswer.Status.DESCRIPTOR
-    columns: list[Column] = [("row", "-", "from 0", list(range(len(sweep.status)))),
-                             ("status", "-", "", [entries.status_name(code, status) for code in sweep.status])]
-    found: list[tuple[str, str, Any]] = [] if sweep.coefficients is None else [
-        (name, "-", sweep.coefficients[:, i]) for i, name in enumerate(sweep.loads)]
-    found += [("steps", "-", sweep.steps), ("energy", energy, sweep.energy),
-              ("energy_lower", energy, sweep.energy_lower), ("energy_upper", energy, sweep.energy_upper),
-              ("contact_length", length, sweep.contact_length), ("kkt", "-", sweep.kkt)]
-    for of, names, values in (
-            ("{}", sweep.inclusions, (("A", length, sweep.displacement), ("A_lower", length, sweep.displacement_lower),
-                                      ("A_upper", length, sweep.displacement_upper))),
-            ("tip {}", range(len(result.mesh.info.tips)), (
-                ("intensity", "-", sweep.intensity), ("G", force, sweep.energy_release_rate),
-                ("G_spread", force, sweep.energy_release_rate_spread)))):
-        for i, name in enumerate(names):
-            found += [(f"{what} of {of.format(name)}", unit, None if each is None else each[:, i])
-                      for what, unit, each in values]
-    return columns + [(name, unit, "", np.asarray(values).tolist()) for name, unit, values in found
-                      if values is not None]
+    found = {"row": np.arange(len(sweep.status)), **sweep.columns()}
+    return [(name, "-" if name in sweep.loads else result.units.of_column(name), "", np.asarray(values).tolist())
+            for name, values in found.items()]
+
+
+def tables_of_study(study: Study) -> dict[str, list[Column]]:
+    """A row for each row and load, as Study.frame has it."""
+    lines = study.lines()
+    return {"sweep": [(name, study.units.of_column(name) if name in study.columns else "-", "",
+                       [line.get(name) for _, line in lines]) for name in lines[0][1]]}
 
 
 def tables_of(result: Result) -> dict[str, list[Column]]:
@@ -116,15 +103,19 @@ def csv_of(columns: list[Column]) -> str:
 
 
 def add_routes(app: web.Application, opened: Opened) -> None:
+    async def of(name: str) -> dict[str, list[Column]]:
+        study = opened.study if name == FILE else None
+        return tables_of(await opened.result(name)) if study is None else tables_of_study(study)
+
     async def tables(request: web.Request) -> web.Response:
-        found = tables_of(await opened.result(request.query["of"]))
+        found = await of(request.query["of"])
         return reply([{"name": name, "columns": [{"name": head, "unit": unit, "meaning": meaning, "values": values}
                                                  for head, unit, meaning, values in columns]}
                       for name, columns in found.items()])
 
     async def as_csv(request: web.Request) -> web.Response:
         name = request.query["table"]
-        columns = tables_of(await opened.result(request.query["of"]))[name]
+        columns = (await of(request.query["of"]))[name]
         return web.Response(text=csv_of(columns), content_type="text/csv", headers={
             "Content-Disposition": f'attachment; filename="{name}.csv"'})
     app.router.add_get("/api/tables", tables)

@@ -14,7 +14,7 @@ from ..retry import Backoff
 from ..session import Session
 from ..text import harmless
 from ..v1 import job_pb2, solve_pb2
-from .reply import text_of
+from .gate import text_of
 
 Event = tuple[str, Any, int | None]  # its name, its data, and the sequence number to go on after
 _PAUSE = 1.0  # between signs of life to a page, whose loss is noticed by them [s]
@@ -31,7 +31,7 @@ class Told(Session):
                 page.put_nowait(self.connection())
 
     def connection(self) -> Event:
-        return "connection", {"server": self.address, "lost": self.lost}, None
+        return "connection", {"server": self.address, "lost": self.lost, "met": self.backoff.met}, None
 
     async def _wait(self, backoff: Backoff, error: ServerError) -> None:
         if error.lost:
@@ -59,11 +59,11 @@ class Pages:
     """The pages that listen now. left: set when the last one has gone and none has come for a while."""
 
     def __init__(self, session: Told, patience: float = 3.0) -> None:
-        self.session, self.left, self._patience, self._count = session, asyncio.Event(), patience, 0
+        self.session, self.left, self._patience = session, asyncio.Event(), patience
         session.pages = set()
 
     def _leave(self) -> None:
-        if self._count == 0:
+        if not self.session.pages:
             self.left.set()
 
     async def stream(self, request: web.Request, events: Callable[[], AsyncIterator[Event]]) -> web.StreamResponse:
@@ -73,7 +73,6 @@ class Pages:
         queue: asyncio.Queue[Event] = asyncio.Queue()
         queue.put_nowait(self.session.connection())
         self.session.pages.add(queue)
-        self._count += 1
 
         async def fill() -> None:
             try:
@@ -96,8 +95,7 @@ class Pages:
         finally:
             filling.cancel()
             self.session.pages.discard(queue)
-            self._count -= 1
-            if self._count == 0:
+            if not self.session.pages:
                 asyncio.get_running_loop().call_later(self._patience, self._leave)
             with contextlib.suppress(asyncio.CancelledError):
                 await filling

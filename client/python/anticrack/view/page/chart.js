@@ -4,20 +4,15 @@ import {make, number} from './dom.js';
 
 const Chart = /** @type {any} */ (globalThis).Chart;
 
-/**
- * @typedef {{label: string, x: ArrayLike<number>, y: ArrayLike<number>, colour: string, dash?:
- * number[], dots?: boolean}} Line
- */
+/** @typedef {{label: string, x: any, y: any, colour: string, dash?: number[], dots?: boolean}} Line */
 
 /** @param {string} name */
 const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
 /**
- * At most four points in each of `columns` equal parts of the axis: the first, the least, the
- * largest, the last. Nothing that sticks out is lost. x must not fall.
- * @param {ArrayLike<number>} x
- * @param {ArrayLike<number>} y
- * @param {number} columns
+ * At most four points in each of `columns` equal parts of the axis: the first, the least, the largest, the last.
+ * Nothing that sticks out is lost. x must not fall.
+ * @param {ArrayLike<number>} x @param {ArrayLike<number>} y @param {number} columns
  * @return {{x: number, y: number}[]}
  */
 export function thinned(x, y, columns) {
@@ -40,16 +35,14 @@ const cursor = {
   id: 'cursor',
   beforeDatasetsDraw(chart) {
     const {ctx, chartArea: area, scales: {x}} = chart;
-    ctx.save();
-    ctx.fillStyle = css('--contact');
-    for (const [from, to] of chart.shaded ?? []) {
-      const left = Math.max(x.getPixelForValue(from), area.left), right = Math.min(x.getPixelForValue(to), area.right);
+    const bar = (left, right, colour) => {
+      ctx.fillStyle = css(colour);
       if (right >= left) ctx.fillRect(left, area.top, Math.max(right - left, 1), area.bottom - area.top);
-    }
-    if (chart.cursor !== undefined) {
-      ctx.fillStyle = css('--text');
-      ctx.fillRect(x.getPixelForValue(chart.cursor), area.top, 1, area.bottom - area.top);
-    }
+    };
+    ctx.save();
+    for (const [from, to] of chart.shaded ?? [])
+      bar(Math.max(x.getPixelForValue(from), area.left), Math.min(x.getPixelForValue(to), area.right), '--contact');
+    if (chart.cursor !== undefined) bar(x.getPixelForValue(chart.cursor), x.getPixelForValue(chart.cursor), '--text');
     ctx.restore();
   },
 };
@@ -57,47 +50,37 @@ const cursor = {
 /** A chart in a box of its own: `box` is the element. */
 export class Lines {
   /**
-   * @param {{title: string, x: string, y: string, log?: boolean, short?: boolean}} options
+   * @param {{title: string, x: string, y?: string, log?: boolean, short?: boolean}} options
    * @param {(x: number, y: number) => void} [pointed] told where the pointer is, or was clicked
-   * @param {'mousemove'|'click'} on
    */
-  constructor(options, pointed, on = 'mousemove') {
+  constructor(options, pointed, on = /** @type {'mousemove'|'click'} */ ('mousemove')) {
     this.canvas = make('canvas', {role: 'img', tabindex: '0', 'aria-label': options.title});
     this.box = make('figure', {class: options.short ? 'chart short' : 'chart'}, make('div', {}, this.canvas));
     this.options = options;
-    if (pointed) {
-      this.canvas.addEventListener(on, (event) => {
-        const {x, y} = this.chart?.scales ?? {};
-        if (x) pointed(x.getValueForPixel(event.offsetX), y.getValueForPixel(event.offsetY));
-      });
-    }
     /** @type {any} */
     this.chart = null;
+    this.canvas.addEventListener(on, (event) => {
+      const {x, y} = this.chart?.scales ?? {};
+      if (x) pointed?.(x.getValueForPixel(event.offsetX), y.getValueForPixel(event.offsetY));
+    });
   }
 
-  /**
-   * @param {Line[]} lines
-   * @param {[number, number][]} shaded stretches of x
-   */
+  /** @param {Line[]} lines @param {[number, number][]} shaded stretches of x */
   draw(lines, shaded = []) {
     const columns = Math.max(this.canvas.clientWidth, 300), log = this.options.log ?? false;
+    const points = ({x, y}) => thinned(x, y, columns).filter((point) => !log || point.y > 0);
     const datasets = lines.map((line) => ({
-                                 label: line.label,
-                                 data: thinned(line.x, line.y, columns).filter((point) => !log || point.y > 0),
-                                 borderColor: line.colour,
-                                 backgroundColor: line.colour,
-                                 borderWidth: 1.5,
-                                 borderDash: line.dash ?? [],
-                                 pointRadius: line.dots ? 3 : 0,
-                                 pointHitRadius: 6,
-                                 tension: 0,
-                                 showLine: true,
-                               }));
-    if (this.chart) {
+      label: line.label,
+      data: points(line),
+      borderColor: line.colour,
+      backgroundColor: line.colour,
+      borderDash: line.dash ?? [],
+      pointRadius: line.dots ? 3 : 0
+    }));
+    if (this.chart)
       this.chart.data.datasets = datasets;
-    } else {
+    else
       this.chart = new Chart(this.canvas, {type: 'line', data: {datasets}, options: this.look(log), plugins: [cursor]});
-    }
     this.chart.shaded = shaded;
     this.chart.update('none');
   }
@@ -105,25 +88,32 @@ export class Lines {
   /** @param {boolean} log */
   look(log) {
     const text = css('--text'), grid = css('--line');
+    const round = (v) => /^[125](\.0*)?e/.test(v.toExponential(3)) ? number(v, 4) : null; // of a logarithmic axis
     const axis = (name, type) => ({
       type,
       grid: {color: grid, borderColor: grid},
-      title: {display: true, text: name, color: text, padding: 2},
-      ticks: {color: text, maxTicksLimit: 7, maxRotation: 0, callback: (v) => number(v, 4)},
+      title: {display: Boolean(name), text: name, color: text, padding: 2},
+      ticks: {
+        color: text,
+        maxTicksLimit: this.options.short ? 5 : 7,
+        maxRotation: 0,
+        autoSkipPadding: 8,
+        callback: (v) => type === 'linear' ? number(v, 4) : round(v)
+      }
     });
     return {
       animation: false,
       parsing: false,
       normalized: true,
-      responsive: true,
       maintainAspectRatio: false,
+      elements: {line: {borderWidth: 1.5}, point: {hitRadius: 6}},
       interaction: {mode: 'nearest', intersect: false},
       scales: {x: axis(this.options.x, 'linear'), y: axis(this.options.y, log ? 'logarithmic' : 'linear')},
       plugins: {
         legend: {labels: {color: text, boxWidth: 18, boxHeight: 1, padding: 8}, position: 'top', align: 'end'},
         title: {display: true, text: this.options.title, color: text, align: 'start', padding: 0},
         tooltip: {callbacks: {title: (items) => items.length ? number(items[0].parsed.x) : ''}},
-      },
+      }
     };
   }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The list of jobs, and what may be done with one.
-import {byId, choice, fill, make, plain} from './dom.js';
+import {button, byId, choice, fill, make, plain, words} from './dom.js';
 import {changed, model} from './model.js';
 import {events, notice, post} from './net.js';
 import {get, set} from './state.js';
@@ -16,23 +16,20 @@ export function start(connection) {
     placeholder: 'filter by title, owner, ID',
     'aria-label': 'filter jobs',
     value: get('filter'),
-    oninput: (event) => set({filter: event.target.value}),
+    oninput: (event) => set({filter: event.target.value})
   });
-  const states = choice(
-    'state',
-    [['', 'all'], ...STATES.map((state) => /** @type {[string, string]} */ ([state, state.replace(/_/g, ' ')]))],
-    get('state'), (state) => set({state}));
+  const states =
+    choice('state', [['', 'all'], ...STATES.map((state) => /** @type {[string, string]} */ ([state, words(state)]))],
+      get('state'), (state) => set({state}));
   fill(byId('jobs'), make('h2', {}, 'Jobs'), filter, states, list);
   events('jobs', {}, {
     connection,
     failed: (data) => notice(data.error),
     jobs: (jobs) => {
-      const gone = model.of.startsWith('jobs/') && model.jobs.some((job) => job.name === model.of) &&
-        !jobs.some((job) => job.name === model.of);
+      const name = model.of, here = (of) => of.some((job) => job.name === name), gone = here(model.jobs) && !here(jobs);
       model.jobs = jobs;
       if (gone) {
-        const name = model.of;
-        set({of: ''});  // which takes away older notices
+        set({of: ''}); // which takes away older notices
         notice(`${name} has been deleted`);
       }
       changed();
@@ -46,10 +43,8 @@ export function draw() {
     (job) => (!state || job.state === state) && `${job.title} ${job.owner} ${job.name}`.toLowerCase().includes(wanted));
   const focused = document.activeElement?.getAttribute('data-key');
   const owners = new Set(model.jobs.map((job) => job.owner)).size > 1;
-  fill(
-    list, ...shown.map((job) => item(job, owners)),
-    shown.length ? null :
-                   make('li', {class: 'quiet'}, model.jobs.length ? 'no job is like this' : 'there is no job yet'));
+  fill(list, shown.map((job) => item(job, owners)),
+    !shown.length && make('li', {class: 'quiet'}, model.jobs.length ? 'no job is like this' : 'there is no job yet'));
   if (focused) /** @type {any} */
     (list.querySelector(`[data-key="${CSS.escape(focused)}"]`))?.focus();
 }
@@ -58,48 +53,34 @@ export function draw() {
 function item(job, owners) {
   const here = job.name === model.of, live = here ? model.live?.job : null, state = live?.state || job.state;
   const part = job.total > 0 ? Math.max(job.done, here ? model.live?.rows ?? 0 : 0) / job.total : 0;
-  const phase = live?.timeline[live.timeline.length - 1]?.detail;
-  const button = (text, run) => make('button', {'data-key': job.name + text, onclick: run}, text);
-  return make(
-    'li', {class: here ? 'here' : ''},
-    make(
-      'button', {
-        class: 'job',
-        'data-key': job.name,
-        'aria-pressed': String(here),
-        title: job.name,
-        onclick: () => set({of: job.name, load: ''})
-      },
-      make('strong', {}, plain(job.title, 80) || job.name.slice(5, 17)),
-      make(
-        'span', {class: `state ${state}`},
-        state.replace(/_/g, ' ') + (phase && !ENDED.includes(state) ? `: ${phase}` : '')),
-      ENDED.includes(state) ? null : make('progress', {max: '1', value: part, 'aria-label': 'progress'}),
-      make(
-        'small', {},
-        `${new Date(job.created).toLocaleTimeString()}${owners ? ' \u00b7 ' + plain(job.owner || 'nobody', 40) : ''}`,
-        job.total > 1 ? ` \u00b7 ${job.done} of ${job.total}` : '', job.task ? ` \u00b7 ${job.task}` : '')),
-    here ? make(
-             'div', {class: 'actions'}, ENDED.includes(state) ? null : button('Cancel', () => act(job, 'cancel')),
-             button('Submit again', () => act(job, 'again')),
-             ENDED.includes(state) ? button('Delete\u2026', () => ask(job)) : null) :
-           null);
+  const phase = live?.timeline[live.timeline.length - 1]?.detail, ended = ENDED.includes(state);
+  const does = (text, run) => button(text, run, {'data-key': job.name + text});
+  return make('li', {class: here ? 'here' : ''},
+    button(
+      [
+        make('strong', {}, plain(job.title, 80) || job.name.slice(5, 17)),
+        make('span', {class: `state ${state}`}, words(state) + (phase && !ended ? `: ${phase}` : '')),
+        !ended && make('progress', {max: '1', value: part, 'aria-label': 'progress'}),
+        make('small', {}, new Date(job.created).toLocaleTimeString(),
+          owners ? ` \u00b7 ${plain(job.owner || 'nobody', 40)}` : '',
+          job.total > 1 ? ` \u00b7 ${job.done} of ${job.total}` : '', job.task ? ` \u00b7 ${job.task}` : '')
+      ],
+      () => set({of: job.name, load: ''}),
+      {class: 'job', 'data-key': job.name, 'aria-pressed': String(here), title: job.name}),
+    here &&
+      make('div', {class: 'actions'}, !ended && does('Cancel', () => act(job, 'cancel')),
+        does('Submit again', () => act(job, 'again')), ended && does('Delete\u2026', () => ask(job))));
 }
 
-/** @param {any} job */
 function ask(job) {
-  const box = byId('question');
-  const close = (yes) => () => {
+  const box = byId('question'), about = `Delete ${plain(job.title, 80) || 'this job'} (${job.name}) with its results?`;
+  const close = (yes) => {
     box.close();
     if (yes) act(job, 'delete');
   };
-  fill(
-    box,
-    make(
-      'p', {}, `Delete ${plain(job.title, 80) || 'this job'} (${job.name}) with its results? This cannot be undone.`),
-    make(
-      'div', {class: 'actions'}, make('button', {onclick: close(false), autofocus: true}, 'Keep it'),
-      make('button', {onclick: close(true), class: 'danger'}, 'Delete')));
+  fill(box, make('p', {}, `${about} This cannot be undone.`),
+    make('div', {class: 'actions'}, button('Keep it', () => close(false), {autofocus: true}),
+      button('Delete', () => close(true), {class: 'danger'})));
   box.showModal();
 }
 
@@ -109,6 +90,6 @@ async function act(job, action) {
     const {name} = await post('job', {name: job.name, action});
     if (action === 'again') set({of: name, load: ''});
   } catch (error) {
-    notice(error instanceof Error ? error.message : error);
+    notice(error);
   }
 }

@@ -1,93 +1,88 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The page: tabs, what each shows, and what is told of the connection.
 import * as convergence from './convergence.js';
-import {byId, fill, make, plain} from './dom.js';
+import {aside, button, byId, fill, make, plain} from './dom.js';
 import * as editor from './editor.js';
 import * as jobs from './jobs.js';
 import * as membrane from './membrane.js';
-import {changed, currentLoad, loadIndex, model, show, watch} from './model.js';
+import {changed, currentLoad, currentStage, loadIndex, model, show, watch} from './model.js';
 import {address, ask, notice, quiet} from './net.js';
 import * as numbers from './numbers.js';
 import * as series from './series.js';
-import {get, listen, set} from './state.js';
+import {get, listen, on, set} from './state.js';
 import * as tables from './tables.js';
 import * as traces from './traces.js';
 
+/** @typedef {[string, boolean, boolean, ((panel: any, wanted: () => boolean) => any)|null, string]} Tab */
 /**
- * Tabs by name: title, whether the membrane is above, whether a result is needed, and what draws
- * the panel.
+ * Tabs by name: title, whether the membrane is above, whether a result is needed, what draws the panel, and its
+ * figure.
  */
-const TABS =
-  /**
-     @type {Record<string, [string, boolean, boolean, ((panel: any, wanted: () => boolean) =>
-         any)|null]>}
-   */
-  ({
-    membrane: ['Membrane', true, true, null],
-    interfaces: ['Interfaces', true, true, traces.draw],
-    convergence: ['Convergence', false, false, convergence.draw],
-    tables: ['Tables', false, true, tables.draw],
-    sweep: ['Sweep', false, true, (panel, wanted) => series.draw(panel, wanted, 'sweep')],
-    growth: ['Growth', true, true, (panel, wanted) => series.draw(panel, wanted, 'growth')],
-    case: ['Case', false, false, editor.draw],
-  });
+const TABS = /** @type {Record<string, Tab>} */ ({
+  membrane: ['Membrane', true, true, null, 'membrane'],
+  interfaces: ['Interfaces', true, true, traces.draw, 'traces'],
+  convergence: ['Convergence', false, false, convergence.draw, 'convergence'],
+  tables: ['Tables', false, true, tables.draw, 'overview'],
+  sweep: ['Sweep', false, true, (panel, wanted) => series.draw(panel, wanted, 'sweep'), 'overview'],
+  growth: ['Growth', true, true, (panel, wanted) => series.draw(panel, wanted, 'growth'), 'growth'],
+  case: ['Case', false, false, editor.draw, 'overview'],
+});
 const THEMES = ['', 'dark', 'light'];
+const LATER = 'Its answers are shown here when it has ended. Convergence shows it as it runs.';
 let turn = 0, drawn = '';
 
 const current = () => get('tab') in TABS ? get('tab') : model.of ? model.result?.sweep ? 'sweep' : 'membrane' : 'case';
 
 async function draw() {
   const name = current(), [, stage, needs, panel] = TABS[name], mine = ++turn;
+  const title = plain(model.result?.title ?? model.live?.job.title ?? '', 120) || 'anticrack';
   document.documentElement.dataset.theme = get('theme');
-  document.title =
-    `${plain(model.result?.title ?? model.live?.job.title ?? '', 80) || 'anticrack'} \u2013 anticrack view`;
-  fill(byId('title'), plain(model.result?.title ?? model.live?.job.title ?? '', 120) || 'anticrack');
+  document.title = `${title} \u2013 anticrack view`;
+  fill(byId('title'), title);
   tabs(name);
   jobs.draw();
   numbers.draw();
   links(name);
-  const box = byId('panel'), here = `${name} ${model.of} ${get('theme')}`, has = model.result || !needs;
-  byId('stage').hidden = !stage || !model.result || !currentLoad();
+  const box = byId('panel'), here = `${name} ${model.of} ${get('theme')}`, load = currentLoad();
+  const surface = stage && Boolean(load || name === 'membrane' && currentStage());
+  byId('stage').hidden = !surface;
   byId('columns').dataset.tab = name;
-  box.hidden = Boolean(has && !panel && currentLoad());
+  box.hidden = surface && !panel;
   if (here !== drawn) fill(box);
   drawn = here;
-  if (!has)
-    return fill(
-      box,
-      make(
-        'p', {class: 'quiet'},
-        model.of ? 'Its answers are shown here when it has ended. Convergence shows it as it runs.' :
-                   'Choose a job, or write a case and run it.'));
-  if (needs && !currentLoad() && name !== 'sweep' && name !== 'tables')
-    return fill(box, make('p', {class: 'quiet'}, 'No row of this sweep has traces: there is nothing to draw.'));
   try {
-    if (stage) membrane.draw(numbers.clicked);
-    await panel?.(box, () => mine === turn);
+    if (surface) membrane.draw(clicked);
+    if (name === 'membrane') membrane.mark(null);
+    if (needs && !model.result && !surface)
+      fill(box, aside(model.of ? LATER : 'Choose a job, or write a case and run it.'));
+    else if (needs && !load && !surface && name !== 'sweep' && name !== 'tables')
+      fill(box, aside('No row has traces: there is nothing to draw.'));
+    else
+      await panel?.(box, () => mine === turn);
   } catch (error) {
-    notice(error instanceof Error ? error.message : error);
+    notice(error);
   }
+}
+
+function clicked(hit) {
+  numbers.clicked(hit).catch(notice);
+  if (hit && current() === 'growth') series.chosen(hit.x, hit.y);
 }
 
 /** @param {string} name */
 function tabs(name) {
-  const names = Object.keys(TABS).filter(
-    (tab) => (tab !== 'sweep' || !model.result || model.result.sweep) &&
-      (tab !== 'growth' || !model.result || currentLoad()?.growth.length));
-  const bar = byId('tabs'), focused = bar.contains(document.activeElement);
-  fill(
-    bar,
-    ...names.map(
-      (tab) => make(
-        'button', {
-          role: 'tab',
-          id: `tab-${tab}`,
-          'aria-selected': String(tab === name),
-          'aria-controls': 'panel',
-          tabindex: tab === name ? '0' : '-1',
-          onclick: () => set({tab})
-        },
-        TABS[tab][0])));
+  const {result} = model, study = result?.sweep?.jobs, bar = byId('tabs'),
+        focused = bar.contains(document.activeElement);
+  const useless = study ? ['membrane', 'interfaces', 'convergence', 'growth']
+                        : [result && !result.sweep && 'sweep', result && !currentLoad()?.growth.length && 'growth'];
+  const made = (tab) => button(study && tab === 'sweep' ? 'Study' : TABS[tab][0], () => set({tab}), {
+    role: 'tab',
+    id: `tab-${tab}`,
+    'aria-selected': String(tab === name),
+    'aria-controls': 'panel',
+    tabindex: tab === name ? '0' : '-1'
+  });
+  fill(bar, Object.keys(TABS).filter((tab) => !useless.includes(tab)).map(made));
   if (focused) byId(`tab-${name}`)?.focus();
 }
 
@@ -96,36 +91,27 @@ function links(tab) {
   const of = model.of, load = loadIndex(), has = Boolean(model.result);
   byId('export').hidden = !has;
   if (!has) return;
-  const figure = tab === 'interfaces' ? 'traces' :
-    tab === 'convergence'             ? 'convergence' :
-    tab === 'growth'                  ? 'growth' :
-    get('plan') === '1'               ? 'plan' :
-                                        'membrane';
+  const figure = tab === 'membrane' && on('plan') ? 'plan' : TABS[tab][4];
   const look = {
     ...(get('amplify') ? {amplify: get('amplify')} : {}),
     ...(get('limits') && get('colour', 'u') === 'u' ? {limits: get('limits')} : {}),
-    ...(figure === 'traces' ? {interface: model.result.interfaces[Number(get('line')) || 0]?.name ?? ''} : {})
+    ...(figure === 'traces' ? {interface: model.result.interfaces[Number(get('line')) || 0]?.name ?? ''} : {}),
   };
   const link = (kind, text) =>
     make('a', {href: address('export', {of, load, kind, figure, ...look}), download: true}, text);
-  fill(
-    byId('export-links'),
-    currentLoad() ?
-      [link('png', `Figure of ${figure}, PNG`), link('svg', `Figure of ${figure}, SVG`), link('vtu', 'ParaView, VTU')] :
-      null,
-    link('h5', 'Result, HDF5'), model.result.case ? link('toml', 'Case, TOML') : null);
+  fill(byId('export-links'),
+    currentLoad() &&
+      [link('png', `Figure of ${figure}, PNG`), link('svg', `Figure of ${figure}, SVG`), link('vtu', 'ParaView, VTU')],
+    link('h5', 'Result, HDF5'), model.result.case && link('toml', 'Case, TOML'));
 }
 
-/** @param {{server: string, lost: string}} told */
-function connection({server, lost}) {
-  byId('connection').className = lost ? 'lost' : '';
-  const before = byId('connection').dataset.lost;
-  byId('connection').dataset.lost = lost ? '1' : '';
+/** @param {{server: string, lost: string, met: boolean}} told met: whether the server has ever answered */
+function connection({server, lost, met}) {
+  const line = byId('connection'), before = line.className;
+  if (lost && !met) return fill(line, `no server answers at ${plain(server, 60)}`);
+  line.className = lost ? 'lost' : '';
   fill(
-    byId('connection'),
-    lost ? `connection lost: ${plain(lost, 120)}` :
-      before ? `${plain(server, 60)}: connection restored` :
-               plain(server, 60));
+    line, lost ? `connection lost: ${plain(lost, 120)}` : plain(server, 60) + (before ? ': connection restored' : ''));
 }
 
 byId('tabs').addEventListener('keydown', (event) => {
@@ -143,6 +129,7 @@ listen((keys) => {
   if (keys.has('of') && get('of') !== model.of) {
     quiet();
     membrane.picked.hit = null;
+    if (!keys.has('stage')) set({stage: ''}, true);
     show(get('of'), connection);
   }
   changed();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The membrane with its controls.
-import {byId, choice, fill, make, number, parse, tick} from './dom.js';
-import {currentLoad, loadIndex, model, values} from './model.js';
-import {notice} from './net.js';
+// The membrane with its controls, or the mesh of a stage.
+import {button, byId, choice, fill, make, number, parse, slider, tick} from './dom.js';
+import {currentLoad, currentStage, loadIndex, model, stages, unit, values} from './model.js';
+import {array, notice} from './net.js';
 import {stops} from './palette.js';
 import {MANY, Scene} from './scene.js';
 import {get, on, set} from './state.js';
@@ -14,58 +14,68 @@ const NAMES = /** @type {Record<string, string[]>} */ ({
   indicator: ['log10 of error indicator over area', ''],
 });
 const KINDS =
-  ['', '#8a8f98', '#d55e00', '#1f6fd0', '#c2188f', '#e69f00'];  // glue, crack, bonded, delaminated, free crack
+  ['', '#8a8f98', '#d55e00', '#1f6fd0', '#c2188f', '#e69f00']; // glue, crack, bonded, delaminated, free crack
+const BARE = {
+  name: '',
+  colours: /** @type {string[]} */ ([])
+}; // a stage, of which u is not kept
 /** @type {Scene|null} */
 let scene = null;
-let shown = '';     // what the scene's geometry is of
-let automatic = 1;  // the amplification that shows u best
+let shown = '';    // what the scene's geometry is of
+let automatic = 1; // the amplification that shows u best
 let task = 0;
+/** @type {number[]|null} */
+let marked = null;
 
-/** What was clicked, for the column of numbers. @type {{hit: any}} */
-export const picked = {
-  hit: null
-};
+/** What was clicked, for the column of numbers. */
+export const picked = /** @type {{hit: any}} */ ({hit: null});
 
 /** @param {number[]|null} place */
-export const mark = (place) => scene?.mark(place);
+export function mark(place) {
+  marked = place;
+  scene?.mark(place);
+}
 
 /** Shows the membrane of the load that is looked at. @param {(hit: any) => void} clicked */
 export async function draw(clicked) {
-  const load = currentLoad(), mine = ++task;
+  const stage = currentStage(), load = stage ? BARE : currentLoad(), mine = ++task, wanted = () => mine === task;
   if (!load) return;
   try {
     scene ??= new Scene(clicked);
     scene.moved = (view) => set({view}, true);
-    await surface(scene, load, () => mine === task);
-    if (mine === task) await paint(scene, load, () => mine === task);
+    const key = [model.of, loadIndex(), stage?.mesh, get('plan'), get('names')].join(' ');
+    if (key !== shown && !await (stage ? mesh(scene, stage.mesh, wanted) : surface(scene, load, wanted))) return;
+    if (key !== shown) scene.setView(get('view'), on('plan'));
+    shown = key;
+    scene.mark(marked);
+    await paint(scene, load, wanted);
   } catch (error) {
-    notice(error instanceof Error ? error.message : error);
+    notice(error);
   }
+}
+
+/** Shows the mesh of a stage. @param {Scene} to @param {string} name @param {() => boolean} wanted */
+async function mesh(to, name, wanted) {
+  const of = (what) => array({mesh: name, what});
+  const [points, triangles, outline] = await Promise.all(['points', 'triangles', 'outline'].map(of));
+  const thinned = triangles.length / 3 > MANY ? await of ('thinned') : null;
+  if (wanted()) to.show({points, triangles, outline, thinned});
+  return wanted();
 }
 
 /** @param {Scene} to @param {any} load @param {() => boolean} wanted */
 async function surface(to, load, wanted) {
-  const key = `${model.of} ${loadIndex()}`;
-  if (key === shown) return;
-  const {low, high, triangles: count, interfaces, marks, tips} = model.result;
-  const many = count > MANY, u = load.colours.length ? values('u') : null;
-  const [points, triangles, outline, thinned, heights, ...traces] = await Promise.all([
-    values('points'),
-    values('triangles'),
-    values('outline'),
-    many ? values('thinned') : null,
-    u,
+  const {triangles: count, interfaces, marks, tips} = model.result;
+  const [points, triangles, outline, thinned, u, ...traces] = await Promise.all([
+    values('points'), values('triangles'), values('outline'), count > MANY ? values('thinned') : null,
+    load.colours.length ? values('u') : null,
     ...interfaces.map(
-      (_, i) => Promise.all([values('line', loadIndex(), i), load.traces ? values('trace', loadIndex(), i) : null])),
+      (_, i) => Promise.all([values('line', loadIndex(), i), load.traces ? values('trace', loadIndex(), i) : null]))
   ]);
-  if (!wanted()) return;
-  shown = key;
-  const size = Math.max(high[0] - low[0], high[1] - low[1]);
-  to.show(
-    {points, triangles, outline, thinned, u: heights, middle: [(low[0] + high[0]) / 2, (low[1] + high[1]) / 2], size});
-  let most = 0;
-  for (const value of heights ?? []) most = Math.max(most, Math.abs(value) || 0);
-  automatic = most > 0 ? Number((0.25 * size / most).toPrecision(2)) : 1;
+  if (!wanted()) return false;
+  to.show({points, triangles, outline, thinned, u});
+  const most = (u ?? []).reduce((largest, value) => Math.max(largest, Math.abs(value) || 0), 0);
+  automatic = most > 0 ? Number((0.25 * to.surface.size / most).toPrecision(2)) : 1;
   /** @type {number[][]} */
   const places = [];
   traces.forEach(([line, trace], i) => {
@@ -79,17 +89,14 @@ async function surface(to, load, wanted) {
     }
     for (let j = 0; j < k; ++j) places.push(at(j, 1));
   });
-  const height = (at) => {  // of the nearest node of an interface
-    const near = places.reduce((best, place) => {
-      const d = Math.hypot(place[0] - at[0], place[1] - at[1]);
-      return d < best[0] ? [d, place[2]] : best;
-    }, [Infinity, 0]);
-    return near[1];
+  const height = (at) => { // of the nearest node of an interface
+    const far = (place) => Math.hypot(place[0] - at[0], place[1] - at[1]);
+    return places.length ? places.reduce((best, place) => far(place) < far(best) ? place : best)[2] : 0;
   };
   if (on('names', true))
     for (const {name, at} of marks.slice(0, 40)) to.name(name, at[0], at[1], height(at));
   if (tips.length) to.add(to.dots(tips.map((at) => to.place(at[0], at[1], height(at))), '#222222', 8));
-  to.setView(get('view'), on('plan'));
+  return true;
 }
 
 /** @param {Scene} to @param {any} load @param {() => boolean} wanted */
@@ -97,125 +104,100 @@ async function paint(to, load, wanted) {
   const what = load.colours.includes(get('colour', 'u')) ? get('colour', 'u') : load.colours[0];
   const of = async (index) => {
     const found = await values(what, index);
-    return what === 'indicator' ? found.map((v) => v > 0 ? Math.log10(v) : NaN) : found;
+    const logarithms = () => Object.assign(found.map((v) => v > 0 ? Math.log10(v) : NaN), {cut: Math.log10(found.cut)});
+    return what === 'indicator' ? logarithms() : found;
   };
-  const colours = what ? await of (loadIndex()) : null;
-  const others = what && on('same') ?
-    model.result.loads.map((_, i) => i).filter((i) => model.result.loads[i].colours.includes(what)).slice(0, 12) :
-    [];
-  const all = colours ? [colours, ...await Promise.all(others.map(of))] : [];
+  const same = what && on('same')
+    ? model.result.loads.map((_, i) => i).filter((i) => model.result.loads[i].colours.includes(what)).slice(0, 12)
+    : [];
+  const [colours, ...others] = what ? await Promise.all([loadIndex(), ...same].map(of)) : [null];
   if (!wanted()) return;
   let [low, high] = [Infinity, -Infinity];
-  for (const each of all) {
-    for (const value of each) {
-      if (value < low) low = value;
-      if (value > high) high = value;
-    }
+  for (const each of colours ? [colours, ...others] : []) {
+    low = each.reduce((least, value) => value < least ? value : least, low);
+    high = each.reduce((most, value) => value > most ? value : most, high);
   }
+  const cut = Math.min(high, colours?.cut ?? high) < high;
+  if (cut) high = colours.cut;
+  if (what === 'indicator') low = Math.max(low, high - 6); // decades that can be told apart
   const both = what === 'u' && Math.min(-low, high) > 0.05 * Math.max(-low, high);
   if (both) [low, high] = [-Math.max(-low, high), Math.max(-low, high)];
   const given = get('limits').split(',').map(Number);
   if (given.length === 2 && given[0] < given[1]) [low, high] = given;
   to.paint(colours, low, high, both, on('contours') ? 12 : 0);
-  to.lines(on('mesh'));
+  to.lines(on('mesh') || load === BARE);
   const amplify = on('plan') ? 0 : get('amplify') ? Number(get('amplify')) : automatic;
   to.rise(amplify);
   controls(to, load, what, low, high, amplify);
-  bar(what, low, high, both);
-  byId('scene').setAttribute(
-    'aria-label',
-    `membrane under ${load.name}, ${what ? NAMES[what][0] : 'no u'} from ${number(low)} to ${number(high)}`);
+  bar(what, low, high, both, cut && !get('limits'));
+  byId('scene').setAttribute('aria-label',
+    !what ? 'mesh' : `membrane under ${load.name}, ${NAMES[what][0]} from ${number(low)} to ${number(high)}`);
 }
 
-/**
- * @param {Scene} to @param {any} load @param {string} what @param {number} low @param {number}
- *     high @param {number} amplify
- */
-function controls(to, load, what, low, high, amplify) {
-  const focused = document.activeElement?.getAttribute('aria-label') ?? '';
-  const names = model.result.loads.map((each) => each.name), index = loadIndex();
+/** A choice that is also stepped through. @param {string} what @param {string[]} names @param {number} index */
+function stepped(what, names, index) {
   const step = (by, text, label) =>
-    make('button', {'aria-label': label, disabled: !names[index + by], onclick: () => set({load: index + by})}, text);
+    button(text, () => set({[what]: index + by}), {'aria-label': label, disabled: !names[index + by]});
+  return names.length > 1 && [
+    step(-1, '\u25c0', `${what} before`),
+    choice(what, names.map((name, i) => [String(i), name]), String(index), (value) => set({[what]: value})),
+    step(1, '\u25b6', `next ${what}`)
+  ];
+}
+
+/** @param {Scene} to @param {any} load @param {string} what */
+function controls(to, load, what, low, high, amplify) {
+  const focused = document.activeElement?.getAttribute('aria-label') ?? '', all = stages(), stage = currentStage();
+  const limited = (at) => (event) => {
+    const limits = [low, high];
+    limits[at] = parse(event.target.value);
+    set({limits: limits[0] < limits[1] ? limits.join(',') : ''});
+  };
   const limit = (label, at) => make('input', {
-    type: 'text',
-    inputmode: 'decimal',
-    size: '7',
     'aria-label': label,
     title: `${label}: as 0.5 or 0,5`,
+    size: '7',
+    inputmode: 'decimal',
     value: number([low, high][at], 4),
-    onchange: (event) => {
-      const limits = [low, high];
-      limits[at] = parse(event.target.value);
-      set({limits: limits[0] < limits[1] ? limits.join(',') : ''});
-    },
+    onchange: limited(at)
   });
-  const slider = make('input', {
-    type: 'range',
-    min: '-2',
-    max: '2',
-    step: '0.02',
-    'aria-label': 'deform',
-    title: `u is drawn ${number(amplify, 3)} times as large`,
-    value: amplify > 0 ? Math.log10(amplify / automatic) : -2,
-    oninput: (event) => {
-      const wanted = Number(event.target.value) <= -2 ? 0 : automatic * 10 ** Number(event.target.value);
-      set({amplify: Number(wanted.toPrecision(3))}, true);
-      to.rise(wanted);
-      fill(event.target.nextSibling, `\u00d7${number(wanted, 3)}`);
-    },
-  });
-  fill(
-    byId('stage-controls'),
-    names.length > 1 ?
-      [
-        step(-1, '\u25c0', 'load before'),
-        choice('load', names.map((name, i) => [String(i), name]), String(index), (load) => set({load})),
-        step(1, '\u25b6', 'next load')
-      ] :
-      null,
-    load.colours.length ?
-      choice('colour', load.colours.map((key) => [key, NAMES[key][0]]), what, (colour) => set({colour, limits: ''})) :
-      null,
-    what ? make('span', {}, 'from ', limit('lowest colour', 0), ' to ', limit('highest colour', 1)) : null,
-    get('limits') ? make('button', {onclick: () => set({limits: ''})}, 'all values') : null,
-    on('plan') || !what ? null :
-                          make('label', {}, 'deform ', slider, make('output', {}, `\u00d7${number(amplify, 3)}`)),
-    choice(
-      'as', [['', 'in space'], ['1', 'plan']], get('plan') === '1' ? '1' : '',
-      (plan) => {
-        shown = '';
-        set({plan, view: ''});
-      }),
-    tick('mesh', on('mesh'), (mesh) => set({mesh})), tick('contours', on('contours'), (contours) => set({contours})),
-    tick(
-      'names', on('names', true),
-      (names) => {
-        shown = '';
-        set({names});
-      }),
-    names.length > 1 ? tick('same colours for all loads', on('same'), (same) => set({same, limits: ''})) : null,
-    make(
-      'button', {
-        onclick: () => {
-          set({view: ''}, true);
-          to.setView('', on('plan'));
-        }
-      },
-      'whole view'));
+  const risen = (event) => {
+    const wanted = Number(event.target.value) <= -2 ? 0 : automatic * 10 ** Number(event.target.value);
+    set({amplify: Number(wanted.toPrecision(3))}, true);
+    to.rise(wanted);
+    to.wheel(); // many triangles are thinned meanwhile
+    fill(event.target.nextSibling, `\u00d7${number(wanted, 3)}`);
+  };
+  const deform = slider('deform', [-2, 2, 0.02], amplify > 0 ? Math.log10(amplify / automatic) : -2,
+    {oninput: risen, title: `u is drawn ${number(amplify, 3)} times as large`});
+  const whole = () => {
+    set({view: ''}, true);
+    to.setView('', on('plan'));
+  };
+  const at = stage ? all.indexOf(stage) : all.length - 1;
+  const names = load !== BARE && model.result.loads.map((each) => each.name);
+  fill(byId('stage-controls'), stepped('stage', all.map((each, i) => `${i + 1}: ${each.triangles} triangles`), at),
+    names && stepped('load', names, loadIndex()),
+    what &&
+      choice('colour', load.colours.map((key) => [key, NAMES[key][0]]), what, (colour) => set({colour, limits: ''})),
+    what && make('span', {}, 'from ', limit('lowest colour', 0), ' to ', limit('highest colour', 1)),
+    what && get('limits') && button('all values', () => set({limits: ''})),
+    what && !on('plan') && make('label', {}, 'deform ', deform, make('output', {}, `\u00d7${number(amplify, 3)}`)),
+    choice('as', [['', 'in space'], ['1', 'plan']], get('plan') === '1' ? '1' : '', (plan) => set({plan, view: ''})),
+    names && tick('mesh', on('mesh'), (mesh) => set({mesh})),
+    what && tick('contours', on('contours'), (contours) => set({contours})),
+    names && tick('names', on('names', true), (names) => set({names})),
+    what && names.length > 1 && tick('same colours for all loads', on('same'), (same) => set({same, limits: ''})),
+    button('whole view', whole));
   if (focused) /** @type {any} */
     (byId('stage-controls').querySelector(`[aria-label="${CSS.escape(focused)}"]`))?.focus();
 }
 
-/** @param {string} what @param {number} low @param {number} high @param {boolean} both */
-function bar(what, low, high, both) {
-  if (!what) {
-    fill(byId('bar'), make('span', {}, 'u is not known in the membrane'));
-    return;
-  }
+/** @param {string} what @param {number} low @param {number} high @param {boolean} both @param {boolean} cut */
+function bar(what, low, high, both, cut) {
+  if (!what) return fill(byId('bar'), currentStage() ? 'the mesh; u of a stage is not kept' : 'u is not known here');
   const paint = make('i', {});
   paint.style.background = `linear-gradient(to right, ${stops(both).join(',')})`;
-  const unit = model.result.units[NAMES[what][1]];
-  fill(
-    byId('bar'), make('span', {}, NAMES[what][0] + (unit && unit !== '-' ? ` [${unit}]` : '')),
-    make('span', {}, number(low, 4)), paint, make('span', {}, number(high, 4)));
+  fill(byId('bar'), make('span', {}, NAMES[what][0] + unit(NAMES[what][1], true)), make('span', {}, number(low, 4)),
+    paint, make('span', {}, number(high, 4) + (cut ? ' and more, on 2 % of the area' : '')));
 }

@@ -3,15 +3,8 @@
 import {array, ask, events, notice} from './net.js';
 import {get} from './state.js';
 
-/** @type {{of: string, result: any, live: Live|null, jobs: any[], tables: any[]|null}} */
-export const model = {
-  of: '',
-  result: null,
-  live: null,
-  jobs: [],
-  tables: null
-};
-
+/** @typedef {{of: string, result: any, live: Live|null, jobs: any[], tables: any[]|null}} Model */
+export const model = /** @type {Model} */ ({of: '', result: null, live: null, jobs: [], tables: null});
 /** @type {Set<() => void>} */
 const listeners = new Set();
 let waiting = 0;
@@ -22,13 +15,12 @@ export const watch = (listener) => listeners.add(listener);
 export function changed() {
   waiting ||= requestAnimationFrame(() => {
     waiting = 0;
-    for (const listener of listeners) listener();
+    listeners.forEach((listener) => listener());
   });
 }
 
-const HISTORY = [
-  'iteration', 'criterion', 'energy', 'contact_count', 'kkt_equilibrium', 'kkt_gap', 'kkt_sign', 'kkt_complementarity'
-];
+export const RESIDUALS = ['criterion', 'kkt_equilibrium', 'kkt_gap', 'kkt_sign', 'kkt_complementarity'];
+const HISTORY = ['iteration', 'criterion', 'energy', 'contact_count', ...RESIDUALS.slice(1)]; // as scene.py sends it
 
 /** A job that is watched. samples: arrays by name for each load, of its last stage. */
 class Live {
@@ -50,7 +42,7 @@ class Live {
       snapshot: change((job) => this.job = job),
       samples: change((data) => this.sample(data)),
       phase: change((data) => {
-        Object.assign(this.job, {state: data.state});
+        this.job.state = data.state;
         const last = this.job.timeline[this.job.timeline.length - 1];
         if (last?.state !== data.state || last?.detail !== data.detail)
           this.job.timeline.push({time: Date.now(), ...data});
@@ -77,16 +69,14 @@ class Live {
     });
   }
 
-  /** @param {any} data */
+  /** The first iteration again is that of a new stage, or of another attempt. @param {any} data */
   sample(data) {
-    for (let i = 0; i < data.iteration.length; ++i) {
-      const at = data.load_case[i];
-      let to = this.samples[at];
-      if (!to || data.iteration[i] <= to.iteration[to.iteration.length - 1])  // the first, of a new stage,
-                                                                              // or of another attempt
-        to = this.samples[at] = Object.fromEntries(HISTORY.map((name) => [name, []]));
+    data.iteration.forEach((iteration, i) => {
+      let to = this.samples[data.load_case[i]];
+      if (!to || iteration <= to.iteration[to.iteration.length - 1])
+        to = this.samples[data.load_case[i]] = Object.fromEntries(HISTORY.map((name) => [name, []]));
       for (const name of HISTORY) to[name].push(data[name][i]);
-    }
+    });
   }
 }
 
@@ -98,14 +88,13 @@ async function load(of) {
     model.result = result;
     changed();
   } catch (error) {
-    notice(error instanceof Error ? error.message : error);
+    notice(error);
   }
 }
 
 /**
- * Shows a job ("jobs/ID"), the file ("file"), or nothing ("").
- * @param {string} of
- * @param {(lost: any) => void} connection
+ * Shows a job ("jobs/ID"), the file ("file"), or nothing (""). @param {string} of @param {(lost: any) => void}
+ * connection
  */
 export function show(of, connection) {
   model.live?.close();
@@ -124,30 +113,39 @@ export const loadIndex = () =>
 /** The load that is looked at; undefined if there is none. */
 export const currentLoad = () => model.result?.loads[loadIndex()];
 
+/** The stages of the job that have a mesh, which the first tab steps through. */
+export const stages = () =>
+  !['', 'membrane'].includes(get('tab')) ? [] : model.live?.job.stages.filter((stage) => stage.mesh) ?? [];
+
+/** The stage that is looked at in place of the result: an earlier one, or while the job runs the last. */
+export function currentStage() {
+  const all = stages(), last = all.length - 1, wanted = get('stage') === '' ? last : Number(get('stage'));
+  return all[model.result && !(wanted < last) ? -1 : Math.min(wanted, last)];
+}
+
+/**
+ * A unit behind a number or, in brackets, a name; empty if there is none. @param {string} of @param {boolean} brackets
+ */
+export function unit(of, brackets = false) {
+  const told = model.result?.units[of] ?? '-';
+  return told === '-' ? '' : brackets ? ` [${told}]` : ` ${told}`;
+}
+
 /** Tables of the result, read when they are first wanted. */
 export async function tables() {
-  const of = model.of;
-  const found = model.tables ?? await ask('tables', {of});
+  const of = model.of, found = model.tables ?? await ask('tables', {of});
   if (model.of === of) model.tables = found;
   return found;
 }
 
-/**
- * An array of the result.
- * @param {string} what
- * @param {number} load
- * @param {number} line
- */
+/** An array of the result. @param {string} what @param {number} load @param {number} line */
 export const values = (what, load = loadIndex(), line = 0) => array({of: model.of, what, load, interface: line});
 
 /**
- * The history of a load case by name: as it comes, or of the result.
- * @param {number} index
- * @return {Promise<Record<string, ArrayLike<number>>|undefined>}
+ * The history of a load case by name: as it comes, or of the result; undefined if there is none. @param {number} index
  */
 export async function history(index) {
-  if (!model.result) return model.live?.samples[index];
-  const steps = model.result.loads[index]?.steps;
+  const steps = model.result?.loads[index]?.steps;
   if (!steps) return model.live?.samples[index];
   const packed = await values('history', index);
   return Object.fromEntries(HISTORY.map((name, i) => [name, packed.subarray(i * steps, (i + 1) * steps)]));

@@ -2,13 +2,10 @@
 // What is asked of the page's server.
 import {byId, fill, make} from './dom.js';
 
-/**
- * Says something above the page until it is taken away.
- * @param {any} text
- */
+/** Says something above the page until it is taken away. @param {any} text a text or an error */
 export function notice(text) {
-  const close = make('button', {'aria-label': 'close', onclick: () => line.remove()}, '\u00d7');
-  const line = make('p', {}, String(text), close);
+  const line = make('p', {}, text instanceof Error ? text.message : String(text),
+    make('button', {'aria-label': 'close', onclick: () => line.remove()}, '\u00d7'));
   byId('notices').append(line);
   while (byId('notices').children.length > 4) byId('notices').firstChild.remove();
 }
@@ -16,43 +13,22 @@ export function notice(text) {
 /** Takes away what was said. */
 export const quiet = () => fill(byId('notices'));
 
-/**
- * @param {string} path
- * @param {Record<string, any>} query
- */
+/** @param {string} path @param {Record<string, any>} query */
 export const address = (path, query = {}) => `/api/${path}?${new URLSearchParams(query)}`;
 
-/**
- * @param {string} where
- * @param {any} [options]
- */
+/** @param {string} where @param {any} [options] */
 async function answered(where, options) {
-  const answer = await fetch(where, options).catch(() => {
-    throw new Error('anticrack view has ended; start it again');
-  });
+  const answer =
+    await fetch(where, options).catch(() => { throw new Error('anticrack view has ended; start it again'); });
   if (answer.ok) return answer;
   const text = await answer.text();
-  let told = text;
-  try {
-    told = JSON.parse(text).error;
-  } catch {
-    // not JSON: the text itself says it
-  }
-  throw new Error(told);
+  throw new Error(text.startsWith('{') ? JSON.parse(text).error : text);
 }
 
-/**
- * @param {string} path
- * @param {Record<string, any>} query
- * @return {Promise<any>}
- */
+/** @param {string} path @param {Record<string, any>} query @return {Promise<any>} */
 export const ask = async (path, query = {}) => (await answered(address(path, query))).json();
 
-/**
- * @param {string} path
- * @param {any} body
- * @return {Promise<any>}
- */
+/** @param {string} path @param {any} body @return {Promise<any>} */
 export const post = async (path, body) =>
   (await answered(`/api/${path}`, {method: 'POST', body: JSON.stringify(body)})).json();
 
@@ -61,15 +37,15 @@ const kept = new Map();
 const MOST = 24;
 
 /**
- * An array of a result as a typed array; the last ones are kept.
- * @param {Record<string, any>} query
- * @return {Promise<any>}
+ * An array of a result as a typed array; the last ones are kept. @param {Record<string, any>}
+ * query @return {Promise<any>}
  */
 export function array(query) {
   const where = address('array', query);
   const found = kept.get(where) ?? answered(where).then(async (answer) => {
     const buffer = await answer.arrayBuffer();
-    return answer.headers.get('X-Array') === 'i4' ? new Int32Array(buffer) : new Float64Array(buffer);
+    const values = answer.headers.get('X-Array') === 'i4' ? new Int32Array(buffer) : new Float64Array(buffer);
+    return Object.assign(values, {cut: Number(answer.headers.get('X-Cut') ?? Infinity)});
   });
   kept.delete(where);
   kept.set(where, found);
@@ -80,14 +56,13 @@ export function array(query) {
 
 /**
  * Listens to server-sent events; the browser restores a lost connection. Returns what ends it.
- * @param {string} path
- * @param {Record<string, any>} query
- * @param {Record<string, (data: any) => void>} handlers
+ * @param {string} path @param {Record<string, any>} query @param {Record<string, (data: any) => void>} handlers
  */
 export function events(path, query, handlers) {
   const source = new EventSource(address(path, query));
   for (const [name, handle] of Object.entries(handlers))
     source.addEventListener(name, (event) => handle(JSON.parse(/** @type {any} */ (event).data)));
-  source.onerror = () => handlers.connection({server: '', lost: 'anticrack view does not answer; trying again'});
+  source.onerror = () =>
+    handlers.connection({server: '', met: true, lost: 'anticrack view does not answer; trying again'});
   return () => source.close();
 }

@@ -3,12 +3,9 @@
 const T = /** @type {any} */ (globalThis).THREE;
 
 /**
- * The nearest triangle on the ray through a point of the window (each coordinate from -1 to 1), and
- * the place on it; null if there is none. By Moeller and Trumbore, over all triangles: a million
- * take some 30 ms.
- * @param {any} scene
- * @param {number} px
- * @param {number} py
+ * The nearest triangle on the ray through a point of the window (each coordinate from -1 to 1), and the place on it;
+ * null if there is none. By Moeller and Trumbore, over all triangles: a million take some 30 ms.
+ * @param {any} scene @param {number} px @param {number} py
  */
 export function pick(scene, px, py) {
   const {position, height, triangles, points, u} = scene.surface, rise = scene.uniforms.rise.value;

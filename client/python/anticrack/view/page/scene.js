@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The membrane in space, by three.js. Coordinates are those of the result, moved to its middle and
-// over its size; u rises by a number that the shaders multiply, so that deforming costs nothing. No
-// light: normals of slivers at tips would be noise.
+// The membrane in space, by three.js. Coordinates are those of the result, moved to its middle and over its size; u
+// rises by a number that the shaders multiply, so that deforming costs nothing. No light: normals of slivers at tips
+// would be noise.
 import {byId, fill, make, plain} from './dom.js';
 import {colours} from './palette.js';
 import {pick} from './pick.js';
 
 const T = /** @type {any} */ (globalThis).THREE;
-export const MANY = 200_000;  // triangles, above which a thinned mesh is shown while the view moves
+export const MANY = 200_000; // triangles, above which a thinned mesh is shown while the view moves
 const UNKNOWN = -1e30;
 
 const VERTEX = `attribute float u; attribute float value; uniform float rise; varying float v;
@@ -39,19 +39,14 @@ export class Scene {
     this.controls = new T.OrbitControls(this.camera, this.canvas);
     this.controls.screenSpacePanning = true;
     this.scene = new T.Scene();
+    /** @type {Record<string, {value: any}>} */
     this.uniforms = {rise: {value: 1}, low: {value: 0}, high: {value: 1}, contours: {value: 0}, palette: {value: null}};
     this.group = new T.Group();
     this.scene.add(this.group);
     /** @type {any} */
-    this.surface = null;
+    this.surface = this.edges = this.geometryOf = null;
     /** @type {{node: any, x: number, y: number, u: number}[]} */
     this.names = [];
-    /** @type {any} */
-    this.edges = null;
-    /** @type {any} */
-    this.geometryOf = null;
-    /** @type {any} */
-    this.add = null;
     this.marker = this.dots([[0, 0, 0]], '#e02020', 12);
     this.marker.visible = false;
     this.scene.add(this.marker);
@@ -60,46 +55,37 @@ export class Scene {
     this.controls.addEventListener('end', () => this.move(false));
     this.canvas.addEventListener('wheel', () => this.wheel(), {passive: true});
     let down = [0, 0];
+    this.clicked = (x, y) => clicked(this.surface && pick(this, x, y));
     this.canvas.addEventListener('pointerdown', (e) => down = [e.clientX, e.clientY]);
     this.canvas.addEventListener('click', (e) => {
-      if (Math.hypot(e.clientX - down[0], e.clientY - down[1]) > 4 || !this.surface) return;
-      const box = this.canvas.getBoundingClientRect();
-      clicked(pick(this, (e.clientX - box.left) / box.width * 2 - 1, 1 - (e.clientY - box.top) / box.height * 2));
+      const {left, top, width, height} = this.canvas.getBoundingClientRect();
+      if (Math.hypot(e.clientX - down[0], e.clientY - down[1]) < 5)
+        this.clicked((e.clientX - left) / width * 2 - 1, 1 - (e.clientY - top) / height * 2);
     });
     this.canvas.addEventListener('keydown', (e) => this.key(e));
     new ResizeObserver(() => this.resize()).observe(byId('holder'));
     /** @type {(view: string) => void} */
     this.moved = () => {};
-    this.waiting = 0;
-    this.settle = 0;
+    this.waiting = this.settle = 0;
+  }
+
+  /** @param {string} vertexShader @param {string} fragmentShader @param {any} uniforms @param {any} more */
+  material(vertexShader, fragmentShader, uniforms, more = {}) {
+    const values = Object.entries(uniforms).map(([name, value]) => [name, {value}]);
+    return new T.ShaderMaterial(
+      {vertexShader, fragmentShader, ...more, uniforms: {...this.uniforms, ...Object.fromEntries(values)}});
   }
 
   /** @param {string} colour @param {number} opacity */
   lineMaterial(colour, opacity = 1) {
-    return new T.ShaderMaterial({
-      vertexShader: VERTEX,
-      fragmentShader: LINE,
-      transparent: opacity < 1,
-      uniforms: {rise: this.uniforms.rise, colour: {value: new T.Color(colour)}, opacity: {value: opacity}},
-    });
+    return this.material(VERTEX, LINE, {colour: new T.Color(colour), opacity}, {transparent: opacity < 1});
   }
 
-  /**
-   * @param {number[][]} places x, y, u
-   * @param {string} colour
-   * @param {number} size
-   */
+  /** @param {number[][]} places x, y in the scene, u @param {string} colour @param {number} size */
   dots(places, colour, size) {
-    const material = new T.ShaderMaterial({
-      vertexShader: DOT,
-      fragmentShader: DOTS,
-      depthTest: false,
-      uniforms: {rise: this.uniforms.rise, colour: {value: new T.Color(colour)}, size: {value: size}},
-    });
-    const points = new T.Points(this.geometry(places), material);
-    points.renderOrder = 3;
-    points.frustumCulled = false;
-    return points;
+    const points = new T.Points(
+      this.geometry(places), this.material(DOT, DOTS, {colour: new T.Color(colour), size}, {depthTest: false}));
+    return Object.assign(points, {renderOrder: 3, frustumCulled: false});
   }
 
   /** @param {number[][]} places x, y in the scene, u */
@@ -110,14 +96,18 @@ export class Scene {
     return geometry;
   }
 
-  /**
-   * Shows another surface: what membrane.js reads of the result, and its middle and size.
-   * @param {any} surface
-   */
+  /** Shows another surface: what membrane.js reads of the result, or of the mesh of a stage. @param {any} surface */
   show(surface) {
     this.clear();
     this.surface = surface;
     const count = surface.points.length / 2, position = new Float32Array(3 * count);
+    const low = [Infinity, Infinity], high = [-Infinity, -Infinity];
+    surface.points.forEach((value, i) => {
+      low[i & 1] = Math.min(low[i & 1], value);
+      high[i & 1] = Math.max(high[i & 1], value);
+    });
+    surface.middle = [0, 1].map((c) => (low[c] + high[c]) / 2);
+    surface.size = Math.max(high[0] - low[0], high[1] - low[1]);
     for (let i = 0; i < count; ++i)
       for (let c = 0; c < 2; ++c) position[3 * i + c] = (surface.points[2 * i + c] - surface.middle[c]) / surface.size;
     surface.position = position;
@@ -134,28 +124,25 @@ export class Scene {
       made.setIndex(new T.BufferAttribute(new Uint32Array(index.buffer, index.byteOffset, index.length), 1));
       return made;
     };
-    const face = new T.ShaderMaterial({
-      vertexShader: VERTEX,
-      fragmentShader: FACE,
-      uniforms: this.uniforms,
+    const face = this.material(VERTEX, FACE, {}, {
       side: T.DoubleSide,
       extensions: {derivatives: true},
       polygonOffset: true,
       polygonOffsetFactor: 1,
-      polygonOffsetUnits: 1,
+      polygonOffsetUnits: 1
     });
-    const add = (object) => {
-      object.frustumCulled = false;
-      this.group.add(object);
-      return object;
-    };
-    this.full = add(new T.Mesh(geometry(surface.triangles), face));
-    this.thin = surface.thinned && add(new T.Mesh(geometry(surface.thinned), face));
-    if (this.thin) this.thin.visible = false;
     this.edges = null;
     this.geometryOf = geometry;
-    this.add = add;
-    this.outline = add(new T.LineSegments(geometry(surface.outline), this.lineMaterial('#333333')));
+    this.full = this.add(new T.Mesh(geometry(surface.triangles), face));
+    const thin = () => Object.assign(new T.Mesh(geometry(surface.thinned), face), {visible: false});
+    this.thin = surface.thinned && this.add(thin());
+    this.add(new T.LineSegments(geometry(surface.outline), this.lineMaterial('#333333')));
+  }
+
+  add(object) {
+    object.frustumCulled = false;
+    this.group.add(object);
+    return object;
   }
 
   clear() {
@@ -175,8 +162,9 @@ export class Scene {
       let used = 0;
       for (let i = 0; i < from.length; ++i) {
         const a = from[i], b = from[i % 3 === 2 ? i - 2 : i + 1];
-        if (a < b) edges[used++] = a,
-                   edges[used++] = b;  // the triangle beside it has b, a; the outline has the rest
+        if (a > b) continue; // the triangle beside it has b, a; the outline has the rest
+        edges[used++] = a;
+        edges[used++] = b;
       }
       this.edges =
         this.add(new T.LineSegments(this.geometryOf(edges.subarray(0, used)), this.lineMaterial('#000000', 0.25)));
@@ -187,10 +175,7 @@ export class Scene {
 
   /**
    * Colours of the nodes.
-   * @param {ArrayLike<number>|null} values
-   * @param {number} low
-   * @param {number} high
-   * @param {boolean} diverging
+   * @param {ArrayLike<number>|null} values @param {number} low @param {number} high @param {boolean} diverging
    * @param {number} contours
    */
   paint(values, low, high, diverging, contours) {
@@ -200,10 +185,10 @@ export class Scene {
     this.uniforms.low.value = low;
     this.uniforms.high.value = high > low ? high : low + 1;
     this.uniforms.contours.value = contours;
-    /** @type {any} */
     const palette = new T.DataTexture(colours(diverging), 256, 1, T.RGBAFormat);
     palette.needsUpdate = true;
-    this.uniforms.palette = Object.assign(this.uniforms.palette, {value: palette});
+    this.uniforms.palette.value?.dispose();
+    this.uniforms.palette.value = palette;
   }
 
   /** @param {number} amplify */
@@ -220,9 +205,8 @@ export class Scene {
 
   /** @param {number[][]} line places x, y, u @param {string} colour */
   line(line, colour) {
-    const drawn = new T.Line(this.geometry(line.map(([x, y, u]) => this.place(x, y, u))), this.lineMaterial(colour));
-    drawn.renderOrder = 1;
-    this.add(drawn);
+    const geometry = this.geometry(line.map(([x, y, u]) => this.place(x, y, u)));
+    this.add(Object.assign(new T.Line(geometry, this.lineMaterial(colour)), {renderOrder: 1}));
   }
 
   /** @param {string} name @param {number} x @param {number} y @param {number} u */
@@ -253,8 +237,7 @@ export class Scene {
         this.full.visible = !begins;
         if (this.edges) this.edges.visible = !begins && this.meshed;
         byId('moving').hidden = !begins;
-        fill(
-          byId('moving'),
+        fill(byId('moving'),
           `while it moves: ${this.surface.thinned.length / 3} of ${this.surface.triangles.length / 3} triangles`);
       }
       if (!begins) this.moved(this.view());
@@ -277,14 +260,12 @@ export class Scene {
     const turn = /** @type {any} */ (turns)[event.key],
           zoom = /** @type {any} */ ({'+': 1.2, '=': 1.2, '-': 1 / 1.2})[event.key];
     if (turn && this.controls.enableRotate) {
-      const place = new T.Spherical().setFromVector3(this.offset());
-      place.theta += turn[0];
-      place.phi = Math.min(Math.max(place.phi + turn[1], 0.01), 3.1);
-      this.look(place.theta, place.phi);
+      const {theta, phi} = this.direction();
+      this.look(theta + turn[0], Math.min(Math.max(phi + turn[1], 0.01), 3.1));
     } else if (zoom) {
       this.camera.zoom *= zoom;
     } else {
-      return;
+      return event.key === 'Enter' && this.clicked(0, 0); // what lies in the middle
     }
     event.preventDefault();
     this.camera.updateProjectionMatrix();
@@ -293,9 +274,9 @@ export class Scene {
   }
 
   /** From the target to the camera, with y up as three's spherical coordinates have it. */
-  offset() {
+  direction() {
     const d = this.camera.position.clone().sub(this.controls.target);
-    return new T.Vector3(d.x, d.z, -d.y);
+    return new T.Spherical().setFromVector3(new T.Vector3(d.x, d.z, -d.y));
   }
 
   /** @param {number} theta @param {number} phi */
@@ -307,7 +288,7 @@ export class Scene {
 
   /** The view as a text for the fragment. */
   view() {
-    const at = new T.Spherical().setFromVector3(this.offset()), {x, y, z} = this.controls.target;
+    const at = this.direction(), {x, y, z} = this.controls.target;
     return [at.theta, at.phi, this.camera.zoom, x, y, z].map((value) => Number(value.toPrecision(4))).join(',');
   }
 
@@ -328,8 +309,9 @@ export class Scene {
     if (!width || !height) return;
     this.renderer.setPixelRatio(devicePixelRatio);
     this.renderer.setSize(width, height, false);
-    const half = 0.72, across = Math.max(width / height, 1), down = Math.max(height / width, 1);
-    Object.assign(this.camera, {left: -half * across, right: half * across, top: half * down, bottom: -half * down});
+    const [across, down] = this.controls.enableRotate ? [0.74, 0.56] : [0.58, 0.58];
+    const half = Math.max(down, across * height / width), wide = half * width / height;
+    Object.assign(this.camera, {left: -wide, right: wide, top: half, bottom: -half});
     this.camera.updateProjectionMatrix();
     this.draw();
   }

@@ -11,35 +11,31 @@ export const get = (key, otherwise = '') => values.get(key) ?? otherwise;
 /** @param {string} key */
 export const on = (key, otherwise = false) => get(key, otherwise ? '1' : '') === '1';
 
+/** @param {(changed: Set<string>) => void} listener */
+export const listen = (listener) => listeners.add(listener);
+
+/** @param {URLSearchParams} next @param {boolean} quiet */
+function become(next, quiet) {
+  const before = values;
+  values = next;
+  const changed = new Set([...before.keys(), ...next.keys()].filter((key) => before.get(key) !== next.get(key)));
+  if (changed.size && !quiet) listeners.forEach((listener) => listener(changed));
+  return changed.size > 0;
+}
+
 /**
  * Changes values and tells who listens; an empty one is left out.
  * @param {Record<string, string|number|boolean>} changes
  * @param {boolean} quiet true: nobody is told
  */
 export function set(changes, quiet = false) {
-  const changed = new Set();
+  const next = new URLSearchParams(values);
   for (const [key, value] of Object.entries(changes)) {
-    const text = value === true ? '1' : value === false ? '0' : String(value);
-    if (get(key) === text) continue;
-    changed.add(key);
-    if (text === '')
-      values.delete(key);
-    else
-      values.set(key, text);
+    next.set(key, value === true ? '1' : value === false ? '0' : String(value));
+    if (value === '') next.delete(key);
   }
-  if (changed.size === 0) return;
-  history.replaceState(null, '', '#' + values.toString());
-  if (!quiet)
-    for (const listener of listeners) listener(changed);
+  history.replaceState(null, '', '#' + next);
+  become(next, quiet);
 }
 
-/** @param {(changed: Set<string>) => void} listener */
-export const listen = (listener) => listeners.add(listener);
-
-addEventListener('hashchange', () => {
-  const before = values;
-  values = new URLSearchParams(location.hash.slice(1));
-  const keys = [...before.keys(), ...values.keys()];
-  const changed = new Set(keys.filter((key) => before.get(key) !== values.get(key)));
-  for (const listener of listeners) listener(changed);
-});
+addEventListener('hashchange', () => become(new URLSearchParams(location.hash.slice(1)), false));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Tables of numbers, sorted by a click on a head.
-import {choice, fill, make, number, plain} from './dom.js';
+import {aside, button, choice, fill, make, number, plain} from './dom.js';
 import {model, tables} from './model.js';
 import {address} from './net.js';
 import {get, set} from './state.js';
@@ -9,15 +9,11 @@ const ROWS = 200;
 
 /**
  * The indices of the rows in the order that is asked for; unknown values come last.
- * @param {any} column
- * @param {number} count
- * @param {boolean} down
+ * @param {any} column @param {number} count @param {boolean} down
  */
 function ordered(column, count, down) {
-  const rows = Array.from({length: count}, (_, i) => i);
-  if (!column) return rows;
-  const known = (value) => value !== null && value !== '';
-  return rows.sort((i, j) => {
+  const rows = Array.from({length: count}, (_, i) => i), known = (value) => value !== null && value !== '';
+  return !column ? rows : rows.sort((i, j) => {
     const [a, b] = [column.values[i], column.values[j]];
     if (!known(a) || !known(b)) return Number(known(b)) - Number(known(a));
     return (down ? -1 : 1) * (typeof a === 'number' ? a - b : String(a).localeCompare(String(b))) || i - j;
@@ -29,40 +25,38 @@ export async function draw(panel, wanted) {
   const all = await tables();
   if (!wanted()) return;
   const table = all.find((each) => each.name === get('table')) ?? all[0];
-  if (!table) {
-    fill(panel, make('p', {class: 'quiet'}, 'This result has no numbers.'));
-    return;
-  }
-  const [sorted, direction] = get('sort').split(' '), down = direction === 'down';
+  if (!table) return fill(panel, aside('This result has no numbers.'));
+  const [, sorted, direction] = /^(.*) (up|down)$/.exec(get('sort')) ?? [], down = direction === 'down';
   const at = table.columns.findIndex((column) => column.name === sorted);
   const count = table.columns[0].values.length, most = Number(get('rows')) || ROWS;
   const rows = ordered(table.columns[at], count, down).slice(0, most);
   const head = table.columns.map(
-    (column, i) => make(
-      'th', {scope: 'col', 'aria-sort': i === at ? down ? 'descending' : 'ascending' : 'none', title: column.meaning},
-      make(
-        'button', {onclick: () => set({sort: `${column.name} ${i === at && !down ? 'down' : 'up'}`})},
-        plain(column.name, 60), column.unit === '-' ? null : make('small', {}, ` ${plain(column.unit, 30)}`),
-        i === at ? down ? ' \u25be' : ' \u25b4' : '')));
-  const cell = (value) => typeof value === 'number' ?
-    make('td', {class: 'number', title: String(value)}, number(value, 7)) :
-    make('td', {}, plain(value === null ? '\u2013' : value, 200));
-  fill(
-    panel,
-    make(
-      'div', {class: 'controls'},
+    (column, i) => make('th',
+      {scope: 'col',
+        'aria-sort': i !== at ? 'none'
+          : down              ? 'descending'
+                              : 'ascending',
+        title: column.meaning},
+      button(
+        [
+          plain(column.name, 60), column.unit === '-' ? null : make('small', {}, ` ${plain(column.unit, 30)}`),
+          i !== at ? ''
+            : down ? ' \u25be'
+                   : ' \u25b4'
+        ],
+        () => set({sort: `${column.name} ${i === at && !down ? 'down' : 'up'}`}))));
+  const cell = (value) => typeof value === 'number'
+    ? make('td', {class: 'number', title: String(value)}, number(value, 7))
+    : make('td', {}, plain(value === null ? '\u2013' : value, 200));
+  fill(panel,
+    make('div', {class: 'controls'},
       choice('table', all.map((each) => [each.name, each.name]), table.name, (name) => set({table: name, sort: ''})),
       make(
         'a', {class: 'button', href: address('csv', {of: model.of, table: table.name}), download: true}, 'Save as CSV'),
-      make('span', {class: 'quiet'}, `${count} rows; a click on a name sorts; the pointer on it tells what it is`)),
-    make(
-      'div', {class: 'wide'},
-      make(
-        'table', {}, make('thead', {}, make('tr', {}, ...head)),
-        make(
-          'tbody', {},
-          ...rows.map((row) => make('tr', {}, ...table.columns.map((column) => cell(column.values[row]))))))),
-    count > most ?
-      make('button', {onclick: () => set({rows: most + 5 * ROWS})}, `show more of the ${count - most} others`) :
-      null);
+      make('span', {class: 'quiet'},
+        `${count} row${count === 1 ? '' : 's'}; a click on a name sorts; the pointer on it tells what it is`)),
+    make('div', {class: 'wide'},
+      make('table', {}, make('thead', {}, make('tr', {}, head)),
+        make('tbody', {}, rows.map((row) => make('tr', {}, table.columns.map((column) => cell(column.values[row]))))))),
+    count > most && button(`show more of the ${count - most} others`, () => set({rows: most + 5 * ROWS})));
 }

@@ -1,0 +1,304 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What one does on the page of `anticrack view`: stages, sweeps, growth, studies, jobs, files to take along."""
+import io
+import json
+import os
+import pathlib
+import time
+
+import numpy as np
+from PIL import Image
+from selenium.common.exceptions import StaleElementReferenceException
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
+
+import anticrack
+from anticrack import vtk
+from anticrack.draw import files
+from anticrack.draw.sheet import Look
+from browser import InChromium, viewing
+from processes import ANTICRACKD, DEBIAN_12, Daemon, FolderTest
+
+EXAMPLES = pathlib.Path(os.environ["EXAMPLES"])
+GROWTH = """
+[geometry]
+boundary = [[-1, -1], [1, -1], [1, 1], [-1, 1]]
+[[geometry.inclusion]]
+name = "fibre"
+points = [[-0.5, 0], [0.5, 0]]
+delaminated = true
+[mesh]
+size = 0.2
+[[growth.path]]
+interface = "fibre"
+from = [-0.5, 0]
+to = [0, 0]
+Gc = 0.1
+[[load]]
+name = "shear"
+boundary_value = "y"
+"""
+SLOW = """
+[geometry]
+boundary = [[-1, -1], [1, -1], [1, 1], [-1, 1]]
+interface = [[-1, 0], [1, 0]]
+[[geometry.inclusion]]
+name = "c"
+from = [-0.5, 0]
+to = [0.5, 0]
+delaminated = true
+[solver]
+method = "uzawa"
+epsilon = 1e-300
+theta = 1e-6
+max_iterations = 1000000
+[[load]]
+name = "up"
+f = "y > 0 ? -1 : 1"
+"""
+PICTURE = "return document.getElementById('scene').dataset.frames > 0 && !document.getElementById('stage').hidden"
+ROW = "return new URLSearchParams(location.hash.slice(1)).get('row')"
+
+
+def blurred(picture):
+    """The means of squares of some 20 pixels, in which times of day, names of jobs and edges of letters vanish."""
+    with Image.open(picture) as image:
+        image = image.convert("RGB")
+        return np.asarray(image.resize((image.width // 20, image.height // 20), Image.Resampling.BOX), float)
+
+
+class Explored(InChromium):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        folder = FolderTest("__init__")
+        folder.setUp()
+        cls.addClassCleanup(folder.doCleanups)
+        cls.server = Daemon(folder.folder)
+        cls.enterClassContext(cls.server)
+        cls.client = cls.enterClassContext(anticrack.connect(f"127.0.0.1:{cls.server.port}"))
+        _, address = cls.enterClassContext(viewing("--server", f"127.0.0.1:{cls.server.port}"))
+        cls.browser.get(address)
+
+    def tearDown(self):
+        self.require_clean()
+
+    def solved(self, case):
+        return self.client.run(case, progress=False)
+
+    def pixel(self, x, y):
+        """The offset from the middle of the chart of a place in its coordinates."""
+        return self.script("const {scales: {x, y}, width, height} = Chart.getChart(document.querySelector('#panel "
+                           "canvas')); return [x.getPixelForValue(arguments[0]) - width / 2, "
+                           "y.getPixelForValue(arguments[1]) - height / 2]", x, y)
+
+    def click_chart(self, x, y):
+        for left in reversed(range(5)):
+            canvas = self.browser.find_element(By.CSS_SELECTOR, "#panel canvas")
+            try:
+                self.script("arguments[0].scrollIntoView({block: 'center'})", canvas)
+                at = map(round, self.pixel(x, y))
+                ActionChains(self.browser).move_to_element_with_offset(canvas, *at).click().perform()
+                return
+            except StaleElementReferenceException:  # it was drawn anew
+                self.assertTrue(left)
+
+    def test_stages_are_stepped_through(self):
+        job = self.client.submit(EXAMPLES / "opening.toml")
+        job.wait(False)
+        stages = job.message.status.stages
+        self.assertGreater(len(stages), 1)
+        self.go(f"of={job.name}", PICTURE)
+        self.until("return document.querySelector('[aria-label=\"stage before\"]')")
+        self.click("[aria-label='stage before']")
+        told = self.until("return document.getElementById('stage-numbers')?.textContent")
+        before = stages[-2]
+        self.assertIn(f"{len(stages) - 1} of {len(stages)}, {before.triangles} triangles", told)
+        own = self.later(f"fetch('/api/array?mesh={before.mesh}&what=triangles').then(a => a.arrayBuffer())"
+                         ".then(b => b.byteLength)")
+        self.assertEqual(own, 3 * 4 * before.triangles)
+        self.click("[aria-label='next stage']")
+        self.until("return !document.getElementById('stage-numbers')")
+
+    def test_a_sweep_is_started_from_the_page_with_numbers_as_germans_write_them(self):
+        case = anticrack.Case.read(EXAMPLES / "load-ratio.toml")
+        rows = np.array([[1, -0.5], [1, 0.5], [0.25, 1]])
+        self.go("tab=case", "return document.querySelector('[aria-label=case]')")
+        lines = ["; ".join(f"{value:g}".replace(".", ",") for value in row) for row in rows]
+        self.script("document.querySelector('[aria-label=case]').value = arguments[0];"
+                    "document.querySelector('.sweep').open = true;"
+                    "document.querySelector('[aria-label=\"rows of the sweep\"]').value = arguments[1]",
+                    case.text, "\n".join(["skew; opening", *lines]))
+        self.button("Run sweep")
+        self.until("return document.getElementById('tab-sweep')?.ariaSelected === 'true' && "
+                   "document.querySelector('#panel canvas') && document.querySelector('table.row')")
+        sweep = self.client.run(case, coefficients=rows, progress=False).sweep
+        self.script("location.hash += '&up=A+of+gamma_c&across=opening'")
+        time.sleep(0.3)
+        for row in (2, 0):
+            self.click_chart(rows[row, 1], sweep.displacement[row, 0])
+            self.until(f"{ROW} === '{row}'")
+            shown = self.until("return [...document.querySelectorAll('table.row tr')].map(row => "
+                               "row.children[0].textContent + '=' + row.children[1].textContent)")
+            told = dict(line.replace("\u2212", "-").split("=") for line in shown)
+            self.assertAlmostEqual(float(told["A of gamma_c"]), sweep.displacement[row, 0], delta=1e-6)
+            self.assertEqual(float(told["opening"]), rows[row, 1])
+        self.button("Show row 0 on the interfaces")
+        self.until("return document.getElementById('tab-interfaces').ariaSelected === 'true' && "
+                   "document.getElementById('numbers').innerText.startsWith('row-0')")
+
+    def test_growth_steps_through_fronts(self):
+        result = self.solved(anticrack.Case.parse(GROWTH))
+        growth = next(iter(result.loads.values())).growth
+        self.go(f"of={result.job}&tab=growth&plan=1&up=G1", PICTURE)
+        self.until("return document.querySelector('#panel canvas') && document.querySelector('table.row')")
+        row = len(growth["x"]) // 2
+        self.click_chart(growth["position"][row], growth["G1"][row])
+        self.until(f"{ROW} === '{row}'")
+        where = self.script("return document.querySelector('[aria-label=step]').value")
+        self.assertEqual(int(where), row)
+        scene = self.browser.find_element(By.ID, "scene")  # the middle, where the path ends
+        ActionChains(self.browser).click(scene).perform()
+        last = int(np.argmin(np.hypot(growth["x"], growth["y"])))
+        self.until(f"{ROW} === '{last}'")
+
+    def test_a_click_on_the_membrane_tells_what_is_there(self):
+        result = self.solved(EXAMPLES / "opening.toml")
+        part = next(iter(result.loads.values())).fields[0]
+        self.go(f"of={result.job}&plan=1", PICTURE)
+        self.until("return document.querySelector('#bar i')")
+        scene = self.browser.find_element(By.ID, "scene")
+        ActionChains(self.browser).move_to_element_with_offset(scene, 7, -90).click().perform()
+        told = self.until("return document.getElementById('hit')?.innerText.includes('nodes') && "
+                          "document.getElementById('hit').innerText").replace("\u2212", "-")
+        words = told.replace("\n", " ").split()
+        x, y, u = (float(words[words.index(name) + 1]) for name in ("x", "y", "u"))
+        corners = [int(word.strip(",")) for word in words[words.index("nodes") + 1:words.index("nodes") + 4]]
+        at = np.column_stack((result.mesh.nodes[corners], np.ones(3)))
+        weights = np.linalg.solve(at.T, (x, y, 1))
+        self.assertTrue((weights > -1e-5).all(), "the place lies in its triangle")
+        values = dict(zip(part.nodes.tolist(), part.u.tolist()))
+        self.assertAlmostEqual(u, weights @ [values[node] for node in corners], delta=1e-5)
+
+    def test_a_job_is_cancelled_submitted_again_and_deleted(self):
+        job = self.client.submit(anticrack.Case.parse(SLOW))
+        self.go(f"of={job.name}&tab=convergence", "return document.querySelector('.timeline li')")
+        self.until("return document.querySelector('#panel canvas')?.clientHeight > 0")  # residuals, as they come
+        self.button("Cancel", "#jobs .here")
+        self.until("return document.querySelector('.here .state.cancelled')")
+        self.assertEqual(self.client.job(job.name).state, "cancelled")
+        self.button("Submit again", "#jobs .here")
+        self.until(f"return new URLSearchParams(location.hash.slice(1)).get('of') !== '{job.name}'")
+        again = self.fragment()["of"]
+        self.button("Cancel", "#jobs .here")
+        self.until("return document.querySelector('.here .state.cancelled')")
+        for answer, left in (("Keep it", True), ("Delete", False)):
+            self.button("Delete\u2026", "#jobs .here")
+            self.until("return document.getElementById('question').open")
+            self.assertIn(again, self.script("return document.getElementById('question').innerText"))
+            self.button(answer, "#question")
+            self.until("return !document.getElementById('question').open")
+            time.sleep(0.3)
+            self.assertEqual(again in [each.name for each in self.client.jobs()], left)
+        self.until("return document.getElementById('notices').textContent.includes('has been deleted')")
+
+    def test_everything_is_reached_by_the_keyboard(self):
+        result = self.solved(EXAMPLES / "opening.toml")
+        self.go(f"of={result.job}&tab=membrane", PICTURE)
+        self.until("return document.querySelector('#bar i')")
+        before = self.script("return document.getElementById('scene').dataset.frames")
+        self.script("document.getElementById('scene').focus()")
+        ActionChains(self.browser).send_keys(Keys.ARROW_LEFT, "+", Keys.ENTER).perform()
+        self.until("return document.getElementById('hit') && "
+                   "new URLSearchParams(location.hash.slice(1)).get('view')")
+        self.assertNotEqual(before, self.script("return document.getElementById('scene').dataset.frames"))
+        self.script("document.getElementById('tab-membrane').focus()")
+        ActionChains(self.browser).send_keys(Keys.ARROW_RIGHT).perform()
+        self.until("return document.activeElement.id === 'tab-interfaces' && document.querySelector('#panel canvas')")
+        names = self.script(
+            "return [...document.querySelectorAll('button, input, select, textarea, canvas, a, summary')]"
+            ".filter(each => each.checkVisibility()).filter(each => each.tabIndex < 0 && each.role !== 'tab' || "
+            "!(each.textContent.trim() || each.ariaLabel || each.labels?.length)).map(each => each.outerHTML)")
+        self.assertEqual(names, [], "each is reached by Tab and has a name")
+
+    def test_numbers_are_pasted_as_germans_and_english_write_them(self):
+        wanted = {"0,5": 0.5, "0.5": 0.5, "1.234,5": 1234.5, "1,234.5": 1234.5, "1'234.5": 1234.5, "1 234,5": 1234.5,
+                  "1.234.567": 1234567, "1,234,567": 1234567, "\u22120,25": -0.25, "2,5e-3": 2.5e-3}
+        found = self.later(f"import('/dom.js').then(m => {json.dumps(list(wanted))}.map(m.parse))")
+        self.assertEqual(found, list(wanted.values()))
+
+    def test_many_samples_keep_their_extremes(self):
+        columns, count = 800, 100_000
+        y = np.exp(np.random.default_rng(1).normal(size=count) - np.linspace(0, 20, count))
+        y[[777, 55_555]] = 1e-30, 1e6
+        self.script("window.sample = arguments[0]", y.tolist())
+        found = np.array(self.later("import('/chart.js').then(m => m.thinned(Float64Array.from(sample, (_, i) => i), "
+                                    f"sample, {columns}).map(p => [p.x, p.y]))"))
+        self.assertLessEqual(len(found), 4 * columns)
+        np.testing.assert_array_equal(found[:, 1], y[found[:, 0].astype(int)])
+        self.assertTrue((np.diff(found[:, 0]) > 0).all())
+        for part in range(columns):
+            own = (np.arange(count) * columns // (count - 1)).clip(max=columns - 1) == part
+            kept = found[(found[:, 0] * columns // (count - 1)).clip(max=columns - 1) == part, 1]
+            self.assertEqual((kept.min(), kept.max()), (y[own].min(), y[own].max()))
+
+
+class OfAFile(InChromium):
+    def test_what_is_taken_along_is_what_the_package_writes(self):
+        with anticrack.local(program=ANTICRACKD) as client:
+            client.run(EXAMPLES / "opening.toml", progress=False).save(self.folder / "r.h5")
+        result = anticrack.read(self.folder / "r.h5")
+        load = next(iter(result.loads.values()))
+        with self.page(self.folder / "r.h5"):
+            self.until(PICTURE)
+            links = self.until("return [...document.querySelectorAll('#export-links a')].map(a => a.href)")
+            got = {}
+            for kind in ("png", "svg", "vtu", "h5", "toml"):
+                (where,) = [link for link in links if f"kind={kind}" in link]
+                got[kind] = bytes(self.later(f"fetch('{where}').then(a => a.arrayBuffer())"
+                                             ".then(b => [...new Uint8Array(b)])"))
+            self.require_clean()
+        for kind in ("png", "svg"):
+            made = files.draw_figures(result, self.folder, files.Wanted(["membrane"], "", [load.name]), Look([kind]))
+            self.assertEqual(got[kind], pathlib.Path(made.files[0]).read_bytes(), kind)
+        self.assertEqual(got["vtu"], vtk.membrane(result, load))
+        self.assertEqual(got["h5"], (self.folder / "r.h5").read_bytes())
+        self.assertEqual(got["toml"].decode(), result.case)
+
+    def test_looks_as_the_guide_shows_it(self):
+        kept = EXAMPLES.parent / "view.png"
+        with self.page("--local", EXAMPLES / "opening.toml"):
+            self.until(PICTURE)
+            self.until("return document.querySelector('#bar i') && document.querySelector('.here .succeeded')")
+            self.go("of=" + self.fragment()["of"] + "&tab=interfaces&theme=light",
+                    "return document.querySelectorAll('#panel canvas').length === 3")
+            time.sleep(1)
+            shown = self.browser.get_screenshot_as_png()
+            self.require_clean()
+        if "ANTICRACK_RENEW_PICTURES" in os.environ:
+            kept.write_bytes(shown)
+        if DEBIAN_12:  # another gmsh makes another mesh
+            far = np.abs(blurred(io.BytesIO(shown)) - blurred(kept))
+            self.assertLess(far.max(), 40, "of 255, in squares of 20 pixels")
+            self.assertLess(far.mean(), 1.5)
+
+    def test_a_study_is_stepped_through(self):
+        case = anticrack.Case.read(EXAMPLES / "several-inclusions.toml")
+        with Daemon(self.folder) as server, anticrack.connect(f"127.0.0.1:{server.port}") as client:
+            study = client.study(case, {"mesh.size": [0.2, 0.1]}, path=self.folder / "s.h5", progress=False)
+            with self.page("--server", f"127.0.0.1:{server.port}", self.folder / "s.h5"):
+                self.until("return document.querySelector('#panel canvas')")
+                self.assertEqual(self.tabs(), ["tables", "sweep", "case"])
+                self.go("of=file&tab=tables", "return document.querySelector('#panel tbody td')")
+                head = self.script("return [...document.querySelectorAll('#panel th button')].map(b => "
+                                   "b.firstChild.textContent)")
+                lines = [dict(zip(head, row)) for row in self.numbers_of_table()]
+                self.assertEqual([line["energy"] for line in lines],
+                                 [of["energy"] for row in study.rows for of in row.answers.values()])
+                self.go("of=file&tab=sweep&row=1", "return document.querySelector('table.row')")
+                self.button(f"Show the job of row {lines[1]['row']:g}")
+                job = study.rows[int(lines[1]["row"])].job
+                self.until(f"return new URLSearchParams(location.hash.slice(1)).get('of') === '{job}'")
+                self.until(PICTURE)
+                self.require_clean()
