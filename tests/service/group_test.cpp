@@ -15,7 +15,7 @@
 #include <set>
 #include <thread>
 
-#include "client/uuid.hpp"
+#include "client/jobs.hpp"
 #include "service/daemon.hpp"
 #include "service/workload.hpp"
 #include "support/database.hpp"
