@@ -126,9 +126,8 @@ void read_output(const Section& root, Case& result) {
     result.spots["without_bounds"] = output->spot_of("bounds");
   }
   // If there are bounds, fields are drawn with the indicators of their errors.
-  if (spec.has_accuracy() ||
-      (spec.outputs_size() > 0 && spec.solver().has_active_set() && !spec.without_bounds() &&
-       !spec.has_growth()))
+  if (spec.has_accuracy() || (spec.outputs_size() > 0 && spec.solver().has_active_set() &&
+                              !spec.without_bounds() && !spec.has_growth()))
     spec.add_outputs(v1::OUTPUT_INDICATORS);
   if (balanced) spec.add_outputs(v1::OUTPUT_BALANCED_FLUX);
 }
