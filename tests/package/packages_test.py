@@ -60,7 +60,8 @@ FILES = {
         LINK: ["../../../anticrack/examples"],
         PLAIN: [*(f"{DOC}/anticrack/{path}" for path in (
                     "README.md", ".github/CONTRIBUTING.md", ".github/CITATION.cff", "client/README.md",
-                    "client/TUTORIAL.md", "client/VIEW.md", "client/view.png", "client/BASICS.md", "client/PAPER.md", "client/RESULT.md", "client/JSON.md",
+                    "client/TUTORIAL.md", "client/VIEW.md", "client/view.png", "client/BASICS.md", "client/PAPER.md",
+                    "client/RESULT.md", "client/JSON.md",
                     "deploy/README.md", "deploy/CHANGELOG.md", "deploy/packages.txt", "deploy/COPYING", "proto/REFERENCE.md",
                     "server/PROMISES.md", "server/COMPATIBILITY.md", "server/README.md", "server/THEORY.md")),
                 f"{DOC}/anticrack-doc/copyright", f"{DOC}/anticrack-doc/changelog.gz"],
