@@ -15,7 +15,6 @@ namespace anticrack::group {
 namespace {
 
 using errors::Error;
-using errors::Reason;
 using postgres::query;
 using postgres::Result;
 using postgres::transact;
