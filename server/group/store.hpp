@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -84,6 +85,7 @@ class Store final : public store::Store {
   mutable store::DiskUsage _usage;  ///< of the data folder
   store::Files _results;
   mutable store::Files _uploads;
+  std::mutex _removing;  ///< of copies in _uploads: one thread at a time
   store::UploadParts _parts;
   mutable store::Triangulations _triangulations;
   Queue _queue;

@@ -153,6 +153,7 @@ std::size_t Store::expire_uploads(records::Clock::time_point before) {
 }
 
 void Store::remove_copies() {
+  const std::lock_guard lock(_removing);
   const std::vector<std::string> copies = _uploads.names();
   if (copies.empty()) return;
   for (const std::string& sha256 :

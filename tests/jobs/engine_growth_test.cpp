@@ -145,7 +145,7 @@ TEST(EngineGrowth, CancelledInTheMiddle) {
   Engine test;
   const std::string mesh = test.ready_mesh(size);
   records::JobSpec spec = growing_job(mesh);
-  for (int i = 0; i < 50; ++i)  // so that it cannot end before it hears
+  for (int i = 0; i < 40; ++i)  // so that it cannot end before it hears
     spec.loads.push_back({"again " + std::to_string(i), spec.loads[0].force, ""});
   const std::string id = test.submit(spec);
   EXPECT_TRUE(anticrack::testing::eventually([&] { return !told_rows(test, id).empty(); }));
@@ -162,7 +162,7 @@ TEST(EngineGrowth, ThatAStopInterruptsRunsAgainWithTheSameRows) {
   {
     JobEngine engine(unlimited(one_thread()), *backend.store, backend.catalogue);
     records::JobSpec spec = growing_job(mesh);
-    for (int i = 0; i < 50; ++i)
+    for (int i = 0; i < 40; ++i)
       spec.loads.push_back({"again " + std::to_string(i), spec.loads[0].force, ""});
     id = engine.submit({spec, "", ""}).id;
     EXPECT_TRUE(anticrack::testing::eventually([&] {
@@ -179,7 +179,7 @@ TEST(EngineGrowth, ThatAStopInterruptsRunsAgainWithTheSameRows) {
   EXPECT_EQ(again.attempt, 2);
   const JobRecord alone = ended(engine, engine.submit({growing_job(mesh), "", ""}).id);
   expect_same(again.cases.at(0).answer.growth, alone.cases.at(0).answer.growth);
-  expect_same(again.cases.at(50).answer.growth, alone.cases.at(0).answer.growth);
+  expect_same(again.cases.at(40).answer.growth, alone.cases.at(0).answer.growth);
 }
 
 /// Some rows have a mesh of their own: one load opens the front, under the other there is contact
@@ -291,7 +291,7 @@ TEST(EngineGrowth, FinalPositionsDependOnNoThreads) {
 TEST(EngineGrowth, CancelledAmongFinalPositions) {
   Engine test;
   records::JobSpec spec = final_job(test.ready_mesh(2 * size));
-  for (int i = 0; i < 50; ++i)  // so that it cannot end before it hears
+  for (int i = 0; i < 40; ++i)  // so that it cannot end before it hears
     spec.loads.push_back({"again " + std::to_string(i), spec.loads[0].force, ""});
   spec.growth->final_error = 0.5;
   const std::string id = test.submit(spec);

@@ -125,7 +125,7 @@ TEST(EngineLimits, ResultsExpireByTheirAge) {
 
 TEST(EngineLimits, LogsOfEndedJobsAreBoundedInBytes) {
   EngineOptions options;
-  options.max_job_memory = 200'000;  // half of it for logs: not for two of these
+  options.max_job_memory = 300'000;  // half of it for logs: not for two of these
   Engine test(options);
   records::JobSpec spec = short_job(test.ready_mesh());
   for (int i = 0; i < 8; ++i) {

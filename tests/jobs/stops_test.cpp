@@ -190,7 +190,6 @@ TEST_F(JobStops, InAdaptiveStages) {
                  {"computing a flux in equilibrium", 24},
                  {"computing bounds of the energy", 3},
                  {"computing bounds of A", 12},
-                 {"computing bounds of forces", 2},
                  // The next stage
                  {"choosing which triangles to bisect", 6},
                  {"bisecting a mesh", 14},

@@ -110,9 +110,10 @@ class _Drawing:
             self.drawn.add(f"{stem}-convergence", pictures.picture(pictures.draw_convergence, look, result, load))
         if has("growth") and load.growth:
             self.drawn.add(f"{stem}-growth", pictures.growth_picture(look, result, load))
-            for row in load.membrane_rows if load.membrane_rows is not None else ():
-                self.drawn.add(f"{stem}-growth-{row}", pictures.picture(pictures.draw_membrane, look, result,
-                                                                        load.grown(int(row))))
+            if load.membrane_rows is not None:
+                for row in load.membrane_rows:
+                    self.drawn.add(f"{stem}-growth-{row}",
+                                   pictures.picture(pictures.draw_membrane, look, result, load.grown(int(row))))
         if has("accuracy") and len(bounded(load)["triangles"]) > 1:
             self.drawn.add(f"{stem}-accuracy", pictures.picture(pictures.draw_accuracy, look, result, load))
         elif has("accuracy") and (load.stages or self.wanted.only):
