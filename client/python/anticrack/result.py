@@ -3,7 +3,7 @@
 and displacements are in the units of the case; an unknown number is NaN."""
 from __future__ import annotations
 
-import dataclasses
+import copy
 import os
 import re
 import warnings
@@ -329,10 +329,15 @@ class Load(_walked(solve_pb2.LoadCaseAnswer, ("name", "status"))):  # type: igno
                 "solve with Case(fields=True), in TOML [output] fields = true"))
         values = self.membranes.reshape(len(kept), -1)[kept.index(row)]
         ends = np.cumsum([len(part.nodes) for part in self.fields])[:-1]
-        fields: Parts[Field] = Parts("subdomain")
-        fields += [dataclasses.replace(part, u=u) for part, u in zip(self.fields, np.split(values, ends))]
-        return dataclasses.replace(self, name=f"{self.name}, row {row}", fields=fields, traces=Parts("interface"),
-                                   growth={}, growth_notes=[], membrane_rows=None, membranes=None)
+        # Copies keep the units and the mesh, which dataclasses.replace forgets.
+        grown = copy.copy(self)
+        grown.name, grown.fields = f"{self.name}, row {row}", Parts("subdomain")
+        for part, u in zip(self.fields, np.split(values, ends)):
+            grown.fields.append(copy.copy(part))
+            grown.fields[-1].u = u
+        grown.traces, grown.growth, grown.growth_notes = Parts("interface"), {}, []
+        grown.membrane_rows = grown.membranes = None
+        return grown
 
     def displacements(self) -> dict[str, float]:
         """A of every inclusion, by its name."""

@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Forces on the boundary, probes, fluxes and nodal forces, from the server to files and back."""
 import csv
+import os
 import unittest
 
 import numpy
 
 import anticrack
 from anticrack import vtk
+from anticrack.draw.files import Wanted, draw_figures
+from anticrack.draw.sheet import Look
 from processes import ANTICRACKD, FolderTest
 
 
@@ -121,6 +124,33 @@ class Fields(FolderTest):
             rows = list(csv.DictReader(file))
         self.assertEqual([float(row["u_minus"]) for row in rows],
                          [point.u_minus for point in read["held"].probe_points])
+
+    def test_membranes_of_growth_are_those_of_their_rows(self):
+        built = anticrack.Case()
+        built.tables = {
+            "geometry": {"boundary": [[-1, -1], [1, -1], [1, 1], [-1, 1]],
+                         "inclusion": [{"name": "fibre", "points": [[-0.5, 0], [0.5, 0]], "delaminated": True}]},
+            "mesh": {"size": 0.05},
+            "growth": {"positions": 20,
+                       "path": [{"interface": "fibre", "from": [-0.5, 0], "to": [0, 0], "Gc": "0.1"}]},
+            "load": [{"name": "up", "f": "y > 0 ? 1 : -1"}], "output": {"fields": True}}
+        with anticrack.local(program=ANTICRACKD) as client:
+            result = client.run(built, progress=False)
+        path = self.folder / "growth.h5"
+        result.save(path)
+        for load in (result["up"], anticrack.read(path)["up"]):
+            rows = [int(row) for row in load.membrane_rows]
+            self.assertEqual(rows, sorted({0, *rows}))
+            self.assertGreater(len(rows), 1)
+            for row in rows:
+                grown = load.grown(row)
+                u = numpy.concatenate([part.u for part in grown.fields])
+                self.assertLess(abs(u - load.growth["displacement"][row]).min(), 1e-9)  # on the side that holds
+                self.assertGreater(min(part.energy_density.max() for part in grown.fields), 0)
+            with self.assertRaisesRegex(anticrack.Error, "row 1000 of growth is not kept; those of rows 0, "):
+                load.grown(1000)
+        made = draw_figures(result, str(self.folder / "figures"), Wanted(["growth"]), Look(["png"], 50))
+        self.assertLessEqual({f"up-growth-{row}.png" for row in rows}, {os.path.basename(name) for name in made.files})
 
     def test_what_is_wrong_is_told(self):
         with anticrack.local(program=ANTICRACKD) as client:
