@@ -35,10 +35,15 @@ constexpr const char* events_kept = "10 min";
 constexpr int beats_between_cleaning = 60;
 constexpr std::size_t events_a_statement = 1'000;
 
+/// What a claim tells of the rows `taken` from the queue.
+constexpr const char* select_taken =
+    "SELECT j.id, j.owner, j.checksum, j.record, t.attempt, t.crashes, t.cancelled "
+    "FROM taken t JOIN jobs j ON j.id = t.job ";
+
 /// $1: epoch, $2: count, $3: meshes held, $4: slack. Candidates are the best two of each mesh that
 /// is held, moved ahead, and the best that have waited; of these the first that nobody else locks,
 /// and then its mates on the mesh.
-constexpr const char* claim_statement = R"(
+const std::string claim_statement = std::string(R"(
 WITH candidates AS (
   (SELECT number, class, tag AS place FROM queue
    WHERE runner IS NULL AND queued < now() - interval '200 ms'
@@ -60,8 +65,7 @@ WITH candidates AS (
   FROM mates m WHERE q.number = m.number
   RETURNING q.job, q.attempt, q.crashes, q.cancelled, q.tag, q.number
 )
-SELECT j.id, j.owner, j.checksum, j.record, t.attempt, t.crashes, t.cancelled
-FROM taken t JOIN jobs j ON j.id = t.job ORDER BY t.tag, t.number)";
+)") + select_taken + "ORDER BY t.tag, t.number";
 
 }  // namespace
 
@@ -175,14 +179,13 @@ std::vector<Queue::Claim> Queue::claim(std::size_t count, const std::vector<std:
 
 std::optional<Queue::Claim> Queue::claim_to_cancel(const std::string& job) {
   query(_pool, "UPDATE queue SET cancelled = true WHERE job = $1", {job});
-  std::vector<Claim> claims = claims_of(
-      query(_pool,
-            "WITH taken AS (UPDATE queue SET runner = $2, attempt = attempt + 1, claimed = now() "
-            "WHERE job = $1 AND runner IS NULL RETURNING job, attempt, crashes, cancelled) "
-            "SELECT j.id, j.owner, j.checksum, j.record, t.attempt, t.crashes, t.cancelled "
-            "FROM taken t "
-            "JOIN jobs j ON j.id = t.job",
-            {job, _epoch.load()}));
+  std::vector<Claim> claims = claims_of(query(
+      _pool,
+      std::string(
+          "WITH taken AS (UPDATE queue SET runner = $2, attempt = attempt + 1, claimed = now() "
+          "WHERE job = $1 AND runner IS NULL RETURNING job, attempt, crashes, cancelled) ") +
+          select_taken,
+      {job, _epoch.load()}));
   if (!claims.empty()) return std::move(claims.front());
   notify(cancel_channel);
   return std::nullopt;
