@@ -70,7 +70,7 @@ class Backup(BackupTest):
         for number in range(6):
             self.assertNotIn(" 0 files", self.assert_sound(self.folder / f"backup-{number}"))
         self.assert_sound(restored / "data")
-        with Daemon(restored, "--kept-jobs", "3") as daemon:
+        with Daemon(restored) as daemon:  # keeps all: a job that ends does not take the place of one that is listed
             jobs = self.jobs(daemon)
             self.assertTrue(jobs)
             for name in jobs:
