@@ -203,7 +203,8 @@ Preview::Place Preview::find_place(const Front& front, std::size_t position) con
 
 /// Sets what the integral needs.
 void Preview::take_surroundings(Place& place, tips::Place around) const {
-  const tips::Support support = _around.of(around);
+  tips::Surroundings::Marks marks;
+  const tips::Support support = _around.of(around, marks);
   if (support.radius < around.reach) place.reason = "a boundary or another line";
   place.radius = support.radius;
   for (const Point& force : _load.point_forces) {

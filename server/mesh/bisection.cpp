@@ -309,8 +309,8 @@ double bisection_bound(const Mesh& base) {
     const Point m{0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
     // The triangle and its children suffice: two grandchildren are similar to it; the other two are
     // congruent, have children similar to the first ones, and none of the smallest angles.
-    for (const auto& similar : {angles(a, b, c), angles(c, a, m), angles(b, c, m)})
-      smallest = std::min(smallest, *std::ranges::min_element(similar));
+    smallest =
+        std::min({smallest, least_angle(a, b, c), least_angle(c, a, m), least_angle(b, c, m)});
   }
   return smallest;
 }

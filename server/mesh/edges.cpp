@@ -33,11 +33,11 @@ EdgeTable::EdgeTable(std::span<const std::int32_t> triangles) : _uses(triangles.
     stop::look_at_turn<std::size_t{1} << 18>(c, listing);
     _uses[--end[at(use(c).low())]] = use(c);
   }
-  // end[n] is now where node n begins.
+  _first = std::move(end);  // it is now where each node begins
   for (std::size_t n = 0; n < nodes; ++n) {
     stop::look_at_turn<stop::quick>(n, listing);
-    std::sort(_uses.begin() + static_cast<std::ptrdiff_t>(end[n]),
-              _uses.begin() + static_cast<std::ptrdiff_t>(end[n + 1]),
+    std::sort(_uses.begin() + static_cast<std::ptrdiff_t>(_first[n]),
+              _uses.begin() + static_cast<std::ptrdiff_t>(_first[n + 1]),
               [](const EdgeUse& a, const EdgeUse& b) {
                 return std::pair(a.high(), a.triangle) < std::pair(b.high(), b.triangle);
               });
@@ -54,11 +54,9 @@ std::vector<bool> EdgeTable::boundary_nodes(std::size_t node_count) const {
 
 std::span<const EdgeUse> EdgeTable::find(std::int32_t a, std::int32_t b) const noexcept {
   const auto [low, high] = std::minmax(a, b);
-  const EdgeUse edge{low, high, 0};
-  const auto [begin, end] = std::equal_range(
-      _uses.begin(), _uses.end(), edge, [](const EdgeUse& one, const EdgeUse& other) {
-        return std::pair(one.low(), one.high()) < std::pair(other.low(), other.high());
-      });
+  if (at(low) + 1 >= _first.size()) return {};
+  const auto own = std::span(_uses).subspan(_first[at(low)], _first[at(low) + 1] - _first[at(low)]);
+  const auto [begin, end] = std::ranges::equal_range(own, high, {}, &EdgeUse::high);
   return {begin, end};
 }
 

@@ -21,13 +21,14 @@ struct EdgeUse {
   std::int32_t high() const noexcept { return from < to ? to : from; }
 };
 
-/// All sides of all triangles, sorted by (low, high), then by triangle. 12 bytes a side.
+/// All sides of all triangles, sorted by (low, high), then by triangle. 12 bytes a side, 8 a node.
 class EdgeTable {
  public:
   /// `triangles` (m,3) row-major. O(n + m) for n nodes with few edges each.
   explicit EdgeTable(std::span<const std::int32_t> triangles);
 
-  /// The sides of the edge between two nodes, in either order; empty if there is none. O(log m).
+  /// The sides of the edge between two nodes, in either order; empty if there is none. O(1)
+  /// for nodes with few edges.
   std::span<const EdgeUse> find(std::int32_t a, std::int32_t b) const noexcept;
 
   /// Calls `visit(std::span<const EdgeUse>)` once for each edge, in the order of (low, high).
@@ -50,6 +51,7 @@ class EdgeTable {
   }
 
   std::vector<EdgeUse> _uses;
+  std::vector<std::size_t> _first;  // (nodes + 1) of _uses, by the lower node
 };
 
 }  // namespace anticrack::mesh

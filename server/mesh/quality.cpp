@@ -22,12 +22,22 @@ std::array<double, 3> angles(const Point& a, const Point& b, const Point& c) noe
   return {angle_at(a, b, c), angle_at(b, c, a), angle_at(c, a, b)};
 }
 
+double least_angle(const Point& a, const Point& b, const Point& c) noexcept {
+  const auto squared = [](const Point& p, const Point& q) {
+    const Point along = minus(q, p);
+    return along[0] * along[0] + along[1] * along[1];
+  };
+  // It is opposite to the shortest edge.
+  const double at_a = squared(b, c), at_b = squared(c, a), at_c = squared(a, b);
+  if (at_a <= at_b && at_a <= at_c) return angle_at(a, b, c);
+  return at_b <= at_c ? angle_at(b, c, a) : angle_at(c, a, b);
+}
+
 double minimum_angle(const Mesh& mesh) noexcept {
   double smallest = 180;
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-    const auto of_triangle = angles(corner(mesh, t, 0), corner(mesh, t, 1), corner(mesh, t, 2));
-    smallest = std::min(smallest, std::ranges::min(of_triangle));
-  }
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+    smallest =
+        std::min(smallest, least_angle(corner(mesh, t, 0), corner(mesh, t, 1), corner(mesh, t, 2)));
   return smallest;
 }
 

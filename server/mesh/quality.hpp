@@ -20,4 +20,7 @@ double longest_edge(const Mesh& mesh) noexcept;
 /// triangles.
 std::array<double, 3> angles(const Point& a, const Point& b, const Point& c) noexcept;
 
+/// The least of them: a third of the work.
+double least_angle(const Point& a, const Point& b, const Point& c) noexcept;
+
 }  // namespace anticrack::mesh

@@ -51,9 +51,9 @@ void measure_triangles(const mesh::Mesh& mesh, std::vector<records::SubdomainSum
     records::SubdomainSummary& to = result[at(mesh.subdomain[t])];
     ++to.triangle_count;
     to.area += mesh::area(mesh, t);
-    const auto angles =
-        mesh::angles(mesh::corner(mesh, t, 0), mesh::corner(mesh, t, 1), mesh::corner(mesh, t, 2));
-    to.minimum_angle = std::min(to.minimum_angle, *std::min_element(angles.begin(), angles.end()));
+    to.minimum_angle = std::min(
+        to.minimum_angle, mesh::least_angle(mesh::corner(mesh, t, 0), mesh::corner(mesh, t, 1),
+                                            mesh::corner(mesh, t, 2)));
     const auto [shortest, longest] = edge_lengths(mesh, t);
     to.shortest_edge = std::min(to.shortest_edge, shortest);
     to.longest_edge = std::max(to.longest_edge, longest);

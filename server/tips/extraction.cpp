@@ -51,12 +51,12 @@ void Extraction::add(const Corners& at, const Tensor& tension, std::size_t side,
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t k = 0; k < 2; ++k) x[k] += hat[i] * at.x[i][k];
     const double across = _course.across(x), flat_x = _course.along(x) - flat.slant * across,
-                 flat_y = flat.stretch * across, r = std::hypot(flat_x, flat_y);
+                 flat_y = flat.stretch * across, r = std::sqrt(flat_x * flat_x + flat_y * flat_y);
     if (r >= _outer || r == 0) continue;
-    const double theta = std::atan2(flat_y, flat_x), weight = rule.weight[q] * at.area;
+    const double c = flat_x / r, s = flat_y / r, weight = rule.weight[q] * at.area;
     const auto [chi, chi_1, chi_2] = cutoff(r);
-    const auto [phi, phi_1] = _singular.phi(theta, side);
-    const double power = std::pow(r, -alpha), w = chi * power * phi;
+    const auto [phi, phi_1] = _singular.phi({c, s}, side);
+    const double power = _singular.power(r), w = chi * power * phi;
     // dX dY = stretch ds dd
     const double on_u =
         weight * flat.stretch * flat.root * power * phi * (chi_2 + (1 - 2 * alpha) * chi_1 / r);
@@ -68,8 +68,7 @@ void Extraction::add(const Corners& at, const Tensor& tension, std::size_t side,
 
     // grad w in (s, d) and in (x, y), by r and theta, X and Y.
     const double by_r = power * phi * (chi_1 - alpha * chi / r), by_angle = chi * power * phi_1 / r,
-                 c = flat_x / r, s = flat_y / r, w_x = c * by_r - s * by_angle,
-                 w_y = s * by_r + c * by_angle;
+                 w_x = c * by_r - s * by_angle, w_y = s * by_r + c * by_angle;
     const Point slope{w_x, flat.stretch * w_y - flat.slant * w_x},
         of_tip = product(flat.tip, slope);
     Point in_plane{};
@@ -87,7 +86,7 @@ void Extraction::add(const Corners& at, const Tensor& tension, std::size_t side,
     if (!jumps[i] || side != 0) continue;
     const double r = std::abs(_course.along(at.x[i]));
     if (r >= _outer || r == 0) continue;
-    const double jump = cutoff(r).value * std::pow(r, -alpha) * _singular.jump();
+    const double jump = cutoff(r).value * _singular.power(r) * _singular.jump();
     weights.force[i] += jump;
     for (std::size_t k = 0; k < 3; ++k)
       weights.u[k] -= jump * at.area * dot(product(tension, at.hat[i]), at.hat[k]);

@@ -30,8 +30,10 @@ class Singular {
   double exponent() const noexcept { return _exponent; }
   /// int D phi^2 over the angle, phi = s*/r^-alpha.
   double norm() const noexcept { return _norm; }
-  /// phi and its derivative; `side` 0: minus, 1: plus.
-  std::array<double, 2> phi(double theta, std::size_t side) const;
+  /// phi and its derivative in the direction (X, Y) / r; `side` 0: minus, 1: plus.
+  std::array<double, 2> phi(const Point& direction, std::size_t side) const;
+  /// r^-alpha.
+  double power(double r) const;
   /// [phi] on the faces.
   double jump() const noexcept { return _jump; }
   /// 1, or -1 where the solution has -c s.
@@ -46,6 +48,8 @@ class Singular {
   double release_factor(double intensity) const;
 
  private:
+  Point turned(const Point& direction) const;
+
   mesh::TipKind _kind;
   std::array<double, 2> _root;  ///< D of the minus and the plus side
   double _exponent = 0.5, _norm = 0, _jump = 0, _sign = 1, _theta_mean = 0;

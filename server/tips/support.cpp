@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <queue>
-#include <unordered_set>
 #include <utility>
 
 #include "base/at.hpp"
@@ -52,16 +51,19 @@ bool Surroundings::is_obstacle(std::int32_t a, std::int32_t b, const Place& plac
          !std::ranges::binary_search(place.edges, std::array{std::min(a, b), std::max(a, b)});
 }
 
-Support Surroundings::of(const Place& place) const {
+Support Surroundings::of(const Place& place, Marks& seen) const {
   const Point& tip = place.course.tip;
   Support support;
   support.radius = place.reach;
   using Near = std::pair<double, std::int32_t>;
   std::priority_queue<Near, std::vector<Near>, std::greater<>> waiting;
-  std::unordered_set<std::int32_t> seen;
+  seen.resize(_mesh.triangle_count());
+  std::vector<std::int32_t> marked;
   const auto add = [&](std::int32_t triangle, double distance) {
-    if (distance < support.radius && seen.insert(triangle).second)
-      waiting.push({distance, triangle});
+    if (distance >= support.radius || seen[at(triangle)] != 0) return;
+    seen[at(triangle)] = 1;
+    marked.push_back(triangle);
+    waiting.push({distance, triangle});
   };
   for (const auto& edge : place.edges) {
     if (edge[0] != place.node && edge[1] != place.node) continue;
@@ -93,6 +95,7 @@ Support Surroundings::of(const Place& place) const {
       add(other, std::max(nearest, distance));
     }
   }
+  for (const std::int32_t triangle : marked) seen[at(triangle)] = 0;
   if (found.empty()) return support;
   constexpr std::size_t enough = 200;  // triangles, about a radius of five edges
   const std::size_t quarter = std::min(std::max(found.size() / 4, enough), found.size() - 1);

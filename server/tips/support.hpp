@@ -32,8 +32,10 @@ class Surroundings {
   Surroundings(const mesh::Mesh& mesh, const mesh::EdgeTable& edges,
                const std::vector<mesh::EdgeEnd>& ends);
 
+  /// One value a triangle, 0 between calls; each thread has its own.
+  using Marks = std::vector<char>;
   /// The support of a place without a reason. O(n log n) for the n triangles in it.
-  Support of(const Place& place) const;
+  Support of(const Place& place, Marks& seen) const;
 
  private:
   bool is_obstacle(std::int32_t a, std::int32_t b, const Place& place) const;

@@ -50,13 +50,13 @@ Tips::Tips(const mesh::Mesh& mesh, const ddm::Decomposition& decomposition)
   const std::vector<Cell> cells = cells_of(mesh, decomposition);
   for (Place& place : find_places(mesh, edges, ends))
     _tips.push_back(Tip{std::move(place), 0, 0, {}});
-  const auto prepare_one = [&](std::size_t i) {
+  const auto prepare_one = [&, marks = Surroundings::Marks()](std::size_t i) mutable {
     stop::look(measuring, i);
     Tip& tip = _tips[i];
     if (!tip.place.reason.empty()) return;
     try {
       tip.singular.emplace_back(singular_at(tip.place, laws));
-      prepare(mesh, cells, around, laws, tip);
+      prepare(mesh, cells, around.of(tip.place, marks), laws, tip);
     } catch (const errors::Error& error) {
       if (error.reason() == errors::Reason::cancelled) throw;
       tip.place.reason = error.what();  // T is not finite a little off a triangle
@@ -66,10 +66,9 @@ Tips::Tips(const mesh::Mesh& mesh, const ddm::Decomposition& decomposition)
   base::at_once(_tips.size(), base::Threads::allowed(), [&] { return prepare_one; });
 }
 
-void Tips::prepare(const mesh::Mesh& mesh, std::span<const Cell> local, const Surroundings& around,
+void Tips::prepare(const mesh::Mesh& mesh, std::span<const Cell> local, const Support& support,
                    std::span<const Law> laws, Tip& tip) const {
   Place& place = tip.place;
-  const Support support = around.of(place);
   tip.radius = support.radius;
   tip.inner = support.inner;
   if (support.triangles.size() < fewest_triangles) {

@@ -86,8 +86,8 @@ class Tips {
 
   contact::TipAnswer row_of(const Tip& tip) const;
   static std::string reason_of(const Tip& tip, std::span<const Point> points);
-  void prepare(const mesh::Mesh& mesh, std::span<const Cell> local,
-               const class Surroundings& around, std::span<const Law> laws, Tip& tip) const;
+  void prepare(const mesh::Mesh& mesh, std::span<const Cell> local, const struct Support& support,
+               std::span<const Law> laws, Tip& tip) const;
   Corners corners(const Cell& cell) const;
   Tensor tension(const Cell& cell) const;
 
