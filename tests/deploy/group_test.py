@@ -10,7 +10,7 @@ from group import Balancer, Database, Member, eventually
 from places import DEPLOY, EXAMPLES
 from processes import ANTICRACK, FolderTest, run
 
-CALL = re.compile(r"^\S+ (?P<server>\S+) (?P<status>\d+) .*/anticrack\.v1\.\w+/(?P<method>\w+) mesh=(?P<mesh>\S+)$", re.M)
+CALL = re.compile(r"^\S+ (?P<server>\S+) \d+ .*/anticrack\.v1\.\w+/(?P<method>\w+) mesh=(?P<mesh>\S+)$", re.M)
 
 
 class GroupTest(FolderTest):
@@ -93,7 +93,7 @@ class Mesh(GroupTest):
         meshes = {call["mesh"] for call in calls if call["method"] not in self.NO_MESH}
         self.assertEqual(len(meshes), 1, calls)
         self.assertRegex(meshes.pop(), r"^[0-9a-f]{16}$")
-        self.assertEqual({call["mesh"] for call in calls if call["method"] in self.NO_MESH}, {"-"})
+        self.assertLessEqual({call["mesh"] for call in calls if call["method"] in self.NO_MESH}, {"-"})
         self.assertEqual(len({call["server"] for call in calls if call["mesh"] != "-"}), 1, "one mesh, one server")
 
     def test_is_on_every_call_that_concerns_one(self):

@@ -9,6 +9,7 @@
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <cstdlib>
 #include <memory>
 #include <mutex>
 #include <random>
@@ -177,8 +178,16 @@ struct Acknowledged {
   std::size_t work = 0;
 };
 
+/// A number from the environment, for a long run: ANTICRACK_KILLS=200 ANTICRACK_SEED=7 test_service
+/// --gtest_filter=Group.EachAcknowledgedJobEndsOnceUnderKills
+int given(const char* name, int otherwise) {
+  const char* const text = std::getenv(name);
+  return text == nullptr ? otherwise : std::stoi(text);
+}
+
 TEST_F(Group, EachAcknowledgedJobEndsOnceUnderKills) {
-  constexpr int kills = 12;
+  const int kills = given("ANTICRACK_KILLS", 12);
+  constexpr int kills_between_crashes = 12;  ///< of the database
   const std::vector<Work> works{work("slit.toml"), work("paper.toml", iterations(200)),
                                 work("paper-3.toml", iterations(20'000))};
   for (int i = 0; i < 3; ++i) add({"--log-level", "error"});
@@ -200,7 +209,7 @@ TEST_F(Group, EachAcknowledgedJobEndsOnceUnderKills) {
         if (random() % 3 == 0) wait_for_end(connection, one.name);
       }
     });
-  std::minstd_rand random(1);
+  std::minstd_rand random(static_cast<unsigned>(given("ANTICRACK_SEED", 1)));
   const auto heard = [&] {
     const std::lock_guard lock(mutex);
     return jobs.size();
@@ -209,7 +218,7 @@ TEST_F(Group, EachAcknowledgedJobEndsOnceUnderKills) {
     const std::size_t before = heard();
     eventually([&] { return heard() > before; });
     std::this_thread::sleep_for(std::chrono::milliseconds(random() % 400));
-    if (kill == kills / 2) {
+    if (kill % kills_between_crashes == kills_between_crashes / 2) {
       database.stop();
       database.start();
     }
