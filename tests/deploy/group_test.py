@@ -51,9 +51,8 @@ class GroupTest(FolderTest):
         """haproxy before these servers, which are started; it has found all ready."""
         members = [self.add(name) for name in names]
         ports = [(one.port, int(re.search(r":(\d+)/", one.metrics_url()).group(1))) for one in members]
-        self.balancer = Balancer(self.folder, (DEPLOY / "haproxy.cfg").read_text(encoding="utf-8"),
-                                 {"/etc/haproxy/anticrack.pem": self.pem, "/etc/haproxy/anticrack-ca.crt": self.made / "ca.crt"},
-                                 ports)
+        places = {"/etc/haproxy/anticrack.pem": self.pem, "/etc/haproxy/anticrack-ca.crt": self.made / "ca.crt"}
+        self.balancer = Balancer(self.folder, (DEPLOY / "haproxy.cfg").read_text(encoding="utf-8"), places, ports)
         self.addCleanup(self.balancer.stop)
         self.server = dict(zip(names, self.balancer.names))  # haproxy's names of them
         return members
@@ -138,10 +137,12 @@ class Failover(GroupTest):
     def start_run(self, name):
         """Returns the client, the job once it iterates, and the server that its watch is at."""
         said = len(self.balancer.log())
+        settings = [f"solver.{setting}" for setting in ("method=uzawa", "theta=1e-4", "epsilon=1e-300",
+                                                        f"max_iterations={self.ITERATIONS}")]
+        words = self.words("run", EXAMPLES / "paper-3.toml", "-o", self.folder / f"{name}.h5",
+                           *(word for setting in settings for word in ("--set", setting)))
         with open(self.folder / name, "w", encoding="utf-8") as out:
-            client = subprocess.Popen(self.words("run", EXAMPLES / "paper-3.toml", "-o", self.folder / f"{name}.h5", *[
-                word for setting in ("method=uzawa", "theta=1e-4", "epsilon=1e-300", f"max_iterations={self.ITERATIONS}")
-                for word in ("--set", f"solver.{setting}")]), stdout=out, stderr=out)
+            client = subprocess.Popen(words, stdout=out, stderr=out)
         self.addCleanup(client.kill)
         eventually(lambda: client.poll() is not None or "iteration" in self.told(name))
         self.assertIsNone(client.poll(), self.told(name))

@@ -35,8 +35,8 @@ def checked(value, kind, where):
     names = {key: name for name, key in model.attribute_map.items()}
     if unknown := set(value) - set(names):
         raise ValueError(f"{where} has no {unknown}")
-    members = {names[key]: checked(one, model.openapi_types[names[key]], f"{where}.{key}") for key, one in value.items()}
-    return model(**members)  # it knows what is required
+    return model(**{names[key]: checked(one, model.openapi_types[names[key]], f"{where}.{key}")
+                    for key, one in value.items()})  # it knows what is required
 
 
 def checked_object(value):
@@ -48,7 +48,8 @@ def checked_object(value):
 
 
 def manifests():
-    return [one for path in sorted(KUBERNETES.glob("*.yaml")) for one in yaml.safe_load_all(path.read_text("utf-8"))]
+    texts = [path.read_text(encoding="utf-8") for path in sorted(KUBERNETES.glob("*.yaml"))]
+    return [one for text in texts for one in yaml.safe_load_all(text)]
 
 
 def of_kind(kind, name="anticrack"):
@@ -104,7 +105,7 @@ class Agreement(FolderTest):
         super().setUp()
         self.haproxy = (DEPLOY / "haproxy.cfg").read_text(encoding="utf-8")
         self.services = yaml.safe_load(COMPOSE.read_text(encoding="utf-8"))["services"]
-        self.servers = {name: one for name, one in self.services.items() if one["image"] == "anticrack"}
+        self.servers = {name: one for name, one in self.services.items() if name.startswith("anticrack-")}
         self.deployment = of_kind("Deployment")
         self.pod = self.deployment["spec"]["template"]["spec"]
         self.container = self.pod["containers"][0]

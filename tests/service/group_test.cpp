@@ -21,6 +21,7 @@
 #include "service/workload.hpp"
 #include "support/database.hpp"
 #include "support/eventually.hpp"
+#include "support/random_seed.hpp"
 
 namespace anticrack::service_test {
 namespace {
@@ -178,15 +179,10 @@ struct Acknowledged {
   std::size_t work = 0;
 };
 
-/// A number from the environment, for a long run: ANTICRACK_KILLS=200 ANTICRACK_SEED=7 test_service
-/// --gtest_filter=Group.EachAcknowledgedJobEndsOnceUnderKills
-int given(const char* name, int otherwise) {
-  const char* const text = std::getenv(name);
-  return text == nullptr ? otherwise : std::stoi(text);
-}
-
+/// A long run: ANTICRACK_KILLS=200 test_service --gtest_filter=Group.Each* --gtest_random_seed=7
 TEST_F(Group, EachAcknowledgedJobEndsOnceUnderKills) {
-  const int kills = given("ANTICRACK_KILLS", 12);
+  const char* const given = std::getenv("ANTICRACK_KILLS");
+  const int kills = given == nullptr ? 30 : std::stoi(given);
   constexpr int kills_between_crashes = 12;  ///< of the database
   const std::vector<Work> works{work("slit.toml"), work("paper.toml", iterations(200)),
                                 work("paper-3.toml", iterations(20'000))};
@@ -209,7 +205,7 @@ TEST_F(Group, EachAcknowledgedJobEndsOnceUnderKills) {
         if (random() % 3 == 0) wait_for_end(connection, one.name);
       }
     });
-  std::minstd_rand random(static_cast<unsigned>(given("ANTICRACK_SEED", 1)));
+  std::minstd_rand random(anticrack::testing::random_seed());
   const auto heard = [&] {
     const std::lock_guard lock(mutex);
     return jobs.size();

@@ -121,7 +121,8 @@ class Balancer:
         lines = re.findall(r"^ *server (\S+) \S+ check port \d+.*$", text, re.M)
         assert len(lines) == len(servers)
         for name, (port, metrics_port) in zip(lines, servers):
-            text = re.sub(rf"(server {name}) \S+ check port \d+", rf"\1 127.0.0.1:{port} check port {metrics_port}", text)
+            here = f"127.0.0.1:{port} check port {metrics_port}"
+            text = re.sub(rf"(server {name}) \S+ check port \d+", rf"\1 {here}", text)
         self.names = dict(zip(lines, servers))
         self.path = folder / "haproxy.cfg"
         self.path.write_text(text, encoding="utf-8")
