@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/store_check.hpp"
 
+#include <chrono>
 #include <filesystem>
 #include <ostream>
 
@@ -79,12 +80,20 @@ int copy_store(const Config& config, bool dry_run, std::ostream& out) {
     out << "Nothing was copied: restore a backup, or see --check-store --repair.\n";
     return flawed;
   }
-  const group::Copied copied = group::copy(data, pool, dry_run, [&](const group::Copied& so_far) {
-    out << "copied " << so_far.records << " records, " << so_far.bytes << " bytes" << std::endl;
+  group::require_empty(pool);
+  const std::string& to = pool.settings().address.shown();
+  if (dry_run) {
+    out << "All of this would be copied to " << to << ", which is empty.\n";
+    return 0;
+  }
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point next = Clock::now() + std::chrono::seconds(1);
+  group::copy(data, pool, [&](std::size_t records, std::uint64_t bytes) {
+    if (Clock::now() < next) return;
+    next = Clock::now() + std::chrono::seconds(1);
+    out << "copied " << records << " records, " << bytes << " bytes" << std::endl;
   });
-  out << (dry_run ? "would be copied: " : "copied and read again: ") << copied.records
-      << " records (" << copied.unfinished << " jobs that have not ended), " << copied.blobs
-      << " blobs of " << copied.bytes << " bytes\n";
+  out << "All of this is in " << to << " now, and was read there again.\n";
   return 0;
 }
 

@@ -24,17 +24,17 @@ class Check {
   explicit Check(Transaction& transaction) : _transaction(transaction) {
     look_at_rows("meshes", store::read_mesh);
     look_at_rows("jobs", store::read_job);
-    note(
-        "SELECT 'meshes/' || id || ': its triangulation is missing' FROM meshes "
-        "WHERE sha256 <> '' AND blob IS DISTINCT FROM sha256 ORDER BY number");
-    note(
-        "SELECT 'jobs/' || id || ': its result is missing' FROM jobs "
-        "WHERE result IS NULL AND result_bytes > 0 ORDER BY number");
-    note(
-        "SELECT 'jobs/' || id || ': it has not ended, but is not in the queue' FROM jobs j "
-        "WHERE ended IS NULL AND NOT EXISTS (SELECT FROM queue WHERE job = j.id) ORDER BY number");
-    note(std::string("SELECT sha256 || ' belongs to no record' FROM blobs b WHERE ") +
-         unreferenced);
+    const Result flawed = _transaction.run(
+        std::string("SELECT 'meshes/' || id || ': its triangulation is missing' FROM meshes "
+                    "WHERE sha256 <> '' AND blob IS DISTINCT FROM sha256 UNION ALL "
+                    "SELECT 'jobs/' || id || ': its result is missing' FROM jobs "
+                    "WHERE result IS NULL AND result_bytes > 0 UNION ALL "
+                    "SELECT 'jobs/' || id || ': it has not ended, but is not queued' FROM jobs j "
+                    "WHERE ended IS NULL AND NOT EXISTS (SELECT FROM queue WHERE job = j.id) "
+                    "UNION ALL SELECT sha256 || ' belongs to no record' FROM blobs b WHERE ") +
+        unreferenced);
+    for (std::size_t row = 0; row < flawed.rows(); ++row)
+      found.flaws.push_back(flawed.text(row, 0));
     found.records +=
         static_cast<std::size_t>(_transaction.run("SELECT count(*) FROM uploads").integer(0, 0));
     look_at_blobs();
@@ -53,12 +53,6 @@ class Check {
     } catch (const Error& error) {
       found.flaws.push_back(what + error.what());
     }
-  }
-
-  /// Notes each row of a query as a flaw.
-  void note(const std::string& query) {
-    const Result rows = _transaction.run(query);
-    for (std::size_t row = 0; row < rows.rows(); ++row) found.flaws.push_back(rows.text(row, 0));
   }
 
   template <class Record>

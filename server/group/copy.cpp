@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstring>
 #include <set>
 
@@ -28,19 +27,28 @@ namespace {
 
 using errors::Error;
 using errors::Reason;
-using postgres::Result;
 using postgres::Transaction;
 using postgres::Value;
 using store::FileKind;
 using store::Statement;
 
-using Clock = std::chrono::steady_clock;
+bool is_empty(Transaction& transaction) {
+  return transaction
+      .run("SELECT FROM meshes UNION ALL SELECT FROM jobs UNION ALL SELECT FROM blobs LIMIT 1")
+      .empty();
+}
+
+Error not_empty(const postgres::Pool& pool) {
+  return {Reason::invalid_argument,
+          "the PostgreSQL database {} has records already: give an empty one (createdb)",
+          pool.settings().address.shown()};
+}
 
 /// Records are copied as they are: both stores have the same bytes.
 class Copy {
  public:
-  /// `to`: null to count only.
-  Copy(const std::string& data, Transaction* to, const std::function<void(const Copied&)>& progress)
+  Copy(const std::string& data, Transaction& to,
+       const std::function<void(std::size_t, std::uint64_t)>& progress)
       : _data(data), _to(to), _progress(progress), _source(store::database_path(data)) {
     store::require_version(_source);
     copy_meshes();
@@ -48,27 +56,13 @@ class Copy {
     copy_jobs();
   }
 
-  Copied done;
-
  private:
-  void run(const std::string& sql, postgres::Values values) {
-    if (_to != nullptr) _to->run(sql, values);
-  }
-
-  void copied() {
-    ++done.records;
-    if (Clock::now() - _told < std::chrono::seconds(1)) return;
-    _told = Clock::now();
-    _progress(done);
-  }
-
   /// Once for all records that refer to it.
   void copy_blob(FileKind kind, const std::string& name, std::uint64_t size,
                  const ReadBytes& read) {
     if (!_blobs.insert(name).second) return;
-    ++done.blobs;
-    done.bytes += size;
-    if (_to != nullptr) write_blob(*_to, kind, name, size, read);
+    _bytes += size;
+    write_blob(_to, kind, name, size, read);
   }
 
   /// Returns the first bytes.
@@ -89,11 +83,12 @@ class Copy {
   void copy_meshes() {
     Statement from =
         _source.prepare("SELECT id, owner, sha256, upload, record FROM meshes ORDER BY number");
-    for (; from.step(); copied()) {
+    for (; from.step(); _progress(++_records, _bytes)) {
       const std::string id = from.text(0), owner = from.text(1), sha256 = from.text(2),
                         record = from.text(4);
       if (!sha256.empty()) copy_file(FileKind::mesh, sha256);
-      run("INSERT INTO meshes (id, owner, sha256, upload, blob, record, checksum) "
+      _to.run(
+          "INSERT INTO meshes (id, owner, sha256, upload, blob, record, checksum) "
           "VALUES ($1, $2, $3, $4, nullif($3, ''), $5, $6)",
           {id, to_column(owner), to_column(sha256), to_column(from.text(3)), Value::bytes(record),
            row_checksum(id, owner, record)});
@@ -102,11 +97,11 @@ class Copy {
 
   void copy_uploads() {
     Statement from = _source.prepare("SELECT sha256, owner, created FROM uploads");
-    for (; from.step(); copied()) {
+    for (; from.step(); _progress(++_records, _bytes)) {
       const std::string sha256 = from.text(0);
       const bool is_array = !store::begins_like_msh(copy_file(FileKind::upload, sha256));
-      run("INSERT INTO uploads (owner, sha256, created, is_array) VALUES ($1, $2, $3, $4)",
-          {to_column(from.text(1)), sha256, from.integer(2), is_array});
+      _to.run("INSERT INTO uploads (owner, sha256, created, is_array) VALUES ($1, $2, $3, $4)",
+              {to_column(from.text(1)), sha256, from.integer(2), is_array});
     }
   }
 
@@ -127,74 +122,66 @@ class Copy {
     Statement from = _source.prepare(
         "SELECT id, owner, request, fingerprint, coalesce(ended, 0), result, result_bytes, "
         "coalesce(small_result, ''), record FROM jobs ORDER BY number");
-    for (; from.step(); copied()) {
-      const std::string id = from.text(0), owner = from.text(1), bytes = from.text(8);
+    for (; from.step(); _progress(++_records, _bytes)) {
+      const std::string id = from.text(0), owner = to_column(from.text(1)), bytes = from.text(8);
       const records::JobRecord record = store::decode_job_record(bytes);
       std::vector<std::string> uploads = store::uploads_of(record.spec);
       std::ranges::transform(uploads, uploads.begin(), to_column);
-      const std::int64_t ended = from.integer(4);
-      run("INSERT INTO jobs (id, owner, request, fingerprint, uploads, ended, result, "
+      _to.run(
+          "INSERT INTO jobs (id, owner, request, fingerprint, uploads, ended, result, "
           "result_bytes, record, checksum) VALUES ($1, $2, $3, $4, $5, nullif($6, 0), "
           "nullif($7, ''), $8, $9, $10)",
-          {id, to_column(owner), to_column(from.text(2)), from.text(3), uploads, ended,
+          {id, owner, to_column(from.text(2)), from.text(3), uploads, from.integer(4),
            copy_result(from.text(5), from.text(7)), from.integer(6), Value::bytes(bytes),
-           row_checksum(id, owner, bytes)});
-      if (ended == 0) queue(record);
+           row_checksum(id, record.owner, bytes)});
+      if (from.integer(4) != 0) continue;
+      // A claim counts the attempt. Owners take turns.
+      const bool began = record.state == records::JobState::running;
+      _to.run(
+          "INSERT INTO queue (job, owner, mesh, class, cases, bytes, attempt, crashes, tag) "
+          "SELECT $1, $2, $3, $4::smallint, $5::bigint, $6::bigint, $7::integer, $8::integer, "
+          "coalesce((SELECT max(tag) + 1 FROM queue WHERE class = $4::smallint AND owner = $2), 0)",
+          {id, owner, to_column(record.spec.mesh), static_cast<int>(record.spec.priority),
+           record.spec.loads.size(), fields::bytes_of(record.spec),
+           record.attempt - (began ? 0 : 1), record.crashes});
     }
-  }
-
-  /// Owners take turns, and a claim counts the attempt.
-  void queue(const records::JobRecord& record) {
-    ++done.unfinished;
-    const bool began = record.state == records::JobState::running;
-    run("INSERT INTO queue (job, owner, mesh, class, cases, bytes, attempt, crashes, tag) "
-        "SELECT $1, $2, $3, $4::smallint, $5::bigint, $6::bigint, $7::integer, $8::integer, "
-        "coalesce((SELECT max(tag) + 1 FROM queue WHERE class = $4::smallint AND owner = $2), 0)",
-        {record.id, to_column(record.owner), to_column(record.spec.mesh),
-         static_cast<int>(record.spec.priority), record.spec.loads.size(),
-         fields::bytes_of(record.spec), record.attempt - (began ? 0 : 1), record.crashes});
   }
 
   const std::string& _data;
-  Transaction* const _to;
-  const std::function<void(const Copied&)>& _progress;
+  Transaction& _to;
+  const std::function<void(std::size_t, std::uint64_t)>& _progress;
   store::Connection _source;
   std::set<std::string> _blobs;
-  Clock::time_point _told = Clock::now();
+  std::size_t _records = 0;
+  std::uint64_t _bytes = 0;
 };
-
-bool is_empty(Transaction& transaction) {
-  return transaction.run("SELECT 1 WHERE to_regclass('anticrack.jobs') IS NULL").rows() == 1 ||
-         transaction
-             .run(
-                 "SELECT FROM meshes UNION ALL SELECT FROM jobs UNION ALL SELECT FROM blobs "
-                 "LIMIT 1")
-             .empty();
-}
 
 }  // namespace
 
-Copied copy(const std::string& data, postgres::Pool& pool, bool dry_run,
-            const std::function<void(const Copied&)>& progress) {
-  if (!dry_run) postgres::make_tables(pool, tables());
-  Copied done;
+void require_empty(postgres::Pool& pool) {
+  postgres::transact(pool, [&](Transaction& transaction) {
+    if (transaction.run("SELECT 1 WHERE to_regclass('anticrack.jobs') IS NULL").empty() &&
+        !is_empty(transaction))
+      throw not_empty(pool);
+  });
+}
+
+void copy(const std::string& data, postgres::Pool& pool,
+          const std::function<void(std::size_t, std::uint64_t)>& progress) {
+  postgres::make_tables(pool, tables());
   postgres::transact(pool, [&](Transaction& transaction) {
     // Who reads these may; who writes waits.
-    if (!dry_run) transaction.execute("LOCK TABLE meshes, jobs, uploads, blobs IN EXCLUSIVE MODE");
+    transaction.execute("LOCK TABLE meshes, jobs, uploads, blobs IN EXCLUSIVE MODE");
     if (!is_empty(transaction)) {
       if (transaction.repeated()) return;  // it was committed
-      throw Error(Reason::invalid_argument,
-                  "the PostgreSQL database {} has records already: give an empty one (createdb)",
-                  pool.settings().address.shown());
+      throw not_empty(pool);
     }
-    done = Copy(data, dry_run ? nullptr : &transaction, progress).done;
-    if (dry_run) return;
+    Copy(data, transaction, progress);
     const store::CheckedStore found = check(transaction);
     if (!found.flaws.empty())
       throw Error(Reason::storage, "what was copied differs, so it was undone: {}",
                   found.flaws.front());
   });
-  return done;
 }
 
 }  // namespace anticrack::group

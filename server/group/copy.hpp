@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
-// Moves a store from a data folder with SQLite to PostgreSQL.
 #pragma once
 
 #include <cstdint>
@@ -11,17 +9,14 @@
 
 namespace anticrack::group {
 
-struct Copied {
-  std::uint64_t records = 0, unfinished = 0;  ///< the latter jobs
-  std::uint64_t blobs = 0, bytes = 0;         ///< triangulations, results and uploads
-};
+/// Throws errors::Error (invalid_argument) if the database has records.
+void require_empty(postgres::Pool& pool);
 
 /// Copies the store in the folder `data`, which nobody may be using and store::check() must have
 /// found sound, to an empty database, and reads all of it there again; all or nothing, in one
-/// transaction. Jobs that have not ended go on there. O(bytes). Calls `progress` every second.
-/// `dry_run`: only counts. Throws errors::Error: invalid_argument if the database has records;
-/// storage.
-Copied copy(const std::string& data, postgres::Pool& pool, bool dry_run,
-            const std::function<void(const Copied&)>& progress);
+/// transaction. Jobs that have not ended go on there. O(bytes). Calls progress(records, bytes so
+/// far) after each record. Throws as require_empty() does, and errors::Error (storage).
+void copy(const std::string& data, postgres::Pool& pool,
+          const std::function<void(std::size_t, std::uint64_t)>& progress);
 
 }  // namespace anticrack::group

@@ -70,6 +70,25 @@ class Members(MembersTest):
             self.ended(member, self.submit(member, 10))
         self.assertEqual(self.sql("SELECT count(DISTINCT name), max(epoch) FROM anticrack.servers"), "1|3")
 
+    def test_tell_how_the_group_is(self):
+        members = [self.add(name) for name in "ab"]
+        name = self.submit(members[0], 60_000)
+        eventually(lambda: self.runs(members[0], name))
+        for member in members:
+            ended = run("promtool", "check", "metrics", input=member.page()[1])
+            self.assertEqual(ended.returncode, 0, ended.stdout + ended.stderr)
+            self.assertIn('anticrack_group_jobs{state="running"} 1\n', member.page()[1])
+            self.assertIn('anticrack_group_servers{state="living"} 2\n', member.page()[1])
+            self.assertEqual(member.page("/ready"), (200, "ready\n"))
+        self.database.stop()
+        for member in members:
+            eventually(lambda one=member: one.page("/ready")[0] == 503)
+            self.assertGreater(member.metric("anticrack_store_unreachable_seconds"), 5)
+        self.database.start()
+        for member in members:
+            eventually(lambda one=member: one.page("/ready")[0] == 200)
+        self.ended(members[1], name)
+
     def test_whose_clocks_differ_by_a_minute_keep_their_leases(self):
         self.assertTrue(FAKETIME)
         clocks = {"a": 0, "b": 60, "c": -60}
