@@ -41,6 +41,7 @@ struct Connection::State {
   /// The mesh that a resource name is about: its own, or that of a job which an answer told; else
   /// empty.
   std::string mesh_of(const std::string& name);
+  /// Notes the mesh of a job.
   void learn(const v1::Job& job);
 
  private:

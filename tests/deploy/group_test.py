@@ -132,7 +132,7 @@ class Mesh(GroupTest):
 class Failover(GroupTest):
     """A long run at a client that knows haproxy only."""
 
-    ITERATIONS = 60_000
+    ITERATIONS = 40_000
 
     def start_run(self, name):
         """Returns the client, the job once it iterates, and the server that its watch is at."""

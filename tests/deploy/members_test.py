@@ -57,14 +57,14 @@ class MembersTest(FolderTest):
 class Members(MembersTest):
     def test_of_one_name_by_a_copied_folder_do_no_harm(self):
         first = self.add("a")
-        name = self.submit(first, 60_000)
+        name = self.submit(first, 30_000)
         eventually(lambda: self.runs(first, name))
         (self.folder / "b/data").mkdir(parents=True)
         shutil.copy(self.folder / "a/data/server", self.folder / "b/data/server")
         second = self.add("b")  # as if the first had died and this were its next start
         job = self.ended(second, name)
         self.assertEqual((job.state, job.message.status.attempt), ("not_converged", 2))
-        self.assertEqual(job.message.status.answers[0].iterations, 60_000)
+        self.assertEqual(job.message.status.answers[0].iterations, 30_000)
         for member in (first, second):  # both are in the group, and stay there
             self.assertEqual(member.metric("anticrack_group_servers"), 2)
             self.ended(member, self.submit(member, 10))
@@ -72,7 +72,7 @@ class Members(MembersTest):
 
     def test_tell_how_the_group_is(self):
         members = [self.add(name) for name in "ab"]
-        name = self.submit(members[0], 60_000)
+        name = self.submit(members[0], 30_000)
         eventually(lambda: self.runs(members[0], name))
         for member in members:
             ended = run("promtool", "check", "metrics", input=member.page()[1])
@@ -103,14 +103,14 @@ class Members(MembersTest):
             self.assertEqual(self.ended(member, name).message.status.attempt, 1)
         eventually(lambda: int(self.sql("SELECT min(beats) FROM anticrack.servers")) > begun + LEASE + 3)
         self.assertEqual(self.sql("SELECT count(*) FILTER (WHERE NOT dead), max(epoch) FROM anticrack.servers"), "3|3")
-        name = self.submit(members["a"], 60_000)
+        name = self.submit(members["a"], 30_000)
         runner = eventually(lambda: self.sql(f"SELECT name FROM anticrack.servers JOIN anticrack.queue ON epoch = runner "
                                              f"WHERE job = '{name.removeprefix('jobs/')}'"))
         victim = next(one for one in members if (self.folder / one / "data/server").read_text("utf-8") == runner)
         eventually(lambda: self.runs(members[victim], name))
         members.pop(victim).kill()
         job = self.ended(next(iter(members.values())), name)
-        self.assertEqual((job.message.status.attempt, job.message.status.answers[0].iterations), (2, 60_000))
+        self.assertEqual((job.message.status.attempt, job.message.status.answers[0].iterations), (2, 30_000))
 
 
 class Backup(MembersTest):
@@ -125,7 +125,7 @@ class Backup(MembersTest):
     def test_of_a_group_at_work_is_restored_with_every_job(self):
         one = self.add("a")
         self.client(one, "run", EXAMPLES / "slit.toml", "-o", self.folder / "before.h5")
-        waiting = self.submit(one, 20_000)
+        waiting = self.submit(one, 10_000)
         environment = {**os.environ, "PATH": f"{os.path.dirname(ANTICRACKD)}:{PROGRAMS}:{os.environ['PATH']}"}
         for command in self.recipe():
             for place, here in {"postgresql://anticrack@db/anticrack": self.url, "postgresql://anticrack@db/restored":
@@ -138,7 +138,7 @@ class Backup(MembersTest):
         self.assertIn(" 0 flaws", ended.stdout)
         self.url = self.database.url("restored")
         other = self.add("b")
-        self.assertEqual(self.ended(other, waiting).message.status.answers[0].iterations, 20_000)
+        self.assertEqual(self.ended(other, waiting).message.status.answers[0].iterations, 10_000)
         with anticrack.connect(f"127.0.0.1:{other.port}") as client:
             self.assertEqual(len(client.jobs()), 2)
             client.jobs()[1].result()
@@ -148,7 +148,7 @@ class CopyStore(MembersTest):
     def test_goes_on_with_the_jobs_of_the_folder(self):
         with Daemon(self.folder, "--drain-time", "0") as alone:
             self.client(alone, "run", EXAMPLES / "slit.toml", "-o", self.folder / "before.h5")
-            running = self.submit(alone, 60_000)
+            running = self.submit(alone, 30_000)
             eventually(lambda: self.runs(alone, running))
             ended = self.copy()
             self.assertEqual(ended.returncode, 2)
@@ -161,7 +161,7 @@ class CopyStore(MembersTest):
         self.assertEqual(ended.returncode, 1)
         self.assertIn("give an empty one", ended.stderr)
         member = self.add("a")
-        self.assertEqual(self.ended(member, running).message.status.answers[0].iterations, 60_000)
+        self.assertEqual(self.ended(member, running).message.status.answers[0].iterations, 30_000)
         self.client(member, "job", "list")
         with self.assertRaisesRegex(RuntimeError, "is a store of its own"):
             Member(self.folder, self.url)
