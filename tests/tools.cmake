@@ -42,6 +42,7 @@ set(needs_client.python.study .pandas)
 set(needs_client.view.explored chromium chromedriver .aiohttp .selenium /usr/share/javascript/three/three.min.js
     /usr/share/javascript/chart.js/chart.min.js)
 set(needs_client.view.page ${needs_client.view.explored} tsc clang-format)
+set(needs_benchmarks.group haproxy initdb openssl)
 set(needs_deploy.administration openssl)
 set(needs_deploy.blas ${serial_openblas})
 set(needs_deploy.certificates openssl)

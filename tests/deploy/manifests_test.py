@@ -70,7 +70,7 @@ class Schemas(FolderTest):
         text = COMPOSE.read_text(encoding="utf-8")
         ended = self.compose(text)
         self.assertEqual(ended.returncode, 0, ended.stderr)
-        for right, wrong in (("restart:", "restarts:"), ("cap_drop: [ALL]", "cap_drop: 1"), ("[postgresql]", "[mysql]")):
+        for right, wrong in (("restart:", "restarts:"), ("cap_drop: [ALL]", "cap_drop: 1"), ("[postgresql]", "[db]")):
             self.assertIn(right, text)
             self.assertNotEqual(self.compose(text.replace(right, wrong)).returncode, 0, wrong)
 
