@@ -49,7 +49,9 @@ class Copy {
  public:
   Copy(const std::string& data, Transaction& to,
        const std::function<void(std::size_t, std::uint64_t)>& progress)
-      : _data(data), _to(to), _progress(progress), _source(store::database_path(data)) {
+      : _data(data), _to(to), _progress(progress), _source(store::database_path(data)) {}
+
+  void all() {
     store::require_version(_source);
     copy_meshes();
     copy_uploads();
@@ -176,7 +178,7 @@ void copy(const std::string& data, postgres::Pool& pool,
       if (transaction.repeated()) return;  // it was committed
       throw not_empty(pool);
     }
-    Copy(data, transaction, progress);
+    Copy(data, transaction, progress).all();
     const store::CheckedStore found = check(transaction);
     if (!found.flaws.empty())
       throw Error(Reason::storage, "what was copied differs, so it was undone: {}",
