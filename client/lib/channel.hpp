@@ -8,10 +8,13 @@
 
 #include <atomic>
 #include <chrono>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <type_traits>
 
 #include "anticrack/v1/case.grpc.pb.h"
 #include "anticrack/v1/mesh.grpc.pb.h"
@@ -34,10 +37,36 @@ struct Connection::State {
   std::shared_ptr<grpc::Channel> channel;
   std::shared_ptr<grpc::Channel> bulk;  ///< channel of bulk reads and uploads
   std::atomic<bool> met = false;        ///< the server has answered once
+
+  /// The mesh that a resource name is about: its own, or that of a job which an answer told; else
+  /// empty.
+  std::string mesh_of(const std::string& name);
+  /// Notes the mesh of a job.
+  void learn(const v1::Job& job);
+
+ private:
+  std::mutex _mutex;
+  std::map<std::string, std::string> _meshes;  ///< of jobs, by their names
 };
 
-/// Puts the token of the connection, if any, on a call that is about to start.
-void authorise(const Connection::State& state, grpc::ClientContext& context);
+/// Puts the token of the connection, if any, on a call that is about to start, and the id of the
+/// mesh that it is about, if one is known, by which balancers send calls for one mesh to one
+/// server.
+void prepare(const Connection::State& state, grpc::ClientContext& context,
+             const std::string& mesh = {});
+
+/// The mesh that a request is about, "meshes/ID"; empty if that is not known.
+template <class Request>
+std::string mesh_of(Connection::State& state, const Request& request) {
+  if constexpr (requires { request.spec().mesh(); })
+    return request.spec().mesh();
+  else if constexpr (requires { request.mesh().starts_with(""); })
+    return request.mesh();
+  else if constexpr (requires { request.name(); })
+    return state.mesh_of(request.name());
+  else
+    return {};
+}
 
 /// The error of a call that ended with `status`, which is not OK. If there was no reply of the
 /// server (UNAVAILABLE), or credentials were refused, the message has the cure.
@@ -81,7 +110,7 @@ Response call(Connection& connection,
   Retries retries(state, *state.channel);
   while (true) {
     grpc::ClientContext context;
-    authorise(state, context);
+    prepare(state, context, mesh_of(state, request));
     context.set_deadline(std::chrono::system_clock::now() + state.options.deadline);
     const std::stop_callback cancel(stop, [&context] { context.TryCancel(); });
     Response response;
@@ -89,6 +118,7 @@ Response call(Connection& connection,
     if (status.ok() ||
         (deletes && retries.lost() && status.error_code() == grpc::StatusCode::NOT_FOUND)) {
       retries.succeeded();
+      if constexpr (std::is_same_v<Response, v1::Job>) state.learn(response);
       return response;
     }
     retries.wait(status, stop);
@@ -109,14 +139,13 @@ Response call_named(Connection& connection,
 /// deadline: jobs may take days, heartbeats show life. `stop` ends the stream; so does what `take`
 /// throws.
 template <class Stub, class Request, class Response, class Take>
-grpc::Status read_stream(const Connection::State& state,
-                         const std::shared_ptr<grpc::Channel>& channel,
+grpc::Status read_stream(Connection::State& state, const std::shared_ptr<grpc::Channel>& channel,
                          std::unique_ptr<grpc::ClientReader<Response>> (Stub::*method)(
                              grpc::ClientContext*, const Request&),
                          const Request& request, const std::stop_token& stop, const Take& take) {
   Stub stub(channel);
   grpc::ClientContext context;
-  authorise(state, context);
+  prepare(state, context, mesh_of(state, request));
   const std::stop_callback cancel(stop, [&context] { context.TryCancel(); });
   const auto reader = (stub.*method)(&context, request);
   Response message;

@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <cstdlib>
 #include <mutex>
+#include <regex>
 #include <string_view>
 #include <utility>
 
@@ -15,6 +16,8 @@ namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
+
+constexpr std::size_t most_jobs_known = 10'000;
 
 std::shared_ptr<grpc::ChannelCredentials> credentials_of(const Credentials& credentials) {
   if (!credentials.tls) return grpc::InsecureChannelCredentials();
@@ -151,7 +154,25 @@ Connection::~Connection() = default;
 
 const std::string& Connection::address() const noexcept { return _state->options.address; }
 
-void authorise(const Connection::State& state, grpc::ClientContext& context) {
+std::string Connection::State::mesh_of(const std::string& name) {
+  if (name.starts_with("meshes/")) return name;
+  const std::lock_guard lock(_mutex);
+  const auto found = _meshes.find(name);
+  return found == _meshes.end() ? std::string() : found->second;
+}
+
+void Connection::State::learn(const v1::Job& job) {
+  const std::lock_guard lock(_mutex);
+  if (_meshes.size() >= most_jobs_known) _meshes.clear();
+  _meshes[job.name()] = job.spec().mesh();
+}
+
+void prepare(const Connection::State& state, grpc::ClientContext& context,
+             const std::string& mesh) {
+  // Names come from users, and gRPC ends the program over a value that is no text.
+  static const std::regex form("meshes/([A-Za-z0-9_-]{1,64})");
+  if (std::smatch found; std::regex_match(mesh, found, form))
+    context.AddMetadata("x-mesh-id", found[1]);
   // The token is not sent as call credentials, which gRPC sends over TLS only, because localhost
   // and unix sockets need no TLS.
   if (!state.options.credentials.token.empty())

@@ -132,7 +132,7 @@ grpc::Status send_once(Connection::State& state, const Open& open, std::size_t c
                        v1::CreateUploadsResponse& response, const std::stop_token& stop) {
   v1::UploadService::Stub stub(state.bulk);
   grpc::ClientContext context;
-  authorise(state, context);
+  prepare(state, context);
   const std::stop_callback cancel(stop, [&context] { context.TryCancel(); });
   const auto writer = stub.CreateUploads(&context, &response);
   try {

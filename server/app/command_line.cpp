@@ -25,9 +25,9 @@ void describe(CLI::App& parser, CommandLine& result, const std::string& version)
                   "Print the configuration in effect, check the files it names and stop; "
                   "exit code 2 if something is wrong");
   CLI::Option* check = parser.add_flag("--check-store", result.check_store,
-                                       "Check every record and file of the data folder and stop; "
-                                       "the server must not be running; exit code 3 "
-                                       "if something is wrong");
+                                       "Check every record and file of the data folder, or of "
+                                       "the database of --store, and stop; on a folder no server "
+                                       "may be running; exit code 3 if something is wrong");
   check->excludes(own);
   parser
       .add_flag("--repair", result.repair,
@@ -40,6 +40,13 @@ void describe(CLI::App& parser, CommandLine& result, const std::string& version)
       ->type_name("DIR")
       ->excludes(check)
       ->excludes(own);
+  CLI::Option* copy = parser.add_flag(
+      "--copy-store", result.copy_store,
+      "Copy all of the data folder, on which no server may be running, to the empty database of "
+      "--store, read it there again and stop; all or nothing");
+  copy->excludes(check)->excludes(own);
+  parser.add_flag("--dry-run", result.dry_run, "Only say what --copy-store would copy")
+      ->needs(copy);
   for (const Key& key : keys()) {
     const std::string flag = "--" + key.name;
     const auto set = [&result, name = key.name, flag](const std::string& value) {

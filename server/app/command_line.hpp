@@ -21,6 +21,8 @@ struct CommandLine {
   bool check_store = false;
   bool repair = false;  ///< repairs what check_store finds
   std::string backup;   ///< the folder to make; empty: no backup
+  bool copy_store = false;
+  bool dry_run = false;  ///< of copy_store
   /// The output of --help or --version, if one of them was given.
   std::optional<std::string> text;
 };

@@ -143,7 +143,7 @@ int run(int argc, char** argv) {
   if (!line.config_file.empty())
     std::ranges::copy(app::read_config_file(line.config_file), std::back_inserter(file));
   app::Config config = app::make_config(file, line.settings);
-  const bool serves = line.backup.empty() && !line.check_store;
+  const bool serves = line.backup.empty() && !line.check_store && !line.copy_store;
   if (serves) app::fit_connections(config, app::raise_descriptor_limit());
   if (line.check_config) {
     std::cout << app::to_toml(config) << std::flush;
@@ -152,6 +152,7 @@ int run(int argc, char** argv) {
     return problems.empty() ? 0 : usage_error;
   }
   if (!line.backup.empty()) return app::back_up(config, line.backup, std::cout);
+  if (line.copy_store) return app::copy_store(config, line.dry_run, std::cout);
   if (line.check_store) return app::check_store(config, line.repair, std::cout);
   return start(config, place ? &*place : nullptr);
 }

@@ -60,7 +60,7 @@ struct Service::Parts {
         drain_time(config.drain_time),
         metrics(rpc::version(), rpc::build()),
         folder(config.store.folder),
-        store(open_store(config.store)),
+        store(open_store(with_listener(config.store))),
         cache(config.limits.memory_budget_bytes, factorise_function(config),
               [this](std::chrono::duration<double> time) { factorised(metrics, time); }),
         catalogue(with_listener(catalogue_options(config)), *store, cache),
@@ -79,7 +79,8 @@ struct Service::Parts {
     if (!config.store.url.empty())
       watcher = std::jthread([this](const std::stop_token& stop) { watch_store(stop); });
     if (config.metrics_listen.empty()) return;
-    const std::string where = metrics.listen(config.metrics_listen, [this] { return page(); });
+    const std::string where = metrics.listen(
+        config.metrics_listen, [this] { return page(); }, [this] { return ready.load(); });
     log::info("metrics", {{"url", "http://" + where + "/metrics"}});
   }
 
@@ -104,7 +105,11 @@ struct Service::Parts {
 
   metrics::Snapshot page() const {
     metrics::Snapshot now = snapshot();
-    if (store_answers()) now.owners = store->owners();
+    if (store_answers()) {
+      now.owners = store->owners();
+      now.group = store->group();
+    }
+    now.store_unreachable = store->unreachable();
     return now;
   }
 
@@ -128,6 +133,11 @@ struct Service::Parts {
     now.largest_lag = calls.largest_lag;
     now.ready = ready;
     return now;
+  }
+
+  store::StoreOptions with_listener(store::StoreOptions options) {
+    options.answered = [this](std::chrono::duration<double> time) { metrics.store_answered(time); };
+    return options;
   }
 
   meshes::CatalogueOptions with_listener(meshes::CatalogueOptions options) {

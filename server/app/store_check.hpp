@@ -7,10 +7,15 @@
 
 namespace anticrack::app {
 
-/// Implements --check-store: prints the flaws of the data folder, one per line, and with `repair`
-/// moves them aside. Returns the exit code: 0 if the store is sound (after a repair), else 3.
-/// Throws ConfigError if a server uses the folder or it does not exist, and as store::check() and
-/// store::repair() do.
+/// Implements --check-store: prints the flaws of the data folder or database, one per line, and
+/// with `repair` moves those of a folder aside. Returns the exit code: 0 if the store is sound
+/// (after a repair), else 3. Throws ConfigError if a server uses the folder or it does not exist,
+/// and as store::check() and store::repair() do.
 int check_store(const Config& config, bool repair, std::ostream& out);
+
+/// Implements --copy-store: copies the data folder to the database of --store, or (`dry_run`) says
+/// what it would copy. Returns 0, or 3 where the folder has flaws. Throws ConfigError if a server
+/// uses the folder, and as group::copy() does.
+int copy_store(const Config& config, bool dry_run, std::ostream& out);
 
 }  // namespace anticrack::app

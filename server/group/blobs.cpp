@@ -7,6 +7,7 @@
 #include <mutex>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "errors/errors.hpp"
 #include "stop/stop.hpp"
@@ -34,6 +35,11 @@ struct Reader {
 
 }  // namespace
 
+const char* const unreferenced =
+    "NOT EXISTS (SELECT FROM meshes WHERE blob = b.sha256) "
+    "AND NOT EXISTS (SELECT FROM jobs WHERE result = b.sha256) "
+    "AND NOT EXISTS (SELECT FROM uploads WHERE uploads.sha256 = b.sha256)";
+
 void write_blob(postgres::Transaction& transaction, store::FileKind kind, const std::string& name,
                 std::uint64_t size, const ReadBytes& read) {
   transaction.run(
@@ -58,12 +64,10 @@ std::vector<std::string> remove_unreferenced(postgres::Transaction& transaction,
   // Who refers to a blob anew holds its row. So the row is taken first, and the second statement
   // sees what others have committed until then.
   transaction.run("SELECT FROM blobs WHERE sha256 = ANY ($1) ORDER BY sha256 FOR UPDATE", {names});
-  const Result rows = transaction.run(
-      "DELETE FROM blobs b WHERE sha256 = ANY ($1) "
-      "AND NOT EXISTS (SELECT FROM meshes WHERE blob = b.sha256) "
-      "AND NOT EXISTS (SELECT FROM jobs WHERE result = b.sha256) "
-      "AND NOT EXISTS (SELECT FROM uploads WHERE uploads.sha256 = b.sha256) RETURNING sha256",
-      {names});
+  const Result rows =
+      transaction.run(std::string("DELETE FROM blobs b WHERE sha256 = ANY ($1) AND ") +
+                          unreferenced + " RETURNING sha256",
+                      {names});
   for (std::size_t row = 0; row < rows.rows(); ++row) removed.push_back(rows.text(row, 0));
   return removed;
 }
@@ -99,15 +103,21 @@ std::uint64_t read_blob(postgres::Pool& pool, store::FileKind kind, const std::s
 }
 
 ReadBytes reader_of_blob(postgres::Pool& pool, const std::string& name, std::uint64_t size) {
-  return [&pool, name, size, reader = std::make_shared<Reader>()](std::uint64_t offset,
-                                                                  std::span<std::byte> to) {
+  return reader_of_pieces([&pool, name](std::uint64_t n) { return piece_of(pool, name, n); }, name,
+                          size);
+}
+
+ReadBytes reader_of_pieces(std::function<Result(std::uint64_t n)> piece_of, const std::string& name,
+                           std::uint64_t size) {
+  return [piece_of = std::move(piece_of), name, size, reader = std::make_shared<Reader>()](
+             std::uint64_t offset, std::span<std::byte> to) {
     if (offset > size || to.size() > size - offset)
       throw Error(Reason::storage, "{} in the database has no more than {} bytes", name, size);
     const std::lock_guard lock(reader->mutex);
     while (!to.empty()) {
       if (const std::uint64_t n = offset / piece_bytes; !reader->held || reader->n != n) {
         reader->held.reset();
-        Result piece = piece_of(pool, name, n);
+        Result piece = piece_of(n);
         if (piece.empty())
           throw Error(Reason::result_expired, "the result was removed while it was being read");
         reader->held.emplace(std::move(piece));

@@ -39,8 +39,15 @@ void hold_uploads(postgres::Transaction& transaction, const std::string& owner,
 std::uint64_t read_blob(postgres::Pool& pool, store::FileKind kind, const std::string& name,
                         const std::function<void(std::span<const std::byte>)>& take);
 
-/// Reads parts of a blob of `size` bytes, piece by piece; keeps one. Calls from several threads
-/// wait for one another. Throws errors::Error (result_expired) if it was removed meanwhile.
+/// SQL: whether no row refers to the blob b.
+extern const char* const unreferenced;
+
+/// Reads parts of a blob of `size` bytes, of which piece(n) is a row with its n-th piece, and no
+/// row where there is none; keeps one. Calls from several threads wait for one another. Throws
+/// errors::Error (result_expired) if it was removed meanwhile.
+ReadBytes reader_of_pieces(std::function<postgres::Result(std::uint64_t n)> piece,
+                           const std::string& name, std::uint64_t size);
+/// The same of a blob in the database.
 ReadBytes reader_of_blob(postgres::Pool& pool, const std::string& name, std::uint64_t size);
 
 }  // namespace anticrack::group

@@ -12,6 +12,7 @@
 #include "errors/errors.hpp"
 #include "group/rows.hpp"
 #include "group/tables.hpp"
+#include "store/record_codec.hpp"
 #include "store/requests.hpp"
 
 namespace anticrack::group {
@@ -34,17 +35,6 @@ std::string own_folder(const std::string& folder) {
   return folder;
 }
 
-/// The command line, where lists of processes show it, has no password.
-postgres::Settings settings_of(const std::string& url) {
-  postgres::Settings settings{postgres::Address(url)};
-  for (const postgres::Options& server : settings.address.servers())
-    if (server.contains("password"))
-      throw Error(Reason::invalid_argument,
-                  "there is a password in the address, where others see it: give it in ~/.pgpass, "
-                  "PGPASSFILE or PGPASSWORD");
-  return settings;
-}
-
 /// The name of the server of this data folder, made at its first start.
 std::string name_of(const std::string& folder) {
   const std::string path = folder + "/server";
@@ -58,8 +48,22 @@ std::string name_of(const std::string& folder) {
 
 }  // namespace
 
+postgres::Settings settings_of(const std::string& url) {
+  postgres::Settings settings{postgres::Address(url)};
+  for (const postgres::Options& server : settings.address.servers())
+    if (server.contains("password"))
+      throw Error(Reason::invalid_argument,
+                  "there is a password in the address, where others see it: give it in ~/.pgpass, "
+                  "PGPASSFILE or PGPASSWORD");
+  return settings;
+}
+
 Store::Store(const store::StoreOptions& options)
-    : _pool(settings_of(options.url)),
+    : _pool([&] {
+        postgres::Settings settings = settings_of(options.url);
+        settings.answered = options.answered;
+        return settings;
+      }()),
       _usage(options.disk_budget),
       _results(own_folder(options.folder), store::FileKind::result, _usage),
       _uploads(options.folder, store::FileKind::upload, _usage),
@@ -137,6 +141,28 @@ std::vector<store::OwnerUsage> Store::owners() const {
     owners.push_back(
         {of_column(rows.view(row, 0)), number(row, 1), number(row, 2), number(row, 3)});
   return owners;
+}
+
+std::optional<store::GroupState> Store::group() const {
+  const std::int64_t now = store::to_disk(records::Clock::now());
+  const Result row = postgres::query(
+      _pool,
+      "SELECT s.*, coalesce(pg_sequence_last_value(pg_get_serial_sequence('servers', 'epoch')), "
+      "0), q.*, (extract(epoch FROM clock_timestamp()) * 1000000000)::bigint FROM "
+      "(SELECT count(*) FILTER (WHERE NOT dead), count(*) FILTER (WHERE dead) FROM servers) s, "
+      "(SELECT count(*) FILTER (WHERE runner IS NULL), count(runner), coalesce((extract(epoch "
+      "FROM now() - min(queued) FILTER (WHERE runner IS NULL)) * 1000)::bigint, 0) FROM queue) q");
+  const auto number = [&](int column) {
+    return static_cast<std::uint64_t>(row.integer(0, column));
+  };
+  const double wait = static_cast<double>(row.integer(0, 5)) * 1e-3;
+  return store::GroupState{number(0),
+                           number(1),
+                           number(2),
+                           number(3),
+                           number(4),
+                           wait,
+                           static_cast<double>(row.integer(0, 6) - now) * 1e-9};
 }
 
 }  // namespace anticrack::group

@@ -22,6 +22,10 @@
 
 namespace anticrack::group {
 
+/// How to reach the database at this address. Throws errors::Error (invalid_argument), also where
+/// the address has a password, which the command line shows to others.
+postgres::Settings settings_of(const std::string& url);
+
 class Store final : public store::Store {
  public:
   /// Makes the tables where there are none. Throws errors::Error (storage): the database cannot be
@@ -69,6 +73,7 @@ class Store final : public store::Store {
   store::Queue* queue() override { return &_queue; }
   store::Usage usage() const override;
   std::vector<store::OwnerUsage> owners() const override;
+  std::optional<store::GroupState> group() const override;
   std::chrono::milliseconds unreachable() const override { return _pool.unreachable(); }
 
  private:

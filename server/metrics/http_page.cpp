@@ -57,6 +57,7 @@ struct HttpPage::State {
   std::string path;
   std::string content_type;
   std::function<std::string()> make;
+  std::function<bool()> ready;
   std::string address;
   std::unique_ptr<MHD_Daemon, Release<MHD_stop_daemon>>
       daemon;  ///< declared last: it uses the others
@@ -94,8 +95,13 @@ struct HttpPage::State {
     const std::string_view verb = method;
     if (verb != MHD_HTTP_METHOD_GET && verb != MHD_HTTP_METHOD_HEAD)
       return respond(connection, MHD_HTTP_METHOD_NOT_ALLOWED, "GET only\n", "text/plain");
+    if (std::string_view(url) == "/ready") {
+      const bool ready = page.ready();
+      return respond(connection, ready ? MHD_HTTP_OK : MHD_HTTP_SERVICE_UNAVAILABLE,
+                     ready ? "ready\n" : "not ready\n", "text/plain");
+    }
     if (page.path != url) {
-      return respond(connection, MHD_HTTP_NOT_FOUND, "there is only " + page.path + "\n",
+      return respond(connection, MHD_HTTP_NOT_FOUND, "there is only " + page.path + " and /ready\n",
                      "text/plain");
     }
     return respond(connection, MHD_HTTP_OK, page.make(), page.content_type);
@@ -103,11 +109,12 @@ struct HttpPage::State {
 };
 
 HttpPage::HttpPage(const std::string& address, std::string path, std::string content_type,
-                   std::function<std::string()> make)
+                   std::function<std::string()> make, std::function<bool()> ready)
     : _state(std::make_unique<State>()) {
   _state->path = std::move(path);
   _state->content_type = std::move(content_type);
   _state->make = std::move(make);
+  _state->ready = std::move(ready);
 
   const std::size_t colon = address.rfind(':');
   if (colon == std::string::npos) throw std::runtime_error("not HOST:PORT");

@@ -14,10 +14,11 @@ namespace anticrack::metrics {
 /// thread-local variables of OpenBLAS and METIS take 90 kB of it.
 class HttpPage {
  public:
-  /// Listens at HOST:PORT (port 0: any free port) when it returns. `make` must not throw. Throws
-  /// std::runtime_error if the address cannot be used.
+  /// Listens at HOST:PORT (port 0: any free port) when it returns. `make` must not throw. There is
+  /// also /ready, 200 or 503 as ready() says. Throws std::runtime_error if the address cannot be
+  /// used.
   HttpPage(const std::string& address, std::string path, std::string content_type,
-           std::function<std::string()> make);
+           std::function<std::string()> make, std::function<bool()> ready);
   /// Waits until a page that is being made is done.
   ~HttpPage();
   HttpPage(const HttpPage&) = delete;

@@ -115,7 +115,9 @@ struct Metrics::State {
     quietly([&] {
       append(all, registry.Collect());
       append(all, process_families(started));
-      append(all, server_families(read()));
+      const Snapshot now = read();
+      append(all, server_families(now));
+      if (now.group) append(all, group_families(*now.group));
     });
     std::string text;
     quietly([&] { text = prometheus::TextSerializer().Serialize(all); });
@@ -146,6 +148,13 @@ struct Metrics::State {
       family(registry, BuildHistogram(), "anticrack_factorization_seconds",
              "Time of a factorisation that succeeded.")
           .Add({}, work_buckets);
+  Counter& attempts_lost =
+      family(registry, BuildCounter(), "anticrack_job_attempts_lost_total",
+             "Attempts before the last one of jobs that ended: their server died or stopped.")
+          .Add({});
+  Histogram& store_time = family(registry, BuildHistogram(), "anticrack_store_seconds",
+                                 "Time of a transaction with the database of several servers.")
+                              .Add({}, call_buckets);
   std::mutex methods_mutex;
   std::set<std::string> methods;
   std::mutex http_mutex;
@@ -169,6 +178,7 @@ void Metrics::call_ended(const std::string& method, int code,
 void Metrics::job_ended(const records::JobRecord& job) noexcept {
   quietly([&] {
     _state->jobs_ended.Add({{"state", std::string(name(job.state))}}).Increment();
+    _state->attempts_lost.Increment(job.attempt - 1);
     if (job.state == records::JobState::failed && job.error) {
       const std::string reason(errors::name(job.error->reason()));
       _state->job_failures.Add({{"reason", reason}}).Increment();
@@ -202,12 +212,18 @@ void Metrics::factorised(std::chrono::duration<double> time) noexcept {
   quietly([&] { _state->factorization_time.Observe(time.count()); });
 }
 
-std::string Metrics::listen(const std::string& address, std::function<Snapshot()> read) {
+void Metrics::store_answered(std::chrono::duration<double> time) noexcept {
+  quietly([&] { _state->store_time.Observe(time.count()); });
+}
+
+std::string Metrics::listen(const std::string& address, std::function<Snapshot()> read,
+                            std::function<bool()> ready) {
   const std::lock_guard lock(_state->http_mutex);
   try {
     _state->http = std::make_unique<HttpPage>(
         address, "/metrics", "text/plain; version=0.0.4; charset=utf-8",
-        [state = _state.get(), read = std::move(read)] { return state->page(read); });
+        [state = _state.get(), read = std::move(read)] { return state->page(read); },
+        std::move(ready));
   } catch (const std::exception& problem) {
     throw errors::Error(errors::Reason::invalid_argument,
                         "cannot serve metrics on {}: {}; give another HOST:PORT", address,

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,8 @@ struct Snapshot {
   operators::CacheMetrics cache;
   store::Usage disk;
   std::vector<store::OwnerUsage> owners;
+  std::optional<store::GroupState> group;
+  std::chrono::duration<double> store_unreachable{0};
   std::uint64_t meshings = 0;
   int pending_meshes = 0;
   int connections = 0;
@@ -52,12 +55,17 @@ class Metrics {
   /// Counts the job by state and reason, and its time in each phase.
   void job_ended(const records::JobRecord& job) noexcept;
   void meshed(const records::MeshRecord& mesh) noexcept;
+  /// Times a transaction with the database of several servers.
+  void store_answered(std::chrono::duration<double> time) noexcept;
   void factorised(std::chrono::duration<double> time) noexcept;
 
-  /// Serves /metrics at HOST:PORT (port 0 picks one) and returns the address. `read` is called at
+  /// Serves /metrics at HOST:PORT (port 0 picks one) and returns the address, and /ready for
+  /// balancers: 200 if ready() and else 503. `read` is called at
   /// each scrape, on the HTTP server's thread, until stop(). Throws errors::Error
   /// (invalid_argument, field "metrics-listen").
-  std::string listen(const std::string& address, std::function<Snapshot()> read);
+  std::string listen(
+      const std::string& address, std::function<Snapshot()> read,
+      std::function<bool()> ready = [] { return true; });
   void stop();
 
  private:

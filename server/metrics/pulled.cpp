@@ -95,6 +95,30 @@ std::ptrdiff_t open_descriptors() {
 
 }  // namespace
 
+std::vector<MetricFamily> group_families(const store::GroupState& group) {
+  const auto by_state = [](const char* name, const char* help,
+                           std::initializer_list<std::pair<const char*, std::uint64_t>> values) {
+    MetricFamily family{name, help, MetricType::Gauge, {}};
+    for (const auto& [state, value] : values) {
+      ClientMetric& metric = family.metric.emplace_back();
+      metric.label = {{"state", state}};
+      metric.gauge.value = static_cast<double>(value);
+    }
+    return family;
+  };
+  return {
+      by_state("anticrack_group_servers", "Servers on the database, by state.",
+               {{"living", group.living}, {"dead", group.dead}}),
+      by_state("anticrack_group_jobs", "Jobs of all servers that have not ended, by state.",
+               {{"waiting", group.waiting}, {"running", group.running}}),
+      counter("anticrack_group_registrations_total",
+              "Registrations of servers, at a start and after a lost lease.", group.registrations),
+      gauge("anticrack_group_oldest_wait_seconds", "Longest wait of a job for a server.",
+            group.oldest_wait),
+      gauge("anticrack_store_clock_offset_seconds",
+            "The database's clock less that of this machine.", group.clock_offset)};
+}
+
 std::vector<MetricFamily> server_families(const Snapshot& now) {
   const jobs::EngineMetrics& engine = now.engine;
   const operators::CacheMetrics& cache = now.cache;
@@ -134,6 +158,8 @@ std::vector<MetricFamily> server_families(const Snapshot& now) {
       counter("anticrack_meshings_total", "Runs of the mesher.", now.meshings),
       gauge("anticrack_meshes_pending", "Meshes that wait for the mesher or are in it.",
             now.pending_meshes),
+      gauge("anticrack_store_unreachable_seconds", "How long the store has been out of reach.",
+            now.store_unreachable.count()),
       disk_family(now.disk),
       owner_family("anticrack_owner_jobs", "Jobs kept, ended ones too, by owner.", owners,
                    &store::OwnerUsage::jobs),

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -28,6 +29,8 @@ struct Settings {
   std::chrono::milliseconds call_time{10'000};    ///< for a statement, its waits for locks included
   /// How long a transaction is tried again before its error is reported.
   std::chrono::milliseconds patience{5'000};
+  /// Told how long each transaction and statement took that was done; may be empty.
+  std::function<void(std::chrono::duration<double>)> answered{};
 };
 
 /// The rows of a statement, in binary format. Rows and columns count from 0.

@@ -38,7 +38,11 @@ void persist(Pool& pool, const Attempt& attempt) {
   bool repeated = false;
   for (unsigned attempts = 0;; ++attempts) {
     try {
-      return attempt(repeated);
+      const auto began = std::chrono::steady_clock::now();
+      attempt(repeated);
+      if (pool.settings().answered)
+        pool.settings().answered(std::chrono::steady_clock::now() - began);
+      return;
     } catch (const Failure& failure) {
       const bool again = failure.policy() == Policy::retry || failure.policy() == Policy::reconnect;
       if (!again || std::chrono::steady_clock::now() >= until) throw;

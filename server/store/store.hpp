@@ -21,6 +21,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -75,10 +76,21 @@ struct EndedJob {
   std::string owner{};
 };
 
+/// What several servers on one store are at.
+struct GroupState {
+  std::uint64_t living = 0, dead = 0;      ///< servers; dead ones have not started again
+  std::uint64_t registrations = 0;         ///< of servers, ever: at a start, and after a lost lease
+  std::uint64_t waiting = 0, running = 0;  ///< jobs
+  double oldest_wait = 0;                  ///< of these [s], by the store's clock
+  double clock_offset = 0;                 ///< the store's clock less this machine's [s]
+};
+
 struct StoreOptions {
   std::string folder;             ///< if missing, it is made, accessible to its owner only
   std::uint64_t disk_budget = 0;  ///< bytes for all of it; 0: the disk's size is the limit
   std::string url{};              ///< of a PostgreSQL database; empty: SQLite in the folder
+  /// Told how long each transaction with the database took; may be empty.
+  std::function<void(std::chrono::duration<double>)> answered{};
 };
 
 /// An upload that is complete, in a file of new_upload_path().
@@ -190,6 +202,9 @@ class Store {
   virtual Usage usage() const = 0;
   /// The usage of every owner of a job. O(jobs).
   virtual std::vector<OwnerUsage> owners() const = 0;
+
+  /// Empty for a store that belongs to one server.
+  virtual std::optional<GroupState> group() const { return std::nullopt; }
 
   /// How long what keeps the records has been out of reach; 0: it answered last time.
   virtual std::chrono::milliseconds unreachable() const { return std::chrono::milliseconds(0); }

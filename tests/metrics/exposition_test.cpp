@@ -243,6 +243,17 @@ TEST_F(Exposition, SaysWhereItCannotListen) {
   }
 }
 
+TEST(Readiness, IsAPageThatReadsNothing) {
+  Metrics metrics("1", "1");
+  std::atomic<bool> ready = true;
+  const std::string address = metrics.listen(
+      "127.0.0.1:0", []() -> Snapshot { throw errors::Error(errors::Reason::storage, "broken"); },
+      [&] { return ready.load(); });
+  EXPECT_EQ(get("http://" + address + "/ready"), "ready\n");
+  ready = false;
+  EXPECT_EQ(get("http://" + address + "/ready"), "") << "503";
+}
+
 TEST(ExpositionOfABrokenServer, LeavesOutWhatCannotBeRead) {
   Metrics metrics("1", "1");
   const std::string address = metrics.listen(

@@ -21,7 +21,8 @@ FILES = {
         PLAIN: ["etc/anticrack/anticrackd.toml", "usr/lib/systemd/system/anticrackd.service",
                 f"{SHARE}/man/man5/anticrackd.toml.5.gz", f"{SHARE}/man/man8/anticrackd.8.gz",
                 f"{DOC}/anticrack-server/copyright", f"{DOC}/anticrack-server/changelog.gz",
-                f"{DOC}/anticrack-server/examples/prometheus-alerts.yaml",
+                f"{DOC}/anticrack-server/examples/prometheus-alerts.yaml", f"{DOC}/anticrack-server/examples/haproxy.cfg",
+                f"{DOC}/anticrack-server/examples/kubernetes/*.yaml",
                 f"{DOC}/anticrack-server/examples/grafana-dashboard.json"],
     },
     "anticrack-client": {

@@ -9,6 +9,7 @@
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <cstdlib>
 #include <memory>
 #include <mutex>
 #include <random>
@@ -20,6 +21,7 @@
 #include "service/workload.hpp"
 #include "support/database.hpp"
 #include "support/eventually.hpp"
+#include "support/random_seed.hpp"
 
 namespace anticrack::service_test {
 namespace {
@@ -177,8 +179,11 @@ struct Acknowledged {
   std::size_t work = 0;
 };
 
+/// A long run: ANTICRACK_KILLS=200 test_service --gtest_filter=Group.Each* --gtest_random_seed=7
 TEST_F(Group, EachAcknowledgedJobEndsOnceUnderKills) {
-  constexpr int kills = 12;
+  const char* const given = std::getenv("ANTICRACK_KILLS");
+  const int kills = given == nullptr ? 30 : std::stoi(given);
+  constexpr int kills_between_crashes = 12;  ///< of the database
   const std::vector<Work> works{work("slit.toml"), work("paper.toml", iterations(200)),
                                 work("paper-3.toml", iterations(20'000))};
   for (int i = 0; i < 3; ++i) add({"--log-level", "error"});
@@ -200,7 +205,7 @@ TEST_F(Group, EachAcknowledgedJobEndsOnceUnderKills) {
         if (random() % 3 == 0) wait_for_end(connection, one.name);
       }
     });
-  std::minstd_rand random(1);
+  std::minstd_rand random(anticrack::testing::random_seed());
   const auto heard = [&] {
     const std::lock_guard lock(mutex);
     return jobs.size();
@@ -209,7 +214,7 @@ TEST_F(Group, EachAcknowledgedJobEndsOnceUnderKills) {
     const std::size_t before = heard();
     eventually([&] { return heard() > before; });
     std::this_thread::sleep_for(std::chrono::milliseconds(random() % 400));
-    if (kill == kills / 2) {
+    if (kill % kills_between_crashes == kills_between_crashes / 2) {
       database.stop();
       database.start();
     }

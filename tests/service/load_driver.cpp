@@ -3,8 +3,10 @@
 // Many clients that submit and watch for a while: no error but documented backpressure, every job
 // ends, the server's memory stays within bounds; latencies are told, not judged. With --greedy, two
 // owners with many clients each beside a modest one with one: its times alone and beside them. What
-// the greedy ones want (--work) is "small" jobs on one mesh, jobs with an accuracy on "fresh"
-// meshes, more than memory holds, or loads that are "slow" to integrate.
+// the greedy ones want (--work) is "small" jobs on one mesh or on a dozen meshes ("many"), jobs
+// with an accuracy on "fresh" meshes, more than memory holds, or loads that are "slow" to
+// integrate. With --owner it is the clients of one owner of servers that others started
+// (tests/benchmarks/group).
 #include <grpcpp/generic/generic_stub.h>
 #include <grpcpp/grpcpp.h>
 #include <CLI/CLI.hpp>
@@ -42,6 +44,7 @@ struct Options {
   std::string work = "small";    ///< of the greedy ones
   std::string owner;             ///< in a process of greedy clients: theirs
   std::string address;           ///< and the server's
+  std::string ca;                ///< its authority, where it speaks TLS
 };
 
 struct Run {
@@ -53,11 +56,13 @@ struct Run {
   std::mutex mutex;
   std::string latest;  ///< job that ended: older ones are erased when many more were made since
   std::vector<std::string> complaints;
+  std::vector<double> times;  ///< from request to end [ms]
 
-  void ended(const std::string& job) {
+  void ended(const std::string& job, Milliseconds time) {
     ++jobs;
     const std::lock_guard lock(mutex);
     latest = job;
+    times.push_back(time.count());
   }
   std::string latest_job() {
     const std::lock_guard lock(mutex);
@@ -81,12 +86,13 @@ void be_a_client(Run& run, client::Connection& connection, unsigned seed) {
   try {
     while (!run.done) {
       const Work work = run.next ? run.next() : run.works[random() % run.works.size()];
+      const auto begin = Clock::now();
       const v1::Job job =
           wait_for_end(connection, submit(connection, work, client::make_uuid()).name());
       if (!run.next && !ran_to_its_end(job)) {
         run.complain("a job ended in another state: " + job.ShortDebugString());
       }
-      run.ended(job.name());
+      run.ended(job.name(), Clock::now() - begin);
     }
   } catch (const std::exception& error) {
     run.complain(std::string("a client failed: ") + error.what());
@@ -186,6 +192,16 @@ Work fresh_work(unsigned number) {
   return one;
 }
 
+/// No two have the same result, which would be stored once.
+Work one_of_many(unsigned number) {
+  constexpr unsigned meshes = 12;
+  Work one = small_work();
+  one.mesh.mutable_options()->set_size(0.1 + 1e-4 * (number % meshes));
+  one.spec.mutable_load_cases(0)->mutable_force()->set_expression("1 + " + std::to_string(number) +
+                                                                  "e-9");
+  return one;
+}
+
 Work slow_work() {
   Work one = work("slit.toml", {"mesh.preset=uniform", "mesh.size=0.03"});
   v1::LoadCase load = one.spec.load_cases(0);
@@ -201,13 +217,20 @@ Work slow_work() {
 
 /// What the greedy ones want next.
 Work greedy_work(const std::string& kind, unsigned number) {
-  return kind == "fresh" ? fresh_work(number) : kind == "slow" ? slow_work() : small_work();
+  return kind == "fresh"  ? fresh_work(number)
+         : kind == "slow" ? slow_work()
+         : kind == "many" ? one_of_many(number)
+                          : small_work();
 }
 
-client::ConnectionOptions as(const std::string& owner, const std::string& address, Run& run) {
+client::ConnectionOptions as(const std::string& owner, const std::string& address, Run& run,
+                             const std::string& ca = {}) {
   client::ConnectionOptions chosen;
   chosen.address = address;
   chosen.first_contact = std::chrono::seconds(30);
+  client::CredentialFiles files;
+  files.ca = ca;
+  if (!ca.empty()) chosen.credentials = client::read_credentials(files, address);
   chosen.credentials.token = "token of " + owner;
   chosen.notice = [&run](const std::string&) { ++run.waits; };
   return chosen;
@@ -222,7 +245,7 @@ int be_greedy(const Options& options) {
   std::vector<std::thread> clients;
   for (int i = 0; i < options.greedy; ++i) {
     connections.push_back(
-        std::make_unique<client::Connection>(as(options.owner, options.address, run)));
+        std::make_unique<client::Connection>(as(options.owner, options.address, run, options.ca)));
     clients.emplace_back(be_a_client, std::ref(run), std::ref(*connections.back()),
                          options.seed + static_cast<unsigned>(i));
   }
@@ -232,6 +255,7 @@ int be_greedy(const Options& options) {
   std::printf("%s: %llu jobs, %llu times turned away\n", options.owner.c_str(),
               static_cast<unsigned long long>(run.jobs.load()),
               static_cast<unsigned long long>(run.waits.load()));
+  tell("a job", run.times);
   if (run.jobs == 0) run.complain("no job of " + options.owner + " ended");
   return run.report();
 }
@@ -344,10 +368,11 @@ int main(int argc, char** argv) {
   app.add_option("--greedy", options.greedy, "Clients of each of two greedy owners; 0: no owners")
       ->capture_default_str();
   app.add_option("--work", options.work, "What they want")
-      ->check(CLI::IsMember({"small", "fresh", "slow"}))
+      ->check(CLI::IsMember({"small", "many", "fresh", "slow"}))
       ->capture_default_str();
   app.add_option("--owner", options.owner, "Be the clients of this greedy owner");
   app.add_option("--address", options.address, "Of their server");
+  app.add_option("--ca", options.ca, "Of their server's certificate");
   CLI11_PARSE(app, argc, argv);
   try {
     if (!options.owner.empty()) return anticrack::service_test::be_greedy(options);

@@ -4,6 +4,7 @@ blocking calls of this transport, coroutines never wait for an event loop, so `f
 from __future__ import annotations
 
 import os
+import re
 import time
 import weakref
 from collections.abc import AsyncIterator, Callable, Coroutine, Iterable, Iterator
@@ -15,7 +16,7 @@ from .credentials import CHANNEL, Credentials
 from .errors import Error, of_call
 from .private_server import Server
 from .proxies import proxy_for
-from .v1 import case_pb2_grpc, mesh_pb2_grpc, server_pb2_grpc, solve_pb2_grpc, upload_pb2_grpc
+from .v1 import case_pb2_grpc, mesh_pb2_grpc, server_pb2_grpc, solve_pb2, solve_pb2_grpc, upload_pb2_grpc
 
 # Debian 13 builds gRPC without NDEBUG, which turns on an experiment of debug builds: os.fork() then waits for ever in
 # a process that has called a server. This has to precede the first channel; experiments set by the user are kept.
@@ -24,6 +25,8 @@ if grpc.__version__.startswith("1.51."):
 
 T = TypeVar("T")
 DEADLINE = 30.0  # for each try of a unary call [s]
+MESH = re.compile(r"meshes/([A-Za-z0-9_-]{1,64})")
+MOST_JOBS_KNOWN = 10_000
 
 
 class _Closed:
@@ -45,6 +48,7 @@ class Transport:
         self.proxy = proxy_for(address)
         self.options = [*CHANNEL, ("grpc.enable_http_proxy", int(self.proxy is not None))]
         self.metadata = credentials.metadata()
+        self._meshes: dict[str, str] = {}  # of jobs, by their names
         self.channel = (self.calls.insecure_channel(address, self.options) if secrets is None else
                         self.calls.secure_channel(address, secrets, self.options))
         self.cases: Any = case_pb2_grpc.CaseServiceStub(self.channel)  # type: ignore[no-untyped-call]
@@ -74,10 +78,26 @@ class Transport:
     async def sleep(self, seconds: float) -> None:
         time.sleep(seconds)
 
+    def _metadata(self, request: Any) -> Any:
+        """The token, and the id of the mesh that a request is about, if one is known: by it balancers send calls for
+        one mesh to one server."""
+        name = (request.spec.mesh if isinstance(request, solve_pb2.CreateJobRequest) else
+                request.mesh if isinstance(request, solve_pb2.ListJobsRequest) else getattr(request, "name", ""))
+        found = MESH.fullmatch(self._meshes.get(name, name))
+        return self.metadata if found is None else [*self.metadata, ("x-mesh-id", found.group(1))]
+
+    def _learn(self, answer: Any) -> None:
+        if isinstance(answer, solve_pb2.Job):
+            if len(self._meshes) >= MOST_JOBS_KNOWN:
+                self._meshes.clear()
+            self._meshes[answer.name] = answer.spec.mesh
+
     async def unary(self, method: Callable[..., Any], request: Any, deadline: float | None = DEADLINE) -> Any:
         self.require_owner()
         try:
-            return await self.answer(method(request, timeout=deadline, metadata=self.metadata))
+            answer = await self.answer(method(request, timeout=deadline, metadata=self._metadata(request)))
+            self._learn(answer)
+            return answer
         except grpc.RpcError as error:
             raise of_call(error) from None
 
@@ -86,7 +106,7 @@ class Transport:
 
     async def stream(self, method: Callable[..., Any], request: Any) -> AsyncIterator[Any]:
         self.require_owner()
-        call = method(request, metadata=self.metadata)
+        call = method(request, metadata=self._metadata(request))
         try:
             async for message in self.messages(call):
                 yield message
