@@ -27,7 +27,7 @@ std::string counted_cases(const v1::JobSpec& spec, std::uint64_t rows) {
 }
 
 std::string summary(const results::Result& result, const fs::path& file) {
-  const v1::Mesh& mesh = result.mesh.info;
+  const v1::Mesh& mesh = result.mesh;
   return fmt::format(
       "Results: {} ({} triangles, {} nodes; meshing {} s, factorising {} s, solving {} s, {} s in "
       "all)",

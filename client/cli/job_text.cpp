@@ -37,10 +37,7 @@ std::string sweep_answer(const v1::SweepAnswer& answer) {
   std::string text =
       fmt::format("sweep of {} rows: {} converged, {} did not converge, {} failed\n", answer.rows(),
                   answer.converged(), answer.not_converged(), answer.failed());
-  if (answer.converged() > 0) {
-    text += fmt::format("at most {} steps, KKT residuals at most {}\n", answer.most_steps(),
-                        number(answer.worst_kkt(), 2));
-  }
+  if (answer.converged() > 0) text += worst_of(answer) + "\n";
   for (const std::string& warning : answer.warnings())
     text += "warning: " + sanitise(warning) + "\n";
   return text;

@@ -70,6 +70,9 @@ std::string growth_table(const std::vector<results::Load>& loads, const v1::Unit
 /// the energy norm and, if it is known, that of A. Empty if there are no stages.
 std::string stages_table(const results::Load& load);
 
+/// The most steps and the largest residual of the rows that converged.
+std::string worst_of(const v1::SweepAnswer& answer);
+
 /// How many rows ended in which way, the ranges of A, contact length and energy, what went wrong,
 /// and how wide the bounds are. With bounds, the ranges of A and of the energy contain the exact
 /// values of the membrane. For many inclusions there is one range, with the inclusions at its ends.
