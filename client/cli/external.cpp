@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/external.hpp"
 
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -12,7 +13,7 @@
 #include <system_error>
 
 #include "cli/programs.hpp"
-#include "output/memory_file.hpp"
+#include "output/standard.hpp"
 #include "output/write_all.hpp"
 
 namespace anticrack::cli {
@@ -57,7 +58,8 @@ std::vector<std::string> in_python(std::vector<std::string> words, const Globals
   std::error_code error;
   const bool has_package = fs::exists(built / "anticrack" / "commands.py", error);
   words.insert(words.begin(), {python, "-P", "-c", bootstrap, has_package ? built.string() : ""});
-  if (globals.quiet) words.emplace(words.begin() + 6, "--quiet");
+  // One failure of standard output is told once.
+  if (globals.quiet || output::print_failure() != 0) words.emplace(words.begin() + 6, "--quiet");
   return words;
 }
 
@@ -90,14 +92,16 @@ void become_python(std::vector<std::string> words, const Globals& globals) {
 }
 
 int run_in_python(std::vector<std::string> words, std::string_view input, const Globals& globals) {
-  const output::MemoryFile in;
-  if (const int error = output::write_all(in.descriptor(), std::as_bytes(std::span(input))))
-    throw FiguresError("no memory for the mesh: " + std::generic_category().message(error));
-  lseek(in.descriptor(), 0, SEEK_SET);
   words = in_python(std::move(words), globals);
-  int error = 0;
-  const int descriptors[] = {in.descriptor(), fileno(people(globals))};
-  const pid_t process = spawn(words, descriptors, environ, 0, error);
+  const int in = memfd_create("mesh", MFD_CLOEXEC);
+  int error = in < 0 ? errno : output::write_all(in, std::as_bytes(std::span(input)));
+  pid_t process = -1;
+  if (error == 0) {
+    lseek(in, 0, SEEK_SET);
+    const int descriptors[] = {in, fileno(people(globals))};
+    process = spawn(words, descriptors, environ, 0, error);
+  }
+  close(in);
   if (error != 0)
     throw FiguresError("cannot start " + words[0] + ": " + std::generic_category().message(error));
   return code_of(process);

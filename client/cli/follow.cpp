@@ -38,10 +38,11 @@ double age_of(const v1::Job& job) {
 /// The progress of a job or a mesh on a terminal or in a log.
 class View {
  public:
-  /// `age`: seconds since its beginning.
-  View(Session& session, const std::string& name, double age)
+  /// `age`: seconds since its beginning; `rows`: those of a sweep.
+  View(Session& session, const std::string& name, double age, std::uint64_t rows = 0)
       : _session(session), _begin(steady_seconds() - age) {
     _progress.job = sanitise(name);
+    if (rows > 0) _progress.sweep.emplace().total = rows;
     if (shows_frames(session.globals()))
       _frames = std::make_unique<Frames>(session, [this](Size size) { return frame_now(size); });
     session.tell([this](const std::string& message) {
@@ -157,10 +158,7 @@ Followed follow(Session& session, const v1::Job& job, std::uint64_t rows) {
   std::optional<v1::Job> last;
   bool cancelling = false;
   {
-    View view(session, job.name(), age_of(job));
-    view.change([rows](JobProgress& progress) {
-      if (rows > 0) progress.sweep.emplace().total = rows;
-    });
+    View view(session, job.name(), age_of(job), rows);
     Interrupts interrupts(session, job.name(), view);
     last = watch(session, job.name(), view, interrupts.detached());
     cancelling = interrupts.asked_to_cancel();

@@ -6,6 +6,7 @@
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -106,7 +107,10 @@ void LocalServer::start(const fs::path& program) {
   _output = out[0];
   try {
     if (!made) fail("cannot make a pipe", cause);
-    _process = start_server(program, in[0], out[1], _log.descriptor());
+    _log = memfd_create("anticrackd-log", MFD_CLOEXEC);
+    if (_log < 0) fail("cannot make a file in memory", errno);
+    fcntl(_log, F_SETFL, O_APPEND);
+    _process = start_server(program, in[0], out[1], _log);
   } catch (...) {
     close_once(in[0]);
     close_once(out[1]);
@@ -172,12 +176,19 @@ void LocalServer::end() noexcept {
   }
   if (_status && *_status != 0) remove_left(_address);
   close_once(_output);
+  close_once(_log);
 }
 
 std::string LocalServer::last_words() const {
   constexpr std::size_t kept_lines = 5, kept_bytes = 4'000;
+  const off_t size = lseek(_log, 0, SEEK_END);
+  std::string text(
+      std::min<std::size_t>(kept_bytes, static_cast<std::size_t>(std::max<off_t>(size, 0))), '\0');
+  const ssize_t count = pread(_log, text.data(), text.size(),
+                              std::max<off_t>(size - static_cast<off_t>(text.size()), 0));
+  text.resize(static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
   std::vector<std::string> lines;
-  std::istringstream log(_log.content(kept_bytes));
+  std::istringstream log(text);
   for (std::string line; std::getline(log, line);) lines.push_back("\n  " + sanitise(line));
   std::string last = lines.empty() ? "" : ":";
   for (std::size_t i = lines.size() - std::min(lines.size(), kept_lines); i < lines.size(); ++i)

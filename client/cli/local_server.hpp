@@ -13,8 +13,6 @@
 #include <stop_token>
 #include <string>
 
-#include "output/memory_file.hpp"
-
 namespace anticrack::cli {
 
 /// The error if the server could not be started, or has ended.
@@ -52,7 +50,7 @@ class LocalServer {
   std::optional<int> _status;  ///< status of waitpid, once the server has ended
   int _lifeline = -1;          ///< the server's standard input, which ends with this process
   int _output = -1;
-  output::MemoryFile _log;
+  int _log = -1;  ///< a file in memory
 };
 
 }  // namespace anticrack::cli

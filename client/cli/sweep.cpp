@@ -49,7 +49,7 @@ Case read_case(Session& session, const SweepOptions& options) {
 
 // Checks nodal rows, which is possible only against an existing mesh.
 void check_mesh(Session& session, const Case& the_case, const SweepInput& input) {
-  if (!input.nodal) return;
+  if (!input.nodal()) return;
   const v1::Mesh mesh = follow_mesh(session, create_mesh(session, the_case).name());
   if (mesh.state() != v1::Mesh::STATE_FAILED)  // otherwise the job gives the reason
     check_nodes(input, mesh.node_count());
@@ -99,8 +99,8 @@ int sweep(const SweepOptions& options, const Globals& given) {
     return exit_ok;
   }
   const auto complete = [&](results::Result& result) {
-    result.sweep.value().source = input.source;
-    if (!input.nodal)
+    result.sweep.value().source = input.source();
+    if (!input.nodal())
       result.sweep->columns["coefficients"] =
           results::array_of(std::move(input.values), {input.columns});
   };

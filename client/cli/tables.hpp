@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -104,6 +105,9 @@ std::string job_text(const v1::Job& job);
 std::string expired_text(const v1::Job& job);
 
 /// The requests that a job which has ended did not fulfil, line by line; empty if there are none.
-std::vector<std::string> shortfalls(const v1::Job& job);
+/// `told`: gives the text of an error.
+std::vector<std::string> shortfalls(
+    const v1::Job& job,
+    const std::function<std::string(const v1::Status&)>& told = &v1::Status::message);
 
 }  // namespace anticrack::cli

@@ -189,18 +189,6 @@ void add_sweep(Result& result, const std::vector<std::int32_t>& kept) {
 
 }  // namespace
 
-bool fits(const Shape& shape, std::string_view wanted, Extents& known) {
-  for (const std::uint64_t extent : shape) {
-    const std::string word(wanted.substr(0, wanted.find(',')));
-    wanted.remove_prefix(std::min(word.size() + 1, wanted.size()));
-    const bool number = !word.empty() && word[0] >= '0' && word[0] <= '9';  // of one digit
-    if (word.empty() || extent != (number ? static_cast<std::uint64_t>(word[0] - '0')
-                                          : known.try_emplace(word, extent).first->second))
-      return false;
-  }
-  return wanted.empty();
-}
-
 Result assemble(Result answers, const BlockView& mesh_block, const BlockView& result_block,
                 const std::vector<std::int32_t>& kept) {
   const auto of_mesh = [](const std::string& name) {

@@ -77,7 +77,7 @@ hid_t text_transfer();
 
 /// Returns the bytes of an HDF5 file (format 1.10) whose root group `fill` has filled. It is made
 /// in memory, as a disk that is full while HDF5 closes a file makes HDF5 crash at program end.
-std::string file_image(const std::function<void(const Handle& root)>& fill);
+std::vector<std::byte> file_image(const std::function<void(const Handle& root)>& fill);
 
 /// Creation properties of a class that record no times, so that equal results give equal bytes.
 Handle without_times(hid_t property_class);

@@ -119,7 +119,7 @@ std::string write(const std::filesystem::path& path, const Result& result) {
   const std::string fault = first_fault(result);
   if (!fault.empty()) throw Error(path.string(), "the result is inconsistent: " + fault, "");
   const hdf5::Quiet quiet;
-  std::string bytes;
+  std::vector<std::byte> bytes;
   try {
     bytes = hdf5::file_image([&](const Handle& root) { put_all(root, result); });
   } catch (const hdf5::Fault& error) {
@@ -129,7 +129,7 @@ std::string write(const std::filesystem::path& path, const Result& result) {
   const bool former = target.kind == output::Target::Kind::file &&
                       std::filesystem::is_regular_file(target.path) &&
                       !holds_the_same(target.path, result);
-  output::write_file(path, std::as_bytes(std::span(bytes)), former);
+  output::write_file(path, bytes, former);
   return former ? "Kept: " + output::backup_of(target.path).string() + ", what " +
                       target.path.filename().string() + " was before"
                 : "";

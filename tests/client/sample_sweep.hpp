@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <functional>
 
 #include "results/tables.hpp"
@@ -19,9 +18,9 @@ namespace anticrack::testing {
 inline bool same(const results::Arrays& a, const results::Arrays& b) {
   return std::ranges::equal(a, b, [](const auto& one, const auto& other) {
     const results::Array &x = one.second, &y = other.second;
+    const auto size = results::count_of(x.shape) * results::bytes_of(x.type);
     return one.first == other.first && x.type == y.type && x.shape == y.shape &&
-           std::memcmp(x.data.get(), y.data.get(),
-                       results::count_of(x.shape) * results::bytes_of(x.type)) == 0;
+           std::equal(x.data.get(), x.data.get() + size, y.data.get());
   });
 }
 
