@@ -34,11 +34,13 @@ struct Sweep {
   std::span<const double> numbers(std::string_view name) const {
     return entries_at<double>(columns, name);
   }
+  /// The same of whole numbers.
   std::span<const std::int32_t> integers(std::string_view name) const {
     return entries_at<std::int32_t>(columns, name);
   }
-  std::span<const std::int32_t> status() const { return integers("status"); }
-  std::size_t rows() const { return status().size(); }
+  std::span<const std::int32_t> status() const { return integers("status"); }  ///< by row
+  std::size_t rows() const { return status().size(); }                         ///< their number
+  /// Number of tips, if their numbers were asked for.
   std::size_t tips() const { return rows() == 0 ? 0 : numbers("intensity").size() / rows(); }
   /// Whether a row converged, so that its numbers are valid.
   bool converged(std::size_t row) const {
