@@ -346,7 +346,7 @@ std::string numbers_table(const results::Result& result) {
     }
     text += "\n" + sanitise(of) + ", every number:\n" + table(rows, {2, 3});
   };
-  add(result.mesh.info.name(), result.mesh.info);
+  add(result.mesh.name(), result.mesh);
   if (result.sweep) add("sweep", result.sweep->answer);
   for (const results::Load& load : result.loads) add(load.name(), load.answer);
   return text;
@@ -356,7 +356,7 @@ std::string answers_json(const results::Result& result, const std::filesystem::p
   Json json{{"title", result.title},
             {"file", file.string()},
             {"job", result.job_name},
-            {"mesh", json_of(result.mesh.info)},
+            {"mesh", json_of(result.mesh)},
             {"units", json_of(result.units)},
             {"solve_seconds", results::solve_seconds(result)},
             {"total_seconds", result.total_seconds},

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/sweep_input.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
@@ -39,7 +39,7 @@ void split_fields(std::string_view line, char separator, std::vector<std::string
 }
 
 /// A number in any locale. None unless the whole text is a number; infinity if it is too large.
-std::optional<double> number(std::string_view text) {
+std::optional<double> number_of(std::string_view text) {
   if (!text.empty() && text.front() == '+') text.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -60,12 +60,6 @@ std::string shown_field(std::string_view value) {
   std::replace_if(
       text.begin(), text.end(), [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; }, '?');
   return "\"" + text + (value.size() > longest ? "..." : "") + "\"";
-}
-
-std::string listed(const std::vector<std::string>& names) {
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-  return list;
 }
 
 class Reader {
@@ -121,13 +115,13 @@ class Reader {
 
   /// The value of a field. If semicolons separate fields, a comma is a decimal point.
   std::optional<double> value_of(std::string_view field) const {
-    if (_separator == ',') return number(field);
+    if (_separator == ',') return number_of(field);
     const std::size_t comma = field.find(',');
-    if (comma == std::string_view::npos) return number(field);
+    if (comma == std::string_view::npos) return number_of(field);
     if (field.find('.') != std::string_view::npos) return std::nullopt;
     std::string text(field);
     text[comma] = '.';
-    return number(text);
+    return number_of(text);
   }
 
   /// Refuses a number with a decimal comma beside one with a decimal point, as one of the two
@@ -181,7 +175,8 @@ class Reader {
     if (_fields.size() != _columns.size()) {
       fail(counted(_fields.size(), "value") + " in this line, the case has " +
            counted(_loads.size(), "load") + "; write one coefficient for each of " +
-           listed(_loads) + ", with " + (_separator == ';' ? "semicolons" : "commas") +
+           fmt::format("{}", fmt::join(_loads, ", ")) + ", with " +
+           (_separator == ';' ? "semicolons" : "commas") +
            " between (semicolons where the numbers have decimal commas)");
     }
     const std::size_t row = _values.size();

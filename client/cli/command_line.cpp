@@ -98,7 +98,8 @@ int parse_and_run(int argc, char** argv) {
   const auto has_name = [&](const CLI::App* command) { return command->get_name() == name; };
   if (name == "plot" || app.get_subcommands(has_name).empty()) {
     if (const auto program = external_command(name); !program.empty()) {
-      return guarded(globals, [&]() -> int { become(program, others); });
+      others.insert(others.begin(), program.string());
+      return guarded(globals, [&]() -> int { become(others); });
     }
   }
   try {

@@ -50,22 +50,27 @@ void on(CLI::App& command, const std::shared_ptr<Options>& options, const Global
       [=, &globals, &chosen] { chosen = [=, &globals] { return action(*options, globals); }; });
 }
 
+/// Adds an option or argument whose value is of a type as --help says it; a list takes one at a
+/// time.
+template <class T>
+CLI::Option* add_value(CLI::App& command, const std::string& name, T& value,
+                       const std::string& type, const std::string& help) {
+  return command.add_option(name, value, help)->allow_extra_args(false)->type_name(type);
+}
+
 /// Adds the argument CASE.
 inline void add_case(CLI::App& command, std::string& file) {
-  command.add_option("CASE", file, "The case, a TOML file")->required()->type_name("FILE");
+  add_value(command, "CASE", file, "FILE", "The case, a TOML file")->required();
 }
 
 /// Adds --limit and --owner to a command that lists `what`.
 inline void add_list_flags(CLI::App& command, const std::string& what, int& limit,
                            std::string& owner) {
-  command.add_option("--limit", limit, "Show at most this many, from 1 to 1000")
+  add_value(command, "--limit", limit, "COUNT", "Show at most this many, from 1 to 1000")
       ->check(CLI::Range(1, 1000).description(""))
-      ->type_name("COUNT")
       ->capture_default_str();
-  command
-      .add_option("--owner", owner,
-                  "Only the " + what + " of this user; others' are for administrators")
-      ->type_name("NAME");
+  add_value(command, "--owner", owner, "NAME",
+            "Only the " + what + " of this user; others' are for administrators");
 }
 
 /// Adds an option that is passed on, as a word of `words`, to the program that draws or exports,

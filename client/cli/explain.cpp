@@ -49,11 +49,9 @@ std::string blocks(const v1::ListCaseKeysResponse& found) {
 void add_explain(CLI::App& app, const Globals& globals, Command& chosen) {
   const auto name = std::make_shared<std::string>();
   CLI::App* command = app.add_subcommand("explain", "Say what a key of a case means");
-  command
-      ->add_option("KEY", *name,
-                   "As in messages and --set, such as mesh.tip_size; its end is enough, and of a "
-                   "table all its keys are told. Without it: what a case consists of")
-      ->type_name("KEY");
+  add_value(*command, "KEY", *name, "KEY",
+            "As in messages and --set, such as mesh.tip_size; its end is enough, and of a "
+            "table all its keys are told. Without it: what a case consists of");
   command->footer("Example:\n  anticrack --local explain tip_size");
   command->callback([name, &globals, &chosen] {
     chosen = [name, &globals] {

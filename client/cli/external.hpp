@@ -14,7 +14,7 @@
 
 namespace anticrack::cli {
 
-/// The error if Python or the package is missing, or ended without an answer.
+/// The error if Python is missing, or the system cannot start a program.
 class FiguresError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -24,15 +24,17 @@ class FiguresError : public std::runtime_error {
 /// that of a command.
 std::filesystem::path external_command(const std::string& name);
 
-/// Replaces this process by the program. Throws std::runtime_error if the system cannot start it.
-[[noreturn]] void become(const std::filesystem::path& program, std::vector<std::string> words);
+/// Replaces this process by the program words[0].
+[[noreturn]] void become(std::vector<std::string> words);
 
-/// Runs a command of the Python package with `input` as its standard input, waits for it, and tells
-/// what it has made, as files and notes or as the document of --json. Returns its exit code.
-/// Python is that of ANTICRACK_PYTHON, else /usr/bin/python3, else the first on PATH. It imports
-/// nothing from the current folder, and in a build it imports the package beside the folder of this
-/// executable. Throws FiguresError.
-int run_in_python(std::vector<std::string> words, std::string_view input, const Globals& globals,
-                  bool with_document);
+/// Replaces this process by a command of the Python package, which tells what it has made. Python
+/// is that of ANTICRACK_PYTHON, else /usr/bin/python3, else the first on PATH. It imports nothing
+/// from the current folder, and in a build it imports the package beside the folder of this
+/// executable.
+[[noreturn]] void become_python(std::vector<std::string> words, const Globals& globals);
+
+/// Runs such a command with `input` as its standard input, and text for users as its output;
+/// returns its exit code.
+int run_in_python(std::vector<std::string> words, std::string_view input, const Globals& globals);
 
 }  // namespace anticrack::cli

@@ -62,20 +62,17 @@ results::Result read_result(const ShowOptions& options) {
 
 void add_file(CLI::App& command, std::string& file, std::vector<std::string>& loads,
               const char* help) {
-  command.add_option("RESULT", file, help)->required()->type_name("FILE");
-  command
-      .add_option("--load", loads,
-                  "This load only, of a sweep row-K; again for more (default: all)")
-      ->allow_extra_args(false)
-      ->type_name("NAME");
+  add_value(command, "RESULT", file, "FILE", help)->required();
+  add_value(command, "--load", loads, "NAME",
+            "This load only, of a sweep row-K; again for more (default: all)");
 }
 
 int show_study(const ShowOptions& options, const Globals& globals) {
   const auto program = external_command("study");
   if (program.empty() || !options.csv.empty() || !options.loads.empty()) throw;
-  std::vector<std::string> words{"--show", options.file};
+  std::vector<std::string> words{program, "--show", options.file};
   if (globals.json) words.emplace_back("--json");
-  become(program, words);
+  become(std::move(words));
 }
 
 int show_file(const ShowOptions& options, const Globals& given) try {
@@ -89,9 +86,9 @@ int show_file(const ShowOptions& options, const Globals& given) try {
   }
   std::string head;
   if (!result.title.empty()) head += sanitise(result.title) + "\n";
-  head += fmt::format("{} triangles, {} nodes ({}), solved by {}\n\n",
-                      result.mesh.info.triangle_count(), result.mesh.info.node_count(),
-                      sanitise(result.mesh.info.name()), sanitise(result.job_name));
+  head += fmt::format("{} triangles, {} nodes ({}), solved by {}\n\n", result.mesh.triangle_count(),
+                      result.mesh.node_count(), sanitise(result.mesh.name()),
+                      sanitise(result.job_name));
   std::string foot;
   if (!result.not_reached.empty()) foot = "not reached: " + sanitise(result.not_reached) + "\n";
   if (result.loads.size() == 1 || !options.loads.empty())
@@ -114,7 +111,7 @@ int pass_to_python(const PassedOn& options, const Globals& globals) {
   words.insert(words.begin(), options.command);
   for (const std::string& load : options.loads) words.push_back("--load=" + load);
   words.insert(words.end(), {"--", options.file});
-  return run_in_python(std::move(words), {}, globals, true);
+  become_python(std::move(words), globals);
 }
 
 void add_plot(CLI::App& app, const Globals& globals, Command& chosen) {
@@ -180,11 +177,9 @@ void add_files(CLI::App& app, const Globals& globals, Command& chosen) {
   add("--growth", options->growth, "A row for each position of cracks and delaminations that grow");
   add("--all", options->all,
       "Also every number of the mesh, a sweep and each load case, with its unit and what it is");
-  show_command
-      ->add_option("--csv", options->csv,
-                   "Also write comma-separated text, one line per load case and inclusion; of a "
-                   "sweep one per row")
-      ->type_name("FILE.csv");
+  add_value(*show_command, "--csv", options->csv, "FILE.csv",
+            "Also write comma-separated text, one line per load case and inclusion; of a sweep one "
+            "per row");
   show_command->footer(
       "Of one load, or with --load, also the stages of a job with an accuracy.\n\n"
       "Example:\n  anticrack show paper.h5\n"

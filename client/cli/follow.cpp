@@ -19,6 +19,7 @@
 #include "cli/terminal.hpp"
 #include "cli/text.hpp"
 #include "client/jobs.hpp"
+#include "client/meshes.hpp"
 
 namespace anticrack::cli {
 namespace {
@@ -34,12 +35,13 @@ double age_of(const v1::Job& job) {
   return std::max(0., seconds_between(job.status().create_time(), TimeUtil::GetCurrentTime()));
 }
 
-/// The progress of a job on a terminal or in a log.
+/// The progress of a job or a mesh on a terminal or in a log.
 class View {
  public:
-  View(Session& session, const v1::Job& job, std::uint64_t rows)
-      : _session(session), _begin(steady_seconds() - age_of(job)) {
-    _progress.job = sanitise(job.name());
+  /// `age`: seconds since its beginning; `rows`: those of a sweep.
+  View(Session& session, const std::string& name, double age, std::uint64_t rows = 0)
+      : _session(session), _begin(steady_seconds() - age) {
+    _progress.job = sanitise(name);
     if (rows > 0) _progress.sweep.emplace().total = rows;
     if (shows_frames(session.globals()))
       _frames = std::make_unique<Frames>(session, [this](Size size) { return frame_now(size); });
@@ -59,6 +61,7 @@ class View {
       _frames->refresh();
       return;
     }
+    if (_progress.job.empty()) return;
     for (const std::string& line : _log.lines(_progress)) say(_session.globals(), line);
   }
 
@@ -69,6 +72,7 @@ class View {
  private:
   std::vector<std::string> frame_now(Size size) {
     const std::lock_guard lock(_mutex);
+    if (_progress.job.empty()) return {};
     if (!client::ended(_progress.state)) _progress.elapsed = steady_seconds() - _begin;
     return frame(_progress, size.width, size.height - 1);
   }
@@ -154,7 +158,7 @@ Followed follow(Session& session, const v1::Job& job, std::uint64_t rows) {
   std::optional<v1::Job> last;
   bool cancelling = false;
   {
-    View view(session, job, rows);
+    View view(session, job.name(), age_of(job), rows);
     Interrupts interrupts(session, job.name(), view);
     last = watch(session, job.name(), view, interrupts.detached());
     cancelling = interrupts.asked_to_cancel();
@@ -169,6 +173,18 @@ Followed follow(Session& session, const v1::Job& job, std::uint64_t rows) {
   }
   const bool in_time = cancelling && last->status().state() == v1::JobStatus::STATE_CANCELLED;
   return {in_time ? Followed::How::cancelled : Followed::How::ended, *std::move(last), {}};
+}
+
+v1::Mesh follow_mesh(Session& session, const std::string& name) {
+  View view(session, name, 0);
+  const auto show = [&view](const v1::Mesh& mesh) {
+    view.change([&](JobProgress& progress) {
+      progress.doing = state_text(mesh);
+      progress.notice.clear();
+      if (client::settled(mesh.state())) progress.job.clear();  // the caller reports the end
+    });
+  };
+  return client::wait_for_mesh(session.connection(), name, show, session.stop());
 }
 
 }  // namespace anticrack::cli

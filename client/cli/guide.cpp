@@ -59,9 +59,8 @@ void add_guide(CLI::App& app, const Globals& globals, Command& chosen) {
 
   const auto folder = std::make_shared<std::string>();
   CLI::App* command = app.add_subcommand("manual", "Write the manual pages, one per command");
-  command->add_option("DIR", *folder, "Folder for the pages, created if missing")
-      ->required()
-      ->type_name("DIR");
+  add_value(*command, "DIR", *folder, "DIR", "Folder for the pages, created if missing")
+      ->required();
   command->footer("Example:\n  anticrack manual man1 && man -l man1/anticrack-run.1");
   command->callback([folder, &app, &globals, &chosen] {
     chosen = [folder, &app, &globals] { return write_manual(app, *folder, globals); };

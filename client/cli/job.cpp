@@ -238,7 +238,7 @@ void add_job(CLI::App& app, const Globals& globals, Command& chosen) {
   list->add_option("--state", options->states, "Only jobs in this state; again for more")
       ->check(CLI::IsMember(states))
       ->allow_extra_args(false);
-  list->add_option("--mesh", options->mesh, "Only jobs on this mesh")->type_name("meshes/ID");
+  add_value(*list, "--mesh", options->mesh, "meshes/ID", "Only jobs on this mesh");
   list->add_flag("--oldest-first", options->oldest_first, "The oldest job first, not the newest");
   add_named("show", "Show a job", "", show);
   add_named("watch", "Watch a job until it ends", "", watch_job)
@@ -249,10 +249,8 @@ void add_job(CLI::App& app, const Globals& globals, Command& chosen) {
   add_named("cancel", "Cancel a job", "", cancel);
   CLI::App* fetch =
       add_named("fetch", "Save the results of a job that has ended", " -o plate.h5", fetch_result);
-  fetch
-      ->add_option("-o,--output", options->output,
-                   "Result file, HDF5 (default: ID.h5 in this folder)")
-      ->type_name("FILE");
+  add_value(*fetch, "-o,--output", options->output, "FILE",
+            "Result file, HDF5 (default: ID.h5 in this folder)");
   fetch->add_flag("--fields", options->fields,
                   "With u on every node; where the job has it not, it is solved again");
   add_named("delete", "Delete a job that has ended, and its results", "", remove);

@@ -27,7 +27,7 @@ std::string counted_cases(const v1::JobSpec& spec, std::uint64_t rows) {
 }
 
 std::string summary(const results::Result& result, const fs::path& file) {
-  const v1::Mesh& mesh = result.mesh.info;
+  const v1::Mesh& mesh = result.mesh;
   return fmt::format(
       "Results: {} ({} triangles, {} nodes; meshing {} s, factorising {} s, solving {} s, {} s in "
       "all)",
@@ -38,22 +38,14 @@ std::string summary(const results::Result& result, const fs::path& file) {
 
 // The reasons why a job has no answers, line by line, in terms of its case.
 std::vector<std::string> causes(const Case& the_case, const v1::Job& job) {
-  const v1::JobStatus& status = job.status();
-  const auto text_of = [&the_case](const v1::Status& error) {
+  if (job.status().result_state() == v1::JobStatus::RESULT_STATE_EXPIRED)
+    return {expired_text(job)};
+  std::vector<std::string> lines = shortfalls(job, [&the_case](const v1::Status& error) {
     return std::string(in_terms_of(the_case, client::decode_error(error)).what());
-  };
-  if (status.state() == v1::JobStatus::STATE_CANCELLED) return {job.name() + " was cancelled"};
-  if (status.result_state() == v1::JobStatus::RESULT_STATE_EXPIRED) return {expired_text(job)};
-  std::vector<std::string> lines;
-  if (status.has_error()) lines.push_back(job.name() + " failed: " + text_of(status.error()));
-  for (const v1::LoadCaseAnswer& answer : status.answers()) {
-    const std::string& cause = answer.error().message();
-    const bool told = status.error().message().find(cause) != std::string::npos;
-    if (answer.has_error() && !told)
-      lines.push_back(answer.name() + " failed: " + text_of(answer.error()));
-  }
+  });
   if (lines.empty())
-    lines.push_back(job.name() + " ended without results: " + std::string(word(status.state())));
+    lines.push_back(job.name() +
+                    " ended without results: " + std::string(word(job.status().state())));
   return lines;
 }
 

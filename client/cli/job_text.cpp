@@ -37,10 +37,7 @@ std::string sweep_answer(const v1::SweepAnswer& answer) {
   std::string text =
       fmt::format("sweep of {} rows: {} converged, {} did not converge, {} failed\n", answer.rows(),
                   answer.converged(), answer.not_converged(), answer.failed());
-  if (answer.converged() > 0) {
-    text += fmt::format("at most {} steps, KKT residuals at most {}\n", answer.most_steps(),
-                        number(answer.worst_kkt(), 2));
-  }
+  if (answer.converged() > 0) text += worst_of(answer) + "\n";
   for (const std::string& warning : answer.warnings())
     text += "warning: " + sanitise(warning) + "\n";
   return text;
@@ -86,15 +83,19 @@ std::string job_text(const v1::Job& job) {
          timeline(status);
 }
 
-std::vector<std::string> shortfalls(const v1::Job& job) {
+std::vector<std::string> shortfalls(const v1::Job& job,
+                                    const std::function<std::string(const v1::Status&)>& told) {
   const v1::JobStatus& status = job.status();
   if (status.state() == v1::JobStatus::STATE_CANCELLED) return {job.name() + " was cancelled"};
   std::vector<std::string> lines;
-  if (status.has_error()) lines.push_back(job.name() + " failed: " + status.error().message());
+  if (status.has_error()) lines.push_back(job.name() + " failed: " + told(status.error()));
   for (const v1::LoadCaseAnswer& answer : status.answers()) {
     if (answer.status() == v1::LoadCaseAnswer::STATUS_NOT_CONVERGED)
       lines.push_back(answer.name() + " did not converge: " + answer.reason());
-    if (answer.has_error()) lines.push_back(answer.name() + " failed: " + answer.error().message());
+    // The first error of a load is most often that of its job, too.
+    const std::string& cause = answer.error().message();
+    if (answer.has_error() && status.error().message().find(cause) == std::string::npos)
+      lines.push_back(answer.name() + " failed: " + told(answer.error()));
   }
   if (!status.not_reached().empty()) lines.push_back("not reached: " + status.not_reached());
   const v1::SweepAnswer& sweep = status.sweep_answer();

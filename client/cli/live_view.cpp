@@ -47,6 +47,7 @@ double fraction_of(const SweepProgress& sweep) {
 }
 
 std::string state_of(const JobProgress& progress) {
+  if (!progress.doing.empty()) return progress.doing;
   return std::string(word(progress.state)) + attempt_of(progress) +
          (progress.detail.empty() ? "" : " (" + progress.detail + ")");
 }

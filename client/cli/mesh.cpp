@@ -140,7 +140,7 @@ int show_mesh(const MeshOptions& options, const Globals& globals) {
   words.insert(words.begin(), "mesh");
   words.push_back("--unit=" + facts.units.length());
   if (facts.free) words.emplace_back("--free");
-  return run_in_python(std::move(words), drawn_mesh(mesh, block), globals, false);
+  return run_in_python(std::move(words), drawn_mesh(mesh, block), globals);
 }
 
 int list_meshes(const MeshOptions& options, const Globals& globals) {
@@ -214,12 +214,9 @@ void add_mesh(CLI::App& app, const Globals& globals, Command& chosen) {
     command->add_flag("--no-wait", options->no_wait, "Do not wait until it is factorised");
   };
   const auto add_overrides = [&](CLI::App* command) {
-    command
-        ->add_option("--set", options->overrides,
-                     "Override a key of the case, or of a .msh one of [mesh], for example "
-                     "mesh.groups.curve.7=crack")
-        ->allow_extra_args(false)
-        ->type_name("KEY=VALUE");
+    add_value(*command, "--set", options->overrides, "KEY=VALUE",
+              "Override a key of the case, or of a .msh one of [mesh], for example "
+              "mesh.groups.curve.7=crack");
   };
 
   CLI::App* create_command =
@@ -230,11 +227,9 @@ void add_mesh(CLI::App& app, const Globals& globals, Command& chosen) {
 
   CLI::App* upload_command = add("upload", "Create a mesh from a .msh file",
                                  "plate.msh --set mesh.preset=uniform", upload);
-  upload_command
-      ->add_option("MESH", options->file,
-                   "MSH 2.0 to 2.2 or 4.1, ascii or binary, or a mesh of FreeFEM")
-      ->required()
-      ->type_name("FILE");
+  add_value(*upload_command, "MESH", options->file, "FILE",
+            "MSH 2.0 to 2.2 or 4.1, ascii or binary, or a mesh of FreeFEM")
+      ->required();
   upload_command->add_option("--title", options->title, "A title for people");
   add_no_wait(upload_command);
   add_overrides(upload_command);
@@ -245,10 +240,9 @@ void add_mesh(CLI::App& app, const Globals& globals, Command& chosen) {
   CLI::App* show_command =
       add("show", "Show a mesh as the server understood it, and draw it",
           "plate.msh -o figures\n  anticrack mesh show meshes/0123456789abcdef", show_mesh);
-  show_command
-      ->add_option("MESH", options->name, "meshes/ID, or a case (.toml) or .msh file to mesh")
-      ->required()
-      ->type_name("FILE");
+  add_value(*show_command, "MESH", options->name, "FILE",
+            "meshes/ID, or a case (.toml) or .msh file to mesh")
+      ->required();
   add_figure_options(*show_command, options->figures, "Folder for the figure");
   add_overrides(show_command);
 

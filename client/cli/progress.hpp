@@ -86,7 +86,8 @@ struct CaseProgress {
 };
 
 struct JobProgress {
-  std::string job;
+  std::string job;    ///< its name, or that of a mesh; empty: there is nothing to show
+  std::string doing;  ///< the state of a mesh, in words
   v1::JobStatus::State state = v1::JobStatus::STATE_UNSPECIFIED;
   std::string detail;        ///< phase, e.g. "meshing"
   std::string notice;        ///< a message, e.g. that the connection is lost; may be empty

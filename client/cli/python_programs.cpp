@@ -36,11 +36,11 @@ void add_program(CLI::App& app, Command& chosen, const std::vector<std::string>&
   }
   command->footer(footer);
   command->callback([&chosen, words, name] {
-    chosen = [words, name]() -> int {
-      const auto program = external_command(name);
-      if (program.empty())
+    chosen = [line = words, name]() mutable -> int {
+      line.insert(line.begin(), external_command(name).string());
+      if (line[0].empty())
         throw UsageError("anticrack-" + name + " is not installed; install python3-anticrack");
-      become(program, words);
+      become(line);
     };
   });
 }

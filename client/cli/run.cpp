@@ -35,10 +35,8 @@ void add_run(CLI::App& app, const Globals& globals, Command& chosen) {
       app.add_subcommand("run", "Mesh, submit, watch and save: the everyday command");
   const auto options = std::make_shared<RunOptions>();
   add_case(*command, options->case_file);
-  command
-      ->add_option("-o,--output", options->output,
-                   "Result file, HDF5 (default: CASE.h5 in this folder)")
-      ->type_name("FILE");
+  add_value(*command, "-o,--output", options->output, "FILE",
+            "Result file, HDF5 (default: CASE.h5 in this folder)");
   add_case_flags(*command, options->overrides);
   add_load_flag(*command, options->loads);
   command->footer(

@@ -4,13 +4,12 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
-
 #include <exception>
 #include <map>
 #include <optional>
 #include <utility>
 
+#include "cli/commands.hpp"
 #include "cli/json.hpp"
 #include "cli/report.hpp"
 #include "cli/tables.hpp"
@@ -77,13 +76,9 @@ std::shared_ptr<Fetched> fetch_now(Session& session, const std::string& name) {
 }  // namespace
 
 void add_case_flags(CLI::App& command, std::vector<std::string>& overrides) {
-  command
-      .add_option(
-          "--set", overrides,
-          "Override a key of the case, for example solver.theta=1.7 or load.opening.f=1 (an "
-          "entry of a list by its name, or by its index from 0); again for more")
-      ->allow_extra_args(false)
-      ->type_name("KEY=VALUE");
+  add_value(command, "--set", overrides, "KEY=VALUE",
+            "Override a key of the case, for example solver.theta=1.7 or load.opening.f=1 (an "
+            "entry of a list by its name, or by its index from 0); again for more");
   const auto add = [&](const std::string& flag, const std::string& key, const std::string& type,
                        const std::string& help) {
     command
@@ -103,12 +98,9 @@ void add_case_flags(CLI::App& command, std::vector<std::string>& overrides) {
 }
 
 void add_load_flag(CLI::App& command, std::vector<std::string>& loads) {
-  command
-      .add_option("--load", loads,
-                  "Solve this load case only, with [accuracy] on meshes of its own; again for more "
-                  "(default: all)")
-      ->allow_extra_args(false)
-      ->type_name("NAME");
+  add_value(command, "--load", loads, "NAME",
+            "Solve this load case only, with [accuracy] on meshes of its own; again for more "
+            "(default: all)");
 }
 
 client::Error in_terms_of(const Case& the_case, const client::Error& error) {
@@ -195,7 +187,7 @@ results::Result fetch(Session& session, const v1::Job& job, const std::stop_toke
           : fetch_arrays(connection, client::get_mesh(connection, mesh_of(job), stop), stop);
   fetched.job = job;
   fetched.result_block = client::read_result(connection, job.name(), stop);
-  return to_result(fetched);
+  return to_result(std::move(fetched));
 }
 
 int exit_code_of(const v1::Job& job) {

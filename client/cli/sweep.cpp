@@ -49,7 +49,7 @@ Case read_case(Session& session, const SweepOptions& options) {
 
 // Checks nodal rows, which is possible only against an existing mesh.
 void check_mesh(Session& session, const Case& the_case, const SweepInput& input) {
-  if (!input.nodal) return;
+  if (!input.nodal()) return;
   const v1::Mesh mesh = follow_mesh(session, create_mesh(session, the_case).name());
   if (mesh.state() != v1::Mesh::STATE_FAILED)  // otherwise the job gives the reason
     check_nodes(input, mesh.node_count());
@@ -99,8 +99,10 @@ int sweep(const SweepOptions& options, const Globals& given) {
     return exit_ok;
   }
   const auto complete = [&](results::Result& result) {
-    result.sweep.value().source = input.source;
-    if (!input.nodal) result.sweep->coefficients = std::move(input.values);
+    result.sweep.value().source = input.source();
+    if (!input.nodal())
+      result.sweep->columns["coefficients"] =
+          results::array_of(std::move(input.values), {input.columns});
   };
   const auto saved = [&](const results::Result& result) {
     save_csv(targets.csv, *result.sweep, globals);
@@ -113,23 +115,17 @@ int sweep(const SweepOptions& options, const Globals& given) {
 void add_options(CLI::App& command, SweepOptions& options) {
   add_case(command, options.case_file);
   CLI::Option_group& input = *command.add_option_group("Load cases");
-  input
-      .add_option(
-          "--coefficients,--combinations", options.files.coefficients,
-          "One row per load case: the coefficients of the case's loads. Comma-separated text (or "
-          "with semicolons, and then decimal commas, too), "
-          "optionally with a first line of their names, or a dataset (rows,loads) of an HDF5 "
-          "file (default /coefficients), optionally with their names as attribute loads")
-      ->type_name("FILE.csv|FILE.h5:/PATH");
-  input
-      .add_option("--nodal", options.files.nodal,
-                  "One row per load case: f on the nodes of the mesh. A dataset (rows,nodes)")
-      ->type_name("FILE.h5:/PATH");
+  add_value(input, "--coefficients,--combinations", options.files.coefficients,
+            "FILE.csv|FILE.h5:/PATH",
+            "One row per load case: the coefficients of the case's loads. Comma-separated text (or "
+            "with semicolons, and then decimal commas, too), optionally with a first line of their "
+            "names, or a dataset (rows,loads) of an HDF5 file (default /coefficients), optionally "
+            "with their names as attribute loads");
+  add_value(input, "--nodal", options.files.nodal, "FILE.h5:/PATH",
+            "One row per load case: f on the nodes of the mesh. A dataset (rows,nodes)");
   input.require_option(1);
-  command
-      .add_option("--traces", options.files.traces,
-                  "Rows, from 0, whose traces are kept: all, none, or for example 0,10,20-30")
-      ->type_name("ROWS")
+  add_value(command, "--traces", options.files.traces, "ROWS",
+            "Rows, from 0, whose traces are kept: all, none, or for example 0,10,20-30")
       ->capture_default_str();
   command.add_flag(
       "--bounds", options.files.bounds,
@@ -137,13 +133,10 @@ void add_options(CLI::App& command, SweepOptions& options) {
       "share the work");
   command.add_flag("--tips", options.files.tips,
                    "Intensity and energy release rate of every tip in each row");
-  CLI::Option* output = command
-                            .add_option("-o,--output,--out", options.output,
-                                        "Result file, HDF5 (default: CASE.h5 in this folder)")
-                            ->type_name("FILE");
-  CLI::Option* csv =
-      command.add_option("--csv", options.csv, "Also write comma-separated text, one line per row")
-          ->type_name("FILE.csv");
+  CLI::Option* output = add_value(command, "-o,--output,--out", options.output, "FILE",
+                                  "Result file, HDF5 (default: CASE.h5 in this folder)");
+  CLI::Option* csv = add_value(command, "--csv", options.csv, "FILE.csv",
+                               "Also write comma-separated text, one line per row");
   command.add_flag("--detach", options.detach, "Submit and return at once")
       ->excludes(output)
       ->excludes(csv);

@@ -120,13 +120,8 @@ bool leave_out_accuracy(Case& the_case) {
 }
 
 SweepInput read_sweep_input(const SweepFiles& files, const Case& the_case) {
-  SweepInput input;
-  input.nodal = !files.nodal.empty();
-  input.source = input.nodal ? files.nodal : files.coefficients;
-  input.traces = files.traces;
-  input.bounds = files.bounds;
-  input.tips = files.tips;
-  if (input.nodal)
+  SweepInput input{files, {}};
+  if (input.nodal())
     read_nodal(files, input);
   else
     read_combinations(files, the_case, input);
@@ -134,25 +129,25 @@ SweepInput read_sweep_input(const SweepFiles& files, const Case& the_case) {
 }
 
 void make_sweep(const SweepInput& input, Case& the_case) {
-  const std::vector<std::uint32_t> traces = select_rows(input.traces, input.rows);
+  const std::vector<std::uint32_t> traces = select_rows(input.files.traces, input.rows);
   v1::JobSpec& spec = the_case.spec;
   spec.mutable_sweep()->mutable_traces()->Add(traces.begin(), traces.end());
-  spec.mutable_sweep()->set_bounds(input.bounds);
-  spec.mutable_sweep()->set_tips(input.tips);
+  spec.mutable_sweep()->set_bounds(input.files.bounds);
+  spec.mutable_sweep()->set_tips(input.files.tips);
   matrix_of(input, spec);
   // Rows have no fields, but a case for `run` often asks for them.
   spec.clear_outputs();
-  if (input.nodal) {
+  if (input.nodal()) {
     spec.clear_load_cases();
     the_case.force_files.clear();
   }
-  the_case.places["sweep"].set_where(input.source);
-  the_case.places["sweep.traces"].set_where("--traces " + input.traces);
+  the_case.places["sweep"].set_where(input.source());
+  the_case.places["sweep.traces"].set_where("--traces " + input.files.traces);
 }
 
 void check_nodes(const SweepInput& input, std::uint64_t node_count) {
   if (input.columns != node_count) {
-    fail(input.source,
+    fail(input.source(),
          fmt::format("it has {} columns, the mesh {} nodes; write f on every node, in the order of "
                      "the mesh (the dataset /mesh/nodes of a result file on it)",
                      input.columns, node_count));
@@ -161,7 +156,7 @@ void check_nodes(const SweepInput& input, std::uint64_t node_count) {
 
 v1::Sweep::Matrix& matrix_of(const SweepInput& input, v1::JobSpec& spec) {
   v1::Sweep& sweep = *spec.mutable_sweep();
-  return input.nodal ? *sweep.mutable_nodal_forces() : *sweep.mutable_coefficients();
+  return input.nodal() ? *sweep.mutable_nodal_forces() : *sweep.mutable_coefficients();
 }
 
 }  // namespace anticrack::cli

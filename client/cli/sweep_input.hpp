@@ -25,15 +25,15 @@ struct SweepFiles {
 };
 
 struct SweepInput {
-  bool nodal = false;          ///< rows have f on the nodes; else coefficients of the loads
-  std::string source;          ///< where the values come from
-  std::string traces;          ///< rows whose traces to keep, not parsed yet
-  bool bounds = false;         ///< whether bounds are asked for
-  bool tips = false;           ///< whether numbers of tips are
+  SweepFiles files;
   std::vector<double> values;  ///< (rows, columns) row-major
   std::size_t rows = 0;
   std::size_t columns = 0;
 
+  /// Whether rows have f on the nodes; else coefficients of the loads.
+  bool nodal() const noexcept { return !files.nodal.empty(); }
+  /// Where the values come from.
+  const std::string& source() const noexcept { return nodal() ? files.nodal : files.coefficients; }
   /// The size of the values in bytes.
   std::size_t bytes() const noexcept { return values.size() * sizeof(double); }
 };

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -115,7 +116,8 @@ std::string first_rows(const results::Sweep& sweep, const Holds& holds) {
 /// A text like "bounds of 9 rows: of the energy at most 0.89 % wide, of A at most +- 0.0056".
 std::string bounds_text(const results::Sweep& sweep, const SweepSummary& counts,
                         const v1::Units& units) {
-  if (sweep.energy_lower.empty()) return "";
+  const auto lower = sweep.numbers("energy_lower");
+  if (lower.empty()) return "";
   if (counts.bounded == 0) return "no row has bounds\n";
   std::string text = "bounds of " + counted(counts.bounded, "row") + ": of the energy at most " +
                      per_cent(counts.energy_width) + " wide";
@@ -125,7 +127,7 @@ std::string bounds_text(const results::Sweep& sweep, const SweepSummary& counts,
                                                    : " " + sanitise(results::label_of(units, "L")));
   if (counts.bounded < sweep.answer.converged()) {
     text += "; none of " + first_rows(sweep, [&](std::size_t row) {
-              return sweep.converged(row) && std::isnan(sweep.energy_lower[row]);
+              return sweep.converged(row) && std::isnan(lower[row]);
             });
   }
   return text + "\n";
@@ -139,9 +141,10 @@ struct Largest {
 
 std::vector<Largest> largest_rates(const results::Sweep& sweep) {
   std::vector<Largest> found(sweep.tips());
+  const auto rates = sweep.numbers("energy_release_rate");
   for (std::size_t row = 0; row < sweep.rows(); ++row) {
     for (std::size_t tip = 0; tip < found.size(); ++tip) {
-      const double g = sweep.energy_release_rate[row * found.size() + tip];
+      const double g = rates[row * found.size() + tip];
       if (sweep.converged(row) && g > found[tip].g)
         found[tip] = {g, static_cast<std::int64_t>(row)};
     }
@@ -164,40 +167,42 @@ std::string tips_text(const results::Sweep& sweep, const v1::Units& units) {
 /// A column of comma-separated text: in each row the number at `place` of `width`.
 struct CsvColumn {
   std::string title;
-  const std::vector<double>& values;
+  std::span<const double> values;
   std::size_t width = 1, place = 0;
 };
 
 /// The columns of numbers that are right only where a row converged.
 std::vector<CsvColumn> csv_columns(const results::Sweep& sweep) {
   std::vector<CsvColumn> columns;
-  const auto add = [&columns](std::string title, const std::vector<double>& values,
-                              std::size_t width = 1, std::size_t place = 0) {
-    if (!values.empty()) columns.push_back({std::move(title), values, width, place});
+  const auto add = [&](std::string title, std::string_view name, std::size_t width = 1,
+                       std::size_t place = 0) {
+    if (const auto values = sweep.numbers(name); !values.empty())
+      columns.push_back({std::move(title), values, width, place});
   };
   const std::size_t inclusions = sweep.inclusions.size(), tips = sweep.tips();
   for (std::size_t i = 0; i < inclusions; ++i) {
-    add(name_of("A", sweep, i), sweep.displacement, inclusions, i);
-    add(name_of("A_lower", sweep, i), sweep.displacement_lower, inclusions, i);
-    add(name_of("A_upper", sweep, i), sweep.displacement_upper, inclusions, i);
-    add(name_of("A_mesh", sweep, i), sweep.displacement_mesh, inclusions, i);
+    for (const std::string end : {"", "_lower", "_upper", "_mesh"})
+      add(name_of(("A" + end).c_str(), sweep, i), "displacement" + end, inclusions, i);
     for (std::size_t part = 0; part < slope_parts.size(); ++part)
-      add(name_of(slope_parts[part], sweep, i), sweep.slope, 2 * inclusions, 2 * i + part);
+      add(name_of(slope_parts[part], sweep, i), "slope", 2 * inclusions, 2 * i + part);
   }
   for (std::size_t tip = 0; tip < tips; ++tip) {
-    add(fmt::format("intensity of tip {}", tip), sweep.intensity, tips, tip);
-    add(fmt::format("G of tip {}", tip), sweep.energy_release_rate, tips, tip);
-    add(fmt::format("G_spread of tip {}", tip), sweep.energy_release_rate_spread, tips, tip);
+    add(fmt::format("intensity of tip {}", tip), "intensity", tips, tip);
+    add(fmt::format("G of tip {}", tip), "energy_release_rate", tips, tip);
+    add(fmt::format("G_spread of tip {}", tip), "energy_release_rate_spread", tips, tip);
   }
-  add("energy", sweep.energy);
-  add("energy_lower", sweep.energy_lower);
-  add("energy_upper", sweep.energy_upper);
-  add("energy_mesh", sweep.energy_mesh);
-  add("contact_length", sweep.contact_length);
+  for (const char* name :
+       {"energy", "energy_lower", "energy_upper", "energy_mesh", "contact_length"})
+    add(name, name);
   return columns;
 }
 
 }  // namespace
+
+std::string worst_of(const v1::SweepAnswer& answer) {
+  return "at most " + counted(static_cast<std::size_t>(answer.most_steps()), "step") +
+         ", KKT residuals at most " + number(answer.worst_kkt(), 2);
+}
 
 std::string sweep_table(const results::Sweep& sweep, const v1::Units& units) {
   const SweepSummary counts = summary(sweep);
@@ -209,8 +214,7 @@ std::string sweep_table(const results::Sweep& sweep, const v1::Units& units) {
     text += " (" + first_rows(sweep, [&](std::size_t row) { return !sweep.converged(row); }) + ")";
   text += "\n";
   if (converged > 0) {
-    text += "at most " + counted(static_cast<std::size_t>(sweep.answer.most_steps()), "step") +
-            ", KKT residuals at most " + number(sweep.answer.worst_kkt(), 2) + "\n\n";
+    text += worst_of(sweep.answer) + "\n\n";
     Rows rows{head_of_spans};
     if (sweep.inclusions.size() > few_inclusions)
       add_extremes(sweep, counts, units, rows);
@@ -225,7 +229,8 @@ std::string sweep_table(const results::Sweep& sweep, const v1::Units& units) {
       text += "all inclusions: anticrack show RESULT --inclusions, or --csv FILE\n";
   }
   text += bounds_text(sweep, counts, units) + tips_text(sweep, units);
-  if (!sweep.kept.empty()) text += "traces of " + counted(sweep.kept.size(), "row") + "\n";
+  if (const std::size_t kept = sweep.integers("kept").size(); kept > 0)
+    text += "traces of " + counted(kept, "row") + "\n";
   if (!sweep.error.empty()) text += sanitise(sweep.error) + "\n";
   return text;
 }
@@ -265,20 +270,22 @@ Json sweep_json(const results::Sweep& sweep) {
 }
 
 std::string sweep_csv(const results::Sweep& sweep) {
-  const std::size_t loads = sweep.coefficients.empty() ? 0 : sweep.loads.size();
+  const auto coefficients = sweep.numbers("coefficients");
+  const auto status = sweep.status(), steps = sweep.integers("steps");
+  const std::size_t loads = coefficients.empty() ? 0 : sweep.loads.size();
   const std::vector<CsvColumn> columns = csv_columns(sweep);
   std::string text = "row";
   for (std::size_t i = 0; i < loads; ++i) text += "," + csv_field(sweep.loads[i]);
   for (const CsvColumn& column : columns) text += "," + csv_field(column.title);
   text += ",steps,status\n";
-  for (std::size_t row = 0; row < sweep.rows(); ++row) {
+  for (std::size_t row = 0; row < status.size(); ++row) {
+    const bool converged = status[row] == v1::LoadCaseAnswer::STATUS_CONVERGED;
     text += std::to_string(row);
-    for (std::size_t i = 0; i < loads; ++i)
-      text += "," + exact(sweep.coefficients[row * loads + i]);
+    for (std::size_t i = 0; i < loads; ++i) text += "," + exact(coefficients[row * loads + i]);
     for (const CsvColumn& column : columns)
-      text += "," + (sweep.converged(row) ? exact(column.values[row * column.width + column.place])
-                                          : std::string());
-    text += fmt::format(",{},{}\n", sweep.steps[row], results::status_name(sweep.status[row]));
+      text += "," +
+              (converged ? exact(column.values[row * column.width + column.place]) : std::string());
+    text += fmt::format(",{},{}\n", steps[row], results::status_name(status[row]));
   }
   return text;
 }

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -70,6 +71,9 @@ std::string growth_table(const std::vector<results::Load>& loads, const v1::Unit
 /// the energy norm and, if it is known, that of A. Empty if there are no stages.
 std::string stages_table(const results::Load& load);
 
+/// The most steps and the largest residual of the rows that converged.
+std::string worst_of(const v1::SweepAnswer& answer);
+
 /// How many rows ended in which way, the ranges of A, contact length and energy, what went wrong,
 /// and how wide the bounds are. With bounds, the ranges of A and of the energy contain the exact
 /// values of the membrane. For many inclusions there is one range, with the inclusions at its ends.
@@ -101,6 +105,9 @@ std::string job_text(const v1::Job& job);
 std::string expired_text(const v1::Job& job);
 
 /// The requests that a job which has ended did not fulfil, line by line; empty if there are none.
-std::vector<std::string> shortfalls(const v1::Job& job);
+/// `told`: gives the text of an error.
+std::vector<std::string> shortfalls(
+    const v1::Job& job,
+    const std::function<std::string(const v1::Status&)>& told = &v1::Status::message);
 
 }  // namespace anticrack::cli

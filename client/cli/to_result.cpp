@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/to_result.hpp"
 
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -16,9 +17,6 @@ results::Sweep to_sweep(const Fetched& fetched) {
   for (const v1::LoadCase& load : fetched.job.spec().load_cases())
     sweep.loads.push_back(load.name());
   sweep.inclusions.assign(fetched.mesh.inclusions().begin(), fetched.mesh.inclusions().end());
-  // A row beyond int32 becomes negative here, which is refused later.
-  sweep.kept.assign(fetched.job.spec().sweep().traces().begin(),
-                    fetched.job.spec().sweep().traces().end());
   sweep.error = fetched.job.status().error().message();
   sweep.answer = fetched.job.status().sweep_answer();
   return sweep;
@@ -50,7 +48,7 @@ std::vector<results::Load> to_loads(const v1::Job& job) {
   return loads;
 }
 
-results::Result to_result(const Fetched& fetched) {
+results::Result to_result(Fetched fetched) {
   results::Result result;
   result.title = fetched.job.spec().title();
   result.client_version = ANTICRACK_VERSION;
@@ -59,13 +57,19 @@ results::Result to_result(const Fetched& fetched) {
   result.not_reached = fetched.job.status().not_reached();
   result.units = fetched.job.spec().units();
   result.solver = fetched.job.spec().solver();
-  result.mesh.info = fetched.mesh;
+  result.mesh = fetched.mesh;
   if (fetched.job.spec().has_sweep())
     result.sweep = to_sweep(fetched);
   else
     result.loads = to_loads(fetched.job);
-  return results::assemble(std::move(result), {fetched.mesh_block.layout, fetched.mesh_block.bytes},
-                           {fetched.result_block.layout, fetched.result_block.bytes});
+  // A row beyond int32 becomes negative here, which is refused later.
+  const auto& kept = fetched.job.spec().sweep().traces();
+  const auto view = [](client::Block& block) {
+    return results::BlockView{
+        block.layout, std::make_shared<const std::vector<std::byte>>(std::move(block.bytes))};
+  };
+  return results::assemble(std::move(result), view(fetched.mesh_block), view(fetched.result_block),
+                           {kept.begin(), kept.end()});
 }
 
 }  // namespace anticrack::cli

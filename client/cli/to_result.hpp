@@ -26,7 +26,7 @@ struct Fetched {
 std::string mesh_of(const v1::Job& job);
 
 /// The result. Throws results::Error for parts that do not fit together.
-results::Result to_result(const Fetched& fetched);
+results::Result to_result(Fetched fetched);
 
 /// The answers so far, without traces, fields and histories: one per load case.
 std::vector<results::Load> to_loads(const v1::Job& job);

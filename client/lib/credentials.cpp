@@ -97,21 +97,21 @@ std::string read_token(const CredentialFiles& files) {
 
 }  // namespace
 
-bool is_loopback(std::string_view any_case) {
-  std::string lower(any_case);
+std::string plain_address(std::string_view address) {
+  std::string lower(address);
   std::ranges::transform(lower, lower.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  std::string_view address = lower;
+  for (const std::string_view scheme : {"dns:///", "dns:", "ipv4:", "ipv6:"})
+    if (lower.starts_with(scheme)) return lower.substr(scheme.size());
+  return lower;
+}
+
+bool is_loopback(std::string_view any) {
+  const std::string address = plain_address(any);
   for (const std::string_view scheme : {"unix:", "unix-abstract:"})
     if (address.starts_with(scheme)) return true;
-  for (const std::string_view scheme : {"dns:///", "dns:", "ipv4:", "ipv6:"}) {
-    if (address.starts_with(scheme)) {
-      address.remove_prefix(scheme.size());
-      break;
-    }
-  }
   if (address == "::1" || address == "[::1]" || address.starts_with("[::1]:")) return true;
-  const std::string_view host = address.substr(0, address.find(':'));
+  const std::string_view host = std::string_view(address).substr(0, address.find(':'));
   // Only digits and dots count, as "127.evil.example" is an ordinary host name.
   const bool digits = host.find_first_not_of("0123456789.") == std::string_view::npos;
   return host == "localhost" || host == "localhost." || (host.starts_with("127.") && digits);

@@ -28,6 +28,9 @@ struct Credentials {
   CredentialFiles files;                ///< the files they come from, for error messages
 };
 
+/// The address in lower case, without a scheme of gRPC that stands before a host.
+std::string plain_address(std::string_view address);
+
 /// Whether data sent to this address stay on the machine: a unix socket, localhost, 127.x.x.x or
 /// ::1.
 bool is_loopback(std::string_view address);

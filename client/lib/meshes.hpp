@@ -30,7 +30,7 @@ namespace anticrack::client {
 /// Sends a mesh file (MSH 2.0 to 2.2 or 4.1, or of FreeFEM) in chunks of 1 MiB; returns
 /// "uploads/SHA256", for CreateMeshRequest.upload. Sending it again is harmless. Error:
 /// invalid_argument (no .msh, or over the server's upload limit), resource_exhausted. Throws
-/// std::runtime_error if the file cannot be read or changes while it is sent.
+/// std::runtime_error if the file, which is read at once, cannot be read.
 std::string upload_mesh(Connection& connection, const std::filesystem::path& path,
                         const std::stop_token& stop = {});
 

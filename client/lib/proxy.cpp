@@ -16,13 +16,6 @@
 namespace anticrack::client {
 namespace {
 
-std::string lower(std::string_view text) {
-  std::string result(text);
-  std::ranges::transform(result, result.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return result;
-}
-
 struct HostPort {
   std::string host;
   std::string port;  ///< empty: none
@@ -30,7 +23,7 @@ struct HostPort {
 
 /// Splits HOST, HOST:PORT, [IPV6]:PORT or IPV6, in lower case.
 HostPort split(std::string_view text) {
-  const std::string all = lower(text);
+  const std::string all = plain_address(text);
   if (all.starts_with('[')) {
     const std::size_t end = std::min(all.find(']'), all.size());
     const std::size_t port = all.find(':', end);
@@ -44,11 +37,6 @@ HostPort split(std::string_view text) {
 /// An address in IPv6, of which IPv4 addresses are a part.
 using Ip = std::array<std::uint8_t, 16>;
 
-struct Network {
-  Ip first{};
-  int bits = 128;
-};
-
 std::optional<Ip> ip_of(const std::string& host) {
   constexpr std::size_t before_v4 = 12;
   Ip ip{};
@@ -59,28 +47,19 @@ std::optional<Ip> ip_of(const std::string& host) {
   return std::nullopt;
 }
 
-/// The network of a text like "10.0.0.0/8".
-std::optional<Network> network_of(const std::string& text) {
-  const std::size_t slash = text.find('/');
-  if (slash == std::string::npos) return std::nullopt;
+/// Whether the network of a text like "10.0.0.0/8" has the address; none if the text is no network.
+std::optional<bool> network_has(const std::string& text, const std::optional<Ip>& ip) {
+  const std::size_t slash = std::min(text.find('/'), text.size());
   const std::string host = text.substr(0, slash);
-  const auto ip = ip_of(host);
-  int bits = -1;
-  const auto [end, error] =
-      std::from_chars(text.data() + slash + 1, text.data() + text.size(), bits);
-  const int most = host.find(':') == std::string::npos ? 32 : 128;
-  if (!ip || error != std::errc() || end != text.data() + text.size() || bits < 0 || bits > most)
-    return std::nullopt;
-  return Network{*ip, bits + 128 - most};
-}
-
-bool contains(const Network& network, const Ip& ip) {
-  for (int bit = 0; bit < network.bits; ++bit) {
-    const auto byte = static_cast<std::size_t>(bit / 8);
-    const int mask = 0x80 >> (bit % 8);
-    if ((network.first.at(byte) & mask) != (ip.at(byte) & mask)) return false;
-  }
-  return true;
+  const auto first = ip_of(host);
+  const bool v6 = host.find(':') != std::string::npos;
+  std::size_t bits = 0;
+  const char* const last = text.data() + text.size();
+  const auto [end, error] = std::from_chars(std::min(text.data() + slash + 1, last), last, bits);
+  if (!first || error != std::errc() || end != last || bits > (v6 ? 128 : 32)) return std::nullopt;
+  for (std::size_t bit = 0; ip && bit < bits + (v6 ? 0 : 96); ++bit)
+    if ((((*first)[bit / 8] ^ (*ip)[bit / 8]) << (bit % 8) & 0x80) != 0) return false;
+  return ip.has_value();
 }
 
 bool exempts(std::string_view entry, const HostPort& server) {
@@ -90,7 +69,7 @@ bool exempts(std::string_view entry, const HostPort& server) {
     entry.remove_suffix(1);
   if (entry == "*") return true;
   const auto ip = ip_of(server.host);
-  if (const auto network = network_of(lower(entry))) return ip && contains(*network, *ip);
+  if (const auto inside = network_has(plain_address(entry), ip)) return *inside;
   if (entry.starts_with("*.")) entry.remove_prefix(1);
   const HostPort wanted = split(entry);
   if (wanted.host.empty() || (!wanted.port.empty() && wanted.port != server.port)) return false;
@@ -123,20 +102,13 @@ const char* first_set(std::initializer_list<const char*> names, const Environmen
   return nullptr;
 }
 
-std::string_view without_scheme(std::string_view address) {
-  for (const std::string_view scheme : {"dns:///", "dns:", "ipv4:", "ipv6:"})
-    if (address.starts_with(scheme)) return address.substr(scheme.size());
-  return address;
-}
-
 }  // namespace
 
 std::optional<Proxy> proxy_for(std::string_view address, const Environment& environment) {
   const char* name = first_set({"grpc_proxy", "https_proxy", "http_proxy"}, environment);
   if (name == nullptr || *environment(name) == '\0' || is_loopback(address)) return std::nullopt;
   const char* exemptions = first_set({"no_grpc_proxy", "no_proxy", "NO_PROXY"}, environment);
-  if (exemptions != nullptr && exempt(environment(exemptions), split(without_scheme(address))))
-    return std::nullopt;
+  if (exemptions != nullptr && exempt(environment(exemptions), split(address))) return std::nullopt;
   return Proxy{name, without_password(environment(name))};
 }
 

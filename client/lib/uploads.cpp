@@ -8,6 +8,7 @@
 #include <future>
 #include <memory>
 #include <span>
+#include <sstream>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -30,58 +31,24 @@ struct Outgoing {
 /// Opens a file by its index; called in order, and from the first one on for every try to send.
 using Open = std::function<Outgoing(std::size_t)>;
 
-/// The chunks of a file on the disk.
-class FileChunks {
- public:
-  explicit FileChunks(std::filesystem::path path)
-      : _path(std::move(path)), _file(_path, std::ios::binary) {
-    if (std::filesystem::is_directory(_path) || !_file)
-      throw std::runtime_error("cannot read " + _path.string() + ": it is not a readable file");
-  }
-
-  std::string next() {
-    std::string chunk(chunk_bytes, '\0');
-    _file.read(chunk.data(), static_cast<std::streamsize>(chunk.size()));
-    if (_file.bad())
-      throw std::runtime_error("cannot read " + _path.string() + ": the disk reports an error");
-    chunk.resize(static_cast<std::size_t>(_file.gcount()));
-    return chunk;
-  }
-
- private:
-  std::filesystem::path _path;
-  std::ifstream _file;
-};
-
-v1::CreateUploadsRequest::Header header_of_msh(const std::filesystem::path& path) {
-  digest::Sha256 sha256;
-  std::uint64_t size = 0;
-  FileChunks file(path);
-  for (std::string chunk = file.next(); !chunk.empty(); chunk = file.next()) {
-    sha256.add(chunk);
-    size += chunk.size();
-  }
-  v1::CreateUploadsRequest::Header header;
-  header.set_size(size);
-  header.set_sha256(sha256.finish());
-  header.set_kind(v1::Upload::KIND_MSH);
-  return header;
-}
-
-Outgoing array_file(const std::shared_ptr<const std::vector<double>>& owner,
-                    std::span<const double> values) {
-  static_assert(std::endian::native == std::endian::little, "arrays are sent little-endian");
+/// A file of bytes that `owner`, if any, keeps.
+Outgoing outgoing(v1::Upload::Kind kind, std::string_view bytes,
+                  std::shared_ptr<const void> owner = nullptr) {
   Outgoing file;
-  file.header.set_size(values.size_bytes());
-  file.header.set_sha256(digest::Sha256().add(std::as_bytes(values)).finish());
-  file.header.set_kind(v1::Upload::KIND_ARRAY);
-  const std::string_view bytes(reinterpret_cast<const char*>(values.data()), values.size_bytes());
-  file.next = [owner, rest = bytes]() mutable {
+  file.header.set_size(bytes.size());
+  file.header.set_sha256(digest::Sha256().add(std::as_bytes(std::span(bytes))).finish());
+  file.header.set_kind(kind);
+  file.next = [owner = std::move(owner), rest = bytes]() mutable {
     std::string chunk(rest.substr(0, chunk_bytes));
     rest.remove_prefix(chunk.size());
     return chunk;
   };
   return file;
+}
+
+std::string_view bytes_of(std::span<const double> values) {
+  static_assert(std::endian::native == std::endian::little, "arrays are sent little-endian");
+  return {reinterpret_cast<const char*>(values.data()), values.size_bytes()};
 }
 
 /// Reads and hashes the next arrays, a megabyte at a time, while those before are sent.
@@ -113,7 +80,7 @@ class ArrayFiles {
       std::deque<Outgoing> files;
       for (std::size_t bytes = 0; _next != _end && bytes < chunk_bytes; ++_next) {
         const auto values = std::make_shared<const std::vector<double>>(_read(_next));
-        files.push_back(array_file(values, *values));
+        files.push_back(outgoing(v1::Upload::KIND_ARRAY, bytes_of(*values), values));
         bytes += std::span(*values).size_bytes();
       }
       return files;
@@ -181,17 +148,21 @@ std::vector<std::string> send(Connection& connection, const Open& open, std::siz
 
 std::string upload_mesh(Connection& connection, const std::filesystem::path& path,
                         const std::stop_token& stop) {
-  const auto header = header_of_msh(path);
-  const auto open = [&](std::size_t) {
-    const auto file = std::make_shared<FileChunks>(path);
-    return Outgoing{header, [file] { return file->next(); }};
-  };
+  std::ifstream file(path, std::ios::binary);
+  if (std::filesystem::is_directory(path) || !file)
+    throw std::runtime_error("cannot read " + path.string() + ": it is not a readable file");
+  const std::string content = (std::ostringstream() << file.rdbuf()).str();
+  if (file.bad())
+    throw std::runtime_error("cannot read " + path.string() + ": the disk reports an error");
+  const auto open = [&](std::size_t) { return outgoing(v1::Upload::KIND_MSH, content); };
   return send(connection, open, 1, stop).front();
 }
 
 std::string upload_array(Connection& connection, std::span<const double> values,
                          const std::stop_token& stop) {
-  const auto open = [values](std::size_t) { return array_file(nullptr, values); };
+  const auto open = [values](std::size_t) {
+    return outgoing(v1::Upload::KIND_ARRAY, bytes_of(values));
+  };
   return send(connection, open, 1, stop).front();
 }
 

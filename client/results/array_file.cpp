@@ -26,14 +26,15 @@ std::string missing_text(const Handle& group, const std::string& name) {
 
 /// Opens the dataset at a path below a group.
 hdf5::Dataset open_below(const Handle& group, const std::string& path, std::uint64_t budget,
-                         std::size_t columns) {
+                         const char* shape) {
   const std::size_t slash = path.find('/');
-  if (slash == 0) return open_below(group, path.substr(1), budget, columns);
+  if (slash == 0) return open_below(group, path.substr(1), budget, shape);
   const std::string name = path.substr(0, slash);
   if (!hdf5::has(group, name)) throw hdf5::Fault(missing_text(group, name));
+  Extents any;
   if (slash == std::string::npos)
-    return hdf5::open_array(group, name, ValueType::float64, budget, {columns});
-  return open_below(hdf5::open_group(group, name), path.substr(slash + 1), budget, columns);
+    return hdf5::open_array(group, name, ValueType::float64, budget, shape, any);
+  return open_below(hdf5::open_group(group, name), path.substr(slash + 1), budget, shape);
 }
 
 struct OpenFile {
@@ -41,11 +42,9 @@ struct OpenFile {
   Handle root;
 };
 
-/// `columns` is 0 for an array, any_columns for a matrix, whose attribute `loads` is optional.
-/// `open` is the file that was read last.
+/// A matrix may have the attribute `loads`. `open` is the file that was read last.
 Matrix read(std::optional<OpenFile>& open, const std::filesystem::path& file,
-            const std::string& path, std::size_t columns) {
-  const bool is_matrix = columns != 0;
+            const std::string& path, bool is_matrix) {
   const std::string cure = std::string("name a ") + (is_matrix ? "two" : "one") +
                            "-dimensional dataset of float64 in an HDF5 file";
   const hdf5::Quiet quiet;
@@ -57,11 +56,13 @@ Matrix read(std::optional<OpenFile>& open, const std::filesystem::path& file,
       open.reset();
       open.emplace(OpenFile{file, hdf5::open_root(file, cure)});
     }
-    const hdf5::Dataset dataset = open_below(open->root, path, hdf5::memory_budget(file), columns);
-    matrix = {std::vector<double>(dataset.count()), dataset.rows, dataset.columns, {}};
+    const hdf5::Dataset dataset =
+        open_below(open->root, path, hdf5::memory_budget(file), is_matrix ? "rows,columns" : "n");
+    matrix = {
+        std::vector<double>(count_of(dataset.shape)), dataset.shape[0], dataset.shape.back(), {}};
     hdf5::read_values(dataset, matrix.values.data());
     if (is_matrix && hdf5::has_attribute(dataset.id, "loads"))
-      hdf5::get(dataset.id, "loads", matrix.loads, dataset.columns);
+      hdf5::get(dataset.id, "loads", matrix.loads, matrix.columns);
   } catch (const hdf5::Fault& fault) {
     throw Error(file.string(), fault.what(), cure);
   }
@@ -85,13 +86,13 @@ Matrix read(std::optional<OpenFile>& open, const std::filesystem::path& file,
 ReadArray array_reader() {
   return [open = std::make_shared<std::optional<OpenFile>>()](const std::filesystem::path& file,
                                                               const std::string& dataset) {
-    return read(*open, file, dataset, 0).values;
+    return read(*open, file, dataset, false).values;
   };
 }
 
 Matrix read_matrix(const std::filesystem::path& file, const std::string& dataset) {
   std::optional<OpenFile> none;
-  return read(none, file, dataset, hdf5::any_columns);
+  return read(none, file, dataset, true);
 }
 
 }  // namespace anticrack::results

@@ -1,85 +1,139 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results/assemble.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/message.h>
 
+#include <bit>
+#include <charconv>
 #include <cmath>
-#include <type_traits>
 #include <utility>
 
-#include "results/block.hpp"
 #include "results/entries.hpp"
 #include "results/tables.hpp"
 
 namespace anticrack::results {
 namespace {
 
-/// Reads the traces along interfaces 0, 1, ... below `at`, which ends with a slash.
-std::vector<Trace> traces_of(const Block& block, const std::string& at, std::size_t interfaces) {
-  std::vector<Trace> traces;
-  for (std::size_t i = 0; i < interfaces; ++i)
-    get_arrays(block, fmt::format("{}{}/", at, i), traces.emplace_back(), arrays::trace<Trace>);
-  return traces;
+static_assert(std::endian::native == std::endian::little, "blocks are little-endian");
+
+[[noreturn]] void fail(const std::string& cause) {
+  throw Error("the result read from the server", cause,
+              "the server and this client do not understand each other: compare their versions "
+              "with `anticrack server`");
 }
 
-void add_load(const Block& block, std::size_t index, std::size_t interfaces, int subdomains,
-              Load& load) {
-  const bool solved = load.has_answer();
-  load.traces.clear();
-  load.fields.clear();
-  load.indicator.clear();
-  load.balanced_flux.clear();
-  load.membrane_rows.clear();
-  load.membranes.clear();
-  load.history = {};
-  if (const std::string at = arrays::load_traces(index); solved || block.has_below(at))
-    load.traces = traces_of(block, at, interfaces);
-  if (const std::string at = arrays::load_history(index); solved || block.has_below(at))
-    get_arrays(block, at, load.history, arrays::history<History>);
-  get_arrays(block, arrays::load_folder(index), load, tables::of_load);
-  if (!block.has_below(arrays::load_fields(index))) return;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(subdomains); ++i) {
-    Field& field = load.fields.emplace_back();
-    get_arrays(block, arrays::field_folder(i), field, arrays::subdomain<Field>);
-    field.u = block.get<double>(fmt::format("{}{}", arrays::load_fields(index), i));
+/// The path in a file of an array of ReadResult, which has loads by their numbers and the rows of a
+/// sweep apart from loads.
+std::string path_of(const std::string& name, const std::vector<Load>& loads) {
+  const std::size_t begin = name.find('/') + 1, end = name.find('/', begin);
+  const bool row = name.starts_with("traces/");
+  if ((!row && !name.starts_with("loads/")) || end == std::string::npos) return name;
+  std::size_t index = 0;
+  std::from_chars(name.data() + begin, name.data() + end, index);
+  const std::string rest = name.substr(end);
+  if (row) return load_path(row_name(static_cast<std::int64_t>(index))) + "traces" + rest;
+  if (index >= loads.size()) return name;
+  // The numbers of a subdomain are all there is of it below a load.
+  return load_path(loads[index].name()) + rest.substr(1) +
+         (rest.starts_with("/fields/") ? "/u" : "");
+}
+
+/// Adds the arrays of a block; `path` gives the path of a name.
+template <class Path>
+void add_block(const BlockView& block, const Path& path, Arrays& arrays) {
+  const std::vector<std::byte>& bytes = *block.bytes;
+  for (const v1::ArrayLayout& layout : block.layout.arrays()) {
+    if (layout.type() < v1::ArrayLayout::TYPE_FLOAT64 ||
+        layout.type() > v1::ArrayLayout::TYPE_UINT8)
+      continue;  // of a newer server
+    Array array{
+        static_cast<ValueType>(layout.type()), {layout.shape().begin(), layout.shape().end()}, {}};
+    std::uint64_t size = bytes_of(array.type);
+    bool inside = layout.offset() <= bytes.size() && layout.offset() % size == 0;
+    for (const std::uint64_t extent : array.shape)
+      inside = inside && !__builtin_mul_overflow(size, extent, &size);
+    if (!inside || size > bytes.size() - layout.offset()) {
+      fail(fmt::format("array {} of shape ({}) at byte {} lies outside the {} bytes", layout.name(),
+                       fmt::join(array.shape, ","), layout.offset(), bytes.size()));
+    }
+    array.data = {block.bytes, bytes.data() + layout.offset()};
+    if (!arrays.emplace(path(layout.name()), std::move(array)).second)
+      fail("array " + layout.name() + " twice");
+  }
+}
+
+bool has_below(const Arrays& arrays, const std::string& folder) {
+  const auto found = arrays.lower_bound(folder);
+  return found != arrays.end() && found->first.starts_with(folder);
+}
+
+/// Refuses arrays of a folder, which ends with a slash, that are not as the table says.
+void check(const Arrays& arrays, const std::string& folder, std::span<const tables::Row> table,
+           Extents known = {}) {
+  for (const tables::Row& row : table) {
+    const std::string path = folder + std::string(row.name);
+    const auto found = arrays.find(path);
+    if (found == arrays.end() && row.optional) continue;
+    if (found == arrays.end()) fail("array " + path + " is missing");
+    const Array& array = found->second;
+    if (array.type != row.type)
+      fail(fmt::format("array {} is {}, not {}", path, name_of(array.type), name_of(row.type)));
+    if (!fits(array.shape, row.shape, known))
+      fail(fmt::format("array {} has shape ({}), not ({})", path, fmt::join(array.shape, ","),
+                       row.shape));
+  }
+}
+
+void check_traces(const Result& result, const std::string& load) {
+  for (int i = 0; i < result.mesh.interfaces_size(); ++i)
+    check(result.arrays, fmt::format("{}traces/{}/", load, i), tables::trace);
+}
+
+void check_load(const Result& result, const Load& load) {
+  const std::string at = load_path(load.name());
+  if (load.has_answer() || has_below(result.arrays, at + "traces/")) check_traces(result, at);
+  if (load.has_answer() || has_below(result.arrays, at + "history/"))
+    check(result.arrays, at + "history/", tables::history);
+  check(result.arrays, at, tables::load);
+  for (int i = 0; has_below(result.arrays, at + "fields/") && i < result.mesh.subdomains_size();
+       ++i) {
+    check(result.arrays, arrays::field_folder(static_cast<std::size_t>(i)), tables::subdomain);
+    check(result.arrays, fmt::format("{}fields/{}/", at, i), tables::field);
   }
 }
 
 /// Adds an interval for each run of consecutive nodes in contact.
-void add_contact_intervals(const std::string& name, const Interface& interface, const Trace& trace,
-                           v1::LoadCaseAnswer& answer) {
-  for (std::size_t i = 0; i < interface.node_count() && i < trace.contact.size(); ++i) {
-    if (trace.contact[i] == 0) continue;
-    if (i == 0 || trace.contact[i - 1] == 0) {
-      v1::ContactInterval& interval = *answer.add_contact_intervals();
-      interval.set_interface(name);
-      interval.set_begin(interface.s[i]);
+void add_contact_intervals(const Result& result, v1::LoadCaseAnswer& answer) {
+  for (int i = 0; i < result.mesh.interfaces_size(); ++i) {
+    const auto s = entries_at<double>(result.arrays, fmt::format("interfaces/{}/s", i));
+    const auto contact = entries_at<std::int32_t>(
+        result.arrays, fmt::format("{}traces/{}/contact", load_path(answer.name()), i));
+    for (std::size_t k = 0; k < s.size() && k < contact.size(); ++k) {
+      if (contact[k] == 0) continue;
+      if (k == 0 || contact[k - 1] == 0) {
+        v1::ContactInterval& interval = *answer.add_contact_intervals();
+        interval.set_interface(result.mesh.interfaces(i).name());
+        interval.set_begin(s[k]);
+      }
+      answer.mutable_contact_intervals()->rbegin()->set_end(s[k]);
     }
-    answer.mutable_contact_intervals()->rbegin()->set_end(interface.s[i]);
   }
 }
 
-/// Sets a message's numbers to the entries at `place` of the columns with their names. A bound
-/// that is NaN is not set.
-template <class Table>
-void set_numbers(const Sweep& sweep, std::size_t place, const Table& table,
+/// Sets a message's numbers to the entries at `place` of the columns of this shape with their
+/// names. A bound that is NaN is not set.
+void set_numbers(const Sweep& sweep, std::size_t place, std::string_view shape,
                  google::protobuf::Message& message) {
-  const auto set_number = [&message, place](std::string_view name,
-                                            const std::vector<double>& column) {
-    const auto* const field = message.GetDescriptor()->FindFieldByName(std::string(name));
-    if (column.empty() || field == nullptr || field->cpp_type() != field->CPPTYPE_DOUBLE) return;
-    if (!field->has_presence() || std::isfinite(column[place]))
+  for (const tables::Row& row : tables::columns) {
+    const auto* const field = message.GetDescriptor()->FindFieldByName(std::string(row.name));
+    if (row.shape != shape || field == nullptr || field->cpp_type() != field->CPPTYPE_DOUBLE)
+      continue;
+    const auto column = sweep.numbers(row.name);
+    if (!column.empty() && (!field->has_presence() || std::isfinite(column[place])))
       message.GetReflection()->SetDouble(&message, field, column[place]);
-  };
-  arrays::for_each(
-      [&](const auto& row) {
-        const auto& column = std::invoke(row.member, sweep);
-        if constexpr (std::is_same_v<decltype(column), const std::vector<double>&>)
-          set_number(row.name, column);
-      },
-      table);
+  }
 }
 
 /// The answer to a row, made of the sweep's columns.
@@ -87,69 +141,70 @@ v1::LoadCaseAnswer answer_of(const Sweep& sweep, std::size_t row) {
   v1::LoadCaseAnswer answer;
   forget_numbers(answer);
   answer.set_name(row_name(static_cast<std::int64_t>(row)));
-  answer.set_status(static_cast<v1::LoadCaseAnswer::Status>(sweep.status[row]));
-  answer.set_iterations(sweep.steps[row]);
-  answer.set_energy_mesh(sweep.energy[row]);  // unless the sweep has bounds
-  set_numbers(sweep, row, arrays::sweep_rows<Sweep>, answer);
+  answer.set_status(static_cast<v1::LoadCaseAnswer::Status>(sweep.status()[row]));
+  answer.set_iterations(sweep.integers("steps")[row]);
+  answer.set_energy_mesh(sweep.numbers("energy")[row]);  // unless the sweep has bounds
+  set_numbers(sweep, row, "rows", answer);
+  const std::span<const double> slope = sweep.numbers("slope");
   for (std::size_t i = 0; i < sweep.inclusions.size(); ++i) {
     v1::InclusionAnswer& inclusion = *answer.add_inclusions();
     forget_numbers(inclusion);
     inclusion.set_name(sweep.inclusions[i]);
     const std::size_t place = row * sweep.inclusions.size() + i;
-    inclusion.set_displacement_mesh(sweep.displacement[place]);  // unless the sweep has bounds
-    set_numbers(sweep, place, arrays::sweep_matrices<Sweep>, inclusion);
-    for (const auto set :
-         {&v1::InclusionAnswer::set_slope_x, &v1::InclusionAnswer::set_slope_x_mesh})
-      (inclusion.*set)(sweep.slope_at(row, i, 0));
-    for (const auto set :
-         {&v1::InclusionAnswer::set_slope_y, &v1::InclusionAnswer::set_slope_y_mesh})
-      (inclusion.*set)(sweep.slope_at(row, i, 1));
+    inclusion.set_displacement_mesh(sweep.numbers("displacement")[place]);  // unless it has bounds
+    set_numbers(sweep, place, "rows,inclusions", inclusion);
+    const double x = slope.empty() ? 0 : slope[2 * place],
+                 y = slope.empty() ? 0 : slope[2 * place + 1];
+    inclusion.set_slope_x(x);
+    inclusion.set_slope_x_mesh(x);
+    inclusion.set_slope_y(y);
+    inclusion.set_slope_y_mesh(y);
   }
   return answer;
 }
 
-/// Fills in the columns of result.sweep and makes the loads of its kept rows. Needs complete
-/// result.interfaces. Drops rows without traces in the block from `kept`.
-void add_sweep(const Block& block, Result& result) {
+/// Fills in the columns of result.sweep and makes loads of the rows in `kept` that have traces.
+void add_sweep(Result& result, const std::vector<std::int32_t>& kept) {
   Sweep& sweep = *result.sweep;
   const std::string folder = arrays::sweep_folder();
-  get_arrays(block, folder, sweep, arrays::sweep_rows<Sweep>);
-  get_arrays(block, folder, sweep, arrays::sweep_contacts<Sweep>);
-  get_arrays(block, folder, sweep, arrays::sweep_matrices<Sweep>, sweep.rows());
-  block.require(first_fault(sweep));
-
-  std::vector<std::int32_t> kept;
-  for (const std::int32_t row : sweep.kept) {
-    const std::string at = arrays::row_traces(static_cast<std::size_t>(row));
-    if (!block.has_below(at)) continue;  // the row did not end
-    kept.push_back(row);
+  for (const tables::Row& row : tables::columns)
+    if (auto array = result.arrays.extract(folder + std::string(row.name)))
+      sweep.columns.emplace(row.name, std::move(array.mapped()));
+  sweep.columns["kept"] = array_of(kept);
+  check(sweep.columns, "", tables::columns,
+        {{"inclusions", sweep.inclusions.size()}, {"loads", sweep.loads.size()}});
+  if (const std::string fault = first_fault(sweep); !fault.empty()) fail(fault);
+  std::vector<std::int32_t> with_traces;
+  for (const std::int32_t row : kept) {
+    const std::string at = load_path(row_name(row));
+    if (!has_below(result.arrays, at)) continue;  // the row did not end
+    check_traces(result, at);
+    with_traces.push_back(row);
     Load& load = result.loads.emplace_back();
     load.answer = answer_of(sweep, static_cast<std::size_t>(row));
-    load.traces = traces_of(block, at, result.interfaces.size());
-    for (std::size_t i = 0; i < load.traces.size(); ++i)
-      add_contact_intervals(result.mesh.info.interfaces(static_cast<int>(i)).name(),
-                            result.interfaces[i], load.traces[i], load.answer);
+    add_contact_intervals(result, load.answer);
   }
-  sweep.kept = std::move(kept);
+  sweep.columns["kept"] = array_of(std::move(with_traces));
 }
 
 }  // namespace
 
-Result assemble(Result answers, const BlockView& mesh_block, const BlockView& result_block) {
-  const Block mesh("the mesh read from the server", mesh_block);
-  const Block result("the result read from the server", result_block);
-  get_arrays(mesh, "", answers.mesh, tables::mesh);
-  answers.interfaces.resize(static_cast<std::size_t>(answers.mesh.info.interfaces_size()));
-  for (std::size_t i = 0; i < answers.interfaces.size(); ++i) {
-    get_arrays(result, arrays::interface_folder(i), answers.interfaces[i],
-               arrays::interface_nodes<Interface>);
-    get_arrays(mesh, arrays::interface_folder(i), answers.interfaces[i], tables::edges);
-  }
-  if (answers.sweep) add_sweep(result, answers);
-  for (std::size_t i = 0; i < answers.loads.size() && !answers.sweep; ++i)
-    add_load(result, i, answers.interfaces.size(), answers.mesh.info.subdomains_size(),
-             answers.loads[i]);
-  result.require(first_fault(answers));
+Result assemble(Result answers, const BlockView& mesh_block, const BlockView& result_block,
+                const std::vector<std::int32_t>& kept) {
+  const auto of_mesh = [](const std::string& name) {
+    return name.starts_with("interfaces/") ? name : "mesh/" + name;
+  };
+  answers.arrays.clear();
+  add_block(mesh_block, of_mesh, answers.arrays);
+  const auto of_result = [&](const std::string& name) { return path_of(name, answers.loads); };
+  add_block(result_block, of_result, answers.arrays);
+  check(answers.arrays, "mesh/", tables::mesh);
+  for (int i = 0; i < answers.mesh.interfaces_size(); ++i)
+    check(answers.arrays, arrays::interface_folder(static_cast<std::size_t>(i)), tables::interface);
+  if (answers.sweep) add_sweep(answers, kept);
+  for (const Load& load : answers.loads)
+    if (!answers.sweep) check_load(answers, load);
+  if (const std::string fault = first_fault(answers); !fault.empty()) fail(fault);
   return answers;
 }
 

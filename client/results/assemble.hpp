@@ -4,7 +4,8 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
+#include <memory>
+#include <vector>
 
 #include "anticrack/v1/mesh.pb.h"
 #include "results/result.hpp"
@@ -14,19 +15,18 @@ namespace anticrack::results {
 /// A whole block, and the layout of the arrays in it.
 struct BlockView {
   const v1::BlockLayout& layout;
-  std::span<const std::byte> bytes;
+  std::shared_ptr<const std::vector<std::byte>> bytes;
 };
 
-/// Adds the arrays to a Result made of the server's messages.
+/// Adds the arrays to a Result made of the server's messages; they share the bytes of the blocks.
 ///
-/// `answers` has everything but arrays. The mesh is filled in from `mesh_block`, interfaces from
-/// both, loads[].traces, history, fields and indicator from `result_block`. A load may lack
-/// arrays unless it is `converged` or `not_converged`.
-/// For a sweep `answers` has no loads, but sweep.loads, inclusions, kept and answer; the columns
-/// are filled in, and a load is added for every kept row (see Sweep::kept).
+/// `answers` has everything but arrays. A load may lack them unless it is `converged` or
+/// `not_converged`. For a sweep `answers` has no loads, but sweep.loads, inclusions and answer, and
+/// `kept` are the rows whose traces were asked for: a load is added for each that has them.
 ///
 /// Throws Error for a missing array, wrong types and shapes, arrays outside their block, and what
 /// first_fault finds. Unknown arrays are ignored.
-Result assemble(Result answers, const BlockView& mesh_block, const BlockView& result_block);
+Result assemble(Result answers, const BlockView& mesh_block, const BlockView& result_block,
+                const std::vector<std::int32_t>& kept = {});
 
 }  // namespace anticrack::results

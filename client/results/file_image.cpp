@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cstdlib>
-#include <cstring>
+#include <utility>
 
 #include "results/hdf5.hpp"
 
@@ -9,51 +9,25 @@ namespace {
 
 /// Keeps the memory of a file of the core driver when the file is closed. H5Fget_file_image would
 /// read an open file, which in HDF5 1.10.8 leaves a wrong checksum in the superblock.
-class Memory {
- public:
-  Memory() = default;
-  Memory(const Memory&) = delete;
-  Memory& operator=(const Memory&) = delete;
-  ~Memory() { std::free(_kept); }
+struct Kept {
+  Kept() = default;
+  Kept(const Kept&) = delete;
+  Kept& operator=(const Kept&) = delete;
+  ~Kept() { std::free(memory); }
 
+  /// With malloc and realloc of HDF5's own.
   H5FD_file_image_callbacks_t callbacks() {
-    return {allocate, copy, reallocate, release, same, forget, this};
+    const auto keep = [](void* bytes, H5FD_file_image_op_t, void* self) {
+      std::free(std::exchange(static_cast<Kept*>(self)->memory, bytes));
+      return herr_t{0};
+    };
+    // HDF5 copies the property list; all copies share this one memory.
+    const auto same = [](void* self) { return self; };
+    const auto forget = [](void*) { return herr_t{0}; };
+    return {nullptr, nullptr, nullptr, keep, same, forget, this};
   }
 
-  /// The first `end` bytes, which are the closed file; the memory is a little larger.
-  std::vector<std::byte> bytes(std::size_t end) const {
-    if (_kept == nullptr || end > _size) throw Fault("HDF5 made a file that is not whole");
-    const auto* first = static_cast<const std::byte*>(_kept);
-    return {first, first + end};
-  }
-
- private:
-  static void* allocate(std::size_t size, H5FD_file_image_op_t, void* self) {
-    static_cast<Memory*>(self)->_size = size;
-    return std::calloc(size, 1);
-  }
-  static void* copy(void* to, const void* from, std::size_t size, H5FD_file_image_op_t, void*) {
-    return std::memcpy(to, from, size);
-  }
-  static void* reallocate(void* memory, std::size_t size, H5FD_file_image_op_t, void* self) {
-    // Gaps are filled with zeros, so that the same result gives the same bytes.
-    auto& known = static_cast<Memory*>(self)->_size;
-    void* grown = std::realloc(memory, size);
-    if (grown == nullptr) return nullptr;
-    if (size > known) std::memset(static_cast<std::byte*>(grown) + known, 0, size - known);
-    known = size;
-    return grown;
-  }
-  static herr_t release(void* memory, H5FD_file_image_op_t, void* self) {
-    std::free(std::exchange(static_cast<Memory*>(self)->_kept, memory));
-    return 0;
-  }
-  // HDF5 copies the property list; all copies share this one memory.
-  static void* same(void* self) { return self; }
-  static herr_t forget(void*) { return 0; }
-
-  void* _kept = nullptr;
-  std::size_t _size = 0;
+  void* memory = nullptr;
 };
 
 /// HDF5 searches and sorts its metadata cache, which is of no use as the file is in memory anyway:
@@ -75,29 +49,27 @@ void set_small_cache(const Handle& access) {
 
 std::vector<std::byte> file_image(const std::function<void(const Handle& root)>& fill) {
   constexpr std::size_t increment = 1 << 20;
-  Memory memory;
-  ssize_t end = 0;
-  {
-    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "HDF5 does not start");
-    H5FD_file_image_callbacks_t callbacks = memory.callbacks();
-    if (H5Pset_fapl_core(access.get(), increment, false) < 0 ||
-        H5Pset_file_image_callbacks(access.get(), &callbacks) < 0)
-      throw Fault("HDF5 has no core driver");
-    // Formats since 1.10 have checksums on all metadata; a damaged file of an older format can make
-    // the library read outside its buffers.
-    if (H5Pset_libver_bounds(access.get(), H5F_LIBVER_V110, H5F_LIBVER_V110) < 0)
-      throw Fault("HDF5 is older than 1.10");
-    set_small_cache(access);
-    const Handle creation = without_times(H5P_FILE_CREATE);
-    Handle file(H5Fcreate("result", H5F_ACC_TRUNC, creation.get(), access.get()), H5Fclose,
-                "HDF5 cannot create a file in memory");
-    fill({H5Gopen2(file.get(), "/", H5P_DEFAULT), H5Gclose, "has no root group"});
-    if (H5Fflush(file.get(), H5F_SCOPE_LOCAL) < 0 ||
-        (end = H5Fget_file_image(file.get(), nullptr, 0)) < 0)
-      throw Fault("HDF5 cannot write the file");
-    file.close_now("HDF5 cannot finish the file");
-  }
-  return memory.bytes(static_cast<std::size_t>(end));
+  Kept kept;
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "HDF5 does not start");
+  H5FD_file_image_callbacks_t callbacks = kept.callbacks();
+  if (H5Pset_fapl_core(access.get(), increment, false) < 0 ||
+      H5Pset_file_image_callbacks(access.get(), &callbacks) < 0)
+    throw Fault("HDF5 has no core driver");
+  // Formats since 1.10 have checksums on all metadata; a damaged file of an older format can make
+  // the library read outside its buffers.
+  if (H5Pset_libver_bounds(access.get(), H5F_LIBVER_V110, H5F_LIBVER_V110) < 0)
+    throw Fault("HDF5 is older than 1.10");
+  set_small_cache(access);
+  const Handle creation = without_times(H5P_FILE_CREATE);
+  Handle file(H5Fcreate("result", H5F_ACC_TRUNC, creation.get(), access.get()), H5Fclose,
+              "HDF5 cannot create a file in memory");
+  fill({H5Gopen2(file.get(), "/", H5P_DEFAULT), H5Gclose, "has no root group"});
+  const bool flushed = H5Fflush(file.get(), H5F_SCOPE_LOCAL) >= 0;
+  const ssize_t size = H5Fget_file_image(file.get(), nullptr, 0);
+  if (!flushed || size < 0) throw Fault("HDF5 cannot write the file");
+  file.close_now("HDF5 cannot finish the file");
+  const auto* first = static_cast<const std::byte*>(kept.memory);
+  return {first, first + size};
 }
 
 }  // namespace anticrack::results::hdf5

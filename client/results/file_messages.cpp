@@ -62,7 +62,7 @@ Handle put_list(const Handle& group, const v1::Units& units, const Message& mess
   if (field.cpp_type() == FieldDescriptor::CPPTYPE_STRING) {
     const auto texts = fields.GetRepeatedFieldRef<std::string>(message, &field);
     const std::vector<std::string> values(texts.begin(), texts.end());
-    return put_array(group, field.name(), ValueType::text, values.data(), values.size(), {});
+    return put_array(group, field.name(), ValueType::text, values.data(), {values.size()});
   }
   std::vector<const Message*> items;
   items.reserve(static_cast<std::size_t>(count));
@@ -84,7 +84,7 @@ void put_columns(const Handle& group, const v1::Units& units, const Descriptor& 
       std::vector<T> column;
       column.reserve(messages.size());
       for (const Message* message : messages) column.push_back(std::get<T>(get(*message, entry)));
-      put_array(group, entry.name, entry.type, column.data(), column.size(), {},
+      put_array(group, entry.name, entry.type, column.data(), {column.size()},
                 unit_of(units, entry.unit));
     });
   }
@@ -96,8 +96,8 @@ void get_columns(const Handle& group, std::uint64_t budget, const std::string& w
   constexpr std::size_t least_bytes = 64;  // that a message takes in memory
   for (const Entry& entry : entries_of(type)) {
     texts_and_numbers(entry.type, [&](auto empty) {
-      std::vector<decltype(empty)> column;
-      get_array(group, entry.name, budget / least_bytes * bytes_of(entry.type), {}, column);
+      const auto column =
+          get_list<decltype(empty)>(group, entry.name, budget / least_bytes * bytes_of(entry.type));
       if (column.size() != length.value_or(column.size()))
         throw Fault(what + " has datasets of different lengths");
       length = column.size();
@@ -114,7 +114,7 @@ void Messages::put(const Handle& group, const Message& message) {
   for_each_list(*message.GetDescriptor(), [&](const FieldDescriptor* field) {
     const int count = fields.FieldSize(message, field);
     const auto known = _empty.find(field);
-    if (count == 0 && known != _empty.end()) return link(known->second, group, field->name());
+    if (count == 0 && known != _empty.end()) return link(known->second, ".", group, field->name());
     Handle list = put_list(group, _units, message, *field, count);
     if (count == 0) _empty.emplace(field, std::move(list));
   });
@@ -130,9 +130,8 @@ void get_message(const Handle& group, std::uint64_t budget, Message& message) {
   const Reflection& fields = *message.GetReflection();
   for_each_list(*message.GetDescriptor(), [&](const FieldDescriptor* field) {
     if (field->cpp_type() == FieldDescriptor::CPPTYPE_STRING) {
-      std::vector<std::string> texts;
-      get_array(group, field->name(), budget, {}, texts);
-      for (std::string& text : texts) fields.AddString(&message, field, std::move(text));
+      for (std::string& text : get_list<std::string>(group, field->name(), budget))
+        fields.AddString(&message, field, std::move(text));
       return;
     }
     std::optional<std::size_t> length;
@@ -153,7 +152,38 @@ void put_meanings(const Handle& root, const v1::Units& units) {
   add_meanings("stages", *v1::Stage::descriptor(), units, rows);
   add_meanings("sweep", *v1::SweepAnswer::descriptor(), units, rows);
   constexpr std::size_t columns = 4;
-  put_array(root, "meanings", ValueType::text, rows.data(), rows.size(), {columns});
+  put_array(root, "meanings", ValueType::text, rows.data(), {rows.size() / columns, columns});
+}
+
+void put_arrays(const Handle& group, const v1::Units& units, std::span<const tables::Row> table,
+                const Arrays& all, const std::string& path) {
+  for (const tables::Row& row : table) {
+    const std::string name(row.name);
+    const auto found = all.find(path + name);
+    Array array = found == all.end() ? Array{row.type} : found->second;
+    if (const std::size_t columns = arrays::columns_of(row.shape);
+        found == all.end() && columns != 0)
+      array.shape.push_back(columns);
+    if (count_of(array.shape) == 0 && row.may_be_missing()) continue;
+    const Handle dataset =
+        put_array(group, name, array.type, array.data.get(), array.shape, unit_of(units, row.unit));
+    if (row.explained) put(dataset, "meaning", std::string(row.what));
+  }
+}
+
+void get_arrays(const Handle& group, std::uint64_t budget, std::span<const tables::Row> table,
+                Arrays& arrays, const std::string& path, Extents known) {
+  for (const tables::Row& row : table) {
+    const std::string name(row.name);
+    if (row.may_be_missing() && !has(group, name)) continue;
+    const Dataset dataset = open_array(group, name, row.type, budget, row.shape, known);
+    // Of doubles, so that numbers of all types are aligned.
+    const auto owner = std::make_shared<std::vector<double>>(
+        (count_of(dataset.shape) * bytes_of(row.type) + sizeof(double) - 1) / sizeof(double));
+    read_values(dataset, owner->data());
+    arrays[path + name] = {
+        row.type, dataset.shape, {owner, reinterpret_cast<const std::byte*>(owner->data())}};
+  }
 }
 
 }  // namespace anticrack::results::hdf5

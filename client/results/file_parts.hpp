@@ -8,13 +8,13 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "arrays/table.hpp"
 #include "results/entries.hpp"
 #include "results/hdf5.hpp"
-#include "results/result.hpp"
+#include "results/tables.hpp"
 
 namespace anticrack::results::hdf5 {
 
@@ -49,26 +49,6 @@ void get_columns(const Handle& group, std::uint64_t budget, const std::string& w
 /// a number is, its name, unit and meaning.
 void put_meanings(const Handle& root, const v1::Units& units);
 
-/// Number of columns of the array that a row of a table describes; 0 if it has one dimension.
-template <class Row, class Record>
-std::size_t columns_of(const Row& row, const Record& record) {
-  if constexpr (requires { record.extent(row.shape); }) {
-    if (arrays::columns_of(row.shape) == arrays::named)
-      return record.extent(arrays::second_of(row.shape));
-  }
-  return arrays::columns_of(row.shape);
-}
-
-/// Writes a dataset, with its meaning if the table says that the file holds the meaning.
-template <class Row, class T>
-void put_row(const Handle& group, const v1::Units& units, const Row& row,
-             const std::vector<T>& values, std::size_t columns) {
-  const Handle dataset =
-      put_array(group, std::string(row.name), value_type<T>, values.data(), values.size(),
-                {columns, arrays::depth_of(row.shape)}, unit_of(units, row.unit));
-  if (row.explained) put(dataset, "meaning", std::string(row.what));
-}
-
 /// Writes and reads the members of a table as attributes of an object.
 template <class Record, class Table>
 void put_values(const Handle& object, const Record& record, const Table& table) {
@@ -83,35 +63,13 @@ void get_values(const Handle& object, Record& record, const Table& table) {
       table);
 }
 
-template <class Row>
-bool may_be_missing(const Row& row) {
-  return row.optional || arrays::columns_of(row.shape) == arrays::named;
-}
-
-/// Writes arrays as datasets of a group. An empty array is left out if it is optional or if a word
-/// names its columns, as HDF5 has no chunks without extent.
-template <class Record, class... Tables>
-void put_arrays(const Handle& group, const v1::Units& units, const Record& record,
-                const Tables&... tables) {
-  arrays::for_each(
-      [&](const auto& row) {
-        const auto& values = std::invoke(row.member, record);
-        if (values.empty() && may_be_missing(row)) return;
-        put_row(group, units, row, values, columns_of(row, record));
-      },
-      tables...);
-}
-template <class Record, class... Tables>
-void get_arrays(const Handle& group, std::uint64_t budget, Record& record,
-                const Tables&... tables) {
-  arrays::for_each(
-      [&](const auto& row) {
-        const std::string name(row.name);
-        if (may_be_missing(row) && !has(group, name)) return;
-        get_array(group, name, budget, {columns_of(row, record), arrays::depth_of(row.shape)},
-                  std::invoke(row.member, record));
-      },
-      tables...);
-}
+/// Writes the arrays of a table, which are at `path` plus their names, as datasets of a group, with
+/// the meanings that the table has for files. One that has no numbers is left out if it may be
+/// missing, else it is empty.
+void put_arrays(const Handle& group, const v1::Units& units, std::span<const tables::Row> table,
+                const Arrays& arrays, const std::string& path);
+/// Reads them; `known`: as in fits.
+void get_arrays(const Handle& group, std::uint64_t budget, std::span<const tables::Row> table,
+                Arrays& arrays, const std::string& path, Extents known = {});
 
 }  // namespace anticrack::results::hdf5

@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "results/value_type.hpp"
+#include "results/arrays.hpp"
 
 namespace anticrack::results::hdf5 {
 
@@ -67,20 +67,6 @@ class Quiet {
   void* _data = nullptr;
 };
 
-inline constexpr std::size_t any_columns = static_cast<std::size_t>(-1);
-
-/// Shape of one row of a dataset. A dataset of n rows has the shape (n) for 0 columns, else (n,
-/// columns), or (n, columns, depth) with a depth above 1.
-struct Row {
-  std::size_t columns = 0;
-  std::size_t depth = 1;
-
-  /// Number of dimensions of the dataset.
-  int rank() const noexcept { return columns == 0 ? 1 : depth == 1 ? 2 : 3; }
-  /// Number of entries in one row.
-  std::size_t width() const noexcept { return columns == 0 ? 1 : columns * depth; }
-};
-
 /// HDF5's type of numbers in memory.
 hid_t native(ValueType type);
 /// Transfer properties with a small buffer for texts, which are few: by default HDF5 clears a
@@ -97,8 +83,9 @@ std::vector<std::byte> file_image(const std::function<void(const Handle& root)>&
 Handle without_times(hid_t property_class);
 /// `members`: how many are expected, at most 32, for which the group's header has room at once.
 Handle create_group(const Handle& parent, const std::string& name, unsigned members = 4);
-/// Makes the object a member of another group, too.
-void link(const Handle& object, const Handle& group, const std::string& name);
+/// Makes what is at `path` from `parent`, "." for itself, a member of another group, too.
+void link(const Handle& parent, const std::string& path, const Handle& group,
+          const std::string& name);
 
 /// Writes an attribute: one value or, with `count`, a list of doubles, int32 or std::string.
 void put_attribute(const Handle& object, const std::string& name, ValueType type,
@@ -112,10 +99,10 @@ inline void put(const Handle& object, const std::string& attribute,
   put_attribute(object, attribute, ValueType::text, texts.data(), texts.size());
 }
 
-/// Writes a dataset of `count` values and returns it for further attributes. Numbers have a
-/// checksum; large datasets are compressed. `unit` becomes the attribute `units`.
+/// Writes a dataset and returns it for further attributes. Numbers have a checksum; large datasets
+/// are compressed. `unit` becomes the attribute `units`.
 Handle put_array(const Handle& group, const std::string& name, ValueType type, const void* values,
-                 std::size_t count, const Row& row, const std::string& unit = "-");
+                 const Shape& shape, const std::string& unit = "-");
 
 // Reading. Only hard links are followed and only data inside the file is read, so that a file
 // from elsewhere cannot make us read other files.
@@ -148,24 +135,23 @@ struct Dataset {
   Handle id;
   std::string name;
   ValueType type;
-  std::size_t rows;
-  std::size_t columns;  ///< entries in a row; 1 for one dimension
-
-  /// Entries in total.
-  std::size_t count() const { return rows * columns; }
+  Shape shape;
 };
-/// Opens a dataset, allocating nothing. Throws Fault unless its type is `type`, its rows are like
-/// `row` (any_columns: it has two dimensions) and reading it takes at most `budget` bytes.
+/// Opens a dataset, allocating nothing. Throws Fault unless its type is `type`, its shape fits
+/// `shape` and what is `known` of it (see results::fits), and reading it takes at most `budget`
+/// bytes.
 Dataset open_array(const Handle& group, const std::string& name, ValueType type,
-                   std::uint64_t budget, const Row& row);
+                   std::uint64_t budget, std::string_view shape, Extents& known);
 /// Reads all entries into `values`, which has room for them.
 void read_values(const Dataset& dataset, void* values);
+/// Reads a dataset of one dimension.
 template <class T>
-void get_array(const Handle& group, const std::string& name, std::uint64_t budget, const Row& row,
-               std::vector<T>& values) {
-  const Dataset dataset = open_array(group, name, value_type<T>, budget, row);
-  values.resize(dataset.count());
+std::vector<T> get_list(const Handle& group, const std::string& name, std::uint64_t budget) {
+  Extents any;
+  const Dataset dataset = open_array(group, name, value_type<T>, budget, "n", any);
+  std::vector<T> values(dataset.shape[0]);
   read_values(dataset, values.data());
+  return values;
 }
 
 }  // namespace anticrack::results::hdf5

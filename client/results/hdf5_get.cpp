@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 
 #include "results/hdf5.hpp"
 #include "results/result.hpp"
@@ -97,24 +96,12 @@ std::string description(const Handle& type) {
   }
 }
 
-std::string shape_text(const Handle& space) {
+/// The shape of a dataset; no extents for a single value, and for none.
+Shape shape_of(const Handle& space) {
   const int rank = H5Sget_simple_extent_ndims(space.get());
-  if (H5Sget_simple_extent_type(space.get()) == H5S_NULL || rank < 0) return " but empty";
-  std::vector<hsize_t> shape(static_cast<std::size_t>(rank));
+  std::vector<hsize_t> shape(static_cast<std::size_t>(std::max(rank, 0)));
   H5Sget_simple_extent_dims(space.get(), shape.data(), nullptr);
-  return fmt::format(" but ({})", fmt::join(shape, ","));
-}
-
-/// "lzf (filter 32000)": the filter's registered name if we know it, else its name in the file.
-std::string filter_text(H5Z_filter_t filter, const char* name) {
-  static const std::map<H5Z_filter_t, const char*> known{
-      {H5Z_FILTER_SZIP, "szip"}, {305, "lzo"},   {307, "bzip2"},        {32000, "lzf"},
-      {32001, "blosc"},          {32004, "lz4"}, {32008, "bitshuffle"}, {32013, "zfp"},
-      {32015, "zstandard"},      {32017, "sz"},  {32026, "blosc2"}};
-  const auto found = known.find(filter);
-  const std::string text = found == known.end() ? name : found->second;
-  return fmt::format("{}filter {}{}", text.empty() ? "" : text + " (", filter,
-                     text.empty() ? "" : ")");
+  return {shape.begin(), shape.end()};
 }
 
 /// Throws Fault if HDF5 lacks a filter, lest a dataset it cannot unpack is called damaged.
@@ -128,7 +115,9 @@ void require_filters(const Handle& properties, const std::string& what) {
         H5Pget_filter2(properties.get(), static_cast<unsigned>(i), &flags, &values, nullptr,
                        name.size() - 1, name.data(), &config);
     if (filter < 0 || H5Zfilter_avail(filter) > 0) continue;
-    throw Fault(what + " is packed with " + filter_text(filter, name.data()) +
+    const std::string told(name.data());  // as its program called it in the file
+    throw Fault(what + " is packed with " + (told.empty() ? "" : told + " (") +
+                fmt::format("filter {}", filter) + (told.empty() ? "" : ")") +
                 ", which this HDF5 library does not have; pack it with gzip, or not at all");
   }
 }
@@ -220,7 +209,7 @@ void get(const Handle& object, const std::string& attribute, std::vector<std::st
 }
 
 Dataset open_array(const Handle& group, const std::string& name, ValueType wanted,
-                   std::uint64_t budget, const Row& row) {
+                   std::uint64_t budget, std::string_view shape, Extents& known) {
   const std::string what = "dataset " + name;
   require_hard_link(group, name);
   Handle id = open_dataset(group, name);
@@ -236,34 +225,24 @@ Dataset open_array(const Handle& group, const std::string& name, ValueType wante
   require_filters(properties, what);
 
   const Handle space(H5Dget_space(id.get()), H5Sclose, what + " is damaged");
-  const int rank = row.rank();
-  std::array<hsize_t, 3> shape{0, 1, 1};
-  if (H5Sget_simple_extent_type(space.get()) != H5S_SIMPLE ||
-      H5Sget_simple_extent_ndims(space.get()) != rank ||
-      H5Sget_simple_extent_dims(space.get(), shape.data(), nullptr) != rank ||
-      (rank > 1 && row.columns != any_columns && shape[1] != row.columns) ||
-      shape[2] != row.depth) {
-    throw Fault(what + " is not of shape " +
-                (rank == 1 ? std::string("(n)")
-                 : row.columns == any_columns
-                     ? std::string("(rows,columns)")
-                     : fmt::format("(n,{}{})", row.columns,
-                                   rank == 2 ? "" : fmt::format(",{}", row.depth))) +
-                shape_text(space));
+  Shape found = shape_of(space);
+  if (!fits(found, shape, known)) {
+    throw Fault(fmt::format("{} is not of shape ({}) but {}", what, shape,
+                            H5Sget_simple_extent_type(space.get()) == H5S_NULL
+                                ? "empty"
+                                : fmt::format("({})", fmt::join(found, ","))));
   }
-  const hsize_t width = shape[1] * shape[2];
-  const std::uint64_t entries = budget / bytes_of(wanted);
-  if (width > entries || (width > 0 && shape[0] > entries / width)) {
-    throw Fault(fmt::format("{} claims {} rows, more than the file can hold", what, shape[0]));
-  }
-  return {std::move(id), name, wanted, static_cast<std::size_t>(shape[0]),
-          static_cast<std::size_t>(width)};
+  std::uint64_t bytes = bytes_of(wanted);
+  for (const std::uint64_t extent : found)
+    if (__builtin_mul_overflow(bytes, extent, &bytes) || bytes > budget)
+      throw Fault(fmt::format("{} claims {} rows, more than the file can hold", what, found[0]));
+  return {std::move(id), name, wanted, std::move(found)};
 }
 
 void read_values(const Dataset& dataset, void* values) {
   const std::string what = "dataset " + dataset.name + " is damaged";
   const Handle type(H5Dget_type(dataset.id.get()), H5Tclose, what);
-  read_entries(dataset.type, type, dataset.count(), values, [&](hid_t memory, void* to) {
+  read_entries(dataset.type, type, count_of(dataset.shape), values, [&](hid_t memory, void* to) {
     const hid_t transfer = dataset.type == ValueType::text ? text_transfer() : H5P_DEFAULT;
     if (H5Dread(dataset.id.get(), memory, H5S_ALL, H5S_ALL, transfer, to) < 0) throw Fault(what);
   });

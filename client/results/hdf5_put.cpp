@@ -22,6 +22,14 @@ void require(herr_t status, const std::string& what) {
   if (status < 0) throw Fault(what);
 }
 
+/// Properties of a class with what `set` sets, whose result is below 0 on an error.
+template <class Set>
+Handle properties_of(hid_t property_class, const Set& set) {
+  Handle properties(H5Pcreate(property_class), H5Pclose, "HDF5 has no properties");
+  require(set(properties.get()), "HDF5 does not take properties");
+  return properties;
+}
+
 // A file has thousands of datasets: the types and properties they share are made once and never
 // closed.
 
@@ -60,19 +68,19 @@ struct Values {
   hid_t in_file, in_memory;
 };
 
-Handle new_creation_properties(std::size_t rows, const Row& row) {
+Handle new_creation_properties(const Shape& shape) {
   const std::string what = "HDF5 has no creation properties";
   Handle properties = without_times(H5P_DATASET_CREATE);
-  if (rows == 0) return properties;
-  const std::size_t width = row.width();
-  if (rows * width <= compact_entries) {
+  const std::uint64_t count = count_of(shape);
+  if (count == 0) return properties;
+  if (count <= compact_entries) {
     require(H5Pset_layout(properties.get(), H5D_COMPACT), what);
     return properties;
   }
-  const std::size_t chunk_rows = std::min(rows, std::max<std::size_t>(chunk_entries / width, 1));
-  const std::array<hsize_t, 3> chunk{chunk_rows, row.columns, row.depth};
-  require(H5Pset_chunk(properties.get(), row.rank(), chunk.data()), what);
-  if (rows * width >= compressed_from) {
+  std::vector<hsize_t> chunk(shape.begin(), shape.end());
+  chunk[0] = std::min(shape[0], std::max<std::uint64_t>(chunk_entries / (count / shape[0]), 1));
+  require(H5Pset_chunk(properties.get(), static_cast<int>(chunk.size()), chunk.data()), what);
+  if (count >= compressed_from) {
     require(H5Pset_shuffle(properties.get()), what);
     require(H5Pset_deflate(properties.get(), deflate_level), what);
   }
@@ -80,24 +88,21 @@ Handle new_creation_properties(std::size_t rows, const Row& row) {
   return properties;
 }
 
-/// Creation properties of a dataset of this shape; 0 rows stand for a dataset without a checksum.
-hid_t creation_properties(std::size_t rows, const Row& row) {
-  static std::map<std::array<std::size_t, 3>, hid_t> known;
-  const auto place = known.try_emplace({rows, row.columns, row.depth}, H5I_INVALID_HID).first;
-  if (place->second < 0) place->second = new_creation_properties(rows, row).release();
+/// Creation properties of a dataset of this shape; without entries it has no
+/// checksum.
+hid_t creation_properties(const Shape& shape) {
+  static std::map<Shape, hid_t> known;
+  const auto place = known.try_emplace(shape, H5I_INVALID_HID).first;
+  if (place->second < 0) place->second = new_creation_properties(shape).release();
   return place->second;
 }
 
 /// Access properties for a dataset of one chunk, which needs no hash table of 521 slots.
 hid_t one_chunk() {
-  static const hid_t id = [] {
-    const std::string what = "HDF5 has no access properties";
-    Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose, what);
-    require(H5Pset_chunk_cache(access.get(), 1, H5D_CHUNK_CACHE_NBYTES_DEFAULT,
-                               H5D_CHUNK_CACHE_W0_DEFAULT),
-            what);
-    return access.release();
-  }();
+  static const hid_t id = properties_of(H5P_DATASET_ACCESS, [](hid_t access) {
+                            return H5Pset_chunk_cache(access, 1, H5D_CHUNK_CACHE_NBYTES_DEFAULT,
+                                                      H5D_CHUNK_CACHE_W0_DEFAULT);
+                          }).release();
   return id;
 }
 
@@ -114,20 +119,15 @@ Quiet::Quiet() {
 Quiet::~Quiet() { H5Eset_auto2(H5E_DEFAULT, _function, _data); }
 
 hid_t text_transfer() {
-  static const hid_t id = [] {
-    const std::string what = "HDF5 has no transfer properties";
-    Handle transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose, what);
-    require(H5Pset_buffer(transfer.get(), 4096, nullptr, nullptr), what);
-    return transfer.release();
-  }();
+  static const hid_t id = properties_of(H5P_DATASET_XFER, [](hid_t transfer) {
+                            return H5Pset_buffer(transfer, 4096, nullptr, nullptr);
+                          }).release();
   return id;
 }
 
 Handle without_times(hid_t property_class) {
-  const std::string what = "HDF5 has no creation properties";
-  Handle properties(H5Pcreate(property_class), H5Pclose, what);
-  require(H5Pset_obj_track_times(properties.get(), false), what);
-  return properties;
+  return properties_of(property_class,
+                       [](hid_t creation) { return H5Pset_obj_track_times(creation, false); });
 }
 
 Handle create_group(const Handle& parent, const std::string& name, unsigned members) {
@@ -147,8 +147,10 @@ Handle create_group(const Handle& parent, const std::string& name, unsigned memb
           "cannot create group " + name};
 }
 
-void link(const Handle& object, const Handle& group, const std::string& name) {
-  require(H5Lcreate_hard(object.get(), ".", group.get(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+void link(const Handle& parent, const std::string& path, const Handle& group,
+          const std::string& name) {
+  require(H5Lcreate_hard(parent.get(), path.c_str(), group.get(), name.c_str(), H5P_DEFAULT,
+                         H5P_DEFAULT),
           "cannot link " + name);
 }
 
@@ -166,19 +168,18 @@ void put_attribute(const Handle& object, const std::string& name, ValueType type
 }
 
 Handle put_array(const Handle& group, const std::string& name, ValueType type, const void* values,
-                 std::size_t count, const Row& row, const std::string& unit) {
+                 const Shape& shape, const std::string& unit) {
   const std::string what = "cannot write dataset " + name;
-  const std::size_t width = row.width();
-  if (count % width != 0) throw Fault(what + ": not whole rows");
-  const std::size_t rows = count / width;
-  const std::array<hsize_t, 3> shape{rows, row.columns, row.depth};
-  const Handle space(H5Screate_simple(row.rank(), shape.data(), nullptr), H5Sclose, what);
+  const std::vector<hsize_t> extents(shape.begin(), shape.end());
+  const Handle space(H5Screate_simple(static_cast<int>(extents.size()), extents.data(), nullptr),
+                     H5Sclose, what);
+  const std::uint64_t count = count_of(shape);
   const Values source(type, values, count);
   // HDF5 refuses a checksum over text, as it would cover only pointers into the heap.
   const bool is_text = type == ValueType::text;
   Handle dataset(
       H5Dcreate2(group.get(), name.c_str(), source.in_file, space.get(), H5P_DEFAULT,
-                 creation_properties(is_text ? 0 : rows, row),
+                 creation_properties(is_text ? Shape{0} : shape),
                  count > compact_entries && count <= chunk_entries ? one_chunk() : H5P_DEFAULT),
       H5Dclose, what);
   if (count != 0) {

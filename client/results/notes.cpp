@@ -4,8 +4,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <string_view>
 
 namespace anticrack::results {
@@ -18,7 +20,7 @@ struct Largest {
   double u = 0;
   std::string_view load;  ///< empty for a sweep
 
-  void take(const std::vector<double>& values, std::string_view of) {
+  void take(std::span<const double> values, std::string_view of) {
     for (const double value : values)
       if (std::abs(value) > u) *this = {std::abs(value), of};
   }
@@ -28,27 +30,27 @@ Largest largest_of(const Result& result) {
   Largest largest;
   for (const Load& load : result.loads) {
     for (const v1::InclusionAnswer& inclusion : load.answer.inclusions())
-      largest.take({inclusion.displacement()}, load.name());
-    for (const Trace& trace : load.traces) {
-      largest.take(trace.u_minus, load.name());
-      largest.take(trace.u_plus, load.name());
-    }
-    for (const Field& field : load.fields) largest.take(field.u, load.name());
+      largest.take(std::array{inclusion.displacement()}, load.name());
+    const std::string at = load_path(load.name());
+    for (auto array = result.arrays.lower_bound(at);
+         array != result.arrays.end() && array->first.starts_with(at); ++array)
+      for (const char* name : {"/u", "/u_minus", "/u_plus"})
+        if (array->first.ends_with(name)) largest.take(array->second.as<double>(), load.name());
   }
   if (result.sweep) {
     for (const SweepSummary::Range& range : summary(*result.sweep).displacement)
-      largest.take({range.low, range.high}, "");
+      largest.take(std::array{range.low, range.high}, "");
   }
   return largest;
 }
 
-double smaller_side(const Mesh& mesh) {
+double smaller_side(std::span<const double> nodes) {
   double side = std::numeric_limits<double>::infinity();
   for (const std::size_t axis : {0, 1}) {
     double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (std::size_t i = axis; i < mesh.xy.size(); i += 2) {
-      low = std::min(low, mesh.xy[i]);
-      high = std::max(high, mesh.xy[i]);
+    for (std::size_t i = axis; i < nodes.size(); i += 2) {
+      low = std::min(low, nodes[i]);
+      high = std::max(high, nodes[i]);
     }
     side = std::min(side, high - low);
   }
@@ -67,7 +69,7 @@ std::vector<std::string> notes_on(const Result& result) {
   }
   if (length.empty()) return notes;  // u may have another unit than x and y
   const Largest largest = largest_of(result);
-  const double side = smaller_side(result.mesh);
+  const double side = smaller_side(entries_at<double>(result.arrays, "mesh/nodes"));
   if (!(largest.u > largest_part * side)) return notes;
   const std::string load = largest.load.empty() ? "" : fmt::format(" in load \"{}\"", largest.load);
   notes.push_back(fmt::format(

@@ -2,6 +2,7 @@
 #include <charconv>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,18 +20,15 @@ using hdf5::get_values;
 using hdf5::Handle;
 using hdf5::open_group;
 
-/// Calls get(group) for each of the groups "0", "1", ... of a list. Throws Fault for other names.
-template <class Get>
-auto list_of(const Handle& parent, const char* name, const Get& get) {
-  const Handle list = open_group(parent, name);
-  const std::size_t count = hdf5::names_in(list).size();
-  std::vector<decltype(get(list))> items;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::string number = std::to_string(i);
-    if (!hdf5::has(list, number)) throw hdf5::Fault(std::string(name) + " are not numbered from 0");
-    items.push_back(get(open_group(list, number)));
-  }
-  return items;
+constexpr std::size_t traces_shown = 2;  // u_minus and u_plus
+static_assert(tables::trace[0].name == "u_minus" && tables::trace[1].name == "u_plus");
+
+/// Reads arrays of each group of a list into `path`, the list's name, and its own name.
+void get_each(const Handle& parent, const char* list, std::uint64_t budget,
+              std::span<const tables::Row> table, Arrays& arrays, const std::string& path) {
+  const Handle groups = open_group(parent, list);
+  for (const std::string& name : hdf5::names_in(groups))
+    get_arrays(open_group(groups, name), budget, table, arrays, path + list + "/" + name + "/");
 }
 
 std::vector<v1::Stage> get_stages(const Handle& group, std::uint64_t budget) {
@@ -52,26 +50,18 @@ std::vector<v1::Stage> get_stages(const Handle& group, std::uint64_t budget) {
   return stages;
 }
 
-Load get_load(const Handle& group, std::uint64_t budget) {
+Load get_load(const Handle& group, std::uint64_t budget, Arrays& arrays) {
   Load load;
   hdf5::get_message(group, budget, load.answer);
-  load.traces = list_of(group, "traces", [budget](const Handle& at) {
-    Trace trace;
-    get_arrays(at, budget, trace, arrays::trace<Trace>);
-    return trace;
-  });
+  const std::string path = load_path(load.name());
+  get_each(group, "traces", budget, std::span(tables::trace).first(traces_shown), arrays, path);
+  if (hdf5::has(group, "fields")) get_each(group, "fields", budget, tables::field, arrays, path);
   if (hdf5::has(group, "stages")) load.stages = get_stages(open_group(group, "stages"), budget);
-  if (!hdf5::has(group, "fields")) return load;
-  load.fields = list_of(group, "fields", [budget](const Handle& at) {
-    Field field;
-    get_arrays(at, budget, field, arrays::field<Field>);
-    return field;
-  });
   return load;
 }
 
 /// Reads the loads and puts them in the order of the job, as HDF5 lists groups by name.
-std::vector<Load> get_loads(const Handle& root, std::uint64_t budget) {
+std::vector<Load> get_loads(const Handle& root, std::uint64_t budget, Arrays& arrays) {
   const Handle list = open_group(root, "loads");
   const std::vector<std::string> names = hdf5::names_in(list);
   std::vector<Load> loads(names.size());
@@ -84,7 +74,7 @@ std::vector<Load> get_loads(const Handle& root, std::uint64_t budget) {
     if (index >= loads.size() || filled[index])
       throw hdf5::Fault("load \"" + name + "\" has the index of another or none");
     filled[index] = true;
-    loads[index] = get_load(group, budget);
+    loads[index] = get_load(group, budget, arrays);
   }
   return loads;
 }
@@ -99,13 +89,15 @@ Result get_result(const Handle& root, std::uint64_t budget) {
   get_values(root, result, tables::result);
   get_message("units", result.units);
   get_message("solver", result.solver);
-  hdf5::get_array(get_message("mesh", result.mesh.info), "nodes", budget, {2}, result.mesh.xy);
-  result.loads = get_loads(root, budget);
+  get_arrays(get_message("mesh", result.mesh), budget, std::span(tables::mesh).first(1),
+             result.arrays, "mesh/");  // the nodes
+  result.loads = get_loads(root, budget, result.arrays);
   if (hdf5::has(root, "sweep")) {
     Sweep& sweep = result.sweep.emplace();
     const Handle group = get_message("sweep", sweep.answer);
     get_values(group, sweep, tables::sweep);
-    get_arrays(group, budget, sweep, tables::sweep_arrays);
+    get_arrays(group, budget, tables::columns, sweep.columns, "",
+               {{"inclusions", sweep.inclusions.size()}, {"loads", sweep.loads.size()}});
   }
   return result;
 }

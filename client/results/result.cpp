@@ -26,6 +26,8 @@ bool is_load_name(std::string_view name) noexcept {
 
 }  // namespace
 
+std::string load_path(const std::string& name) { return "loads/" + name + "/"; }
+
 std::string status_name(int status) {
   return name_in(*v1::LoadCaseAnswer::Status_descriptor(), status);
 }
@@ -113,7 +115,7 @@ std::string first_fault(const Result& result) {
       if (stage.answers_size() != 1) return at + ".stages has one without an answer";
   }
   if (!result.sweep) return {};
-  const std::size_t kept = result.sweep->kept.size();
+  const std::size_t kept = result.sweep->integers("kept").size();
   if (std::string fault = first_fault(*result.sweep); !fault.empty()) return fault;
   return result.loads.size() == kept
              ? ""

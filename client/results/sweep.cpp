@@ -5,9 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-
-#include "results/tables.hpp"
 
 namespace anticrack::results {
 namespace {
@@ -17,46 +14,22 @@ void widen(SweepSummary::Range& range, double value) {
   range.high = std::fmax(range.high, value);
 }
 
-/// Widens the range to the bounds of an entry, or to its value if it has no bounds.
-void widen(SweepSummary::Range& range, const std::vector<double>& values,
-           const std::vector<double>& lower, const std::vector<double>& upper, std::size_t place) {
-  const bool bounded = !lower.empty() && std::isfinite(lower[place]);
-  widen(range, bounded ? lower[place] : values[place]);
-  widen(range, bounded ? upper[place] : values[place]);
-}
+/// A column with its bounds, if it has them.
+struct Bounded {
+  std::span<const double> values, lower, upper;
 
-void add_bounds(const Sweep& sweep, std::size_t row, SweepSummary& result) {
-  if (sweep.energy_lower.empty() || !std::isfinite(sweep.energy_lower[row])) return;
-  ++result.bounded;
-  const double width = sweep.energy_upper[row] - sweep.energy_lower[row];
-  result.energy_width =
-      std::fmax(result.energy_width, width > 0 ? width / std::abs(sweep.energy[row]) : 0);
-  const std::size_t inclusions = sweep.inclusions.size();
-  for (std::size_t i = row * inclusions; i < (row + 1) * inclusions; ++i)
-    result.displacement_error =
-        std::fmax(result.displacement_error,
-                  0.5 * (sweep.displacement_upper[i] - sweep.displacement_lower[i]));
-}
+  Bounded(const Sweep& sweep, const std::string& name)
+      : values(sweep.numbers(name)),
+        lower(sweep.numbers(name + "_lower")),
+        upper(sweep.numbers(name + "_upper")) {}
 
-std::string length_fault(const Sweep& sweep) {
-  std::string fault;
-  arrays::for_each(
-      [&](const auto& row) {
-        const std::size_t have = std::invoke(row.member, sweep).size();
-        if (!fault.empty() || (have == 0 && row.optional)) return;
-        const std::size_t columns = arrays::columns_of(row.shape);
-        const std::size_t want =
-            sweep.extent(row.shape.substr(0, row.shape.find(','))) *
-            (columns == 0               ? 1
-             : columns == arrays::named ? sweep.extent(arrays::second_of(row.shape))
-                                        : columns) *
-            arrays::depth_of(row.shape);
-        if (have == want) return;
-        fault = fmt::format("sweep.{} has {} entries instead of {}", row.name, have, want);
-      },
-      tables::sweep_arrays);
-  return fault;
-}
+  bool has(std::size_t place) const { return !lower.empty() && std::isfinite(lower[place]); }
+  /// Widens the range to the bounds of an entry, or to its value if it has no bounds.
+  void widen_range(SweepSummary::Range& range, std::size_t place) const {
+    widen(range, has(place) ? lower[place] : values[place]);
+    widen(range, has(place) ? upper[place] : values[place]);
+  }
+};
 
 std::string counts_fault(const Sweep& sweep) {
   const v1::SweepAnswer& answer = sweep.answer;
@@ -71,22 +44,23 @@ std::string counts_fault(const Sweep& sweep) {
 
 /// Checks that the sweep has all bounds, with the values on the mesh, or none.
 std::string bounds_fault(const Sweep& sweep) {
-  const std::size_t rows = sweep.energy_lower.size(), inclusions = sweep.inclusions.size();
-  const bool whole = sweep.energy_upper.size() == rows && sweep.energy_mesh.size() == rows &&
-                     sweep.displacement_lower.size() == rows * inclusions &&
-                     sweep.displacement_upper.size() == rows * inclusions &&
-                     sweep.displacement_mesh.size() == rows * inclusions;
+  const std::size_t rows = sweep.numbers("energy_lower").size();
+  bool whole = true;
+  for (const std::string end : {"_lower", "_upper", "_mesh"})
+    whole = whole && sweep.numbers("energy" + end).size() == rows &&
+            sweep.numbers("displacement" + end).size() == rows * sweep.inclusions.size();
   return whole ? "" : "sweep has some of its bounds without the others";
 }
 
 std::string range_fault(const Sweep& sweep) {
-  for (std::size_t i = 0; i < sweep.rows(); ++i)
-    if (!v1::LoadCaseAnswer::Status_IsValid(sweep.status[i]))
-      return fmt::format("sweep.status[{}] is {}, no status", i, sweep.status[i]);
-  for (std::size_t i = 0; i < sweep.kept.size(); ++i) {
-    const std::int32_t row = sweep.kept[i];
-    if (row < 0 || static_cast<std::size_t>(row) >= sweep.rows() ||
-        (i > 0 && row <= sweep.kept[i - 1])) {
+  const auto status = sweep.status(), kept = sweep.integers("kept");
+  for (std::size_t i = 0; i < status.size(); ++i)
+    if (!v1::LoadCaseAnswer::Status_IsValid(status[i]))
+      return fmt::format("sweep.status[{}] is {}, no status", i, status[i]);
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    const std::int32_t row = kept[i];
+    if (row < 0 || static_cast<std::size_t>(row) >= status.size() ||
+        (i > 0 && row <= kept[i - 1])) {
       return fmt::format("sweep.kept[{}] is {}, out of order or no row of the sweep", i, row);
     }
   }
@@ -94,15 +68,6 @@ std::string range_fault(const Sweep& sweep) {
 }
 
 }  // namespace
-
-std::size_t Sweep::extent(std::string_view word) const noexcept {
-  return word == "rows"         ? rows()
-         : word == "contacts"   ? contacts()
-         : word == "inclusions" ? inclusions.size()
-         : word == "tips"       ? tips()
-         : word == "loads"      ? loads.size()
-                                : kept.size();
-}
 
 bool SweepSummary::tilted() const noexcept {
   for (std::size_t i = 0; i < slope.size(); ++i)
@@ -116,19 +81,31 @@ SweepSummary summary(const Sweep& sweep) {
   result.displacement.resize(inclusions);
   result.displacement_bounds.resize(inclusions);
   result.slope.resize(inclusions);
-  for (std::size_t row = 0; row < sweep.rows(); ++row) {
-    if (!sweep.converged(row)) continue;
-    widen(result.energy, sweep.energy[row]);
-    widen(result.energy_bounds, sweep.energy, sweep.energy_lower, sweep.energy_upper, row);
-    add_bounds(sweep, row, result);
-    widen(result.contact_length, sweep.contact_length[row]);
+  const Bounded energy(sweep, "energy"), displacement(sweep, "displacement");
+  const auto status = sweep.status();
+  const auto length = sweep.numbers("contact_length"), slope = sweep.numbers("slope");
+  for (std::size_t row = 0; row < status.size(); ++row) {
+    if (status[row] != v1::LoadCaseAnswer::STATUS_CONVERGED) continue;
+    widen(result.energy, energy.values[row]);
+    energy.widen_range(result.energy_bounds, row);
+    widen(result.contact_length, length[row]);
+    const bool bounded = energy.has(row);
+    if (bounded) {
+      ++result.bounded;
+      const double width = energy.upper[row] - energy.lower[row];
+      result.energy_width =
+          std::fmax(result.energy_width, width > 0 ? width / std::abs(energy.values[row]) : 0);
+    }
     for (std::size_t i = 0; i < inclusions; ++i) {
       const std::size_t place = row * inclusions + i;
-      widen(result.displacement[i], sweep.displacement[place]);
-      widen(result.displacement_bounds[i], sweep.displacement, sweep.displacement_lower,
-            sweep.displacement_upper, place);
+      widen(result.displacement[i], displacement.values[place]);
+      displacement.widen_range(result.displacement_bounds[i], place);
       for (const std::size_t part : {0U, 1U})
-        widen(result.slope[i][part], sweep.slope_at(row, i, part));
+        widen(result.slope[i][part], slope.empty() ? 0 : slope[2 * place + part]);
+      if (bounded)
+        result.displacement_error =
+            std::fmax(result.displacement_error,
+                      0.5 * (displacement.upper[place] - displacement.lower[place]));
     }
   }
   return result;
@@ -137,8 +114,7 @@ SweepSummary summary(const Sweep& sweep) {
 std::string row_name(std::int64_t row) { return fmt::format("row-{}", row); }
 
 std::string first_fault(const Sweep& sweep) {
-  std::string fault = length_fault(sweep);
-  if (fault.empty()) fault = counts_fault(sweep);
+  std::string fault = counts_fault(sweep);
   if (fault.empty()) fault = bounds_fault(sweep);
   return fault.empty() ? range_fault(sweep) : fault;
 }

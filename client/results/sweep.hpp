@@ -8,11 +8,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "anticrack/v1/solve.pb.h"
+#include "results/arrays.hpp"
 
 namespace anticrack::results {
 
@@ -22,44 +24,27 @@ struct Sweep {
   std::string source;                   ///< file of the coefficients or nodal forces
   std::string error;                    ///< error of the first row that failed
   v1::SweepAnswer answer;               ///< counts of rows by status, worst steps and residual
-  /// (rows, loads) row-major: row k is the load sum_j c_kj loads[j]. Empty for nodal forces, and if
-  /// unknown, as the server does not return coefficients.
-  std::vector<double> coefficients;
+  /// tables::columns by their names. `status` has LoadCaseAnswer.Status; the numbers of a row are
+  /// valid only if it converged. `kept` has the rows with traces, ascending, for each of which
+  /// there is a load "row-17". `coefficients` are missing if unknown, as the server does not return
+  /// them.
+  Arrays columns;
 
-  /// (rows) LoadCaseAnswer.Status; the numbers of a row are valid only if it converged.
-  std::vector<std::int32_t> status;
-  std::vector<std::int32_t> steps;  ///< (rows) steps of the active set
-  std::vector<double> energy;       ///< (rows) Pi(u)
-  /// (rows) bounds of the membrane's exact Pi, NaN if a row has none; empty if not asked for.
-  std::vector<double> energy_lower, energy_upper;
-  std::vector<double> energy_mesh;     ///< (rows) Pi of u on the mesh; empty as the bounds
-  std::vector<double> contact_length;  ///< (rows) over all cracks and delaminated parts
-  std::vector<double> kkt;             ///< (rows) largest relative residual
-  std::vector<double> displacement;    ///< (rows, inclusions) row-major: A of equation (5)
-  std::vector<double> displacement_lower, displacement_upper;  ///< bounds of A, as of the energy
-  std::vector<double> displacement_mesh;    ///< A of u on the mesh; empty as the bounds
-  std::vector<double> slope;                ///< (rows, inclusions, 2) Bx, By; empty if none tilts
-  std::vector<std::uint8_t> contact;        ///< (rows, contacts) row-major: 1 closed under pressure
-  std::vector<std::int32_t> contact_nodes;  ///< (contacts, 2): interface, and its node
-  /// (rows, tips) row-major, NaN where a tip has none; empty if not asked for.
-  std::vector<double> intensity, energy_release_rate, energy_release_rate_spread;
-
-  /// Rows whose traces were kept, ascending: Result::loads has one load for each, "row-17".
-  std::vector<std::int32_t> kept;
-
-  /// Whether a row converged, so that its numbers are valid.
-  bool converged(std::size_t row) const noexcept {
-    return status[row] == v1::LoadCaseAnswer::STATUS_CONVERGED;
+  /// A column of numbers; empty if there is none.
+  std::span<const double> numbers(std::string_view name) const {
+    return entries_at<double>(columns, name);
   }
-  /// Number of rows, and of crack nodes.
-  std::size_t rows() const noexcept { return status.size(); }
-  std::size_t contacts() const noexcept { return contact_nodes.size() / 2; }
-  std::size_t tips() const noexcept { return rows() == 0 ? 0 : intensity.size() / rows(); }
-  /// The length that a word of a shape means: "rows", "contacts", "inclusions", "tips", ...
-  std::size_t extent(std::string_view word) const noexcept;
-  /// Bx (part 0) or By (part 1) of an inclusion in a row; 0 if no inclusion tilts.
-  double slope_at(std::size_t row, std::size_t inclusion, std::size_t part) const noexcept {
-    return slope.empty() ? 0 : slope[(row * inclusions.size() + inclusion) * 2 + part];
+  /// The same of whole numbers.
+  std::span<const std::int32_t> integers(std::string_view name) const {
+    return entries_at<std::int32_t>(columns, name);
+  }
+  std::span<const std::int32_t> status() const { return integers("status"); }  ///< by row
+  std::size_t rows() const { return status().size(); }                         ///< their number
+  /// Number of tips, if their numbers were asked for.
+  std::size_t tips() const { return rows() == 0 ? 0 : numbers("intensity").size() / rows(); }
+  /// Whether a row converged, so that its numbers are valid.
+  bool converged(std::size_t row) const {
+    return status()[row] == v1::LoadCaseAnswer::STATUS_CONVERGED;
   }
 };
 
@@ -97,7 +82,7 @@ SweepSummary summary(const Sweep& sweep);
 /// The name of a row's load: "row-17".
 std::string row_name(std::int64_t row);
 
-/// Describes the first invariant that does not hold (lengths, counts, enums, kept rows); empty if
+/// Describes the first invariant that does not hold (counts, bounds, enums, kept rows); empty if
 /// all hold. O(rows).
 std::string first_fault(const Sweep& sweep);
 

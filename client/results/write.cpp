@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/core.h>
+
 #include <cstddef>
 #include <exception>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,17 +22,25 @@ using hdf5::put;
 using hdf5::put_arrays;
 using hdf5::put_values;
 
-void put_load(const Handle& parent, std::size_t index, const Load& load, const v1::Units& units,
-              hdf5::Messages& messages) {
+void put_load(const Handle& parent, std::size_t index, const Result& result,
+              hdf5::Messages& messages, std::vector<Handle>& subdomains) {
+  const Load& load = result.loads[index];
+  const v1::Units& units = result.units;
+  const std::string path = load_path(load.name());
+  const auto put_arrays = [&](const Handle& group, std::span<const tables::Row> table,
+                              const std::string& below) {
+    hdf5::put_arrays(group, units, table, result.arrays, path + below);
+  };
+  const auto has = [&](const std::string& array) { return result.arrays.contains(path + array); };
   const Handle group = create_group(parent, load.name(), 16);
   put(group, "index", static_cast<std::int32_t>(index));
   messages.put(group, load.answer);
-  put_arrays(group, units, load, tables::of_load);
+  put_arrays(group, tables::load, "");
   const Handle traces = create_group(group, "traces");
-  for (std::size_t i = 0; i < load.traces.size(); ++i)
-    put_arrays(create_group(traces, std::to_string(i), 8), units, load.traces[i],
-               arrays::trace<Trace>);
-  put_arrays(create_group(group, "history", 8), units, load.history, arrays::history<History>);
+  for (std::size_t i = 0; has(fmt::format("traces/{}/jump", i)); ++i)
+    put_arrays(create_group(traces, std::to_string(i), 8), tables::trace,
+               fmt::format("traces/{}/", i));
+  put_arrays(create_group(group, "history", 8), tables::history, "history/");
   if (!load.stages.empty()) {
     std::vector<const google::protobuf::Message*> stages, answers;
     for (const v1::Stage& stage : load.stages) {
@@ -40,11 +51,19 @@ void put_load(const Handle& parent, std::size_t index, const Load& load, const v
     hdf5::put_columns(columns, units, *v1::Stage::descriptor(), stages);
     hdf5::put_columns(columns, units, *v1::StageAnswer::descriptor(), answers);
   }
-  if (load.fields.empty()) return;
+  if (!has("fields/0/u")) return;
   const Handle fields = create_group(group, "fields");
-  for (std::size_t i = 0; i < load.fields.size(); ++i)
-    put_arrays(create_group(fields, std::to_string(i)), units, load.fields[i],
-               arrays::subdomain<Field>, arrays::field<Field>);
+  for (std::size_t i = 0; has(fmt::format("fields/{}/u", i)); ++i) {
+    Handle field = create_group(fields, std::to_string(i));
+    put_arrays(field, tables::field, fmt::format("fields/{}/", i));
+    if (i < subdomains.size()) {  // written with another load
+      for (const tables::Row& row : tables::subdomain)
+        hdf5::link(subdomains[i], std::string(row.name), field, std::string(row.name));
+      continue;
+    }
+    hdf5::put_arrays(field, units, tables::subdomain, result.arrays, arrays::field_folder(i));
+    subdomains.push_back(std::move(field));
+  }
 }
 
 void put_sweep(const Handle& root, const Sweep& sweep, const v1::Units& units,
@@ -53,7 +72,7 @@ void put_sweep(const Handle& root, const Sweep& sweep, const v1::Units& units,
   put(group, "description", std::string("row k of every dataset belongs to load case k"));
   messages.put(group, sweep.answer);
   put_values(group, sweep, tables::sweep);
-  put_arrays(group, units, sweep, tables::sweep_arrays);
+  put_arrays(group, units, tables::columns, sweep.columns, "");
 }
 
 void put_all(const Handle& root, const Result& result) {
@@ -65,15 +84,16 @@ void put_all(const Handle& root, const Result& result) {
   messages.put(create_group(root, "units"), units);
   messages.put(create_group(root, "solver"), result.solver);
   const Handle mesh = create_group(root, "mesh");
-  messages.put(mesh, result.mesh.info);
-  put_arrays(mesh, units, result.mesh, tables::mesh);
+  messages.put(mesh, result.mesh);
+  put_arrays(mesh, units, tables::mesh, result.arrays, "mesh/");
   const Handle interfaces = create_group(root, "interfaces");
-  for (std::size_t i = 0; i < result.interfaces.size(); ++i)
-    put_arrays(create_group(interfaces, std::to_string(i)), units, result.interfaces[i],
-               arrays::interface_nodes<Interface>, tables::edges);
+  for (int i = 0; i < result.mesh.interfaces_size(); ++i)
+    put_arrays(create_group(interfaces, std::to_string(i)), units, tables::interface, result.arrays,
+               arrays::interface_folder(static_cast<std::size_t>(i)));
   const Handle loads = create_group(root, "loads");
+  std::vector<Handle> subdomains;
   for (std::size_t i = 0; i < result.loads.size(); ++i)
-    put_load(loads, i, result.loads[i], units, messages);
+    put_load(loads, i, result, messages, subdomains);
   if (result.sweep) put_sweep(root, *result.sweep, units, messages);
 }
 

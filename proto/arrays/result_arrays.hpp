@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The arrays that ReadResult streams. The server's structs and the client's have members of these
-// names, so a table serves both: with the client's struct it is that of the result file as well.
+// names, so a table serves both: with the client's it is that of the result file as well.
 #pragma once
 
 #include <cstddef>

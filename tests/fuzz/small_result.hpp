@@ -10,14 +10,10 @@ namespace anticrack::fuzz {
 inline results::Result small_result() {
   results::Result result = testing::sample_result(1);
   for (auto& load : result.loads) {
-    auto& history = load.history;
-    history.iteration.resize(2);
-    for (auto* values : {&history.criterion, &history.energy, &history.kkt.equilibrium,
-                         &history.kkt.gap, &history.kkt.sign, &history.kkt.complementarity}) {
-      values->resize(2);
-    }
-    history.contact_count.resize(2);
     load.answer.set_iterations(2);
+    for (const auto& row : results::tables::history)
+      result.arrays.at(results::load_path(load.name()) + "history/" + std::string(row.name))
+          .shape = {2};
   }
   return result;
 }

@@ -3,9 +3,8 @@
 // What a server would send of a result.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
-#include <functional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -19,62 +18,43 @@ struct BlockMaker {
   v1::BlockLayout layout;
   std::vector<std::byte> bytes;
 
-  template <class T>
-  BlockMaker& add(const std::string& name, const std::vector<T>& values, std::size_t columns = 0) {
+  BlockMaker& add(const std::string& name, const results::Array& added) {
     v1::ArrayLayout& array = *layout.add_arrays();
     array.set_name(name);
-    array.set_type(sizeof(T) == 8   ? v1::ArrayLayout::TYPE_FLOAT64
-                   : sizeof(T) == 4 ? v1::ArrayLayout::TYPE_INT32
-                                    : v1::ArrayLayout::TYPE_UINT8);
-    array.add_shape(columns == 0 ? values.size() : values.size() / columns);
-    if (columns != 0) array.add_shape(columns);
+    array.set_type(static_cast<v1::ArrayLayout::Type>(added.type));
+    array.mutable_shape()->Add(added.shape.begin(), added.shape.end());
     array.set_offset(bytes.size());
-    const auto added = std::as_bytes(std::span(values));
-    bytes.insert(bytes.end(), added.begin(), added.end());
+    const auto size = results::count_of(added.shape) * results::bytes_of(added.type);
+    bytes.insert(bytes.end(), added.data.get(), added.data.get() + size);
     bytes.resize((bytes.size() + 7) / 8 * 8);
     return *this;
   }
-
-  /// The arrays of a table.
-  template <class Record, class Table>
-  void add_all(const std::string& folder, const Record& record, const Table& table) {
-    arrays::for_each(
-        [&](const auto& row) {
-          const auto& values = std::invoke(row.member, record);
-          if (!values.empty() || !row.optional)
-            add(folder + std::string(row.name), values, arrays::columns_of(row.shape));
-        },
-        table);
+  template <class T>
+  BlockMaker& add(const std::string& name, const std::vector<T>& values, std::size_t columns = 0) {
+    return add(
+        name, results::array_of(values, columns == 0 ? results::Shape{} : results::Shape{columns}));
   }
 };
 
 /// The two blocks of load cases.
 struct ResultBlocks {
   explicit ResultBlocks(const results::Result& result) {
-    mesh.add_all("", result.mesh, results::tables::mesh);
-    for (std::size_t i = 0; i < result.interfaces.size(); ++i) {
-      const std::string at = arrays::interface_folder(i);
-      answer.add_all(at, result.interfaces[i], arrays::interface_nodes<results::Interface>);
-      mesh.add_all(at, result.interfaces[i], results::tables::edges);
+    for (const auto& [path, array] : result.arrays) {
+      const std::size_t begin = path.find('/') + 1, end = path.find('/', begin);
+      std::string name = path;
+      if (path.starts_with("loads/")) {
+        const auto load =
+            std::ranges::find(result.loads, path.substr(begin, end - begin), &results::Load::name);
+        name = arrays::load_folder(static_cast<std::size_t>(load - result.loads.begin())) +
+               path.substr(end + 1, path.ends_with("/u") ? path.size() - end - 3 : path.npos);
+      }
+      const bool of_mesh = path.starts_with("mesh/");
+      (of_mesh || path.find("/edge_") != path.npos ? mesh : answer)
+          .add(of_mesh ? path.substr(begin) : name, array);
     }
-    for (std::size_t i = 0; i < result.loads.size(); ++i) add_load(i, result.loads[i]);
-    for (std::size_t i = 0; i < result.loads[0].fields.size(); ++i)
-      answer.add_all(arrays::field_folder(i), result.loads[0].fields[i],
-                     arrays::subdomain<results::Field>);
   }
 
   BlockMaker mesh, answer;
-
- private:
-  void add_load(std::size_t index, const results::Load& load) {
-    for (std::size_t i = 0; i < load.traces.size(); ++i)
-      answer.add_all(arrays::load_traces(index) + std::to_string(i) + "/", load.traces[i],
-                     arrays::trace<results::Trace>);
-    answer.add_all(arrays::load_folder(index), load, results::tables::of_load);
-    answer.add_all(arrays::load_history(index), load.history, arrays::history<results::History>);
-    for (std::size_t i = 0; i < load.fields.size(); ++i)
-      answer.add(arrays::load_fields(index) + std::to_string(i), load.fields[i].u);
-  }
 };
 
 }  // namespace anticrack::testing

@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <string>
+#include <vector>
 
-#include "results/result.hpp"
+#include "results/tables.hpp"
 
 namespace anticrack::testing {
 
@@ -28,56 +30,85 @@ inline double sample_u(double x, double y, bool plus, bool contact) {
   return (face + load) * (1 - std::abs(y));
 }
 
-/// Grid of 2n x 2n squares, two triangles each, on (-1,1)^2; the interface is y = 0.
-inline results::Mesh sample_mesh(int n) {
-  results::Mesh mesh;
-  mesh.info.set_name("meshes/0123");
-  mesh.info.set_sha256(std::string(64, 'a'));
-  mesh.info.set_state(v1::Mesh::STATE_READY);
-  mesh.info.mutable_create_time()->set_seconds(1'700'000'000);
-  mesh.info.set_mesh_seconds(0.2);
-  mesh.info.set_factorize_seconds(0.1);
-  for (const char* name : {"lower", "upper"}) mesh.info.add_subdomains()->set_name(name);
-  mesh.info.mutable_subdomains(0)->set_tension(1);
-  mesh.info.mutable_subdomains(1)->set_tension(2);
-  v1::Tension& law = *mesh.info.mutable_subdomains(1)->mutable_tension_law();
-  law.set_along("2");
-  law.set_across("1");
-  law.set_angle(30);
-  v1::InterfaceInfo& line = *mesh.info.add_interfaces();
-  line.set_name("sigma");
-  line.mutable_start()->set_x(-1);
-  mesh.info.add_inclusions("fibre");
+using results::array_of;
+using results::tables::Columns;
+
+/// Adds the arrays of a table that the record has.
+template <class Record, class Table>
+void put(results::Arrays& into, const std::string& path, const Record& record, const Table& table) {
+  arrays::for_each(
+      [&](const auto& row) {
+        const std::size_t columns = arrays::columns_of(row.shape);
+        into[path + std::string(row.name)] =
+            array_of(std::invoke(row.member, record),
+                     columns == 0 ? results::Shape{} : results::Shape{columns});
+      },
+      table);
+}
+
+/// The values of an array, to be changed in place.
+template <class T = double>
+std::span<T> values_of(results::Arrays& all, const std::string& path) {
+  const std::span<const T> values = all.at(path).as<T>();
+  return {const_cast<T*>(values.data()), values.size()};
+}
+
+/// Grid of 2n x 2n squares, two triangles each, on (-1,1)^2.
+inline Columns sample_grid(int n) {
+  Columns grid;
   const int side = 2 * n + 1;
   for (int j = 0; j < side; ++j) {
     for (int i = 0; i < side; ++i) {
-      mesh.xy.push_back(-1 + static_cast<double>(i) / n);
-      mesh.xy.push_back(-1 + static_cast<double>(j) / n);
+      grid.xy.push_back(-1 + static_cast<double>(i) / n);
+      grid.xy.push_back(-1 + static_cast<double>(j) / n);
     }
   }
   for (int j = 0; j + 1 < side; ++j) {
     for (int i = 0; i + 1 < side; ++i) {
       const int a = j * side + i;
       for (const int node : {a, a + 1, a + side + 1, a, a + side + 1, a + side}) {
-        mesh.triangles.push_back(node);
+        grid.triangles.push_back(node);
       }
-      mesh.subdomain.insert(mesh.subdomain.end(), 2, j < n ? 0 : 1);
+      grid.subdomain.insert(grid.subdomain.end(), 2, j < n ? 0 : 1);
     }
   }
-  mesh.info.set_node_count(mesh.xy.size() / 2);
-  mesh.info.set_triangle_count(mesh.subdomain.size());
   for (int i = 0; i + 1 < side; ++i) {
     const int top = side * (side - 1);
     for (const int node : {i, i + 1, top + i, top + i + 1, i * side, (i + 1) * side,
                            i * side + side - 1, (i + 1) * side + side - 1}) {
-      mesh.boundary.push_back(node);
+      grid.boundary.push_back(node);
     }
   }
+  return grid;
+}
+
+/// What is said of that mesh; the interface is y = 0.
+inline v1::Mesh sample_mesh(const Columns& grid) {
+  v1::Mesh mesh;
+  mesh.set_name("meshes/0123");
+  mesh.set_sha256(std::string(64, 'a'));
+  mesh.set_state(v1::Mesh::STATE_READY);
+  mesh.mutable_create_time()->set_seconds(1'700'000'000);
+  mesh.set_mesh_seconds(0.2);
+  mesh.set_factorize_seconds(0.1);
+  for (const char* name : {"lower", "upper"}) mesh.add_subdomains()->set_name(name);
+  mesh.mutable_subdomains(0)->set_tension(1);
+  mesh.mutable_subdomains(1)->set_tension(2);
+  v1::Tension& law = *mesh.mutable_subdomains(1)->mutable_tension_law();
+  law.set_along("2");
+  law.set_across("1");
+  law.set_angle(30);
+  v1::InterfaceInfo& line = *mesh.add_interfaces();
+  line.set_name("sigma");
+  line.mutable_start()->set_x(-1);
+  mesh.add_inclusions("fibre");
+  mesh.set_node_count(grid.xy.size() / 2);
+  mesh.set_triangle_count(grid.subdomain.size());
   return mesh;
 }
 
-inline results::Interface sample_interface(int n) {
-  results::Interface interface;
+inline Columns sample_interface(int n) {
+  Columns interface;
   for (int i = 0; i <= 2 * n; ++i) {
     const double x = -1 + static_cast<double>(i) / n;
     interface.s.push_back(x + 1);
@@ -96,9 +127,11 @@ inline results::Interface sample_interface(int n) {
   return interface;
 }
 
-inline results::Load sample_load(const std::string& name, const results::Mesh& mesh,
-                                 const results::Interface& interface, bool contact) {
-  results::Load load;
+/// Adds a load with its arrays; the first one adds what subdomains have in common.
+inline void add_load(results::Result& result, const std::string& name, const Columns& mesh,
+                     const Columns& interface, bool contact) {
+  results::Load& load = result.loads.emplace_back();
+  const std::string path = results::load_path(name);
   v1::LoadCaseAnswer& answer = load.answer;
   answer.set_name(name);
   answer.set_status(v1::LoadCaseAnswer::STATUS_CONVERGED);
@@ -127,7 +160,7 @@ inline results::Load sample_load(const std::string& name, const results::Mesh& m
 
   v1::Tip& tip = *answer.add_tips();
   tip.set_x(-0.5);
-  tip.set_interface(mesh.info.interfaces(0).name());
+  tip.set_interface(result.mesh.interfaces(0).name());
   tip.set_kind(v1::TIP_KIND_DELAMINATED_END);
   tip.set_closed(contact);
   tip.set_exponent(0.25);
@@ -140,8 +173,8 @@ inline results::Load sample_load(const std::string& name, const results::Mesh& m
   side.set_moment_x(0.02);
   side.set_x(1);
 
-  results::Trace trace;
-  for (std::size_t i = 0; i < interface.node_count(); ++i) {
+  Columns trace;
+  for (std::size_t i = 0; i < interface.s.size(); ++i) {
     const double x = interface.x[i];
     const bool crack = interface.kind[i] == v1::INTERFACE_KIND_DELAMINATED;
     const bool closed = contact && crack && x <= -0.2 + 1e-9;
@@ -153,29 +186,32 @@ inline results::Load sample_load(const std::string& name, const results::Mesh& m
     trace.force.push_back(0.1 * (trace.pressure.back() + trace.flux.back()));
     trace.contact.push_back(closed ? 1 : 0);
   }
-  load.traces.push_back(trace);
+  put(result.arrays, path + "traces/0/", trace, arrays::trace<Columns>);
   if (contact) {
     answer.set_contact_length(0.3);
     v1::ContactInterval& interval = *answer.add_contact_intervals();
-    interval.set_interface(mesh.info.interfaces(0).name());
+    interval.set_interface(result.mesh.interfaces(0).name());
     interval.set_begin(0.5);
     interval.set_end(0.8);
   }
 
+  Columns history;
   for (int k = 1; k <= answer.iterations(); ++k) {
-    load.history.iteration.push_back(k);
-    load.history.criterion.push_back(
+    history.iteration.push_back(k);
+    history.criterion.push_back(
         k == 1 ? 1.0 : 0.3 * std::exp(-0.148 * k) * (1 + 0.3 * std::sin(0.5 * k)));
-    load.history.energy.push_back(answer.energy() * (1 + std::exp(-0.1 * k)));
-    load.history.contact_count.push_back(contact ? 12 : 0);
-    load.history.kkt.equilibrium.push_back(1e-15);
-    load.history.kkt.gap.push_back(std::exp(-0.08 * k));
-    load.history.kkt.sign.push_back(0);
-    load.history.kkt.complementarity.push_back(0.1 * std::exp(-0.08 * k));
+    history.energy.push_back(answer.energy() * (1 + std::exp(-0.1 * k)));
+    history.contact_count.push_back(contact ? 12 : 0);
+    history.kkt.equilibrium.push_back(1e-15);
+    history.kkt.gap.push_back(std::exp(-0.08 * k));
+    history.kkt.sign.push_back(0);
+    history.kkt.complementarity.push_back(0.1 * std::exp(-0.08 * k));
   }
 
+  put(result.arrays, path + "history/", history, arrays::history<Columns>);
+
   for (const bool plus : {false, true}) {
-    results::Field field;
+    Columns field;
     for (std::size_t i = 0; 2 * i < mesh.xy.size(); ++i) {
       const double x = mesh.xy[2 * i];
       const double y = mesh.xy[2 * i + 1];
@@ -190,9 +226,10 @@ inline results::Load sample_load(const std::string& name, const results::Mesh& m
           std::lower_bound(field.nodes.begin(), field.nodes.end(), mesh.triangles[corner]);
       field.triangles.push_back(static_cast<std::int32_t>(found - field.nodes.begin()));
     }
-    load.fields.push_back(field);
+    const std::string below = plus ? "fields/1/" : "fields/0/";
+    put(result.arrays, below, field, arrays::subdomain<Columns>);
+    put(result.arrays, path + below, field, arrays::field<Columns>);
   }
-  return load;
 }
 
 inline v1::Units units_of(const std::string& length, const std::string& force) {
@@ -213,10 +250,17 @@ inline results::Result sample_result(int n = 20) {
   result.total_seconds = 0.6;
   result.solver.mutable_uzawa()->set_epsilon(1e-12);
   result.solver.mutable_uzawa()->set_mass(v1::MASS_LUMPED);
-  result.mesh = sample_mesh(n);
-  result.interfaces = {sample_interface(n)};
-  result.loads = {sample_load("opening", result.mesh, result.interfaces[0], false),
-                  sample_load("partly closed", result.mesh, result.interfaces[0], true)};
+  const Columns grid = sample_grid(n), interface = sample_interface(n);
+  result.mesh = sample_mesh(grid);
+  result.arrays = {{"mesh/nodes", array_of(grid.xy, {2})},
+                   {"mesh/triangles", array_of(grid.triangles, {3})},
+                   {"mesh/subdomain", array_of(grid.subdomain)},
+                   {"mesh/boundary", array_of(grid.boundary, {2})},
+                   {"interfaces/0/edge_kind", array_of(interface.edge_kind)},
+                   {"interfaces/0/edge_inclusion", array_of(interface.edge_inclusion)}};
+  put(result.arrays, "interfaces/0/", interface, arrays::interface_nodes<Columns>);
+  add_load(result, "opening", grid, interface, false);
+  add_load(result, "partly closed", grid, interface, true);
   return result;
 }
 
@@ -242,15 +286,21 @@ inline std::vector<v1::Stage> sample_stages(std::size_t triangles) {
 /// The same result of a job with an accuracy, which it did not reach.
 inline results::Result with_stages(results::Result result) {
   result.not_reached = "energy to 0.0001: the mesh has max_triangles";
-  const std::size_t triangles = result.mesh.subdomain.size();
+  const std::size_t triangles = result.mesh.triangle_count();
   for (results::Load& load : result.loads) {
     load.stages = sample_stages(triangles);
+    Columns of_load;
     for (std::size_t t = 0; t < triangles; ++t) {
-      load.indicator.push_back(1e-3 / static_cast<double>(t + 1));
-      for (const double side : {1.0, 2.0, -3.0}) load.balanced_flux.push_back(side);
-      load.membrane_rows.push_back(static_cast<std::int32_t>(t));
-      load.membranes.push_back(0.5 * static_cast<double>(t));
+      of_load.indicator.push_back(1e-3 / static_cast<double>(t + 1));
+      for (const double side : {1.0, 2.0, -3.0}) of_load.balanced_flux.push_back(side);
+      of_load.membrane_rows.push_back(static_cast<std::int32_t>(t));
+      of_load.membranes.push_back(0.5 * static_cast<double>(t));
     }
+    const std::string path = results::load_path(load.name());
+    result.arrays[path + "indicator"] = array_of(of_load.indicator);
+    result.arrays[path + "balanced_flux"] = array_of(of_load.balanced_flux, {3});
+    result.arrays[path + "membrane_rows"] = array_of(of_load.membrane_rows);
+    result.arrays[path + "membranes"] = array_of(of_load.membranes);
   }
   return result;
 }

@@ -110,17 +110,5 @@ TEST(Coefficients, RefuseWhatIsNoMatrixWithLineColumnValueAndCure) {
   }
 }
 
-TEST(Coefficients, OfAFileThatCannotBeReadSaySo) {
-  for (const char* file : {"/no/such/file.csv", "/tmp"}) {
-    try {
-      read_coefficients(file, {"skew"});
-      ADD_FAILURE() << "accepted " << file;
-    } catch (const CaseError& error) {
-      EXPECT_THAT(error.what(),
-                  HasSubstr(std::string(file) + ": cannot be read; name a .csv file"));
-    }
-  }
-}
-
 }  // namespace
 }  // namespace anticrack::cli

@@ -32,7 +32,8 @@ class External(FolderTest):
             self.assertIn("known are", ended.stderr)
 
     def test_a_python_without_the_package_is_told_what_to_install(self):
-        self.program("bare", "exit 77")  # as Python ends where the package is not there
+        # With the words -P -c CODE FOLDER ..., and no package anywhere.
+        self.program("bare", 'code=$3; shift 4; exec /usr/bin/python3 -I -S -c "$code" "" "$@"')
         for python, said in ((self.folder / "bare", "install python3-anticrack and python3-matplotlib"),
                              ("/nowhere/python3", "cannot start /nowhere/python3")):
             ended = self.anticrack("--json", "plot", "r.h5", ANTICRACK_PYTHON=str(python))

@@ -37,17 +37,17 @@ TEST(SweepInput, ReadsTextAndDatasetsAlike) {
   results::write(folder / "a.h5", result);
   const SweepInput set =
       read_sweep_input({folder / "a.h5:/sweep/coefficients", "", "none"}, two_load_case());
-  EXPECT_EQ(set.values, result.sweep->coefficients);
+  EXPECT_THAT(set.values, ::testing::ElementsAreArray(result.sweep->numbers("coefficients")));
   EXPECT_EQ(set.rows, 5U);
   EXPECT_EQ(set.columns, 2U);
   const SweepInput text = read_sweep_input(
       {written(folder, "c.csv", "opening,skew\n1,2\n"), "", "all"}, two_load_case());
   EXPECT_THAT(text.values, ElementsAre(2, 1));
   EXPECT_EQ(text.rows, 1U);
-  EXPECT_EQ(text.traces, "all");
+  EXPECT_EQ(text.files.traces, "all");
   const SweepInput nodal =
       read_sweep_input({"", folder / "a.h5:/sweep/coefficients", "none"}, two_load_case());
-  EXPECT_TRUE(nodal.nodal);
+  EXPECT_TRUE(nodal.nodal());
   EXPECT_EQ(nodal.columns, 2U);
 }
 
@@ -67,8 +67,8 @@ TEST(SweepInput, LeavesOutTheAccuracyAndItsCoarseMesh) {
 
 SweepInput rows_of_two(std::size_t rows) {
   SweepInput input;
-  input.source = "c.csv";
-  input.traces = "none";
+  input.files.coefficients = "c.csv";
+  input.files.traces = "none";
   input.rows = rows;
   input.columns = 2;
   input.values.assign(2 * rows, 1.0);
@@ -78,8 +78,8 @@ SweepInput rows_of_two(std::size_t rows) {
 TEST(MakeSweep, LeavesAJobWithoutFieldsAndWithTheRowsToKeep) {
   Case the_case = two_load_case();
   SweepInput input = rows_of_two(10);
-  input.traces = "7,1-2";
-  input.bounds = true;
+  input.files.traces = "7,1-2";
+  input.files.bounds = true;
   make_sweep(input, the_case);
   EXPECT_TRUE(the_case.spec.sweep().bounds());
   EXPECT_THAT(the_case.spec.sweep().traces(), ElementsAre(1, 2, 7));
@@ -94,7 +94,7 @@ TEST(MakeSweep, OfNodalForcesHasNoLoads) {
   Case the_case = two_load_case();
   the_case.force_files.push_back({0, "f.h5", "/f"});
   SweepInput input = rows_of_two(10);
-  input.nodal = true;
+  input.files.nodal = "f.h5:/f";
   make_sweep(input, the_case);
   EXPECT_TRUE(the_case.spec.sweep().has_nodal_forces());
   EXPECT_EQ(the_case.spec.load_cases_size(), 0);

@@ -5,6 +5,7 @@
 #include <google/protobuf/util/json_util.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "cli/tables.hpp"
@@ -15,11 +16,12 @@ namespace {
 
 using anticrack::testing::sample_sweep;
 using anticrack::testing::tilting_sweep;
+using anticrack::testing::values_of;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
 void set_status(results::Result& result, std::size_t row, v1::LoadCaseAnswer::Status status) {
-  result.sweep->status.at(row) = status;
+  values_of<std::int32_t>(result.sweep->columns, "status")[row] = status;
   anticrack::testing::count_rows(*result.sweep);
 }
 
@@ -57,7 +59,7 @@ TEST(SweepTable, HasTheSlopesOfWhatTilts) {
                                                          "By               -0.5  -0.5\n"
                                                          "contact length"));
   results::Result level = sample_sweep(5);
-  level.sweep->slope.assign(10, 0.0);
+  level.sweep->columns["slope"] = results::array_of(std::vector<double>(10, 0.0), {1, 2});
   EXPECT_EQ(answers_table(level), answers_table(sample_sweep(5)));
 }
 
@@ -66,7 +68,7 @@ TEST(SweepTable, SaysHowWideBoundsAre) {
   EXPECT_THAT(answers_table(result),
               HasSubstr("-1\nbounds of 3 rows: of the energy at most 0.5 % wide, of A at most +- "
                         "0.01; none of row 4\ntraces of 2 rows\n"));
-  result.sweep->energy_lower.assign(5, results::unknown);
+  std::ranges::fill(values_of(result.sweep->columns, "energy_lower"), results::unknown);
   EXPECT_THAT(answers_table(result), HasSubstr("no row has bounds\n"));
 }
 
@@ -77,14 +79,14 @@ TEST(SweepTable, SpansTheMembranesOwnWhereThereAreBounds) {
                                                "contact length      0   0.9\n"
                                                "energy          -2.01    -1\n"))
       << "of the last row, without bounds, A = 0.1 on the mesh";
-  result.sweep->displacement_lower[0] = -0.123412;
-  result.sweep->displacement_upper[2] = 0.123412;
-  result.sweep->contact_length[0] = 20.3125;
+  values_of(result.sweep->columns, "displacement_lower")[0] = -0.123412;
+  values_of(result.sweep->columns, "displacement_upper")[2] = 0.123412;
+  values_of(result.sweep->columns, "contact_length")[0] = 20.3125;
   EXPECT_THAT(answers_table(result), HasSubstr("A               -0.1235  0.1235\n"
                                                "contact length        0    20.3\n"));
-  result.sweep->displacement_lower[0] = -1.23476e5;
-  result.sweep->displacement_upper[2] = -1e-7 + 1;
-  result.sweep->contact_length[0] = 1234.5;
+  values_of(result.sweep->columns, "displacement_lower")[0] = -1.23476e5;
+  values_of(result.sweep->columns, "displacement_upper")[2] = -1e-7 + 1;
+  values_of(result.sweep->columns, "contact_length")[0] = 1234.5;
   EXPECT_THAT(answers_table(result), HasSubstr("A               -123500     1\n"
                                                "contact length        0  1230\n"));
 }
@@ -93,10 +95,11 @@ TEST(SweepTable, TellsOfManyInclusionsWhoseTheEndsAre) {
   results::Result result = sample_sweep(3);
   results::Sweep& sweep = *result.sweep;
   sweep.inclusions.clear();
-  sweep.displacement.clear();
+  std::vector<double> displacement;
   for (int i = 0; i < 7; ++i) sweep.inclusions.push_back("rod" + std::to_string(i));
   for (int row = 0; row < 3; ++row)
-    for (int i = 0; i < 7; ++i) sweep.displacement.push_back((i == 3 ? -2 : i) * (row + 1));
+    for (int i = 0; i < 7; ++i) displacement.push_back((i == 3 ? -2 : i) * (row + 1));
+  sweep.columns["displacement"] = results::array_of(displacement, {7});
   EXPECT_THAT(answers_table(result), HasSubstr("                   least  of    most  of\n"
                                                "A of 7 inclusions     -6  rod3    18  rod6\n"));
   EXPECT_THAT(answers_table(result),
@@ -108,7 +111,7 @@ TEST(SweepTable, NamesSeveralInclusionsAndWhatWentWrong) {
   results::Result result = sample_sweep(3);
   results::Sweep& sweep = *result.sweep;
   sweep.inclusions = {"left", "ri\x1bght"};
-  sweep.displacement = {1, 2, 3, 4, 5, 6};
+  sweep.columns["displacement"] = results::array_of(std::vector<double>{1, 2, 3, 4, 5, 6}, {2});
   sweep.error = "row 1: \x1b[2J";
   set_status(result, 1, v1::LoadCaseAnswer::STATUS_FAILED);
   const std::string text = answers_table(result);
@@ -179,8 +182,8 @@ TEST(SweepCsv, HasSlopesWhereAnInclusionTilts) {
 
 TEST(SweepCsv, HasBoundsBesideWhatTheyAreOf) {
   results::Result result = anticrack::testing::bounded_sweep(5);
-  result.sweep->displacement_lower[0] = -0.125;
-  result.sweep->displacement_upper[0] = -0.0625;
+  values_of(result.sweep->columns, "displacement_lower")[0] = -0.125;
+  values_of(result.sweep->columns, "displacement_upper")[0] = -0.0625;
   const std::string text = sweep_csv(*result.sweep);
   EXPECT_THAT(text, ::testing::StartsWith("row,skew,opening,A,A_lower,A_upper,A_mesh,energy,"
                                           "energy_lower,energy_upper,energy_mesh,contact_length,"
@@ -192,13 +195,13 @@ TEST(SweepCsv, HasBoundsBesideWhatTheyAreOf) {
 
 TEST(SweepCsv, GivesNumbersBackExactly) {
   results::Result result = sample_sweep(3);
-  result.sweep->energy[0] = 1.0 / 3;
+  values_of(result.sweep->columns, "energy")[0] = 1.0 / 3;
   EXPECT_THAT(sweep_csv(*result.sweep), HasSubstr(",0.3333333333333333,"));
 }
 
 TEST(SweepCsv, LeavesCoefficientsOutThatAreNotKnown) {
   results::Result result = sample_sweep(3);
-  result.sweep->coefficients.clear();
+  result.sweep->columns.erase("coefficients");
   EXPECT_THAT(sweep_csv(*result.sweep), ::testing::StartsWith("row,A,energy,"));
 }
 

@@ -17,6 +17,8 @@ namespace anticrack::cli {
 namespace {
 
 using anticrack::testing::BlockMaker;
+using ::testing::ElementsAre;
+using ::testing::SizeIs;
 using Reals = std::vector<double>;
 using Integers = std::vector<std::int32_t>;
 
@@ -84,18 +86,20 @@ TEST(ToResult, KeepsWhatTheServerSaid) {
   EXPECT_EQ(result.title, "A plate");
   EXPECT_EQ(result.server_version, "9.8");
   EXPECT_FALSE(result.client_version.empty());
-  EXPECT_EQ(result.mesh.xy.size(), 8U);
-  EXPECT_EQ(result.mesh.info.SerializeAsString(), fetched().mesh.SerializeAsString());
-  EXPECT_EQ(result.interfaces[0].edge_kind, Integers{3});
-  EXPECT_EQ(result.interfaces[0].edge_inclusion, Integers{0});
+  EXPECT_EQ(result.mesh.SerializeAsString(), fetched().mesh.SerializeAsString());
+  EXPECT_THAT(results::entries_at<double>(result.arrays, "mesh/nodes"), SizeIs(8));
+  EXPECT_THAT(results::entries_at<std::int32_t>(result.arrays, "interfaces/0/edge_kind"),
+              ElementsAre(3));
   ASSERT_EQ(result.loads.size(), 1U);
   const results::Load& load = result.loads[0];
   EXPECT_EQ(load.name(), "one");
   v1::LoadCaseAnswer sent = fetched().job.status().answers(0);
   sent.set_name("one");
   EXPECT_EQ(load.answer.SerializeAsString(), sent.SerializeAsString());
-  EXPECT_EQ(load.traces[0].u_plus, (Reals{0.5, 0.5}));
-  EXPECT_EQ(load.history.iteration, Integers{1});
+  EXPECT_THAT(results::entries_at<double>(result.arrays, "loads/one/traces/0/u_plus"),
+              ElementsAre(0.5, 0.5));
+  EXPECT_THAT(results::entries_at<std::int32_t>(result.arrays, "loads/one/history/iteration"),
+              ElementsAre(1));
   EXPECT_EQ(results::solve_seconds(result), 1.5);
 }
 
@@ -128,7 +132,7 @@ TEST(ToResult, KeepsALoadThatFailedWithoutArrays) {
   const results::Result result = to_result(failed);
   EXPECT_EQ(result.loads[1].answer.error().message(), "not finite");
   EXPECT_TRUE(std::isnan(result.loads[1].answer.energy()));
-  EXPECT_TRUE(result.loads[1].traces.empty());
+  EXPECT_FALSE(result.arrays.contains("loads/two/traces/0/u_plus"));
 }
 
 /// Three rows over two loads, of which the middle one did not converge; traces of the last two.
@@ -167,22 +171,23 @@ TEST(ToResult, KeepsTheColumnsOfASweep) {
   const results::Sweep& sweep = *result.sweep;
   EXPECT_EQ(sweep.loads, (std::vector<std::string>{"one", "two"}));
   EXPECT_EQ(sweep.inclusions, std::vector<std::string>{"fibre"});
-  EXPECT_EQ(sweep.status, (Integers{3, 4, 3}));
-  EXPECT_EQ(sweep.steps, (Integers{1, 7, 2}));
-  EXPECT_EQ(sweep.energy, (Reals{-1, 0, -3}));
-  EXPECT_EQ(sweep.contact_length, (Reals{0, 0, 1}));
-  EXPECT_EQ(sweep.displacement, (Reals{0.5, 0, 0.25}));
-  EXPECT_TRUE(sweep.slope.empty()) << "nothing tilts";
-  EXPECT_EQ(sweep.contact, (std::vector<std::uint8_t>{0, 0, 0, 1, 1, 1}));
-  EXPECT_EQ(sweep.contact_nodes, (Integers{0, 0, 0, 1}));
+  EXPECT_THAT(sweep.status(), ElementsAre(3, 4, 3));
+  EXPECT_THAT(sweep.integers("steps"), ElementsAre(1, 7, 2));
+  EXPECT_THAT(sweep.numbers("energy"), ElementsAre(-1, 0, -3));
+  EXPECT_THAT(sweep.numbers("contact_length"), ElementsAre(0, 0, 1));
+  EXPECT_THAT(sweep.numbers("displacement"), ElementsAre(0.5, 0, 0.25));
+  EXPECT_TRUE(sweep.numbers("slope").empty()) << "nothing tilts";
+  EXPECT_THAT(results::entries_at<std::uint8_t>(sweep.columns, "contact"),
+              ElementsAre(0, 0, 0, 1, 1, 1));
+  EXPECT_THAT(sweep.integers("contact_nodes"), ElementsAre(0, 0, 0, 1));
   EXPECT_EQ(sweep.error, "row 1 is odd");
   EXPECT_EQ(results::solve_seconds(result), 2);
-  EXPECT_TRUE(sweep.coefficients.empty()) << "the server does not give them back";
+  EXPECT_TRUE(sweep.numbers("coefficients").empty()) << "the server does not give them back";
 }
 
 TEST(ToResult, MakesLoadsOfTheRowsThatHaveTraces) {
   const results::Result result = to_result(fetched_sweep());
-  EXPECT_EQ(result.sweep->kept, Integers{2}) << "row 1 came to no end";
+  EXPECT_THAT(result.sweep->integers("kept"), ElementsAre(2)) << "row 1 came to no end";
   ASSERT_EQ(result.loads.size(), 1U);
   const results::Load& load = result.loads[0];
   EXPECT_EQ(load.name(), "row-2");
@@ -190,7 +195,8 @@ TEST(ToResult, MakesLoadsOfTheRowsThatHaveTraces) {
   EXPECT_EQ(load.answer.iterations(), 2);
   EXPECT_EQ(load.answer.energy(), -3);
   EXPECT_EQ(load.answer.inclusions(0).displacement(), 0.25);
-  EXPECT_EQ(load.traces.at(0).u_plus, (Reals{0.5, 0.75}));
+  EXPECT_THAT(results::entries_at<double>(result.arrays, "loads/row-2/traces/0/u_plus"),
+              ElementsAre(0.5, 0.75));
   ASSERT_EQ(load.answer.contact_intervals_size(), 1);
   EXPECT_EQ(load.answer.contact_intervals(0).begin(), 0);
   EXPECT_EQ(load.answer.contact_intervals(0).end(), 1);
@@ -213,7 +219,7 @@ Fetched fetched_tilting(std::initializer_list<std::uint64_t> shape) {
 
 TEST(ToResult, KeepsTheSlopesOfASweep) {
   const results::Result result = to_result(fetched_tilting({3, 1, 2}));
-  EXPECT_EQ(result.sweep->slope, (Reals{1, 2, 3, 4, 5, 6}));
+  EXPECT_THAT(result.sweep->numbers("slope"), ElementsAre(1, 2, 3, 4, 5, 6));
   const v1::InclusionAnswer& fibre = result.loads.at(0).answer.inclusions(0);
   EXPECT_EQ(fibre.slope_x(), 5);
   EXPECT_EQ(fibre.slope_y(), 6);
@@ -235,8 +241,8 @@ TEST(ToResult, TakesASweepWithoutInclusionsAndCracks) {
     }
   }
   const results::Result result = to_result(plain);
-  EXPECT_TRUE(result.sweep->displacement.empty());
-  EXPECT_TRUE(result.sweep->contact.empty());
+  EXPECT_TRUE(result.sweep->numbers("displacement").empty());
+  EXPECT_TRUE(results::entries_at<std::uint8_t>(result.sweep->columns, "contact").empty());
 }
 
 TEST(ToResult, RefusesASweepThatDoesNotFitTogether) {

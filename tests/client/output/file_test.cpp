@@ -90,6 +90,11 @@ TEST_F(Output, KeepsPermissions) {
   struct stat found {};
   ASSERT_EQ(stat((_folder / "scratch/old").c_str(), &found), 0);
   EXPECT_EQ(found.st_mode & 0777, 0640u);
+  const mode_t before = umask(027);
+  write_file(_folder / "scratch/new", "new");
+  umask(before);
+  ASSERT_EQ(stat((_folder / "scratch/new").c_str(), &found), 0);
+  EXPECT_EQ(found.st_mode & 0777, 0640u) << "of the umask";
 }
 
 TEST_F(Output, ThatCannotBeIsRefusedAndNamed) {
@@ -112,6 +117,20 @@ TEST_F(Output, ThatCannotBeIsRefusedAndNamed) {
     EXPECT_THROW(check_writable(_folder / path), Error) << path;
   }
   close(socket);
+  EXPECT_THAT(complaint("/proc/a.h5"),
+              HasSubstr("/proc/a.h5: cannot create a file in this folder"));
+  EXPECT_THROW(check_writable(""), Error);
+  check_writable(_folder / "scratch/new");
+  EXPECT_EQ(files_in(_folder / "scratch"), 1u) << "the check leaves nothing behind";
+  fs::create_directory(_folder / "scratch/old~");
+  EXPECT_THROW(check_writable(_folder / "scratch/old"), Error) << "where a former file is kept";
+  if (geteuid() == 0) return;  // permissions do not hold for root
+  chmod((_folder / "scratch/old").c_str(), 0444);
+  fs::remove(_folder / "scratch/old~");
+  EXPECT_THROW(check_writable(_folder / "scratch/old"), Error);
+  chmod((_folder / "scratch").c_str(), 0555);
+  EXPECT_THAT(complaint(_folder / "scratch/b"), HasSubstr("Permission denied"));
+  chmod((_folder / "scratch").c_str(), 0755);
 }
 
 TEST_F(Output, GoesIntoPipesAndDevicesAsAStream) {

@@ -18,7 +18,7 @@ using ::testing::IsEmpty;
 Result moved(double a) {
   Result result;
   result.units = anticrack::testing::units_of("mm", "N");
-  result.mesh.xy = {0, 10, 200, 10, 200, 60, 0, 60};
+  result.arrays["mesh/nodes"] = array_of(std::vector<double>{0, 10, 200, 10, 200, 60, 0, 60}, {2});
   result.loads.resize(2);
   result.loads[0].answer.set_name("small");
   result.loads[1].answer.set_name("large");
@@ -36,21 +36,20 @@ TEST(Notes, tell_of_u_above_a_tenth_of_the_smaller_side) {
 
 TEST(Notes, look_at_all_of_u_that_is_known) {
   Result traced = moved(0), drawn = moved(0), swept = moved(0);
-  traced.loads[0].traces.resize(1);
-  traced.loads[0].traces[0].u_plus = {0, -7};
+  traced.arrays["loads/small/traces/0/u_plus"] = array_of(std::vector<double>{0, -7});
   EXPECT_THAT(notes_on(traced), ElementsAre(HasSubstr("reaches 7 mm in load \"small\"")));
-  drawn.loads[0].fields.resize(1);
-  drawn.loads[0].fields[0].u = {0, 8};
+  drawn.arrays["loads/small/fields/0/u"] = array_of(std::vector<double>{0, 8});
   EXPECT_THAT(notes_on(drawn), ElementsAre(HasSubstr("reaches 8 mm")));
   swept.loads.clear();
   swept.sweep.emplace();
   swept.sweep->inclusions = {"fibre"};
-  swept.sweep->status = {v1::LoadCaseAnswer::STATUS_CONVERGED, v1::LoadCaseAnswer::STATUS_FAILED};
-  swept.sweep->displacement = {-9, 1e3};  // that of a row that failed means nothing
-  swept.sweep->energy = {-1, -1};
-  swept.sweep->steps = {1, 1};
-  swept.sweep->contact_length = {0, 0};
-  swept.sweep->kkt = {0, 0};
+  swept.sweep->columns = {
+      {"status", array_of(std::vector<std::int32_t>{v1::LoadCaseAnswer::STATUS_CONVERGED,
+                                                    v1::LoadCaseAnswer::STATUS_FAILED})},
+      // that of a row that failed means nothing
+      {"displacement", array_of(std::vector<double>{-9, 1e3}, {1})},
+      {"energy", array_of(std::vector<double>{-1, -1})},
+      {"contact_length", array_of(std::vector<double>{0, 0})}};
   EXPECT_THAT(notes_on(swept), ElementsAre(HasSubstr("u reaches 9 mm, and")));
 }
 

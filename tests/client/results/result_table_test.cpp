@@ -21,36 +21,28 @@
 namespace anticrack::results {
 namespace {
 
-/// What the entries of an array are, unless float64.
-template <class T>
-std::string type_text(const std::vector<T>&) {
-  return value_type<T> == ValueType::float64 ? ""
-         : value_type<T> == ValueType::text  ? " text"
-                                             : std::string(" ") + name_of(value_type<T>);
-}
-template <class T>
-std::string type_text(const T&) {
-  return "";
+/// What entries are, unless float64.
+std::string type_text(ValueType type) {
+  return type == ValueType::float64 ? ""
+         : type == ValueType::text  ? " text"
+                                    : std::string(" ") + name_of(type);
 }
 
 /// "`x`, `y` (k): coordinates; ...". A row that says nothing has the words of the next that does.
-template <class Record, class... Tables>
-std::string entries(const Tables&... tables) {
+template <class Table>
+std::string entries(const Table& table) {
   std::string text;
   bool joined = false;
-  arrays::for_each(
-      [&](const auto& row) {
-        text += (joined ? ", `" : text.empty() ? "`" : "; `") + std::string(row.name) + "`";
-        joined = row.what.empty();
-        if (joined) return;
-        if (!row.shape.empty()) {
-          text += " (" + std::string(row.shape) + ")" +
-                  type_text(arrays::MemberOf<Record, decltype(row.member)>());
-        }
-        text += ": " + std::string(row.what);
-        if (!row.unit.empty()) text += " [" + std::string(row.unit) + "]";
-      },
-      tables...);
+  const auto add = [&](const auto& row) {
+    text += (joined ? ", `" : text.empty() ? "`" : "; `") + std::string(row.name) + "`";
+    joined = row.what.empty();
+    if (joined) return;
+    if constexpr (requires { row.type; })
+      text += " (" + std::string(row.shape) + ")" + type_text(row.type);
+    text += ": " + std::string(row.what);
+    if (!row.unit.empty()) text += " [" + std::string(row.unit) + "]";
+  };
+  std::apply([&](const auto&... rows) { (add(rows), ...); }, table);
   return text;
 }
 
@@ -58,11 +50,8 @@ std::string entries(const Tables&... tables) {
 std::string entries(const google::protobuf::Descriptor& type) {
   std::string text;
   for (const Entry& entry : entries_of(type)) {
-    text += (text.empty() ? "`" : "; `") + entry.name + "`" +
-            (entry.type == ValueType::float64 ? ""
-             : entry.type == ValueType::text  ? " text"
-                                              : std::string(" ") + name_of(entry.type)) +
-            ": " + std::regex_replace(entry.meaning, std::regex("\\|"), "\\|");
+    text += (text.empty() ? "`" : "; `") + entry.name + "`" + type_text(entry.type) + ": " +
+            std::regex_replace(entry.meaning, std::regex("\\|"), "\\|");
     if (!entry.unit.empty()) text += " [" + entry.unit + "]";
   }
   return text;
@@ -75,27 +64,26 @@ std::string line(const std::string& where, const std::string& what) {
 std::string result_table() {
   const std::string values = "attributes ";
   return "| where | what |\n|---|---|\n" +
-         line("/", values + "`format`; " + entries<Result>(tables::result)) +
+         line("/", values + "`format`; " + entries(tables::result)) +
          line("/",
               "`meanings` (numbers,4) text: of each number of the solver, mesh, loads, "
               "stages and sweep, and of their lists: where it is, its name, unit and meaning") +
          line("/units", values + entries(*v1::Units::descriptor())) +
          line("/solver", values + entries(*v1::Solver::descriptor())) +
          line("/mesh", values + entries(*v1::Mesh::descriptor())) +
-         line("/mesh", entries<Mesh>(tables::mesh) +
+         line("/mesh", entries(tables::mesh) +
                            "; `inclusions` (i) text: names; `warnings` (w) text: what an import "
                            "repaired or assumed") +
          line("/mesh/subdomains", entries(*v1::SubdomainInfo::descriptor())) +
          line("/mesh/interfaces", entries(*v1::InterfaceInfo::descriptor())) +
          line("/mesh/tips", entries(*v1::TipInfo::descriptor())) +
-         line("/interfaces/I",
-              entries<Interface>(arrays::interface_nodes<Interface>, tables::edges)) +
+         line("/interfaces/I", entries(tables::interface)) +
          line("/loads/LOAD",
               values + "`index`: from 0; " + entries(*v1::LoadCaseAnswer::descriptor())) +
          line("/loads/LOAD",
               "`warnings` (w) text: e.g. of a load not integrated as exactly as "
               "asked; `growth_notes` (g) text: with growth, jumps, what snaps and why it ends; " +
-                  entries<Load>(tables::of_load)) +
+                  entries(tables::load)) +
          line("/loads/LOAD/stages", "with an accuracy: " + entries(*v1::Stage::descriptor()) +
                                         "; " + entries(*v1::StageAnswer::descriptor())) +
          line("/loads/LOAD/inclusions", entries(*v1::InclusionAnswer::descriptor())) +
@@ -104,15 +92,13 @@ std::string result_table() {
          line("/loads/LOAD/probes", entries(*v1::ProbeAnswer::descriptor())) +
          line("/loads/LOAD/growth", entries(*v1::GrowthRow::descriptor())) +
          line("/loads/LOAD/contact_intervals", entries(*v1::ContactInterval::descriptor())) +
-         line("/loads/LOAD/traces/I", entries<Trace>(arrays::trace<Trace>)) +
-         line("/loads/LOAD/history", entries<History>(arrays::history<History>)) +
+         line("/loads/LOAD/traces/I", entries(tables::trace)) +
+         line("/loads/LOAD/history", entries(tables::history)) +
          line("/loads/LOAD/fields/D",
-              "when asked for: " + entries<Field>(arrays::subdomain<Field>, arrays::field<Field>)) +
-         line("/sweep", "of a sweep: " + values + "`description`; " +
-                            entries<Sweep>(tables::sweep) + "; " +
-                            entries(*v1::SweepAnswer::descriptor())) +
-         line("/sweep",
-              "`warnings` (w) text: about the loads; " + entries<Sweep>(tables::sweep_arrays));
+              "when asked for: " + entries(tables::subdomain) + "; " + entries(tables::field)) +
+         line("/sweep", "of a sweep: " + values + "`description`; " + entries(tables::sweep) +
+                            "; " + entries(*v1::SweepAnswer::descriptor())) +
+         line("/sweep", "`warnings` (w) text: about the loads; " + entries(tables::columns));
 }
 
 TEST(ResultTable, has_the_table_of_the_result_file) {
@@ -173,9 +159,8 @@ TEST(ResultTable, lists_what_a_file_holds_and_nothing_else) {
   add_names(anticrack::testing::with_stages(anticrack::testing::sample_result(2)), held);
   add_names(anticrack::testing::tilting_sweep(5), held);
   Result sweep = anticrack::testing::bounded_sweep(5);
-  for (const auto of_tips :
-       {&Sweep::intensity, &Sweep::energy_release_rate, &Sweep::energy_release_rate_spread})
-    (*sweep.sweep).*of_tips = std::vector<double>(2 * sweep.sweep->rows(), 0.5);
+  for (const char* of_tips : {"intensity", "energy_release_rate", "energy_release_rate_spread"})
+    sweep.sweep->columns[of_tips] = array_of(std::vector<double>(10, 0.5), {2});
   add_names(sweep, held);
   Names listed;
   std::istringstream lines(result_table());

@@ -8,7 +8,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <map>
 #include <utility>
 
 #include "client/sample_sweep.hpp"
@@ -22,6 +21,7 @@ using anticrack::testing::same;
 using anticrack::testing::sample_sweep;
 using anticrack::testing::TemporaryFolder;
 using anticrack::testing::tilting_sweep;
+using anticrack::testing::values_of;
 using ::testing::HasSubstr;
 
 Result written_and_read(const Result& result) {
@@ -38,7 +38,7 @@ TEST(SweepFile, ComesBackAsItWasWritten) {
   EXPECT_TRUE(same(*back.sweep, *result.sweep));
   ASSERT_EQ(back.loads.size(), 2U);
   EXPECT_EQ(back.loads[1].name(), "row-2999");
-  EXPECT_EQ(back.loads[1].traces[0].jump, result.loads[1].traces[0].jump);
+  EXPECT_EQ(back.arrays.count("loads/row-2999/traces/0/u_plus"), 1U);
 }
 
 TEST(SweepFile, HasSlopesInThreeDimensions) {
@@ -46,8 +46,8 @@ TEST(SweepFile, HasSlopesInThreeDimensions) {
     Result result = tilting_sweep(rows);
     Sweep& sweep = *result.sweep;
     sweep.inclusions.emplace_back("other");
-    sweep.displacement.insert(sweep.displacement.end(), rows, 0.0);
-    sweep.slope.insert(sweep.slope.end(), 2 * rows, 0.75);
+    sweep.columns["displacement"] = array_of(std::vector<double>(2 * rows, 0.5), {2});
+    sweep.columns["slope"] = array_of(std::vector<double>(4 * rows, 0.75), {2, 2});
     const TemporaryFolder folder;
     write(folder / "a.h5", result);
     EXPECT_TRUE(same(*read(folder / "a.h5").sweep, sweep));
@@ -64,28 +64,18 @@ TEST(SweepFile, HasSlopesInThreeDimensions) {
   }
 }
 
-TEST(SweepFile, HasBoundsWhereTheyWereAskedFor) {
+TEST(SweepFile, HasBoundsAndTipsWhereTheyWereAskedFor) {
   Result result = anticrack::testing::bounded_sweep(5);
-  const Sweep back = *written_and_read(result).sweep;
-  EXPECT_TRUE(std::isnan(back.energy_lower.back()) && std::isnan(back.displacement_upper.back()));
-  for (const auto& [name, member] : std::map<std::string, std::vector<double> Sweep::*>{
-           {"energy_lower", &Sweep::energy_lower},
-           {"energy_upper", &Sweep::energy_upper},
-           {"energy_mesh", &Sweep::energy_mesh},
-           {"displacement_lower", &Sweep::displacement_lower},
-           {"displacement_upper", &Sweep::displacement_upper},
-           {"displacement_mesh", &Sweep::displacement_mesh}}) {
-    std::vector<double> read = back.*member, wanted = (*result.sweep).*member;
-    read.pop_back();
-    wanted.pop_back();
-    EXPECT_EQ(read, wanted) << name;
+  for (const char* of_tips : {"intensity", "energy_release_rate", "energy_release_rate_spread"})
+    result.sweep->columns[of_tips] = array_of(std::vector<double>(10, 0.5), {2});
+  EXPECT_TRUE(same(*written_and_read(result).sweep, *result.sweep));
+  for (const char* name : {"energy_lower", "energy_upper", "energy_mesh", "displacement_lower",
+                           "displacement_upper", "displacement_mesh"}) {
     Result other = result;
-    ((*other.sweep).*member).clear();
+    other.sweep->columns.erase(name);
     EXPECT_THAT(first_fault(other), HasSubstr("sweep has some of its bounds")) << name;
-    ((*other.sweep).*member).assign(4, 0.0);
-    EXPECT_THAT(first_fault(other), HasSubstr("sweep." + name + " has 4 entries instead of 5"));
   }
-  EXPECT_TRUE(written_and_read(sample_sweep(5)).sweep->energy_lower.empty());
+  EXPECT_TRUE(written_and_read(sample_sweep(5)).sweep->numbers("energy_lower").empty());
 }
 
 TEST(SweepFile, RefusesSlopesOfAnotherShape) {
@@ -100,20 +90,19 @@ TEST(SweepFile, RefusesSlopesOfAnotherShape) {
     read(folder / "a.h5");
     ADD_FAILURE() << "was read";
   } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("dataset slope is not of shape (n,1,2)"));
+    EXPECT_THAT(error.what(),
+                HasSubstr("dataset slope is not of shape (rows,inclusions,2) but (5,1)"));
   }
 }
 
 TEST(SweepFile, HoldsASweepWithoutCoefficientsInclusionsAndCracks) {
   Result result = sample_sweep(3);
   Sweep& sweep = *result.sweep;
-  sweep.coefficients.clear();
   sweep.loads.clear();
   sweep.inclusions.clear();
-  sweep.displacement.clear();
-  sweep.contact.clear();
-  sweep.contact_nodes.clear();
-  sweep.kept.clear();
+  for (const char* name : {"coefficients", "displacement", "contact"}) sweep.columns.erase(name);
+  sweep.columns["contact_nodes"] = array_of(std::vector<std::int32_t>(), {2});
+  sweep.columns["kept"] = array_of(std::vector<std::int32_t>());
   result.loads.clear();
   const Result back = written_and_read(result);
   ASSERT_TRUE(back.sweep);
@@ -124,23 +113,17 @@ using Spoil = std::function<void(Result&)>;
 
 TEST(Sweep, IsNotWrittenFromWhatDoesNotFitTogether) {
   const std::vector<std::pair<std::string, Spoil>> table{
-      {"sweep.steps has 20 entries instead of 21", [](Result& r) { r.sweep->steps.pop_back(); }},
-      {"sweep.energy", [](Result& r) { r.sweep->energy.pop_back(); }},
-      {"sweep.contact_length", [](Result& r) { r.sweep->contact_length.pop_back(); }},
-      {"sweep.kkt", [](Result& r) { r.sweep->kkt.pop_back(); }},
-      {"sweep.displacement", [](Result& r) { r.sweep->inclusions.emplace_back("other"); }},
-      {"sweep.slope has 40 entries instead of 42",
-       [](Result& r) { r.sweep->slope.assign(40, 0.0); }},
-      {"sweep.contact has", [](Result& r) { r.sweep->contact.pop_back(); }},
-      {"sweep.contact_nodes has", [](Result& r) { r.sweep->contact_nodes.push_back(0); }},
-      {"sweep.coefficients", [](Result& r) { r.sweep->coefficients.pop_back(); }},
-      {"sweep.status[3] is 9, no status", [](Result& r) { r.sweep->status[3] = 9; }},
+      {"sweep.status[3] is 9, no status",
+       [](Result& r) { values_of<std::int32_t>(r.sweep->columns, "status")[3] = 9; }},
       {"sweep counts other rows than its 21", [](Result& r) { r.sweep->answer.set_rows(20); }},
       {"sweep counts other rows than its 21",
        [](Result& r) { r.sweep->answer.set_failed(std::uint64_t{1} << 63); }},
-      {"sweep.kept[1] is 21", [](Result& r) { r.sweep->kept[1] = 21; }},
-      {"sweep.kept[1] is 0", [](Result& r) { r.sweep->kept[1] = 0; }},
-      {"sweep.kept[0] is -1", [](Result& r) { r.sweep->kept[0] = -1; }},
+      {"sweep.kept[1] is 21",
+       [](Result& r) { values_of<std::int32_t>(r.sweep->columns, "kept")[1] = 21; }},
+      {"sweep.kept[1] is 0",
+       [](Result& r) { values_of<std::int32_t>(r.sweep->columns, "kept")[1] = 0; }},
+      {"sweep.kept[0] is -1",
+       [](Result& r) { values_of<std::int32_t>(r.sweep->columns, "kept")[0] = -1; }},
       {"loads has 1 entries for 2 kept rows", [](Result& r) { r.loads.pop_back(); }},
   };
   EXPECT_EQ(first_fault(sample_sweep()), "");
@@ -155,8 +138,9 @@ TEST(Sweep, IsNotWrittenFromWhatDoesNotFitTogether) {
 
 TEST(SweepSummary, SpansTheConvergedRows) {
   Result result = sample_sweep(5);  // row 3 did not converge
-  result.sweep->status[2] = v1::LoadCaseAnswer::STATUS_FAILED;
-  result.sweep->status[1] = v1::LoadCaseAnswer::STATUS_CANCELLED;
+  const auto status = values_of<std::int32_t>(result.sweep->columns, "status");
+  status[2] = v1::LoadCaseAnswer::STATUS_FAILED;
+  status[1] = v1::LoadCaseAnswer::STATUS_CANCELLED;
   const SweepSummary counts = summary(*result.sweep);
   EXPECT_DOUBLE_EQ(counts.displacement.at(0).low, -0.1);
   EXPECT_DOUBLE_EQ(counts.displacement.at(0).high, 0.1);
@@ -182,7 +166,8 @@ TEST(SweepSummary, SpansTheSlopes) {
 
 TEST(SweepSummary, KnowsNoRangeWhereNothingConverged) {
   Result result = sample_sweep(3);
-  result.sweep->status.assign(3, v1::LoadCaseAnswer::STATUS_FAILED);
+  std::ranges::fill(values_of<std::int32_t>(result.sweep->columns, "status"),
+                    v1::LoadCaseAnswer::STATUS_FAILED);
   const SweepSummary counts = summary(*result.sweep);
   EXPECT_TRUE(std::isnan(counts.energy.low));
   EXPECT_TRUE(std::isnan(counts.displacement.at(0).high));
