@@ -138,8 +138,8 @@ export async function tables() {
   return found;
 }
 
-/** An array of the result. @param {string} what @param {number} load @param {number} line */
-export const values = (what, load = loadIndex(), line = 0) => array({of: model.of, what, load, interface: line});
+/** An array of the result. @param {string} what @param {number} load @param {any} more interface, or thin */
+export const values = (what, load = loadIndex(), more = {}) => array({of: model.of, what, load, ...more});
 
 /**
  * The history of a load case by name: as it comes, or of the result; undefined if there is none. @param {number} index

@@ -45,7 +45,7 @@ export function array(query) {
   const found = kept.get(where) ?? answered(where).then(async (answer) => {
     const buffer = await answer.arrayBuffer();
     const values = answer.headers.get('X-Array') === 'i4' ? new Int32Array(buffer) : new Float64Array(buffer);
-    return Object.assign(values, {cut: Number(answer.headers.get('X-Cut') ?? Infinity)});
+    return Object.assign(values, {range: (answer.headers.get('X-Range') || '0 1 1').split(' ').map(Number)});
   });
   kept.delete(where);
   kept.set(where, found);

@@ -80,7 +80,7 @@ function hit() {
 export async function clicked(found) {
   picked.hit = found;
   draw();
-  if (!found || currentStage()) return;
+  if (!found || currentStage() || Number.isNaN(found.triangle)) return;
   found.told = await ask('triangle', {of: model.of, load: loadIndex(), index: found.triangle});
   draw();
 }

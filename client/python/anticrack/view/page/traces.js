@@ -22,7 +22,7 @@ export async function draw(panel, wanted) {
   const over = get('over').split(',').filter(Boolean).map(Number), k = interfaces[line].nodes;
   const shown = have.filter((i) => i === own || over.includes(i)).slice(0, MOST);
   const [[s, x, y], ...traces] = (await Promise.all([
-    values('line', own, line), ...shown.map((i) => values('trace', i, line))
+    values('line', own, {interface: line}), ...shown.map((i) => values('trace', i, {interface: line}))
   ])).map((each) => split(each, k));
   if (!wanted()) return;
   charts.forEach((chart) => chart.destroy());
