@@ -15,6 +15,7 @@ from selenium.webdriver.common.keys import Keys
 
 import anticrack
 from anticrack import vtk
+from anticrack.view import scene
 from anticrack.draw import files
 from anticrack.draw.sheet import Look
 from browser import InChromium, viewing
@@ -56,6 +57,22 @@ max_iterations = 1000000
 [[load]]
 name = "up"
 f = "y > 0 ? -1 : 1"
+"""
+SLIT = """
+[geometry]
+boundary = [[-1, -1], [1, -1], [1, 1], [-1, 1]]
+[[geometry.crack]]
+name = "slit"
+points = [[-0.5, 0], [0.5, 0]]
+[mesh]
+preset = "uniform"
+size = 0.2
+[output]
+fields = true
+bounds = false
+[[load]]
+name = "up"
+f = "y > 0 ? 1 : -1"
 """
 PICTURE = "return document.getElementById('scene').dataset.frames > 0 && !document.getElementById('stage').hidden"
 ROW = "return new URLSearchParams(location.hash.slice(1)).get('row')"
@@ -245,6 +262,38 @@ class Explored(InChromium):
 
 
 class OfAFile(InChromium):
+    def test_many_triangles_are_thinned_first_and_while_they_move(self):
+        with anticrack.local(program=ANTICRACKD) as client:
+            result = client.run(anticrack.Case.parse(SLIT.replace("0.2", "0.0065")), progress=False)
+        result.save(self.folder / "many.h5")
+        (load,) = result.loads.values()
+        surface, count = scene.Values(result, load), len(result.mesh.triangles)
+        self.assertGreater(count, 200_000)
+        edges, own = np.unique(np.sort(surface.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1), axis=0,
+                               return_counts=True)
+        np.testing.assert_array_equal(surface.array("outline", False), edges[own == 1])
+        kept, few = surface.thinned
+        for what in surface.known:
+            np.testing.assert_array_equal(surface.array(what, True), surface.array(what, False)[kept])
+        at = surface.points[kept][few]
+        (x, y), areas = np.moveaxis(at[:, 1:] - at[:, :1], 1, 0), surface.areas.sum()
+        self.assertAlmostEqual(abs(np.linalg.det(np.stack((x, y), 1))).sum() / 2, areas, delta=0.03 * areas)
+        with self.page(self.folder / "many.h5"):
+            self.until(PICTURE)
+            self.until("return document.querySelector('#bar i') && document.getElementById('moving').hidden && "
+                       "document.getElementById('moving').textContent")
+            self.script("const line = document.getElementById('moving'); window.told = []; new MutationObserver(() => "
+                        "line.hidden || told.push(line.textContent)).observe(line, {attributes: true});"
+                        "document.getElementById('scene').focus()")
+            ActionChains(self.browser).send_keys(Keys.ARROW_LEFT).perform()
+            self.until("return told.length && document.getElementById('moving').hidden")
+            self.assertEqual(self.script("return told[0]"), f"{len(few)} of {count} triangles while it moves")
+            self.go("of=file&plan=1&colour=flux", "return document.getElementById('bar').textContent.includes('grad')")
+            values = surface.array("flux", False)
+            told = self.script("return document.querySelector('#bar span:nth-child(2)').textContent")
+            self.assertAlmostEqual(float(told.replace("\u2212", "-")), values.min(), delta=1e-3 * abs(values).max())
+            self.require_clean()
+
     def test_what_is_taken_along_is_what_the_package_writes(self):
         with anticrack.local(program=ANTICRACKD) as client:
             client.run(EXAMPLES / "opening.toml", progress=False).save(self.folder / "r.h5")
