@@ -30,7 +30,7 @@ name = "fibre"
 points = [[-0.5, 0], [0.5, 0]]
 delaminated = true
 [mesh]
-size = 0.2
+size = 0.08
 [[growth.path]]
 interface = "fibre"
 from = [-0.5, 0]
