@@ -16,7 +16,7 @@ from selenium.webdriver.common.keys import Keys
 import anticrack
 from anticrack import vtk
 from anticrack.view import scene
-from anticrack.draw import files
+from anticrack.draw import files, studies
 from anticrack.draw.sheet import Look
 from browser import InChromium, viewing
 from processes import ANTICRACKD, DEBIAN_12, Daemon, FolderTest
@@ -331,6 +331,32 @@ class OfAFile(InChromium):
             far = np.abs(blurred(io.BytesIO(shown)) - blurred(kept))
             self.assertLess(far.max(), 40, "of 255, in squares of 20 pixels")
             self.assertLess(far.mean(), 1.5)
+
+    def test_a_study_of_two_keys_has_a_line_for_each_value_of_one_and_contours_over_both(self):
+        grid = {"load.up.f": [1, 2, 3], "mesh.size": [0.3, 0.2]}
+        with anticrack.local(program=ANTICRACKD) as client:
+            study = client.study(anticrack.Case.parse(SLIT), grid, path=self.folder / "s.h5", progress=False)
+        with self.page(self.folder / "s.h5"):
+            src = self.until("return document.querySelector('#panel .drawing img')?.naturalWidth && "
+                             "document.querySelector('#panel .drawing img').src")
+            lines = self.script("return Chart.getChart(document.querySelector('#panel canvas')).data.datasets.map(line "
+                                "=> [line.label, line.data.map(point => [point.x, point.y])])")
+            size, load, energy = (study[name] for name in ("mesh.size", "load.up.f", "energy"))
+            for (label, points), value in zip(lines, grid["mesh.size"], strict=True):
+                self.assertEqual(label, f"size = {value:g}")
+                self.assertEqual(points, [list(point) for point in zip(load[size == value], energy[size == value])])
+            got = bytes(self.later(f"fetch('{src}').then(a => a.arrayBuffer()).then(b => [...new Uint8Array(b)])"))
+            made = studies.draw_study(study, self.folder / "figures", Look(["svg"]))
+            self.assertIn(got, [pathlib.Path(path).read_bytes() for path in made.files if "energy" in path])
+            self.browser.find_element(By.CSS_SELECTOR, "[aria-label=row]").send_keys(Keys.ARROW_RIGHT)
+            self.until(f"{ROW} === '1'")
+            self.assertIn(study.rows[1].job, self.script("return document.querySelector('table.row').textContent"))
+            self.go("of=file&tab=tables", "return document.querySelector('#panel tbody td')")
+            links = self.script("return [...document.querySelectorAll('#export-links a')].map(a => a.href)")
+            sizes = [len(self.later(f"fetch('{link}').then(a => a.ok ? a.text() : '')")) for link in links]
+            self.assertEqual(len(sizes), 4)  # PNG, SVG, HDF5, TOML
+            self.assertTrue(all(sizes), links)
+            self.require_clean()
 
     def test_a_study_is_stepped_through(self):
         case = anticrack.Case.read(EXAMPLES / "several-inclusions.toml")

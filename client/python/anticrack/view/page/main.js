@@ -91,7 +91,8 @@ function links(tab) {
   const of = model.of, load = loadIndex(), has = Boolean(model.result);
   byId('export').hidden = !has;
   if (!has) return;
-  const figure = tab === 'membrane' && on('plan') ? 'plan' : TABS[tab][4];
+  const study = model.result.sweep?.jobs, plan = tab === 'membrane' && on('plan');
+  const figure = study ? 'study' : plan ? 'plan' : TABS[tab][4];
   const look = {
     ...(get('amplify') ? {amplify: get('amplify')} : {}),
     ...(get('limits') && get('colour', 'u') === 'u' ? {limits: get('limits')} : {}),
@@ -100,9 +101,9 @@ function links(tab) {
   const link = (kind, text) =>
     make('a', {href: address('export', {of, load, kind, figure, ...look}), download: true}, text);
   fill(byId('export-links'),
-    currentLoad() &&
-      [link('png', `Figure of ${figure}, PNG`), link('svg', `Figure of ${figure}, SVG`), link('vtu', 'ParaView, VTU')],
-    link('h5', 'Result, HDF5'), model.result.case && link('toml', 'Case, TOML'));
+    (currentLoad() || study) && ['png', 'svg'].map((kind) => link(kind, `Figure of ${figure}, ${kind.toUpperCase()}`)),
+    currentLoad() && link('vtu', 'ParaView, VTU'), link('h5', `${study ? 'Study' : 'Result'}, HDF5`),
+    model.result.case && link('toml', 'Case, TOML'));
 }
 
 /** @param {{server: string, lost: string, met: boolean}} told met: whether the server has ever answered */

@@ -4,11 +4,15 @@ import {Lines} from './chart.js';
 import {aside, button, choice, fill, make, number, plain, slider} from './dom.js';
 import {mark} from './membrane.js';
 import {currentLoad, model, tables} from './model.js';
+import {address} from './net.js';
 import {lineColour} from './palette.js';
 import {get, set} from './state.js';
 
 /** @type {Lines|null} */
 let chart = null;
+
+const MOST = 8; // lines
+const short = (key) => plain(key.split('.').pop(), 30);
 
 /** @param {number} row */
 const choose = (row) => set({row});
@@ -31,12 +35,25 @@ export async function draw(panel, wanted, kind) {
   const up = named(get('up'), first);
   const sorted = rows.filter((i) => typeof across.values[i] === 'number' && typeof up.values[i] === 'number')
                    .sort((i, j) => grows ? i - j : across.values[i] - across.values[j]);
-  const of = (column) => sorted.map((i) => column.values[i] ?? NaN);
+  const of = (column, own = sorted) => own.map((i) => column.values[i] ?? NaN);
   const title = (column) => column.name + (column.unit === '-' ? '' : ` [${column.unit}]`);
   const bounds =
     ['lower', 'upper']
       .map((end) => named(/^A of/.test(up.name) ? up.name.replace('A of', `A_${end} of`) : `${up.name}_${end}`, null))
       .filter(Boolean);
+  const others = numbers.filter((column) => swept.includes(column.name) && column !== across);
+  /** @type {Map<string, number[]>} rows of a line: all, or of a grid those with the same other values */
+  let groups = new Map();
+  for (const i of sorted) {
+    const label = others.map((column) => `${short(column.name)} = ${number(column.values[i], 4)}`).join(', ');
+    groups.set(label, [...groups.get(label) ?? [], i]);
+  }
+  if (groups.size > MOST || 2 * groups.size > sorted.length || !others.length) groups = new Map([[up.name, sorted]]);
+  const contours = model.result.sweep?.jobs && swept.length === 2 && !swept.includes(up.name) && make('img', {
+    alt: `contours of ${up.name} over ${swept.join(' and ')}`,
+    src: address('export', {of: model.of, kind: 'svg', column: up.name, among: own ?? ''}),
+    onerror: (event) => event.target.remove()
+  });
   chart?.destroy();
   chart = new Lines({title: `${up.name} against ${across.name}`, x: title(across), y: title(up)}, (x, y) => {
     const area = chart?.chart.scales, spanX = area.x.max - area.x.min, spanY = area.y.max - area.y.min;
@@ -53,12 +70,15 @@ export async function draw(panel, wanted, kind) {
       names.length > 1 && !grows &&
         choice('load', names.map((name, i) => [String(i), name]), String(names.indexOf(own)), (among) => set({among})),
       make('label', {}, grows ? 'step ' : 'row ', steps, ` ${place + 1} of ${rows.length}`)),
-    chart.box, about(table, row, kind), grows && (currentLoad()?.growth_notes ?? []).map(aside));
+    chart.box, make('div', {class: 'drawing'}, contours), about(table, row, kind),
+    grows && (currentLoad()?.growth_notes ?? []).map(aside));
   chart.draw([
-    {label: up.name, x: of(across), y: of(up), colour: lineColour(0), dots: sorted.length < 100},
-    ...bounds.map(
-      (column, i) =>
-        ({label: plain(column.name, 40), x: of(across), y: of(column), colour: lineColour(i + 1), dash: [4, 3]}))
+    ...[...groups].map(
+      ([label, own], n) =>
+        ({label, x: of(across, own), y: of(up, own), colour: lineColour(n), dots: sorted.length < 100})),
+    ...(groups.size > 1 ? [] : bounds)
+      .map((column, i) =>
+             ({label: plain(column.name, 40), x: of(across), y: of(column), colour: lineColour(i + 1), dash: [4, 3]}))
   ]);
   chart.mark(across.values[row] ?? undefined);
   const front = grows ? currentLoad()?.growth[place] : null;
