@@ -6,6 +6,7 @@ import os
 import pathlib
 import time
 
+import h5py
 import numpy as np
 from PIL import Image
 from selenium.common.exceptions import StaleElementReferenceException
@@ -19,7 +20,7 @@ from anticrack.view import scene
 from anticrack.draw import files, studies
 from anticrack.draw.sheet import Look
 from browser import InChromium, viewing
-from processes import ANTICRACKD, DEBIAN_12, Daemon, FolderTest
+from processes import ANTICRACK, ANTICRACKD, DEBIAN_12, Daemon, FolderTest, run
 
 EXAMPLES = pathlib.Path(os.environ["EXAMPLES"])
 GROWTH = """
@@ -83,6 +84,21 @@ def blurred(picture):
     with Image.open(picture) as image:
         image = image.convert("RGB")
         return np.asarray(image.resize((image.width // 20, image.height // 20), Image.Resampling.BOX), float)
+
+
+def in_file(path):
+    """All that a result file says but what only one who ran the case knows, and the meanings that the command adds."""
+    found = {}
+
+    def look(name, item):
+        found.update({f"{name}@{key}": repr(value) for key, value in item.attrs.items()
+                      if (name, key) not in (("", "case"), ("", "total_seconds")) and key != "meaning"})
+        if hasattr(item, "shape"):
+            found[name] = item.dtype, repr(item[()].tolist())
+    with h5py.File(path) as file:
+        look("", file)
+        file.visititems(look)
+    return found
 
 
 class Explored(InChromium):
@@ -164,6 +180,18 @@ class Explored(InChromium):
         self.button("Show row 0 on the interfaces")
         self.until("return document.getElementById('tab-interfaces').ariaSelected === 'true' && "
                    "document.getElementById('numbers').innerText.startsWith('row-0')")
+
+    def test_a_job_that_is_taken_along_is_what_the_command_fetches(self):
+        jobs = [self.client.submit(EXAMPLES / "opening.toml"), self.client.submit(anticrack.Case.parse(GROWTH)),
+                self.client.submit(EXAMPLES / "load-ratio.toml", coefficients=[[1, -0.5], [1, 0.5]], traces=[1])]
+        for job in jobs:
+            job.wait(False)
+            got = bytes(self.later(f"fetch('/api/export?kind=h5&of={job.name}').then(a => a.arrayBuffer())"
+                                   ".then(b => [...new Uint8Array(b)])"))
+            path = self.folder / f"{job.name[5:]}.h5"
+            ended = run(ANTICRACK, "job", "fetch", job.name, "-o", path, "--server", f"127.0.0.1:{self.server.port}")
+            self.assertEqual(ended.returncode, 0, ended.stderr)
+            self.assertEqual(*map(in_file, (io.BytesIO(got), path)))
 
     def test_growth_steps_through_fronts(self):
         result = self.solved(anticrack.Case.parse(GROWTH))
