@@ -238,13 +238,12 @@ class Explored(InChromium):
         again = self.fragment()["of"]
         self.button("Cancel", "#jobs .here")
         self.until("return document.querySelector('.here .state.cancelled')")
-        for answer, left in (("Keep it", True), ("Delete", False)):
-            self.button("Delete\u2026", "#jobs .here")
-            self.until("return document.getElementById('question').open")
-            self.assertIn(again, self.script("return document.getElementById('question').innerText"))
-            self.button(answer, "#question")
-            self.until("return !document.getElementById('question').open")
-            time.sleep(0.3)
+        for answer, left in (("dismiss", True), ("accept", False)):
+            self.click(f"[data-key='{again}Delete\u2026']")
+            asked = self.browser.switch_to.alert
+            self.assertIn(again, asked.text)
+            getattr(asked, answer)()
+            time.sleep(0.5)
             self.assertEqual(again in [each.name for each in self.client.jobs()], left)
         self.until("return document.getElementById('notices').textContent.includes('has been deleted')")
 
@@ -371,7 +370,7 @@ class OfAFile(InChromium):
                                 "=> [line.label, line.data.map(point => [point.x, point.y])])")
             size, load, energy = (study[name] for name in ("mesh.size", "load.up.f", "energy"))
             for (label, points), value in zip(lines, grid["mesh.size"], strict=True):
-                self.assertEqual(label, f"size = {value:g}")
+                self.assertEqual(label, f"mesh.size = {value:g}")
                 self.assertEqual(points, [list(point) for point in zip(load[size == value], energy[size == value])])
             got = bytes(self.later(f"fetch('{src}').then(a => a.arrayBuffer()).then(b => [...new Uint8Array(b)])"))
             made = studies.draw_study(study, self.folder / "figures", Look(["svg"]))

@@ -6,8 +6,7 @@ const HIDDEN =
 
 /**
  * Text that cannot hide: characters without a shape, as those that turn the direction of writing, become marks; a long
- * one is cut.
- * @param {any} text @param {number} most
+ * one is cut. @param {any} text @param {number} most
  */
 export function plain(text, most = 400) {
   const cut = String(text ?? '').slice(0, most + 1);
@@ -17,9 +16,8 @@ export function plain(text, most = 400) {
 }
 
 /**
- * An element; text children become text nodes. options: on... are listeners, others attributes.
- * @param {string} tag @param {Record<string, any>} [options] @param {...any} children
- * @return {any}
+ * An element; text children become text nodes. options: on... are listeners, others attributes. @param {string} tag
+ * @param {Record<string, any>} [options] @param {...any} children @return {any}
  */
 export function make(tag, options = {}, ...children) {
   const node = document.createElement(tag);
@@ -40,6 +38,13 @@ export function fill(node, ...children) {
     children.flat(2).filter((child) => child !== null && child !== undefined && child !== false && child !== '');
   node.replaceChildren(...wanted.map((child) => child instanceof Node ? child : plain(child, 4000)));
   return node;
+}
+
+/** As fill, but keeps children that look the same, so that no click on them is lost. @param {any} node */
+export function refill(node, ...children) {
+  const old = [...node.children], made = [...fill(node.cloneNode(false), ...children).children];
+  made.forEach((child, i) => !old[i] ? node.append(child) : old[i].isEqualNode(child) || old[i].replaceWith(child));
+  old.slice(made.length).forEach((child) => child.remove());
 }
 
 /** @param {string} id @return {any} */

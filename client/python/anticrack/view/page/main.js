@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The page: tabs, what each shows, and what is told of the connection.
 import * as convergence from './convergence.js';
-import {aside, button, byId, fill, make, plain} from './dom.js';
+import {aside, button, byId, fill, make, plain, refill} from './dom.js';
 import * as editor from './editor.js';
 import * as jobs from './jobs.js';
 import * as membrane from './membrane.js';
@@ -15,8 +15,7 @@ import * as traces from './traces.js';
 
 /** @typedef {[string, boolean, boolean, ((panel: any, wanted: () => boolean) => any)|null, string]} Tab */
 /**
- * Tabs by name: title, whether the membrane is above, whether a result is needed, what draws the panel, and its
- * figure.
+ * Tabs by name: title, whether the membrane is above, whether a result is needed, what draws the panel, and its figure.
  */
 const TABS = /** @type {Record<string, Tab>} */ ({
   membrane: ['Membrane', true, true, null, 'membrane'],
@@ -82,7 +81,7 @@ function tabs(name) {
     'aria-controls': 'panel',
     tabindex: tab === name ? '0' : '-1'
   });
-  fill(bar, Object.keys(TABS).filter((tab) => !useless.includes(tab)).map(made));
+  refill(bar, Object.keys(TABS).filter((tab) => !useless.includes(tab)).map(made));
   if (focused) byId(`tab-${name}`)?.focus();
 }
 

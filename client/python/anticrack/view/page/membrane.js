@@ -19,13 +19,11 @@ const BARE = {
   name: '',
   colours: /** @type {string[]} */ ([])
 }; // a stage, of which u is not kept
-/** @type {Scene|null} */
-let scene = null;
+/** @type {Scene|null} */ let scene = null;
 let shown = '';    // what the scene's geometry is of
 let automatic = 1; // the amplification that shows u best
 let task = 0;
-/** @type {number[]|null} */
-let marked = null;
+/** @type {number[]|null} */ let marked = null;
 
 /** What was clicked, for the column of numbers. */
 export const picked = /** @type {{hit: any}} */ ({hit: null});
@@ -75,10 +73,9 @@ async function surface(to, layer, load, wanted) {
     interfaces.map((_, i) => Promise.all([trace('line', i), load.traces ? trace('trace', i) : null])));
   if (!wanted()) return false;
   to.show(layer);
-  const most = layer.u ? Math.max(...layer.u.range.map(Math.abs)) : 0;
+  const [low, high] = layer.u?.range ?? [0, 0], most = Math.max(-low, high, 0.65 * (high - low));
   automatic = most > 0 ? Number((0.25 * to.size / most).toPrecision(2)) : 1;
-  /** @type {number[][]} */
-  const places = [];
+  /** @type {number[][]} */ const places = [];
   traces.forEach(([line, trace], i) => {
     const k = interfaces[i].nodes,
           at = (j, face = 0) => [line[k + j], line[2 * k + j], trace ? trace[face * k + j] : 0];

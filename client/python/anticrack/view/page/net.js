@@ -32,8 +32,7 @@ export const ask = async (path, query = {}) => (await answered(address(path, que
 export const post = async (path, body) =>
   (await answered(`/api/${path}`, {method: 'POST', body: JSON.stringify(body)})).json();
 
-/** @type {Map<string, Promise<any>>} */
-const kept = new Map();
+/** @type {Map<string, Promise<any>>} */ const kept = new Map();
 const MOST = 24;
 
 /**
@@ -56,12 +55,16 @@ export function array(query) {
 
 /**
  * Listens to server-sent events; the browser restores a lost connection. Returns what ends it.
- * @param {string} path @param {Record<string, any>} query @param {Record<string, (data: any) => void>} handlers
+ * @param {string} path @param {Record<string, any>} query @param {() => void} after each event
+ * @param {Record<string, (data: any) => void>} handlers
  */
-export function events(path, query, handlers) {
+export function events(path, query, after, handlers) {
   const source = new EventSource(address(path, query));
   for (const [name, handle] of Object.entries(handlers))
-    source.addEventListener(name, (event) => handle(JSON.parse(/** @type {any} */ (event).data)));
+    source.addEventListener(name, (event) => {
+      handle(JSON.parse(/** @type {any} */ (event).data));
+      after();
+    });
   source.onerror = () =>
     handlers.connection({server: '', met: true, lost: 'anticrack view does not answer; trying again'});
   return () => source.close();

@@ -64,8 +64,7 @@ function stage() {
 }
 
 function hit() {
-  /** @type {any} */
-  const at = picked.hit, told = at?.told;
+  /** @type {any} */ const at = picked.hit, told = at?.told;
   const known = (name, value, behind = '') =>
     typeof value === 'number' && !Number.isNaN(value) && row(name, number(value) + behind);
   return !at

@@ -47,8 +47,7 @@ export class Scene {
     this.size = 1;
     /** @type {any} */
     this.full = this.thin = null; // layers
-    /** @type {{node: any, x: number, y: number, u: number}[]} */
-    this.names = [];
+    /** @type {{node: any, x: number, y: number, u: number}[]} */ this.names = [];
     this.marker = this.dots([[0, 0, 0]], '#e02020', 12);
     this.marker.visible = false;
     this.scene.add(this.marker);
@@ -66,8 +65,7 @@ export class Scene {
     });
     this.canvas.addEventListener('keydown', (e) => this.key(e));
     new ResizeObserver(() => this.resize()).observe(byId('holder'));
-    /** @type {(view: string) => void} */
-    this.moved = () => {};
+    /** @type {(view: string) => void} */ this.moved = () => {};
     this.waiting = this.settle = 0;
   }
 
@@ -78,9 +76,9 @@ export class Scene {
       {vertexShader, fragmentShader, ...more, uniforms: {...this.uniforms, ...Object.fromEntries(values)}});
   }
 
-  /** @param {string} colour @param {number} opacity */
-  lineMaterial(colour, opacity = 1) {
-    return this.material(VERTEX, LINE, {colour: new T.Color(colour), opacity}, {transparent: opacity < 1});
+  /** @param {string} colour @param {number} opacity @param {boolean} wireframe of triangles, whose edges come twice */
+  lineMaterial(colour, opacity = 1, wireframe = false) {
+    return this.material(VERTEX, LINE, {colour: new T.Color(colour), opacity}, {transparent: opacity < 1, wireframe});
   }
 
   /** @param {number[][]} places x, y in the scene, u @param {string} colour @param {number} size */
@@ -134,14 +132,9 @@ export class Scene {
       made.setIndex(new T.BufferAttribute(new Uint32Array(index.buffer, index.byteOffset, index.length), 1));
       return this.add(new kind(made, material), group);
     };
-    const face = this.material(VERTEX, FACE, {}, {
-      side: T.DoubleSide,
-      extensions: {derivatives: true},
-      polygonOffset: true,
-      polygonOffsetFactor: 1,
-      polygonOffsetUnits: 1
-    });
-    add(T.Mesh, surface.triangles, face);
+    const behind = {polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1}; // its lines
+    add(T.Mesh, surface.triangles,
+      this.material(VERTEX, FACE, {}, {side: T.DoubleSide, extensions: {derivatives: true}, ...behind}));
     add(T.LineSegments, surface.outline, this.lineMaterial('#333333'));
     return {...surface, position, height, value, add, edges: null, group: this.add(group)};
   }
@@ -163,24 +156,14 @@ export class Scene {
 
   /** Lines of the mesh, made when they are first wanted. @param {boolean} wanted */
   lines(wanted) {
-    if (wanted && !this.full.edges) {
-      const from = this.full.triangles, edges = new Int32Array(2 * from.length);
-      let used = 0;
-      for (let i = 0; i < from.length; ++i) {
-        const a = from[i], b = from[i % 3 === 2 ? i - 2 : i + 1];
-        if (a > b) continue; // the triangle beside it has b, a; the outline has the rest
-        edges[used++] = a;
-        edges[used++] = b;
-      }
-      this.full.edges = this.full.add(T.LineSegments, edges.subarray(0, used), this.lineMaterial('#000000', 0.25));
-    }
+    if (wanted)
+      this.full.edges ??= this.full.add(T.Mesh, this.full.triangles, this.lineMaterial('#000000', 0.13, true));
     for (const {edges} of [this.thin, this.full])
       if (edges) edges.visible = wanted;
   }
 
   /**
-   * Colours of the nodes.
-   * @param {any[]} values of the thinned layer and of the full one; none: not known
+   * Colours of the nodes. @param {any[]} values of the thinned layer and of the full one; none: not known
    * @param {number} low @param {number} high @param {boolean} diverging @param {number} contours
    */
   paint(values, low, high, diverging, contours) {
@@ -237,14 +220,11 @@ export class Scene {
   /** @param {boolean} begins */
   move(begins) {
     clearTimeout(this.settle);
-    const change = () => {
-      this.change(begins);
-      if (!begins) this.moved(this.view());
-    };
-    if (begins)
-      change();
-    else
-      this.settle = setTimeout(change, 200);
+    if (begins) return this.change(true);
+    this.settle = setTimeout(() => {
+      this.change(false);
+      this.moved(this.view());
+    }, 200);
   }
 
   /** Shows the thinned triangles or all of them, and says so. @param {boolean} moves */
@@ -269,8 +249,8 @@ export class Scene {
     const turn = /** @type {any} */ (turns)[event.key],
           zoom = /** @type {any} */ ({'+': 1.2, '=': 1.2, '-': 1 / 1.2})[event.key];
     if (turn && this.controls.enableRotate) {
-      const {theta, phi} = this.direction();
-      this.look(theta + turn[0], Math.min(Math.max(phi + turn[1], 0.01), 3.1));
+      const {position, up} = this.camera, {target} = this.controls, right = up.clone().cross(position.sub(target));
+      position.applyAxisAngle(right.normalize(), turn[1]).applyAxisAngle(up, turn[0]).add(target);
     } else if (zoom) {
       this.camera.zoom *= zoom;
     } else {
@@ -282,34 +262,22 @@ export class Scene {
     this.wheel();
   }
 
-  /** From the target to the camera, with y up as three's spherical coordinates have it. */
-  direction() {
-    const d = this.camera.position.clone().sub(this.controls.target);
-    return new T.Spherical().setFromVector3(new T.Vector3(d.x, d.z, -d.y));
-  }
-
-  /** @param {number} theta @param {number} phi */
-  look(theta, phi) {
-    const d = new T.Vector3().setFromSpherical(new T.Spherical(3, phi, theta));
-    this.camera.position.set(d.x, -d.z, d.y).add(this.controls.target);
-    this.controls.update();
-  }
-
-  /** The view as a text for the fragment. */
+  /** The view as a text for the fragment: where the camera is, its zoom, what it looks at. */
   view() {
-    const at = this.direction(), {x, y, z} = this.controls.target;
-    return [at.theta, at.phi, this.camera.zoom, x, y, z].map((value) => Number(value.toPrecision(4))).join(',');
+    const {position, zoom} = this.camera, {target} = this.controls;
+    return [...position.toArray(), zoom, ...target.toArray()].map((value) => Number(value.toPrecision(5))).join(',');
   }
 
   /** @param {string} view @param {boolean} plan */
   setView(view, plan) {
-    const given = view.split(',').map(Number);
-    const [theta, phi, zoom, x, y, z] =
-      given.length === 6 && given.every(Number.isFinite) ? given : [0.5, 1, 1, 0, 0, 0];
+    const given = view.split(',').map(Number), whole = plan ? [0, -3e-4, 3] : [1.21, -2.2154, 1.6209];
+    const [x, y, z, zoom, ...target] =
+      given.length === 7 && given.every(Number.isFinite) ? given : [...whole, 1, 0, 0, 0];
     this.controls.enableRotate = !plan;
-    this.controls.target.set(x, y, plan ? 0 : z);
+    this.controls.target.fromArray(target);
+    this.camera.position.set(x, y, z);
     this.camera.zoom = zoom;
-    this.look(plan ? 0 : theta, plan ? 1e-4 : phi);
+    this.controls.update();
     this.resize();
   }
 

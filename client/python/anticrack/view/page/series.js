@@ -8,11 +8,10 @@ import {address} from './net.js';
 import {lineColour} from './palette.js';
 import {get, set} from './state.js';
 
-/** @type {Lines|null} */
-let chart = null;
+/** @type {Lines|null} */ let chart = null;
 
 const MOST = 8; // lines
-const short = (key) => plain(key.split('.').pop(), 30);
+const short = (key) => plain(key.split('.').slice(-2).join('.'), 40);
 
 /** @param {number} row */
 const choose = (row) => set({row});
@@ -28,8 +27,10 @@ export async function draw(panel, wanted, kind) {
   const numbers = table.columns.filter((column) => column.values.some((value) => typeof value === 'number'));
   const named = (name, otherwise) => numbers.find((column) => column.name === name) ?? otherwise;
   const swept = model.result.sweep?.loads ?? [];
-  const varying = numbers.find((column) => swept.includes(column.name) && new Set(column.values).size > 1);
-  const across = named(get('across'), grows ? named('position', numbers[0]) : varying ?? numbers[0]);
+  const varying = numbers.filter((column) => swept.includes(column.name) && new Set(column.values).size > 1);
+  const across = named(get('across'),
+    grows ? named('position', numbers[0])
+          : varying[model.result.sweep?.jobs || varying.length < 2 ? 0 : -1] ?? numbers[0]);
   const first = grows ? named('load', named('G1', numbers[1]))
                       : numbers.find((column) => column.name.startsWith('A of')) ?? named('energy', numbers[1]);
   const up = named(get('up'), first);
@@ -41,14 +42,16 @@ export async function draw(panel, wanted, kind) {
     ['lower', 'upper']
       .map((end) => named(/^A of/.test(up.name) ? up.name.replace('A of', `A_${end} of`) : `${up.name}_${end}`, null))
       .filter(Boolean);
-  const others = numbers.filter((column) => swept.includes(column.name) && column !== across);
+  const others = varying.filter((column) => column !== across);
   /** @type {Map<string, number[]>} rows of a line: all, or of a grid those with the same other values */
   let groups = new Map();
   for (const i of sorted) {
     const label = others.map((column) => `${short(column.name)} = ${number(column.values[i], 4)}`).join(', ');
     groups.set(label, [...groups.get(label) ?? [], i]);
   }
-  if (groups.size > MOST || 2 * groups.size > sorted.length || !others.length) groups = new Map([[up.name, sorted]]);
+  const grid = others.length > 0 && groups.size <= MOST && 2 * groups.size <= sorted.length;
+  if (!grid) groups = new Map([[up.name, sorted]]);
+  const points = !grid && others.length > 0 && varying.includes(across); // which no line follows
   const contours = model.result.sweep?.jobs && swept.length === 2 && !swept.includes(up.name) && make('img', {
     alt: `contours of ${up.name} over ${swept.join(' and ')}`,
     src: address('export', {of: model.of, kind: 'svg', column: up.name, among: own ?? ''}),
@@ -73,10 +76,15 @@ export async function draw(panel, wanted, kind) {
     chart.box, make('div', {class: 'drawing'}, contours), about(table, row, kind),
     grows && (currentLoad()?.growth_notes ?? []).map(aside));
   chart.draw([
-    ...[...groups].map(
-      ([label, own], n) =>
-        ({label, x: of(across, own), y: of(up, own), colour: lineColour(n), dots: sorted.length < 100})),
-    ...(groups.size > 1 ? [] : bounds)
+    ...[...groups].map(([label, own], n) => ({
+      label,
+      x: of(across, own),
+      y: of(up, own),
+      colour: lineColour(n),
+      dots: points || sorted.length < 100,
+      points
+    })),
+    ...(grid || points ? [] : bounds)
       .map((column, i) =>
              ({label: plain(column.name, 40), x: of(across), y: of(column), colour: lineColour(i + 1), dash: [4, 3]}))
   ]);

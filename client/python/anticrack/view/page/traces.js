@@ -8,8 +8,7 @@ import {lineColour} from './palette.js';
 import {get, set} from './state.js';
 
 const MOST = 8;
-/** @type {Lines[]} */
-let charts = [];
+/** @type {Lines[]} */ let charts = [];
 
 /** @param {any} panel @param {() => boolean} wanted */
 export async function draw(panel, wanted) {
@@ -82,8 +81,7 @@ const split = (packed, k) => Array.from({length: packed.length / k}, (_, i) => p
 
 /** The stretches in contact. @param {ArrayLike<number>} s @param {ArrayLike<number>} contact */
 function contacts(s, contact) {
-  /** @type {[number, number][]} */
-  const found = [];
+  /** @type {[number, number][]} */ const found = [];
   for (let i = 0; i < contact.length; ++i) {
     const first = i;
     while (contact[first] && i + 1 < contact.length && contact[i + 1]) ++i;
