@@ -86,7 +86,7 @@ class Rows(FolderTest):
                            ("a\n", "no row follows"), ("", "is empty"), ("a,\n1,2\n", "a key has no name"),
                            ("a,b\n0,5,1\n", "3 values for 2 keys.* semicolons"), ("a\nnan\n", "line 2: nan is not"),
                            ('a\n"x\n', "line 2: .* quotes"), ('a\n"[1"\n', "line 2: .* brackets"),
-                           ("\ud800", "byte 0 is none of UTF-8")):
+                           ("\ud800", "is no text in UTF-8; save it")):
             file.write_text(text, "utf-8", "surrogatepass")
             with self.assertRaisesRegex(CaseError, told):
                 csv_rows(str(file))

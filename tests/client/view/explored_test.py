@@ -375,9 +375,11 @@ class OfAFile(InChromium):
             got = bytes(self.later(f"fetch('{src}').then(a => a.arrayBuffer()).then(b => [...new Uint8Array(b)])"))
             made = studies.draw_study(study, self.folder / "figures", Look(["svg"]))
             self.assertIn(got, [pathlib.Path(path).read_bytes() for path in made.files if "energy" in path])
-            self.browser.find_element(By.CSS_SELECTOR, "[aria-label=row]").send_keys(Keys.ARROW_RIGHT)
-            self.until(f"{ROW} === '1'")
-            self.assertIn(study.rows[1].job, self.script("return document.querySelector('table.row').textContent"))
+            self.script("document.querySelector('[aria-label=row]').focus()")
+            for row in (1, 2):  # the slider keeps the focus
+                ActionChains(self.browser).send_keys(Keys.ARROW_RIGHT).perform()
+                self.until(f"{ROW} === '{row}' && document.activeElement.ariaLabel === 'row'")
+            self.assertIn(study.rows[2].job, self.script("return document.querySelector('table.row').textContent"))
             self.go("of=file&tab=tables", "return document.querySelector('#panel tbody td')")
             links = self.script("return [...document.querySelectorAll('#export-links a')].map(a => a.href)")
             sizes = [len(self.later(f"fetch('{link}').then(a => a.ok ? a.text() : '')")) for link in links]

@@ -105,25 +105,19 @@ def _values(text: str) -> list[Any]:
         first, last, count, *more = *text.split(":"), ""
         if len(more) != 1:
             raise CaseError("it is not FIRST:LAST:COUNT, as 0:90:19; a text needs quotes")
-        for name, word in (("FIRST", first), ("LAST", last)):
-            if not math.isfinite(_float(word)):
+        ends = [value_of(word) for word in (first, last)]
+        for name, word, end in zip(("FIRST", "LAST"), (first, last), ends):
+            if not is_number(end) or not math.isfinite(end):
                 raise CaseError(f"{name} is {shown(word)}; write a finite number with a point, as 0.5")
         if not re.fullmatch("0*[0-9]{1,6}", count) or not 2 <= int(count) <= MOST_ROWS:
             raise CaseError(f"COUNT is {shown(count)}; write a whole number from 2 to {MOST_ROWS}, as in 0:90:19")
-        return [float(f"{value:.15g}") for value in np.linspace(_float(first), _float(last), int(count))]
+        return [float(f"{value:.15g}") for value in np.linspace(ends[0], ends[1], int(count))]
     try:
         return list(tomllib.loads(f"values = [{text}]")["values"])
     except tomllib.TOMLDecodeError:
         if not all(words := [word.strip() for word in text.split(",")]):
             raise CaseError("a value is missing beside a comma") from None
         return list(map(value_of, words))
-
-
-def _float(word: str) -> float:
-    try:
-        return float(word)
-    except ValueError:
-        return math.nan
 
 
 def value_of(word: str, comma: bool = False) -> Any:
@@ -143,10 +137,9 @@ def csv_rows(path: str) -> list[Values]:
     """The rows of comma-separated text, or of text with semicolons, whose first line names the keys."""
     try:
         return rows_in(pathlib.Path(path).read_text("utf-8-sig"), path)
-    except OSError as error:
-        raise CaseError(f"{path}: cannot be read: {error.strerror}") from None
-    except UnicodeDecodeError as error:
-        raise CaseError(f"{path}: byte {error.start} is none of UTF-8; save it as CSV in UTF-8") from None
+    except (OSError, UnicodeDecodeError) as error:
+        why = getattr(error, "strerror", "it is no text in UTF-8; save it as CSV in UTF-8")
+        raise CaseError(f"{path}: cannot be read: {why}") from None
 
 
 def rows_in(text: str, path: str) -> list[Values]:

@@ -53,10 +53,8 @@ def _content(of: Result | Study, load: Load | None, kind: str, query: Any) -> by
             return path.read_bytes()
     if kind != "vtu":
         return _figure(of, load, kind, query)
-    if not isinstance(of, Result) or load is None:
-        raise Error("there is no load to draw")
-    if not load.fields:
-        raise Error(f"it has no fields; {fields_cure(of)}")
+    if not isinstance(of, Result) or load is None or not load.fields:
+        raise Error(f"it has no fields; {fields_cure(of)}" if isinstance(of, Result) else "a study has no fields")
     return vtk.membrane(of, load)
 
 
@@ -65,8 +63,7 @@ def add_routes(app: web.Application, opened: Opened) -> None:
         query, kind, name = request.query, request.query["kind"], request.query["of"]
         if kind not in _TYPES:
             raise Error(f"{kind} is none of {', '.join(_TYPES)}")
-        study = opened.study if name == FILE else None
-        of = study or await opened.result(name)
+        of = (opened.study if name == FILE else None) or await opened.result(name)
         load = (await load_of(opened, query))[1] if isinstance(of, Result) and of.loads else None
         if kind == "toml":
             content = (opened.cases.get(name) or of.case).encode()

@@ -32,8 +32,7 @@ _OPENS = (CRACK, DELAMINATED, FREE)
 class Surface:
     """A surface of triangles. nodes (n): of the mesh; part (n): the subdomain; points (n, 2); triangles (m, 3): indices
     into nodes."""
-    known: list[str] = []
-    range = ""
+    known, range = list[str](), ""
 
     def __init__(self, points: Array, nodes: Array, part: Array, triangles: Array) -> None:
         self.points, self.nodes, self.part, self.triangles = points[nodes], nodes, part, triangles
@@ -77,9 +76,8 @@ def outline_of(triangles: Array) -> Array:
     weights = np.random.default_rng(0).integers(1 << 40, size=triangles.max() + 1)
     sums = sum(np.bincount(triangles[:, i], weights[triangles[:, i - 2]] - weights[triangles[:, i - 1]], len(weights))
                for i in range(3))
-    outer = np.asarray(sums) != 0
     edges = triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
-    edges = np.sort(edges[outer[edges].all(axis=1)], axis=1)
+    edges = np.sort(edges[(np.asarray(sums) != 0)[edges].all(axis=1)], axis=1)
     found, counts = np.unique(edges, axis=0, return_counts=True)
     return found[counts == 1]  # type: ignore[no-any-return]
 
@@ -145,7 +143,7 @@ def _told(result: Result, load: Load) -> dict[str, Any]:
             "steps": len(load.history.get("iteration", ())), "traces": len(load.traces),
             "energy": with_bounds(load, "energy", units.behind("F L")), "growth_notes": load.growth_notes,
             "growth": [[float(x), float(y)] for x, y in zip(load.growth["x"], load.growth["y"])] if load.growth else [],
-            "contact_length": load.contact_length, "iterations": load.iterations,
+            "contacts": load.contact_intervals, "contact_length": load.contact_length, "iterations": load.iterations,
             "inclusions": [{"name": part.name, "A": with_bounds(part, "A", units.behind("L"))}
                            for part in load.inclusions.values()],
             "stages": {name: load.stages[name].tolist() for name in _STAGES if name in load.stages}}
@@ -201,16 +199,17 @@ def _of_lines(result: Result, load: Load, what: str, interface: int) -> Array:
 
 def triangle(result: Result, load: Load, index: int) -> dict[str, Any]:
     """What is known in a triangle of the surface."""
-    found, parts, first = {"nodes": result.mesh.triangles[index].tolist(), "subdomain": ""}, load.fields, index
-    for part in parts:
-        if first < len(part.triangles):
-            own = replace(part, triangles=part.triangles[[first]], tension=part.tension[[first]])
+    if not 0 <= index < len(result.mesh.triangles):
+        raise IndexError(f"there is no triangle {index}")
+    for part in load.fields:
+        if index < len(part.triangles):
+            own = replace(part, triangles=part.triangles[[index]], tension=part.tension[[index]])
             own.mesh = result.mesh
             alone = Values(result, replace(load, fields=[own]))
             return {"nodes": part.nodes[own.triangles[0]].tolist(), "subdomain": part.name, **{
                 what: float(alone.of_triangles(what)[0]) for what in alone.known[1:]}}
-        first -= len(part.triangles)
-    return found
+        index -= len(part.triangles)
+    return {"nodes": result.mesh.triangles[index].tolist(), "subdomain": ""}
 
 
 def add_routes(app: web.Application, opened: Opened) -> None:
@@ -237,7 +236,7 @@ def add_routes(app: web.Application, opened: Opened) -> None:
         else:
             result, load = await load_of(opened, query)
             given = load, Values, result, load
-        if what in ("line", "trace", "history"):
+        if what in ("line", "trace", "history") and "mesh" not in query:
             values = _of_lines(result, load, what, int(query.get("interface", 0)))
         else:
             async with one:
@@ -251,6 +250,4 @@ def add_routes(app: web.Application, opened: Opened) -> None:
     async def pick(request: web.Request) -> web.Response:
         load = await load_of(opened, request.query)
         return reply(await asyncio.to_thread(triangle, *load, int(request.query["index"])))
-    app.router.add_get("/api/result", describe)
-    app.router.add_get("/api/array", send)
-    app.router.add_get("/api/triangle", pick)
+    app.add_routes([web.get("/api/result", describe), web.get("/api/array", send), web.get("/api/triangle", pick)])

@@ -49,12 +49,14 @@ export function refill(node, ...children) {
 
 /** @param {string} id @return {any} */
 export const byId = (id) => document.getElementById(id);
-
 /** A quiet paragraph. @param {any} text */
 export const aside = (text) => make('p', {class: 'quiet'}, text);
-
 /** @param {any} text @param {(event: any) => any} run @param {Record<string, any>} options */
 export const button = (text, run, options = {}) => make('button', {onclick: run, ...options}, text);
+/** The index of the place that is nearest to x, y. @param {number[][]} places */
+export const nearest = (places, x, y) => places.reduce(
+  (best, at, i) => Math.hypot(at[0] - x, at[1] - y) < Math.hypot(places[best][0] - x, places[best][1] - y) ? i : best,
+  0);
 
 /** The words of a name of the API. @param {any} name */
 export const words = (name) => String(name ?? '').replace(/_/g, ' ');

@@ -13,11 +13,10 @@ import {get, listen, on, set} from './state.js';
 import * as tables from './tables.js';
 import * as traces from './traces.js';
 
-/** @typedef {[string, boolean, boolean, ((panel: any, wanted: () => boolean) => any)|null, string]} Tab */
 /**
  * Tabs by name: title, whether the membrane is above, whether a result is needed, what draws the panel, and its figure.
  */
-const TABS = /** @type {Record<string, Tab>} */ ({
+const TABS = /** @type {Record<string, any[]>} */ ({
   membrane: ['Membrane', true, true, null, 'membrane'],
   interfaces: ['Interfaces', true, true, traces.draw, 'traces'],
   convergence: ['Convergence', false, false, convergence.draw, 'convergence'],
@@ -49,6 +48,7 @@ async function draw() {
   box.hidden = surface && !panel;
   if (here !== drawn) fill(box);
   drawn = here;
+  const focused = box.contains(document.activeElement) ? document.activeElement?.ariaLabel : '';
   try {
     if (surface) membrane.draw(clicked);
     if (name === 'membrane') membrane.mark(null);
@@ -58,6 +58,7 @@ async function draw() {
       fill(box, aside('No row has traces: there is nothing to draw.'));
     else
       await panel?.(box, () => mine === turn);
+    if (focused) box.querySelector(`[aria-label="${CSS.escape(focused)}"]`)?.focus();
   } catch (error) {
     notice(error);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The membrane with its controls, or the mesh of a stage.
-import {button, byId, choice, fill, make, number, parse, slider, tick} from './dom.js';
+import {button, byId, choice, fill, make, nearest, number, parse, slider, tick} from './dom.js';
 import {currentLoad, currentStage, loadIndex, model, stages, unit, values} from './model.js';
 import {array, notice} from './net.js';
 import {stops} from './palette.js';
@@ -87,19 +87,14 @@ async function surface(to, layer, load, wanted) {
     }
     for (let j = 0; j < k; ++j) places.push(at(j, 1));
   });
-  const height = (at) => { // of the nearest node of an interface
-    const far = (place) => Math.hypot(place[0] - at[0], place[1] - at[1]);
-    return places.length ? places.reduce((best, place) => far(place) < far(best) ? place : best)[2] : 0;
-  };
+  const height = (at) => places[nearest(places, at[0], at[1])]?.[2] ?? 0; // of the nearest node of an interface
   if (on('names', true))
     for (const {name, at} of marks.slice(0, 40)) to.name(name, at[0], at[1], height(at));
   if (tips.length) to.add(to.dots(tips.map((at) => to.place(at[0], at[1], height(at))), '#222222', 8));
   return true;
 }
 
-/**
- * @param {Scene} to @param {any} load @param {() => boolean} wanted @param {any} whole a layer behind the thinned one
- */
+/** @param {Scene} to @param {any} load @param {() => boolean} wanted @param {any} whole a layer to show behind */
 async function paint(to, load, wanted, whole = null) {
   const what = load.colours.includes(get('colour', 'u')) ? get('colour', 'u') : load.colours[0];
   const of = async (index, thin) => {

@@ -84,10 +84,7 @@ async function load(of) {
   }
 }
 
-/**
- * Shows a job ("jobs/ID"), the file ("file"), or nothing (""). @param {string} of @param {(lost: any) => void}
- * connection
- */
+/** Shows "jobs/ID", "file", or "", nothing. @param {string} of @param {(lost: any) => void} connection */
 export function show(of, connection) {
   model.live?.close();
   Object.assign(model, {of, result: null, live: null, tables: null});
@@ -115,9 +112,7 @@ export function currentStage() {
   return all[model.result && !(wanted < last) ? -1 : Math.min(wanted, last)];
 }
 
-/**
- * A unit behind a number or, in brackets, a name; empty if there is none. @param {string} of @param {boolean} brackets
- */
+/** A unit behind a number or, in brackets, a name; or nothing. @param {string} of @param {boolean} brackets */
 export function unit(of, brackets = false) {
   const told = model.result?.units[of] ?? '-';
   return told === '-' ? '' : brackets ? ` [${told}]` : ` ${told}`;
@@ -133,9 +128,7 @@ export async function tables() {
 /** An array of the result. @param {string} what @param {number} load @param {any} more interface, or thin */
 export const values = (what, load = loadIndex(), more = {}) => array({of: model.of, what, load, ...more});
 
-/**
- * The history of a load case by name: as it comes, or of the result; undefined if there is none. @param {number} index
- */
+/** The history of a load by name, as it comes or of the result; undefined if there is none. @param {number} index */
 export async function history(index) {
   const steps = model.result?.loads[index]?.steps;
   if (!steps) return model.live?.samples[index];

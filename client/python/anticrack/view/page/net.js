@@ -12,7 +12,6 @@ export function notice(text) {
 
 /** Takes away what was said. */
 export const quiet = () => fill(byId('notices'));
-
 /** @param {string} path @param {Record<string, any>} query */
 export const address = (path, query = {}) => `/api/${path}?${new URLSearchParams(query)}`;
 
@@ -35,10 +34,7 @@ export const post = async (path, body) =>
 /** @type {Map<string, Promise<any>>} */ const kept = new Map();
 const MOST = 24;
 
-/**
- * An array of a result as a typed array; the last ones are kept. @param {Record<string, any>}
- * query @return {Promise<any>}
- */
+/** An array of a result, typed; the last are kept. @param {Record<string, any>} query @return {Promise<any>} */
 export function array(query) {
   const where = address('array', query);
   const found = kept.get(where) ?? answered(where).then(async (answer) => {
@@ -63,7 +59,7 @@ export function events(path, query, after, handlers) {
   for (const [name, handle] of Object.entries(handlers))
     source.addEventListener(name, (event) => {
       handle(JSON.parse(/** @type {any} */ (event).data));
-      after();
+      if (name !== 'connection') after();
     });
   source.onerror = () =>
     handlers.connection({server: '', met: true, lost: 'anticrack view does not answer; trying again'});

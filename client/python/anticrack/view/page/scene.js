@@ -9,7 +9,6 @@ import {pick} from './pick.js';
 const T = /** @type {any} */ (globalThis).THREE;
 export const MANY = 200_000; // triangles, above which a thinned mesh is shown while the view moves
 const UNKNOWN = -1e30;
-
 const VERTEX = `attribute float u; attribute float value; uniform float rise; varying float v;
 void main() { v = value; gl_Position = projectionMatrix * modelViewMatrix * vec4(position.xy, u * rise, 1.0); }`;
 const FACE = `uniform sampler2D palette; uniform float low, high, contours; varying float v;

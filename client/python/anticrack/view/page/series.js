@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Rows of a sweep or a study and steps of growth: any column against any other; a click chooses a row.
 import {Lines} from './chart.js';
-import {aside, button, choice, fill, make, number, plain, slider} from './dom.js';
+import {aside, button, choice, fill, make, nearest, number, plain, slider} from './dom.js';
 import {mark} from './membrane.js';
 import {currentLoad, model, tables} from './model.js';
 import {address} from './net.js';
@@ -12,8 +12,6 @@ import {get, set} from './state.js';
 
 const MOST = 8; // lines
 const short = (key) => plain(key.split('.').slice(-2).join('.'), 40);
-
-/** @param {number} row */
 const choose = (row) => set({row});
 
 /** @param {any} panel @param {() => boolean} wanted @param {'sweep'|'growth'} kind */
@@ -94,17 +92,10 @@ export async function draw(panel, wanted, kind) {
   chosen = (x, y) => choose(rows[nearest(currentLoad()?.growth ?? [], x, y)]);
 }
 
-/** @param {number[][]} places */
-const nearest = (places, x, y) => places.reduce(
-  (best, at, i) => Math.hypot(at[0] - x, at[1] - y) < Math.hypot(places[best][0] - x, places[best][1] - y) ? i : best,
-  0);
-
 /** Chooses the front that is nearest to a place of the membrane. @type {(x: number, y: number) => void} */
 export let chosen = (_x, _y) => {};
 
-/**
- * The values of a row, and a way to what is known of it. @param {any} table @param {number} row @param {string} kind
- */
+/** The values of a row, and a way to more of it. @param {any} table @param {number} row @param {string} kind */
 function about(table, row, kind) {
   const {kept = [], jobs} = model.result.sweep ?? {}, at = kept.indexOf(row), job = jobs?.[row];
   const way = jobs ? job

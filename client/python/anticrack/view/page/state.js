@@ -6,10 +6,8 @@ let values = new URLSearchParams(location.hash.slice(1));
 
 /** @param {string} key */
 export const get = (key, otherwise = '') => values.get(key) ?? otherwise;
-
 /** @param {string} key */
 export const on = (key, otherwise = false) => get(key, otherwise ? '1' : '') === '1';
-
 /** @param {(changed: Set<string>) => void} listener */
 export const listen = (listener) => heard = listener;
 

@@ -72,20 +72,9 @@ export async function draw(panel, wanted) {
       colour: lineColour(n),
       dash: rows.length > 1 && row === 0 ? [5, 3] : []
     }))),
-      contacts(s, traces[mine]?.[6] ?? []));
+      (loads[shown[mine]]?.contacts ?? []).filter((at) => at[0] === line).map((at) => at.slice(1)));
   }
 }
 
 /** @param {Float64Array} packed @param {number} k */
 const split = (packed, k) => Array.from({length: packed.length / k}, (_, i) => packed.subarray(i * k, (i + 1) * k));
-
-/** The stretches in contact. @param {ArrayLike<number>} s @param {ArrayLike<number>} contact */
-function contacts(s, contact) {
-  /** @type {[number, number][]} */ const found = [];
-  for (let i = 0; i < contact.length; ++i) {
-    const first = i;
-    while (contact[first] && i + 1 < contact.length && contact[i + 1]) ++i;
-    if (contact[first]) found.push([s[first], s[i]]);
-  }
-  return found;
-}
