@@ -53,7 +53,7 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
     "python3 (>= 3.11), python3-grpcio, python3-h5py, python3-numpy, python3-protobuf")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS # the latter three are of anticrack view
     "python3-matplotlib, python3-aiohttp, libjs-three, libjs-chart.js")
-set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "anticrack-client, anticrack-server, python3-pandas")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "anticrack-client, anticrack-server, ffmpeg, python3-pandas")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${debian}/python/postinst ${debian}/python/prerm)
 set(CPACK_DEBIAN_PYTHON_DESCRIPTION "Python client of the membrane solver anticrack
 The module anticrack: starts or connects to anticrackd, submits cases from TOML

@@ -63,7 +63,8 @@ def _put(group: Any, name: str, values: Any) -> None:
     array = np.array(values, dtype=_TEXT if texts else None)
     group.create_dataset(name, data=array, **({"compression": "gzip", "shuffle": True} if array.size > 1000 else {}))
     units = Units(**group.file["units"].attrs)
-    group[name].attrs["units"] = units.of(_DIMENSIONS.get(name.rpartition("/")[2], ""))
+    dimension = "" if array.dtype.kind == "i" else _DIMENSIONS.get(name.rpartition("/")[2], "")  # "" of indices
+    group[name].attrs["units"] = units.of(dimension)
 
 
 def _put_record(group: Any, record: Any, *but: str) -> None:

@@ -64,7 +64,11 @@ def pvd(members: Sequence[tuple[str, str, int, int]]) -> bytes:
 def of_triangles(mesh: Mesh, values: Array, triangles: Array) -> Array:
     """The values of each triangle, which may have its corners in another order than the mesh has them; NaN for one
     that is not in the mesh."""
-    _, number = np.unique(np.sort(np.concatenate([mesh.triangles, triangles]), axis=1), axis=0, return_inverse=True)
+    near = np.isin(mesh.triangles, triangles).all(axis=1) if len(triangles) < len(values) else slice(None)
+    whole, values = mesh.triangles[near], values[near]
+    a, b, c = np.sort(np.concatenate([whole, triangles]), axis=1).astype(np.int64).T
+    edge = np.unique(a * len(mesh.nodes) + b, return_inverse=True)[1]
+    number = np.unique(edge * len(mesh.nodes) + c, return_inverse=True)[1]  # much faster than rows of three
     known: Array = np.full((len(number), *values.shape[1:]), np.nan)
     known[number[:len(values)]] = values
     found: Array = known[number[len(values):]]

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The package against the real server: jobs, sweeps, arrays, stages, certificates, tokens, a server that crashes."""
+import asyncio
 import hashlib
 import io
 import os
@@ -8,6 +9,7 @@ import tempfile
 import unittest
 import unittest.mock
 import warnings
+import xml.etree.ElementTree
 
 import numpy
 
@@ -305,6 +307,28 @@ class Jobs(unittest.TestCase):
         ((shown,), options) = handle.update.call_args
         self.assertRegex(shown["text/plain"], rf"^{job.name} \[#+\] 1/1 load cases, done$")
         self.assertTrue(options["raw"])
+
+    def test_a_notebook_shows_a_curve_while_it_waits_where_an_event_loop_runs_and_tables_then(self):
+        ipython = unittest.mock.MagicMock()
+        title = "<script>alert(1)</script>"
+
+        async def run_in_a_cell():
+            job = self.client.submit(Case(GEOMETRY, [OPENING], COARSE, LONG, title=title))
+            return job.wait()
+        with unittest.mock.patch.dict("sys.modules", IPython=ipython):
+            job = asyncio.run(run_in_a_cell())
+        pages = [shown[0]["text/html"] for shown, _ in ipython.display.display.return_value.update.call_args_list]
+        root = xml.etree.ElementTree.fromstring(pages[-1].partition("</pre>")[2])
+        (line,) = root.iter("{http://www.w3.org/2000/svg}polyline")
+        points = numpy.array([pair.split(",") for pair in line.get("points").split()], float)
+        self.assertTrue((numpy.diff(points[:, 0]) >= 0).all() and len(points) > 10)
+        self.assertGreater(points[-1, 1], points[0, 1], "the criterion falls")
+        self.assertIn("criterion of opening", pages[-1])
+        load = job.result()["opening"]
+        for shown in (job, job.result(), load):
+            page = shown._repr_html_()
+            self.assertIn(f"{load.energy:.4g}"[:6], page)
+            self.assertNotIn("<script", page)
 
 
 class Connections(FolderTest):

@@ -62,9 +62,18 @@ class Rows(FolderTest):
         self.assertEqual(varied('f="x:y:2", 3'), ("f", ["x:y:2", 3]))
         rows = grid({"a": np.arange(2), "b": ("x", "y")})
         self.assertEqual([tuple(row.values()) for row in rows], [(0, "x"), (0, "y"), (1, "x"), (1, "y")])
-        for wrong in ("a", "a=", "=1", "a=0:1:1", "a=0:1:9999999", "a=nan:1:3", "a=0:x:3"):
-            with self.assertRaises(CaseError, msg=wrong):
+        self.assertEqual(varied("f=y > 0 ? 1 : 2"), ("f", ["y > 0 ? 1 : 2"]))
+        for wrong, told in (("a", "varies nothing"), ("a=", "varies nothing"), ("=1", "varies nothing"),
+                            ("a=1:2", "FIRST:LAST:COUNT"), ("a=1:2:3:4", "FIRST:LAST:COUNT"), ("a=:1:2", "FIRST is ''"),
+                            ("a=nan:1:3", "FIRST is 'nan'"), ("a=0,5:1:3", "FIRST is '0,5'; .* with a point"),
+                            ("a=0:x:3", "LAST is 'x'"), ("a=0:1e999:3", "LAST is '1e999'"),
+                            *((f"a=0:1:{count}", f"COUNT is '{count}'; write a whole number from 2") for count in (
+                                "", "-3", "0", "1", "2.5", "1e3", "x", "9999999", "1000000000000")),
+                            ("a=1,,2", "missing beside a comma"), ("a=nan,1", "nan is not a finite number"),
+                            ("a=[1", "close its quotes and brackets"), ("a='x", "close its quotes and brackets")):
+            with self.assertRaisesRegex(CaseError, told, msg=wrong) as raised:
                 varied(wrong)
+            self.assertIn(f"'{wrong}'", str(raised.exception))
         with self.assertRaises(CaseError):
             grid({"a": range(1000), "b": range(1000)})
 
@@ -73,8 +82,12 @@ class Rows(FolderTest):
         for text in ('a,p,t\n0.5,"[0, 1]",y > 0 ? 1 : 2\n', 'a;p;t\n0,5;[0, 1];y > 0 ? 1 : 2\n'):
             file.write_text(text, encoding="utf-8")
             self.assertEqual(csv_rows(str(file)), [{"a": 0.5, "p": [0, 1], "t": "y > 0 ? 1 : 2"}])
-        for text, told in (("a,a\n1,2\n", "each once"), ("a,b\n1\n", "1 values for 2 keys"), ("a\n", "for each")):
-            file.write_text(text, encoding="utf-8")
+        for text, told in (("a,a\n1,2\n", "'a' stands twice"), ("a,b\n\n1\n", "line 3 has 1 value for 2 keys"),
+                           ("a\n", "no row follows"), ("", "is empty"), ("a,\n1,2\n", "a key has no name"),
+                           ("a,b\n0,5,1\n", "3 values for 2 keys.* semicolons"), ("a\nnan\n", "line 2: nan is not"),
+                           ('a\n"x\n', "line 2: .* quotes"), ('a\n"[1"\n', "line 2: .* brackets"),
+                           ("\ud800", "is no text in UTF-8; save it")):
+            file.write_text(text, "utf-8", "surrogatepass")
             with self.assertRaisesRegex(CaseError, told):
                 csv_rows(str(file))
 

@@ -10,6 +10,7 @@ import sys
 import time
 
 from selenium import webdriver
+from selenium.common.exceptions import StaleElementReferenceException
 from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.by import By
 
@@ -53,8 +54,11 @@ class InChromium(FolderTest):
         """Runs anticrack view and opens its page, which is left before the program ends."""
         with viewing(*words, **options) as (process, address):
             self.browser.get(address)
-            yield process
-            self.browser.get("about:blank")
+            try:
+                yield process
+            finally:
+                self.browser.get("about:blank")
+                self.browser.get_log("browser")  # what a test that failed left there is no other's
 
     def script(self, text, *words):
         return self.browser.execute_script(text, *words)
@@ -80,7 +84,12 @@ class InChromium(FolderTest):
         return self.until(what)
 
     def click(self, selector):
-        self.browser.find_element(By.CSS_SELECTOR, selector).click()
+        """Also what is drawn anew meanwhile."""
+        for left in reversed(range(5)):
+            try:
+                return self.browser.find_element(By.CSS_SELECTOR, selector).click()
+            except StaleElementReferenceException:
+                self.assertTrue(left)
 
     def button(self, text, within="body"):
         self.until(f"return [...document.querySelectorAll('{within} button')].some(b => b.textContent === '{text}')")
@@ -90,7 +99,7 @@ class InChromium(FolderTest):
         """Clicks every tab; returns their names."""
         names = self.script("return [...document.querySelectorAll('[role=tab]')].map(tab => tab.id)")
         for name in names:
-            self.browser.find_element(By.ID, name).click()
+            self.click(f"#{name}")
             self.until(f"return document.getElementById('{name}').ariaSelected === 'true'")
             time.sleep(0.2)
         return [name.removeprefix("tab-") for name in names]

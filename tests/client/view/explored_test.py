@@ -6,6 +6,7 @@ import os
 import pathlib
 import time
 
+import h5py
 import numpy as np
 from PIL import Image
 from selenium.common.exceptions import StaleElementReferenceException
@@ -15,10 +16,11 @@ from selenium.webdriver.common.keys import Keys
 
 import anticrack
 from anticrack import vtk
-from anticrack.draw import files
+from anticrack.view import scene
+from anticrack.draw import files, studies
 from anticrack.draw.sheet import Look
 from browser import InChromium, viewing
-from processes import ANTICRACKD, DEBIAN_12, Daemon, FolderTest
+from processes import ANTICRACK, ANTICRACKD, DEBIAN_12, Daemon, FolderTest, run
 
 EXAMPLES = pathlib.Path(os.environ["EXAMPLES"])
 GROWTH = """
@@ -29,7 +31,7 @@ name = "fibre"
 points = [[-0.5, 0], [0.5, 0]]
 delaminated = true
 [mesh]
-size = 0.2
+size = 0.08
 [[growth.path]]
 interface = "fibre"
 from = [-0.5, 0]
@@ -57,6 +59,22 @@ max_iterations = 1000000
 name = "up"
 f = "y > 0 ? -1 : 1"
 """
+SLIT = """
+[geometry]
+boundary = [[-1, -1], [1, -1], [1, 1], [-1, 1]]
+[[geometry.crack]]
+name = "slit"
+points = [[-0.5, 0], [0.5, 0]]
+[mesh]
+preset = "uniform"
+size = 0.2
+[output]
+fields = true
+bounds = false
+[[load]]
+name = "up"
+f = "y > 0 ? 1 : -1"
+"""
 PICTURE = "return document.getElementById('scene').dataset.frames > 0 && !document.getElementById('stage').hidden"
 ROW = "return new URLSearchParams(location.hash.slice(1)).get('row')"
 
@@ -66,6 +84,21 @@ def blurred(picture):
     with Image.open(picture) as image:
         image = image.convert("RGB")
         return np.asarray(image.resize((image.width // 20, image.height // 20), Image.Resampling.BOX), float)
+
+
+def in_file(path):
+    """All that a result file says but what only one who ran the case knows, and the meanings that the command adds."""
+    found = {}
+
+    def look(name, item):
+        found.update({f"{name}@{key}": repr(value) for key, value in item.attrs.items()
+                      if (name, key) not in (("", "case"), ("", "total_seconds")) and key != "meaning"})
+        if hasattr(item, "shape"):
+            found[name] = item.dtype, repr(item[()].tolist())
+    with h5py.File(path) as file:
+        look("", file)
+        file.visititems(look)
+    return found
 
 
 class Explored(InChromium):
@@ -148,6 +181,18 @@ class Explored(InChromium):
         self.until("return document.getElementById('tab-interfaces').ariaSelected === 'true' && "
                    "document.getElementById('numbers').innerText.startsWith('row-0')")
 
+    def test_a_job_that_is_taken_along_is_what_the_command_fetches(self):
+        jobs = [self.client.submit(EXAMPLES / "opening.toml"), self.client.submit(anticrack.Case.parse(GROWTH)),
+                self.client.submit(EXAMPLES / "load-ratio.toml", coefficients=[[1, -0.5], [1, 0.5]], traces=[1])]
+        for job in jobs:
+            job.wait(False)
+            got = bytes(self.later(f"fetch('/api/export?kind=h5&of={job.name}').then(a => a.arrayBuffer())"
+                                   ".then(b => [...new Uint8Array(b)])"))
+            path = self.folder / f"{job.name[5:]}.h5"
+            ended = run(ANTICRACK, "job", "fetch", job.name, "-o", path, "--server", f"127.0.0.1:{self.server.port}")
+            self.assertEqual(ended.returncode, 0, ended.stderr)
+            self.assertEqual(*map(in_file, (io.BytesIO(got), path)))
+
     def test_growth_steps_through_fronts(self):
         result = self.solved(anticrack.Case.parse(GROWTH))
         growth = next(iter(result.loads.values())).growth
@@ -193,13 +238,12 @@ class Explored(InChromium):
         again = self.fragment()["of"]
         self.button("Cancel", "#jobs .here")
         self.until("return document.querySelector('.here .state.cancelled')")
-        for answer, left in (("Keep it", True), ("Delete", False)):
-            self.button("Delete\u2026", "#jobs .here")
-            self.until("return document.getElementById('question').open")
-            self.assertIn(again, self.script("return document.getElementById('question').innerText"))
-            self.button(answer, "#question")
-            self.until("return !document.getElementById('question').open")
-            time.sleep(0.3)
+        for answer, left in (("dismiss", True), ("accept", False)):
+            self.click(f"[data-key='{again}Delete\u2026']")
+            asked = self.browser.switch_to.alert
+            self.assertIn(again, asked.text)
+            getattr(asked, answer)()
+            time.sleep(0.5)
             self.assertEqual(again in [each.name for each in self.client.jobs()], left)
         self.until("return document.getElementById('notices').textContent.includes('has been deleted')")
 
@@ -245,6 +289,38 @@ class Explored(InChromium):
 
 
 class OfAFile(InChromium):
+    def test_many_triangles_are_thinned_first_and_while_they_move(self):
+        with anticrack.local(program=ANTICRACKD) as client:
+            result = client.run(anticrack.Case.parse(SLIT.replace("0.2", "0.0065")), progress=False)
+        result.save(self.folder / "many.h5")
+        (load,) = result.loads.values()
+        surface, count = scene.Values(result, load), len(result.mesh.triangles)
+        self.assertGreater(count, 200_000)
+        edges, own = np.unique(np.sort(surface.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1), axis=0,
+                               return_counts=True)
+        np.testing.assert_array_equal(surface.array("outline", False), edges[own == 1])
+        kept, few = surface.thinned
+        for what in surface.known:
+            np.testing.assert_array_equal(surface.array(what, True), surface.array(what, False)[kept])
+        at = surface.points[kept][few]
+        (x, y), areas = np.moveaxis(at[:, 1:] - at[:, :1], 1, 0), surface.areas.sum()
+        self.assertAlmostEqual(abs(np.linalg.det(np.stack((x, y), 1))).sum() / 2, areas, delta=0.03 * areas)
+        with self.page(self.folder / "many.h5"):
+            self.until(PICTURE)
+            self.until("return document.querySelector('#bar i') && document.getElementById('moving').hidden && "
+                       "document.getElementById('moving').textContent")
+            self.script("const line = document.getElementById('moving'); window.told = []; new MutationObserver(() => "
+                        "line.hidden || told.push(line.textContent)).observe(line, {attributes: true});"
+                        "document.getElementById('scene').focus()")
+            ActionChains(self.browser).send_keys(Keys.ARROW_LEFT).perform()
+            self.until("return told.length && document.getElementById('moving').hidden")
+            self.assertEqual(self.script("return told[0]"), f"{len(few)} of {count} triangles while it moves")
+            self.go("of=file&plan=1&colour=flux", "return document.getElementById('bar').textContent.includes('grad')")
+            values = surface.array("flux", False)
+            told = self.script("return document.querySelector('#bar span:nth-child(2)').textContent")
+            self.assertAlmostEqual(float(told.replace("\u2212", "-")), values.min(), delta=1e-3 * abs(values).max())
+            self.require_clean()
+
     def test_what_is_taken_along_is_what_the_package_writes(self):
         with anticrack.local(program=ANTICRACKD) as client:
             client.run(EXAMPLES / "opening.toml", progress=False).save(self.folder / "r.h5")
@@ -282,6 +358,34 @@ class OfAFile(InChromium):
             far = np.abs(blurred(io.BytesIO(shown)) - blurred(kept))
             self.assertLess(far.max(), 40, "of 255, in squares of 20 pixels")
             self.assertLess(far.mean(), 1.5)
+
+    def test_a_study_of_two_keys_has_a_line_for_each_value_of_one_and_contours_over_both(self):
+        grid = {"load.up.f": [1, 2, 3], "mesh.size": [0.3, 0.2]}
+        with anticrack.local(program=ANTICRACKD) as client:
+            study = client.study(anticrack.Case.parse(SLIT), grid, path=self.folder / "s.h5", progress=False)
+        with self.page(self.folder / "s.h5"):
+            src = self.until("return document.querySelector('#panel .drawing img')?.naturalWidth && "
+                             "document.querySelector('#panel .drawing img').src")
+            lines = self.script("return Chart.getChart(document.querySelector('#panel canvas')).data.datasets.map(line "
+                                "=> [line.label, line.data.map(point => [point.x, point.y])])")
+            size, load, energy = (study[name] for name in ("mesh.size", "load.up.f", "energy"))
+            for (label, points), value in zip(lines, grid["mesh.size"], strict=True):
+                self.assertEqual(label, f"mesh.size = {value:g}")
+                self.assertEqual(points, [list(point) for point in zip(load[size == value], energy[size == value])])
+            got = bytes(self.later(f"fetch('{src}').then(a => a.arrayBuffer()).then(b => [...new Uint8Array(b)])"))
+            made = studies.draw_study(study, self.folder / "figures", Look(["svg"]))
+            self.assertIn(got, [pathlib.Path(path).read_bytes() for path in made.files if "energy" in path])
+            self.script("document.querySelector('[aria-label=row]').focus()")
+            for row in (1, 2):  # the slider keeps the focus
+                ActionChains(self.browser).send_keys(Keys.ARROW_RIGHT).perform()
+                self.until(f"{ROW} === '{row}' && document.activeElement.ariaLabel === 'row'")
+            self.assertIn(study.rows[2].job, self.script("return document.querySelector('table.row').textContent"))
+            self.go("of=file&tab=tables", "return document.querySelector('#panel tbody td')")
+            links = self.script("return [...document.querySelectorAll('#export-links a')].map(a => a.href)")
+            sizes = [len(self.later(f"fetch('{link}').then(a => a.ok ? a.text() : '')")) for link in links]
+            self.assertEqual(len(sizes), 4)  # PNG, SVG, HDF5, TOML
+            self.assertTrue(all(sizes), links)
+            self.require_clean()
 
     def test_a_study_is_stepped_through(self):
         case = anticrack.Case.read(EXAMPLES / "several-inclusions.toml")

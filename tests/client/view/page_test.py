@@ -13,11 +13,11 @@ from selenium.webdriver.common.by import By
 
 import anticrack
 from browser import InChromium, viewing
+from hostile import HOSTILE, LONG, hostile
 from processes import ANTICRACK, ANTICRACKD, Daemon, FolderTest, run
 
 EXAMPLES = pathlib.Path(os.environ["EXAMPLES"])
 PAGE = pathlib.Path(os.environ["PAGE"])
-HOSTILE = '<img src=x onerror="window.harmed=1"><script>window.harmed=1</script>\u202e\u2066'
 
 
 class Gate(FolderTest):
@@ -84,7 +84,7 @@ class Shown(InChromium):
     def test_hostile_text_does_nothing(self):
         with anticrack.local(program=ANTICRACKD) as client:
             result = client.run(EXAMPLES / "slit.toml", progress=False)
-        result.title, load = HOSTILE + "x" * 65536, next(iter(result.loads.values()))
+        result.title, load = LONG, next(iter(result.loads.values()))
         load.warnings.append(HOSTILE * 100)
         result.case = HOSTILE
         with warnings.catch_warnings():
@@ -100,18 +100,32 @@ class Shown(InChromium):
             self.assertLess(len(self.script("return document.getElementById('title').textContent")), 200)
             self.require_clean()
 
-    def test_hostile_names_of_a_server_do_nothing(self):
-        case = anticrack.Case.read(EXAMPLES / "slit.toml")
-        case.tables["title"] = HOSTILE[:100]
+    def test_hostile_text_of_a_server_does_nothing(self):
+        marks = "return document.body.innerText.match(/[\\u202a-\\u202e\\u2066-\\u2069]/)"
         with Daemon(self.folder) as server, anticrack.connect(f"127.0.0.1:{server.port}") as client:
-            job = client.submit(case).wait(False)
-            with self.page("--server", f"127.0.0.1:{server.port}", job.name):
-                self.until("return document.querySelector('.here strong')?.textContent.startsWith('<img') && "
-                           "!document.getElementById('export').hidden")
-                self.tabs()
-                self.click("[data-key$='Delete\u2026']")
-                self.until("return document.querySelector('#question p')?.textContent.includes('<img')")
-                self.assertIsNone(self.script("return window.harmed ?? document.querySelector('img, #jobs script')"))
+            job = client.submit(EXAMPLES / "opening.toml").wait(False)
+            sweep = client.submit(EXAMPLES / "load-ratio.toml", coefficients=[[1, -0.5], [1, 0.5]], traces=[1])
+            with hostile(server.port) as port, self.page("--server", f"127.0.0.1:{port}"):
+                for job in (job, sweep.wait(False)):
+                    self.script("location.hash = arguments[0]", f"of={job.name}")
+                    self.until(f"return document.querySelector('.here [data-key=\"{job.name}\"] strong')"
+                               "?.textContent.startsWith('<img') && !document.getElementById('export').hidden")
+                    for tab in self.tabs():
+                        self.assertIsNone(self.script(marks), tab)
+                        self.assertIsNone(self.script("return window.harmed ?? document.querySelector("
+                                                      "'img[src=x], #columns script, #columns [onerror]')"), tab)
+                    self.assertLess(self.script("return document.documentElement.scrollWidth"), 1500)
+                self.assertTrue(self.script("return document.body.innerText.includes('\u27e6202E\u27e7')"))
+                self.assertLess(self.script("return document.body.innerText.length"), 100_000)
+                self.click(f"[data-key='{sweep.name}Delete\u2026']")
+                asked = self.browser.switch_to.alert
+                self.assertIn("<img", asked.text)
+                self.assertNotRegex(asked.text, "[\u202a-\u202e\u2066-\u2069]")
+                asked.dismiss()
+                self.script("location.hash = 'of=jobs/none'")  # an error of the server itself
+                self.until("return document.getElementById('notices').textContent.includes('<img')")
+                self.assertIsNone(self.script("return window.harmed ?? null"))
+                self.assertIsNone(self.script(marks))
                 self.require_clean()
 
     def test_a_server_that_dies_and_comes_back_and_a_job_that_goes(self):

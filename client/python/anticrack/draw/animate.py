@@ -27,7 +27,7 @@ from .pictures import draw_accuracy, draw_curves, draw_membrane, title_of
 from .sheet import Look, Sheet
 
 DPI = 150
-_MOST, _BEATS, _RATE = 60, 24, 20  # frames of growth and loads, of an amplitude, and a second of a film
+_MOST, _BEATS, _RATE = 60, 24, 25  # frames of growth and loads, of an amplitude, and a second of a film
 _Frames = list[tuple[Any, int]]  # images, and how long each is shown [ms]
 
 
@@ -94,7 +94,7 @@ def _stages(look: Look, result: Result, load: Load) -> _Frames:
     height = draw_accuracy(sheet, result, load)
     energies = dict(zip(load.stages["triangles"].tolist(), load.stages["energy"].tolist()))
     triangles = at["triangles"]
-    return _followed(sheet, height, [(triangles, at["error"]), (triangles, [energies[n] for n in triangles])], 900)
+    return _followed(sheet, height, [(triangles, at["error"]), (triangles, [energies[n] for n in triangles])], 880)
 
 
 def _followed(sheet: Sheet, height: float, curves: Sequence[tuple[Any, Any]], time: int) -> _Frames:

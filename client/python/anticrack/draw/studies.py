@@ -124,6 +124,21 @@ def _contours_picture(look: Look, study: Study, load: str, title: str, column: s
     return sheet.files(ABOVE + high + BELOW)
 
 
+def picture(study: Study, look: Look, load: str = "", column: str = "") -> bytes:
+    """The picture that draw_study makes of a load, "": the first: contours of a column, or "": curves. Raises Error if
+    there is none."""
+    load = load or (study.loads or [""])[0]
+    title = _titled(study, load)
+    with look.applied():
+        made = _contours_picture(look, study, load, title, column) if column else _curves_picture(
+            look, study, load, title)
+    return made[look.formats[0]]
+
+
+def _titled(study: Study, load: str) -> str:
+    return " \u2014 ".join(text for text in (study.title, load) if text)
+
+
 def draw_study(study: Study, folder: str, look: Look) -> Made:
     """Draws for every load LOAD-study, curves over the key that varies or points over the rows, and where two vary
     LOAD-NUMBER, contours. Makes the folder. Raises Error if it cannot be written or no row has an answer."""
@@ -139,7 +154,7 @@ def draw_study(study: Study, folder: str, look: Look) -> Made:
         drawn.notes.append(f"{left_out} of {len(study.rows)} rows have no answer and are left out")
     with look.applied():
         for load, stem in zip(study.loads, output.stems(study.loads, ["-study"])):
-            title = " \u2014 ".join(text for text in (study.title, load) if text)
+            title = _titled(study, load)
             for column in maps:
                 try:
                     made = _contours_picture(look, study, load, title, column)

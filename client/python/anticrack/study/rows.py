@@ -19,7 +19,7 @@ import numpy as np
 
 from ..arrays import is_number, plain
 from ..errors import CaseError
-from ..text import harmless, shown, without_numpy
+from ..text import counted, harmless, shown, without_numpy
 
 MOST_ROWS = 100_000
 Values = dict[str, Any]  # of one row, by key
@@ -88,23 +88,36 @@ def _check(count: int) -> None:
 
 def varied(text: str) -> tuple[str, list[Any]]:
     """The key and the values of KEY=FIRST:LAST:COUNT, evenly spaced, or of KEY=VALUE,... with values as in TOML."""
-    key, equals, values = text.partition("=")
-    if not equals or not key.strip() or not values.strip():
+    key, _, values = (part.strip() for part in text.partition("="))
+    if not key or not values:
         raise CaseError(f"{shown(text)} varies nothing; write KEY=FIRST:LAST:COUNT, as load.opening.f=1:2:11, or "
                         "KEY=VALUE,VALUE")
-    spaced = re.fullmatch(r"\s*([^:\[\"']+):([^:]+):\s*([0-9]+)\s*", values)
-    if spaced:
-        try:
-            first, last, count = float(spaced[1]), float(spaced[2]), int(spaced[3])
-        except ValueError:
-            raise CaseError(f"{shown(text)}: {shown(values)} is not FIRST:LAST:COUNT, as 0:90:19") from None
-        if not 2 <= count <= MOST_ROWS or not math.isfinite(first) or not math.isfinite(last):
-            raise CaseError(f"{shown(text)}: write finite numbers and a count from 2 to {MOST_ROWS}, as 0:90:19")
-        return key.strip(), [float(f"{value:.15g}") for value in np.linspace(first, last, count)]
     try:
-        return key.strip(), list(tomllib.loads(f"values = [{values}]")["values"])
+        found = _values(values)
+        toml_of(found)
+    except CaseError as error:
+        raise CaseError(f"{shown(text)}: {error}") from None
+    return key, found
+
+
+def _values(text: str) -> list[Any]:
+    if ":" in text and not re.search("[?\"'{[]", text):  # which are of expressions, texts, tables and lists
+        first, last, count, *more = *text.split(":"), ""
+        if len(more) != 1:
+            raise CaseError("it is not FIRST:LAST:COUNT, as 0:90:19; a text needs quotes")
+        ends = [value_of(word) for word in (first, last)]
+        for name, word, end in zip(("FIRST", "LAST"), (first, last), ends):
+            if not is_number(end) or not math.isfinite(end):
+                raise CaseError(f"{name} is {shown(word)}; write a finite number with a point, as 0.5")
+        if not re.fullmatch("0*[0-9]{1,6}", count) or not 2 <= int(count) <= MOST_ROWS:
+            raise CaseError(f"COUNT is {shown(count)}; write a whole number from 2 to {MOST_ROWS}, as in 0:90:19")
+        return [float(f"{value:.15g}") for value in np.linspace(ends[0], ends[1], int(count))]
+    try:
+        return list(tomllib.loads(f"values = [{text}]")["values"])
     except tomllib.TOMLDecodeError:
-        return key.strip(), [value_of(word) for word in values.split(",")]
+        if not all(words := [word.strip() for word in text.split(",")]):
+            raise CaseError("a value is missing beside a comma") from None
+        return list(map(value_of, words))
 
 
 def value_of(word: str, comma: bool = False) -> Any:
@@ -115,6 +128,8 @@ def value_of(word: str, comma: bool = False) -> Any:
     try:
         return float(word) if re.fullmatch(r"[-+.0-9][-+.0-9eE]*", word) else tomllib.loads(f"v = {word}")["v"]
     except (ValueError, KeyError):  # TOML's error is a ValueError
+        if word[:1] in ("[", "{", '"', "'"):
+            raise CaseError(f"{shown(word)} is no value; close its quotes and brackets, as in TOML") from None
         return word
 
 
@@ -122,25 +137,37 @@ def csv_rows(path: str) -> list[Values]:
     """The rows of comma-separated text, or of text with semicolons, whose first line names the keys."""
     try:
         return rows_in(pathlib.Path(path).read_text("utf-8-sig"), path)
-    except OSError as error:
-        raise CaseError(f"{path}: cannot be read: {error.strerror}") from None
-    except (UnicodeDecodeError, csv.Error) as error:
-        raise CaseError(f"{path}: this is no text with commas: {harmless(error)}") from None
+    except (OSError, UnicodeDecodeError) as error:
+        why = getattr(error, "strerror", "it is no text in UTF-8; save it as CSV in UTF-8")
+        raise CaseError(f"{path}: cannot be read: {why}") from None
 
 
 def rows_in(text: str, path: str) -> list[Values]:
     """The rows of such a text; `path` is what errors call it. Numbers between semicolons may have decimal commas."""
     mark = next((mark for mark in ";\t" if mark in text.partition("\n")[0]), ",")
-    lines = [line for line in csv.reader(io.StringIO(text), delimiter=mark, skipinitialspace=True) if line]
-    keys = [key.strip() for key in lines[0]] if lines else []
-    if not all(keys) or len(set(keys)) < len(keys) or len(lines) < 2:
-        raise CaseError(f"{path}: write a line of keys, each once, and then a line of values for each row")
+    reader = csv.reader(io.StringIO(text), delimiter=mark, skipinitialspace=True, strict=True)
+    try:
+        lines = [(reader.line_num, line) for line in reader if line]
+    except csv.Error as error:
+        raise CaseError(f"{path}: line {reader.line_num}: {harmless(error)}; close its quotes") from None
+    keys = [key.strip() for key in lines[0][1]] if lines else []
+    wrong = ("it is empty" if not keys else "a key has no name" if not all(keys) else "no row follows the keys"
+             if len(lines) < 2 else next((f"{shown(key)} stands twice" for key in keys if keys.count(key) > 1), ""))
+    if wrong:
+        raise CaseError(f"{path}: {wrong}; write a line of keys, each once, and then a line of values for each row")
     _check(len(lines) - 1)
-    for number, line in enumerate(lines[1:], 2):
-        if len(line) != len(keys) or not all(word.strip() for word in line):
-            raise CaseError(f"{path}: line {number} has {len([word for word in line if word.strip()])} values for "
-                            f"{len(keys)} keys; write one for each, a list in quotes")
-    return [{key: tidy(value_of(word, mark != ",")) for key, word in zip(keys, line)} for line in lines[1:]]
+    rows = []
+    for number, line in lines[1:]:
+        found = [word for word in line if word.strip()]
+        if not len(found) == len(line) == len(keys):
+            raise CaseError(f"{path}: line {number} has {counted(len(found), 'value')} for {len(keys)} keys: "
+                            "write one for each, a list in quotes, and decimal commas between semicolons")
+        try:
+            rows.append({key: tidy(value_of(word, mark != ",")) for key, word in zip(keys, line)})
+            overrides_of(rows[-1])
+        except CaseError as error:
+            raise CaseError(f"{path}: line {number}: {error}") from None
+    return rows
 
 
 def product(rows: Sequence[Values], more: Sequence[Values]) -> list[Values]:

@@ -147,10 +147,7 @@ def _drawn(mesh: Any, arrays: Any, units: Units) -> bytes:
 
 
 def add_routes(app: web.Application, editor: Editor) -> None:
-    app.router.add_get("/api/case", editor.first)
-    app.router.add_get("/api/example", editor.example)
-    app.router.add_get("/api/keys", editor.keys)
-    app.router.add_get("/api/drawing", editor.drawing)
-    app.router.add_post("/api/check", editor.check)
-    app.router.add_post("/api/draw", editor.draw)
-    app.router.add_post("/api/run", editor.run)
+    app.add_routes([web.get("/api/case", editor.first), web.get("/api/example", editor.example),
+                    web.get("/api/keys", editor.keys), web.get("/api/drawing", editor.drawing),
+                    web.post("/api/check", editor.check), web.post("/api/draw", editor.draw),
+                    web.post("/api/run", editor.run)])

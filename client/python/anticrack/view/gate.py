@@ -37,9 +37,8 @@ class Gate:
     def _refusal(self, request: web.Request) -> str:
         if request.headers.get("Host") != self.host:
             return f"this page is at {self.host} only"
-        if request.headers.get("Origin", f"http://{self.host}") != f"http://{self.host}":
-            return "another page may not ask this"
-        if request.headers.get("Sec-Fetch-Site", "none") not in ("none", "same-origin"):
+        if (request.headers.get("Origin", f"http://{self.host}") != f"http://{self.host}"
+                or request.headers.get("Sec-Fetch-Site", "none") not in ("none", "same-origin")):
             return "another page may not ask this"
         if request.method != "GET" and "Origin" not in request.headers:
             return "only the page itself may change something"

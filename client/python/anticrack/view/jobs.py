@@ -134,6 +134,4 @@ def add_routes(app: web.Application, session: Told, pages: Pages, opened: Opened
         else:
             raise Error("a job can be cancelled, deleted, or submitted again")
         return reply({"name": name})
-    app.router.add_get("/api/jobs", listed)
-    app.router.add_get("/api/watch", watch)
-    app.router.add_post("/api/job", act)
+    app.add_routes([web.get("/api/jobs", listed), web.get("/api/watch", watch), web.post("/api/job", act)])

@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 import asyncio
+import functools
+import math
+from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -21,43 +25,61 @@ TRACES = ("u_minus", "u_plus", "jump", "pressure", "flux", "force", "contact")
 HISTORY = ("iteration", "criterion", "energy", "contact_count", *(f"kkt_{name}" for name in KKT))
 _STAGES = ("triangles", "energy", "energy_lower", "energy_upper", "displacement_error")
 _MOVING = 60_000  # triangles of the thinned mesh, about
-_SINGULAR = ("flux", "energy_density", "indicator")
+_KEPT = 3  # surfaces in memory
 _OPENS = (CRACK, DELAMINATED, FREE)
 
 
 class Surface:
     """A surface of triangles. nodes (n): of the mesh; part (n): the subdomain; points (n, 2); triangles (m, 3): indices
     into nodes."""
+    known, range = list[str](), ""
 
     def __init__(self, points: Array, nodes: Array, part: Array, triangles: Array) -> None:
         self.points, self.nodes, self.part, self.triangles = points[nodes], nodes, part, triangles
 
     @classmethod
     def of_mesh(cls, points: Array, triangles: Array) -> Surface:
-        return cls(points, np.arange(len(points)), np.zeros(len(points), int), triangles)
+        return cls(points, np.arange(len(points)), np.zeros(len(points), np.int32), triangles)
 
-    def outline(self) -> Array:
-        """(e, 2) edges of one triangle only: the boundary, and both faces of interfaces"""
-        edges = np.sort(self.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1).astype(np.int64)
-        found, counts = np.unique(edges[:, 0] * len(self.nodes) + edges[:, 1], return_counts=True)
-        once = found[counts == 1]
-        return np.column_stack((once // len(self.nodes), once % len(self.nodes)))
-
-    def thinned(self) -> Array:
-        """(k, 3) some 60,000 triangles: nodes of a cell of a grid become one, except those of slits, whose faces would
-        close; triangles with two corners in a cell vanish."""
+    @functools.cached_property
+    def thinned(self) -> tuple[Array, Array]:
+        """(k) points that are kept, (t, 3) some 60,000 triangles of them: nodes of a cell of a grid become one, except
+        those of slits, whose faces would close; triangles with two corners in a cell vanish."""
         low, size = self.points.min(axis=0), np.ptp(self.points, axis=0).max()
         cells = int((_MOVING / 2) ** 0.5)
         column, row = (np.minimum((self.points - low) / size * cells, cells - 1)).astype(np.int64).T
-        cluster = (self.part * cells + row) * cells + column
-        _, copy, count = np.unique(self.nodes * (self.part.max() + 1) + self.part, return_inverse=True,
-                                   return_counts=True)
-        slit = np.flatnonzero(count[copy] > 1)
+        cluster = (self.part.astype(np.int64) * cells + row) * cells + column
+        copy = self.nodes.astype(np.int64) * (int(self.part.max()) + 1) + self.part
+        slit = np.flatnonzero(np.bincount(copy)[copy] > 1)
         cluster[slit] = -1 - slit
         _, first, cluster = np.unique(cluster, return_index=True, return_inverse=True)
         found = first[cluster][self.triangles]
         a, b, c = found.T
-        return found[(a != b) & (b != c) & (c != a)]  # type: ignore[no-any-return]
+        kept, corners = np.unique(found[(a != b) & (b != c) & (c != a)], return_inverse=True)
+        return kept, corners.reshape(-1, 3)
+
+    def of_nodes(self, what: str) -> Array:
+        raise KeyError(what)
+
+    def array(self, what: str, thin: bool) -> Array:
+        """The points or triangles, their outline, or values at the points; thin: of fewer triangles."""
+        if what in ("triangles", "outline"):
+            triangles = self.thinned[1] if thin else self.triangles
+            return triangles if what == "triangles" else outline_of(triangles)
+        values = self.points if what == "points" else self.of_nodes(what)
+        return values[self.thinned[0]] if thin else values
+
+
+def outline_of(triangles: Array) -> Array:
+    """(e, 2) edges of one triangle only: the boundary, and both faces of interfaces. An inner node is as often the
+    second as the third corner, and with the same others, so that random weights of these sum to 0."""
+    weights = np.random.default_rng(0).integers(1 << 40, size=triangles.max() + 1)
+    sums = sum(np.bincount(triangles[:, i], weights[triangles[:, i - 2]] - weights[triangles[:, i - 1]], len(weights))
+               for i in range(3))
+    edges = triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+    edges = np.sort(edges[(np.asarray(sums) != 0)[edges].all(axis=1)], axis=1)
+    found, counts = np.unique(edges, axis=0, return_counts=True)
+    return found[counts == 1]  # type: ignore[no-any-return]
 
 
 class Values(Surface):
@@ -69,10 +91,14 @@ class Values(Surface):
             super().__init__(mesh.nodes, *joined(parts))
         else:
             vars(self).update(vars(Surface.of_mesh(mesh.nodes, mesh.triangles)))
-        self.known = ["u", "flux", "energy_density", *["indicator"] * (load.indicator is not None)] if parts else []
+        self.known, self._lately = colours_of(load), ("", np.empty(0))
 
     def _joined(self, what: str) -> Array:
         return np.concatenate([getattr(part, what) for part in self.load.fields])
+
+    @functools.cached_property
+    def areas(self) -> Array:
+        return self._joined("areas")
 
     def of_triangles(self, what: str) -> Array:
         """(m) |T grad u|, the density of energy, or the error indicator over the area"""
@@ -80,36 +106,44 @@ class Values(Surface):
             values = self._joined(what)
             return np.hypot(*values.T) if what == "flux" else values  # type: ignore[no-any-return]
         assert self.load.indicator is not None
-        areas = self._joined("areas")
         values = of_triangles(self.result.mesh, self.load.indicator, self.nodes[self.triangles])
-        return np.divide(values, areas, out=np.zeros_like(areas), where=areas > 0)
-
-    def cut(self, what: str) -> float:
-        """The value above which there are 2 % of the area, around tips, whose colours would hide all else."""
-        values, areas = self.of_triangles(what), self._joined("areas")
-        order = np.argsort(values)
-        return float(values[order[np.searchsorted(np.cumsum(areas[order]), 0.98 * areas.sum())]])
+        return np.divide(values, self.areas, out=np.zeros_like(values), where=self.areas > 0)
 
     def of_nodes(self, what: str) -> Array:
-        """(n) u, or the means of the triangles at a node, weighted by area"""
-        if what == "u":
-            return self._joined("u")
-        areas = self._joined("areas")
+        """(n) u, or the means of the triangles at a node, weighted by area. `range` then has least, largest, and
+        the value above which there are 2 % of the area, around tips, whose colours would hide all else."""
+        if self._lately[0] != what:
+            if what not in self.known:
+                raise KeyError(what)
+            values, cut = (self._joined("u"), math.inf) if what == "u" else self._means(what)
+            ends = values[np.isfinite(values)]
+            self.range = f"{ends.min()} {ends.max()} {min(cut, ends.max())}" if ends.size else ""
+            self._lately = what, values
+        return self._lately[1]
 
-        def summed(values: Array) -> Array:
-            return np.bincount(self.triangles.ravel(), np.repeat(values, 3), len(self.nodes))
+    def _means(self, what: str) -> tuple[Array, float]:
+        values, areas = self.of_triangles(what), self.areas
+        order = np.argsort(values)
+        cut = values[order[np.searchsorted(np.cumsum(areas[order]), 0.98 * areas.sum())]]
+
+        def summed(of: Array) -> Array:
+            return np.bincount(self.triangles.ravel(), np.repeat(of, 3), len(self.nodes))
         around = summed(areas)
-        return np.divide(summed(areas * self.of_triangles(what)), around, out=np.zeros_like(around), where=around > 0)
+        return np.divide(summed(areas * values), around, out=np.zeros_like(around), where=around > 0), float(cut)
+
+
+def colours_of(load: Load) -> list[str]:
+    return ["u", "flux", "energy_density", *["indicator"] * (load.indicator is not None)] if load.fields else []
 
 
 def _told(result: Result, load: Load) -> dict[str, Any]:
     units = result.units
     return {"name": load.name, "status": load.status, "reason": load.reason, "error": load.error,
-            "warnings": load.warnings[:50], "no_bracket": load.no_bracket, "colours": Values(result, load).known,
+            "warnings": load.warnings[:50], "no_bracket": load.no_bracket, "colours": colours_of(load),
             "steps": len(load.history.get("iteration", ())), "traces": len(load.traces),
             "energy": with_bounds(load, "energy", units.behind("F L")), "growth_notes": load.growth_notes,
             "growth": [[float(x), float(y)] for x, y in zip(load.growth["x"], load.growth["y"])] if load.growth else [],
-            "contact_length": load.contact_length, "iterations": load.iterations,
+            "contacts": load.contact_intervals, "contact_length": load.contact_length, "iterations": load.iterations,
             "inclusions": [{"name": part.name, "A": with_bounds(part, "A", units.behind("L"))}
                            for part in load.inclusions.values()],
             "stages": {name: load.stages[name].tolist() for name in _STAGES if name in load.stages}}
@@ -153,35 +187,29 @@ def _units(units: Units) -> dict[str, str]:
     return {dimension: units.of(dimension) for dimension in ("L", "F", "F/L", "F L")}
 
 
-def array(result: Result, load: Load, what: str, interface: int) -> Array:
-    """The values of a name that the page may ask for. Raises KeyError."""
+def _of_lines(result: Result, load: Load, what: str, interface: int) -> Array:
+    """The shape of an interface, its traces, or the history of the load."""
     if what == "line":
         line = result.interfaces[interface]
         return np.stack((line.s, line.x, line.y, np.append(line.edge_kind, 0)))
     if what == "trace":
         return np.stack([getattr(load.traces[interface], name) for name in TRACES])
-    if what == "history":
-        return np.stack([load.history[name] for name in HISTORY])
-    surface = Values(result, load)
-    return surface.of_nodes(what) if what in surface.known else shape(surface, what)
-
-
-def shape(surface: Surface, what: str) -> Array:
-    """The points or triangles of a surface, its outline, or fewer triangles. Raises KeyError."""
-    if what in ("points", "triangles"):
-        return getattr(surface, what)  # type: ignore[no-any-return]
-    return {"outline": surface.outline, "thinned": surface.thinned}[what]()
+    return np.stack([load.history[name] for name in HISTORY])
 
 
 def triangle(result: Result, load: Load, index: int) -> dict[str, Any]:
     """What is known in a triangle of the surface."""
-    surface = Values(result, load)
-    if not 0 <= index < len(surface.triangles):
+    if not 0 <= index < len(result.mesh.triangles):
         raise IndexError(f"there is no triangle {index}")
-    corners = surface.triangles[index]
-    return {"nodes": surface.nodes[corners].tolist(),
-            "subdomain": result.mesh.subdomain_names[int(surface.part[corners[0]])] if load.fields else "",
-            **{what: float(surface.of_triangles(what)[index]) for what in surface.known if what != "u"}}
+    for part in load.fields:
+        if index < len(part.triangles):
+            own = replace(part, triangles=part.triangles[[index]], tension=part.tension[[index]])
+            own.mesh = result.mesh
+            alone = Values(result, replace(load, fields=[own]))
+            return {"nodes": part.nodes[own.triangles[0]].tolist(), "subdomain": part.name, **{
+                what: float(alone.of_triangles(what)[0]) for what in alone.known[1:]}}
+        index -= len(part.triangles)
+    return {"nodes": result.mesh.triangles[index].tolist(), "subdomain": ""}
 
 
 def add_routes(app: web.Application, opened: Opened) -> None:
@@ -192,15 +220,29 @@ def add_routes(app: web.Application, opened: Opened) -> None:
         result = await opened.result(name)
         return reply(await asyncio.to_thread(described, result, opened.cases.get(name, "")))
 
+    kept: list[tuple[Any, Surface]] = []  # of the loads and meshes that were asked for lately
+    one = asyncio.Lock()  # many large arrays at once would take much memory
+
+    def surface_of(of: Any, make: Callable[..., Surface], *words: Any) -> Surface:
+        found = next((each for each in kept if each[0] is of), None) or (of, make(*words))
+        kept[:] = [found, *(each for each in kept if each is not found)][:_KEPT]
+        return found[1]
+
     async def send(request: web.Request) -> web.Response:
-        what, index, headers = request.query["what"], int(request.query.get("interface", 0)), dict[str, str]()
-        if "mesh" in request.query:
-            mesh = await opened.mesh(request.query["mesh"])
-            values = await asyncio.to_thread(shape, Surface.of_mesh(mesh["nodes"], mesh["triangles"]), what)
+        query, what, headers = request.query, request.query["what"], dict[str, str]()
+        if "mesh" in query:
+            mesh = await opened.mesh(query["mesh"])
+            given: tuple[Any, ...] = mesh, Surface.of_mesh, mesh["nodes"], mesh["triangles"]
         else:
-            values = await asyncio.to_thread(array, *(loaded := await load_of(opened, request.query)), what, index)
-            if what in _SINGULAR:
-                headers["X-Cut"] = str(await asyncio.to_thread(Values(*loaded).cut, what))
+            result, load = await load_of(opened, query)
+            given = load, Values, result, load
+        if what in ("line", "trace", "history") and "mesh" not in query:
+            values = _of_lines(result, load, what, int(query.get("interface", 0)))
+        else:
+            async with one:
+                surface = await asyncio.to_thread(surface_of, *given)
+                values = await asyncio.to_thread(surface.array, what, "thin" in query)
+                headers["X-Range"] = surface.range if what in surface.known else ""
         headers["X-Array"] = kind = "i4" if values.dtype.kind in "iu" else "f8"
         return web.Response(body=np.ascontiguousarray(values, "<" + kind).tobytes(), headers=headers,
                             content_type="application/octet-stream")
@@ -208,6 +250,4 @@ def add_routes(app: web.Application, opened: Opened) -> None:
     async def pick(request: web.Request) -> web.Response:
         load = await load_of(opened, request.query)
         return reply(await asyncio.to_thread(triangle, *load, int(request.query["index"])))
-    app.router.add_get("/api/result", describe)
-    app.router.add_get("/api/array", send)
-    app.router.add_get("/api/triangle", pick)
+    app.add_routes([web.get("/api/result", describe), web.get("/api/array", send), web.get("/api/triangle", pick)])

@@ -118,5 +118,4 @@ def add_routes(app: web.Application, opened: Opened) -> None:
         columns = (await of(request.query["of"]))[name]
         return web.Response(text=csv_of(columns), content_type="text/csv", headers={
             "Content-Disposition": f'attachment; filename="{name}.csv"'})
-    app.router.add_get("/api/tables", tables)
-    app.router.add_get("/api/csv", as_csv)
+    app.add_routes([web.get("/api/tables", tables), web.get("/api/csv", as_csv)])

@@ -4,16 +4,17 @@ import {make, number} from './dom.js';
 
 const Chart = /** @type {any} */ (globalThis).Chart;
 
-/** @typedef {{label: string, x: any, y: any, colour: string, dash?: number[], dots?: boolean}} Line */
+/**
+ * @typedef {{label: string, x: any, y: any, colour: string, dash?: number[], dots?: boolean, points?: boolean}} Line
+ */
 
 /** @param {string} name */
 const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
 /**
  * At most four points in each of `columns` equal parts of the axis: the first, the least, the largest, the last.
- * Nothing that sticks out is lost. x must not fall.
- * @param {ArrayLike<number>} x @param {ArrayLike<number>} y @param {number} columns
- * @return {{x: number, y: number}[]}
+ * Nothing that sticks out is lost. x must not fall. @param {ArrayLike<number>} x @param {ArrayLike<number>} y
+ * @param {number} columns @return {{x: number, y: number}[]}
  */
 export function thinned(x, y, columns) {
   const point = (i) => ({x: x[i], y: y[i]});
@@ -57,8 +58,7 @@ export class Lines {
     this.canvas = make('canvas', {role: 'img', tabindex: '0', 'aria-label': options.title});
     this.box = make('figure', {class: options.short ? 'chart short' : 'chart'}, make('div', {}, this.canvas));
     this.options = options;
-    /** @type {any} */
-    this.chart = null;
+    /** @type {any} */ this.chart = null;
     this.canvas.addEventListener(on, (event) => {
       const {x, y} = this.chart?.scales ?? {};
       if (x) pointed?.(x.getValueForPixel(event.offsetX), y.getValueForPixel(event.offsetY));
@@ -75,7 +75,8 @@ export class Lines {
       borderColor: line.colour,
       backgroundColor: line.colour,
       borderDash: line.dash ?? [],
-      pointRadius: line.dots ? 3 : 0
+      pointRadius: line.dots ? 3 : 0,
+      showLine: !line.points
     }));
     if (this.chart)
       this.chart.data.datasets = datasets;
@@ -87,14 +88,12 @@ export class Lines {
 
   /** @param {boolean} log */
   look(log) {
-    const text = css('--text'), grid = css('--line');
+    Object.assign(Chart.defaults, {color: css('--text'), borderColor: css('--line')});
     const round = (v) => /^[125](\.0*)?e/.test(v.toExponential(3)) ? number(v, 4) : null; // of a logarithmic axis
     const axis = (name, type) => ({
       type,
-      grid: {color: grid, borderColor: grid},
-      title: {display: Boolean(name), text: name, color: text, padding: 2},
+      title: {display: Boolean(name), text: name, padding: 2},
       ticks: {
-        color: text,
         maxTicksLimit: this.options.short ? 5 : 7,
         maxRotation: 0,
         autoSkipPadding: 8,
@@ -110,8 +109,8 @@ export class Lines {
       interaction: {mode: 'nearest', intersect: false},
       scales: {x: axis(this.options.x, 'linear'), y: axis(this.options.y, log ? 'logarithmic' : 'linear')},
       plugins: {
-        legend: {labels: {color: text, boxWidth: 18, boxHeight: 1, padding: 8}, position: 'top', align: 'end'},
-        title: {display: true, text: this.options.title, color: text, align: 'start', padding: 0},
+        legend: {labels: {boxWidth: 18, boxHeight: 1, padding: 8}, position: 'top', align: 'end'},
+        title: {display: true, text: this.options.title, align: 'start', padding: 0},
         tooltip: {callbacks: {title: (items) => items.length ? number(items[0].parsed.x) : ''}},
       }
     };

@@ -6,8 +6,7 @@ const HIDDEN =
 
 /**
  * Text that cannot hide: characters without a shape, as those that turn the direction of writing, become marks; a long
- * one is cut.
- * @param {any} text @param {number} most
+ * one is cut. @param {any} text @param {number} most
  */
 export function plain(text, most = 400) {
   const cut = String(text ?? '').slice(0, most + 1);
@@ -17,9 +16,8 @@ export function plain(text, most = 400) {
 }
 
 /**
- * An element; text children become text nodes. options: on... are listeners, others attributes.
- * @param {string} tag @param {Record<string, any>} [options] @param {...any} children
- * @return {any}
+ * An element; text children become text nodes. options: on... are listeners, others attributes. @param {string} tag
+ * @param {Record<string, any>} [options] @param {...any} children @return {any}
  */
 export function make(tag, options = {}, ...children) {
   const node = document.createElement(tag);
@@ -42,14 +40,23 @@ export function fill(node, ...children) {
   return node;
 }
 
+/** As fill, but keeps children that look the same, so that no click on them is lost. @param {any} node */
+export function refill(node, ...children) {
+  const old = [...node.children], made = [...fill(node.cloneNode(false), ...children).children];
+  made.forEach((child, i) => !old[i] ? node.append(child) : old[i].isEqualNode(child) || old[i].replaceWith(child));
+  old.slice(made.length).forEach((child) => child.remove());
+}
+
 /** @param {string} id @return {any} */
 export const byId = (id) => document.getElementById(id);
-
 /** A quiet paragraph. @param {any} text */
 export const aside = (text) => make('p', {class: 'quiet'}, text);
-
 /** @param {any} text @param {(event: any) => any} run @param {Record<string, any>} options */
 export const button = (text, run, options = {}) => make('button', {onclick: run, ...options}, text);
+/** The index of the place that is nearest to x, y. @param {number[][]} places */
+export const nearest = (places, x, y) => places.reduce(
+  (best, at, i) => Math.hypot(at[0] - x, at[1] - y) < Math.hypot(places[best][0] - x, places[best][1] - y) ? i : best,
+  0);
 
 /** The words of a name of the API. @param {any} name */
 export const words = (name) => String(name ?? '').replace(/_/g, ' ');

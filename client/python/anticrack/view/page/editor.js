@@ -9,10 +9,8 @@ const PAUSE = 350; // after the last letter, before the case is checked [ms]
 const SWEEP =
   'Many combinations of the loads of this case: a line of their names, then a line of numbers for each row, ' +
   'as 0.5, 1 or 0,5; 1 or pasted from a table.';
-/** @type {any} */
-let box = null;
-/** @type {any[]} */
-let keys = [];
+/** @type {any} */ let box = null;
+/** @type {any[]} */ let keys = [];
 let example = '', timer = 0, asked = 0;
 
 /** @param {any} panel @param {() => boolean} wanted */

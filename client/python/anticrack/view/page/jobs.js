@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The list of jobs, and what may be done with one.
-import {button, byId, choice, fill, make, plain, words} from './dom.js';
+import {button, byId, choice, fill, make, plain, refill, words} from './dom.js';
 import {changed, model} from './model.js';
 import {events, notice, post} from './net.js';
 import {get, set} from './state.js';
@@ -22,7 +22,7 @@ export function start(connection) {
     choice('state', [['', 'all'], ...STATES.map((state) => /** @type {[string, string]} */ ([state, words(state)]))],
       get('state'), (state) => set({state}));
   fill(byId('jobs'), make('h2', {}, 'Jobs'), filter, states, list);
-  events('jobs', {}, {
+  events('jobs', {}, changed, {
     connection,
     failed: (data) => notice(data.error),
     jobs: (jobs) => {
@@ -32,7 +32,6 @@ export function start(connection) {
         set({of: ''}); // which takes away older notices
         notice(`${name} has been deleted`);
       }
-      changed();
     },
   });
 }
@@ -43,7 +42,7 @@ export function draw() {
     (job) => (!state || job.state === state) && `${job.title} ${job.owner} ${job.name}`.toLowerCase().includes(wanted));
   const focused = document.activeElement?.getAttribute('data-key');
   const owners = new Set(model.jobs.map((job) => job.owner)).size > 1;
-  fill(list, shown.map((job) => item(job, owners)),
+  refill(list, shown.map((job) => item(job, owners)),
     !shown.length && make('li', {class: 'quiet'}, model.jobs.length ? 'no job is like this' : 'there is no job yet'));
   if (focused) /** @type {any} */
     (list.querySelector(`[data-key="${CSS.escape(focused)}"]`))?.focus();
@@ -69,23 +68,13 @@ function item(job, owners) {
       {class: 'job', 'data-key': job.name, 'aria-pressed': String(here), title: job.name}),
     here &&
       make('div', {class: 'actions'}, !ended && does('Cancel', () => act(job, 'cancel')),
-        does('Submit again', () => act(job, 'again')), ended && does('Delete\u2026', () => ask(job))));
-}
-
-function ask(job) {
-  const box = byId('question'), about = `Delete ${plain(job.title, 80) || 'this job'} (${job.name}) with its results?`;
-  const close = (yes) => {
-    box.close();
-    if (yes) act(job, 'delete');
-  };
-  fill(box, make('p', {}, `${about} This cannot be undone.`),
-    make('div', {class: 'actions'}, button('Keep it', () => close(false), {autofocus: true}),
-      button('Delete', () => close(true), {class: 'danger'})));
-  box.showModal();
+        does('Submit again', () => act(job, 'again')), ended && does('Delete\u2026', () => act(job, 'delete'))));
 }
 
 /** @param {any} job @param {string} action */
 async function act(job, action) {
+  const about = `Delete ${plain(job.title, 80) || 'this job'} (${job.name}) with its results? This cannot be undone.`;
+  if (action === 'delete' && !confirm(about)) return;
   try {
     const {name} = await post('job', {name: job.name, action});
     if (action === 'again') set({of: name, load: ''});

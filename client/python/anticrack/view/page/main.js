@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The page: tabs, what each shows, and what is told of the connection.
 import * as convergence from './convergence.js';
-import {aside, button, byId, fill, make, plain} from './dom.js';
+import {aside, button, byId, fill, make, plain, refill} from './dom.js';
 import * as editor from './editor.js';
 import * as jobs from './jobs.js';
 import * as membrane from './membrane.js';
@@ -13,12 +13,10 @@ import {get, listen, on, set} from './state.js';
 import * as tables from './tables.js';
 import * as traces from './traces.js';
 
-/** @typedef {[string, boolean, boolean, ((panel: any, wanted: () => boolean) => any)|null, string]} Tab */
 /**
- * Tabs by name: title, whether the membrane is above, whether a result is needed, what draws the panel, and its
- * figure.
+ * Tabs by name: title, whether the membrane is above, whether a result is needed, what draws the panel, and its figure.
  */
-const TABS = /** @type {Record<string, Tab>} */ ({
+const TABS = /** @type {Record<string, any[]>} */ ({
   membrane: ['Membrane', true, true, null, 'membrane'],
   interfaces: ['Interfaces', true, true, traces.draw, 'traces'],
   convergence: ['Convergence', false, false, convergence.draw, 'convergence'],
@@ -50,6 +48,7 @@ async function draw() {
   box.hidden = surface && !panel;
   if (here !== drawn) fill(box);
   drawn = here;
+  const focused = box.contains(document.activeElement) ? document.activeElement?.ariaLabel : '';
   try {
     if (surface) membrane.draw(clicked);
     if (name === 'membrane') membrane.mark(null);
@@ -59,6 +58,7 @@ async function draw() {
       fill(box, aside('No row has traces: there is nothing to draw.'));
     else
       await panel?.(box, () => mine === turn);
+    if (focused) box.querySelector(`[aria-label="${CSS.escape(focused)}"]`)?.focus();
   } catch (error) {
     notice(error);
   }
@@ -82,7 +82,7 @@ function tabs(name) {
     'aria-controls': 'panel',
     tabindex: tab === name ? '0' : '-1'
   });
-  fill(bar, Object.keys(TABS).filter((tab) => !useless.includes(tab)).map(made));
+  refill(bar, Object.keys(TABS).filter((tab) => !useless.includes(tab)).map(made));
   if (focused) byId(`tab-${name}`)?.focus();
 }
 
@@ -91,7 +91,8 @@ function links(tab) {
   const of = model.of, load = loadIndex(), has = Boolean(model.result);
   byId('export').hidden = !has;
   if (!has) return;
-  const figure = tab === 'membrane' && on('plan') ? 'plan' : TABS[tab][4];
+  const study = model.result.sweep?.jobs, plan = tab === 'membrane' && on('plan');
+  const figure = study ? 'study' : plan ? 'plan' : TABS[tab][4];
   const look = {
     ...(get('amplify') ? {amplify: get('amplify')} : {}),
     ...(get('limits') && get('colour', 'u') === 'u' ? {limits: get('limits')} : {}),
@@ -100,9 +101,9 @@ function links(tab) {
   const link = (kind, text) =>
     make('a', {href: address('export', {of, load, kind, figure, ...look}), download: true}, text);
   fill(byId('export-links'),
-    currentLoad() &&
-      [link('png', `Figure of ${figure}, PNG`), link('svg', `Figure of ${figure}, SVG`), link('vtu', 'ParaView, VTU')],
-    link('h5', 'Result, HDF5'), model.result.case && link('toml', 'Case, TOML'));
+    (currentLoad() || study) && ['png', 'svg'].map((kind) => link(kind, `Figure of ${figure}, ${kind.toUpperCase()}`)),
+    currentLoad() && link('vtu', 'ParaView, VTU'), link('h5', `${study ? 'Study' : 'Result'}, HDF5`),
+    model.result.case && link('toml', 'Case, TOML'));
 }
 
 /** @param {{server: string, lost: string, met: boolean}} told met: whether the server has ever answered */

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The membrane with its controls, or the mesh of a stage.
-import {button, byId, choice, fill, make, number, parse, slider, tick} from './dom.js';
+import {button, byId, choice, fill, make, nearest, number, parse, slider, tick} from './dom.js';
 import {currentLoad, currentStage, loadIndex, model, stages, unit, values} from './model.js';
 import {array, notice} from './net.js';
 import {stops} from './palette.js';
@@ -19,13 +19,11 @@ const BARE = {
   name: '',
   colours: /** @type {string[]} */ ([])
 }; // a stage, of which u is not kept
-/** @type {Scene|null} */
-let scene = null;
+/** @type {Scene|null} */ let scene = null;
 let shown = '';    // what the scene's geometry is of
 let automatic = 1; // the amplification that shows u best
 let task = 0;
-/** @type {number[]|null} */
-let marked = null;
+/** @type {number[]|null} */ let marked = null;
 
 /** What was clicked, for the column of numbers. */
 export const picked = /** @type {{hit: any}} */ ({hit: null});
@@ -44,40 +42,40 @@ export async function draw(clicked) {
     scene ??= new Scene(clicked);
     scene.moved = (view) => set({view}, true);
     const key = [model.of, loadIndex(), stage?.mesh, get('plan'), get('names')].join(' ');
-    if (key !== shown && !await (stage ? mesh(scene, stage.mesh, wanted) : surface(scene, load, wanted))) return;
-    if (key !== shown) scene.setView(get('view'), on('plan'));
+    const layer = layers(stage, load), thin = (stage ?? model.result).triangles > MANY;
+    if (key !== shown) {
+      if (!await surface(scene, await layer(thin), stage ? null : load, wanted)) return;
+      scene.setView(get('view'), on('plan'));
+    }
     shown = key;
     scene.mark(marked);
     await paint(scene, load, wanted);
+    if (thin && scene.full === scene.thin) await paint(scene, load, wanted, await layer(false));
   } catch (error) {
     notice(error);
   }
 }
 
-/** Shows the mesh of a stage. @param {Scene} to @param {string} name @param {() => boolean} wanted */
-async function mesh(to, name, wanted) {
-  const of = (what) => array({mesh: name, what});
-  const [points, triangles, outline] = await Promise.all(['points', 'triangles', 'outline'].map(of));
-  const thinned = triangles.length / 3 > MANY ? await of ('thinned') : null;
-  if (wanted()) to.show({points, triangles, outline, thinned});
-  return wanted();
-}
+/** What reads the surface of a load or the mesh of a stage: all of it, or fewer triangles. */
+const layers = (stage, load) => async (thin) => {
+  const few = thin ? {thin: 1} : {},
+        of = (what) => stage ? array({mesh: stage.mesh, what, ...few}) : values(what, loadIndex(), few);
+  const names = ['points', 'triangles', 'outline', ...(load.colours.length ? ['u'] : [])];
+  const [points, triangles, outline, u = null] = await Promise.all(names.map(of));
+  return {points, triangles, outline, u, total: (stage ?? model.result).triangles};
+};
 
-/** @param {Scene} to @param {any} load @param {() => boolean} wanted */
-async function surface(to, load, wanted) {
-  const {triangles: count, interfaces, marks, tips} = model.result;
-  const [points, triangles, outline, thinned, u, ...traces] = await Promise.all([
-    values('points'), values('triangles'), values('outline'), count > MANY ? values('thinned') : null,
-    load.colours.length ? values('u') : null,
-    ...interfaces.map(
-      (_, i) => Promise.all([values('line', loadIndex(), i), load.traces ? values('trace', loadIndex(), i) : null]))
-  ]);
+/** @param {Scene} to @param {any} layer @param {any} load null: of a stage @param {() => boolean} wanted */
+async function surface(to, layer, load, wanted) {
+  const {interfaces, marks, tips} = load ? model.result : {interfaces: [], marks: [], tips: []};
+  const trace = (what, i) => values(what, loadIndex(), {interface: i});
+  const traces = await Promise.all(
+    interfaces.map((_, i) => Promise.all([trace('line', i), load.traces ? trace('trace', i) : null])));
   if (!wanted()) return false;
-  to.show({points, triangles, outline, thinned, u});
-  const most = (u ?? []).reduce((largest, value) => Math.max(largest, Math.abs(value) || 0), 0);
-  automatic = most > 0 ? Number((0.25 * to.surface.size / most).toPrecision(2)) : 1;
-  /** @type {number[][]} */
-  const places = [];
+  to.show(layer);
+  const [low, high] = layer.u?.range ?? [0, 0], most = Math.max(-low, high, 0.65 * (high - low));
+  automatic = most > 0 ? Number((0.25 * to.size / most).toPrecision(2)) : 1;
+  /** @type {number[][]} */ const places = [];
   traces.forEach(([line, trace], i) => {
     const k = interfaces[i].nodes,
           at = (j, face = 0) => [line[k + j], line[2 * k + j], trace ? trace[face * k + j] : 0];
@@ -89,42 +87,36 @@ async function surface(to, load, wanted) {
     }
     for (let j = 0; j < k; ++j) places.push(at(j, 1));
   });
-  const height = (at) => { // of the nearest node of an interface
-    const far = (place) => Math.hypot(place[0] - at[0], place[1] - at[1]);
-    return places.length ? places.reduce((best, place) => far(place) < far(best) ? place : best)[2] : 0;
-  };
+  const height = (at) => places[nearest(places, at[0], at[1])]?.[2] ?? 0; // of the nearest node of an interface
   if (on('names', true))
     for (const {name, at} of marks.slice(0, 40)) to.name(name, at[0], at[1], height(at));
   if (tips.length) to.add(to.dots(tips.map((at) => to.place(at[0], at[1], height(at))), '#222222', 8));
   return true;
 }
 
-/** @param {Scene} to @param {any} load @param {() => boolean} wanted */
-async function paint(to, load, wanted) {
+/** @param {Scene} to @param {any} load @param {() => boolean} wanted @param {any} whole a layer to show behind */
+async function paint(to, load, wanted, whole = null) {
   const what = load.colours.includes(get('colour', 'u')) ? get('colour', 'u') : load.colours[0];
-  const of = async (index) => {
-    const found = await values(what, index);
-    const logarithms = () => Object.assign(found.map((v) => v > 0 ? Math.log10(v) : NaN), {cut: Math.log10(found.cut)});
-    return what === 'indicator' ? logarithms() : found;
+  const of = async (index, thin) => {
+    const found = await values(what, index, thin ? {thin: 1} : {}), log = (v) => v > 0 ? Math.log10(v) : NaN;
+    return what === 'indicator' ? Object.assign(found.map(log), {range: found.range.map(Math.log10)}) : found;
   };
   const same = what && on('same')
     ? model.result.loads.map((_, i) => i).filter((i) => model.result.loads[i].colours.includes(what)).slice(0, 12)
     : [];
-  const [colours, ...others] = what ? await Promise.all([loadIndex(), ...same].map(of)) : [null];
+  const few = to.thin.total > MANY, all = !few || whole || to.full !== to.thin;
+  const found = await Promise.all(
+    !what ? [] : [of(loadIndex(), few), all ? of(loadIndex(), false) : null, ...same.map((i) => of(i, few))]);
   if (!wanted()) return;
-  let [low, high] = [Infinity, -Infinity];
-  for (const each of colours ? [colours, ...others] : []) {
-    low = each.reduce((least, value) => value < least ? value : least, low);
-    high = each.reduce((most, value) => value > most ? value : most, high);
-  }
-  const cut = Math.min(high, colours?.cut ?? high) < high;
-  if (cut) high = colours.cut;
+  if (whole) to.whole(whole);
+  const ranges = found.filter(Boolean).map((each) => each.range), cut = ranges[0]?.[2] < ranges[0]?.[1];
+  let low = Math.min(...ranges.map((range) => range[0])), high = Math.max(...ranges.map((range) => range[cut ? 2 : 1]));
   if (what === 'indicator') low = Math.max(low, high - 6); // decades that can be told apart
   const both = what === 'u' && Math.min(-low, high) > 0.05 * Math.max(-low, high);
   if (both) [low, high] = [-Math.max(-low, high), Math.max(-low, high)];
   const given = get('limits').split(',').map(Number);
   if (given.length === 2 && given[0] < given[1]) [low, high] = given;
-  to.paint(colours, low, high, both, on('contours') ? 12 : 0);
+  to.paint(found, low, high, both, on('contours') ? 12 : 0);
   to.lines(on('mesh') || load === BARE);
   const amplify = on('plan') ? 0 : get('amplify') ? Number(get('amplify')) : automatic;
   to.rise(amplify);

@@ -5,17 +5,15 @@ import {get} from './state.js';
 
 /** @typedef {{of: string, result: any, live: Live|null, jobs: any[], tables: any[]|null}} Model */
 export const model = /** @type {Model} */ ({of: '', result: null, live: null, jobs: [], tables: null});
-/** @type {Set<() => void>} */
-const listeners = new Set();
-let waiting = 0;
+let waiting = 0, shown = () => {};
 
-/** @param {() => void} listener told once a frame at most */
-export const watch = (listener) => listeners.add(listener);
+/** @param {() => any} draw called once a frame at most */
+export const watch = (draw) => shown = draw;
 
 export function changed() {
   waiting ||= requestAnimationFrame(() => {
     waiting = 0;
-    listeners.forEach((listener) => listener());
+    shown();
   });
 }
 
@@ -28,40 +26,34 @@ class Live {
   constructor(name, connection) {
     /** @type {any} */
     this.job = {name, state: '', loads: [], timeline: [], stages: [], answers: [], done: 0, total: 0};
-    /** @type {any[]} */
-    this.samples = [];
+    /** @type {any[]} */ this.samples = [];
     this.rows = 0;
-    /** @type {any[]} */
-    this.growth = [];
-    const change = (handle) => (data) => {
-      handle(data);
-      changed();
-    };
-    this.close = events('watch', {of: name}, {
+    /** @type {any[]} */ this.growth = [];
+    this.close = events('watch', {of: name}, changed, {
       connection,
-      snapshot: change((job) => this.job = job),
-      samples: change((data) => this.sample(data)),
-      phase: change((data) => {
+      snapshot: (job) => this.job = job,
+      samples: (data) => this.sample(data),
+      phase: (data) => {
         this.job.state = data.state;
         const last = this.job.timeline[this.job.timeline.length - 1];
         if (last?.state !== data.state || last?.detail !== data.detail)
           this.job.timeline.push({time: Date.now(), ...data});
-      }),
-      answer: change((data) => this.job.answers[data.load] = data),
-      stage: change((data) => {
+      },
+      answer: (data) => this.job.answers[data.load] = data,
+      stage: (data) => {
         const at = this.job.stages.findIndex((stage) => stage.mesh === data.mesh);
         this.job.stages.splice(at < 0 ? this.job.stages.length : at, 1, data);
-      }),
-      rows: change((data) => this.rows += data.count),
-      growth: change((data) => this.growth.push(data)),
-      ended: change((job) => {
+      },
+      rows: (data) => this.rows += data.count,
+      growth: (data) => this.growth.push(data),
+      ended: (job) => {
         this.job = job;
         this.close();
         if (job.result)
           load(job.name);
         else
           notice(`${job.name} ${job.state}: ${job.error || 'it has no answers'}`);
-      }),
+      },
       failed: (data) => {
         this.close();
         notice(data.error);
@@ -92,10 +84,7 @@ async function load(of) {
   }
 }
 
-/**
- * Shows a job ("jobs/ID"), the file ("file"), or nothing (""). @param {string} of @param {(lost: any) => void}
- * connection
- */
+/** Shows "jobs/ID", "file", or "", nothing. @param {string} of @param {(lost: any) => void} connection */
 export function show(of, connection) {
   model.live?.close();
   Object.assign(model, {of, result: null, live: null, tables: null});
@@ -123,9 +112,7 @@ export function currentStage() {
   return all[model.result && !(wanted < last) ? -1 : Math.min(wanted, last)];
 }
 
-/**
- * A unit behind a number or, in brackets, a name; empty if there is none. @param {string} of @param {boolean} brackets
- */
+/** A unit behind a number or, in brackets, a name; or nothing. @param {string} of @param {boolean} brackets */
 export function unit(of, brackets = false) {
   const told = model.result?.units[of] ?? '-';
   return told === '-' ? '' : brackets ? ` [${told}]` : ` ${told}`;
@@ -138,12 +125,10 @@ export async function tables() {
   return found;
 }
 
-/** An array of the result. @param {string} what @param {number} load @param {number} line */
-export const values = (what, load = loadIndex(), line = 0) => array({of: model.of, what, load, interface: line});
+/** An array of the result. @param {string} what @param {number} load @param {any} more interface, or thin */
+export const values = (what, load = loadIndex(), more = {}) => array({of: model.of, what, load, ...more});
 
-/**
- * The history of a load case by name: as it comes, or of the result; undefined if there is none. @param {number} index
- */
+/** The history of a load by name, as it comes or of the result; undefined if there is none. @param {number} index */
 export async function history(index) {
   const steps = model.result?.loads[index]?.steps;
   if (!steps) return model.live?.samples[index];

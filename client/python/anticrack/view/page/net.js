@@ -12,7 +12,6 @@ export function notice(text) {
 
 /** Takes away what was said. */
 export const quiet = () => fill(byId('notices'));
-
 /** @param {string} path @param {Record<string, any>} query */
 export const address = (path, query = {}) => `/api/${path}?${new URLSearchParams(query)}`;
 
@@ -32,20 +31,16 @@ export const ask = async (path, query = {}) => (await answered(address(path, que
 export const post = async (path, body) =>
   (await answered(`/api/${path}`, {method: 'POST', body: JSON.stringify(body)})).json();
 
-/** @type {Map<string, Promise<any>>} */
-const kept = new Map();
+/** @type {Map<string, Promise<any>>} */ const kept = new Map();
 const MOST = 24;
 
-/**
- * An array of a result as a typed array; the last ones are kept. @param {Record<string, any>}
- * query @return {Promise<any>}
- */
+/** An array of a result, typed; the last are kept. @param {Record<string, any>} query @return {Promise<any>} */
 export function array(query) {
   const where = address('array', query);
   const found = kept.get(where) ?? answered(where).then(async (answer) => {
     const buffer = await answer.arrayBuffer();
     const values = answer.headers.get('X-Array') === 'i4' ? new Int32Array(buffer) : new Float64Array(buffer);
-    return Object.assign(values, {cut: Number(answer.headers.get('X-Cut') ?? Infinity)});
+    return Object.assign(values, {range: (answer.headers.get('X-Range') || '0 1 1').split(' ').map(Number)});
   });
   kept.delete(where);
   kept.set(where, found);
@@ -56,12 +51,16 @@ export function array(query) {
 
 /**
  * Listens to server-sent events; the browser restores a lost connection. Returns what ends it.
- * @param {string} path @param {Record<string, any>} query @param {Record<string, (data: any) => void>} handlers
+ * @param {string} path @param {Record<string, any>} query @param {() => void} after each event
+ * @param {Record<string, (data: any) => void>} handlers
  */
-export function events(path, query, handlers) {
+export function events(path, query, after, handlers) {
   const source = new EventSource(address(path, query));
   for (const [name, handle] of Object.entries(handlers))
-    source.addEventListener(name, (event) => handle(JSON.parse(/** @type {any} */ (event).data)));
+    source.addEventListener(name, (event) => {
+      handle(JSON.parse(/** @type {any} */ (event).data));
+      if (name !== 'connection') after();
+    });
   source.onerror = () =>
     handlers.connection({server: '', met: true, lost: 'anticrack view does not answer; trying again'});
   return () => source.close();

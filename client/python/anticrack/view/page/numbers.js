@@ -64,8 +64,7 @@ function stage() {
 }
 
 function hit() {
-  /** @type {any} */
-  const at = picked.hit, told = at?.told;
+  /** @type {any} */ const at = picked.hit, told = at?.told;
   const known = (name, value, behind = '') =>
     typeof value === 'number' && !Number.isNaN(value) && row(name, number(value) + behind);
   return !at
@@ -80,7 +79,7 @@ function hit() {
 export async function clicked(found) {
   picked.hit = found;
   draw();
-  if (!found || currentStage()) return;
+  if (!found || currentStage() || Number.isNaN(found.triangle)) return;
   found.told = await ask('triangle', {of: model.of, load: loadIndex(), index: found.triangle});
   draw();
 }

@@ -8,7 +8,7 @@ const T = /** @type {any} */ (globalThis).THREE;
  * @param {any} scene @param {number} px @param {number} py
  */
 export function pick(scene, px, py) {
-  const {position, height, triangles, points, u} = scene.surface, rise = scene.uniforms.rise.value;
+  const {position, height, triangles, points, u, total} = scene.full, rise = scene.uniforms.rise.value;
   const near = new T.Vector3(px, py, -1).unproject(scene.camera),
         ray = new T.Vector3(px, py, 1).unproject(scene.camera).sub(near);
   const [ox, oy, oz] = near.toArray(), [dx, dy, dz] = ray.toArray();
@@ -32,5 +32,6 @@ export function pick(scene, px, py) {
   if (found < 0) return null;
   const [a, b, c] = triangles.subarray(found, found + 3), fa = 1 - fb - fc;
   const mean = (of, k = 1, at = 0) => fa * of[k * a + at] + fb * of[k * b + at] + fc * of[k * c + at];
-  return {triangle: found / 3, x: mean(points, 2), y: mean(points, 2, 1), u: u ? mean(u) : NaN};
+  const triangle = 3 * total === triangles.length ? found / 3 : NaN; // thinned triangles are none of the mesh
+  return {triangle, x: mean(points, 2), y: mean(points, 2, 1), u: u ? mean(u) : NaN};
 }

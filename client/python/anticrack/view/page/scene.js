@@ -9,7 +9,6 @@ import {pick} from './pick.js';
 const T = /** @type {any} */ (globalThis).THREE;
 export const MANY = 200_000; // triangles, above which a thinned mesh is shown while the view moves
 const UNKNOWN = -1e30;
-
 const VERTEX = `attribute float u; attribute float value; uniform float rise; varying float v;
 void main() { v = value; gl_Position = projectionMatrix * modelViewMatrix * vec4(position.xy, u * rise, 1.0); }`;
 const FACE = `uniform sampler2D palette; uniform float low, high, contours; varying float v;
@@ -43,10 +42,11 @@ export class Scene {
     this.uniforms = {rise: {value: 1}, low: {value: 0}, high: {value: 1}, contours: {value: 0}, palette: {value: null}};
     this.group = new T.Group();
     this.scene.add(this.group);
+    this.middle = [0, 0];
+    this.size = 1;
     /** @type {any} */
-    this.surface = this.edges = this.geometryOf = null;
-    /** @type {{node: any, x: number, y: number, u: number}[]} */
-    this.names = [];
+    this.full = this.thin = null; // layers
+    /** @type {{node: any, x: number, y: number, u: number}[]} */ this.names = [];
     this.marker = this.dots([[0, 0, 0]], '#e02020', 12);
     this.marker.visible = false;
     this.scene.add(this.marker);
@@ -55,7 +55,7 @@ export class Scene {
     this.controls.addEventListener('end', () => this.move(false));
     this.canvas.addEventListener('wheel', () => this.wheel(), {passive: true});
     let down = [0, 0];
-    this.clicked = (x, y) => clicked(this.surface && pick(this, x, y));
+    this.clicked = (x, y) => clicked(this.full && pick(this, x, y));
     this.canvas.addEventListener('pointerdown', (e) => down = [e.clientX, e.clientY]);
     this.canvas.addEventListener('click', (e) => {
       const {left, top, width, height} = this.canvas.getBoundingClientRect();
@@ -64,8 +64,7 @@ export class Scene {
     });
     this.canvas.addEventListener('keydown', (e) => this.key(e));
     new ResizeObserver(() => this.resize()).observe(byId('holder'));
-    /** @type {(view: string) => void} */
-    this.moved = () => {};
+    /** @type {(view: string) => void} */ this.moved = () => {};
     this.waiting = this.settle = 0;
   }
 
@@ -76,9 +75,9 @@ export class Scene {
       {vertexShader, fragmentShader, ...more, uniforms: {...this.uniforms, ...Object.fromEntries(values)}});
   }
 
-  /** @param {string} colour @param {number} opacity */
-  lineMaterial(colour, opacity = 1) {
-    return this.material(VERTEX, LINE, {colour: new T.Color(colour), opacity}, {transparent: opacity < 1});
+  /** @param {string} colour @param {number} opacity @param {boolean} wireframe of triangles, whose edges come twice */
+  lineMaterial(colour, opacity = 1, wireframe = false) {
+    return this.material(VERTEX, LINE, {colour: new T.Color(colour), opacity}, {transparent: opacity < 1, wireframe});
   }
 
   /** @param {number[][]} places x, y in the scene, u @param {string} colour @param {number} size */
@@ -99,49 +98,49 @@ export class Scene {
   /** Shows another surface: what membrane.js reads of the result, or of the mesh of a stage. @param {any} surface */
   show(surface) {
     this.clear();
-    this.surface = surface;
-    const count = surface.points.length / 2, position = new Float32Array(3 * count);
     const low = [Infinity, Infinity], high = [-Infinity, -Infinity];
     surface.points.forEach((value, i) => {
       low[i & 1] = Math.min(low[i & 1], value);
       high[i & 1] = Math.max(high[i & 1], value);
     });
-    surface.middle = [0, 1].map((c) => (low[c] + high[c]) / 2);
-    surface.size = Math.max(high[0] - low[0], high[1] - low[1]);
-    for (let i = 0; i < count; ++i)
-      for (let c = 0; c < 2; ++c) position[3 * i + c] = (surface.points[2 * i + c] - surface.middle[c]) / surface.size;
-    surface.position = position;
-    surface.height = Float32Array.from(surface.u ?? new Float64Array(count), (u) => Number.isFinite(u) ? u : 0);
-    const shared = {
-      position: new T.BufferAttribute(position, 3),
-      u: new T.BufferAttribute(surface.height, 1),
-      value: new T.BufferAttribute(new Float32Array(count).fill(UNKNOWN), 1),
-    };
-    this.values = shared.value;
-    const geometry = (index) => {
+    this.middle = [0, 1].map((c) => (low[c] + high[c]) / 2);
+    this.size = Math.max(high[0] - low[0], high[1] - low[1]);
+    this.full = this.thin = this.layer(surface);
+    this.change(false);
+  }
+
+  /** Shows all triangles, and those that were shown while the view moves. @param {any} surface */
+  whole(surface) {
+    this.full = this.layer(surface);
+    this.change(false);
+  }
+
+  /** @param {any} surface */
+  layer(surface) {
+    const {points, u} = surface, count = points.length / 2, group = new T.Group();
+    const position = new Float32Array(3 * count), height = new Float32Array(count);
+    for (let i = 0; i < count; ++i) {
+      for (let c = 0; c < 2; ++c) position[3 * i + c] = (points[2 * i + c] - this.middle[c]) / this.size;
+      height[i] = Number.isFinite(u?.[i]) ? u[i] : 0;
+    }
+    const value = new T.BufferAttribute(new Float32Array(count).fill(UNKNOWN), 1);
+    const shared = {position: new T.BufferAttribute(position, 3), u: new T.BufferAttribute(height, 1), value};
+    const add = (kind, index, material) => {
       const made = new T.BufferGeometry();
       for (const [name, attribute] of Object.entries(shared)) made.setAttribute(name, attribute);
       made.setIndex(new T.BufferAttribute(new Uint32Array(index.buffer, index.byteOffset, index.length), 1));
-      return made;
+      return this.add(new kind(made, material), group);
     };
-    const face = this.material(VERTEX, FACE, {}, {
-      side: T.DoubleSide,
-      extensions: {derivatives: true},
-      polygonOffset: true,
-      polygonOffsetFactor: 1,
-      polygonOffsetUnits: 1
-    });
-    this.edges = null;
-    this.geometryOf = geometry;
-    this.full = this.add(new T.Mesh(geometry(surface.triangles), face));
-    const thin = () => Object.assign(new T.Mesh(geometry(surface.thinned), face), {visible: false});
-    this.thin = surface.thinned && this.add(thin());
-    this.add(new T.LineSegments(geometry(surface.outline), this.lineMaterial('#333333')));
+    const behind = {polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1}; // its lines
+    add(T.Mesh, surface.triangles,
+      this.material(VERTEX, FACE, {}, {side: T.DoubleSide, extensions: {derivatives: true}, ...behind}));
+    add(T.LineSegments, surface.outline, this.lineMaterial('#333333'));
+    return {...surface, position, height, value, add, edges: null, group: this.add(group)};
   }
 
-  add(object) {
+  add(object, to = this.group) {
     object.frustumCulled = false;
-    this.group.add(object);
+    to.add(object);
     return object;
   }
 
@@ -151,37 +150,27 @@ export class Scene {
     fill(byId('labels'));
     this.names = [];
     this.marker.visible = false;
-    this.surface = null;
+    this.full = this.thin = null;
   }
 
   /** Lines of the mesh, made when they are first wanted. @param {boolean} wanted */
   lines(wanted) {
-    if (!this.surface) return;
-    if (wanted && !this.edges) {
-      const from = this.surface.triangles, edges = new Int32Array(2 * from.length);
-      let used = 0;
-      for (let i = 0; i < from.length; ++i) {
-        const a = from[i], b = from[i % 3 === 2 ? i - 2 : i + 1];
-        if (a > b) continue; // the triangle beside it has b, a; the outline has the rest
-        edges[used++] = a;
-        edges[used++] = b;
-      }
-      this.edges =
-        this.add(new T.LineSegments(this.geometryOf(edges.subarray(0, used)), this.lineMaterial('#000000', 0.25)));
-    }
-    if (this.edges) this.edges.visible = wanted;
-    this.meshed = wanted;
+    if (wanted)
+      this.full.edges ??= this.full.add(T.Mesh, this.full.triangles, this.lineMaterial('#000000', 0.13, true));
+    for (const {edges} of [this.thin, this.full])
+      if (edges) edges.visible = wanted;
   }
 
   /**
-   * Colours of the nodes.
-   * @param {ArrayLike<number>|null} values @param {number} low @param {number} high @param {boolean} diverging
-   * @param {number} contours
+   * Colours of the nodes. @param {any[]} values of the thinned layer and of the full one; none: not known
+   * @param {number} low @param {number} high @param {boolean} diverging @param {number} contours
    */
   paint(values, low, high, diverging, contours) {
-    const to = this.values.array;
-    for (let i = 0; i < to.length; ++i) to[i] = values && Number.isFinite(values[i]) ? values[i] : UNKNOWN;
-    this.values.needsUpdate = true;
+    [this.thin, this.full].forEach((layer, n) => {
+      const to = layer.value.array, from = values[n] ?? values[0] ?? [];
+      for (let i = 0; i < to.length; ++i) to[i] = Number.isFinite(from[i]) ? from[i] : UNKNOWN;
+      layer.value.needsUpdate = true;
+    });
     this.uniforms.low.value = low;
     this.uniforms.high.value = high > low ? high : low + 1;
     this.uniforms.contours.value = contours;
@@ -193,14 +182,13 @@ export class Scene {
 
   /** @param {number} amplify */
   rise(amplify) {
-    this.uniforms.rise.value = this.surface ? amplify / this.surface.size : 1;
+    this.uniforms.rise.value = amplify / this.size;
     this.draw();
   }
 
   /** A place of the result in the scene. @param {number} x @param {number} y @param {number} u */
   place(x, y, u) {
-    const {middle, size} = this.surface;
-    return [(x - middle[0]) / size, (y - middle[1]) / size, Number.isFinite(u) ? u : 0];
+    return [(x - this.middle[0]) / this.size, (y - this.middle[1]) / this.size, Number.isFinite(u) ? u : 0];
   }
 
   /** @param {number[][]} line places x, y, u @param {string} colour */
@@ -219,7 +207,7 @@ export class Scene {
 
   /** Marks a place, or none. @param {number[]|null} place x, y, u */
   mark(place) {
-    this.marker.visible = place !== null && this.surface !== null;
+    this.marker.visible = place !== null && this.full !== null;
     if (this.marker.visible && place) {
       const [x, y, u] = this.place(place[0], place[1], place[2]);
       this.marker.geometry.attributes.position.setXYZ(0, x, y, 0).needsUpdate = true;
@@ -231,22 +219,22 @@ export class Scene {
   /** @param {boolean} begins */
   move(begins) {
     clearTimeout(this.settle);
-    const change = () => {
-      if (this.thin) {
-        this.thin.visible = begins;
-        this.full.visible = !begins;
-        if (this.edges) this.edges.visible = !begins && this.meshed;
-        byId('moving').hidden = !begins;
-        fill(byId('moving'),
-          `while it moves: ${this.surface.thinned.length / 3} of ${this.surface.triangles.length / 3} triangles`);
-      }
-      if (!begins) this.moved(this.view());
-      this.draw();
-    };
-    if (begins)
-      change();
-    else
-      this.settle = setTimeout(change, 200);
+    if (begins) return this.change(true);
+    this.settle = setTimeout(() => {
+      this.change(false);
+      this.moved(this.view());
+    }, 200);
+  }
+
+  /** Shows the thinned triangles or all of them, and says so. @param {boolean} moves */
+  change(moves) {
+    if (!this.full) return;
+    const alone = this.full === this.thin, count = this.thin.triangles.length / 3, total = this.thin.total;
+    this.full.group.visible = alone || !moves;
+    this.thin.group.visible = alone || moves;
+    byId('moving').hidden = count === total || !this.thin.group.visible;
+    fill(byId('moving'), `${count} of ${total} triangles${alone ? '; all are being read' : ' while it moves'}`);
+    this.draw();
   }
 
   wheel() {
@@ -260,8 +248,8 @@ export class Scene {
     const turn = /** @type {any} */ (turns)[event.key],
           zoom = /** @type {any} */ ({'+': 1.2, '=': 1.2, '-': 1 / 1.2})[event.key];
     if (turn && this.controls.enableRotate) {
-      const {theta, phi} = this.direction();
-      this.look(theta + turn[0], Math.min(Math.max(phi + turn[1], 0.01), 3.1));
+      const {position, up} = this.camera, {target} = this.controls, right = up.clone().cross(position.sub(target));
+      position.applyAxisAngle(right.normalize(), turn[1]).applyAxisAngle(up, turn[0]).add(target);
     } else if (zoom) {
       this.camera.zoom *= zoom;
     } else {
@@ -273,34 +261,22 @@ export class Scene {
     this.wheel();
   }
 
-  /** From the target to the camera, with y up as three's spherical coordinates have it. */
-  direction() {
-    const d = this.camera.position.clone().sub(this.controls.target);
-    return new T.Spherical().setFromVector3(new T.Vector3(d.x, d.z, -d.y));
-  }
-
-  /** @param {number} theta @param {number} phi */
-  look(theta, phi) {
-    const d = new T.Vector3().setFromSpherical(new T.Spherical(3, phi, theta));
-    this.camera.position.set(d.x, -d.z, d.y).add(this.controls.target);
-    this.controls.update();
-  }
-
-  /** The view as a text for the fragment. */
+  /** The view as a text for the fragment: where the camera is, its zoom, what it looks at. */
   view() {
-    const at = this.direction(), {x, y, z} = this.controls.target;
-    return [at.theta, at.phi, this.camera.zoom, x, y, z].map((value) => Number(value.toPrecision(4))).join(',');
+    const {position, zoom} = this.camera, {target} = this.controls;
+    return [...position.toArray(), zoom, ...target.toArray()].map((value) => Number(value.toPrecision(5))).join(',');
   }
 
   /** @param {string} view @param {boolean} plan */
   setView(view, plan) {
-    const given = view.split(',').map(Number);
-    const [theta, phi, zoom, x, y, z] =
-      given.length === 6 && given.every(Number.isFinite) ? given : [0.5, 1, 1, 0, 0, 0];
+    const given = view.split(',').map(Number), whole = plan ? [0, -3e-4, 3] : [1.21, -2.2154, 1.6209];
+    const [x, y, z, zoom, ...target] =
+      given.length === 7 && given.every(Number.isFinite) ? given : [...whole, 1, 0, 0, 0];
     this.controls.enableRotate = !plan;
-    this.controls.target.set(x, y, plan ? 0 : z);
+    this.controls.target.fromArray(target);
+    this.camera.position.set(x, y, z);
     this.camera.zoom = zoom;
-    this.look(plan ? 0 : theta, plan ? 1e-4 : phi);
+    this.controls.update();
     this.resize();
   }
 

@@ -1,32 +1,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is looked at, in the address's fragment: who opens the same file with it sees the same.
 
-/** @type {Set<(changed: Set<string>) => void>} */
-const listeners = new Set();
+let heard = /** @type {(changed: Set<string>) => void} */ (() => {});
 let values = new URLSearchParams(location.hash.slice(1));
 
 /** @param {string} key */
 export const get = (key, otherwise = '') => values.get(key) ?? otherwise;
-
 /** @param {string} key */
 export const on = (key, otherwise = false) => get(key, otherwise ? '1' : '') === '1';
-
 /** @param {(changed: Set<string>) => void} listener */
-export const listen = (listener) => listeners.add(listener);
+export const listen = (listener) => heard = listener;
 
 /** @param {URLSearchParams} next @param {boolean} quiet */
 function become(next, quiet) {
   const before = values;
   values = next;
   const changed = new Set([...before.keys(), ...next.keys()].filter((key) => before.get(key) !== next.get(key)));
-  if (changed.size && !quiet) listeners.forEach((listener) => listener(changed));
+  if (changed.size && !quiet) heard(changed);
   return changed.size > 0;
 }
 
 /**
  * Changes values and tells who listens; an empty one is left out.
- * @param {Record<string, string|number|boolean>} changes
- * @param {boolean} quiet true: nobody is told
+ * @param {Record<string, string|number|boolean>} changes @param {boolean} quiet true: nobody is told
  */
 export function set(changes, quiet = false) {
   const next = new URLSearchParams(values);

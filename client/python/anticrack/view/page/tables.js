@@ -30,21 +30,17 @@ export async function draw(panel, wanted) {
   const at = table.columns.findIndex((column) => column.name === sorted);
   const count = table.columns[0].values.length, most = Number(get('rows')) || ROWS;
   const rows = ordered(table.columns[at], count, down).slice(0, most);
-  const head = table.columns.map(
-    (column, i) => make('th',
-      {scope: 'col',
-        'aria-sort': i !== at ? 'none'
-          : down              ? 'descending'
-                              : 'ascending',
-        title: column.meaning},
-      button(
-        [
-          plain(column.name, 60), column.unit === '-' ? null : make('small', {}, ` ${plain(column.unit, 30)}`),
-          i !== at ? ''
-            : down ? ' \u25be'
-                   : ' \u25b4'
-        ],
-        () => set({sort: `${column.name} ${i === at && !down ? 'down' : 'up'}`}))));
+  const order = (i) => i !== at ? 0 : down ? 2 : 1;
+  const head =
+    table.columns.map(
+      (column, i) =>
+        make('th', {scope: 'col', 'aria-sort': ['none', 'ascending', 'descending'][order(i)], title: column.meaning},
+          button(
+            [
+              plain(column.name, 60), column.unit === '-' ? null : make('small', {}, ` ${plain(column.unit, 30)}`),
+              ['', ' \u25b4', ' \u25be'][order(i)]
+            ],
+            () => set({sort: `${column.name} ${i === at && !down ? 'down' : 'up'}`}))));
   const cell = (value) => typeof value === 'number'
     ? make('td', {class: 'number', title: String(value)}, number(value, 7))
     : make('td', {}, plain(value === null ? '\u2013' : value, 200));

@@ -8,8 +8,7 @@ import {lineColour} from './palette.js';
 import {get, set} from './state.js';
 
 const MOST = 8;
-/** @type {Lines[]} */
-let charts = [];
+/** @type {Lines[]} */ let charts = [];
 
 /** @param {any} panel @param {() => boolean} wanted */
 export async function draw(panel, wanted) {
@@ -22,7 +21,7 @@ export async function draw(panel, wanted) {
   const over = get('over').split(',').filter(Boolean).map(Number), k = interfaces[line].nodes;
   const shown = have.filter((i) => i === own || over.includes(i)).slice(0, MOST);
   const [[s, x, y], ...traces] = (await Promise.all([
-    values('line', own, line), ...shown.map((i) => values('trace', i, line))
+    values('line', own, {interface: line}), ...shown.map((i) => values('trace', i, {interface: line}))
   ])).map((each) => split(each, k));
   if (!wanted()) return;
   charts.forEach((chart) => chart.destroy());
@@ -73,21 +72,9 @@ export async function draw(panel, wanted) {
       colour: lineColour(n),
       dash: rows.length > 1 && row === 0 ? [5, 3] : []
     }))),
-      contacts(s, traces[mine]?.[6] ?? []));
+      (loads[shown[mine]]?.contacts ?? []).filter((at) => at[0] === line).map((at) => at.slice(1)));
   }
 }
 
 /** @param {Float64Array} packed @param {number} k */
 const split = (packed, k) => Array.from({length: packed.length / k}, (_, i) => packed.subarray(i * k, (i + 1) * k));
-
-/** The stretches in contact. @param {ArrayLike<number>} s @param {ArrayLike<number>} contact */
-function contacts(s, contact) {
-  /** @type {[number, number][]} */
-  const found = [];
-  for (let i = 0; i < contact.length; ++i) {
-    const first = i;
-    while (contact[first] && i + 1 < contact.length && contact[i + 1]) ++i;
-    if (contact[first]) found.push([s[first], s[i]]);
-  }
-  return found;
-}
