@@ -308,6 +308,9 @@ constexpr Key growth_rows[] = {
     {"final_error", positive,
      "half the width of the bounds of G1 over G1 at which bisection ends, 0.001 to 1",
      "0.05"_absent},
+    {"dead",
+     "the name of a load that acts beside each of the others and is not scaled; not with inclusion",
+     "all that acts is scaled"_absent},
 };
 constexpr Keys growth_keys{v1::Growth::descriptor, {growth_rows}};
 

@@ -29,29 +29,35 @@ using mesh::Point;
 /// Two directions that differ by less are one.
 constexpr double same_direction = 1e-6;
 
-/// G that is less than this many times the spread over its radii is that of a closed front.
-constexpr double closed_spread = 3;
-
 constexpr int most_steps = 1000;
+
+/// How far ahead of a change of contact the next set is looked for, over t and the load at which
+/// both loads are as large.
+constexpr double first_step = 1e-9;
+
+constexpr std::size_t most_pieces = 10'000;
+
+/// Values that change by less, over the largest of all, do not change the contact set: rounding.
+constexpr double no_change = 1e-11;
 
 double distance(const Point& a, const Point& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
 
 }  // namespace
 
 Preview::Preview(const contact::ContactProblem& problem, const mesh::Mesh& mesh, PreviewLoad load,
-                 std::span<const Path> paths)
+                 std::span<const Path> paths, const PreviewLoad* dead)
     : _problem(problem),
       _mesh(mesh),
       _decomposition(problem.traces().decomposition()),
       _load(std::move(load)),
+      _dead(dead),
       _fronts(find_fronts(mesh, paths)),
       _edges(mesh.triangles),
       _ends(mesh::edge_ends(mesh, _edges)),
       _around(mesh, _edges, _ends),
       _laws(tips::laws_of(mesh)),
       _cells(tips::cells_of(mesh, _decomposition)),
-      _reduced(problem.reduce(_load.loads.subdomains,
-                              contact::held_values(_decomposition, _load.loads.subdomains))),
+      _live(loaded(_load)),
       _tied(_decomposition.skeleton.independent, 0) {
   std::vector<std::int32_t> held;
   for (const Stretch& stretch : _fronts.stretches) {
@@ -61,10 +67,25 @@ Preview::Preview(const contact::ContactProblem& problem, const mesh::Mesh& mesh,
   }
   for (const std::int32_t node : mesh::tips(mesh))
     if (std::ranges::find(held, node) == held.end()) _tips.push_back(mesh::position(mesh, node));
-  const contact::Work closed = problem.work(_load.loads.subdomains, _reduced);
-  _closed_energy = closed.u.dot(closed.internal) / 2 - closed.u.dot(closed.load);
-  for (const ddm::CondensedLoad& one : _load.loads.subdomains)
-    _closed_energy += one.energy_constant;
+  if (_dead != nullptr) {
+    if (!problem.conditions().rows().empty())
+      throw Error(Reason::invalid_argument,
+                  "cracks cross, and beside a dead load fronts are followed only where none do: "
+                  "leave the dead load out, or end a crack before the other")
+          .at("dead");
+    for (const mesh::Motion& motion : mesh.motions)
+      if (motion.fixed.value_or(0) != 0)
+        throw Error(Reason::invalid_argument,
+                    "an inclusion is held at {}, which beside a dead load is neither dead nor "
+                    "live: hold it at 0, or move it by a force",
+                    errors::shown(*motion.fixed))
+            .at("dead");
+    for (std::size_t s = 0; s < _load.loads.subdomains.size(); ++s)
+      _products.push_back(
+          ddm::products(std::array{&_dead->loads.subdomains[s], &_load.loads.subdomains[s]}));
+    _dead_alone = loaded(*_dead);
+    _both = together(1);
+  }
   const State first = first_state();
   for (std::size_t i = 0; i < _fronts.fronts.size(); ++i) {
     const Place& here = place(i, 0);
@@ -79,6 +100,49 @@ Preview::Preview(const contact::ContactProblem& problem, const mesh::Mesh& mesh,
         errors::shown(enough))
         .at(fmt::format("paths[{}]", _fronts.fronts[i].stretch));
   }
+}
+
+Preview::Loaded Preview::loaded(const PreviewLoad& load) const {
+  Loaded result;
+  result.loads = load.loads;
+  result.force = load.force;
+  finish(result);
+  return result;
+}
+
+/// The dead load and t times the other.
+Preview::Loaded Preview::together(double t) const {
+  Loaded result;
+  const Eigen::Vector2d factors(1, t);
+  for (std::size_t s = 0; s < _products.size(); ++s) {
+    result.subdomains.push_back(
+        ddm::combine(std::array{&_dead->loads.subdomains[s], &_load.loads.subdomains[s]},
+                     _products[s], factors));
+    std::vector<double>& force =
+        result.own_force.emplace_back(_dead->force[s].begin(), _dead->force[s].end());
+    for (std::size_t i = 0; i < force.size(); ++i) force[i] += t * _load.force[s][i];
+  }
+  for (const std::vector<double>& force : result.own_force) result.force.emplace_back(force);
+  for (const auto& [load, factor] : {std::pair(_dead, 1.0), {&_load, t}}) {
+    const auto forces = load->loads.inclusion_forces;
+    result.inclusion_forces.resize(std::max(result.inclusion_forces.size(), forces.size()));
+    for (std::size_t j = 0; j < forces.size(); ++j) {
+      add(result.inclusion_forces[j].on_nodes, forces[j].on_nodes, factor);
+      add(result.inclusion_forces[j].on_holders, forces[j].on_holders, factor);
+    }
+  }
+  result.loads = {result.subdomains, result.inclusion_forces};
+  finish(result);
+  return result;
+}
+
+/// Reduces it, its loads being set.
+void Preview::finish(Loaded& load) const {
+  const auto subdomains = load.loads.subdomains;
+  load.reduced = _problem.reduce(subdomains, contact::held_values(_decomposition, subdomains));
+  const contact::Work closed = _problem.work(subdomains, load.reduced);
+  load.closed_energy = closed.u.dot(closed.internal) / 2 - closed.u.dot(closed.load);
+  for (const ddm::CondensedLoad& one : subdomains) load.closed_energy += one.energy_constant;
 }
 
 std::vector<Track> Preview::tracks() const {
@@ -96,6 +160,11 @@ struct Preview::Solution {
 std::vector<contact::TipAnswer> Preview::ends() {
   std::vector<contact::TipAnswer> ends(_fronts.fronts.size());
   if (std::ranges::none_of(_fronts.fronts, &Front::leaves)) return ends;
+  if (_dead != nullptr) {
+    for (contact::TipAnswer& end : ends)
+      end.reason = "a dead load does not scale: where it opens the end, it starts the crack";
+    return ends;
+  }
   Fronts whole = _fronts;
   for (const Front& front : _fronts.fronts)
     if (front.leaves()) {
@@ -105,7 +174,7 @@ std::vector<contact::TipAnswer> Preview::ends() {
   const State first = first_state();
   tie(whole.stretches, first);
   const tips::Tips tips(mesh_of(_mesh, whole, first), _decomposition);
-  const tips::Solved solved{solve().answer, _load.force, _load.point_forces};
+  const tips::Solved solved{solve(_live).answer, _load.force, _load.point_forces};
   const std::vector<contact::TipAnswer> rows = tips.without_numbers({});
   for (std::size_t i = 0; i < ends.size(); ++i) {
     const Front& front = _fronts.fronts[i];
@@ -206,11 +275,14 @@ void Preview::take_surroundings(Place& place, tips::Place around) const {
   const tips::Support support = _around.of(around);
   if (support.radius < around.reach) place.reason = "a boundary or another line";
   place.radius = support.radius;
-  for (const Point& force : _load.point_forces) {
-    const double far = distance(force, place.course.tip);
-    if (far >= place.radius) continue;
-    place.radius = far;
-    place.reason = "a point force";
+  for (const PreviewLoad* const load : {&_load, _dead}) {
+    if (load == nullptr) continue;
+    for (const Point& force : load->point_forces) {
+      const double far = distance(force, place.course.tip);
+      if (far >= place.radius) continue;
+      place.radius = far;
+      place.reason = "a point force";
+    }
   }
   bool varies = false;
   for (const std::int32_t t : support.triangles) {
@@ -265,16 +337,16 @@ void Preview::tie(std::span<const Stretch> stretches, const State& state) {
 contact::Answer Preview::answer(const State& state, const contact::ActiveSetOptions& options,
                                 contact::Observer& observer) {
   tie(_fronts.stretches, state);
-  return contact::solve_active_set(_problem, _mesh, _load.loads, options, false, observer, {},
-                                   _tied);
+  return contact::solve_active_set(_problem, _mesh, _dead == nullptr ? _live.loads : _both.loads,
+                                   options, false, observer, {}, _tied);
 }
 
 /// Solves with what is tied.
-Preview::Solution Preview::solve() {
+contact::LcpAnswer Preview::solve_contact(const contact::Reduced& load) {
   contact::LcpOptions options;
   options.max_steps = most_steps;
   options.tied = _tied;
-  contact::LcpAnswer solution = _problem.solve_contact(_reduced, options, _closed, {});
+  contact::LcpAnswer solution = _problem.solve_contact(load, options, _closed, {});
   if (solution.status == contact::LcpStatus::unbounded)
     throw Error(Reason::numerical,
                 "a part of the membrane that only the paths and contact hold slides off: hold it, "
@@ -284,12 +356,17 @@ Preview::Solution Preview::solve() {
                 "contact did not settle in {} steps: take a coarser mesh along the paths",
                 most_steps);
   _closed = solution.closed;
-  const VectorXd d = solution.d.head(_reduced.r.size());
-  VectorXd w = _problem.values(_problem.solve(_reduced, d), d, _reduced.p);
+  return solution;
+}
+
+/// The fields and the motions of inclusions with given jumps.
+contact::Answer Preview::answer_for(const Loaded& load, const VectorXd& d) const {
+  const contact::Reduced& reduced = load.reduced;
+  const VectorXd w = _problem.values(_problem.solve(reduced, d), d, reduced.p);
   contact::Answer answer;
   for (const VectorXd& trace : _problem.traces().scatter(w))
     answer.side_traces.emplace_back(trace.begin(), trace.end());
-  const contact::SolvedCase solved{_load.loads.subdomains, answer};
+  const contact::SolvedCase solved{load.loads.subdomains, answer};
   _problem.recover_fields({&solved, 1});
 
   for (const ddm::RigidMotion& motion : _decomposition.skeleton.motions) {
@@ -298,19 +375,132 @@ Preview::Solution Preview::solve() {
     body.slope_x_mesh = contact::sum_of(motion.slope_x, w);
     body.slope_y_mesh = contact::sum_of(motion.slope_y, w);
   }
-  const double energy = _closed_energy - _reduced.r.dot(d) / 2;
-  return {std::move(solution), std::move(answer), energy};
+  return answer;
 }
 
-std::vector<contact::Field> Preview::fields(const State& state) {
+Preview::Solution Preview::solve(const Loaded& load) {
+  contact::LcpAnswer solution = solve_contact(load.reduced);
+  const VectorXd d = solution.d.head(load.reduced.r.size());
+  const double energy = load.closed_energy - load.reduced.r.dot(d) / 2;
+  return {std::move(solution), answer_for(load, d), energy};
+}
+
+std::vector<contact::Field> Preview::fields(const State& state, double t) {
   tie(_fronts.stretches, state);
-  return solve().answer.fields;
+  if (_dead != nullptr) return solve(together(t)).answer.fields;
+  std::vector<contact::Field> fields = solve(_live).answer.fields;
+  for (contact::Field& field : fields)
+    for (double& u : field.u) u *= t;
+  return fields;
 }
 
-Measured Preview::measure(const State& state) {
+Measured Preview::measure(const State& state) { return measure(state, _live); }
+
+/// What holds from t on as long as no contact changes. `step` is how far ahead of t the set is
+/// looked for; it grows while that leads nowhere.
+Piece Preview::piece(const std::vector<double>& rooms, const State& state, double t, int way,
+                     double& step) {
+  stop::look("growing cracks and delaminations");
+  const contact::Reduced &dead = _dead_alone.reduced, &live = _live.reduced;
+  const double ratio = dead.r.norm() / live.r.norm(),
+               size = t + ratio > 0 && std::isfinite(ratio) ? t + ratio : 1;
+  const double ahead = way > 0 ? t + step * size : std::max(t - step * size, t / 2);
+  contact::Reduced load = live;
+  load.r = dead.r + ahead * live.r;
+  load.magnitude = dead.magnitude + ahead * live.magnitude;
+  // The set under the dead load alone is far from those of other t.
+  if (t == 0) std::swap(_closed, _closed_alone);
+  const std::vector<char> closed = solve_contact(load).closed;
+  if (t == 0) std::swap(_closed, _closed_alone);
+  const std::array both{dead.r, live.r};
+  const std::vector<contact::Opened> parts = _problem.solve_open(closed, both);
+  if (!parts[0].solved || !parts[1].solved)
+    throw Error(Reason::numerical,
+                "a part of the membrane is held by contact only as the load changes: hold it, or "
+                "leave the dead load out");
+  Piece piece;
+  piece.end = way > 0 ? std::numeric_limits<double>::infinity() : 0;
+  for (const bool of_jumps : {true, false}) {
+    const VectorXd &at_0 = of_jumps ? parts[0].d : parts[0].residual,
+                   &change = of_jumps ? parts[1].d : parts[1].residual;
+    const double sign = of_jumps ? 1 : -1;  // of what has to stay above 0
+    double largest = 0;
+    for (Eigen::Index i = 0; i < at_0.size(); ++i)
+      largest = std::max(largest, std::abs(at_0[i]) + size * std::abs(change[i]));
+    for (Eigen::Index i = 0; i < at_0.size(); ++i) {
+      if ((closed[at(i)] == 0) != of_jumps || _tied[at(i)] != 0) continue;
+      const double falls = -sign * way * change[i];
+      if (falls * size <= no_change * largest) continue;
+      const double left = std::max(sign * (at_0[i] + ahead * change[i]), 0.0) / falls;
+      piece.end = way > 0 ? std::min(piece.end, ahead + left) : std::max(piece.end, ahead - left);
+    }
+  }
+  step = std::abs(piece.end - ahead) > step * size ? first_step : 2 * step;
+
+  const contact::Answer alone = answer_for(_dead_alone, parts[0].d),
+                        change = answer_for(_live, parts[1].d);
+  contact::Answer sum = alone;
+  for (std::size_t s = 0; s < sum.fields.size(); ++s)
+    for (std::size_t i = 0; i < sum.fields[s].u.size(); ++i)
+      sum.fields[s].u[i] += change.fields[s].u[i];
+  for (std::size_t j = 0; j < sum.inclusions.size(); ++j) {
+    sum.inclusions[j].slope_x_mesh += change.inclusions[j].slope_x_mesh;
+    sum.inclusions[j].slope_y_mesh += change.inclusions[j].slope_y_mesh;
+  }
+  piece.rates.resize(rooms.size());
+  for (std::size_t i = 0; i < rooms.size(); ++i) {
+    if (state.fate[i] != Fate::grows) continue;
+    const Place& here = place(i, state.at[i]);
+    if (here.behind >= 0 && closed[at(here.behind)] != 0) continue;
+    const auto at_0 = rates(here, rooms[i], _dead_alone, alone),
+               of_square = rates(here, rooms[i], _live, change),
+               at_1 = rates(here, rooms[i], _both, sum);
+    for (std::size_t k = 0; k < at_0.size(); ++k)
+      piece.rates[i].by_radius[k] = polarised(at_0[k], of_square[k], at_1[k]);
+  }
+  return piece;
+}
+
+Measured Preview::measure(const State& state, const Sought& sought) {
+  tie(_fronts.stretches, state);
+  std::vector<double> room_of;
+  std::vector<char> grows;
+  Measured unmeasured;
+  bool complete = true;
+  for (std::size_t i = 0; i < _fronts.fronts.size(); ++i) {
+    grows.push_back(state.fate[i] == Fate::grows ? 1 : 0);
+    room_of.push_back(grows[i] != 0 ? room(i, state) : 0);
+    unmeasured.release.emplace_back();
+    if (grows[i] == 0) continue;
+    if (room_of[i] >= least_radius * place(i, state.at[i]).edge)
+      unmeasured.release[i] = 0;
+    else
+      complete = false;
+  }
+  if (!complete) return unmeasured;
+  std::map<std::pair<double, int>, Piece> pieces;
+  double step = first_step;
+  Driven driven = drive(
+      [&](double t, int way) {
+        if (const auto known = pieces.find({t, way}); known != pieces.end()) return known->second;
+        if (pieces.size() > most_pieces)
+          throw Error(Reason::numerical,
+                      "contact changes more than {} times on the way to the next load: take a "
+                      "coarser mesh along the paths",
+                      most_pieces);
+        return pieces[{t, way}] = piece(room_of, state, t, way, step);
+      },
+      sought, grows);
+  const double least = *std::ranges::min_element(driven.starts);
+  Measured measured = measure(state, together(std::isfinite(least) ? least : sought.highest));
+  measured.driven = std::move(driven);
+  return measured;
+}
+
+Measured Preview::measure(const State& state, const Loaded& load) {
   stop::look("growing cracks and delaminations");
   tie(_fronts.stretches, state);
-  const auto [solution, answer, energy] = solve();
+  const auto [solution, answer, energy] = solve(load);
   Measured measured;
   measured.energy = energy;
   for (const contact::InclusionAnswer& body : answer.inclusions)
@@ -326,19 +516,20 @@ Measured Preview::measure(const State& state) {
     const Place& here = place(i, state.at[i]);
     const double outer = room(i, state);
     if (outer < least_radius * here.edge) continue;
-    Point slope{};
-    if (here.inclusion >= 0) {
-      const contact::InclusionAnswer& body = answer.inclusions[at(here.inclusion)];
-      slope = {body.slope_x_mesh, body.slope_y_mesh};
-    }
     const bool closed = here.behind >= 0 && solution.closed[at(here.behind)] != 0;
-    measured.release.back() = closed ? 0 : release(here, outer, answer, slope);
+    measured.release.back() = closed ? 0 : rate_of(rates(here, outer, load, answer));
   }
   return measured;
 }
 
-double Preview::release(const Place& here, double outer, const contact::Answer& solved,
-                        const Point& slope) const {
+/// G by each radius.
+std::array<double, tips::radii> Preview::rates(const Place& here, double outer, const Loaded& load,
+                                               const contact::Answer& solved) const {
+  Point slope{};
+  if (here.inclusion >= 0) {
+    const contact::InclusionAnswer& body = solved.inclusions[at(here.inclusion)];
+    slope = {body.slope_x_mesh, body.slope_y_mesh};
+  }
   const tips::Moved moved(here.course, outer,
                           std::max(least_radius * here.edge, least_radius / radius * outer));
   std::array<double, tips::radii> rates{};
@@ -355,11 +546,10 @@ double Preview::release(const Place& here, double outer, const contact::Answer& 
     const fem::Tension& tension = subdomain.tension;
     const tips::Tensor T = tension.of_triangle.empty() ? tips::Tensor{tension.mean, 0, tension.mean}
                                                        : tension.of_triangle[at(cell.triangle)];
-    moved.add(tips::corners_of(x), u, T, &_load.force[at(cell.subdomain)][3 * at(cell.triangle)],
+    moved.add(tips::corners_of(x), u, T, &load.force[at(cell.subdomain)][3 * at(cell.triangle)],
               slope, here.change.empty() ? nullptr : &here.change[k], rates);
   }
-  const auto [least, most] = std::ranges::minmax(rates);
-  return rates.front() <= closed_spread * (most - least) ? 0 : rates.front();
+  return rates;
 }
 
 }  // namespace anticrack::growth
