@@ -311,6 +311,9 @@ constexpr Key growth_rows[] = {
     {"dead",
      "the name of a load that acts beside each of the others and is not scaled; not with inclusion",
      "all that acts is scaled"_absent},
+    {"membranes", count,
+     "of so many positions u is kept, evenly spaced along the way, 2 to 100; takes output.fields",
+     "of the first, the last, and where fronts begin to run or stop"_absent},
 };
 constexpr Keys growth_keys{v1::Growth::descriptor, {growth_rows}};
 

@@ -96,6 +96,7 @@ class Preview {
     double closed_energy = 0;
   };
 
+  void require_scalable() const;
   Loaded loaded(const PreviewLoad& load) const;
   Loaded together(double t) const;
   void finish(Loaded& load) const;
