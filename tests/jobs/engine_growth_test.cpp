@@ -465,7 +465,7 @@ TEST(EngineGrowth, WithWhatCannotBeIsRefused) {
       change(spec);
     });
   };
-  for (const std::string& name : {"Weight", " weight", "weight ", "dead"})
+  for (const char* name : {"Weight", " weight", "weight ", "dead"})
     EXPECT_TRUE(throws(dead_one(name, [](Spec&) {}), Reason::invalid_argument, "growth.dead"));
   EXPECT_TRUE(throws(dead_one("weight", [](Spec& spec) { spec.loads.erase(spec.loads.begin()); }),
                      Reason::invalid_argument, "growth.dead"));
