@@ -276,7 +276,7 @@ records::JobSpec beside_a_dead_load(const std::string& mesh) {
 /// A dead load that is the live one takes 1 off the load; its own answer has no rows.
 TEST(EngineGrowth, BesideADeadLoad) {
   Engine test;
-  records::JobSpec spec = growing_job(test.ready_mesh(2 * size));
+  records::JobSpec spec = growing_job(test.ready_mesh(size));
   spec.fields = true;
   spec.growth->membranes = 5;
   const JobRecord without = test.ended(test.submit(spec));
