@@ -62,7 +62,9 @@ std::string name_of(const FieldDescriptor& field) {
   std::string name = field.name();
   if (is_duration(field)) return name.replace(name.rfind("time"), 4, "seconds");
   if (field.containing_type() == v1::GrowthRow::descriptor())
-    return name.starts_with("g1") ? "G" + name.substr(1) : name == "toughness" ? "Gc" : name;
+    return name.starts_with("g1") || name == "g_dead" ? "G" + name.substr(1)
+           : name == "toughness"                      ? "Gc"
+                                                      : name;
   if (field.containing_type() != v1::InclusionAnswer::descriptor() &&
       field.containing_type() != v1::BoundaryAnswer::descriptor() &&
       field.containing_type() != v1::Tip::descriptor())

@@ -308,6 +308,12 @@ constexpr Key growth_rows[] = {
     {"final_error", positive,
      "half the width of the bounds of G1 over G1 at which bisection ends, 0.001 to 1",
      "0.05"_absent},
+    {"dead",
+     "the name of a load that acts beside each of the others and is not scaled; not with inclusion",
+     "all that acts is scaled"_absent},
+    {"membranes", count,
+     "of so many positions u is kept, evenly spaced along the way, 2 to 100; takes output.fields",
+     "of the first, the last, and where fronts begin to run or stop"_absent},
 };
 constexpr Keys growth_keys{v1::Growth::descriptor, {growth_rows}};
 

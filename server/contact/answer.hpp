@@ -110,6 +110,7 @@ struct GrowthRow {
   std::int32_t ties = 0;  ///< how many others would leave at nearly this load
   /// Of the first row of a crack that leaves an open delaminated end: its length under the load 1.
   std::optional<double> initial_length;
+  std::optional<double> g_dead;  ///< beside a dead load: G under that alone
   // Of a final position, on a mesh of its own:
   std::optional<double> g1_final;
   std::optional<double> energy_lower, energy_upper;  ///< bounds of the exact Pi under `load`
@@ -117,8 +118,8 @@ struct GrowthRow {
   std::optional<double> g1_lower, g1_upper, load_lower, load_upper;
 };
 ANTICRACK_FIELDS(GrowthRow, front, interface, position, x, y, load, displacement, g1, toughness,
-                 contact_length, energy, stable, ties, initial_length, g1_final, energy_lower,
-                 energy_upper, g1_lower, g1_upper, load_lower, load_upper)
+                 contact_length, energy, stable, ties, initial_length, g_dead, g1_final,
+                 energy_lower, energy_upper, g1_lower, g1_upper, load_lower, load_upper)
 
 /// The numbers of an answer, without its status and arrays.
 struct AnswerSummary {

@@ -72,6 +72,12 @@ constexpr std::size_t max_point_forces = 10'000;
 /// Most regions of a PerRegion, inclusions with a force, and inclusions with a moment.
 constexpr std::size_t max_named_forces = 1'000;
 
+/// Why f of both cannot be one force: one is an array, or one is an expression and the other has a
+/// value per region; empty: it can.
+std::string obstacle_to_sum(const Force& dead, const Force& live);
+/// dead + t live on a mesh with these subdomains, by the name of the latter; both without obstacle.
+Load sum(const Load& dead, double t, const Load& live, const std::vector<std::string>& subdomains);
+
 /// Throws errors::Error (expression_invalid) if a text is longer.
 void require_length(const std::string& text, const std::string& field, std::size_t max_bytes);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "growth/evolution.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,14 +10,12 @@
 
 #include "base/at.hpp"
 #include "errors/errors.hpp"
+#include "growth/drive.hpp"
 
 namespace anticrack::growth {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// Loads that differ by less are reported as a tie.
-constexpr double tie = 0.01;
 
 /// What is increased, per unit of t.
 double per_load(const Row& row, Control control) {
@@ -41,14 +41,27 @@ Evolution::Evolution(std::vector<Track> tracks, Control control, double step)
             std::vector<Fate>(_tracks.size(), Fate::grows)};
 }
 
+Sought Evolution::sought() const {
+  Sought sought{{}, _last, _highest};
+  for (std::size_t i = 0; i < _tracks.size(); ++i)
+    sought.toughness.push_back(_tracks[i].toughness[_state.at[i]]);
+  return sought;
+}
+
 std::optional<Row> Evolution::take(const Measured& measured) {
   if (drop_unmeasured(measured)) return {};
   Row row = row_of(measured);
   row.stable = row.leader >= 0 && row.control > _highest;
   if (row.leader < 0) {
-    _ending = "every front is closed: no load of this kind makes it grow";
+    _ending =
+        measured.driven
+            ? fmt::format("no higher load makes a front grow: G is at most {} Gc, at the load {}",
+                          errors::shown(measured.driven->most),
+                          errors::shown(measured.driven->most_at))
+            : "every front is closed: no load of this kind makes it grow";
   } else {
     _highest = std::max(_highest, row.control);
+    _last = row.load;
     ++_rows;
     advance(at(row.leader));
   }
@@ -76,7 +89,8 @@ Row Evolution::row_of(const Measured& measured) const {
     row.position.push_back(_tracks[i].position[_state.at[i]]);
     row.G1.push_back(G1);
     row.toughness.push_back(Gc);
-    row.starts.push_back(grows && G1 > 0 ? std::sqrt(Gc / G1) : infinity);
+    const double starts = measured.driven ? measured.driven->starts[i] : std::sqrt(Gc / G1);
+    row.starts.push_back(grows && (measured.driven || G1 > 0) ? starts : infinity);
     if (row.starts[i] < row.load) {
       row.load = row.starts[i];
       row.leader = static_cast<int>(i);
@@ -87,9 +101,14 @@ Row Evolution::row_of(const Measured& measured) const {
         row.leader >= 0)
       row.ties.push_back(static_cast<int>(i));
   row.contact_length = measured.contact_length;
+  if (measured.driven) {
+    row.alone = measured.driven->alone;
+    row.held = measured.driven->held;
+  }
   if (row.leader < 0) return row;
-  for (const double a : measured.displacement) row.displacement.push_back(row.load * a);
-  row.energy = row.load * row.load * measured.energy;
+  const double scale = measured.driven ? 1 : row.load;
+  for (const double a : measured.displacement) row.displacement.push_back(scale * a);
+  row.energy = scale * scale * measured.energy;
   row.control = row.load * per_load(row, _control);
   return row;
 }
@@ -136,6 +155,10 @@ std::vector<Jump> jumps(const std::vector<Row>& rows, Control control) {
     std::size_t m = k + 1;
     // G - Gc of a row's leader while what is increased stays at that of row k.
     const auto surplus = [&](std::size_t row, std::size_t front) {
+      if (!rows[row].held.empty()) {
+        const double left = rows[row].held[front] - rows[row].toughness[front];
+        return row == k ? std::max(left, 0.0) : left;  // held at what was increased before
+      }
       const double t = rows[k].control / per_load(rows[row], control);
       return t * t * rows[row].G1[front] - rows[row].toughness[front];
     };

@@ -3,6 +3,7 @@
 // Which front grows next, at which load, and where growth jumps, from the numbers of one position
 // of the fronts after another. Loads scale together with t > 0 and contact does so with them, so
 // with G1 the rate at t = 1 a front starts at t_c = sqrt(Gc / G1); a path is a sweep over fronts.
+// Beside a load that is not scaled G is no such square, and need not rise with t: see drive.hpp.
 //
 // Irreversible: no front goes back, and what has come off does not hold again.
 #pragma once
@@ -42,7 +43,24 @@ struct State {
   std::vector<Fate> fate;       ///< a front that snapped has no stretch left that holds
 };
 
-/// Numbers of a state at t = 1.
+/// What a state is asked beside a dead load.
+struct Sought {
+  std::vector<double> toughness;  ///< Gc where each front is
+  double from = 0;                ///< t of the row before
+  double highest = 0;             ///< the highest t so far
+};
+
+/// Beside a dead load: numbers of each front, NaN if it does not grow any more.
+struct Driven {
+  std::vector<double> starts;  ///< t at which each front starts; infinite: none, or far above
+  std::vector<double> alone;   ///< G under the dead load alone
+  std::vector<double> held;    ///< G at Sought::highest
+  /// G over Gc where it is largest from there on, if no front starts, and t there.
+  double most = 0, most_at = 0;
+};
+
+/// Numbers of a state at t = 1, or, beside a dead load, at the least of Driven::starts, and at
+/// Sought::highest if there is none.
 struct Measured {
   /// G1 of each front that grows: >= 0, 0 if it is closed; empty where it is too near to something
   /// to be computed.
@@ -50,6 +68,7 @@ struct Measured {
   std::vector<double> displacement;  ///< A of each inclusion
   double contact_length = 0;
   double energy = 0;  ///< Pi
+  std::optional<Driven> driven{};
 };
 
 /// What is increased: t, or the displacement of an inclusion.
@@ -59,8 +78,9 @@ struct Control {
 
 /// A state, and the load at which the first of its fronts leaves it.
 struct Row {
-  std::vector<double> position;   ///< of each front
-  std::vector<double> G1;         ///< of each front; NaN where it does not grow any more
+  std::vector<double> position;  ///< of each front
+  /// At t = 1, beside a dead load at `load`; of each front, NaN where it does not grow any more.
+  std::vector<double> G1;
   std::vector<double> toughness;  ///< Gc where each front is
   /// t at which each front starts; infinite where it is closed or does not grow any more.
   std::vector<double> starts;
@@ -68,10 +88,11 @@ struct Row {
   std::vector<double> displacement;  ///< of each inclusion, at this load
   double control = 0;                ///< what is increased: the load, or |A| of the inclusion
   double contact_length = 0;
-  double energy = 0;      ///< Pi at this load
-  int leader = -1;        ///< the front that starts; -1: all are closed
-  std::vector<int> ties;  ///< others that start at a load at most 1 % above
-  bool stable = false;    ///< control is above that of all rows before
+  double energy = 0;                ///< Pi at this load
+  int leader = -1;                  ///< the front that starts; -1: all are closed
+  std::vector<int> ties;            ///< others that start at a load at most 1 % above
+  bool stable = false;              ///< control is above that of all rows before
+  std::vector<double> alone, held;  ///< as in Driven; empty without a dead load
 };
 
 /// A change of a front's fate.
@@ -91,6 +112,8 @@ class Evolution {
 
   const std::vector<Track>& tracks() const noexcept { return _tracks; }
   const State& state() const noexcept { return _state; }
+  /// What is asked of state() beside a dead load.
+  Sought sought() const;
   const std::vector<Event>& events() const noexcept { return _events; }
   /// Whether nothing grows any more; `ending` says why.
   bool over() const noexcept { return !_ending.empty(); }
@@ -112,7 +135,7 @@ class Evolution {
   State _state;
   std::vector<Event> _events;
   std::size_t _rows = 0;
-  double _highest = 0;
+  double _highest = 0, _last = 0;  // of what is increased; of t in the last row
   std::string _ending;
 };
 

@@ -29,9 +29,6 @@ using mesh::Point;
 /// Two directions that differ by less are one.
 constexpr double same_direction = 1e-6;
 
-/// G that is less than this many times the spread over its radii is that of a closed front.
-constexpr double closed_spread = 3;
-
 constexpr int most_steps = 1000;
 
 double distance(const Point& a, const Point& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
@@ -39,19 +36,19 @@ double distance(const Point& a, const Point& b) { return std::hypot(a[0] - b[0],
 }  // namespace
 
 Preview::Preview(const contact::ContactProblem& problem, const mesh::Mesh& mesh, PreviewLoad load,
-                 std::span<const Path> paths)
+                 std::span<const Path> paths, const PreviewLoad* dead)
     : _problem(problem),
       _mesh(mesh),
       _decomposition(problem.traces().decomposition()),
       _load(std::move(load)),
+      _dead(dead),
       _fronts(find_fronts(mesh, paths)),
       _edges(mesh.triangles),
       _ends(mesh::edge_ends(mesh, _edges)),
       _around(mesh, _edges, _ends),
       _laws(tips::laws_of(mesh)),
       _cells(tips::cells_of(mesh, _decomposition)),
-      _reduced(problem.reduce(_load.loads.subdomains,
-                              contact::held_values(_decomposition, _load.loads.subdomains))),
+      _live(loaded(_load)),
       _tied(_decomposition.skeleton.independent, 0) {
   std::vector<std::int32_t> held;
   for (const Stretch& stretch : _fronts.stretches) {
@@ -61,10 +58,14 @@ Preview::Preview(const contact::ContactProblem& problem, const mesh::Mesh& mesh,
   }
   for (const std::int32_t node : mesh::tips(mesh))
     if (std::ranges::find(held, node) == held.end()) _tips.push_back(mesh::position(mesh, node));
-  const contact::Work closed = problem.work(_load.loads.subdomains, _reduced);
-  _closed_energy = closed.u.dot(closed.internal) / 2 - closed.u.dot(closed.load);
-  for (const ddm::CondensedLoad& one : _load.loads.subdomains)
-    _closed_energy += one.energy_constant;
+  if (_dead != nullptr) {
+    require_scalable();
+    for (std::size_t s = 0; s < _load.loads.subdomains.size(); ++s)
+      _products.push_back(
+          ddm::products(std::array{&_dead->loads.subdomains[s], &_load.loads.subdomains[s]}));
+    _dead_alone = loaded(*_dead);
+    _both = together(1);
+  }
   const State first = first_state();
   for (std::size_t i = 0; i < _fronts.fronts.size(); ++i) {
     const Place& here = place(i, 0);
@@ -79,6 +80,23 @@ Preview::Preview(const contact::ContactProblem& problem, const mesh::Mesh& mesh,
         errors::shown(enough))
         .at(fmt::format("paths[{}]", _fronts.fronts[i].stretch));
   }
+}
+
+Preview::Loaded Preview::loaded(const PreviewLoad& load) const {
+  Loaded result;
+  result.loads = load.loads;
+  result.force = load.force;
+  finish(result);
+  return result;
+}
+
+/// Reduces it, its loads being set.
+void Preview::finish(Loaded& load) const {
+  const auto subdomains = load.loads.subdomains;
+  load.reduced = _problem.reduce(subdomains, contact::held_values(_decomposition, subdomains));
+  const contact::Work closed = _problem.work(subdomains, load.reduced);
+  load.closed_energy = closed.u.dot(closed.internal) / 2 - closed.u.dot(closed.load);
+  for (const ddm::CondensedLoad& one : subdomains) load.closed_energy += one.energy_constant;
 }
 
 std::vector<Track> Preview::tracks() const {
@@ -96,6 +114,11 @@ struct Preview::Solution {
 std::vector<contact::TipAnswer> Preview::ends() {
   std::vector<contact::TipAnswer> ends(_fronts.fronts.size());
   if (std::ranges::none_of(_fronts.fronts, &Front::leaves)) return ends;
+  if (_dead != nullptr) {
+    for (contact::TipAnswer& end : ends)
+      end.reason = "a dead load does not scale: where it opens the end, it starts the crack";
+    return ends;
+  }
   Fronts whole = _fronts;
   for (const Front& front : _fronts.fronts)
     if (front.leaves()) {
@@ -105,7 +128,7 @@ std::vector<contact::TipAnswer> Preview::ends() {
   const State first = first_state();
   tie(whole.stretches, first);
   const tips::Tips tips(mesh_of(_mesh, whole, first), _decomposition);
-  const tips::Solved solved{solve().answer, _load.force, _load.point_forces};
+  const tips::Solved solved{solve(_live).answer, _load.force, _load.point_forces};
   const std::vector<contact::TipAnswer> rows = tips.without_numbers({});
   for (std::size_t i = 0; i < ends.size(); ++i) {
     const Front& front = _fronts.fronts[i];
@@ -207,11 +230,14 @@ void Preview::take_surroundings(Place& place, tips::Place around) const {
   const tips::Support support = _around.of(around, marks);
   if (support.radius < around.reach) place.reason = "a boundary or another line";
   place.radius = support.radius;
-  for (const Point& force : _load.point_forces) {
-    const double far = distance(force, place.course.tip);
-    if (far >= place.radius) continue;
-    place.radius = far;
-    place.reason = "a point force";
+  for (const PreviewLoad* const load : {&_load, _dead}) {
+    if (load == nullptr) continue;
+    for (const Point& force : load->point_forces) {
+      const double far = distance(force, place.course.tip);
+      if (far >= place.radius) continue;
+      place.radius = far;
+      place.reason = "a point force";
+    }
   }
   bool varies = false;
   for (const std::int32_t t : support.triangles) {
@@ -266,16 +292,16 @@ void Preview::tie(std::span<const Stretch> stretches, const State& state) {
 contact::Answer Preview::answer(const State& state, const contact::ActiveSetOptions& options,
                                 contact::Observer& observer) {
   tie(_fronts.stretches, state);
-  return contact::solve_active_set(_problem, _mesh, _load.loads, options, false, observer, {},
-                                   _tied);
+  return contact::solve_active_set(_problem, _mesh, _dead == nullptr ? _live.loads : _both.loads,
+                                   options, false, observer, {}, _tied);
 }
 
 /// Solves with what is tied.
-Preview::Solution Preview::solve() {
+contact::LcpAnswer Preview::solve_contact(const contact::Reduced& load) {
   contact::LcpOptions options;
   options.max_steps = most_steps;
   options.tied = _tied;
-  contact::LcpAnswer solution = _problem.solve_contact(_reduced, options, _closed, {});
+  contact::LcpAnswer solution = _problem.solve_contact(load, options, _closed, {});
   if (solution.status == contact::LcpStatus::unbounded)
     throw Error(Reason::numerical,
                 "a part of the membrane that only the paths and contact hold slides off: hold it, "
@@ -285,12 +311,17 @@ Preview::Solution Preview::solve() {
                 "contact did not settle in {} steps: take a coarser mesh along the paths",
                 most_steps);
   _closed = solution.closed;
-  const VectorXd d = solution.d.head(_reduced.r.size());
-  VectorXd w = _problem.values(_problem.solve(_reduced, d), d, _reduced.p);
+  return solution;
+}
+
+/// The fields and the motions of inclusions with given jumps.
+contact::Answer Preview::answer_for(const Loaded& load, const VectorXd& d) const {
+  const contact::Reduced& reduced = load.reduced;
+  const VectorXd w = _problem.values(_problem.solve(reduced, d), d, reduced.p);
   contact::Answer answer;
   for (const VectorXd& trace : _problem.traces().scatter(w))
     answer.side_traces.emplace_back(trace.begin(), trace.end());
-  const contact::SolvedCase solved{_load.loads.subdomains, answer};
+  const contact::SolvedCase solved{load.loads.subdomains, answer};
   _problem.recover_fields({&solved, 1});
 
   for (const ddm::RigidMotion& motion : _decomposition.skeleton.motions) {
@@ -299,19 +330,31 @@ Preview::Solution Preview::solve() {
     body.slope_x_mesh = contact::sum_of(motion.slope_x, w);
     body.slope_y_mesh = contact::sum_of(motion.slope_y, w);
   }
-  const double energy = _closed_energy - _reduced.r.dot(d) / 2;
-  return {std::move(solution), std::move(answer), energy};
+  return answer;
 }
 
-std::vector<contact::Field> Preview::fields(const State& state) {
+Preview::Solution Preview::solve(const Loaded& load) {
+  contact::LcpAnswer solution = solve_contact(load.reduced);
+  const VectorXd d = solution.d.head(load.reduced.r.size());
+  const double energy = load.closed_energy - load.reduced.r.dot(d) / 2;
+  return {std::move(solution), answer_for(load, d), energy};
+}
+
+std::vector<contact::Field> Preview::fields(const State& state, double t) {
   tie(_fronts.stretches, state);
-  return solve().answer.fields;
+  if (_dead != nullptr) return solve(together(t)).answer.fields;
+  std::vector<contact::Field> fields = solve(_live).answer.fields;
+  for (contact::Field& field : fields)
+    for (double& u : field.u) u *= t;
+  return fields;
 }
 
-Measured Preview::measure(const State& state) {
+Measured Preview::measure(const State& state) { return measure(state, _live); }
+
+Measured Preview::measure(const State& state, const Loaded& load) {
   stop::look("growing cracks and delaminations");
   tie(_fronts.stretches, state);
-  const auto [solution, answer, energy] = solve();
+  const auto [solution, answer, energy] = solve(load);
   Measured measured;
   measured.energy = energy;
   for (const contact::InclusionAnswer& body : answer.inclusions)
@@ -327,19 +370,20 @@ Measured Preview::measure(const State& state) {
     const Place& here = place(i, state.at[i]);
     const double outer = room(i, state);
     if (outer < least_radius * here.edge) continue;
-    Point slope{};
-    if (here.inclusion >= 0) {
-      const contact::InclusionAnswer& body = answer.inclusions[at(here.inclusion)];
-      slope = {body.slope_x_mesh, body.slope_y_mesh};
-    }
     const bool closed = here.behind >= 0 && solution.closed[at(here.behind)] != 0;
-    measured.release.back() = closed ? 0 : release(here, outer, answer, slope);
+    measured.release.back() = closed ? 0 : rate_of(rates(here, outer, load, answer));
   }
   return measured;
 }
 
-double Preview::release(const Place& here, double outer, const contact::Answer& solved,
-                        const Point& slope) const {
+/// G by each radius.
+std::array<double, tips::radii> Preview::rates(const Place& here, double outer, const Loaded& load,
+                                               const contact::Answer& solved) const {
+  Point slope{};
+  if (here.inclusion >= 0) {
+    const contact::InclusionAnswer& body = solved.inclusions[at(here.inclusion)];
+    slope = {body.slope_x_mesh, body.slope_y_mesh};
+  }
   const tips::Moved moved(here.course, outer,
                           std::max(least_radius * here.edge, least_radius / radius * outer));
   std::array<double, tips::radii> rates{};
@@ -356,11 +400,10 @@ double Preview::release(const Place& here, double outer, const contact::Answer& 
     const fem::Tension& tension = subdomain.tension;
     const tips::Tensor T = tension.of_triangle.empty() ? tips::Tensor{tension.mean, 0, tension.mean}
                                                        : tension.of_triangle[at(cell.triangle)];
-    moved.add(tips::corners_of(x), u, T, &_load.force[at(cell.subdomain)][3 * at(cell.triangle)],
+    moved.add(tips::corners_of(x), u, T, &load.force[at(cell.subdomain)][3 * at(cell.triangle)],
               slope, here.change.empty() ? nullptr : &here.change[k], rates);
   }
-  const auto [least, most] = std::ranges::minmax(rates);
-  return rates.front() <= closed_spread * (most - least) ? 0 : rates.front();
+  return rates;
 }
 
 }  // namespace anticrack::growth

@@ -67,6 +67,7 @@ contact::GrowthRow row_of(const growth::Row& row, const growth::Measured& measur
   result.x = track.place[state.at[i]][0];
   result.y = track.place[state.at[i]][1];
   result.load = row.load;
+  if (!row.alone.empty()) result.g_dead = row.alone[i];
   if (!measured.displacement.empty())
     result.displacement = row.displacement[static_cast<std::size_t>(std::max(inclusion, 0))];
   result.g1 = row.G1[i];
@@ -81,6 +82,14 @@ contact::GrowthRow row_of(const growth::Row& row, const growth::Measured& measur
 std::vector<std::string> notes_on(const std::vector<growth::Row>& rows, const Evolution& evolution,
                                   growth::Control control) {
   std::vector<std::string> notes;
+  const auto at_0 = std::ranges::find_if(
+      rows, [](const growth::Row& row) { return row.leader >= 0 && row.load == 0; });
+  if (at_0 != rows.end()) {
+    const auto i = static_cast<std::size_t>(at_0->leader);
+    notes.push_back(fmt::format("{} grows under the dead load alone, by which G is {} and Gc {}",
+                                shown(evolution.tracks()[i], at_0->position[i]),
+                                errors::shown(at_0->alone[i]), errors::shown(at_0->toughness[i])));
+  }
   const char* const increased = control.inclusion < 0 ? "load" : "displacement";
   for (const growth::Jump& jump : growth::jumps(rows, control)) {
     const growth::Row& from = rows[jump.from];
@@ -148,38 +157,63 @@ std::vector<std::optional<double>> initial_lengths(const growth::Fronts& fronts,
   return lengths;
 }
 
-/// Fills in u of the first and the last row, and of rows at which fronts begin to run, or stop.
+/// Fills in u of `count` rows, or, for 0, of the first, the last, and rows at which fronts begin to
+/// run, or stop.
 void add_membranes(const std::vector<growth::Row>& rows, const std::vector<GrownState>& states,
-                   growth::Control control, operators::Growth& preview, const std::stop_token& stop,
-                   contact::Answer& answer) {
+                   growth::Control control, std::int32_t count, operators::Growth& preview,
+                   const std::stop_token& stop, contact::Answer& answer) {
   constexpr std::size_t most = 8;
   std::set<std::size_t> chosen{0, rows.size() - 1};
-  for (const growth::Jump& jump : growth::jumps(rows, control))
-    for (const std::size_t row : {jump.from, jump.to.value_or(jump.from)})
-      if (chosen.size() < most) chosen.insert(row);
+  if (count > 0)
+    for (const std::size_t row : final_rows(rows, static_cast<std::size_t>(count)))
+      chosen.insert(row);
+  else
+    for (const growth::Jump& jump : growth::jumps(rows, control))
+      for (const std::size_t row : {jump.from, jump.to.value_or(jump.from)})
+        if (chosen.size() < most) chosen.insert(row);
   for (const std::size_t row : chosen) {
-    std::vector<contact::Field> fields = preview.fields(states[row].state, stop);
     answer.membrane_rows.push_back(static_cast<std::int32_t>(row));
-    for (const contact::Field& field : fields)
-      for (const double u : field.u)
-        answer.membranes.push_back(rows[row].leader < 0 ? u : rows[row].load * u);
-    if (row == 0) answer.fields = std::move(fields);
+    const double load = rows[row].leader < 0 ? 1 : rows[row].load;
+    for (const contact::Field& field : preview.fields(states[row].state, load, stop))
+      answer.membranes.insert(answer.membranes.end(), field.u.begin(), field.u.end());
   }
+  answer.fields = preview.fields(states[0].state, 1, stop);
 }
 
-contact::Answer grown(const PreparedCase& prepared, meshes::MeshCatalogue& catalogue,
-                      contact::Observer& observer) {
+/// The load that acts beside this one, if there is one.
+std::optional<operators::PreparedLoad> dead_load(const PreparedCase& prepared,
+                                                 const store::Store& store,
+                                                 const std::stop_token& stop) {
+  LiveJob& job = *prepared.task.job;
+  const std::string& name = job.spec->growth->dead;
+  if (name.empty() || job.spec->loads[prepared.task.index].name == name) return {};
+  const fem::Load load =
+      job.arrays.resolve(*std::ranges::find(job.spec->loads, name, &fem::Load::name), store);
+  const fem::Load* const one[] = {&load};
+  auto outcome = std::move(job.mesh_operator->prepare(one, stop).front());
+  if (const auto* error = std::get_if<Error>(&outcome)) throw Error(*error);
+  return std::get<operators::PreparedLoad>(std::move(outcome));
+}
+
+contact::Answer grown(const PreparedCase& prepared, const store::Store& store,
+                      meshes::MeshCatalogue& catalogue, contact::Observer& observer) {
   const LiveJob& job = *prepared.task.job;
   const records::GrowthSpec& spec = *job.spec->growth;
   const std::stop_token stop = job.stop.get_token();
   const growth::Control control = control_of(spec, job.mesh_operator->mesh());
-  operators::Growth preview(job.mesh_operator, prepared.load, spec.paths, stop);
+  std::optional<operators::PreparedLoad> dead = dead_load(prepared, store, stop);
+  const bool driven = dead.has_value();
+  operators::Growth preview(job.mesh_operator, prepared.load, spec.paths, stop, std::move(dead));
   std::vector<growth::Track> tracks = preview.tracks();
   const double step = step_of(tracks, positions_of(spec));
   Evolution evolution(std::move(tracks), control, step);
   contact::Answer answer = preview.answer(
       evolution.state(), std::get<contact::ActiveSetOptions>(job.spec->solver), observer);
   if (answer.status != contact::Status::converged) return answer;
+  if (job.spec->loads[prepared.task.index].name == spec.dead) {
+    answer.growth_notes.push_back("it acts beside each of the other loads, and is not scaled");
+    return answer;
+  }
   std::vector<std::optional<double>> initial =
       initial_lengths(preview.fronts(), preview.ends(stop), answer.growth_notes);
   std::vector<growth::Row> rows;
@@ -191,7 +225,8 @@ contact::Answer grown(const PreparedCase& prepared, meshes::MeshCatalogue& catal
   };
   while (!evolution.over()) {
     const growth::State state = evolution.state();
-    const growth::Measured measured = preview.measure(state, stop);
+    const growth::Measured measured =
+        driven ? preview.measure(state, evolution.sought(), stop) : preview.measure(state, stop);
     const std::optional<growth::Row> row = evolution.take(measured);
     if (!row) continue;
     answer.growth.push_back(row_of(*row, measured, state, evolution, control.inclusion));
@@ -204,10 +239,33 @@ contact::Answer grown(const PreparedCase& prepared, meshes::MeshCatalogue& catal
   }
   std::ranges::copy(notes_on(rows, evolution, control), std::back_inserter(answer.growth_notes));
   if (job.spec->fields && !rows.empty())
-    add_membranes(rows, states, control, preview, stop, answer);
+    add_membranes(rows, states, control, spec.membranes, preview, stop, answer);
   if (spec.final_positions > 0)
     add_final(prepared, catalogue, preview.fronts(), rows, states, answer, tell);
   return answer;
+}
+
+/// The load that acts beside the others.
+void check_dead(const records::JobSpec& spec) {
+  const records::GrowthSpec& growth = *spec.growth;
+  const auto refuse = [&](const std::string& why) {
+    throw Error(Reason::invalid_argument, why).at("growth.dead");
+  };
+  const auto dead = std::ranges::find(spec.loads, growth.dead, &fem::Load::name);
+  if (dead == spec.loads.end())
+    refuse(fmt::format("no load is named \"{}\": name the one that is not scaled", growth.dead));
+  if (spec.loads.size() == 1)
+    refuse(
+        fmt::format("\"{}\" is the only load: add one that is increased beside it", growth.dead));
+  if (!growth.inclusion.empty())
+    refuse("beside a dead load only the load can be increased: leave inclusion out");
+  if (growth.final_positions == 0) return;
+  for (const fem::Load& load : spec.loads)
+    if (const std::string why = fem::obstacle_to_sum(dead->force, load.force); !why.empty())
+      refuse(fmt::format(
+          "f of \"{}\" and of \"{}\" cannot be summed on the meshes of positions, as {}: give both "
+          "as an expression",
+          growth.dead, load.name, why));
 }
 
 void check_final(const records::JobSpec& spec) {
@@ -246,7 +304,17 @@ void check_growth(const records::JobSpec& spec, const EngineOptions& options) {
     throw Error(Reason::invalid_argument, "{} positions: take 2 to {}", growth.positions,
                 most_positions)
         .at("growth.positions");
+  constexpr std::int32_t most_membranes = 100;
+  if (growth.membranes != 0 && (growth.membranes < 2 || growth.membranes > most_membranes))
+    throw Error(Reason::invalid_argument, "{} membranes: take 2 to {}", growth.membranes,
+                most_membranes)
+        .at("growth.membranes");
+  if (growth.membranes != 0 && !spec.fields)
+    throw Error(Reason::invalid_argument,
+                "membranes of positions are u in their nodes: ask for the output fields, too")
+        .at("growth.membranes");
   if (growth.final_positions != 0) check_final(spec);
+  if (!growth.dead.empty()) check_dead(spec);
   for (std::size_t i = 0; i < growth.paths.size(); ++i) {
     const growth::Path& path = growth.paths[i];
     const std::string field = fmt::format("growth.paths[{}].toughness", i);
@@ -271,7 +339,7 @@ void check_growth(const records::JobSpec& spec, const EngineOptions& options) {
   if (!spec.probes.empty())
     throw Error(Reason::invalid_argument, "a job with growth has no probes: leave them out")
         .at("probes");
-  constexpr std::uint64_t a_row = 260;  // 21 numbers and a name
+  constexpr std::uint64_t a_row = 270;  // 22 numbers and a name
   const auto rows = static_cast<std::uint64_t>(positions_of(growth)) * spec.loads.size();
   if (rows * a_row > max_answer_bytes)
     throw Error(Reason::limit_exceeded,
@@ -281,10 +349,10 @@ void check_growth(const records::JobSpec& spec, const EngineOptions& options) {
         .at("growth.positions");
 }
 
-contact::Answer grow(const PreparedCase& prepared, meshes::MeshCatalogue& catalogue,
-                     contact::Observer& observer) {
+contact::Answer grow(const PreparedCase& prepared, const store::Store& store,
+                     meshes::MeshCatalogue& catalogue, contact::Observer& observer) {
   try {
-    return grown(prepared, catalogue, observer);
+    return grown(prepared, store, catalogue, observer);
   } catch (Error& error) {
     if (!error.fields().empty()) error.below("growth");
     throw;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <stop_token>
 #include <vector>
@@ -23,10 +24,11 @@ namespace anticrack::operators {
 /// operators of the mesh alive. For one thread.
 class Growth {
  public:
-  /// Throws errors::Error: as growth::Preview; internal for a load of another mesh or a
-  /// combination.
+  /// `dead`: a load that acts besides and is not scaled. Throws errors::Error: as growth::Preview;
+  /// internal for a load of another mesh or a combination.
   Growth(std::shared_ptr<const MeshOperator> mesh_operator, PreparedLoad load,
-         std::span<const growth::Path> paths, const std::stop_token& stop = {});
+         std::span<const growth::Path> paths, const std::stop_token& stop = {},
+         std::optional<PreparedLoad> dead = {});
   ~Growth();
   Growth(const Growth&) = delete;
   Growth& operator=(const Growth&) = delete;
@@ -34,7 +36,8 @@ class Growth {
   std::vector<growth::Track> tracks() const;
   const growth::Fronts& fronts() const noexcept;
   /// As growth::Preview::fields.
-  std::vector<contact::Field> fields(const growth::State& state, const std::stop_token& stop = {});
+  std::vector<contact::Field> fields(const growth::State& state, double t,
+                                     const std::stop_token& stop = {});
   /// As growth::Preview::ends.
   std::vector<contact::TipAnswer> ends(const std::stop_token& stop = {});
   /// As growth::Preview::answer.
@@ -42,6 +45,8 @@ class Growth {
                          contact::Observer& observer);
   /// As growth::Preview::measure.
   growth::Measured measure(const growth::State& state, const std::stop_token& stop = {});
+  growth::Measured measure(const growth::State& state, const growth::Sought& sought,
+                           const std::stop_token& stop = {});
 
  private:
   struct Parts;

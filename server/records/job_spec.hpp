@@ -54,8 +54,11 @@ struct GrowthSpec {
   std::int32_t positions = 0;        ///< about so many; 0: 200
   std::int32_t final_positions = 0;  ///< how many have a mesh of their own, and bounds
   double final_error = 0;            ///< of G1 between them, half the width of its bounds; 0: 0.05
+  std::string dead;                  ///< the load that acts beside the others; empty: none
+  std::int32_t membranes = 0;        ///< rows whose u is kept; 0: as jumps are
 };
-ANTICRACK_FIELDS(GrowthSpec, paths, inclusion, positions, final_positions, final_error)
+ANTICRACK_FIELDS(GrowthSpec, paths, inclusion, positions, final_positions, final_error, dead,
+                 membranes)
 
 /// Names of units, for readers; empty: none.
 struct Units {

@@ -20,7 +20,9 @@ const std::string path =
     "[[growth.path]]\ninterface = \"fibre\"\nfrom = [-0.5, 0]\nto = [0, 0]\nGc = \"1 + x^2\"\n";
 
 TEST(GrowthSection, IsReadWithThePlacesOfItsPaths) {
-  const Case the_case = parse(grown("[growth]\ninclusion = \"fibre\"\npositions = 50\n" + path));
+  const Case the_case = parse(
+      grown("[growth]\ninclusion = \"fibre\"\npositions = 50\ndead = \"weight\"\nmembranes = 7\n" +
+            path));
   const v1::Growth& growth = the_case.spec.growth();
   ASSERT_EQ(growth.paths_size(), 1);
   EXPECT_EQ(growth.paths(0).interface(), "fibre");
@@ -29,7 +31,9 @@ TEST(GrowthSection, IsReadWithThePlacesOfItsPaths) {
   EXPECT_EQ(growth.paths(0).toughness(), "1 + x^2");
   EXPECT_EQ(growth.inclusion(), "fibre");
   EXPECT_EQ(growth.positions(), 50);
-  EXPECT_EQ(locate(the_case, "growth.paths[0].toughness")->line, 26U);
+  EXPECT_EQ(growth.dead(), "weight");
+  EXPECT_EQ(growth.membranes(), 7);
+  EXPECT_EQ(locate(the_case, "growth.paths[0].toughness")->line, 28U);
   EXPECT_EQ(locate(the_case, "growth.inclusion")->line, 20U);
   EXPECT_FALSE(parse(sample_text).spec.has_growth());
 }

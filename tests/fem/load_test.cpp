@@ -6,7 +6,10 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <map>
+#include <string>
 
+#include "expression/function.hpp"
 #include "support/errors.hpp"
 
 namespace anticrack::fem {
@@ -65,6 +68,34 @@ TEST(LoadCheck, NamesTheFieldAtFault) {
       refuses([](Load& load) { load.inclusion_moments["b"].x = nan; }, "inclusion_moments[b]"));
   EXPECT_TRUE(refuses([](Load& load) { load.inclusion_moments["b"].y = HUGE_VAL; },
                       "inclusion_moments[b]"));
+}
+
+/// What a sum says of each part, whatever form the forces have.
+TEST(SumOfLoads, HasTheSumOfEachPart) {
+  Load dead{"dead", 2.0, "x", ""}, live{"live", Expression{"x + y"}, "1", "y"};
+  dead.point_forces = {{1, 2, 3}};
+  live.point_forces = {{4, 5, 6}};
+  dead.inclusion_forces = {{"a", 1}};
+  live.inclusion_forces = {{"a", 2}, {"b", 4}};
+  live.inclusion_moments = {{"b", {1, -2}}};
+  const Load both = sum(dead, -0.5, live, {"lower"});
+  EXPECT_EQ(both.name, "live");
+  EXPECT_NO_THROW(check(both, 1000));
+  const auto at = [](const std::string& text) { return expression::Function(text, "text")(3, 5); };
+  EXPECT_EQ(at(std::get<Expression>(both.force).text), 2 - 0.5 * 8);
+  EXPECT_EQ(at(both.boundary_value), 3 - 0.5);
+  EXPECT_EQ(at(both.traction), -0.5 * 5);
+  ASSERT_EQ(both.point_forces.size(), 2U);
+  EXPECT_EQ(both.point_forces[1].value, -3);
+  EXPECT_EQ(both.inclusion_forces, (std::map<std::string, double>{{"a", 0}, {"b", -2}}));
+  EXPECT_EQ(both.inclusion_moments.at("b").y, 1);
+
+  live.force = PerRegion{{{"upper", 4}}};
+  const auto regions = std::get<PerRegion>(sum(dead, 0.5, live, {"lower", "upper"}).force).values;
+  EXPECT_EQ(regions, (std::map<std::string, double>{{"lower", 2}, {"upper", 4}}));
+  EXPECT_EQ(obstacle_to_sum(dead.force, live.force), "");
+  EXPECT_NE(obstacle_to_sum(Expression{"x"}, live.force), "");
+  EXPECT_NE(obstacle_to_sum(Array{}, 0.0), "");
 }
 
 TEST(LoadCheck, CountsWhatACaseMayHave) {

@@ -10,6 +10,7 @@
 #include <ctime>
 #include <functional>
 #include <memory>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -151,6 +152,41 @@ TEST(PreviewUnderContact, HasTheRateOfDifferencesOfEnergies) {
                              (grown.rows[k + 1].position[0] - grown.rows[k - 1].position[0]);
     EXPECT_NEAR(grown.rows[k].G1[0], by_energy, 1e-2 * by_energy) << k;
   }
+}
+
+/// The same under random loads that press a part of what is off onto the inclusion, to a part of
+/// the largest G: where contact ends at the front G falls to 0 within some edges.
+TEST(PreviewUnderContact, HasTheRateOfDifferencesOfEnergiesUnderRandomLoads) {
+  const OnMesh on = prepared(square(Bonded::opened, 2 * Bonded::n), Bonded::load());
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> one(5, 20), place(-0.45, 0);
+  int in_contact = 0;
+  double worst = 0, largest = 0;
+  for (int trial = 0; trial < 12; ++trial) {
+    const fem::Load load =
+        load_of("0", "y > 0 ? 2 : x < " + std::to_string(place(random)) + " ? " +
+                         std::to_string(one(random)) + " : -" + std::to_string(one(random)));
+    const fem::Load* const loads[] = {&load};
+    Growth growth(on.op, std::get<PreparedLoad>(on.op->prepare(loads).front()), Bonded::paths());
+    for (const std::size_t k : {8U, 20U}) {
+      const auto at = [&](std::size_t position) {
+        return growth.measure({{position}, {Fate::grows}});
+      };
+      const Measured before = at(k - 1), here = at(k), after = at(k + 1);
+      const double by_energy = (before.energy - after.energy) * Bonded::n;
+      EXPECT_GE(by_energy, -1e-12 * std::abs(here.energy));
+      if (*here.release[0] == 0) continue;
+      worst = std::max(worst, std::abs(*here.release[0] - by_energy));
+      largest = std::max(largest, by_energy);
+      in_contact += here.contact_length > 0.05 ? 1 : 0;
+    }
+  }
+  std::printf(
+      "[ figures  ] random loads: G1 is %.2f %% of the largest off differences of energies, "
+      "%d in contact\n",
+      100 * worst / largest, in_contact);
+  EXPECT_LT(worst, 0.01 * largest);
+  EXPECT_GT(in_contact, 4);
 }
 
 TEST(PreviewUnderContact, ScalesWithTheLoad) {

@@ -264,6 +264,92 @@ TEST(GrowthAccuracy, FinalPositionsHaveBoundsOnMeshesOfTheirOwn) {
   }
 }
 
+/// "opening" grows beside "weight", which holds the front down in part.
+records::JobSpec beside_a_dead_load(const std::string& mesh) {
+  records::JobSpec spec = growing_job(mesh);
+  spec.loads.push_back({"weight", fem::Expression{"y > 0 ? 0.5 : 0.25"}, ""});
+  spec.growth->dead = "weight";
+  spec.growth->positions = 30;
+  return spec;
+}
+
+/// A dead load that is the live one takes 1 off the load; its own answer has no rows.
+TEST(EngineGrowth, BesideADeadLoad) {
+  Engine test;
+  records::JobSpec spec = growing_job(test.ready_mesh(size));
+  spec.fields = true;
+  spec.growth->membranes = 5;
+  const JobRecord without = test.ended(test.submit(spec));
+  const std::vector<contact::GrowthRow>& alone = without.cases.at(0).answer.growth;
+  spec.loads.push_back({"weight", spec.loads[0].force, ""});
+  spec.growth->dead = "weight";
+  const std::string id = test.submit(spec);
+  const JobRecord job = test.ended(id);
+  ASSERT_EQ(job.state, JobState::succeeded) << (job.error ? job.error->what() : "");
+  const contact::AnswerSummary& answer = job.cases.at(0).answer;
+  ASSERT_EQ(answer.growth.size(), alone.size());
+  for (std::size_t k = 0; k < alone.size(); ++k) {
+    EXPECT_NEAR(*answer.growth[k].load, std::max(*alone[k].load - 1, 0.0), 1e-9);
+    EXPECT_NEAR(*answer.growth[k].g_dead, alone[k].g1, 1e-9 * alone[k].g1);
+    EXPECT_FALSE(alone[k].g_dead);
+  }
+  expect_same(told_rows(test, id), answer.growth);
+  EXPECT_TRUE(job.cases.at(1).answer.growth.empty());
+  EXPECT_THAT(job.cases.at(1).answer.growth_notes,
+              ::testing::ElementsAre(::testing::HasSubstr("not scaled")));
+  const auto kept = array<std::int32_t>(*test.engine.result(id), "loads/0/membrane_rows");
+  EXPECT_EQ(kept->size(), 5U);
+  EXPECT_EQ(kept->back(), static_cast<std::int32_t>(alone.size()) - 1);
+}
+
+TEST(EngineGrowth, SaysWhatADeadLoadDoesAlone) {
+  Engine test;
+  records::JobSpec spec = beside_a_dead_load(test.ready_mesh(2 * size));
+  spec.loads[1].force = fem::Expression{"y > 0 ? 10 : -10"};
+  const contact::AnswerSummary grows = test.ended(test.submit(spec)).cases.at(0).answer;
+  ASSERT_FALSE(grows.growth.empty());
+  EXPECT_EQ(*grows.growth[0].load, 0);
+  EXPECT_GE(*grows.growth[0].g_dead, grows.growth[0].toughness);
+  EXPECT_THAT(grows.growth_notes,
+              ::testing::Contains(::testing::HasSubstr("under the dead load alone")));
+  // What is increased presses the membrane onto the inclusion.
+  spec.loads[0].force = fem::Expression{"y > 0 ? 0 : 1"};
+  spec.loads[1].force = fem::Expression{"y > 0 ? 0.5 : -0.5"};
+  const contact::AnswerSummary closes = test.ended(test.submit(spec)).cases.at(0).answer;
+  ASSERT_EQ(closes.growth.size(), 1U);
+  EXPECT_EQ(closes.growth[0].front, -1);
+  EXPECT_THAT(closes.growth_notes,
+              ::testing::Contains(::testing::HasSubstr("no higher load makes a front grow")));
+}
+
+/// G of a mesh of its own at the load of the row is Gc within 2 %, and between its bounds up to the
+/// next is the mean of the mesh of all positions.
+TEST(GrowthAccuracy, FinalPositionsBesideADeadLoadHaveBounds) {
+  Engine test;
+  const records::GeometrySource graded{anticrack::testing::paper_geometry(),
+                                       {mesh::Preset::graded, size}};
+  records::JobSpec spec = beside_a_dead_load(test.backend.catalogue.create(graded, "", "").id);
+  spec.growth->final_positions = 3;
+  const JobRecord job = test.ended(test.submit(spec));
+  ASSERT_EQ(job.state, JobState::succeeded) << (job.error ? job.error->what() : "");
+  const contact::AnswerSummary& answer = job.cases.at(0).answer;
+  int bounded = 0;
+  for (const contact::GrowthRow& row : answer.growth) {
+    if (!is_final(row)) continue;
+    std::printf("[ figures  ] t %.5f: G %.5f of its own mesh, Gc %.5f, mean %.5f to %.5f\n",
+                *row.load, row.g1_final.value_or(NAN), row.toughness, row.g1_lower.value_or(NAN),
+                row.g1_upper.value_or(NAN));
+    EXPECT_NEAR(*row.g1_final, row.toughness, 0.02 * row.toughness);
+    EXPECT_LT(*row.energy_lower, *row.energy);
+    EXPECT_FALSE(row.load_lower || row.load_upper);
+    if (!row.g1_lower) continue;
+    ++bounded;
+    EXPECT_GT(*row.g1_upper, row.toughness);  // it runs, as G rises on the way
+    EXPECT_LE(*row.g1_lower, *row.g1_upper);
+  }
+  EXPECT_EQ(bounded, 2);
+}
+
 TEST(EngineGrowth, FinalPositionsDependOnNoThreads) {
   std::vector<std::vector<contact::GrowthRow>> found;
   for (const int threads : {1, 3}) {
@@ -372,6 +458,31 @@ TEST(EngineGrowth, WithWhatCannotBeIsRefused) {
                      Reason::invalid_argument, "without_bounds"));
   EXPECT_TRUE(throws(final_one([](Spec& spec) { spec.loads[0].force = fem::Array{}; }),
                      Reason::invalid_argument, "load_cases[0].force"));
+  const auto dead_one = [&](const std::string& name, const auto& change) {
+    return submit([=](Spec& spec) {
+      spec.loads.push_back({"weight", 1.0, ""});
+      spec.growth->dead = name;
+      change(spec);
+    });
+  };
+  for (const char* name : {"Weight", " weight", "weight ", "dead"})
+    EXPECT_TRUE(throws(dead_one(name, [](Spec&) {}), Reason::invalid_argument, "growth.dead"));
+  EXPECT_TRUE(throws(dead_one("weight", [](Spec& spec) { spec.loads.erase(spec.loads.begin()); }),
+                     Reason::invalid_argument, "growth.dead"));
+  EXPECT_TRUE(throws(dead_one("weight", [](Spec& spec) { spec.growth->inclusion = "inclusion"; }),
+                     Reason::invalid_argument, "growth.dead"));
+  EXPECT_TRUE(throws(dead_one("weight",
+                              [](Spec& spec) {
+                                spec.growth->final_positions = 3;
+                                spec.loads[1].force = fem::PerRegion{{{"upper", 1}}};
+                              }),
+                     Reason::invalid_argument, "growth.dead"));
+  for (const int membranes : {-1, 1, 101, 5})
+    EXPECT_TRUE(throws(submit([=](Spec& spec) {
+                         spec.fields = membranes != 5;  // 5 lacks them
+                         spec.growth->membranes = membranes;
+                       }),
+                       Reason::invalid_argument, "growth.membranes"));
   EXPECT_TRUE(throws(submit([](Spec& spec) { spec.growth->paths[0].toughness = ""; }),
                      Reason::invalid_argument, "growth.paths[0].toughness"));
   EXPECT_TRUE(throws(submit([](Spec& spec) { spec.growth->paths[0].toughness = "1 +"; }),

@@ -24,7 +24,7 @@ def name_of(field: Any) -> str:
     if field.message_type is not None and field.message_type.name == "Duration":
         return name.replace("time", "seconds")
     if field.containing_type.name == "GrowthRow":
-        return "Gc" if name == "toughness" else name.replace("g1", "G1")
+        return "Gc" if name == "toughness" else name.replace("g1", "G1").replace("g_dead", "G_dead")
     if field.containing_type.name in ("InclusionAnswer", "BoundaryAnswer", "Tip"):
         for long_name, symbol in _SYMBOLS:
             if name.startswith(long_name):
