@@ -16,15 +16,23 @@ namespace {
 /// Bodies that are read at once; each has some megabytes at most.
 constexpr std::size_t bodies_a_statement = 4;
 
-/// $1: epoch, $2: meshes held, $3: jobs left out.
-const std::string help_statement =
-    std::string("SELECT j.id, j.owner, j.checksum, j.record, q.attempt FROM queue q ") + R"(
-JOIN jobs j ON j.id = q.job
-WHERE q.runner IS NOT NULL AND q.runner <> $1 AND NOT q.cancelled AND q.job <> ALL ($3)
-AND EXISTS (SELECT FROM portions p WHERE p.job = q.job AND p.runner IS NULL)
-ORDER BY q.class, (SELECT count(*) FROM portions p JOIN queue o ON o.job = p.job
+/// From a sweep with which so many processes have died the others keep away.
+constexpr int most_crashes = 2;
+
+/// $1: epoch, $2: meshes held, $3: jobs left out, $4: most_crashes.
+constexpr const char* help_statement = R"(
+WITH best AS MATERIALIZED (
+  SELECT number FROM queue q
+  WHERE runner IS NOT NULL AND runner <> $1 AND NOT cancelled AND crashes < $4 AND job <> ALL ($3)
+  AND EXISTS (SELECT FROM portions p WHERE p.job = q.job AND p.runner IS NULL)
+  ORDER BY class, (SELECT count(*) FROM portions p JOIN queue o ON o.job = p.job
                    WHERE o.owner = q.owner AND p.runner <> o.runner AND p.body IS NULL),
-         random() + CASE WHEN q.mesh = ANY ($2) THEN 0 ELSE 0.5 END LIMIT 1
+           random() + CASE WHEN mesh = ANY ($2) THEN 0 ELSE 0.5 END LIMIT 1
+), taken AS (
+  UPDATE queue q SET tried = array_append(array_remove(tried, $1), $1) FROM best b
+  WHERE q.number = b.number RETURNING q.job, q.attempt
+)
+SELECT j.id, j.owner, j.checksum, j.record, t.attempt FROM taken t JOIN jobs j ON j.id = t.job
 )";
 
 /// $1: job, $2: epoch, $3: count. What this server has already comes as well: the reply to an
@@ -71,7 +79,7 @@ void Queue::spread(const std::string& job, int attempt, std::uint64_t rows,
 
 std::optional<records::JobRecord> Queue::to_help(const std::vector<std::string>& held,
                                                  const std::vector<std::string>& except) {
-  const Result rows = query(_pool, help_statement, {_epoch.load(), held, except});
+  const Result rows = query(_pool, help_statement, {_epoch.load(), held, except, most_crashes});
   if (rows.empty()) return std::nullopt;
   records::JobRecord record = store::read_job(row_at(rows, 0));
   record.attempt = static_cast<int>(rows.integer(0, 4));
@@ -109,6 +117,10 @@ void Queue::give_back_portions(const std::string& job) {
   const Result freed = query(
       _pool, "UPDATE portions SET runner = NULL WHERE job = $1 AND runner = $2 AND body IS NULL",
       {job, _epoch.load()});
+  query(_pool,
+        "UPDATE queue SET tried = array_remove(tried, $2) WHERE job = $1 AND runner <> $2 "
+        "AND tried @> ARRAY[$2]",
+        {job, _epoch.load()});
   if (freed.affected() > 0) notify_queue();
 }
 

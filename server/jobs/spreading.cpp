@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "jobs/event_rows.hpp"
 #include "jobs/intake.hpp"
 #include "jobs/portion_codec.hpp"
 
@@ -16,7 +17,7 @@ using Lock = EngineCore::Lock;
 
 constexpr std::chrono::milliseconds look_every{100};
 /// How long a server helps with a sweep before it looks whose is next.
-constexpr std::chrono::seconds help_for{5};
+constexpr std::chrono::seconds help_for{10};
 /// Portions that no thread here comes to for so long are given back.
 constexpr std::chrono::seconds longest_wait{1};
 
@@ -56,7 +57,13 @@ void write_solved(EngineCore& core, const JobPtr& job, SpreadSweep& spread) {
     for (std::size_t i = first; i < end; ++i)
       chunks.emplace_back(sweep.chunks[i], spread.sums.at(i));
     lock.unlock();
-    core.queue->solved(job->id(), {number, pack(chunks, *job->spool)});
+    std::string body;
+    try {
+      body = pack(chunks, *job->spool);
+    } catch (const Error& error) {  // of the disk here
+      return core.stop(job, Stop::failed, error);
+    }
+    core.queue->solved(job->id(), {number, std::move(body)});
     lock.lock();
     spread.unwritten.erase(number);
     spread.sums.erase(spread.sums.lower_bound(first), spread.sums.lower_bound(end));
@@ -87,6 +94,7 @@ void fetch_solved(EngineCore& core, const JobPtr& job, SpreadSweep& spread) {
       spread.known.insert(portion.number);
       lock.unlock();
     }
+    core.rows->publish({job});  // before so many rows push one another out of the log
   }
 }
 
@@ -184,9 +192,10 @@ void attend(EngineCore& core, const JobPtr& job) {
   lock.unlock();
   const SweepPlan& plan = job->sweep->plan;
   try {
-    if (!job->helps && !std::exchange(spread.offered, true))
+    if (!job->helps && !spread.offered)
       core.queue->spread(job->id(), job->created.attempt, plan.rows,
                          plan.chunk_rows * plan.portion_chunks);
+    spread.offered = true;
     take_more(core, job, spread, look);
     write_solved(core, job, spread);
     if (!job->helps && look) fetch_solved(core, job, spread);

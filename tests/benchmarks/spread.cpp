@@ -95,11 +95,13 @@ Taken solve(const std::vector<std::unique_ptr<Daemon>>& servers, const Kind& kin
   return taken;
 }
 
-void run(int repetitions, bool tiny) {
+void run(int repetitions, bool tiny, const std::vector<std::string>& only) {
   std::vector<Kind> kinds{{"combinations", 1'000'000, false, false},
                           {"tips", 200'000, false, true},
                           {"bounds", 100'000, true, false}};
   if (tiny) kinds = {{"combinations", 40'000, false, false}};
+  if (!only.empty())
+    std::erase_if(kinds, [&](const Kind& kind) { return !std::ranges::count(only, kind.name); });
   const anticrack::testing::Database database;
   const std::vector<std::string> alone{"--threads", "1", "--log-level", "error"};
   std::vector<std::string> grouped = alone;
@@ -148,12 +150,14 @@ void run(int repetitions, bool tiny) {
 int main(int argc, char** argv) {
   int repetitions = 3;
   bool tiny = false;
+  std::vector<std::string> only;
   CLI::App app("Sweeps that several servers solve.", "bench_spread");
   app.add_option("--repetitions", repetitions, "Of everything")->check(CLI::Range(1, 1000));
+  app.add_option("--only", only, "Kinds of sweeps; all without it");
   app.add_flag("--tiny", tiny, "Short jobs: does it work?");
   CLI11_PARSE(app, argc, argv);
   try {
-    anticrack::benchmarks::run(repetitions, tiny);
+    anticrack::benchmarks::run(repetitions, tiny, only);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "bench_spread: %s\n", error.what());
     return 1;
