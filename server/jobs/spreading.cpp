@@ -57,13 +57,7 @@ void write_solved(EngineCore& core, const JobPtr& job, SpreadSweep& spread) {
     for (std::size_t i = first; i < end; ++i)
       chunks.emplace_back(sweep.chunks[i], spread.sums.at(i));
     lock.unlock();
-    std::string body;
-    try {
-      body = pack(chunks, *job->spool);
-    } catch (const Error& error) {  // of the disk here
-      return core.stop(job, Stop::failed, error);
-    }
-    core.queue->solved(job->id(), {number, std::move(body)});
+    core.queue->solved(job->id(), {number, pack(chunks, *job->spool)});
     lock.lock();
     spread.unwritten.erase(number);
     spread.sums.erase(spread.sums.lower_bound(first), spread.sums.lower_bound(end));
@@ -80,15 +74,11 @@ void fetch_solved(EngineCore& core, const JobPtr& job, SpreadSweep& spread) {
         core.queue->solved_portions(job->id(), known);
     if (portions.empty()) return;
     for (const store::SolvedPortion& portion : portions) {
-      try {
-        for (EndedChunk& chunk : unpack(portion, job)) {
-          lock.lock();
-          ++job->active;
-          lock.unlock();
-          core.deliver(std::move(chunk));
-        }
-      } catch (const Error& error) {
-        return core.stop(job, Stop::failed, error);
+      for (EndedChunk& chunk : unpack(portion, job)) {
+        lock.lock();
+        ++job->active;
+        lock.unlock();
+        core.deliver(std::move(chunk));
       }
       lock.lock();
       spread.known.insert(portion.number);
@@ -201,8 +191,9 @@ void attend(EngineCore& core, const JobPtr& job) {
     if (!job->helps && look) fetch_solved(core, job, spread);
   } catch (const store::JobTaken&) {
     core.stop(job, Stop::interrupted);
-  } catch (const Error&) {
-    // The database cannot be reached: it is tried again.
+  } catch (const Error& error) {
+    const bool out_of_reach = error.retry_delay().count() > 0;
+    if (!out_of_reach) core.stop(job, Stop::failed, error);
   }
   lock.lock();
   const bool all = !job->helps && spread.known.size() == portions_of(plan);

@@ -102,7 +102,7 @@ TEST_F(TiltingChunkTest, ComesBackFromThePortionsOfTheStoreAsItWas) {
       0, pack({{first.solved, first.record}, {last.solved, last.record}}, *job->spool)};
   const std::vector<EndedChunk> chunks = unpack(portion, job);
   ASSERT_EQ(chunks.size(), 2U);
-  for (const EndedChunk* sent : {&first, &last}) {
+  for (const EndedChunk* sent : std::initializer_list<const EndedChunk*>{&first, &last}) {
     const EndedChunk& got = chunks[sent->task.index];
     EXPECT_EQ(got.task.index, sent->task.index);
     EXPECT_EQ(chunk_arrays(*got.columns).bytes, chunk_arrays(*sent->columns).bytes);
