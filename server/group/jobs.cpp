@@ -2,7 +2,6 @@
 #include <cstring>
 #include <utility>
 
-#include "digest/digest.hpp"
 #include "group/blobs.hpp"
 #include "group/rows.hpp"
 #include "group/store.hpp"
@@ -44,7 +43,7 @@ std::shared_ptr<store::Spool> Store::new_spool() {
 void Store::finish(const JobRecord& record, std::shared_ptr<const records::BlockSource> result) {
   const std::string bytes = store::encode(record);
   const std::string header = result ? store::result_header(*result) : std::string();
-  const std::string name = result ? digest::Sha256().add(header).finish() : std::string();
+  const std::string name = result ? store::name_of_result(header) : std::string();
   const auto read = [&](std::uint64_t offset, std::span<std::byte> to) {
     stop::look("writing a result");
     if (offset < header.size()) {
@@ -137,14 +136,6 @@ void Store::expire(const std::string& job, records::Clock::time_point now) {
   });
 }
 
-void Store::erase_job(const std::string& id) {
-  transact(_pool, [&](postgres::Transaction& transaction) {
-    const Result erased = transaction.run("DELETE FROM jobs WHERE id = $1 RETURNING result", {id});
-    if (!erased.empty())
-      remove_unreferenced(transaction, {erased.text(0, 0)});
-    else if (!transaction.repeated())
-      throw store::unknown("jobs", id);
-  });
-}
+void Store::erase_job(const std::string& id) { erase("jobs", "result", id); }
 
 }  // namespace anticrack::group

@@ -71,15 +71,7 @@ std::size_t Store::mesh_count() const {
 }
 
 void Store::erase_mesh(const std::string& id) {
-  std::vector<std::string> removed;
-  transact(_pool, [&](postgres::Transaction& transaction) {
-    const Result erased = transaction.run("DELETE FROM meshes WHERE id = $1 RETURNING blob", {id});
-    if (!erased.empty())
-      removed = remove_unreferenced(transaction, {erased.text(0, 0)});
-    else if (!transaction.repeated())
-      throw store::unknown("meshes", id);
-  });
-  for (const std::string& name : removed) _triangulations.forget(name);
+  for (const std::string& name : erase("meshes", "blob", id)) _triangulations.forget(name);
 }
 
 std::shared_ptr<const mesh::Mesh> Store::triangulation(const std::string& sha256) const {

@@ -88,6 +88,8 @@ void Queue::enter(bool started) {
   });
 }
 
+void Queue::notify_queue() { notify(queue_channel); }
+
 void Queue::notify(const char* channel) {
   try {
     query(_pool, "SELECT pg_notify($1, '')", {channel});
@@ -100,7 +102,7 @@ JobRecord Queue::create(const JobRecord& record, const std::string& fingerprint,
                         const store::QueuedSize& size,
                         const std::function<void(const store::QueueTotals&)>& admit) {
   JobRecord stored = insert(record, fingerprint, size, admit, false);
-  if (stored.id == record.id) notify(queue_channel);
+  if (stored.id == record.id) notify_queue();
   return stored;
 }
 
@@ -217,7 +219,11 @@ Queue::News Queue::beat(const std::vector<std::string>& known) {
                  "claimed < now() - $3::text::interval AND NOT job = ANY ($2)",
                  {_epoch.load(), known, claim_deadline})
                .affected();
-  if (freed > 0) notify(queue_channel);
+  freed += query(_pool,
+                 "UPDATE portions p SET runner = NULL WHERE runner IS NOT NULL AND body IS NULL "
+                 "AND NOT EXISTS (SELECT FROM servers s WHERE s.epoch = p.runner AND NOT s.dead)")
+               .affected();
+  if (freed > 0) notify_queue();
   const Result flagged =
       query(_pool, "SELECT job FROM queue WHERE runner = $1 AND cancelled", {_epoch.load()});
   for (std::size_t row = 0; row < flagged.rows(); ++row)
@@ -238,7 +244,7 @@ void Queue::give_back(const std::vector<std::string>& known) {
   const Result freed =
       query(_pool, "UPDATE queue SET runner = NULL WHERE runner = $1 AND NOT job = ANY ($2)",
             {_epoch.load(), known});
-  if (freed.affected() > 0) notify(queue_channel);
+  if (freed.affected() > 0) notify_queue();
 }
 
 void Queue::leave() {

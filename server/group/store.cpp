@@ -10,6 +10,7 @@
 #include <span>
 
 #include "errors/errors.hpp"
+#include "group/blobs.hpp"
 #include "group/rows.hpp"
 #include "group/tables.hpp"
 #include "store/record_codec.hpp"
@@ -100,6 +101,19 @@ std::vector<store::Row> Store::page(const char* table, const store::Page& page) 
   std::vector<store::Row> rows;
   for (std::size_t i = 0; i < found.rows(); ++i) rows.push_back(row_at(found, i));
   return rows;
+}
+
+std::vector<std::string> Store::erase(const char* table, const char* blob, const std::string& id) {
+  std::vector<std::string> removed;
+  transact(_pool, [&](postgres::Transaction& transaction) {
+    const Result erased = transaction.run(
+        fmt::format("DELETE FROM {} WHERE id = $1 RETURNING {}", table, blob), {id});
+    if (!erased.empty())
+      removed = remove_unreferenced(transaction, {erased.text(0, 0)});
+    else if (!transaction.repeated())
+      throw store::unknown(table, id);
+  });
+  return removed;
 }
 
 store::Usage Store::usage() const {

@@ -83,6 +83,9 @@ class Store final : public store::Store {
   std::vector<store::UploadRecord> uploads_where(const char* comparison, const std::string& owner,
                                                  const std::string& sha256,
                                                  std::size_t count) const;
+  /// Deletes a row and the blob in that column, if no other row has it; returns the blob's name
+  /// then. Throws not_found.
+  std::vector<std::string> erase(const char* table, const char* blob, const std::string& id);
   /// Removes copies of uploads that nobody has any more.
   void remove_copies();
 

@@ -103,10 +103,27 @@ CREATE TABLE events (
 );
 )";
 
+/// Sweeps that several servers solve: a row for each run of rows, as long as the job is in the
+/// queue. `runner`: the epoch of the server that has it, or solved it; `body`: its answers.
+constexpr const char* second = R"(
+CREATE TABLE portions (
+  job text NOT NULL REFERENCES queue (job) ON DELETE CASCADE,
+  n integer NOT NULL,
+  first bigint NOT NULL,
+  count bigint NOT NULL,
+  runner bigint,
+  body bytea,
+  PRIMARY KEY (job, n)
+);
+ALTER TABLE portions ALTER body SET STORAGE EXTERNAL;
+CREATE INDEX ON portions (job, n) WHERE runner IS NULL;
+CREATE INDEX ON portions (runner, job) WHERE runner IS NOT NULL AND body IS NULL;
+)";
+
 }  // namespace
 
 postgres::Tables tables() {
-  static constexpr std::array steps{first};
+  static constexpr std::array steps{first, second};
   return {steps, 1};
 }
 

@@ -7,6 +7,7 @@
 
 #include "jobs/event_rows.hpp"
 #include "jobs/intake.hpp"
+#include "jobs/spreading.hpp"
 
 namespace anticrack::jobs {
 
@@ -54,7 +55,8 @@ Claims::Claims(EngineCore& core)
     : _core(core),
       _claiming(core.start([this] { claim(); })),
       _beating(core.start([this] { beat(); })),
-      _telling(core.start([&core] { core.rows->work(); })) {
+      _telling(core.start([&core] { core.rows->work(); })),
+      _spreading(core.start([&core] { solve_together(core); })) {
   core.queue->listen([&core](bool cancelled) {
     const std::lock_guard lock(core.mutex);
     (cancelled ? core.flags_changed : core.queue_changed) = true;
@@ -86,6 +88,7 @@ void Claims::claim() {
           ++claimed;
           take(_core, std::move(one));
         }
+        if (claimed == 0) help(_core, meshes);
       } catch (const Error&) {
         // The database cannot be reached; beats give back what was claimed and is not here.
       }

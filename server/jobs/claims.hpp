@@ -31,7 +31,7 @@ class Claims {
   void beat();
 
   EngineCore& _core;
-  std::jthread _claiming, _beating, _telling;
+  std::jthread _claiming, _beating, _telling, _spreading;
 };
 
 /// Stops a job that is live here or waits in the queue; otherwise asks its runner to. Without the

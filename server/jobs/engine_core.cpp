@@ -10,6 +10,7 @@
 #include "jobs/accuracy.hpp"
 #include "jobs/block_run.hpp"
 #include "jobs/event_rows.hpp"
+#include "jobs/spreading.hpp"
 #include "operators/freed_memory.hpp"
 #include "records/case_record.hpp"
 
@@ -62,7 +63,7 @@ EngineCore::EngineCore(EngineOptions engine_options, store::Store& records,
 void EngineCore::quit() {
   const std::lock_guard lock(mutex);
   quitting = true;
-  for (auto* changed : {&solvers, &ending, &sweeping, &limits, &claiming, &telling})
+  for (auto* changed : {&solvers, &ending, &sweeping, &limits, &claiming, &telling, &spreading})
     changed->notify_all();
 }
 
@@ -76,7 +77,8 @@ std::jthread EngineCore::start(std::function<void()> work) {
 }
 
 void EngineCore::add(const JobPtr& job) {
-  jobs.insert_or_assign(job->id(), job);  // one that this server lost may still be winding down
+  if (!job->helps)
+    jobs.insert_or_assign(job->id(), job);  // one that this server lost may still be winding down
   numbers.emplace(job->number, job);
   ++live;
   if (const auto mesh = enter_mesh(job); !mesh->phase.empty()) {
@@ -145,7 +147,10 @@ void EngineCore::begin_sweep(const JobPtr& job, SweepPlan plan) {
   job->sweep = std::make_unique<LiveSweep>(std::move(plan));
   std::uint64_t& waiting = meshes.at(job->mesh)->waiting[index(job->lane)];
   waiting -= job->units;
-  job->units = job->sweep->chunks.size();
+  const bool spread = queue != nullptr && job->sweep->plan.portion_chunks > 0;
+  if (spread) job->sweep->spread = std::make_unique<SpreadSweep>();
+  job->units = spread ? 0 : job->sweep->chunks.size();
+  job->active += spread ? 1 : 0;
   waiting += job->units;
 }
 
@@ -157,10 +162,11 @@ void EngineCore::settle(const JobPtr& job) {
     solvers.notify_one();
     return;
   }
-  const bool interrupted = job->why == Stop::interrupted;
+  const bool interrupted = job->why == Stop::interrupted || job->helps;
   job->enter(interrupted ? Phase::over : Phase::ending);
   leave(job);
   --live;
+  if (job->helps && job->why == Stop::failed) not_helped.insert(job->id());
   if (interrupted) {
     admission.ended(job->created.owner, job->spec_bytes);
     running -= job->started ? 1 : 0;
@@ -181,7 +187,7 @@ void EngineCore::settle(const JobPtr& job) {
 }
 
 void EngineCore::give_up(const JobPtr& job) {
-  if (queue == nullptr) return;
+  if (queue == nullptr || job->helps) return;
   if (const auto found = jobs.find(job->id()); found != jobs.end() && found->second == job)
     jobs.erase(found);
   rows->follow(job->id(), job->log);
@@ -262,14 +268,20 @@ void EngineCore::deliver(std::vector<EndedCase> cases) {
 void EngineCore::deliver(EndedChunk chunk) {
   const JobPtr job = chunk.task.job;
   const std::size_t place = chunk.task.index;
-  if (chunk.failure)
-    stop(job, Stop::failed, chunk.failure);
-  else if (chunk.columns)
-    job->log->append(RowsEvent{job->sweep->plan.first_row(place), chunk.columns});
-  const std::lock_guard lock(mutex);
-  cases_ended += chunk.record.converged + chunk.record.not_converged;
-  jobs::add(job->sweep_record, chunk.record);
-  job->sweep->chunks[place] = std::move(chunk.solved);
+  if (chunk.failure) stop(job, Stop::failed, chunk.failure);
+  Lock lock(mutex);
+  SweepChunk& solved = job->sweep->chunks[place];
+  if (chunk.columns && !solved.columns) {  // otherwise this server has it from two sides
+    solved = std::move(chunk.solved);
+    jobs::add(job->sweep_record, chunk.record);
+    lock.unlock();
+    if (!job->helps) job->log->append(RowsEvent{job->sweep->plan.first_row(place), chunk.columns});
+    lock.lock();
+  }
+  if (!chunk.fetched) {
+    cases_ended += chunk.record.converged + chunk.record.not_converged;
+    note_solved(*this, chunk);
+  }
   --job->active;
   settle(job);
 }

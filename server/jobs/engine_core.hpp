@@ -20,6 +20,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <stop_token>
 #include <string>
 #include <thread>
@@ -98,10 +99,11 @@ class EngineCore {
   mutable std::mutex mutex;
   /// Signalled when there is work for the kind of thread.
   std::condition_variable solvers, ending, sweeping, limits;
-  std::condition_variable claiming, telling;
+  std::condition_variable claiming, telling, spreading;
   std::condition_variable settled;  ///< signalled when fewer jobs are live, ending or claimed
   bool queue_changed = false;       ///< whether there may be a job to claim, or room for one
   bool flags_changed = false;       ///< whether a job here may have been cancelled elsewhere
+  bool chunks_ended = false;        ///< whether there is news of a sweep that is spread
   int claims_under_way = 0;
   bool draining = false;      ///< whether no job may start any more
   bool interrupting = false;  ///< ends that the store refuses are left to the next start
@@ -121,6 +123,8 @@ class EngineCore {
   access::TurnQueue<JobPtr> to_end;     ///< jobs to end; owners take turns
   access::TurnQueue<JobPtr> to_refine;  ///< jobs of which a stage ended; counted in LiveJob::active
 
+  std::set<std::string> not_helped;  ///< sweeps elsewhere that this server could not solve
+
   std::uint64_t last_number = 0;
   std::uint64_t created = 0;
   std::uint64_t ended = 0;
@@ -130,6 +134,7 @@ class EngineCore {
   int not_announced = 0;  ///< jobs that the ending thread has and whose end was not told
   int running = 0;        ///< jobs that started and have not ended
   int columns = 0;        ///< load cases on solver threads; a chunk counts as one
+  int busy = 0;           ///< solver threads that have a turn
 
   /// Waits for meshes. It is the last member, so that no news comes when the others are destroyed.
   meshes::MeshWaits waits;
@@ -146,7 +151,8 @@ class EngineCore {
   void move_back(const JobPtr& job);
   /// Takes a job's waiting units out of the schedule.
   void withdraw(const JobPtr& job);
-  /// Sets the chunks of a sweep that starts; they are its units from now on.
+  /// Sets the chunks of a sweep that starts; they are its units from now on. One that is spread has
+  /// none yet, and counts as active until jobs/spreading.hpp has done with it.
   void begin_sweep(const JobPtr& job, SweepPlan plan);
   /// Call it when a case of the job ended or the job must stop: a job that has nothing left goes to
   /// the next step.

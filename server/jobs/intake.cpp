@@ -109,7 +109,7 @@ void measure(records::SweepSpec& sweep, const JobRecord& record, const EngineCor
 
 /// Queues a job. With the lock held.
 void queue(EngineCore& core, const JobPtr& job, EngineCore::Clock::time_point deadline) {
-  core.deadlines.set(job->number, Due::queue_time, deadline);
+  if (!job->helps) core.deadlines.set(job->number, Due::queue_time, deadline);
   core.limits.notify_one();
   core.add(job);
 }
@@ -183,7 +183,7 @@ TakenIn take_in(EngineCore& core, const Submission& submission) {
   return {std::move(stored), true};
 }
 
-JobPtr take_up(EngineCore& core, JobRecord record, const std::string& why) {
+JobPtr take_up(EngineCore& core, JobRecord record, const std::string& why, bool helps) {
   const bool waits_since_it_was_made = !record.started;
   record.state = JobState::queued;
   record.started.reset();
@@ -216,6 +216,7 @@ JobPtr take_up(EngineCore& core, JobRecord record, const std::string& why) {
       std::make_shared<LiveJob>(number, std::move(record), cases, core.options.event_log_bytes,
                                 std::move(mesh_use), core.memory, core.queue != nullptr);
   if (job->stages) job->stages->mesh_use = std::move(stage_use);
+  job->helps = helps;
   lock.lock();
   core.admission.add(job->created.owner, job->spec->mesh, cases, job->spec_bytes);
   queue(core, job,

@@ -16,8 +16,9 @@ struct TakenIn {
 TakenIn take_in(EngineCore& core, const Submission& submission);
 
 /// Makes a job of the store live here, for its first attempt or another. `why`: what is told of
-/// another one. Without the lock.
-JobPtr take_up(EngineCore& core, records::JobRecord record, const std::string& why);
+/// another one. `helps`: LiveJob::helps. Without the lock.
+JobPtr take_up(EngineCore& core, records::JobRecord record, const std::string& why,
+               bool helps = false);
 
 /// Adds the ended jobs of the store to retention; if the store belongs to this server alone, takes
 /// up those that have not ended. Call it once, before there are threads.

@@ -125,7 +125,7 @@ void start_job(EngineCore& core, std::shared_ptr<const operators::MeshOperator> 
     require_answers(*job->spec, mesh_operator->mesh().inclusions);
     probes = std::make_shared<const PlacedProbes>(place_probes(job->spec->probes, *mesh_operator));
     plan = plan_of(core, *job, *mesh_operator);
-    stored = another_stage || store_start(core, snapshot, plan, job->stages.get());
+    stored = another_stage || job->helps || store_start(core, snapshot, plan, job->stages.get());
   } catch (const store::JobTaken&) {
     core.stop(job, Stop::interrupted);
   } catch (...) {
@@ -168,7 +168,14 @@ void start_job(EngineCore& core, std::shared_ptr<const operators::MeshOperator> 
   tell(job->stages ? stage_name(*job) : "");
   lock.lock();
   --job->active;
-  if (job->why == Stop::none) core.offer(job);
+  if (job->sweep && job->sweep->spread) {
+    job->sweep->spread->ready = true;
+    job->sweep->spread->begun = EngineCore::Clock::now();
+    core.chunks_ended = true;
+    core.spreading.notify_one();
+  } else if (job->why == Stop::none) {
+    core.offer(job);
+  }
   core.settle(job);
 }
 

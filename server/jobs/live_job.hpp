@@ -76,8 +76,9 @@ enum class Stop {
 };
 
 /// A job is solved in units: its load cases, or the chunks of its sweep (one chunk until the job
-/// starts and they are known). The first part of the members does not change; the engine's mutex
-/// guards the second, with the exceptions named there.
+/// starts and they are known; of a sweep that is spread those that this server has taken). The
+/// first part of the members does not change; the engine's mutex guards the second, with the
+/// exceptions named there.
 struct PlacedProbes;
 
 struct LiveJob {
@@ -94,6 +95,8 @@ struct LiveJob {
   const Lane lane;
   const std::chrono::steady_clock::time_point since;  ///< when this server got it
   const std::shared_ptr<EventLog> log;
+  /// Another server runs it and this one solves portions of its sweep; set before it is added.
+  bool helps = false;
   ForceArrays arrays;
   std::stop_source stop;
   std::stop_source writing;  ///< stops the writing of its end, if it is cancelled then
@@ -121,8 +124,8 @@ struct LiveJob {
   std::unique_ptr<LiveStages> stages;          ///< of a job with an accuracy
   records::SweepRecord sweep_record;           ///< sums over the rows that have ended
   std::size_t units = 0;
-  std::size_t next_unit = 0;       ///< first one that no thread has taken
-  int active = 0;                  ///< units taken and not ended, plus one during a start
+  std::size_t next_unit = 0;  ///< first one that no thread has taken
+  int active = 0;  ///< units taken and not ended, plus one during a start and while it is spread
   std::uint64_t queued_cases = 0;  ///< load cases that admission still counts
   std::uint64_t result_bytes = 0;  ///< of the answers so far
   std::uint64_t answer_bytes = 0;  ///< of the records of `cases`

@@ -158,13 +158,16 @@ std::uint64_t queued_cases(const records::JobSpec& spec, const store::Store& sto
                            const std::string& owner) {
   if (!spec.sweep) return spec.loads.size();
   try {
-    const std::uint64_t values = find_matrix(*spec.sweep, store, owner).values;
-    const std::uint64_t cost = spec.sweep->bounds ? bounded_cost : 1;
-    return combines(*spec.sweep) ? parts(values, combinations_a_case / cost * spec.loads.size())
-                                 : parts(values, forces_a_case / cost);
+    return queued_cases(spec, find_matrix(*spec.sweep, store, owner).values);
   } catch (const Error&) {
     return 1;  // the job will fail when it starts
   }
+}
+
+std::uint64_t queued_cases(const records::JobSpec& spec, std::uint64_t values) {
+  const std::uint64_t cost = spec.sweep->bounds ? bounded_cost : 1;
+  return combines(*spec.sweep) ? parts(values, combinations_a_case / cost * spec.loads.size())
+                               : parts(values, forces_a_case / cost);
 }
 
 }  // namespace anticrack::jobs

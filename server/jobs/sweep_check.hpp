@@ -40,5 +40,7 @@ std::uint64_t rows_of(const records::SweepSpec& sweep, std::uint64_t values, std
 /// 256 combinations, or a megabyte of nodal forces, count as one; with bounds a 32nd of that.
 std::uint64_t queued_cases(const records::JobSpec& spec, const store::Store& store,
                            const std::string& owner);
+/// The same for a sweep whose matrix has `values` values.
+std::uint64_t queued_cases(const records::JobSpec& spec, std::uint64_t values);
 
 }  // namespace anticrack::jobs

@@ -21,6 +21,7 @@ struct EndedChunk {
   std::shared_ptr<const contact::SweepColumns> columns;  ///< the spooled rows, for watchers
   records::SweepRecord record;                           ///< sums over these rows
   std::optional<errors::Error> failure;  ///< ends the whole job, e.g. a bad value in the matrix
+  bool fetched = false;                  ///< another server solved it
 };
 
 /// Condenses the loads that a job combines. Throws errors::Error with the path in the job

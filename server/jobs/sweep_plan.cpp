@@ -29,6 +29,11 @@ constexpr std::size_t force_bytes_a_chunk = std::size_t{64} << 20U;
 /// A chunk is one message to a watcher, and the motions are most of it: half a megabyte.
 constexpr std::size_t motions_a_chunk = std::size_t{1} << 16U;
 
+/// A sweep of fewer load cases is over before another server has factorised its mesh.
+constexpr std::uint64_t fewest_spread_cases = 128;
+constexpr std::size_t most_portions = 1024;
+constexpr std::uint64_t most_portion_bytes = std::uint64_t{64} << 20U;
+
 /// How many numbers are the motions of a row: A of each inclusion and, if any tilts, Bx, By.
 std::size_t motions(const mesh::Mesh& mesh) {
   return mesh.inclusions.size() * (contact::tilts(mesh) ? 3 : 1);
@@ -70,6 +75,13 @@ std::size_t chunk_rows(SweepSpec::Cases cases, std::uint64_t rows, std::size_t n
   return std::min(result, std::max(one, motions_a_chunk / std::max(one, motions)));
 }
 
+std::size_t portion_chunks(std::uint64_t cases, std::size_t chunks, std::uint64_t chunk_bytes) {
+  const std::size_t together = (chunks + most_portions - 1) / most_portions;
+  if (cases < fewest_spread_cases || chunks < 2 || chunk_bytes > most_portion_bytes / together)
+    return 0;
+  return together;
+}
+
 SweepPlan plan_sweep(const records::JobSpec& spec, MatrixFile matrix,
                      const operators::MeshOperator& mesh_operator, const EngineOptions& options) {
   const SweepSpec& sweep = *spec.sweep;
@@ -94,6 +106,10 @@ SweepPlan plan_sweep(const records::JobSpec& spec, MatrixFile matrix,
                 plan.rows, plan.result_bytes, options.max_result_bytes)
         .at(matrix_field(sweep));
   }
+  plan.portion_chunks = portion_chunks(
+      queued_cases(spec, matrix.values), plan.chunks(),
+      result_bytes(mesh_operator, plan.chunk_rows, std::min(plan.chunk_rows, sweep.traces.size()),
+                   sweep.bounds, tips));
   return plan;
 }
 

@@ -24,6 +24,7 @@ struct SweepPlan {
   std::uint64_t rows = 0;
   std::size_t columns = 0;
   std::size_t chunk_rows = 1;
+  std::size_t portion_chunks = 0;  ///< chunks of a portion; 0: one server solves all of them
   std::uint64_t result_bytes = 0;  ///< of the result block, its arrays' alignment included
 
   /// The number of chunks; the last may have fewer rows.
@@ -45,6 +46,11 @@ struct SweepPlan {
 /// motions of the inclusions.
 std::size_t chunk_rows(records::SweepSpec::Cases cases, std::uint64_t rows, std::size_t nodes,
                        std::size_t contacts, std::size_t motions);
+
+/// How many consecutive chunks, of at most `chunk_bytes` of answers each, are a portion, where
+/// several servers solve a sweep that counts as so many load cases in the queue (queued_cases). 0:
+/// it has too few for another server to factorise the mesh for it, or portions would be too large.
+std::size_t portion_chunks(std::uint64_t cases, std::size_t chunks, std::uint64_t chunk_bytes);
 
 /// With bounds, rows are as slow as load cases, and a chunk has at most as many as
 /// MeshOperator::estimate takes together. Throws errors::Error as rows_of does, and limit_exceeded

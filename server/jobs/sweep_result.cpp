@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "errors/errors.hpp"
 #include "jobs/trace_arrays.hpp"
 #include "operators/mesh_operator.hpp"
 
@@ -100,6 +102,24 @@ records::Block chunk_arrays(const SweepColumns& columns) {
       },
       arrays::sweep_matrices<SweepColumns>);
   return builder.take();
+}
+
+void read_columns(std::span<const std::byte> bytes, SweepColumns& columns) {
+  const records::Block block = chunk_arrays(columns);
+  if (bytes.size() != block.bytes.size()) {
+    throw errors::Error(errors::Reason::storage, "{} bytes of rows in the database, not {}",
+                        bytes.size(), block.bytes.size());
+  }
+  auto array = block.arrays.begin();
+  const auto read = [&](const auto& row) {
+    auto& values = std::invoke(row.member, columns);
+    if (row.optional && values.empty()) return;
+    const std::span<std::byte> to = std::as_writable_bytes(std::span(values));
+    if (!to.empty()) std::memcpy(to.data(), bytes.data() + array->offset, to.size());
+    ++array;
+  };
+  arrays::for_each(read, arrays::sweep_rows<SweepColumns>);
+  arrays::for_each(read, arrays::sweep_matrices<SweepColumns>);
 }
 
 std::shared_ptr<const records::BlockSource> sweep_result(const LiveJob& job,

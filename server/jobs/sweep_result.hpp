@@ -3,7 +3,9 @@
 // The result of a sweep. Each chunk's columns go into the job's spool when it ends.
 #pragma once
 
+#include <cstddef>
 #include <memory>
+#include <span>
 
 #include "contact/sweep_columns.hpp"
 #include "jobs/live_job.hpp"
@@ -16,6 +18,10 @@ contact::SweepColumns unsolved_rows(const LiveJob& job, std::size_t rows);
 
 /// The rows of a chunk: the arrays of arrays::sweep_rows and sweep_matrices.
 records::Block chunk_arrays(const contact::SweepColumns& columns);
+
+/// Fills columns of that shape from the bytes of such a block. Throws errors::Error (storage) if
+/// these are fewer or more.
+void read_columns(std::span<const std::byte> bytes, contact::SweepColumns& columns);
 
 /// The arrays of ReadResult for a sweep; null if no row has an answer. Rows without an answer have
 /// the status `unsolved` and zeros. Throws errors::Error (storage).

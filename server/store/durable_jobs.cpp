@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <utility>
 
-#include "digest/digest.hpp"
 #include "records/job_record.hpp"
 #include "stop/stop.hpp"
 #include "store/durable_store.hpp"
@@ -155,7 +154,7 @@ void DurableStore::finish(const records::JobRecord& record,
       columns.small.resize(header.size() + columns.bytes);
       result->read(0, std::as_writable_bytes(std::span(columns.small)).subspan(header.size()));
     } else {
-      columns.name = digest::Sha256().add(header).finish();
+      columns.name = name_of_result(header);
       file.emplace(_results.write(std::as_bytes(std::span(header)), columns.bytes,
                                   [&](std::uint64_t offset, std::span<std::byte> to) {
                                     stop::look("writing a result");

@@ -49,6 +49,17 @@ struct EventCursor {
   std::uint64_t after = 0;
 };
 
+/// A run of rows of a sweep that one server solves.
+struct Portion {
+  std::uint64_t number = 0, first = 0, count = 0;  ///< first row and number of rows
+};
+
+/// The answers to a portion: `body` is that of jobs/portion_codec.hpp.
+struct SolvedPortion {
+  std::uint64_t number = 0;
+  std::string body;
+};
+
 /// Contract:
 /// 1. A job is in the queue from create() until Store::finish. At most one server runs it; a server
 ///    is an epoch, new with each registration, and each claim of a job is another attempt.
@@ -57,7 +68,9 @@ struct EventCursor {
 ///    end this server wrote before ends once, whatever replies were lost.
 /// 3. A server whose beat does not change for a lease, by the clock of the server that looks, loses
 ///    its jobs to others.
-/// 4. Methods may be called from any thread and throw errors::Error (storage, busy) while the
+/// 4. A portion of a sweep is solved once: at most one server has it, who dies loses it as he loses
+///    jobs, and what is solved stays for the next attempt, until the job has ended.
+/// 5. Methods may be called from any thread and throw errors::Error (storage, busy) while the
 ///    database cannot be reached.
 class Queue {
  public:
@@ -103,6 +116,29 @@ class Queue {
   virtual std::vector<EventRow> events(const std::vector<EventCursor>& cursors) const = 0;
   /// Which of these jobs have ended.
   virtual std::vector<std::string> ended(const std::vector<std::string>& jobs) const = 0;
+
+  /// Offers the rows of a sweep that this server runs to all servers, in portions of so many rows.
+  /// What earlier attempts solved of the same portions stays. Throws JobTaken.
+  virtual void spread(const std::string& job, int attempt, std::uint64_t rows,
+                      std::uint64_t portion_rows) = 0;
+  /// A sweep that another server runs and that has portions which nobody has; none of `except`.
+  /// Of the most urgent class goes first the owner for whom others are solving the fewest portions;
+  /// of several one by chance, more often one on a mesh that is `held`. Nothing is taken yet.
+  virtual std::optional<records::JobRecord> to_help(const std::vector<std::string>& held,
+                                                    const std::vector<std::string>& except) = 0;
+  /// Takes the first `count` portions that nobody has, or as many as there are. Returns all that
+  /// this server has and has not solved: none if the job has ended or is to be cancelled.
+  virtual std::vector<Portion> take_portions(const std::string& job, std::size_t count) = 0;
+  /// Writes the answers to a portion; they are thrown away if this server does not have it any
+  /// more.
+  virtual void solved(const std::string& job, const SolvedPortion& portion) = 0;
+  /// Some of the solved portions, by number, without the `known`; none: there are no others.
+  virtual std::vector<SolvedPortion> solved_portions(
+      const std::string& job, const std::vector<std::int64_t>& known) const = 0;
+  /// Gives back the portions that this server has and has not solved.
+  virtual void give_back_portions(const std::string& job) = 0;
+  /// Nobody is to solve portions of this attempt any more.
+  virtual void withdraw_portions(const std::string& job, int attempt) = 0;
 
   /// Calls `wake` on a thread of the queue whenever there may be a job to claim, or (`cancelled`)
   /// one to cancel, until listen() is called with an empty function. `wake` must be quick.

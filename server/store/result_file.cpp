@@ -105,6 +105,10 @@ std::string result_header(const records::BlockSource& block) {
          number_bytes(digest::crc32c(std::as_bytes(std::span(bytes)))) + bytes;
 }
 
+std::string name_of_result(const std::string& header) {
+  return digest::Sha256().add(header).finish();
+}
+
 std::shared_ptr<const records::BlockSource> open_result(base::Descriptor file,
                                                         const std::string& path,
                                                         const std::string& name) {

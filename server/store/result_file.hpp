@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // A result on the disk: magic and version (8 bytes), length of the header and its CRC-32C (4 bytes
-// each), the header (BlockLayout of the API: layout, length and hash of the bytes), the bytes. The
-// file's name is the hash of all that comes before the bytes, which includes the hash of the bytes.
+// each), the header (BlockLayout of the API: layout, length and hash of the bytes), the bytes.
 #pragma once
 
 #include <functional>
@@ -17,6 +16,8 @@ namespace anticrack::store {
 
 /// All that comes before the bytes of a block. Throws std::length_error for a layout beyond 16 MB.
 std::string result_header(const records::BlockSource& block);
+/// The name of a result: the hash of such a header, which includes the hash of the bytes.
+std::string name_of_result(const std::string& header);
 
 /// The result in a file, which it keeps open. Throws errors::Error (storage) if it is no result, or
 /// not the one of this name; the bytes are not read.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Every way to write to a store, with the connection to PostgreSQL cut at every statement.
+#include <map>
+
 #include "group/cutting_proxy.hpp"
 #include "store/contract_fixture.hpp"
 #include "store/operations.hpp"
@@ -28,7 +30,7 @@ class GroupFaults : public ::testing::TestWithParam<bool> {
     open_any({TemporaryFolder().path(), 0, url});  // the tables
     int cuts = 0;
     for (bool cut = true; cut && !HasFailure(); cuts += cut ? 1 : 0) {
-      ask(url, "TRUNCATE blobs, pieces, meshes, jobs, uploads, queue, events, servers");
+      ask(url, "TRUNCATE blobs, pieces, meshes, jobs, uploads, queue, portions, events, servers");
       SCOPED_TRACE(fmt::format("cut at request {}", cuts + 1));
       const CuttingProxy proxy(url.substr(host), cuts + 1, GetParam());
       const TemporaryFolder folder;
@@ -85,6 +87,37 @@ TEST_P(GroupFaults, JobsOfTheQueueEndOnceWhateverIsLost) {
                   ask(url, "SELECT (SELECT count(*) FROM queue) + (SELECT count(*) FROM servers)")
                       .integer(0, 0),
                   0);
+            }),
+            20);
+}
+
+/// A sweep whose portions one server solves is solved once, whatever is lost.
+TEST_P(GroupFaults, PortionsOfASweepAreSolvedOnceWhateverIsLost) {
+  EXPECT_GT(cut_everywhere([&](const StoreOptions& options) {
+              const auto store = open_any(options);
+              Queue& queue = *store->queue();
+              records::JobRecord record = job_record("one");
+              record.spec.mesh = "m";
+              queue.create(record, "print", {1, 1}, [](const auto&) {});
+              std::vector<Queue::Claim> claims;
+              while ((claims = queue.claim(1, {"m"})).empty()) queue.give_back({});
+              record = claims[0].record;
+              queue.spread("one", record.attempt, 10, 4);
+              EXPECT_FALSE(queue.to_help({}, {})) << "it runs here";
+              std::map<std::uint64_t, std::string> bodies;
+              for (std::size_t taken = 0; bodies.size() < 3; ++taken) {
+                for (const Portion& portion : queue.take_portions("one", 1))
+                  queue.solved("one", {portion.number, std::to_string(taken)});
+                for (SolvedPortion& one : queue.solved_portions("one", {}))
+                  EXPECT_EQ(bodies.emplace(one.number, one.body).first->second, one.body)
+                      << "what was solved does not change";
+              }
+              queue.give_back_portions("one");
+              queue.withdraw_portions("one", record.attempt);
+              EXPECT_TRUE(queue.solved_portions("one", {}).empty());
+              record.state = records::JobState::succeeded;
+              record.ended = records::Clock::time_point(std::chrono::seconds(7));
+              store->finish(record, nullptr);
             }),
             20);
 }

@@ -67,6 +67,37 @@ class GroupQueue : public ::testing::Test {
     return by.queue()->claim(count, held);
   }
 
+  /// A sweep of 10 rows that `by` runs, in portions of 4, 4 and 2.
+  JobRecord spread(Store& by, const std::string& id, const std::string& owner = "a") {
+    submit(by, job(id, owner));
+    const JobRecord record = claim(by).at(0).record;
+    by.queue()->spread(id, record.attempt, 10, 4);
+    return record;
+  }
+  /// By number; checks that each has its rows.
+  static std::vector<std::uint64_t> take(Store& by, const std::string& job, std::size_t count) {
+    std::vector<std::uint64_t> numbers;
+    for (const store::Portion& one : by.queue()->take_portions(job, count)) {
+      EXPECT_EQ(one.first, 4 * one.number);
+      EXPECT_EQ(one.count, one.number == 2 ? 2U : 4U);
+      numbers.push_back(one.number);
+    }
+    return numbers;
+  }
+  static std::map<std::uint64_t, std::string> solved(Store& by, const std::string& job,
+                                                     const std::vector<std::int64_t>& known = {}) {
+    std::map<std::uint64_t, std::string> bodies;
+    for (const store::SolvedPortion& one : by.queue()->solved_portions(job, known))
+      bodies[one.number] = one.body;
+    return bodies;
+  }
+  /// What happens when the server's beats have stopped for long.
+  void declare_dead(const std::string& epoch) const {
+    shared_database().sql("UPDATE anticrack.servers SET dead = true WHERE epoch = " + epoch,
+                          database_of(url));
+  }
+
+  using Numbers = std::vector<std::uint64_t>;
   TemporaryFolder folder_a, folder_b;
   std::string url;
   std::unique_ptr<Store> a, b;
@@ -219,6 +250,94 @@ TEST_F(GroupQueue, TellsTheRunnerThatAClientCancels) {
   ASSERT_TRUE(claimed);
   EXPECT_TRUE(claimed->cancelled);
   EXPECT_FALSE(b->queue()->claim_to_cancel("none"));
+}
+
+TEST_F(GroupQueue, GivesEachPortionOfASweepToOneServer) {
+  const JobRecord record = spread(*a, "one");
+  EXPECT_EQ(take(*a, "one", 1), Numbers{0});
+  EXPECT_EQ(take(*b, "one", 5), (Numbers{1, 2}));
+  EXPECT_EQ(take(*a, "one", 5), Numbers{0}) << "what it has comes again, as a reply may be lost";
+  b->queue()->solved("one", {1, std::string("b\0dy", 4)});
+  b->queue()->solved("one", {1, "again"});
+  b->queue()->solved("one", {0, "of another"});
+  EXPECT_EQ(take(*b, "one", 0), Numbers{2});
+  EXPECT_EQ(solved(*a, "one"),
+            (std::map<std::uint64_t, std::string>{{1, std::string("b\0dy", 4)}}));
+  EXPECT_TRUE(solved(*a, "one", {1}).empty());
+  b->queue()->give_back_portions("one");
+  EXPECT_EQ(take(*a, "one", 5), (Numbers{0, 2}));
+  a->finish(ended(record), nullptr);
+  EXPECT_TRUE(take(*b, "one", 5).empty());
+  EXPECT_EQ(shared_database().sql("SELECT count(*) FROM anticrack.portions", database_of(url)),
+            "0\n");
+}
+
+TEST_F(GroupQueue, KeepsTheSolvedPortionsOfAnEarlierAttempt) {
+  spread(*a, "one");
+  take(*a, "one", 2);
+  a->queue()->solved("one", {1, "body"});
+  declare_dead("(SELECT runner FROM anticrack.queue)");
+  b->queue()->beat({});
+  const JobRecord again = claim(*b).at(0).record;
+  EXPECT_THROW(a->queue()->spread("one", 1, 10, 4), store::JobTaken);
+  a->queue()->solved("one", {0, "late"});
+  a->queue()->withdraw_portions("one", 1);
+  EXPECT_TRUE(take(*a, "one", 0).empty());
+  b->queue()->spread("one", again.attempt, 10, 4);
+  EXPECT_EQ(solved(*b, "one").size(), 1U);
+  EXPECT_EQ(take(*b, "one", 5), (Numbers{0, 2}));
+  b->queue()->spread("one", again.attempt, 10, 5);
+  EXPECT_TRUE(solved(*b, "one").empty()) << "other rows are another portion";
+  b->queue()->withdraw_portions("one", again.attempt);
+  EXPECT_TRUE(b->queue()->take_portions("one", 5).empty());
+}
+
+TEST_F(GroupQueue, FreesThePortionsOfAHelperThatDied) {
+  spread(*a, "one");
+  EXPECT_EQ(take(*b, "one", 1), Numbers{0});
+  declare_dead("(SELECT max(epoch) FROM anticrack.servers)");
+  a->queue()->beat({"one"});
+  EXPECT_EQ(take(*a, "one", 1), Numbers{0});
+  b->queue()->solved("one", {0, "late"});
+  EXPECT_TRUE(solved(*a, "one").empty());
+}
+
+TEST_F(GroupQueue, OffersNoPortionOfASweepThatIsToBeCancelled) {
+  spread(*a, "one");
+  take(*b, "one", 1);
+  EXPECT_EQ(b->queue()->to_help({}, {}).value().id, "one");
+  EXPECT_FALSE(b->queue()->claim_to_cancel("one"));
+  EXPECT_TRUE(take(*b, "one", 1).empty()) << "not even those that it has";
+  EXPECT_FALSE(b->queue()->to_help({}, {}));
+}
+
+TEST_F(GroupQueue, HelpsTheOwnerForWhomOthersSolveLeast) {
+  spread(*a, "one", "greedy");
+  spread(*a, "two", "greedy");
+  spread(*a, "three", "modest");
+  EXPECT_FALSE(a->queue()->to_help({"m"}, {})) << "it runs them itself";
+  take(*b, "one", 1);
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(b->queue()->to_help({"m"}, {}).value().id, "three");
+  EXPECT_EQ(b->queue()->to_help({}, {"one", "three"}).value().id, "two");
+  take(*a, "three", 3);
+  EXPECT_NE(b->queue()->to_help({}, {}).value().id, "three") << "nothing is left of it";
+}
+
+TEST_F(GroupQueue, KeepsAwayFromASweepWithWhichHelpersDie) {
+  spread(*a, "one");
+  for (int deaths = 0; deaths < 2; ++deaths) {
+    ASSERT_TRUE(b->queue()->to_help({}, {}));
+    b = std::make_unique<Store>(store::StoreOptions{folder_b.path(), 0, url});  // it did not leave
+  }
+  EXPECT_FALSE(b->queue()->to_help({}, {}));
+  spread(*a, "two");
+  ASSERT_TRUE(b->queue()->to_help({}, {}));
+  b->queue()->give_back_portions("two");  // it does not help any more when it dies
+  b = std::make_unique<Store>(store::StoreOptions{folder_b.path(), 0, url});
+  ASSERT_TRUE(b->queue()->to_help({}, {}));
+  EXPECT_EQ(shared_database().sql("SELECT crashes FROM anticrack.queue WHERE job = 'two'",
+                                  database_of(url)),
+            "0\n");
 }
 
 TEST_F(GroupQueue, OutlivesACrashOfTheDatabase) {

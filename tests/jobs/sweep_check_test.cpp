@@ -132,6 +132,21 @@ TEST(SweepPlan, HasLargeChunksOfCheapRows) {
   EXPECT_EQ(chunk_rows(Cases::combinations, 1'000'000'000, 4000, 80, 4096), 16U);
 }
 
+TEST(SweepPlan, IsSpreadWhereItIsLargeInPortionsThatAreSmall) {
+  constexpr std::uint64_t chunk = 1U << 20U;
+  EXPECT_EQ(portion_chunks(127, 1000, chunk), 0U);
+  EXPECT_EQ(portion_chunks(128, 1, chunk), 0U);
+  EXPECT_EQ(portion_chunks(128, 2, chunk), 1U);
+  EXPECT_EQ(portion_chunks(128, 1024, 64 * chunk), 1U);
+  EXPECT_EQ(portion_chunks(128, 1024, 64 * chunk + 1), 0U);
+  for (const std::size_t chunks : {1025U, 2048U, 2049U, 1'000'000U}) {
+    const std::size_t together = portion_chunks(128, chunks, 1);
+    EXPECT_LE(chunks, 1024 * together);
+    EXPECT_GT(chunks, 1024 * (together - 1));
+    EXPECT_EQ(portion_chunks(128, chunks, 64 * chunk / together + 1), 0U);
+  }
+}
+
 TEST(SweepPlan, CoversEveryRowOnce) {
   SweepPlan plan;
   plan.rows = 600;

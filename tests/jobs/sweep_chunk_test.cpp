@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "jobs/portion_codec.hpp"
 #include "jobs/sweep_result.hpp"
 #include "jobs/sweep_support.hpp"
 #include "support/errors.hpp"
@@ -83,6 +84,49 @@ TEST_F(TiltingChunkTest, HasSlopesOfEveryRowAndTheBytesThatWerePlanned) {
   EXPECT_EQ(array<double>(*block, "sweep/slope")->front(), 0) << "of a row without an answer";
   EXPECT_LE(block->size(), job->sweep->plan.result_bytes);
   EXPECT_GT(block->size() + 1000, job->sweep->plan.result_bytes);
+}
+
+TEST_F(TiltingChunkTest, ComesBackFromThePortionsOfTheStoreAsItWas) {
+  SweepPlan plan = job->sweep->plan;
+  plan.portion_chunks = 2;
+  const auto basis = job->sweep->basis;
+  job->sweep = std::make_unique<LiveSweep>(plan);
+  job->sweep->basis = basis;
+  const EndedChunk first = solve(0);
+  EndedChunk last = solve(1);
+  records::BlockBuilder builder;
+  builder.add("traces", std::vector<double>{1, 2, 3});
+  last.solved.traces = spooled(*job->spool, builder.take());
+  last.record.warnings = {"rows without bounds"};
+  const store::SolvedPortion portion{
+      0, pack({{first.solved, first.record}, {last.solved, last.record}}, *job->spool)};
+  const std::vector<EndedChunk> chunks = unpack(portion, job);
+  ASSERT_EQ(chunks.size(), 2U);
+  for (const EndedChunk* sent : std::initializer_list<const EndedChunk*>{&first, &last}) {
+    const EndedChunk& got = chunks[sent->task.index];
+    EXPECT_EQ(got.task.index, sent->task.index);
+    EXPECT_EQ(chunk_arrays(*got.columns).bytes, chunk_arrays(*sent->columns).bytes);
+    EXPECT_EQ(got.record.converged, sent->record.converged);
+    EXPECT_EQ(got.record.worst_kkt, sent->record.worst_kkt);
+    EXPECT_EQ(got.record.solve_time, sent->record.solve_time);
+    std::vector<std::byte> bytes(got.solved.columns->bytes);
+    job->spool->read(got.solved.columns->place, bytes);
+    EXPECT_EQ(bytes, chunk_arrays(*sent->columns).bytes);
+  }
+  EXPECT_EQ(chunks[1].record.warnings, last.record.warnings);
+  ASSERT_TRUE(chunks[1].solved.traces);
+  EXPECT_EQ(chunks[1].solved.traces->arrays.at(0).name, "traces");
+  EXPECT_EQ(chunks[1].solved.traces->run.bytes, 3 * sizeof(double));
+
+  const auto refused = [&](std::uint64_t number, const std::string& body) {
+    return anticrack::testing::throws([&] { unpack({number, body}, job); }, Reason::storage);
+  };
+  EXPECT_TRUE(refused(1, portion.body)) << "there is no such portion";
+  EXPECT_TRUE(refused(0, portion.body + "x"));
+  EXPECT_TRUE(refused(0, pack({{first.solved, first.record}}, *job->spool)));
+  EXPECT_TRUE(
+      refused(0, pack({{last.solved, last.record}, {first.solved, first.record}}, *job->spool)))
+      << "other rows";
 }
 
 class BoundedChunkTest : public ChunkTest {

@@ -17,9 +17,8 @@
 #include <thread>
 
 #include "client/jobs.hpp"
-#include "service/daemon.hpp"
+#include "service/group_fixture.hpp"
 #include "service/workload.hpp"
-#include "support/database.hpp"
 #include "support/eventually.hpp"
 #include "support/random_seed.hpp"
 
@@ -28,27 +27,6 @@ namespace {
 
 using anticrack::testing::eventually;
 using namespace std::chrono_literals;
-
-constexpr std::uint64_t numbers_of_an_attempt = std::uint64_t{1} << 40U;
-
-class Group : public ::testing::Test {
- protected:
-  void SetUp() override { url = database.address(); }
-
-  Daemon& add(std::vector<std::string> more = {}) {
-    std::vector<std::string> options{"--store", url, "--threads", "1", "--crashes", "0"};
-    options.insert(options.end(), more.begin(), more.end());
-    return *servers.emplace_back(std::make_unique<Daemon>(options));
-  }
-
-  std::size_t count(const std::string& rows) const {
-    return std::stoul(database.sql("SELECT count(*) FROM anticrack." + rows));
-  }
-
-  anticrack::testing::Database database;
-  std::string url;
-  std::vector<std::unique_ptr<Daemon>> servers;
-};
 
 /// The result of a server on its own.
 client::Block alone(const Work& work) {
