@@ -99,7 +99,7 @@ Taken solve(const std::vector<std::unique_ptr<Daemon>>& servers, const Kind& kin
 void run(int repetitions, bool tiny, const std::vector<std::string>& only) {
   std::vector<Kind> kinds{{"combinations", 1'000'000, false, false},
                           {"tips", 200'000, false, true},
-                          {"bounds", 300'000, true, false}};
+                          {"bounds", 200'000, true, false}};
   if (tiny) kinds = {{"combinations", 40'000, false, false}};
   if (!only.empty())
     std::erase_if(kinds, [&](const Kind& kind) { return !std::ranges::count(only, kind.name); });
