@@ -37,10 +37,6 @@ constexpr int most_meshes = 12;  // of a position
 constexpr int most_in_vain = 3;
 constexpr double hardly = 0.9;
 
-/// Longest edge of a mesh that is graded towards its front, over half the side of the membrane: G
-/// is then as exact as on the default mesh of 12,000 triangles.
-constexpr double at_front = 0.05;
-
 /// Reduction of the indicators from one mesh to the next.
 constexpr double least_reduction = 2, most_reduction = 8;
 
@@ -80,7 +76,6 @@ class Positions {
                  const std::vector<double>& loads, double aim) const {
     mesh::Mesh mesh = growth::mesh_of(_job.mesh_operator->mesh(), _fronts, state);
     mesh.bisection_bound = _bisection_bound;
-    if (front >= 0) mesh = graded(std::move(mesh), state, at(front));
     Position position;
     position.energy.resize(loads.size());
     for (int k = 1;; ++k) {
@@ -103,22 +98,6 @@ class Positions {
   }
 
  private:
-  /// Bounds may be close before their bisection has come to the front, where G is that of an edge.
-  mesh::Mesh graded(mesh::Mesh mesh, const growth::State& state, std::size_t front) const {
-    const mesh::Point& place = _fronts.fronts[front].track.place[state.at[front]];
-    std::vector<std::int32_t> tip = mesh::tips(mesh);
-    std::erase_if(tip, [&](std::int32_t node) { return mesh::position(mesh, node) != place; });
-    if (tip.empty()) return mesh;
-    mesh::Grading grading;
-    grading.h0 = at_front * mesh::characteristic_length(mesh);
-    try {
-      return mesh::grade(mesh, tip, grading, _catalogue.max_triangles());
-    } catch (const Error& error) {
-      if (error.reason() != Reason::limit_exceeded) throw;
-      return mesh;
-    }
-  }
-
   PreparedLoad load_on(const MeshOperator& op, double t) const {
     const std::vector<fem::Load>& loads = _job.spec->loads;
     fem::Load load = loads[_task.index];

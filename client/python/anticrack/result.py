@@ -267,8 +267,8 @@ class Load(_walked(solve_pb2.LoadCaseAnswer, ("name", "status"))):  # type: igno
     boundary: forces on its sides and holes. tips: of cracks and inclusions, in the order of the mesh's. growth: arrays,
     one entry for each position of fronts that grow: front (the one that leaves it), interface, position (arc length),
     x, y, load, displacement, G1, Gc, contact_length, energy, stable, ties, and of final positions G1_final,
-    energy_lower, energy_upper, G1_lower, G1_upper, load_lower, load_upper (else NaN); beside a dead load G_dead; empty without growth.
-    growth_notes: what happens, in words.
+    energy_lower, energy_upper, G1_lower, G1_upper, load_lower, load_upper (else NaN); beside a dead load G_dead;
+    empty without growth. growth_notes: what happens, in words.
     contact_intervals: (index of the interface, begin, end) in arc length. fields: one for each subdomain, by its name
     or index, where they were asked for. indicator (m): part of each triangle in the square of error_bound, or None.
     balanced_flux (m, 3): of the flux behind the bounds, out of each triangle through the side opposite to each corner;
