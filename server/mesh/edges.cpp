@@ -56,7 +56,10 @@ std::span<const EdgeUse> EdgeTable::find(std::int32_t a, std::int32_t b) const n
   const auto [low, high] = std::minmax(a, b);
   if (at(low) + 1 >= _first.size()) return {};
   const auto own = std::span(_uses).subspan(_first[at(low)], _first[at(low) + 1] - _first[at(low)]);
-  const auto [begin, end] = std::ranges::equal_range(own, high, {}, &EdgeUse::high);
+  const EdgeUse edge{low, high, 0};
+  const auto [begin, end] = std::equal_range(
+      own.begin(), own.end(), edge,
+      [](const EdgeUse& one, const EdgeUse& other) { return one.high() < other.high(); });
   return {begin, end};
 }
 
