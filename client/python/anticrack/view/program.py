@@ -4,24 +4,21 @@ from __future__ import annotations
 
 import argparse
 import asyncio
+import os
 import pathlib
-import signal
+import socket
 import webbrowser
 from collections.abc import Sequence
 
 from aiohttp import web
 
-from ..aio import AsyncTransport
+from .. import aio
 from ..case import Case
-from ..command_line import Parser, add_server, code_of, complain, credentials, number
-from ..credentials import Credentials, address_of
+from ..command_line import Parser, add_server, client_of, code_of, complain, number
 from ..errors import Error
-from ..private_server import Server
-from ..retry import Backoff
-from . import cases, exports, jobs, scene, tables
+from . import cases, exports, jobs, pages as files, scene, tables
 from .gate import Gate, add_headers, reply
 from .opened import FILE, Opened
-from .pages import Pages as Files
 from .told import Pages, Told
 
 _MESSAGE = 16 << 20  # bytes of the longest request: the text of a case
@@ -40,20 +37,12 @@ def _parser() -> Parser:
     return parser
 
 
-def _session(given: argparse.Namespace) -> Told:
-    server = Server() if given.local else None
-    address = server.address if server else address_of(given.server)
-    secrets = Credentials() if server else credentials(given)
-    return Told(AsyncTransport(address, secrets, server), address, Backoff(300.0, 3.0))
-
-
-async def _serve(given: argparse.Namespace) -> None:
-    stop, loop = asyncio.Event(), asyncio.get_running_loop()
-    for sign in (signal.SIGINT, signal.SIGTERM):
-        loop.add_signal_handler(sign, stop.set)
-    session = _session(given)
+async def _app(given: argparse.Namespace, gate: Gate) -> web.Application:
+    """Opens what is to be shown, and tells where the page is, whose socket listens already."""
+    own = client_of(aio, given)._session
+    session = Told(own.transport, own.address, own.backoff)
     try:
-        opened, gate, pages = Opened(session), Gate(), Pages(session)
+        opened, pages = Opened(session), Pages(session, given.until_closed)
         first, path = given.what, pathlib.Path(given.what)
         is_case = first.endswith(".toml")
         editor = cases.Editor(session, opened, path if is_case else None)
@@ -64,6 +53,7 @@ async def _serve(given: argparse.Namespace) -> None:
             first = FILE
         app = web.Application(middlewares=[gate.check], client_max_size=_MESSAGE)
         app.on_response_prepare.append(add_headers)
+        app.on_cleanup.append(lambda _: session.transport.close())
 
         async def begin(_: web.Request) -> web.Response:
             return reply({"of": first, "server": session.address, "file": path.name if first == FILE else ""})
@@ -72,41 +62,32 @@ async def _serve(given: argparse.Namespace) -> None:
             add.add_routes(app, opened)
         jobs.add_routes(app, session, pages, opened)
         cases.add_routes(app, editor)
-        files = Files()
-        app.router.add_get("/", files.file)
-        app.router.add_get("/{name}", files.file)
-        runner = web.AppRunner(app, access_log=None)
-        await runner.setup()
-        try:
-            await _listen(runner, gate, given, stop if not given.until_closed else pages.left, stop)
-        finally:
-            await runner.cleanup()
-    finally:
+        files.add_routes(app)
+    except BaseException:
         await session.transport.close()
-
-
-async def _listen(runner: web.AppRunner, gate: Gate, given: argparse.Namespace, left: asyncio.Event,
-                  stop: asyncio.Event) -> None:
-    site = web.TCPSite(runner, "127.0.0.1", given.port, shutdown_timeout=0.5)
-    try:
-        await site.start()
-    except OSError as error:
-        raise Error(f"--port {given.port}: {error.strerror}; name another, or leave it out for a free one") from None
-    gate.host = "127.0.0.1:%d" % runner.addresses[0][1]
+        raise
     address = f"http://{gate.host}/?token={gate.token}"
     print(f"the page is at {address}\nCtrl-C ends it", flush=True)
     if not given.no_browser:
-        await asyncio.to_thread(webbrowser.open, address)
-    waiting = [asyncio.create_task(event.wait()) for event in {left, stop}]
-    await asyncio.wait(waiting, return_when=asyncio.FIRST_COMPLETED)
-    for task in waiting:
-        task.cancel()
+        asyncio.get_running_loop().run_in_executor(None, webbrowser.open, address)
+    return app
+
+
+def _listen(port: int) -> socket.socket:
+    try:
+        return socket.create_server(("127.0.0.1", port))
+    except OSError as error:
+        raise Error(f"--port {port}: {os.strerror(error.errno or 0)}; name another, or leave it out for a free one"
+                    ) from None
 
 
 def main(words: Sequence[str]) -> int:
     """Runs a command line and returns the exit code: 0, 2, or 4 if the server cannot be reached."""
     try:
-        asyncio.run(_serve(_parser().parse_args(words)))
+        given, gate = _parser().parse_args(words), Gate()
+        with _listen(given.port) as own:
+            gate.host = "127.0.0.1:%d" % own.getsockname()[1]
+            web.run_app(_app(given, gate), sock=own, shutdown_timeout=0.5, access_log=None, print=lambda _: None)
     except Error as error:
         complain(error)
         return code_of(error)
