@@ -76,11 +76,9 @@ class Curves:
             return ""
         every = [point for points in curves.values() for point in points]
         (x0, x1), (y0, y1) = ((min(values), max(values)) for values in zip(*every))
-        low, high = math.floor(math.log10(y0)), math.ceil(math.log10(y1))
-        high = max(high, low + 1)
-
-        def along(x: float) -> float:
-            return math.log10(x) if self._stages else x
+        low = math.floor(math.log10(y0))
+        high = max(math.ceil(math.log10(y1)), low + 1)
+        along = math.log10 if self._stages else float
 
         def at(x: float, y: float) -> str:
             right = (along(x) - along(x0)) / ((along(x1) - along(x0)) or 1) * (_WIDTH - _LEFT - 10)

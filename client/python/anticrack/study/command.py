@@ -51,18 +51,15 @@ def _parser() -> Parser:
 
 def _rows(given: argparse.Namespace) -> list[dict[str, Any]]:
     """The rows of the command line; values of --set are keys of every row, as the last word of each key wins."""
-    fixed, varying = dict[str, Any](), dict[str, Any]()
+    fixed = dict[str, Any]()
     for text in given.set:
         key, equals, value = text.partition("=")
         if not equals or not key:
             raise CaseError(f"{shown(text)} sets nothing; write --set KEY=VALUE")
         fixed[key] = value_of(value)
+    rows = csv_rows(given.csv) if given.csv else [{}]
     for text in given.vary:
-        key, values = varied(text)
-        if key in varying:
-            raise CaseError(f"{key} is varied twice; leave one out")
-        varying[key] = values
-    rows = product(csv_rows(given.csv), grid(varying)) if given.csv else grid(varying)
+        rows = product(rows, grid(dict([varied(text)])))
     return [{**fixed, **row} for row in rows]
 
 

@@ -26,8 +26,8 @@ class Gate:
     printed, is the only Host and Origin: a name that is made to mean 127.0.0.1 is refused, and so are pages of other
     ports, which browsers count to the same site."""
 
-    def __init__(self) -> None:
-        self.host, self._used = "", False
+    def __init__(self, host: str) -> None:
+        self.host, self._used = host, False
         self.token, self._secret = secrets.token_urlsafe(24), secrets.token_urlsafe(24)
 
     @property

@@ -37,10 +37,10 @@ def _parser() -> Parser:
     return parser
 
 
-async def _app(given: argparse.Namespace, gate: Gate) -> web.Application:
-    """Opens what is to be shown, and tells where the page is, whose socket listens already."""
-    own = client_of(aio, given)._session
-    session = Told(own.transport, own.address, own.backoff)
+async def _serve(given: argparse.Namespace, own: socket.socket) -> None:
+    """Opens what is to be shown, and serves the page until a signal, or the last page, raises GracefulExit."""
+    plain, gate = client_of(aio, given)._session, Gate("127.0.0.1:%d" % own.getsockname()[1])
+    session = Told(plain.transport, plain.address, plain.backoff)
     try:
         opened, pages = Opened(session), Pages(session, given.until_closed)
         first, path = given.what, pathlib.Path(given.what)
@@ -53,7 +53,6 @@ async def _app(given: argparse.Namespace, gate: Gate) -> web.Application:
             first = FILE
         app = web.Application(middlewares=[gate.check], client_max_size=_MESSAGE)
         app.on_response_prepare.append(add_headers)
-        app.on_cleanup.append(lambda _: session.transport.close())
 
         async def begin(_: web.Request) -> web.Response:
             return reply({"of": first, "server": session.address, "file": path.name if first == FILE else ""})
@@ -63,14 +62,19 @@ async def _app(given: argparse.Namespace, gate: Gate) -> web.Application:
         jobs.add_routes(app, session, pages, opened)
         cases.add_routes(app, editor)
         files.add_routes(app)
-    except BaseException:
+        runner = web.AppRunner(app, access_log=None, handle_signals=True)
+        await runner.setup()
+        try:
+            await web.SockSite(runner, own, shutdown_timeout=0.5).start()
+            address = f"http://{gate.host}/?token={gate.token}"
+            print(f"the page is at {address}\nCtrl-C ends it", flush=True)
+            if not given.no_browser:
+                await asyncio.to_thread(webbrowser.open, address)
+            await asyncio.Event().wait()
+        finally:
+            await runner.cleanup()
+    finally:
         await session.transport.close()
-        raise
-    address = f"http://{gate.host}/?token={gate.token}"
-    print(f"the page is at {address}\nCtrl-C ends it", flush=True)
-    if not given.no_browser:
-        asyncio.get_running_loop().run_in_executor(None, webbrowser.open, address)
-    return app
 
 
 def _listen(port: int) -> socket.socket:
@@ -84,10 +88,11 @@ def _listen(port: int) -> socket.socket:
 def main(words: Sequence[str]) -> int:
     """Runs a command line and returns the exit code: 0, 2, or 4 if the server cannot be reached."""
     try:
-        given, gate = _parser().parse_args(words), Gate()
+        given = _parser().parse_args(words)
         with _listen(given.port) as own:
-            gate.host = "127.0.0.1:%d" % own.getsockname()[1]
-            web.run_app(_app(given, gate), sock=own, shutdown_timeout=0.5, access_log=None, print=lambda _: None)
+            asyncio.run(_serve(given, own))
+    except (web.GracefulExit, KeyboardInterrupt):
+        pass
     except Error as error:
         complain(error)
         return code_of(error)

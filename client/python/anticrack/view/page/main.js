@@ -80,6 +80,7 @@ function tabs(name) {
     tabindex: tab === name ? '0' : '-1'
   });
   refill(bar, Object.keys(TABS).filter((tab) => !useless.includes(tab)).map(made));
+  if (bar.contains(document.activeElement)) byId(`tab-${name}`)?.focus();
 }
 
 /** @param {string} tab */
