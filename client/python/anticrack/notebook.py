@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import html
 import math
+from typing import Any
 
 from .entries import values_of
 from .text import between, harmless, html_table
@@ -78,7 +79,7 @@ class Curves:
         (x0, x1), (y0, y1) = ((min(values), max(values)) for values in zip(*every))
         low = math.floor(math.log10(y0))
         high = max(math.ceil(math.log10(y1)), low + 1)
-        along = math.log10 if self._stages else float
+        along: Any = math.log10 if self._stages else float
 
         def at(x: float, y: float) -> str:
             right = (along(x) - along(x0)) / ((along(x1) - along(x0)) or 1) * (_WIDTH - _LEFT - 10)
