@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import dataclasses
+import math
 import os
 import sys
 from typing import Any
@@ -49,6 +51,11 @@ def credentials(given: argparse.Namespace) -> Credentials:
     return Credentials(given.tls, given.ca, given.cert, given.key, token_of(None, given.token_file))
 
 
+def client_of(module: Any, given: argparse.Namespace) -> Any:
+    """Makes the client that the options name; module: client, or aio."""
+    return module.local() if given.local else module.connect(given.server, **dataclasses.asdict(credentials(given)))
+
+
 def complain(error: Exception) -> None:
     """Tells of an error on standard error."""
     for line in str(error).splitlines():
@@ -57,6 +64,15 @@ def complain(error: Exception) -> None:
 
 def code_of(error: Error) -> int:
     return SERVER if isinstance(error, (ServerError, LocalServerError)) else USAGE
+
+
+def finite(value: Any) -> Any:
+    """What JSON can hold: numbers that are not finite are None."""
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    if isinstance(value, dict):
+        return {key: finite(entry) for key, entry in value.items()}
+    return [finite(entry) for entry in value] if isinstance(value, (list, tuple)) else value
 
 
 def document_of(error: Error, code: str) -> dict[str, Any]:

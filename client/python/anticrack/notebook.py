@@ -8,7 +8,7 @@ import math
 from typing import Any
 
 from .entries import values_of
-from .text import harmless, html_table, interval
+from .text import between, harmless, html_table
 from .v1 import job_pb2, solve_pb2
 
 _WIDTH, _HEIGHT, _LEFT, _BELOW = 420, 190, 60, 34  # of the figure and of the room beside it [pixels]
@@ -25,13 +25,10 @@ def job_html(job: solve_pb2.Job, title: str, error: str) -> str:
         solved = answer.status in (answer.STATUS_CONVERGED, answer.STATUS_NOT_CONVERGED)
         told = [(numbers, "energy"), *((parts.get(part), "A") for part in names)]
         rows.append([answer.name, numbers["status"], str(answer.iterations),
-                     *(_value(of, name) if solved and of else "-" for of, name in told)])
+                     *(between(of[name], of[f"{name}_lower"], of[f"{name}_upper"]) if solved and of else "-"
+                       for of, name in told)])
     head = ["load", "status", "iterations", "energy", *(f"A of {name}" for name in names)]
     return html_table(": ".join(part for part in (title, error) if part), head, rows)
-
-
-def _value(of: dict[str, Any], name: str) -> str:
-    return interval(of[name], of[f"{name}_lower"], of[f"{name}_upper"], of[name]).partition(" (")[0]
 
 
 class Curves:
@@ -57,22 +54,18 @@ class Curves:
                     self._point(f"criterion of {self._loads[load]}", x, y)
 
     def _stage(self, stage: solve_pb2.Stage) -> None:
-        errors: dict[str, list[float]] = {"energy": [], "A": [], "A, probably": []}
-        for of in map(values_of, stage.answers):
-            errors["energy"].append((of["energy_upper"] - of["energy_lower"]) / (abs(of["energy"]) or math.nan))
-            errors["A"].append(of["displacement_error"])
-            errors["A, probably"].append(of["displacement_error_probable"])
-        for name, values in errors.items():
-            if values:
-                self._point(f"error of {name}", stage.triangles, max(values))
+        answers = list(map(values_of, stage.answers))
+        energy = [(of["energy_upper"] - of["energy_lower"]) / (abs(of["energy"]) or math.nan) for of in answers]
+        for name, values in (("energy", energy), ("A", [of["displacement_error"] for of in answers]),
+                             ("A, probably", [of["displacement_error_probable"] for of in answers])):
+            self._point(f"error of {name}", stage.triangles, max(values, default=math.nan))
 
     def _point(self, name: str, x: float, y: float) -> None:
-        if len(self._curves) < len(_COLOURS) or name in self._curves:
-            if y > 0 and math.isfinite(y):
-                curve = self._curves.setdefault(name, {})
-                curve[x] = y
-                if len(curve) > _MOST:
-                    self._curves[name] = dict(list(curve.items())[::2])
+        if 0 < y < math.inf and (len(self._curves) < len(_COLOURS) or name in self._curves):
+            curve = self._curves.setdefault(name, {})
+            curve[x] = y
+            if len(curve) > _MOST:
+                self._curves[name] = dict(list(curve.items())[::2])
 
     def html(self, text: str) -> str:
         """The figure, with a text above it."""
@@ -84,11 +77,9 @@ class Curves:
             return ""
         every = [point for points in curves.values() for point in points]
         (x0, x1), (y0, y1) = ((min(values), max(values)) for values in zip(*every))
-        low, high = math.floor(math.log10(y0)), math.ceil(math.log10(y1))
-        high = max(high, low + 1)
-
-        def along(x: float) -> float:
-            return math.log10(x) if self._stages else x
+        low = math.floor(math.log10(y0))
+        high = max(math.ceil(math.log10(y1)), low + 1)
+        along: Any = math.log10 if self._stages else float
 
         def at(x: float, y: float) -> str:
             right = (along(x) - along(x0)) / ((along(x1) - along(x0)) or 1) * (_WIDTH - _LEFT - 10)

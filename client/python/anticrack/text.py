@@ -55,6 +55,11 @@ def interval(value: float, lower: float, upper: float, mesh: float, unit: str = 
     return f"({texts[0]} +- {texts[1]})e{exponent}{unit} ({error}{texts[2]}e{exponent} on the mesh){probable}"
 
 
+def between(value: float, lower: float, upper: float, unit: str = "") -> str:
+    """Writes the interval alone: "0.4483 +- 0.0038 mm"."""
+    return interval(value, lower, upper, value, unit).partition(" (")[0]
+
+
 def with_bounds(of: Any, name: str, unit: str = "") -> str:
     """Writes the interval of a value of an answer, "A", "energy" and so on, and of A its relative error, as the command
     does: "0.85 %" of itself unless it may be 0, and where it is nearer to 0 "40 %; 0.3 % of 0.05 mm", of its scale.
@@ -79,7 +84,7 @@ def _probable(of: Any, unit: str) -> str:
     middle = of.A_mesh + getattr(of, "A_estimated_error", math.nan)
     if not error < (of.A_upper - of.A_lower) / 2:
         return ""
-    return interval(middle, middle - error, middle + error, middle, unit).partition(" (")[0]
+    return between(middle, middle - error, middle + error, unit)
 
 
 def per_cent(error: float) -> str:

@@ -69,7 +69,8 @@ class Rows(FolderTest):
                             ("a=0:x:3", "LAST is 'x'"), ("a=0:1e999:3", "LAST is '1e999'"),
                             *((f"a=0:1:{count}", f"COUNT is '{count}'; write a whole number from 2") for count in (
                                 "", "-3", "0", "1", "2.5", "1e3", "x", "9999999", "1000000000000")),
-                            ("a=1,,2", "missing beside a comma"), ("a=nan,1", "nan is not a finite number"),
+                            ("a=1,,2", "missing beside a comma"), ("a=1;2", "parted by commas"),
+                            ("a=nan,1", "nan is not a finite number"),
                             ("a=[1", "close its quotes and brackets"), ("a='x", "close its quotes and brackets")):
             with self.assertRaisesRegex(CaseError, told, msg=wrong) as raised:
                 varied(wrong)

@@ -163,16 +163,14 @@ def _film(frames: _Frames) -> bytes:
                     "gif or webp")
     width, height = frames[0][0].size
     raw = b"".join(image.tobytes() * max(1, round(time * _RATE / 1000)) for image, time in frames)
-    with tempfile.TemporaryDirectory() as folder:
-        made = os.path.join(folder, "film.mp4")  # a pipe would not do, as its index is written last
+    with tempfile.NamedTemporaryFile(suffix=".mp4") as film:  # a pipe would not do, as its index is written last
         ended = subprocess.run([
-            program, "-nostdin", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}",
-            "-r", str(_RATE), "-i", "-", "-an", "-pix_fmt", "yuv420p", "-movflags", "+faststart", made],
-            input=raw, capture_output=True, check=False)
+            program, "-nostdin", "-y", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgb24",
+            "-s", f"{width}x{height}", "-r", str(_RATE), "-i", "-", "-an",
+            "-pix_fmt", "yuv420p", "-movflags", "+faststart", film.name], input=raw, capture_output=True, check=False)
         if ended.returncode != 0:
             raise Error(f"ffmpeg ended with code {ended.returncode}: {ended.stderr.decode(errors='replace')[-300:]}")
-        with open(made, "rb") as file:
-            return file.read()
+        return film.read()
 
 
 def draw_animations(result: Result, folder: str, what: str, names: Sequence[str], look: Look) -> Made:

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import argparse
 import contextlib
-import dataclasses
 import json
-import math
 import os
 import sys
 from collections.abc import Sequence
@@ -14,8 +12,8 @@ from typing import Any
 
 from .. import client as clients
 from ..case import as_case
-from ..command_line import (CLOSED, FAILED, INTERRUPTED, NOT_CONVERGED, Parser, add_server, code_of, complain,
-                            credentials, document_of)
+from ..command_line import (CLOSED, FAILED, INTERRUPTED, NOT_CONVERGED, Parser, add_server, client_of, code_of,
+                            complain, document_of, finite)
 from ..errors import CaseError, Error, ServerError
 from ..text import harmless, shown
 from ..transport import finished
@@ -53,27 +51,16 @@ def _parser() -> Parser:
 
 def _rows(given: argparse.Namespace) -> list[dict[str, Any]]:
     """The rows of the command line; values of --set are keys of every row, as the last word of each key wins."""
-    fixed, varying = dict[str, Any](), dict[str, Any]()
+    fixed = dict[str, Any]()
     for text in given.set:
         key, equals, value = text.partition("=")
         if not equals or not key:
             raise CaseError(f"{shown(text)} sets nothing; write --set KEY=VALUE")
         fixed[key] = value_of(value)
+    rows = csv_rows(given.csv) if given.csv else [{}]
     for text in given.vary:
-        key, values = varied(text)
-        if key in varying:
-            raise CaseError(f"{key} is varied twice; leave one out")
-        varying[key] = values
-    rows = grid(varying) if varying or not given.csv else [{}]
-    if given.csv:
-        rows = product(csv_rows(given.csv), rows) if varying else csv_rows(given.csv)
+        rows = product(rows, grid(dict([varied(text)])))
     return [{**fixed, **row} for row in rows]
-
-
-def _client(given: argparse.Namespace) -> clients.Client:
-    if given.local:
-        return clients.local()
-    return clients.connect(given.server, **dataclasses.asdict(credentials(given)))
 
 
 def _ask(plan: Plan, yes: bool) -> None:
@@ -93,11 +80,8 @@ def _code(study: Study) -> int:
 
 
 def _document(study: Study) -> str:
-    def plain(number: float) -> float | None:
-        return number if math.isfinite(number) else None
-    rows = [{"values": row.values, "status": row.status, "error": row.error, "job": row.job, "answers": {
-        load: {name: plain(number) for name, number in of.items()} for load, of in row.answers.items()}}
-        for row in study.rows]
+    rows = [{"values": row.values, "status": row.status, "error": row.error, "job": row.job,
+             "answers": finite(row.answers)} for row in study.rows]
     return json.dumps({"title": study.title, "rows": rows}, indent=1, ensure_ascii=False)
 
 
@@ -115,7 +99,7 @@ def _run(given: argparse.Namespace) -> int:
     if not given.output and not given.dry_run:
         raise CaseError("there is no -o FILE for the answers; name one, or see what would be solved with --dry-run")
     case, rows, told = as_case(given.case), _rows(given), Told(not given.quiet)
-    with _client(given) as client:
+    with client_of(clients, given) as client:
         session = client._session
         plan = finished(plan_of(session, case, rows, given.output, given.retry, told))
         if given.dry_run:

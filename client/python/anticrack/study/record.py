@@ -11,12 +11,12 @@ from typing import Any
 import numpy as np
 
 from .. import output
-from ..arrays import Array
+from ..arrays import Array, is_number
 from ..entries import status_name, values_of
 from ..errors import Error, UnknownName, package
 from ..names import unknown
 from ..result import Units
-from ..text import counted, harmless, html_table, interval, short, short_length, shown
+from ..text import between, counted, harmless, html_table, short, short_length, shown
 from ..v1 import solve_pb2
 from .rows import tidy
 
@@ -159,16 +159,16 @@ class Study:
         """The HTML that a notebook shows."""
         return html_table(self._title(), *self.table())
 
-    def lines(self) -> list[tuple[int, dict[str, Any]]]:
-        """A line for each row and load, with the row's index: its values by key, how it ended, its numbers."""
+    def lines(self) -> list[dict[str, Any]]:
+        """A line for each row and load: the row's index, its values by key, how it ended, its numbers."""
         numbers: dict[str, Any] = dict.fromkeys(self.columns, _NAN)
-        return [(index, {"row": index, **row.values, "load case": load, "status": row.status, "error": row.error,
-                         "job": row.job, **numbers, **(row.answers.get(load) or {})})
+        return [{"row": index, **row.values, "load case": load, "status": row.status, "error": row.error,
+                 "job": row.job, **numbers, **(row.answers.get(load) or {})}
                 for index, row in enumerate(self.rows) for load in list(row.answers) or [""]]
 
     def frame(self) -> Any:
         """The lines as a pandas.DataFrame; needs pandas."""
-        return package("pandas").DataFrame([line for _, line in self.lines()])
+        return package("pandas").DataFrame(self.lines())
 
     def save(self, path: str | os.PathLike[str], keep: bool = False) -> None:
         """Writes the file as a whole or not at all. keep: an existing file becomes PATH~."""
@@ -223,7 +223,7 @@ def is_study(path: str | os.PathLike[str]) -> bool:
 
 
 def _numbers(values: list[Any]) -> bool:
-    return bool(values) and all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in values)
+    return bool(values) and all(map(is_number, values))
 
 
 def _end(key: str) -> str:
@@ -232,8 +232,8 @@ def _end(key: str) -> str:
 
 
 def _interval(of: dict[str, float], name: str, behind: str) -> str:
-    values = [of.get(name + part + behind, _NAN) for part in ("", "_lower", "_upper")]
-    return interval(*values, values[0]).partition(" (")[0] if np.isfinite(values[0]) else "-"  # type: ignore
+    value, lower, upper = (of.get(name + part + behind, _NAN) for part in ("", "_lower", "_upper"))
+    return between(value, lower, upper) if np.isfinite(value) else "-"
 
 
 def _rows_in(file: Any) -> list[Row]:

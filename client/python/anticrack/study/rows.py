@@ -115,6 +115,8 @@ def _values(text: str) -> list[Any]:
     try:
         return list(tomllib.loads(f"values = [{text}]")["values"])
     except tomllib.TOMLDecodeError:
+        if ";" in text:
+            raise CaseError("values are parted by commas, as in 1, 2; a text with a semicolon needs quotes") from None
         if not all(words := [word.strip() for word in text.split(",")]):
             raise CaseError("a value is missing beside a comma") from None
         return list(map(value_of, words))

@@ -128,7 +128,7 @@ class _File:
     """The study's file, written again often enough to lose little and seldom enough to cost little."""
 
     def __init__(self, plan: Plan, path: str | os.PathLike[str] | None) -> None:
-        self._study, self._path, self._due, self._changed = plan.study, path, 0.0, True
+        self._study, self._path, self._due, self.changed = plan.study, path, 0.0, True
         if path is not None:
             former = os.path.isfile(path) and (not is_study(path) or plan.strangers > 0)
             self._write(former)
@@ -139,13 +139,10 @@ class _File:
         began = time.monotonic()
         if self._path is not None:
             self._study.save(self._path, keep)
-        self._changed, self._due = False, time.monotonic() + _WRITING * (time.monotonic() - began)
-
-    def changed(self) -> None:
-        self._changed = True
+        self.changed, self._due = False, time.monotonic() + _WRITING * (time.monotonic() - began)
 
     def look(self, now: bool = False) -> None:
-        if self._changed and (now or time.monotonic() >= self._due):
+        if self.changed and (now or time.monotonic() >= self._due):
             self._write()
 
 
@@ -173,7 +170,7 @@ async def solve(session: Session, case: Case | str | os.PathLike[str], plan: Pla
                         raise
                     row.status, row.error = "refused", str(error)
                     ended += 1
-                    file.changed()
+                    file.changed = True
             before = ended
             for index in list(running):
                 job = running[index]
@@ -184,7 +181,7 @@ async def solve(session: Session, case: Case | str | os.PathLike[str], plan: Pla
                     study.rows[index].take(job)
                     del running[index]
                     ended += 1
-                    file.changed()
+                    file.changed = True
             file.look()
             done = len(study.rows) - len(left) + ended
             wrong = sum(row.status not in ("", "succeeded") for row in study.rows)

@@ -7,7 +7,6 @@ import itertools
 import pathlib
 import re
 import sys
-import tempfile
 from typing import Any
 
 from aiohttp import web
@@ -20,7 +19,7 @@ from ..study.rows import rows_in
 from ..sweeps import coefficients_of
 from ..text import harmless
 from ..v1 import case_pb2
-from .exports import DRAWING
+from .exports import DRAWING, drawn
 from .opened import Opened
 from .gate import reply
 from .told import Told
@@ -141,9 +140,7 @@ def _drawn(mesh: Any, arrays: Any, units: Units) -> bytes:
     from ..draw.files import draw_mesh
     from ..draw.meshes import Plan
     from ..draw.sheet import Look
-    with tempfile.TemporaryDirectory() as folder:
-        made = draw_mesh(Plan(mesh, arrays, units), folder, Look(["svg"], 150))
-        return pathlib.Path(made.files[0]).read_bytes()
+    return drawn(lambda folder: draw_mesh(Plan(mesh, arrays, units), folder, Look(["svg"], 150)))
 
 
 def add_routes(app: web.Application, editor: Editor) -> None:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import asyncio
+import functools
 import pathlib
 import tempfile
+from collections.abc import Callable
 from typing import Any
 
 from aiohttp import web
@@ -12,7 +14,7 @@ from aiohttp import web
 from .. import vtk
 from ..commands import FIGURES
 from ..errors import Error, package
-from ..output import stems
+from ..output import Made, stems
 from ..result import Load, Result, fields_cure
 from ..study.record import Study
 from .opened import FILE, Opened, load_of
@@ -20,6 +22,15 @@ from .opened import FILE, Opened, load_of
 DRAWING = asyncio.Lock()  # matplotlib draws one figure at a time
 _TYPES = {"png": "image/png", "svg": "image/svg+xml", "vtu": "application/xml", "h5": "application/x-hdf5",
           "toml": "application/toml"}
+
+
+def drawn(draw: Callable[[str], Made]) -> bytes:
+    """The first of the files that are drawn into a folder."""
+    with tempfile.TemporaryDirectory() as folder:
+        made = draw(folder)
+        if not made.files:
+            raise Error("; ".join(made.notes) or "there is nothing to draw")
+        return pathlib.Path(made.files[0]).read_bytes()
 
 
 def _figure(of: Result | Study, load: Load | None, kind: str, query: Any) -> bytes:
@@ -36,13 +47,10 @@ def _figure(of: Result | Study, load: Load | None, kind: str, query: Any) -> byt
     if query.get("amplify"):
         look.amplify = float(query["amplify"])
     if query.get("limits"):
-        look.limits = float(query["limits"].split(",")[0]), float(query["limits"].split(",")[1])
+        low, high = map(float, query["limits"].split(","))
+        look.limits = low, high
     wanted = files.Wanted([figure], query.get("interface", ""), [load.name])
-    with tempfile.TemporaryDirectory() as folder:
-        made = files.draw_figures(of, folder, wanted, look)
-        if not made.files:
-            raise Error("; ".join(made.notes) or "there is nothing to draw")
-        return pathlib.Path(made.files[0]).read_bytes()
+    return drawn(functools.partial(files.draw_figures, of, wanted=wanted, look=look))
 
 
 def _content(of: Result | Study, load: Load | None, kind: str, query: Any) -> bytes:

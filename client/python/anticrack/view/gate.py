@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import hmac
 import json
-import math
 import secrets
 from typing import Any
 
 from aiohttp import web
 
+from ..command_line import finite
 from ..errors import Error, ServerError
 from ..text import harmless
 
@@ -26,8 +26,8 @@ class Gate:
     printed, is the only Host and Origin: a name that is made to mean 127.0.0.1 is refused, and so are pages of other
     ports, which browsers count to the same site."""
 
-    def __init__(self) -> None:
-        self.host, self._used = "", False
+    def __init__(self, host: str) -> None:
+        self.host, self._used = host, False
         self.token, self._secret = secrets.token_urlsafe(24), secrets.token_urlsafe(24)
 
     @property
@@ -71,17 +71,6 @@ class Gate:
             return refused(error, _STATUS.get(error.code, 409))
         except (Error, OSError, ValueError, KeyError, IndexError) as error:
             return refused(error, 400)
-
-
-def finite(value: Any) -> Any:
-    """JSON as browsers read it: numbers that are not finite are None."""
-    if isinstance(value, float):
-        return value if math.isfinite(value) else None
-    if isinstance(value, dict):
-        return {key: finite(entry) for key, entry in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [finite(entry) for entry in value]
-    return value
 
 
 def text_of(value: Any) -> str:

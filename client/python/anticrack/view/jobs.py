@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import uuid
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Callable
 from typing import Any
 
 from aiohttp import web
@@ -58,27 +58,18 @@ def _answer(index: int, answer: solve_pb2.LoadCaseAnswer) -> dict[str, Any]:
 
 def event_of(message: solve_pb2.WatchJobResponse) -> list[Event]:
     """What a message of a watch tells the page, in order: load cases that ended come behind their samples."""
-    found: list[Event] = []
-    kind, number = message.WhichOneof("event"), message.sequence
-    if kind == "samples":
-        samples = message.samples
-        found.append((kind, {field.name: list(getattr(samples, field.name)) for field in samples.DESCRIPTOR.fields},
-                      number))
-    found += [("answer", _answer(ended.load_case, ended.answer), number) for ended in message.load_cases_ended]
-    if kind == "snapshot":
-        found.append((kind, _whole(message.snapshot.job), None))
-    elif kind == "phase":
-        found.append((kind, {"state": _word(message.phase.state), "detail": message.phase.detail}, number))
-    elif kind == "stage_ended":
-        found.append(("stage", _stage(message.stage_ended), number))
-    elif kind == "sweep_rows":
-        found.append(("rows", {"count": len(message.sweep_rows.status)}, number))
-    elif kind == "growth_step":
-        step = message.growth_step
-        found.append(("growth", {"load": step.load_case, **entries.values_of(step.row)}, number))
-    elif kind == "ended":
-        found.append((kind, _whole(message.ended), number))
-    return found
+    kind, number = message.WhichOneof("event") or "heartbeat", message.sequence
+    of = getattr(message, kind)
+    told_of: dict[str, Callable[[], dict[str, Any]]] = {
+        "samples": lambda: {field.name: list(getattr(of, field.name)) for field in of.DESCRIPTOR.fields},
+        "phase": lambda: {"state": _word(of.state), "detail": of.detail},
+        "stage_ended": lambda: _stage(of), "sweep_rows": lambda: {"count": len(of.status)},
+        "growth_step": lambda: {"load": of.load_case, **entries.values_of(of.row)},
+        "snapshot": lambda: _whole(of.job), "ended": lambda: _whole(of)}
+    own: list[Event] = [(kind, told_of[kind](), None if kind == "snapshot" else number)] if kind in told_of else []
+    answers: list[Event] = [("answer", _answer(ended.load_case, ended.answer), number)
+                            for ended in message.load_cases_ended]
+    return own + answers if kind == "samples" else answers + own
 
 
 async def _listed(session: Told) -> AsyncIterator[Event]:

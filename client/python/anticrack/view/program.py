@@ -4,24 +4,21 @@ from __future__ import annotations
 
 import argparse
 import asyncio
+import os
 import pathlib
-import signal
+import socket
 import webbrowser
 from collections.abc import Sequence
 
 from aiohttp import web
 
-from ..aio import AsyncTransport
+from .. import aio
 from ..case import Case
-from ..command_line import Parser, add_server, code_of, complain, credentials, number
-from ..credentials import Credentials, address_of
+from ..command_line import Parser, add_server, client_of, code_of, complain, number
 from ..errors import Error
-from ..private_server import Server
-from ..retry import Backoff
-from . import cases, exports, jobs, scene, tables
+from . import cases, exports, jobs, pages as files, scene, tables
 from .gate import Gate, add_headers, reply
 from .opened import FILE, Opened
-from .pages import Pages as Files
 from .told import Pages, Told
 
 _MESSAGE = 16 << 20  # bytes of the longest request: the text of a case
@@ -40,20 +37,12 @@ def _parser() -> Parser:
     return parser
 
 
-def _session(given: argparse.Namespace) -> Told:
-    server = Server() if given.local else None
-    address = server.address if server else address_of(given.server)
-    secrets = Credentials() if server else credentials(given)
-    return Told(AsyncTransport(address, secrets, server), address, Backoff(300.0, 3.0))
-
-
-async def _serve(given: argparse.Namespace) -> None:
-    stop, loop = asyncio.Event(), asyncio.get_running_loop()
-    for sign in (signal.SIGINT, signal.SIGTERM):
-        loop.add_signal_handler(sign, stop.set)
-    session = _session(given)
+async def _serve(given: argparse.Namespace, own: socket.socket) -> None:
+    """Opens what is to be shown, and serves the page until a signal, or the last page, raises GracefulExit."""
+    plain, gate = client_of(aio, given)._session, Gate("127.0.0.1:%d" % own.getsockname()[1])
+    session = Told(plain.transport, plain.address, plain.backoff)
     try:
-        opened, gate, pages = Opened(session), Gate(), Pages(session)
+        opened, pages = Opened(session), Pages(session, given.until_closed)
         first, path = given.what, pathlib.Path(given.what)
         is_case = first.endswith(".toml")
         editor = cases.Editor(session, opened, path if is_case else None)
@@ -72,41 +61,38 @@ async def _serve(given: argparse.Namespace) -> None:
             add.add_routes(app, opened)
         jobs.add_routes(app, session, pages, opened)
         cases.add_routes(app, editor)
-        files = Files()
-        app.router.add_get("/", files.file)
-        app.router.add_get("/{name}", files.file)
-        runner = web.AppRunner(app, access_log=None)
+        files.add_routes(app)
+        runner = web.AppRunner(app, access_log=None, handle_signals=True)
         await runner.setup()
         try:
-            await _listen(runner, gate, given, stop if not given.until_closed else pages.left, stop)
+            await web.SockSite(runner, own, shutdown_timeout=0.5).start()
+            address = f"http://{gate.host}/?token={gate.token}"
+            print(f"the page is at {address}\nCtrl-C ends it", flush=True)
+            if not given.no_browser:
+                await asyncio.to_thread(webbrowser.open, address)
+            await asyncio.Event().wait()
         finally:
             await runner.cleanup()
     finally:
         await session.transport.close()
 
 
-async def _listen(runner: web.AppRunner, gate: Gate, given: argparse.Namespace, left: asyncio.Event,
-                  stop: asyncio.Event) -> None:
-    site = web.TCPSite(runner, "127.0.0.1", given.port, shutdown_timeout=0.5)
+def _listen(port: int) -> socket.socket:
     try:
-        await site.start()
+        return socket.create_server(("127.0.0.1", port))
     except OSError as error:
-        raise Error(f"--port {given.port}: {error.strerror}; name another, or leave it out for a free one") from None
-    gate.host = "127.0.0.1:%d" % runner.addresses[0][1]
-    address = f"http://{gate.host}/?token={gate.token}"
-    print(f"the page is at {address}\nCtrl-C ends it", flush=True)
-    if not given.no_browser:
-        await asyncio.to_thread(webbrowser.open, address)
-    waiting = [asyncio.create_task(event.wait()) for event in {left, stop}]
-    await asyncio.wait(waiting, return_when=asyncio.FIRST_COMPLETED)
-    for task in waiting:
-        task.cancel()
+        raise Error(f"--port {port}: {os.strerror(error.errno or 0)}; name another, or leave it out for a free one"
+                    ) from None
 
 
 def main(words: Sequence[str]) -> int:
     """Runs a command line and returns the exit code: 0, 2, or 4 if the server cannot be reached."""
     try:
-        asyncio.run(_serve(_parser().parse_args(words)))
+        given = _parser().parse_args(words)
+        with _listen(given.port) as own:
+            asyncio.run(_serve(given, own))
+    except (web.GracefulExit, KeyboardInterrupt):
+        pass
     except Error as error:
         complain(error)
         return code_of(error)

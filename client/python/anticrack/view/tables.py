@@ -69,7 +69,7 @@ def tables_of_study(study: Study) -> dict[str, list[Column]]:
     """A row for each row and load, as Study.frame has it."""
     lines = study.lines()
     return {"sweep": [(name, study.units.of_column(name) if name in study.columns else "-", "",
-                       [line.get(name) for _, line in lines]) for name in lines[0][1]]}
+                       [line.get(name) for line in lines]) for name in lines[0]]}
 
 
 def tables_of(result: Result) -> dict[str, list[Column]]:

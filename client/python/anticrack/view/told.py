@@ -17,6 +17,7 @@ from ..v1 import job_pb2, solve_pb2
 from .gate import text_of
 
 Event = tuple[str, Any, int | None]  # its name, its data, and the sequence number to go on after
+_PATIENCE = 3.0  # for another page once the last one has gone [s]
 _PAUSE = 1.0  # between signs of life to a page, whose loss is noticed by them [s]
 
 
@@ -56,15 +57,16 @@ def ask_for_fields(spec: job_pb2.JobSpec) -> None:
 
 
 class Pages:
-    """The pages that listen now. left: set when the last one has gone and none has come for a while."""
+    """The pages that listen now. until_closed: the server ends when the last one has gone and none comes for a
+    while."""
 
-    def __init__(self, session: Told, patience: float = 3.0) -> None:
-        self.session, self.left, self._patience = session, asyncio.Event(), patience
+    def __init__(self, session: Told, until_closed: bool) -> None:
+        self.session, self._until_closed = session, until_closed
         session.pages = set()
 
     def _leave(self) -> None:
-        if not self.session.pages:
-            self.left.set()
+        if self._until_closed and not self.session.pages:
+            raise web.GracefulExit
 
     async def stream(self, request: web.Request, events: Callable[[], AsyncIterator[Event]]) -> web.StreamResponse:
         """Sends events, and what becomes of the connection to the server, until the page goes."""
@@ -96,6 +98,6 @@ class Pages:
             filling.cancel()
             self.session.pages.discard(queue)
             if not self.session.pages:
-                asyncio.get_running_loop().call_later(self._patience, self._leave)
+                asyncio.get_running_loop().call_later(_PATIENCE, self._leave)
             with contextlib.suppress(asyncio.CancelledError):
                 await filling

@@ -51,12 +51,11 @@ export async function draw(panel, wanted) {
   if (lines.length) parts.residuals.draw(lines);
   stages(parts, Number(mode) || 0);
   const begin = job?.timeline[0]?.time;
-  fill(parts.time,
+  fill(parts.time, !job?.timeline.length && aside(NO_TIMES),
     (job?.timeline ?? [])
       .map((step) => make('li', {}, make('time', {}, `${number((step.time - begin) / 1000, 4)} s`),
              ` ${words(step.state)}`, step.detail ? `: ${plain(step.detail, 200)}` : '',
              step.attempt > 1 ? ` (attempt ${step.attempt})` : '')));
-  if (!job?.timeline.length) fill(parts.time, aside(NO_TIMES));
 }
 
 /** @param {any} to @param {number} load */

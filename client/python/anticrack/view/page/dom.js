@@ -32,19 +32,31 @@ export function make(tag, options = {}, ...children) {
   return fill(node, ...children);
 }
 
+/** Changes the children of an element; the new one of the same name keeps the focus. @param {any} node */
+function refocused(node, change) {
+  const had = node.contains(document.activeElement) ? document.activeElement : null;
+  const name = (of) => of.id || of.ariaLabel || of.dataset.key;
+  change();
+  if (had && had !== document.activeElement)
+    [...node.querySelectorAll(had.localName)].find((each) => name(each) && name(each) === name(had))?.focus();
+  return node;
+}
+
 /** Replaces the children of an element. @param {any} node @param {...any} children */
 export function fill(node, ...children) {
   const wanted =
     children.flat(2).filter((child) => child !== null && child !== undefined && child !== false && child !== '');
-  node.replaceChildren(...wanted.map((child) => child instanceof Node ? child : plain(child, 4000)));
-  return node;
+  const texts = wanted.map((child) => child instanceof Node ? child : plain(child, 4000));
+  return refocused(node, () => node.replaceChildren(...texts));
 }
 
 /** As fill, but keeps children that look the same, so that no click on them is lost. @param {any} node */
 export function refill(node, ...children) {
   const old = [...node.children], made = [...fill(node.cloneNode(false), ...children).children];
-  made.forEach((child, i) => !old[i] ? node.append(child) : old[i].isEqualNode(child) || old[i].replaceWith(child));
-  old.slice(made.length).forEach((child) => child.remove());
+  refocused(node, () => {
+    made.forEach((child, i) => !old[i] ? node.append(child) : old[i].isEqualNode(child) || old[i].replaceWith(child));
+    old.slice(made.length).forEach((child) => child.remove());
+  });
 }
 
 /** @param {string} id @return {any} */

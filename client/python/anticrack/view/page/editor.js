@@ -82,11 +82,9 @@ function later(parts) {
   numbered(parts, []);
   clearTimeout(timer);
   timer = setTimeout(async () => {
-    const mine = ++asked;
-    if (!parts.text.value.trim()) return say(parts, [], ['Begin from an example, or write a case.']);
-    const answer = await post('check', {
-      text: parts.text.value
-    }).catch((error) => ({notes: [], errors: [{line: 0, message: error.message}]}));
+    const mine = ++asked, text = parts.text.value, failed = (error) => [{line: 0, message: error.message}];
+    if (!text.trim()) return say(parts, [], ['Begin from an example, or write a case.']);
+    const answer = await post('check', {text}).catch((error) => ({notes: [], errors: failed(error)}));
     if (mine === asked) say(parts, answer.errors, answer.notes);
   }, PAUSE);
 }

@@ -9,8 +9,7 @@ const STATES = ['queued', 'waiting_for_mesh', 'running', 'succeeded', 'not_conve
 const ENDED = STATES.slice(3);
 const list = make('ul', {class: 'jobs'});
 
-/** @param {(lost: any) => void} connection */
-export function start(connection) {
+export function start() {
   const filter = make('input', {
     type: 'search',
     placeholder: 'filter by title, owner, ID',
@@ -23,7 +22,6 @@ export function start(connection) {
       get('state'), (state) => set({state}));
   fill(byId('jobs'), make('h2', {}, 'Jobs'), filter, states, list);
   events('jobs', {}, changed, {
-    connection,
     failed: (data) => notice(data.error),
     jobs: (jobs) => {
       const name = model.of, here = (of) => of.some((job) => job.name === name), gone = here(model.jobs) && !here(jobs);
@@ -40,12 +38,9 @@ export function draw() {
   const wanted = get('filter').toLowerCase(), state = get('state');
   const shown = model.jobs.filter(
     (job) => (!state || job.state === state) && `${job.title} ${job.owner} ${job.name}`.toLowerCase().includes(wanted));
-  const focused = document.activeElement?.getAttribute('data-key');
   const owners = new Set(model.jobs.map((job) => job.owner)).size > 1;
   refill(list, shown.map((job) => item(job, owners)),
     !shown.length && make('li', {class: 'quiet'}, model.jobs.length ? 'no job is like this' : 'there is no job yet'));
-  if (focused) /** @type {any} */
-    (list.querySelector(`[data-key="${CSS.escape(focused)}"]`))?.focus();
 }
 
 /** @param {any} job @param {boolean} owners */

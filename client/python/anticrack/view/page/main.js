@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The page: tabs, what each shows, and what is told of the connection.
+// The page: tabs, and what each shows.
 import * as convergence from './convergence.js';
 import {aside, button, byId, fill, make, plain, refill} from './dom.js';
 import * as editor from './editor.js';
@@ -48,7 +48,6 @@ async function draw() {
   box.hidden = surface && !panel;
   if (here !== drawn) fill(box);
   drawn = here;
-  const focused = box.contains(document.activeElement) ? document.activeElement?.ariaLabel : '';
   try {
     if (surface) membrane.draw(clicked);
     if (name === 'membrane') membrane.mark(null);
@@ -58,7 +57,6 @@ async function draw() {
       fill(box, aside('No row has traces: there is nothing to draw.'));
     else
       await panel?.(box, () => mine === turn);
-    if (focused) box.querySelector(`[aria-label="${CSS.escape(focused)}"]`)?.focus();
   } catch (error) {
     notice(error);
   }
@@ -71,8 +69,7 @@ function clicked(hit) {
 
 /** @param {string} name */
 function tabs(name) {
-  const {result} = model, study = result?.sweep?.jobs, bar = byId('tabs'),
-        focused = bar.contains(document.activeElement);
+  const {result} = model, study = result?.sweep?.jobs, bar = byId('tabs');
   const useless = study ? ['membrane', 'interfaces', 'convergence', 'growth']
                         : [result && !result.sweep && 'sweep', result && !currentLoad()?.growth.length && 'growth'];
   const made = (tab) => button(study && tab === 'sweep' ? 'Study' : TABS[tab][0], () => set({tab}), {
@@ -83,7 +80,7 @@ function tabs(name) {
     tabindex: tab === name ? '0' : '-1'
   });
   refill(bar, Object.keys(TABS).filter((tab) => !useless.includes(tab)).map(made));
-  if (focused) byId(`tab-${name}`)?.focus();
+  if (bar.contains(document.activeElement)) byId(`tab-${name}`)?.focus();
 }
 
 /** @param {string} tab */
@@ -106,15 +103,6 @@ function links(tab) {
     model.result.case && link('toml', 'Case, TOML'));
 }
 
-/** @param {{server: string, lost: string, met: boolean}} told met: whether the server has ever answered */
-function connection({server, lost, met}) {
-  const line = byId('connection'), before = line.className;
-  if (lost && !met) return fill(line, `no server answers at ${plain(server, 60)}`);
-  line.className = lost ? 'lost' : '';
-  fill(
-    line, lost ? `connection lost: ${plain(lost, 120)}` : plain(server, 60) + (before ? ': connection restored' : ''));
-}
-
 byId('tabs').addEventListener('keydown', (event) => {
   const by = /** @type {any} */ ({ArrowRight: 1, ArrowLeft: -1})[event.key];
   if (!by) return;
@@ -131,9 +119,9 @@ listen((keys) => {
     quiet();
     membrane.picked.hit = null;
     if (!keys.has('stage')) set({stage: ''}, true);
-    show(get('of'), connection);
+    show(get('of'));
   }
   changed();
 });
-jobs.start(connection);
-show(get('of'), connection);
+jobs.start();
+show(get('of'));

@@ -15,10 +15,11 @@ const NAMES = /** @type {Record<string, string[]>} */ ({
 });
 const KINDS =
   ['', '#8a8f98', '#d55e00', '#1f6fd0', '#c2188f', '#e69f00']; // glue, crack, bonded, delaminated, free crack
+/** A stage, of which u is not kept. */
 const BARE = {
   name: '',
   colours: /** @type {string[]} */ ([])
-}; // a stage, of which u is not kept
+};
 /** @type {Scene|null} */ let scene = null;
 let shown = '';    // what the scene's geometry is of
 let automatic = 1; // the amplification that shows u best
@@ -82,15 +83,17 @@ async function surface(to, layer, load, wanted) {
     for (let begin = 0, j = 1; j < k; ++j) {
       if (j < k - 1 && line[3 * k + j] === line[3 * k + begin]) continue;
       const nodes = Array.from({length: j - begin + 1}, (_, n) => begin + n);
-      for (const face of [0, 1]) to.line(nodes.map((n) => at(n, face)), KINDS[line[3 * k + begin]] || KINDS[1]);
+      for (const face of [0, 1])
+        to.line(nodes.map((n) => to.place(...at(n, face))), KINDS[line[3 * k + begin]] || KINDS[1]);
       begin = j;
     }
     for (let j = 0; j < k; ++j) places.push(at(j, 1));
   });
-  const height = (at) => places[nearest(places, at[0], at[1])]?.[2] ?? 0; // of the nearest node of an interface
+  // As high as the nearest node of an interface.
+  const placed = ([x, y]) => to.place(x, y, places[nearest(places, x, y)]?.[2] ?? 0);
   if (on('names', true))
-    for (const {name, at} of marks.slice(0, 40)) to.name(name, at[0], at[1], height(at));
-  if (tips.length) to.add(to.dots(tips.map((at) => to.place(at[0], at[1], height(at))), '#222222', 8));
+    for (const {name, at} of marks.slice(0, 40)) to.name(name, placed(at));
+  if (tips.length) to.add(to.dots(tips.map(placed), '#222222', 8));
   return true;
 }
 
@@ -139,7 +142,7 @@ function stepped(what, names, index) {
 
 /** @param {Scene} to @param {any} load @param {string} what */
 function controls(to, load, what, low, high, amplify) {
-  const focused = document.activeElement?.getAttribute('aria-label') ?? '', all = stages(), stage = currentStage();
+  const all = stages(), stage = currentStage();
   const limited = (at) => (event) => {
     const limits = [low, high];
     limits[at] = parse(event.target.value);
@@ -181,8 +184,6 @@ function controls(to, load, what, low, high, amplify) {
     names && tick('names', on('names', true), (names) => set({names})),
     what && names.length > 1 && tick('same colours for all loads', on('same'), (same) => set({same, limits: ''})),
     button('whole view', whole));
-  if (focused) /** @type {any} */
-    (byId('stage-controls').querySelector(`[aria-label="${CSS.escape(focused)}"]`))?.focus();
 }
 
 /** @param {string} what @param {number} low @param {number} high @param {boolean} both @param {boolean} cut */

@@ -22,15 +22,14 @@ const HISTORY = ['iteration', 'criterion', 'energy', 'contact_count', ...RESIDUA
 
 /** A job that is watched. samples: arrays by name for each load, of its last stage. */
 class Live {
-  /** @param {string} name @param {(lost: any) => void} connection */
-  constructor(name, connection) {
+  /** @param {string} name */
+  constructor(name) {
     /** @type {any} */
     this.job = {name, state: '', loads: [], timeline: [], stages: [], answers: [], done: 0, total: 0};
     /** @type {any[]} */ this.samples = [];
     this.rows = 0;
     /** @type {any[]} */ this.growth = [];
     this.close = events('watch', {of: name}, changed, {
-      connection,
       snapshot: (job) => this.job = job,
       samples: (data) => this.sample(data),
       phase: (data) => {
@@ -40,12 +39,12 @@ class Live {
           this.job.timeline.push({time: Date.now(), ...data});
       },
       answer: (data) => this.job.answers[data.load] = data,
-      stage: (data) => {
+      stage_ended: (data) => {
         const at = this.job.stages.findIndex((stage) => stage.mesh === data.mesh);
         this.job.stages.splice(at < 0 ? this.job.stages.length : at, 1, data);
       },
-      rows: (data) => this.rows += data.count,
-      growth: (data) => this.growth.push(data),
+      sweep_rows: (data) => this.rows += data.count,
+      growth_step: (data) => this.growth.push(data),
       ended: (job) => {
         this.job = job;
         this.close();
@@ -84,14 +83,14 @@ async function load(of) {
   }
 }
 
-/** Shows "jobs/ID", "file", or "", nothing. @param {string} of @param {(lost: any) => void} connection */
-export function show(of, connection) {
+/** Shows "jobs/ID", "file", or "", nothing. @param {string} of */
+export function show(of) {
   model.live?.close();
   Object.assign(model, {of, result: null, live: null, tables: null});
   if (of === 'file')
     load(of);
   else if (of)
-    model.live = new Live(of, connection);
+    model.live = new Live(of);
   changed();
 }
 

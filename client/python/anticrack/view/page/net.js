@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is asked of the page's server.
-import {byId, fill, make} from './dom.js';
+import {byId, fill, make, plain} from './dom.js';
 
 /** Says something above the page until it is taken away. @param {any} text a text or an error */
 export function notice(text) {
@@ -8,6 +8,15 @@ export function notice(text) {
     make('button', {'aria-label': 'close', onclick: () => line.remove()}, '\u00d7'));
   byId('notices').append(line);
   while (byId('notices').children.length > 4) byId('notices').firstChild.remove();
+}
+
+/** @param {{server: string, lost: string, met: boolean}} told met: whether the server has ever answered */
+function connection({server, lost, met}) {
+  const line = byId('connection'), before = line.className;
+  if (lost && !met) return fill(line, `no server answers at ${plain(server, 60)}`);
+  line.className = lost ? 'lost' : '';
+  fill(
+    line, lost ? `connection lost: ${plain(lost, 120)}` : plain(server, 60) + (before ? ': connection restored' : ''));
 }
 
 /** Takes away what was said. */
@@ -56,12 +65,13 @@ export function array(query) {
  */
 export function events(path, query, after, handlers) {
   const source = new EventSource(address(path, query));
+  const data = (event) => JSON.parse(event.data);
   for (const [name, handle] of Object.entries(handlers))
     source.addEventListener(name, (event) => {
-      handle(JSON.parse(/** @type {any} */ (event).data));
-      if (name !== 'connection') after();
+      handle(data(event));
+      after();
     });
-  source.onerror = () =>
-    handlers.connection({server: '', met: true, lost: 'anticrack view does not answer; trying again'});
+  source.addEventListener('connection', (event) => connection(data(event)));
+  source.onerror = () => connection({server: '', met: true, lost: 'anticrack view does not answer; trying again'});
   return () => source.close();
 }

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The membrane in space, by three.js. Coordinates are those of the result, moved to its middle and over its size; u
-// rises by a number that the shaders multiply, so that deforming costs nothing. No light: normals of slivers at tips
-// would be noise.
+// is the third one, and the group's scale makes it rise, so that deforming costs nothing. No light: normals of slivers
+// at tips would be noise.
 import {byId, fill, make, plain} from './dom.js';
 import {colours} from './palette.js';
-import {pick} from './pick.js';
 
 const T = /** @type {any} */ (globalThis).THREE;
 export const MANY = 200_000; // triangles, above which a thinned mesh is shown while the view moves
 const UNKNOWN = -1e30;
-const VERTEX = `attribute float u; attribute float value; uniform float rise; varying float v;
-void main() { v = value; gl_Position = projectionMatrix * modelViewMatrix * vec4(position.xy, u * rise, 1.0); }`;
+const VERTEX = `attribute float value; varying float v;
+void main() { v = value; gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }`;
 const FACE = `uniform sampler2D palette; uniform float low, high, contours; varying float v;
 void main() {
   float t = clamp((v - low) / (high - low), 0.0, 1.0);
@@ -20,7 +19,6 @@ void main() {
     colour *= 0.35 + 0.65 * smoothstep(0.4, 1.4, (0.5 - abs(fract(k) - 0.5)) / max(width, 1e-6));
   gl_FragColor = vec4(colour, 1.0);
 }`;
-const LINE = `uniform vec3 colour; uniform float opacity; void main() { gl_FragColor = vec4(colour, opacity); }`;
 const DOT = VERTEX.replace('void main() {', 'uniform float size; void main() { gl_PointSize = size;');
 const DOTS = `uniform vec3 colour; void main() {
   float r = length(gl_PointCoord - 0.5);
@@ -39,23 +37,20 @@ export class Scene {
     this.controls.screenSpacePanning = true;
     this.scene = new T.Scene();
     /** @type {Record<string, {value: any}>} */
-    this.uniforms = {rise: {value: 1}, low: {value: 0}, high: {value: 1}, contours: {value: 0}, palette: {value: null}};
+    this.uniforms = {low: {value: 0}, high: {value: 1}, contours: {value: 0}, palette: {value: null}};
     this.group = new T.Group();
     this.scene.add(this.group);
     this.middle = [0, 0];
     this.size = 1;
     /** @type {any} */
     this.full = this.thin = null; // layers
-    /** @type {{node: any, x: number, y: number, u: number}[]} */ this.names = [];
-    this.marker = this.dots([[0, 0, 0]], '#e02020', 12);
-    this.marker.visible = false;
-    this.scene.add(this.marker);
+    /** @type {{node: any, at: any}[]} */ this.names = [];
+    this.marker = this.dots([new T.Vector3()], '#e02020', 12);
     this.controls.addEventListener('change', () => this.draw());
     this.controls.addEventListener('start', () => this.move(true));
     this.controls.addEventListener('end', () => this.move(false));
-    this.canvas.addEventListener('wheel', () => this.wheel(), {passive: true});
     let down = [0, 0];
-    this.clicked = (x, y) => clicked(this.full && pick(this, x, y));
+    this.clicked = (x, y) => clicked(this.full && this.pick(x, y));
     this.canvas.addEventListener('pointerdown', (e) => down = [e.clientX, e.clientY]);
     this.canvas.addEventListener('click', (e) => {
       const {left, top, width, height} = this.canvas.getBoundingClientRect();
@@ -68,43 +63,26 @@ export class Scene {
     this.waiting = this.settle = 0;
   }
 
-  /** @param {string} vertexShader @param {string} fragmentShader @param {any} uniforms @param {any} more */
-  material(vertexShader, fragmentShader, uniforms, more = {}) {
-    const values = Object.entries(uniforms).map(([name, value]) => [name, {value}]);
-    return new T.ShaderMaterial(
-      {vertexShader, fragmentShader, ...more, uniforms: {...this.uniforms, ...Object.fromEntries(values)}});
-  }
-
-  /** @param {string} colour @param {number} opacity @param {boolean} wireframe of triangles, whose edges come twice */
-  lineMaterial(colour, opacity = 1, wireframe = false) {
-    return this.material(VERTEX, LINE, {colour: new T.Color(colour), opacity}, {transparent: opacity < 1, wireframe});
-  }
-
-  /** @param {number[][]} places x, y in the scene, u @param {string} colour @param {number} size */
+  /** @param {any[]} places @param {string} colour @param {number} size */
   dots(places, colour, size) {
-    const points = new T.Points(
-      this.geometry(places), this.material(DOT, DOTS, {colour: new T.Color(colour), size}, {depthTest: false}));
+    const uniforms = {colour: {value: new T.Color(colour)}, size: {value: size}};
+    const look = new T.ShaderMaterial({vertexShader: DOT, fragmentShader: DOTS, uniforms, depthTest: false});
+    const points = new T.Points(new T.BufferGeometry().setFromPoints(places), look);
     return Object.assign(points, {renderOrder: 3, frustumCulled: false});
-  }
-
-  /** @param {number[][]} places x, y in the scene, u */
-  geometry(places) {
-    const geometry = new T.BufferGeometry();
-    geometry.setAttribute('position', new T.Float32BufferAttribute(places.flatMap(([x, y]) => [x, y, 0]), 3));
-    geometry.setAttribute('u', new T.Float32BufferAttribute(places.map((place) => place[2]), 1));
-    return geometry;
   }
 
   /** Shows another surface: what membrane.js reads of the result, or of the mesh of a stage. @param {any} surface */
   show(surface) {
-    this.clear();
-    const low = [Infinity, Infinity], high = [-Infinity, -Infinity];
-    surface.points.forEach((value, i) => {
-      low[i & 1] = Math.min(low[i & 1], value);
-      high[i & 1] = Math.max(high[i & 1], value);
-    });
-    this.middle = [0, 1].map((c) => (low[c] + high[c]) / 2);
-    this.size = Math.max(high[0] - low[0], high[1] - low[1]);
+    this.group.traverse((object) => object.geometry?.dispose());
+    this.group.remove(...this.group.children);
+    this.group.add(this.marker);
+    fill(byId('labels'));
+    this.names = [];
+    const ends =
+      [0, 1].map((c) => surface.points.filter((_, i) => i % 2 === c)
+                          .reduce(([low, high], at) => [Math.min(low, at), Math.max(high, at)], [Infinity, -Infinity]));
+    this.middle = ends.map(([low, high]) => (low + high) / 2);
+    this.size = Math.max(...ends.map(([low, high]) => high - low));
     this.full = this.thin = this.layer(surface);
     this.change(false);
   }
@@ -118,24 +96,21 @@ export class Scene {
   /** @param {any} surface */
   layer(surface) {
     const {points, u} = surface, count = points.length / 2, group = new T.Group();
-    const position = new Float32Array(3 * count), height = new Float32Array(count);
-    for (let i = 0; i < count; ++i) {
-      for (let c = 0; c < 2; ++c) position[3 * i + c] = (points[2 * i + c] - this.middle[c]) / this.size;
-      height[i] = Number.isFinite(u?.[i]) ? u[i] : 0;
-    }
+    const position = new Float32Array(3 * count);
+    for (let i = 0; i < count; ++i) this.place(points[2 * i], points[2 * i + 1], u?.[i]).toArray(position, 3 * i);
     const value = new T.BufferAttribute(new Float32Array(count).fill(UNKNOWN), 1);
-    const shared = {position: new T.BufferAttribute(position, 3), u: new T.BufferAttribute(height, 1), value};
+    const attributes = {position: new T.BufferAttribute(position, 3), value};
     const add = (kind, index, material) => {
-      const made = new T.BufferGeometry();
-      for (const [name, attribute] of Object.entries(shared)) made.setAttribute(name, attribute);
+      const made = Object.assign(new T.BufferGeometry(), {attributes});
       made.setIndex(new T.BufferAttribute(new Uint32Array(index.buffer, index.byteOffset, index.length), 1));
       return this.add(new kind(made, material), group);
     };
     const behind = {polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1}; // its lines
-    add(T.Mesh, surface.triangles,
-      this.material(VERTEX, FACE, {}, {side: T.DoubleSide, extensions: {derivatives: true}, ...behind}));
-    add(T.LineSegments, surface.outline, this.lineMaterial('#333333'));
-    return {...surface, position, height, value, add, edges: null, group: this.add(group)};
+    const coloured = {vertexShader: VERTEX, fragmentShader: FACE, uniforms: this.uniforms, side: T.DoubleSide};
+    const mesh =
+      add(T.Mesh, surface.triangles, new T.ShaderMaterial({...coloured, ...behind, extensions: {derivatives: true}}));
+    add(T.LineSegments, surface.outline, new T.LineBasicMaterial({color: '#333333'}));
+    return {...surface, value, mesh, edges: null, group: this.add(group)};
   }
 
   add(object, to = this.group) {
@@ -144,19 +119,11 @@ export class Scene {
     return object;
   }
 
-  clear() {
-    this.group.traverse((object) => object.geometry?.dispose());
-    this.group.remove(...this.group.children);
-    fill(byId('labels'));
-    this.names = [];
-    this.marker.visible = false;
-    this.full = this.thin = null;
-  }
-
   /** Lines of the mesh, made when they are first wanted. @param {boolean} wanted */
   lines(wanted) {
+    const look = {color: '#000000', opacity: 0.13, transparent: true, wireframe: true}; // edges come twice
     if (wanted)
-      this.full.edges ??= this.full.add(T.Mesh, this.full.triangles, this.lineMaterial('#000000', 0.13, true));
+      this.full.edges ??= this.add(new T.Mesh(this.full.mesh.geometry, new T.MeshBasicMaterial(look)), this.full.group);
     for (const {edges} of [this.thin, this.full])
       if (edges) edges.visible = wanted;
   }
@@ -182,38 +149,51 @@ export class Scene {
 
   /** @param {number} amplify */
   rise(amplify) {
-    this.uniforms.rise.value = amplify / this.size;
+    this.group.scale.z = Math.max(amplify / this.size, 1e-9); // 0 has no inverse, which picking takes
     this.draw();
   }
 
-  /** A place of the result in the scene. @param {number} x @param {number} y @param {number} u */
+  /** A place of the result in the group. @param {number} x @param {number} y @param {number} u */
   place(x, y, u) {
-    return [(x - this.middle[0]) / this.size, (y - this.middle[1]) / this.size, Number.isFinite(u) ? u : 0];
+    const [midX, midY] = this.middle;
+    return new T.Vector3((x - midX) / this.size, (y - midY) / this.size, Number.isFinite(u) ? u : 0);
   }
 
-  /** @param {number[][]} line places x, y, u @param {string} colour */
-  line(line, colour) {
-    const geometry = this.geometry(line.map(([x, y, u]) => this.place(x, y, u)));
-    this.add(Object.assign(new T.Line(geometry, this.lineMaterial(colour)), {renderOrder: 1}));
+  /** @param {any[]} places @param {string} colour */
+  line(places, colour) {
+    const material = new T.LineBasicMaterial({color: colour});
+    const line = new T.Line(new T.BufferGeometry().setFromPoints(places), material);
+    this.add(Object.assign(line, {renderOrder: 1}));
   }
 
-  /** @param {string} name @param {number} x @param {number} y @param {number} u */
-  name(name, x, y, u) {
+  /** @param {string} name @param {any} at its place */
+  name(name, at) {
     const node = make('span', {}, plain(name, 40));
     byId('labels').append(node);
-    const [px, py, pu] = this.place(x, y, u);
-    this.names.push({node, x: px, y: py, u: pu});
+    this.names.push({node, at});
   }
 
   /** Marks a place, or none. @param {number[]|null} place x, y, u */
   mark(place) {
     this.marker.visible = place !== null && this.full !== null;
-    if (this.marker.visible && place) {
-      const [x, y, u] = this.place(place[0], place[1], place[2]);
-      this.marker.geometry.attributes.position.setXYZ(0, x, y, 0).needsUpdate = true;
-      this.marker.geometry.attributes.u.setX(0, u).needsUpdate = true;
-    }
+    if (place) this.marker.position.copy(this.place(place[0], place[1], place[2]));
     this.draw();
+  }
+
+  /**
+   * The nearest triangle under a point of the window (each coordinate from -1 to 1), and the place on it; undefined if
+   * there is none. It takes time with the triangles: a million some 50 ms. @param {number} px @param {number} py
+   */
+  pick(px, py) {
+    const [near, far] = [-1, 1].map((z) => new T.Vector3(px, py, z).unproject(this.camera));
+    const {mesh, points, triangles, total, u} = this.full;
+    const [hit] = new T.Raycaster(near, far.sub(near).normalize()).intersectObject(mesh);
+    if (!hit) return;
+    const {face: {a, b, c}, point} = hit, at = [a, b, c].map((i) => this.place(points[2 * i], points[2 * i + 1], 0));
+    const parts = T.Triangle.getBarycoord(point.setZ(0), ...at, new T.Vector3()).toArray();
+    const triangle = 3 * total === triangles.length ? hit.faceIndex : NaN; // thinned triangles are none of the mesh
+    const [x, y] = point.toArray().map((value, i) => this.middle[i] + value * this.size);
+    return {triangle, x, y, u: u ? parts[0] * u[a] + parts[1] * u[b] + parts[2] * u[c] : NaN};
   }
 
   /** @param {boolean} begins */
@@ -300,10 +280,9 @@ export class Scene {
     this.waiting = 0;
     this.renderer.render(this.scene, this.camera);
     const {clientWidth: width, clientHeight: height} = this.canvas;
-    for (const {node, x, y, u} of this.names) {
-      const at = new T.Vector3(x, y, u * this.uniforms.rise.value).project(this.camera);
-      node.style.transform =
-        `translate(${(at.x + 1) / 2 * width}px, ${(1 - at.y) / 2 * height}px) translate(-50%, -130%)`;
+    for (const {node, at} of this.names) {
+      const {x, y} = this.group.localToWorld(at.clone()).project(this.camera);
+      node.style.transform = `translate(${(x + 1) / 2 * width}px, ${(1 - y) / 2 * height}px) translate(-50%, -130%)`;
     }
     this.canvas.dataset.frames = String(Number(this.canvas.dataset.frames ?? 0) + 1);
   }

@@ -11,13 +11,11 @@ export const on = (key, otherwise = false) => get(key, otherwise ? '1' : '') ===
 /** @param {(changed: Set<string>) => void} listener */
 export const listen = (listener) => heard = listener;
 
-/** @param {URLSearchParams} next @param {boolean} quiet */
-function become(next, quiet) {
-  const before = values;
+/** @param {URLSearchParams} next */
+function become(next, quiet = false) {
+  const changed = new Set([...values.keys(), ...next.keys()].filter((key) => values.get(key) !== next.get(key)));
   values = next;
-  const changed = new Set([...before.keys(), ...next.keys()].filter((key) => before.get(key) !== next.get(key)));
   if (changed.size && !quiet) heard(changed);
-  return changed.size > 0;
 }
 
 /**
@@ -34,4 +32,4 @@ export function set(changes, quiet = false) {
   become(next, quiet);
 }
 
-addEventListener('hashchange', () => become(new URLSearchParams(location.hash.slice(1)), false));
+addEventListener('hashchange', () => become(new URLSearchParams(location.hash.slice(1))));
