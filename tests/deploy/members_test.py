@@ -65,12 +65,14 @@ class Members(MembersTest):
         job = self.ended(second, name)
         job = self.ended(second, name)
         self.assertEqual(job.state, "not_converged")
-        self.assertGreaterEqual(job.message.status.attempt, 2, "the first lost it")
+        self.assertEqual(job.message.status.attempt, 2, "the first lost it once")
         self.assertEqual(job.message.status.answers[0].iterations, 30_000)
         for member in (first, second):  # both are in the group, and stay there
             self.assertEqual(member.metric("anticrack_group_servers"), 2)
             self.ended(member, self.submit(member, 10))
         self.assertEqual(self.sql("SELECT count(DISTINCT name), max(epoch) FROM anticrack.servers"), "1|3")
+        self.assertEqual([one.metric("anticrack_group_leases_lost_total") for one in (first, second)], [1, 0])
+        self.assertEqual([one.log().count("warning lease lost") for one in (first, second)], [1, 0])
 
     def test_tell_how_the_group_is(self):
         members = [self.add(name) for name in "ab"]
