@@ -88,9 +88,13 @@ struct Service::Parts {
   void watch_store(const std::stop_token& stop) {
     std::mutex mutex;
     std::condition_variable_any stopped;
+    std::uint64_t lost = 0;
     std::unique_lock lock(mutex);
     while (!stopped.wait_for(lock, stop, std::chrono::milliseconds(500),
                              [&] { return stop.stop_requested(); })) {
+      if (std::exchange(lost, engine.metrics().leases_lost) < lost)
+        log::warn("lease lost", {{"because", "it was paused, or cut off from the database"},
+                                 {"so", "others may have its jobs, which it has dropped"}});
       const bool usable = store->unreachable() < patience_with_store;
       if (usable == ready) continue;
       ready = usable;

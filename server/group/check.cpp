@@ -7,6 +7,7 @@
 #include "group/tables.hpp"
 #include "records/job_record.hpp"
 #include "records/mesh_record.hpp"
+#include "store/records.pb.h"
 #include "store/result_file.hpp"
 
 namespace anticrack::group {
@@ -25,18 +26,24 @@ class Check {
     look_at_rows("meshes", store::read_mesh);
     look_at_rows("jobs", store::read_job);
     const Result flawed = _transaction.run(
-        std::string("SELECT 'meshes/' || id || ': its triangulation is missing' FROM meshes "
-                    "WHERE sha256 <> '' AND blob IS DISTINCT FROM sha256 UNION ALL "
-                    "SELECT 'jobs/' || id || ': its result is missing' FROM jobs "
-                    "WHERE result IS NULL AND result_bytes > 0 UNION ALL "
-                    "SELECT 'jobs/' || id || ': it has not ended, but is not queued' FROM jobs j "
-                    "WHERE ended IS NULL AND NOT EXISTS (SELECT FROM queue WHERE job = j.id) "
-                    "UNION ALL SELECT sha256 || ' belongs to no record' FROM blobs b WHERE ") +
+        std::string(
+            "SELECT 'meshes/' || id || ': its triangulation is missing' FROM meshes "
+            "WHERE sha256 <> '' AND blob IS DISTINCT FROM sha256 UNION ALL "
+            "SELECT 'jobs/' || id || ': its result is missing' FROM jobs "
+            "WHERE result IS NULL AND result_bytes > 0 UNION ALL "
+            "SELECT 'jobs/' || id || ': it has not ended, but is not queued' FROM jobs j "
+            "WHERE ended IS NULL AND NOT EXISTS (SELECT FROM queue WHERE job = j.id) "
+            "UNION ALL SELECT 'jobs/' || job || ': portion ' || n || ' is out of place' FROM "
+            "(SELECT job, n, count < 1 OR n <> row_number() OVER w - 1 OR first <> lag("
+            "first + count, 1, 0::bigint) OVER w OR job NOT IN (SELECT job FROM queue) AS "
+            "odd FROM portions WINDOW w AS (PARTITION BY job ORDER BY n)) p WHERE odd "
+            "UNION ALL SELECT sha256 || ' belongs to no record' FROM blobs b WHERE ") +
         unreferenced);
     for (std::size_t row = 0; row < flawed.rows(); ++row)
       found.flaws.push_back(flawed.text(row, 0));
     found.records +=
         static_cast<std::size_t>(_transaction.run("SELECT count(*) FROM uploads").integer(0, 0));
+    look_at_portions();
     look_at_blobs();
   }
 
@@ -67,6 +74,22 @@ class Check {
         attempt("", [&] { read(row_at(rows, row)); });
         last = rows.integer(row, 4);
       }
+    }
+  }
+
+  void look_at_portions() {
+    const Result rows = _transaction.run(
+        "SELECT job, n, count, 'jobs/' || job || ': the answers of portion ' || n || "
+        "' are damaged' FROM portions WHERE body IS NOT NULL");
+    for (std::size_t row = 0; row < rows.rows(); ++row) {
+      const Result body = _transaction.run("SELECT body FROM portions WHERE job = $1 AND n = $2",
+                                           {rows.text(row, 0), rows.integer(row, 1)});
+      store::disk::SolvedPortion portion;
+      auto missing = static_cast<std::uint64_t>(rows.integer(row, 2));
+      if (portion.ParseFromString(body.text(0, 0)))
+        for (const store::disk::SolvedChunk& chunk : portion.chunks())
+          missing -= chunk.answer().converged() + chunk.answer().not_converged();
+      if (missing != 0) found.flaws.push_back(rows.text(row, 3));
     }
   }
 

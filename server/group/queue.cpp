@@ -40,25 +40,27 @@ constexpr const char* select_taken =
     "SELECT j.id, j.owner, j.checksum, j.record, t.attempt, t.crashes, t.cancelled "
     "FROM taken t JOIN jobs j ON j.id = t.job ";
 
-/// $1: epoch, $2: count, $3: meshes held, $4: slack. Candidates are the best two of each mesh that
-/// is held, moved ahead, and the best that have waited; of these the first that nobody else locks,
-/// and then its mates on the mesh.
+/// $1: epoch, $2: count, $3: meshes held, $4: slack, $5: jobs left out. Candidates are the best two
+/// of each mesh that is held, moved ahead, and the best that have waited; of these the first that
+/// nobody else locks, and then its mates on the mesh.
 const std::string claim_statement = std::string(R"(
 WITH candidates AS (
   (SELECT number, class, tag AS place FROM queue
-   WHERE runner IS NULL AND queued < now() - interval '200 ms'
+   WHERE runner IS NULL AND queued < now() - interval '200 ms' AND job <> ALL ($5::text[])
    ORDER BY class, tag, number LIMIT 24)
   UNION ALL
   SELECT q.number, q.class, q.tag - $4::bigint FROM unnest($3::text[]) held CROSS JOIN LATERAL
     (SELECT number, class, tag FROM queue WHERE runner IS NULL AND mesh = held
+       AND job <> ALL ($5::text[])
      ORDER BY class, tag, number LIMIT 2) q
 ), best AS MATERIALIZED (
   SELECT q.mesh, q.class, q.tag FROM candidates c JOIN queue q USING (number)
-  WHERE q.runner IS NULL ORDER BY c.class, c.place, c.number LIMIT 1 FOR UPDATE OF q SKIP LOCKED
+  WHERE q.runner IS NULL AND EXISTS (SELECT FROM servers WHERE epoch = $1::bigint AND NOT dead)
+  ORDER BY c.class, c.place, c.number LIMIT 1 FOR UPDATE OF q SKIP LOCKED
 ), mates AS MATERIALIZED (
   SELECT q.number FROM best b CROSS JOIN LATERAL
     (SELECT number FROM queue WHERE runner IS NULL AND mesh = b.mesh AND class = b.class
-       AND tag <= b.tag + $4::bigint
+       AND tag <= b.tag + $4::bigint AND job <> ALL ($5::text[])
      ORDER BY class, tag, number LIMIT $2::bigint FOR UPDATE SKIP LOCKED) q
 ), taken AS (
   UPDATE queue q SET runner = $1::bigint, attempt = attempt + 1, claimed = now()
@@ -174,9 +176,9 @@ std::vector<Queue::Claim> Queue::claims_of(const Result& rows) {
   return claims;
 }
 
-std::vector<Queue::Claim> Queue::claim(std::size_t count, const std::vector<std::string>& held) {
-  return claims_of(query(_pool, claim_statement,
-                         {_epoch.load(), static_cast<std::uint64_t>(count), Value(held), slack}));
+std::vector<Queue::Claim> Queue::claim(std::size_t count, const std::vector<std::string>& held,
+                                       const std::vector<std::string>& except) {
+  return claims_of(query(_pool, claim_statement, {_epoch.load(), count, held, slack, except}));
 }
 
 std::optional<Queue::Claim> Queue::claim_to_cancel(const std::string& job) {

@@ -161,22 +161,17 @@ std::optional<store::GroupState> Store::group() const {
   const std::int64_t now = store::to_disk(records::Clock::now());
   const Result row = postgres::query(
       _pool,
-      "SELECT s.*, coalesce(pg_sequence_last_value(pg_get_serial_sequence('servers', 'epoch')), "
-      "0), q.*, (extract(epoch FROM clock_timestamp()) * 1000000000)::bigint FROM "
+      "SELECT s.*, q.*, (extract(epoch FROM clock_timestamp()) * 1000000000)::bigint FROM "
       "(SELECT count(*) FILTER (WHERE NOT dead), count(*) FILTER (WHERE dead) FROM servers) s, "
       "(SELECT count(*) FILTER (WHERE runner IS NULL), count(runner), coalesce((extract(epoch "
       "FROM now() - min(queued) FILTER (WHERE runner IS NULL)) * 1000)::bigint, 0) FROM queue) q");
   const auto number = [&](int column) {
     return static_cast<std::uint64_t>(row.integer(0, column));
   };
-  const double wait = static_cast<double>(row.integer(0, 5)) * 1e-3;
-  return store::GroupState{number(0),
-                           number(1),
-                           number(2),
-                           number(3),
-                           number(4),
-                           wait,
-                           static_cast<double>(row.integer(0, 6) - now) * 1e-9};
+  const double wait = static_cast<double>(row.integer(0, 4)) * 1e-3;
+  return store::GroupState{number(0), number(1),
+                           number(2), number(3),
+                           wait,      static_cast<double>(row.integer(0, 5) - now) * 1e-9};
 }
 
 }  // namespace anticrack::group

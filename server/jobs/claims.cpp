@@ -84,7 +84,7 @@ void Claims::claim() {
           listed = now;
         }
         meshes.insert(meshes.end(), held.begin(), held.end());
-        for (store::Queue::Claim& one : _core.queue->claim(free, meshes)) {
+        for (store::Queue::Claim& one : _core.queue->claim(free, meshes, known(_core))) {
           ++claimed;
           take(_core, std::move(one));
         }
@@ -115,6 +115,7 @@ void Claims::beat() {
     lock.unlock();
     try {
       const store::Queue::News news = _core.queue->beat(ids);
+      _core.leases_lost += news.lost ? 1 : 0;
       for (const JobPtr& job : live) {
         if (news.lost)
           _core.stop(job, Stop::interrupted);

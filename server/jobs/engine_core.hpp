@@ -78,7 +78,7 @@ class EngineCore;
 /// the lock (mesh_news.cpp).
 void hear(EngineCore& core, const meshes::MeshNews& news);
 
-/// The mutex guards everything but the constants and `iterations`. It is never held over I/O, a
+/// The mutex guards everything but the constants and the atomics. It is never held over I/O, a
 /// solve, an event (listeners may come back to the engine) or a stop request.
 class EngineCore {
  public:
@@ -94,7 +94,7 @@ class EngineCore {
   /// Of several servers on one store; null where this one is alone, and `rows` as well.
   store::Queue* const queue;
   const std::shared_ptr<EventRows> rows;
-  std::atomic<std::uint64_t> iterations{0};
+  std::atomic<std::uint64_t> iterations{0}, leases_lost{0};
 
   mutable std::mutex mutex;
   /// Signalled when there is work for the kind of thread.

@@ -10,6 +10,7 @@
 #include "api/translations.hpp"
 #include "contact/answer.hpp"
 #include "contact/sweep_columns.hpp"
+#include "jobs/ended_logs.hpp"
 #include "records/case_record.hpp"
 #include "records/job_record.hpp"
 
@@ -17,8 +18,6 @@ namespace anticrack::jobs {
 
 namespace {
 
-using errors::Error;
-using errors::Reason;
 using v1::WatchJobResponse;
 
 bool is_sample(const NumberedEvent& event) {
@@ -81,9 +80,16 @@ void write(const GrowthEvent& event, WatchJobResponse& to) {
   api::write_fields(*event.row, *step.mutable_row());
 }
 
-Error damaged(const store::EventRow& row) {
-  return {Reason::storage, "the events of jobs/{} up to {} are damaged in the database", row.job,
-          row.last};
+/// Whether it can be the body of a row with this last number.
+bool is_whole(const WatchJobResponse& body, std::uint64_t last) {
+  const v1::Samples& of = body.samples();
+  for (const int count : {of.iteration_size(), of.criterion_size(), of.energy_size(),
+                          of.contact_count_size(), of.kkt_gap_size(), of.kkt_sign_size(),
+                          of.kkt_complementarity_size(), of.kkt_equilibrium_size()})
+    if (count != of.load_case_size()) return false;
+  return body.sequence() > 0 && body.sequence() <= last &&
+         (body.has_samples() || body.has_phase() || body.has_sweep_rows() ||
+          body.has_stage_ended() || body.has_growth_step() || body.load_cases_ended_size() == 1);
 }
 
 std::vector<SampleEvent> read_samples(const v1::Samples& from) {
@@ -116,7 +122,7 @@ RowsEvent read_rows(const v1::SweepRows& from) {
   return {from.first_row(), std::move(columns)};
 }
 
-Event read_event(const WatchJobResponse& from, const store::EventRow& row) {
+Event read_event(const WatchJobResponse& from) {
   switch (from.event_case()) {
     case WatchJobResponse::kPhase:
       return PhaseEvent{static_cast<records::JobState>(from.phase().state()),
@@ -133,7 +139,6 @@ Event read_event(const WatchJobResponse& from, const store::EventRow& row) {
                          std::move(growth)};
     }
     default:
-      if (from.load_cases_ended_size() != 1) throw damaged(row);
       return CaseEvent{
           from.load_cases_ended(0).load_case(),
           std::make_shared<const records::CaseRecord>(
@@ -160,6 +165,7 @@ std::vector<store::EventRow> pack(const std::string& job, int attempt,
               write(kind, body);
           },
           events.front().event);
+    body.set_sequence(events.front().sequence);
     rows.push_back({job, attempt, events[taken - 1].sequence, api::serialized(body)});
     events = events.subspan(taken);
   }
@@ -168,20 +174,15 @@ std::vector<store::EventRow> pack(const std::string& job, int attempt,
 
 void unpack(const store::EventRow& row, EventLog& log) {
   WatchJobResponse body;
-  if (!body.ParseFromString(row.body)) throw damaged(row);
+  if (!body.ParseFromString(row.body) || !is_whole(body, row.last)) return log.lose(row.last);
+  log.jump(sequence_base(static_cast<int>((body.sequence() - 1) >> 40U) + 1));
+  log.lose(body.sequence() - 1);
   if (body.has_samples()) {
-    const v1::Samples& from = body.samples();
-    const int count = from.load_case_size();
-    for (const int other : {from.iteration_size(), from.criterion_size(), from.energy_size(),
-                            from.contact_count_size(), from.kkt_gap_size(), from.kkt_sign_size(),
-                            from.kkt_complementarity_size(), from.kkt_equilibrium_size()})
-      if (other != count) throw damaged(row);
-    log.jump(row.last - static_cast<std::uint64_t>(count));
-    log.append(read_samples(from));
+    log.jump(row.last - static_cast<std::uint64_t>(body.samples().load_case_size()));
+    log.append(read_samples(body.samples()));
   } else {
-    Event event = read_event(body, row);
     log.jump(row.last - 1);
-    log.append(std::move(event));
+    log.append(read_event(body));
   }
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Events as rows of the store, from which other servers serve their watchers. A body is a
-// v1::WatchJobResponse with what a watcher gets.
+// v1::WatchJobResponse with what a watcher gets; its `sequence` is the number of the row's first
+// event.
 #pragma once
 
 #include <span>
@@ -22,8 +23,8 @@ constexpr std::size_t samples_a_row = 64;
 std::vector<store::EventRow> pack(const std::string& job, int attempt,
                                   std::span<const NumberedEvent> events);
 
-/// Appends the events of a row with their numbers. Throws errors::Error (storage) if the body is
-/// none of pack().
+/// Appends the events of a row with their numbers. Those between the log's last event and a row of
+/// the same attempt that does not follow it are lost (EventLog::lose), as is what is damaged.
 void unpack(const store::EventRow& row, EventLog& log);
 
 }  // namespace anticrack::jobs

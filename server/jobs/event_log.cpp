@@ -131,6 +131,7 @@ struct EventLog::State {
   std::deque<Jump> jumps;  ///< ascending; numbers here and below are counts
   std::uint64_t earliest;
   std::uint64_t latest;
+  std::uint64_t held_after = UINT64_MAX;  ///< a sequence number
   bool ended = false;
   /// The list is replaced, never changed, so that a writer can go through it without the lock.
   std::shared_ptr<const Wakes> wakes = std::make_shared<const Wakes>();
@@ -155,17 +156,20 @@ struct EventLog::State {
 
   /// Keeps the newest event whatever its size; the end event is always the newest.
   void trim() {
-    const std::size_t limit =
-        share.budget_exceeded() ? std::min(byte_limit, least_bytes) : byte_limit;
-    while (bytes() > limit && earliest < latest) {
+    if (share.budget_exceeded())
+      trim(std::min(byte_limit, least_bytes), std::min(latest, count_of(held_after)));
+    trim(byte_limit, latest);
+  }
+  void trim(std::size_t limit, std::uint64_t end) {
+    while (bytes() > limit && earliest < end) {
       if (!others.empty() && others.front().numbered.sequence == earliest) {
         other_bytes -= others.front().bytes;
         others.pop_front();
         ++earliest;
       } else {
         const std::uint64_t too_many = (bytes() - limit - 1) / SamplePage::bytes_per_sample + 1;
-        const std::uint64_t next = others.empty() ? latest : others.front().numbered.sequence;
-        const std::uint64_t count = std::min({too_many, next - earliest, latest - earliest});
+        const std::uint64_t next = others.empty() ? end : others.front().numbered.sequence;
+        const std::uint64_t count = std::min({too_many, next - earliest, end - earliest});
         samples.pop_front(count);
         earliest += count;
       }
@@ -281,6 +285,23 @@ void EventLog::jump(std::uint64_t sequence) {
   while (!log.jumps.empty() && log.jumps.back().counted == log.latest) log.jumps.pop_back();
   while (log.jumps.size() > 1 && log.jumps[1].counted < log.earliest) log.jumps.pop_front();
   log.jumps.push_back({log.latest, sequence - log.latest});
+}
+
+void EventLog::lose(std::uint64_t sequence) {
+  const std::lock_guard lock(_state->mutex);
+  State& log = *_state;
+  const std::uint64_t next = log.sequence_of(log.latest + 1);
+  if (log.ended || sequence < next) return;
+  log.samples.pop_front(log.samples.size());
+  log.others.clear();
+  log.other_bytes = 0;
+  log.latest += sequence + 1 - next;
+  log.earliest = log.latest + 1;
+}
+
+void EventLog::hold(std::uint64_t sequence) {
+  const std::lock_guard lock(_state->mutex);
+  _state->held_after = sequence;
 }
 
 std::uint64_t EventLog::earliest() const {

@@ -109,6 +109,11 @@ class EventLog {
   /// follows that of another server, so a reader may be ahead of it: he gets what comes after his
   /// number, and numbers that are left out are nobody's loss.
   void jump(std::uint64_t sequence);
+  /// The events up to `sequence` that the log does not have will not come: readers of these are
+  /// told as if they had been dropped, with all before them.
+  void lose(std::uint64_t sequence);
+  /// Events after `sequence` are not dropped for the budget, only for `byte_limit`.
+  void hold(std::uint64_t sequence);
 
   std::uint64_t earliest() const;  ///< sequence of the oldest event kept; else latest()+1
   std::uint64_t latest() const;    ///< `base` before the first event

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/event_rows.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <set>
 #include <utility>
@@ -34,11 +35,9 @@ std::vector<NumberedEvent> rest_of(const EventLog& log, std::uint64_t after) {
   std::vector<NumberedEvent> events;
   for (;;) {
     try {
-      events = log.read(after, events_at_once);
+      events = log.read(std::max(after, log.earliest() - 1), events_at_once);
       break;
-    } catch (const Error& error) {
-      if (error.reason() != Reason::sequence_trimmed || log.earliest() <= after + 1) throw;
-      after = log.earliest() - 1;
+    } catch (const Error&) {  // it was trimmed meanwhile
     }
   }
   if (!events.empty() && std::holds_alternative<EndEvent>(events.back().event)) events.pop_back();
@@ -54,6 +53,7 @@ void EventRows::publish(const std::vector<JobPtr>& jobs) {
     std::vector<store::EventRow> rows;
     std::vector<std::pair<JobPtr, std::uint64_t>> written;
     for (const JobPtr& job : jobs) {
+      job->log->hold(job->published);
       const std::vector<NumberedEvent> events = rest_of(*job->log, job->published);
       if (events.empty()) continue;
       more = more || events.size() == events_at_once;
@@ -83,6 +83,7 @@ std::shared_ptr<EventLog> EventRows::follow(const records::JobRecord& record) {
 void EventRows::follow(const std::string& job, const std::shared_ptr<EventLog>& log) {
   const std::uint64_t latest = log->latest();
   log->jump(latest);
+  log->hold(UINT64_MAX);
   const std::lock_guard lock(_mutex);
   _followed[job] = {log, latest};
 }

@@ -205,6 +205,7 @@ EngineMetrics JobEngine::metrics() const {
   metrics.load_cases_ended = core.cases_ended;
   metrics.iterations = core.iterations;
   metrics.results_expired = core.results_expired;
+  metrics.leases_lost = core.leases_lost;
   metrics.jobs_queued = static_cast<int>(core.admission.waiting());
   metrics.jobs_running = core.running;
   metrics.columns = core.columns;

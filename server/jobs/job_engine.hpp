@@ -68,6 +68,7 @@ struct EngineMetrics {
   std::uint64_t load_cases_ended = 0;  ///< rows of sweeps included
   std::uint64_t iterations = 0;
   std::uint64_t results_expired = 0;
+  std::uint64_t leases_lost = 0;                 ///< of this server, in a group
   int jobs_queued = 0;                           ///< now, including those that wait for a mesh
   int jobs_running = 0;                          ///< now
   int columns = 0;                               ///< load cases on solver threads now

@@ -117,7 +117,7 @@ struct Metrics::State {
       append(all, process_families(started));
       const Snapshot now = read();
       append(all, server_families(now));
-      if (now.group) append(all, group_families(*now.group));
+      if (now.group) append(all, group_families(*now.group, now.engine.leases_lost));
     });
     std::string text;
     quietly([&] { text = prometheus::TextSerializer().Serialize(all); });

@@ -95,7 +95,8 @@ std::ptrdiff_t open_descriptors() {
 
 }  // namespace
 
-std::vector<MetricFamily> group_families(const store::GroupState& group) {
+std::vector<MetricFamily> group_families(const store::GroupState& group,
+                                         std::uint64_t leases_lost) {
   const auto by_state = [](const char* name, const char* help,
                            std::initializer_list<std::pair<const char*, std::uint64_t>> values) {
     MetricFamily family{name, help, MetricType::Gauge, {}};
@@ -111,8 +112,7 @@ std::vector<MetricFamily> group_families(const store::GroupState& group) {
                {{"living", group.living}, {"dead", group.dead}}),
       by_state("anticrack_group_jobs", "Jobs of all servers that have not ended, by state.",
                {{"waiting", group.waiting}, {"running", group.running}}),
-      counter("anticrack_group_registrations_total",
-              "Registrations of servers, at a start and after a lost lease.", group.registrations),
+      counter("anticrack_group_leases_lost_total", "Leases that this server lost.", leases_lost),
       gauge("anticrack_group_oldest_wait_seconds", "Longest wait of a job for a server.",
             group.oldest_wait),
       gauge("anticrack_store_clock_offset_seconds",

@@ -89,8 +89,9 @@ class Queue {
   };
   /// Claims the most urgent job and others on its mesh, `count` at most. A job on one of the meshes
   /// `held` may jump ahead of others by a bounded number of turns of owners; other jobs wait 200 ms
-  /// for a server that holds theirs.
-  virtual std::vector<Claim> claim(std::size_t count, const std::vector<std::string>& held) = 0;
+  /// for a server that holds theirs. None of `except` is claimed, nor any after a lost lease.
+  virtual std::vector<Claim> claim(std::size_t count, const std::vector<std::string>& held,
+                                   const std::vector<std::string>& except) = 0;
   /// Notes that whoever has this job is to cancel it. If nobody has it, it is claimed.
   virtual std::optional<Claim> claim_to_cancel(const std::string& job) = 0;
 

@@ -79,7 +79,6 @@ struct EndedJob {
 /// What several servers on one store are at.
 struct GroupState {
   std::uint64_t living = 0, dead = 0;      ///< servers; dead ones have not started again
-  std::uint64_t registrations = 0;         ///< of servers, ever: at a start, and after a lost lease
   std::uint64_t waiting = 0, running = 0;  ///< jobs
   double oldest_wait = 0;                  ///< of these [s], by the store's clock
   double clock_offset = 0;                 ///< the store's clock less this machine's [s]

@@ -10,6 +10,7 @@
 #include "group/store.hpp"
 #include "store/contract_fixture.hpp"
 #include "store/record_codec.hpp"
+#include "store/records.pb.h"
 #include "support/flip.hpp"
 
 namespace anticrack::store {
@@ -105,7 +106,7 @@ TEST_F(GroupCopy, GoesOnWithWhatHadNotEnded) {
   const std::unique_ptr<Store> store = opened();
   std::this_thread::sleep_for(std::chrono::milliseconds(250));  // for servers that hold the meshes
   std::map<std::string, std::pair<int, int>> attempts;
-  for (const Queue::Claim& claim : store->queue()->claim(10, {}))
+  for (const Queue::Claim& claim : store->queue()->claim(10, {}, {}))
     attempts[claim.record.id] = {claim.record.attempt, claim.record.crashes};
   EXPECT_EQ(attempts, (std::map<std::string, std::pair<int, int>>{
                           {"waits1", {1, 0}}, {"waits2", {1, 0}}, {"runs", {4, 1}}}));
@@ -134,6 +135,14 @@ TEST_F(GroupCopy, RefusesADatabaseThatHasRecords) {
 
 TEST_F(GroupCopy, ChecksFindEachDamage) {
   copy();
+  disk::SolvedPortion portion;
+  for (const int rows : {3, 1}) portion.add_chunks()->mutable_answer()->set_converged(rows);
+  postgres::query(
+      pool,
+      "INSERT INTO portions SELECT 'runs', n, 4 * n, least(4, 10 - 4 * n), NULL, CASE n "
+      "WHEN 1 THEN $1::bytea END FROM generate_series(0, 2) n",
+      {postgres::Value::bytes(portion.SerializeAsString())});
+  ASSERT_THAT(flaws(), IsEmpty());
   const std::string some = "(SELECT min(sha256) FROM blobs WHERE kind = ";
   std::vector<std::string> damages{
       "UPDATE meshes SET checksum = checksum + 1 WHERE id = 'm1'",
@@ -142,6 +151,12 @@ TEST_F(GroupCopy, ChecksFindEachDamage) {
       "UPDATE meshes SET blob = NULL WHERE id = 'm2'",
       "DELETE FROM queue WHERE job = 'waits1'",
       "INSERT INTO blobs VALUES (repeat('0', 64), 2, 0)",
+      "UPDATE portions SET count = count - 1 WHERE n = 0",
+      "UPDATE portions SET first = first + 1 WHERE n = 2",
+      "UPDATE portions SET n = 7 WHERE n = 2",
+      "UPDATE portions SET job = 'unknown'",
+      "UPDATE portions SET body = substr(body, 1, octet_length(body) - 1) WHERE n = 1",
+      "UPDATE portions SET body = substr(body, 1, octet_length(body) / 2) WHERE n = 1",
   };
   for (const char* kind : {"0", "1", "2"}) {
     const std::string one = "sha256 = " + some + kind + ")";
@@ -156,6 +171,7 @@ TEST_F(GroupCopy, ChecksFindEachDamage) {
   for (const std::string& damage : damages) {
     std::vector<std::string> found;
     EXPECT_ANY_THROW(postgres::transact(pool, [&](postgres::Transaction& transaction) {
+      transaction.execute("ALTER TABLE portions DROP CONSTRAINT portions_job_fkey");
       EXPECT_NE(transaction.run(damage).affected(), 0U) << damage;
       found = group::check(transaction).flaws;
       throw std::runtime_error("undone");

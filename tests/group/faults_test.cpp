@@ -65,7 +65,7 @@ TEST_P(GroupFaults, JobsOfTheQueueEndOnceWhateverIsLost) {
                 queue.create(record, "print", {1, 1}, [](const auto&) {});
               }
               while (!store->unfinished().empty()) {
-                std::vector<Queue::Claim> claims = queue.claim(2, {"m"});
+                std::vector<Queue::Claim> claims = queue.claim(2, {"m"}, {});
                 if (claims.empty()) queue.give_back({});
                 for (auto& [record, cancelled] : claims) {
                   record.state = records::JobState::running;
@@ -100,7 +100,7 @@ TEST_P(GroupFaults, PortionsOfASweepAreSolvedOnceWhateverIsLost) {
               record.spec.mesh = "m";
               queue.create(record, "print", {1, 1}, [](const auto&) {});
               std::vector<Queue::Claim> claims;
-              while ((claims = queue.claim(1, {"m"})).empty()) queue.give_back({});
+              while ((claims = queue.claim(1, {"m"}, {})).empty()) queue.give_back({});
               record = claims[0].record;
               queue.spread("one", record.attempt, 10, 4);
               EXPECT_FALSE(queue.to_help({}, {})) << "it runs here";

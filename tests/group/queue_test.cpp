@@ -64,7 +64,7 @@ class GroupQueue : public ::testing::Test {
   /// Claims with a mesh that is held, so that nothing has to wait.
   static Claims claim(Store& by, std::size_t count = 1,
                       const std::vector<std::string>& held = {"m"}) {
-    return by.queue()->claim(count, held);
+    return by.queue()->claim(count, held, {});
   }
 
   /// A sweep of 10 rows that `by` runs, in portions of 4, 4 and 2.
@@ -204,6 +204,28 @@ TEST_F(GroupQueue, AcceptsNothingFromAServerThatHasLostTheJob) {
   EXPECT_THROW(a->finish(ended(old), nullptr), store::JobTaken);
   EXPECT_EQ(a->job("one")->attempt, 2);
   EXPECT_EQ(a->queue()->ended({"one"}).size(), 1U);
+}
+
+TEST_F(GroupQueue, ClaimsNoJobThatIsLeftOut) {
+  for (const char* id : {"one", "two", "three"}) submit(*a, job(id));
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));  // others may have them now
+  std::set<std::string> ids;
+  for (const char* held : {"m", "another"})
+    for (const auto& one : a->queue()->claim(1, {held}, {"one"})) ids.insert(one.record.id);
+  EXPECT_EQ(ids, (std::set<std::string>{"two", "three"}));
+  EXPECT_TRUE(a->queue()->claim(3, {"m"}, {"one"}).empty());
+  submit(*a, job("four"));
+  EXPECT_EQ(a->queue()->claim(3, {"m"}, {"one"}).size(), 1U) << "nor as a mate of another";
+  EXPECT_EQ(claim(*b).at(0).record.attempt, 1);
+}
+
+/// Else it would lose with its next beat what it takes now.
+TEST_F(GroupQueue, ClaimsNothingOnceItsLeaseIsLost) {
+  submit(*a, job("one"));
+  declare_dead("(SELECT min(epoch) FROM anticrack.servers)");
+  EXPECT_TRUE(claim(*a).empty());
+  EXPECT_TRUE(a->queue()->beat({}).lost);
+  EXPECT_EQ(claim(*a).at(0).record.attempt, 1);
 }
 
 TEST_F(GroupQueue, CountsACrashOnlyOfAProcessThatDiedWhileTheJobRan) {

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <span>
 
+#include "anticrack/v1/solve.pb.h"
 #include "contact/answer.hpp"
 #include "contact/sweep_columns.hpp"
 #include "jobs/event_codec.hpp"
@@ -152,14 +154,87 @@ TEST(EventRows, KeepWhatTheyAreAndTheirNumbers) {
   EXPECT_EQ(std::get<CaseEvent>(of(9)).record->answer.energy, -0.1);
 }
 
-TEST(EventRows, ThatAreDamagedAreRefused) {
+/// What readers with each cursor get of events of which `lost` have no row.
+void expect_told(const std::vector<NumberedEvent>& events, std::span<const store::EventRow> rows,
+                 std::size_t lost) {
   EventLog log(roomy);
-  std::vector<store::EventRow> rows = pack("job", 1, a_job(1));
-  for (store::EventRow& row : rows) {
-    row.body = "not a message";
-    EXPECT_TRUE(throws([&] { unpack(row, log); }, Reason::storage));
+  log.jump(0);
+  for (const store::EventRow& row : rows) unpack(row, log);
+  EXPECT_EQ(log.latest(), events.back().sequence);
+  const std::uint64_t first = events[lost].sequence;
+  EXPECT_EQ(log.earliest(), first);
+  for (const NumberedEvent& event : events) {
+    const std::uint64_t after = event.sequence - 1;
+    if (after + 1 < first) {
+      const auto error = anticrack::testing::error_of([&] { log.read(after, 1); });
+      ASSERT_TRUE(error) << after;
+      EXPECT_EQ(error->reason(), Reason::sequence_trimmed);
+      EXPECT_EQ(error->metadata().at("earliest_sequence"), std::to_string(first));
+      EXPECT_EQ(error->metadata().at("latest_sequence"), std::to_string(log.latest()));
+    } else {
+      EXPECT_EQ(log.read(after, events.size()).size(), events.back().sequence - after);
+    }
   }
-  EXPECT_TRUE(throws([&] { unpack({"job", 1, 5, ""}, log); }, Reason::storage));
+}
+
+/// The runner's log may have dropped events before they were written.
+TEST(EventRows, TellWhoseEventsWereLost) {
+  for (const int attempt : {1, 2}) {
+    const auto base = static_cast<std::uint64_t>(attempt - 1) << 40U;
+    std::vector<NumberedEvent> events;
+    for (int number = 1; number <= 30; ++number)
+      events.push_back({base + static_cast<std::uint64_t>(number), mixed(number)});
+    for (std::size_t from = 0; from < 20; from += 7) {
+      std::vector<store::EventRow> rows = pack("job", attempt, std::span(events).first(from));
+      for (store::EventRow& row : pack("job", attempt, std::span(events).subspan(20)))
+        rows.push_back(std::move(row));
+      expect_told(events, rows, 20);
+    }
+  }
+}
+
+TEST(EventRows, OfAnotherAttemptTellOfNoLoss) {
+  EventLog log(roomy);
+  log.jump(0);
+  for (const std::uint64_t base : {std::uint64_t{0}, std::uint64_t{3} << 40U})
+    for (const store::EventRow& row : pack("job", 1, a_job(base + 1))) unpack(row, log);
+  EXPECT_EQ(log.read(0, 1).at(0).sequence, 1U);
+  EXPECT_FALSE(log.read(a_job(1).back().sequence, 1).empty());
+}
+
+TEST(EventRows, ThatAreDamagedAreLost) {
+  const std::vector<NumberedEvent> events = a_job(1);
+  const std::vector<store::EventRow> sound = pack("job", 1, events);
+  v1::WatchJobResponse heartbeat;
+  heartbeat.set_sequence(1);
+  heartbeat.mutable_heartbeat();
+  for (std::size_t i = 0; i + 1 < sound.size(); ++i)
+    for (const std::string& body :
+         {std::string("not a message"), std::string(), heartbeat.SerializeAsString()}) {
+      std::vector<store::EventRow> rows = sound;
+      rows[i].body = body;
+      EventLog log(roomy);
+      for (const store::EventRow& row : rows) unpack(row, log);
+      EXPECT_TRUE(throws([&] { log.read(sound[i].last - 1, 1); }, Reason::sequence_trimmed));
+      EXPECT_EQ(log.read(sound[i].last, SIZE_MAX).back().sequence, events.back().sequence);
+    }
+}
+
+/// What other servers have not yet been told is dropped for the log's own limit only.
+TEST(EventLogHold, KeepsWhatIsNotWritten) {
+  const auto budget = std::make_shared<MemoryBudget>(1);
+  const MemoryShare much(budget, 2);
+  EventLog log(roomy, 0, budget);
+  log.hold(0);
+  constexpr int many = 20'000;
+  log.append(samples(1, many));
+  EXPECT_EQ(log.earliest(), 1U);
+  log.hold(5);
+  log.append(sample(0, many + 1));
+  EXPECT_EQ(log.earliest(), 5U);
+  log.hold(UINT64_MAX);
+  log.append(sample(0, many + 2));
+  EXPECT_LE(log.bytes(), EventLog::least_bytes);
 }
 
 }  // namespace

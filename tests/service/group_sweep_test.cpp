@@ -169,6 +169,8 @@ TEST_F(GroupLongSweep, TellsWatchersEachRowOnceThoughAHelperDies) {
 TEST_F(GroupLongSweep, GoesOnWhereADeadServerLeftIt) {
   const std::string name = begin(sweep);
   runner().kill();
+  EXPECT_GT(count("portions WHERE body IS NOT NULL"), 0U);
+  EXPECT_EQ(helper().run_on_data({"--store", url, "--check-store"}).code, 0);
   const std::size_t before = noted();
   client::Connection connection(helper().connection());
   std::set<std::uint64_t> rows;

@@ -97,6 +97,8 @@ class Session:
                         return
             except ServerError as error:
                 if error.code == "OUT_OF_RANGE" and after:
+                    LOG.warning("events of %s after number %d are gone; starting again from the earliest", name,
+                                after)
                     after = 0
                     continue
                 lost = error

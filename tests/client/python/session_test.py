@@ -143,7 +143,9 @@ class Watches(unittest.TestCase):
 
     def test_start_again_where_events_were_trimmed(self):
         trimmed = ServerError("OUT_OF_RANGE", "trimmed", "SEQUENCE_TRIMMED")
-        seen, asked = self.watch([phase(5), LOST], [trimmed], [snapshot(9), phase(7), ended(9)])
+        with self.assertLogs("anticrack", "WARNING") as said:
+            seen, asked = self.watch([phase(5), LOST], [trimmed], [snapshot(9), phase(7), ended(9)])
+        self.assertIn("events of jobs/1 after number 5 are gone", said.output[-1])
         self.assertEqual([number for number, _ in seen], [5, 9, 7, 9])
         self.assertEqual(asked, [0, 5, 0])
 
