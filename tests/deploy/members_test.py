@@ -17,6 +17,8 @@ LEASE = 6  # seconds, server/group/leases.hpp
 
 
 class MembersTest(FolderTest):
+    attempts = 1
+
     def setUp(self):
         super().setUp()
         self.database = Database(self.folder)
@@ -30,9 +32,11 @@ class MembersTest(FolderTest):
         return member
 
     def client(self, member, *words):
-        ended = run(ANTICRACK, "--server", f"127.0.0.1:{member.port}", *words)
-        self.assertEqual(ended.returncode, 0, ended.stdout + ended.stderr)
-        return ended.stdout
+        for _ in range(self.attempts):
+            ended = run(ANTICRACK, "--server", f"127.0.0.1:{member.port}", *words)
+            if ended.returncode == 0:
+                return ended.stdout
+        self.fail(ended.stdout + ended.stderr)
 
     def submit(self, member, iterations):
         settings = ("method=uzawa", "theta=1e-4", "epsilon=1e-300", f"max_iterations={iterations}")
@@ -40,8 +44,13 @@ class MembersTest(FolderTest):
         return re.search(r"jobs/\w+", self.client(member, "job", "submit", EXAMPLES / "paper-3.toml", *words)).group(0)
 
     def job(self, member, name):
-        with anticrack.connect(f"127.0.0.1:{member.port}") as client:
-            return client.job(name)
+        for left in reversed(range(self.attempts)):
+            try:
+                with anticrack.connect(f"127.0.0.1:{member.port}") as client:
+                    return client.job(name)
+            except anticrack.ServerError:
+                if left == 0:
+                    raise
 
     def runs(self, member, name, attempt=1):
         job = self.job(member, name)
@@ -57,18 +66,17 @@ class MembersTest(FolderTest):
 class Members(MembersTest):
     def test_of_one_name_by_a_copied_folder_do_no_harm(self):
         first = self.add("a")
-        name = self.submit(first, 100_000)
+        name = self.submit(first, 200_000)
         eventually(lambda: self.runs(first, name))
         (self.folder / "b/data").mkdir(parents=True)
         shutil.copy(self.folder / "a/data/server", self.folder / "b/data/server")
         second = self.add("b")  # as if the first had died and this were its next start
         job = self.ended(second, name)
-        job = self.ended(second, name)
         self.assertEqual(job.state, "not_converged")
         self.assertEqual(job.message.status.attempt, 2, "the first lost it once")
-        self.assertEqual(job.message.status.answers[0].iterations, 100_000)
+        self.assertEqual(job.message.status.answers[0].iterations, 200_000)
         for member in (first, second):  # both are in the group, and stay there
-            self.assertEqual(member.metric("anticrack_group_servers"), 2)
+            eventually(lambda one=member: one.metric("anticrack_group_servers") == 2)
             self.ended(member, self.submit(member, 10))
         self.assertEqual(self.sql("SELECT count(DISTINCT name), max(epoch) FROM anticrack.servers"), "1|3")
         self.assertEqual([one.metric("anticrack_group_leases_lost_total") for one in (first, second)], [1, 0])
@@ -96,6 +104,7 @@ class Members(MembersTest):
 
     def test_whose_clocks_differ_by_a_minute_keep_their_leases(self):
         self.assertTrue(FAKETIME)
+        self.attempts = 3  # a gRPC server under libfaketime refuses a connection now and then
         clocks = {"a": 0, "b": 60, "c": -60}
         fake = {name: {"LD_PRELOAD": FAKETIME, "FAKETIME": f"{offset:+d}s", "DONT_FAKE_MONOTONIC": "1"}
                 for name, offset in clocks.items() if offset}
@@ -108,14 +117,14 @@ class Members(MembersTest):
             self.assertEqual(self.ended(member, name).message.status.attempt, 1)
         eventually(lambda: int(self.sql("SELECT min(beats) FROM anticrack.servers")) > begun + LEASE + 3)
         self.assertEqual(self.sql("SELECT count(*) FILTER (WHERE NOT dead), max(epoch) FROM anticrack.servers"), "3|3")
-        name = self.submit(members["a"], 30_000)
+        name = self.submit(members["a"], 100_000)
         runner = eventually(lambda: self.sql("SELECT name FROM anticrack.servers JOIN anticrack.queue ON epoch = runner"
                                              f" WHERE job = '{name.removeprefix('jobs/')}'"))
         victim = next(one for one in members if (self.folder / one / "data/server").read_text("utf-8") == runner)
         eventually(lambda: self.runs(members[victim], name))
         members.pop(victim).kill()
         job = self.ended(next(iter(members.values())), name)
-        self.assertEqual((job.message.status.attempt, job.message.status.answers[0].iterations), (2, 30_000))
+        self.assertEqual((job.message.status.attempt, job.message.status.answers[0].iterations), (2, 100_000))
 
 
 class Backup(MembersTest):
@@ -153,7 +162,7 @@ class CopyStore(MembersTest):
     def test_goes_on_with_the_jobs_of_the_folder(self):
         with Daemon(self.folder, "--drain-time", "0") as alone:
             self.client(alone, "run", EXAMPLES / "slit.toml", "-o", self.folder / "before.h5")
-            running = self.submit(alone, 30_000)
+            running = self.submit(alone, 100_000)
             eventually(lambda: self.runs(alone, running))
             ended = self.copy()
             self.assertEqual(ended.returncode, 2)
@@ -166,7 +175,7 @@ class CopyStore(MembersTest):
         self.assertEqual(ended.returncode, 1)
         self.assertIn("give an empty one", ended.stderr)
         member = self.add("a")
-        self.assertEqual(self.ended(member, running).message.status.answers[0].iterations, 30_000)
+        self.assertEqual(self.ended(member, running).message.status.answers[0].iterations, 100_000)
         self.client(member, "job", "list")
         ended = run(ANTICRACKD, "--data-dir", self.folder / "data", "--store", self.url)
         self.assertEqual(ended.returncode, 1)

@@ -18,7 +18,7 @@ PROGRAMS = max(pathlib.Path("/usr/lib/postgresql").glob("*/bin"), default=pathli
 HAPROXY = shutil.which("haproxy", path=os.environ.get("PATH", "") + ":/usr/sbin")
 
 
-def eventually(holds, seconds=60):
+def eventually(holds, seconds=180):
     """The first true value of holds(); fails when it takes too long."""
     limit = time.monotonic() + seconds
     while not (value := holds()):
