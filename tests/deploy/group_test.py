@@ -129,7 +129,7 @@ class Mesh(GroupTest):
 class Failover(GroupTest):
     """A long run at a client that knows haproxy only."""
 
-    ITERATIONS = 40_000
+    ITERATIONS = 200_000
 
     def start_run(self, name):
         """Returns the client, the job once it iterates, and the server that its watch is at."""
@@ -150,7 +150,7 @@ class Failover(GroupTest):
         return (self.folder / name).read_text(encoding="utf-8")
 
     def assert_ran(self, client, name):
-        self.assertEqual(client.wait(60), 3, self.told(name))  # did not converge, as it was told to go on
+        self.assertEqual(client.wait(180), 3, self.told(name))  # did not converge, as it was told to go on
         with self.connect() as one:
             job = one.jobs(1)[0].refresh()
             self.assertEqual(job.message.status.answers[0].iterations, self.ITERATIONS)

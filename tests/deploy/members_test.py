@@ -66,7 +66,7 @@ class MembersTest(FolderTest):
 class Members(MembersTest):
     def test_of_one_name_by_a_copied_folder_do_no_harm(self):
         first = self.add("a")
-        name = self.submit(first, 200_000)
+        name = self.submit(first, 1_000_000)
         eventually(lambda: self.runs(first, name))
         (self.folder / "b/data").mkdir(parents=True)
         shutil.copy(self.folder / "a/data/server", self.folder / "b/data/server")
@@ -74,7 +74,7 @@ class Members(MembersTest):
         job = self.ended(second, name)
         self.assertEqual(job.state, "not_converged")
         self.assertEqual(job.message.status.attempt, 2, "the first lost it once")
-        self.assertEqual(job.message.status.answers[0].iterations, 200_000)
+        self.assertEqual(job.message.status.answers[0].iterations, 1_000_000)
         for member in (first, second):  # both are in the group, and stay there
             eventually(lambda one=member: one.metric("anticrack_group_servers") == 2)
             self.ended(member, self.submit(member, 10))
@@ -85,7 +85,7 @@ class Members(MembersTest):
 
     def test_tell_how_the_group_is(self):
         members = [self.add(name) for name in "ab"]
-        name = self.submit(members[0], 100_000)
+        name = self.submit(members[0], 500_000)
         eventually(lambda: self.runs(members[0], name))
         for member in members:
             ended = run("promtool", "check", "metrics", input=member.page()[1])
@@ -117,14 +117,14 @@ class Members(MembersTest):
             self.assertEqual(self.ended(member, name).message.status.attempt, 1)
         eventually(lambda: int(self.sql("SELECT min(beats) FROM anticrack.servers")) > begun + LEASE + 3)
         self.assertEqual(self.sql("SELECT count(*) FILTER (WHERE NOT dead), max(epoch) FROM anticrack.servers"), "3|3")
-        name = self.submit(members["a"], 100_000)
+        name = self.submit(members["a"], 400_000)
         runner = eventually(lambda: self.sql("SELECT name FROM anticrack.servers JOIN anticrack.queue ON epoch = runner"
                                              f" WHERE job = '{name.removeprefix('jobs/')}'"))
         victim = next(one for one in members if (self.folder / one / "data/server").read_text("utf-8") == runner)
         eventually(lambda: self.runs(members[victim], name))
         members.pop(victim).kill()
         job = self.ended(next(iter(members.values())), name)
-        self.assertEqual((job.message.status.attempt, job.message.status.answers[0].iterations), (2, 100_000))
+        self.assertEqual((job.message.status.attempt, job.message.status.answers[0].iterations), (2, 400_000))
 
 
 class Backup(MembersTest):
@@ -162,7 +162,7 @@ class CopyStore(MembersTest):
     def test_goes_on_with_the_jobs_of_the_folder(self):
         with Daemon(self.folder, "--drain-time", "0") as alone:
             self.client(alone, "run", EXAMPLES / "slit.toml", "-o", self.folder / "before.h5")
-            running = self.submit(alone, 100_000)
+            running = self.submit(alone, 500_000)
             eventually(lambda: self.runs(alone, running))
             ended = self.copy()
             self.assertEqual(ended.returncode, 2)
@@ -175,7 +175,7 @@ class CopyStore(MembersTest):
         self.assertEqual(ended.returncode, 1)
         self.assertIn("give an empty one", ended.stderr)
         member = self.add("a")
-        self.assertEqual(self.ended(member, running).message.status.answers[0].iterations, 100_000)
+        self.assertEqual(self.ended(member, running).message.status.answers[0].iterations, 500_000)
         self.client(member, "job", "list")
         ended = run(ANTICRACKD, "--data-dir", self.folder / "data", "--store", self.url)
         self.assertEqual(ended.returncode, 1)
