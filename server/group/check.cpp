@@ -96,10 +96,10 @@ class Check {
   void look_at_blobs() {
     for (std::string last;;) {
       const Result rows = _transaction.run(
-          "SELECT sha256, kind, bytes, (SELECT count(*) = (bytes + 1048575) / 1048576 "
+          "SELECT sha256, kind, bytes, (SELECT count(*) = (bytes + $2 - 1) / $2 "
           "AND coalesce(sum(octet_length(body)), 0) = bytes FROM pieces p WHERE p.sha256 = "
           "b.sha256) FROM blobs b WHERE sha256 > $1 ORDER BY sha256 LIMIT 100",
-          {last});
+          {last, piece_bytes});
       if (rows.empty()) return;
       for (std::size_t row = 0; row < rows.rows(); ++row) {
         ++found.files;
