@@ -134,7 +134,6 @@ class EngineCore {
   int not_announced = 0;  ///< jobs that the ending thread has and whose end was not told
   int running = 0;        ///< jobs that started and have not ended
   int columns = 0;        ///< load cases on solver threads; a chunk counts as one
-  int busy = 0;           ///< solver threads that have a turn
 
   /// Waits for meshes. It is the last member, so that no news comes when the others are destroyed.
   meshes::MeshWaits waits;

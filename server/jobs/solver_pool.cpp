@@ -112,7 +112,6 @@ void SolverPool::work() {
         _working.insert(_working.end(), Working{turn->mesh, turn->owner, now, now});
     keep_a_spare();
     ++mesh->threads;
-    ++_core.busy;
     lock.unlock();
     if (turn->lane == Lane::active_set)
       solve_exactly(mesh, *working);
@@ -122,7 +121,6 @@ void SolverPool::work() {
       iterate(mesh, turn->lane, *working);
     lock.lock();
     --mesh->threads;
-    --_core.busy;
     _working.erase(working);
     _core.schedule.served(mesh->id, Clock::now());
     _core.release(mesh);

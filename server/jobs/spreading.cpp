@@ -25,6 +25,13 @@ std::size_t threads(const EngineCore& core) {
   return static_cast<std::size_t>(std::max(1, core.options.threads));
 }
 
+/// Whether each solver thread has a turn. With the lock held.
+bool all_busy(const EngineCore& core) {
+  std::size_t busy = 0;
+  for (const auto& [id, mesh] : core.meshes) busy += static_cast<std::size_t>(mesh->threads);
+  return busy >= threads(core);
+}
+
 /// Units that wait for a thread, of all jobs. With the lock held.
 std::size_t waiting_here(const EngineCore& core) {
   std::size_t waiting = 0;
@@ -98,8 +105,7 @@ void take_more(EngineCore& core, const JobPtr& job, SpreadSweep& spread, bool lo
   const std::size_t waiting = job->helps ? waiting_here(core) : job->units - job->next_unit;
   const bool served = job->active > 1;
   if (served || job->next_unit == job->units) spread.served = now;
-  const bool may = !job->helps || ((served || core.busy < static_cast<int>(most)) &&
-                                   now - spread.begun < help_for);
+  const bool may = !job->helps || ((served || !all_busy(core)) && now - spread.begun < help_for);
   const std::size_t wanted =
       may && waiting <= most ? (2 * most - waiting + plan.portion_chunks - 1) / plan.portion_chunks
                              : 0;
@@ -145,11 +151,11 @@ void leave_sweep(EngineCore& core, const JobPtr& job) {
   const bool anew = found != core.jobs.end() && found->second != job;  // it has the portions
   lock.unlock();
   try {
-    if (anew || why == Stop::none) {
-    } else if (job->helps || why == Stop::interrupted) {
-      core.queue->give_back_portions(job->id());
-    } else {
-      core.queue->withdraw_portions(job->id(), job->created.attempt);
+    if (!anew && why != Stop::none) {
+      if (job->helps || why == Stop::interrupted)
+        core.queue->give_back_portions(job->id());
+      else
+        core.queue->withdraw_portions(job->id(), job->created.attempt);
     }
   } catch (const Error&) {
     // They go with the job, or with the lease of this server.
@@ -222,8 +228,7 @@ void help(EngineCore& core, const std::vector<std::string>& meshes_held) {
   Lock lock(core.mutex);
   const bool helps =
       std::ranges::any_of(core.numbers, [](const auto& entry) { return entry.second->helps; });
-  if (core.draining || core.memory->exceeded() || helps || waiting_here(core) > 0 ||
-      core.busy >= static_cast<int>(threads(core)))
+  if (core.draining || core.memory->exceeded() || helps || waiting_here(core) > 0 || all_busy(core))
     return;
   const std::vector<std::string> except(core.not_helped.begin(), core.not_helped.end());
   lock.unlock();
