@@ -12,27 +12,10 @@ from PIL import Image, ImageSequence
 
 import anticrack
 from anticrack import Error
+from cases import GROWTH
 from processes import ANTICRACKD, FolderTest, run
 
 EXAMPLES = pathlib.Path(os.environ["EXAMPLES"])
-GROWTH = """
-[geometry]
-boundary = [[-1, -1], [1, -1], [1, 1], [-1, 1]]
-[[geometry.inclusion]]
-name = "fibre"
-points = [[-0.5, 0], [0.5, 0]]
-delaminated = true
-[mesh]
-size = 0.08
-[[growth.path]]
-interface = "fibre"
-from = [-0.5, 0]
-to = [0, 0]
-Gc = 0.1
-[[load]]
-name = "shear"
-boundary_value = "y"
-"""
 
 
 class Animations(FolderTest):

@@ -20,27 +20,10 @@ from anticrack.view import scene
 from anticrack.draw import files, studies
 from anticrack.draw.sheet import Look
 from browser import InChromium, viewing
+from cases import GROWTH
 from processes import ANTICRACK, ANTICRACKD, DEBIAN_12, Daemon, FolderTest, run
 
 EXAMPLES = pathlib.Path(os.environ["EXAMPLES"])
-GROWTH = """
-[geometry]
-boundary = [[-1, -1], [1, -1], [1, 1], [-1, 1]]
-[[geometry.inclusion]]
-name = "fibre"
-points = [[-0.5, 0], [0.5, 0]]
-delaminated = true
-[mesh]
-size = 0.08
-[[growth.path]]
-interface = "fibre"
-from = [-0.5, 0]
-to = [0, 0]
-Gc = 0.1
-[[load]]
-name = "shear"
-boundary_value = "y"
-"""
 SLOW = """
 [geometry]
 boundary = [[-1, -1], [1, -1], [1, 1], [-1, 1]]

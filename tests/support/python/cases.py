@@ -1,10 +1,29 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cases as a server reads them."""
+"""Cases that several tests solve, and cases as a server reads them."""
 import functools
 
 import anticrack
 from anticrack.transport import finished
 from processes import ANTICRACKD
+
+GROWTH = """
+[geometry]
+boundary = [[-1, -1], [1, -1], [1, 1], [-1, 1]]
+[[geometry.inclusion]]
+name = "fibre"
+points = [[-0.5, 0], [0.5, 0]]
+delaminated = true
+[mesh]
+size = 0.08
+[[growth.path]]
+interface = "fibre"
+from = [-0.5, 0]
+to = [0, 0]
+Gc = 0.1
+[[load]]
+name = "shear"
+boundary_value = "y"
+"""
 
 
 @functools.cache
