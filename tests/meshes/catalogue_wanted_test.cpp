@@ -127,6 +127,7 @@ TEST_F(Wanted, ByAnOwnerWhoCreatesItBesideItsJobs) {
   EXPECT_EQ(create(true), id);  // a job more does not take it from its owner
   use.reset();
   EXPECT_EQ(state(id), MeshState::meshing);
+  EXPECT_TRUE(meshers(1));
   EXPECT_EQ(backend.catalogue.meshings(), 1U);
   EXPECT_FALSE(backend.store->mesh(id)->for_job) << "after a restart it is wanted still";
 }
