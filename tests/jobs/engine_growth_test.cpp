@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Jobs with growth: rows as they come, what interrupts them, what is refused.
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,6 +10,7 @@
 #include <cstdio>
 #include <future>
 #include <iterator>
+#include <random>
 #include <thread>
 #include <variant>
 
@@ -262,6 +264,59 @@ TEST(GrowthAccuracy, FinalPositionsHaveBoundsOnMeshesOfTheirOwn) {
     EXPECT_LT(worst, 0.01);
     EXPECT_EQ(rows.front().contact_length > 0, load == 1);
   }
+}
+
+/// -dPi/da under the load 1 in the third of five final positions, by the polynomial through the
+/// middles of their bounds, and how far it is from that of the exact Pi at most.
+struct EnergyRate {
+  double value = 0, bound = 0;
+};
+
+EnergyRate energy_rate(const std::vector<contact::GrowthRow>& rows) {
+  EnergyRate rate;
+  const double middle = rows.at(2).position;
+  for (std::size_t i = 0; i < 5; ++i) {
+    double weight = i == 2 ? 0 : 1 / (rows[i].position - middle);
+    for (std::size_t j = 0; j < 5; ++j) {
+      const double x = rows[j].position;
+      if (i == 2 && j != 2) weight += 1 / (middle - x);
+      if (i != 2 && j != 2 && j != i) weight *= (middle - x) / (rows[i].position - x);
+    }
+    const double scale = *rows[i].load * *rows[i].load;
+    rate.value += weight * (*rows[i].energy_lower + *rows[i].energy_upper) / 2 / scale;
+    rate.bound += std::abs(weight) * (*rows[i].energy_upper - *rows[i].energy_lower) / 2 / scale;
+  }
+  return rate;
+}
+
+/// G of the mesh of one position, by the domain integral, is the difference of certified energies
+/// of five adaptive meshes, with the front open and with contact beside it.
+TEST(GrowthAccuracy, IsTheDifferenceOfCertifiedEnergies) {
+  Engine test;
+  records::JobSpec spec = growing_job(test.ready_mesh(size));
+  spec.growth->positions = spec.growth->final_positions = 9;
+  std::mt19937 random(29);
+  std::uniform_real_distribution<double> one(5, 20), place(0.1, 0.4);
+  for (int trial = 0; trial < 4; ++trial)
+    spec.loads.push_back({fmt::format("random {}", trial),
+                          fem::Expression{fmt::format("y > 0 ? 2 : x > {} ? {} : -{}",
+                                                      place(random), one(random), one(random))},
+                          ""});
+  const JobRecord job = test.ended(test.submit(spec));
+  ASSERT_EQ(job.state, JobState::succeeded) << (job.error ? job.error->what() : "");
+  int in_contact = 0;
+  for (const records::CaseRecord& found : job.cases) {
+    ASSERT_GE(found.answer.growth.size(), 5U);
+    const contact::GrowthRow& row = found.answer.growth[2];
+    const EnergyRate rate = energy_rate(found.answer.growth);
+    std::printf("[ figures  ] contact %.3f: G %.5f, by energies %.5f +- %.5f, %.3f %%\n",
+                row.contact_length, *row.g1_final, rate.value, rate.bound,
+                100 * std::abs(rate.value / *row.g1_final - 1));
+    EXPECT_NEAR(rate.value, *row.g1_final, 3e-3 * *row.g1_final);
+    EXPECT_LT(rate.bound, 0.05 * rate.value);
+    in_contact += row.contact_length > 0.05 ? 1 : 0;
+  }
+  EXPECT_GT(in_contact, 2);
 }
 
 /// "opening" grows beside "weight", which holds the front down in part.
