@@ -151,6 +151,28 @@ TEST_F(Group, ADrainedServerGivesItsJobsBackAtOnce) {
   for (const std::string& name : names) EXPECT_TRUE(ran_to_its_end(wait_for_end(b, name)));
 }
 
+/// What was acknowledged is at the standby, where the group goes on by itself.
+TEST_F(Group, GoesOnAtAStandbyThatIsPromoted) {
+  const anticrack::testing::Database standby(&database);
+  url = database.address_or(standby);
+  const Work quick = work("slit.toml"), long_work = work("paper-3.toml", iterations(100'000));
+  client::Connection a(add().connection()), b(add().connection());
+  const std::string ended = submit(a, quick, client::make_uuid()).name();
+  EXPECT_TRUE(ran_to_its_end(wait_for_end(a, ended)));
+  const std::string running = submit(a, long_work, client::make_uuid()).name();
+  EXPECT_TRUE(iterates(b, running, 1));
+  database.stop();  // and nobody starts it again
+  standby.promote();
+  const std::string next = submit(b, quick, client::make_uuid()).name();
+  for (const std::string& name : {ended, next}) {
+    EXPECT_TRUE(ran_to_its_end(wait_for_end(b, name)));
+    EXPECT_EQ(difference(client::read_result(b, name), alone(quick)), "");
+  }
+  EXPECT_TRUE(ran_to_its_end(wait_for_end(a, running)));
+  EXPECT_EQ(difference(client::read_result(a, running), alone(long_work)), "");
+  servers.clear();  // before their database
+}
+
 /// A job that a server has acknowledged.
 struct Acknowledged {
   std::string name, request;

@@ -24,19 +24,33 @@ std::string run(const std::vector<std::string>& command) {
 
 }  // namespace
 
-Database::Database() {
-  if (::geteuid() == 0) {
-    const passwd* const user = ::getpwnam("postgres");
-    if (user == nullptr || ::chown(_folder.path().c_str(), user->pw_uid, user->pw_gid) != 0) {
-      throw std::runtime_error("PostgreSQL does not run as root, and there is no user postgres");
-    }
+void Database::give_folder() const {
+  if (::geteuid() != 0) return;
+  const passwd* const user = ::getpwnam("postgres");
+  if (user == nullptr || ::chown(_folder.path().c_str(), user->pw_uid, user->pw_gid) != 0) {
+    throw std::runtime_error("PostgreSQL does not run as root, and there is no user postgres");
   }
+}
+
+Database::Database() {
+  give_folder();
   run(as_user({programs + "/initdb", "--auth=trust", "--username=test", "--encoding=UTF8",
                "--locale=C", "--no-sync", "--no-instructions", _folder.path() + "/cluster"}));
   std::ofstream(_folder.path() + "/cluster/pg_hba.conf")
-      << "local all " << guarded << " scram-sha-256\nlocal all all trust\n";
+      << "local all " << guarded
+      << " scram-sha-256\nlocal all all trust\nlocal replication all trust\n";
   start();
   sql(std::string("CREATE ROLE ") + guarded + " LOGIN PASSWORD '" + guarded + "'");
+}
+
+Database::Database(Database* primary) {
+  give_folder();
+  run(as_user({programs + "/pg_basebackup", "--host=" + primary->_folder.path(), "--username=test",
+               "--checkpoint=fast", "--no-sync", "--write-recovery-conf",
+               "--pgdata=" + _folder.path() + "/cluster"}));
+  start();
+  primary->sql("ALTER SYSTEM SET synchronous_standby_names = '*'");
+  primary->sql("SELECT pg_reload_conf()");
 }
 
 Database::~Database() {
@@ -55,6 +69,10 @@ std::string Database::address(const std::string& name) const {
   return "postgresql://test@/" + name + "?host=" + _folder.path();
 }
 
+std::string Database::address_or(const Database& standby) const {
+  return address() + "," + standby._folder.path();
+}
+
 std::string Database::fresh() {
   const std::string name = "made" + std::to_string(++_made);
   sql("CREATE DATABASE " + name);
@@ -66,7 +84,7 @@ void Database::start() {
       as_user({programs + "/postgres", "-D", _folder.path() + "/cluster", "-k", _folder.path(),
                "-c", "listen_addresses=", "-c", "fsync=off", "-c", "full_page_writes=off", "-c",
                "shared_buffers=32MB", "-c", "max_connections=50", "-c", "autovacuum=off"}));
-  if (!_server->wait_for_error("ready to accept connections"))
+  if (!_server->wait_for_error("ready to accept"))
     throw std::runtime_error("PostgreSQL does not start: " + _server->error());
 }
 
