@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/command_line.hpp"
+
 #include <CLI/CLI.hpp>
 
 #include <algorithm>

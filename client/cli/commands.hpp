@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The commands, one file per group, the options that they share, and the whole command line.
+// The commands, one file per group, and the options that they share.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -33,9 +33,6 @@ void add_explain(CLI::App& app, const Globals& globals, Command& chosen);
 std::vector<std::string> case_keys(const ConnectionFlags& flags);
 /// Adds completion and manual, which use `app` as it is when they are run.
 void add_guide(CLI::App& app, const Globals& globals, Command& chosen);
-
-/// The whole command line: parses, runs, returns the exit code.
-int run_command_line(int argc, char** argv);
 
 /// One sentence about a command line (without the program's name) that `app` rejected with `error`:
 /// the command, the bad word and the cure.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/commands.hpp"
+#include "cli/command_line.hpp"
 #include "output/standard.hpp"
 
 int main(int argc, char** argv) {

@@ -21,7 +21,7 @@ struct Word {
 
 void add_program(CLI::App& app, Command& chosen, const std::vector<std::string>& words,
                  const std::string& name, const char* help, const std::vector<Word>& options,
-                 const char* footer) {
+                 const char* below) {
   CLI::App* command = app.add_subcommand(name, help);
   const auto ignore = [](const auto&) {};
   for (const auto& [name_of, type, told] : options) {
@@ -34,7 +34,7 @@ void add_program(CLI::App& app, Command& chosen, const std::vector<std::string>&
           ->allow_extra_args(false)
           ->type_name(type);
   }
-  command->footer(footer);
+  command->footer(below);
   command->callback([&chosen, words, name] {
     chosen = [line = words, name]() mutable -> int {
       line.insert(line.begin(), external_command(name).string());

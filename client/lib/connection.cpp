@@ -5,7 +5,6 @@
 #include <condition_variable>
 #include <cstdlib>
 #include <mutex>
-#include <regex>
 #include <string_view>
 #include <utility>
 
@@ -170,9 +169,15 @@ void Connection::State::learn(const v1::Job& job) {
 void prepare(const Connection::State& state, grpc::ClientContext& context,
              const std::string& mesh) {
   // Names come from users, and gRPC ends the program over a value that is no text.
-  static const std::regex form("meshes/([A-Za-z0-9_-]{1,64})");
-  if (std::smatch found; std::regex_match(mesh, found, form))
-    context.AddMetadata("x-mesh-id", found[1]);
+  constexpr std::string_view collection = "meshes/",
+                             of_ids =
+                                 "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-";
+  constexpr std::size_t longest_id = 64;
+  if (mesh.starts_with(collection) &&
+      mesh.find_first_not_of(of_ids, collection.size()) == std::string::npos) {
+    const std::string id = mesh.substr(collection.size());
+    if (!id.empty() && id.size() <= longest_id) context.AddMetadata("x-mesh-id", id);
+  }
   // The token is not sent as call credentials, which gRPC sends over TLS only, because localhost
   // and unix sockets need no TLS.
   if (!state.options.credentials.token.empty())

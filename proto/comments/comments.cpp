@@ -4,8 +4,8 @@
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/descriptor.pb.h>
 
+#include <algorithm>
 #include <memory>
-#include <regex>
 #include <stdexcept>
 
 // The descriptors of the proto files with their comments.
@@ -34,6 +34,18 @@ const google::protobuf::DescriptorPool& pool() {
   return *commented;
 }
 
+std::string in_one_line(const std::string& said) {
+  constexpr const char* white = " \t\n\v\f\r";
+  std::string line;
+  for (std::size_t at = said.find_first_not_of(white); at != std::string::npos;) {
+    const std::size_t end = std::min(said.find_first_of(white, at), said.size());
+    if (!line.empty()) line += ' ';
+    line.append(said, at, end - at);
+    at = said.find_first_not_of(white, end);
+  }
+  return line;
+}
+
 }  // namespace
 
 Comment of(const google::protobuf::FieldDescriptor& field) {
@@ -42,12 +54,13 @@ Comment of(const google::protobuf::FieldDescriptor& field) {
   if (commented == nullptr || !commented->GetSourceLocation(&place)) return {};
   const std::string& said =
       place.trailing_comments.empty() ? place.leading_comments : place.trailing_comments;
-  static const std::regex ends("^\\s+|\\s+$"), spaces("\\s+"),
-      with_unit("(.*) \\[([FLs/() ^0-9]+)\\]");
-  const std::string text = std::regex_replace(std::regex_replace(said, ends, ""), spaces, " ");
-  std::smatch parts;
-  if (!std::regex_match(text, parts, with_unit)) return {text, {}};
-  return {parts[1], parts[2]};
+  const std::string text = in_one_line(said);
+  const std::size_t unit = text.rfind(" [");
+  if (unit == std::string::npos || !text.ends_with(']')) return {text, {}};
+  const std::string inside = text.substr(unit + 2, text.size() - unit - 3);
+  if (inside.empty() || inside.find_first_not_of("FLs/() ^0123456789") != std::string::npos)
+    return {text, {}};
+  return {text.substr(0, unit), inside};
 }
 
 }  // namespace anticrack::comments

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/pair_forces.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include <utility>
 
 #include "base/at.hpp"
+#include "contact/least_norm.hpp"
 
 namespace anticrack::contact {
 namespace {
@@ -133,10 +133,8 @@ PairForces::Knot PairForces::knot_of(const std::vector<std::int32_t>& pairs_of_n
     for (const auto& [side, sign] : ends(knot.pairs[at(p)]))
       if (const Index k = number(side); k >= 0) b_root(k, p) += sign * root[p];
   }
-  if (b_root.size() > 0) {
-    knot.multipliers =
-        root.cwiseInverse().asDiagonal() * b_root.completeOrthogonalDecomposition().pseudoInverse();
-  }
+  if (b_root.size() > 0)
+    knot.multipliers = root.cwiseInverse().asDiagonal() * pseudo_inverse(b_root);
   for (const std::int32_t i : pairs_of_node) {
     if (!tied(_decomposition, i)) {
       for (const auto& [side, sign] : ends(i))

@@ -16,18 +16,18 @@ double turn(const Point& a, const Point& b) {
   return std::abs(std::atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]));
 }
 
-// Towards a tip there are 1 / (first + growth c) chords for each of the rule, c of which lie
+// Towards a tip there are 1 / (at_tip + growth c) chords for each of the rule, c of which lie
 // between, where that is above 1.
-constexpr double first = 0.03, growth = 0.2, graded = (1 - first) / growth;
+constexpr double at_tip = 0.03, growth = 0.2, until_rule = (1 - at_tip) / growth;
 
 double count_from_tip(double c) {
-  const double near = std::log1p(growth * std::min(c, graded) / first) / growth;
-  return near + std::max(0.0, c - graded);
+  const double near = std::log1p(growth * std::min(c, until_rule) / at_tip) / growth;
+  return near + std::max(0.0, c - until_rule);
 }
 
 double reach_from_tip(double count) {
-  const double near = count_from_tip(graded);
-  return std::expm1(growth * std::min(count, near)) * first / growth + std::max(0.0, count - near);
+  const double near = count_from_tip(until_rule);
+  return std::expm1(growth * std::min(count, near)) * at_tip / growth + std::max(0.0, count - near);
 }
 
 }  // namespace

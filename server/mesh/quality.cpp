@@ -18,10 +18,6 @@ double angle_at(const Point& p, const Point& q, const Point& r) noexcept {
 
 }  // namespace
 
-std::array<double, 3> angles(const Point& a, const Point& b, const Point& c) noexcept {
-  return {angle_at(a, b, c), angle_at(b, c, a), angle_at(c, a, b)};
-}
-
 double least_angle(const Point& a, const Point& b, const Point& c) noexcept {
   const auto squared = [](const Point& p, const Point& q) {
     const Point along = minus(q, p);

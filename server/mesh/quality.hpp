@@ -3,8 +3,6 @@
 // Shapes and sizes of triangles.
 #pragma once
 
-#include <array>
-
 #include "base/at.hpp"
 #include "mesh/mesh.hpp"
 
@@ -16,11 +14,8 @@ double minimum_angle(const Mesh& mesh) noexcept;
 /// Length of the longest edge, in the unit of the mesh. O(m).
 double longest_edge(const Mesh& mesh) noexcept;
 
-/// The angles at a, b and c, degrees; from differences of coordinates, so accurate for tiny
-/// triangles.
-std::array<double, 3> angles(const Point& a, const Point& b, const Point& c) noexcept;
-
-/// The least of them: a third of the work.
+/// The least of the angles at a, b and c, degrees; from differences of coordinates, so accurate for
+/// tiny triangles.
 double least_angle(const Point& a, const Point& b, const Point& c) noexcept;
 
 }  // namespace anticrack::mesh

@@ -3,13 +3,13 @@
 
 #include <fmt/core.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 
 #include "base/at.hpp"
+#include "contact/least_norm.hpp"
 #include "errors/errors.hpp"
 #include "operators/find_points.hpp"
 
@@ -130,9 +130,8 @@ void place_on_inclusion(std::size_t inclusion, const contact::RigidForce& given,
   const Eigen::Vector3d wanted = vector_of(given);
   Eigen::VectorXd on_nodes = Eigen::VectorXd::Constant(levers.cols(), wanted[0]);
   if (!one && levers.cols() > 0) {
-    on_nodes = (motions.transpose() * levers)
-                   .completeOrthogonalDecomposition()
-                   .solve(motions.transpose() * wanted);
+    on_nodes =
+        contact::least_norm_solution(motions.transpose() * levers, motions.transpose() * wanted);
   }
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const RigidNode& node = nodes[i];

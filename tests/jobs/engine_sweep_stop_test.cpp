@@ -144,26 +144,6 @@ TEST_F(EngineSweepStop, AnUrgentLoadCaseWaitsForOneChunkAtMost) {
   EXPECT_EQ(chunks_told(id), 4U);
 }
 
-TEST_F(EngineSweepStop, AnUrgentSweepPassesABulkOne) {
-  std::string urgent;
-  std::size_t chunks_before = 0;
-  std::shared_ptr<EventLog::Listener> listener;
-  const std::string id = submit(sweep(records::Priority::bulk), [&](const std::string& bulk) {
-    urgent = test.submit(sweep(records::Priority::interactive));
-    const auto log = test.engine.events(urgent);
-    listener = log->listen([&, log, bulk] {
-      if (rows_told(*log).size() == 4 && chunks_before == 0) {
-        chunks_before = chunks_told(bulk);
-      }
-    });
-  });
-  EXPECT_EQ(test.ended(id).state, JobState::succeeded);
-  EXPECT_EQ(test.ended(urgent).state, JobState::succeeded);
-  listener.reset();
-  EXPECT_EQ(chunks_before, 1U);
-  EXPECT_EQ(test.engine.result(urgent)->sha256(), test.engine.result(id)->sha256());
-}
-
 TEST(EngineSweepAgain, ManyRunAtOnceAndSomeAreCancelled) {
   EngineOptions options;
   options.threads = 2;

@@ -259,56 +259,5 @@ TEST(PenaltyBound, IsActiveWhenSmallAndForgottenWhenLarge) {
   EXPECT_NEAR(with_bound(100).energy, unbounded.energy, 1e-12);
 }
 
-/// The same answers to Algorithm 2's accuracy, in a handful of steps.
-TEST(ActiveSet, AgreesWithUzawaOnThePapersExamples) {
-  UzawaOptions tight;
-  tight.theta.reset();
-  tight.kkt_tolerance = 1e-9;
-  tight.max_iterations = 100000;
-  for (const char* force : {testing::paper_forces[0], testing::paper_forces[1],
-                            testing::paper_forces[2], testing::paper_forces[3], "y > 0 ? -1 : 1"}) {
-    SCOPED_TRACE(force);
-    const Answer uzawa = solve(force, tight);
-    const Answer exact = solve(force, contact::ActiveSetOptions{});
-    ASSERT_EQ(uzawa.status, Status::converged) << uzawa.reason;
-    ASSERT_EQ(exact.status, Status::converged) << exact.reason;
-    EXPECT_LE(exact.iterations, 10);
-    EXPECT_LT(exact.kkt_relative.equilibrium, 1e-12);
-    EXPECT_EQ(exact.kkt.gap + exact.kkt.sign + exact.kkt.complementarity, 0);
-    EXPECT_LT(std::abs(exact.inclusions[0].resultant), 1e-12);
-    EXPECT_NEAR(exact.inclusions[0].displacement, uzawa.inclusions[0].displacement, 1e-7);
-    EXPECT_NEAR(exact.energy, uzawa.energy, 1e-8);
-    EXPECT_NEAR(exact.contact_length, uzawa.contact_length, 1e-6);
-    double jump = 0, pressure = 0, largest = 0;
-    const contact::Trace &a = exact.traces.at(0), &b = uzawa.traces.at(0);
-    const std::vector<double> mu = testing::multipliers(a), other = testing::multipliers(b);
-    for (std::size_t i = 0; i < a.jump.size(); ++i) {
-      jump = std::max(jump, std::abs(a.jump[i] - b.jump[i]));
-      pressure = std::max(pressure, std::abs(mu[i] - other[i]));
-      largest = std::max(largest, std::abs(mu[i]));
-    }
-    std::printf("[ figures  ] against Algorithm 2: jump %.1e, pressure %.1e of %.2f\n", jump,
-                pressure, largest);
-    EXPECT_LT(jump, 1e-8);
-    EXPECT_LT(pressure, 1e-5 * largest);
-  }
-}
-
-TEST(ActiveSet, ReproducesTheClosedCrackToRounding) {
-  const Answer answer = [] {
-    Counter counter;
-    return testing::solve(paper_operator(), {"patch", 0.0, "-0.7*y", "", {}, {}},
-                          contact::ActiveSetOptions{}, false, counter);
-  }();
-  ASSERT_EQ(answer.status, Status::converged);
-  EXPECT_NEAR(answer.inclusions[0].displacement, 0, 1e-13);
-  EXPECT_NEAR(answer.energy, 0.98, 1e-12);
-  const contact::Trace& trace = answer.traces.at(0);
-  const std::vector<double> mu = testing::multipliers(trace);
-  for (std::size_t i = 1; i + 1 < mu.size(); ++i) {
-    EXPECT_NEAR(mu[i], 0.7, 1e-11) << i;
-  }
-}
-
 }  // namespace
 }  // namespace anticrack

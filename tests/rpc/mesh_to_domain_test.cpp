@@ -89,51 +89,34 @@ TEST(GeometryToDomain, DelaminatesWhatWasAskedFor) {
   EXPECT_EQ(some.delaminated[0].to, (mesh::Point{0.125, 0}));
 }
 
+void expect_geometry_refused(const std::function<void(v1::Geometry&)>& spoil, Reason reason,
+                             const std::string& field) {
+  expect_mesh_refused([&](auto& request) { spoil(*request.mutable_geometry()); }, reason,
+                      "geometry." + field);
+}
+
 TEST(GeometryToDomain, RefusesWhatItsTypesCannotExpress) {
+  const auto refused = [](const std::function<void(v1::Geometry&)>& spoil, const char* field) {
+    expect_geometry_refused(spoil, Reason::invalid_argument, field);
+  };
+  refused([](auto& of) { of.mutable_inclusions(0)->mutable_part()->clear_from(); },
+          "inclusions[0].part.from");
+  refused([](auto& of) { of.add_cracks()->mutable_part()->mutable_from(); }, "cracks[0].part.to");
+  refused([](auto& of) { of.mutable_inclusions(0)->mutable_delaminated_parts(); },
+          "inclusions[0].delaminated_parts.parts");
+  refused([](auto& of) { of.add_interfaces(); }, "interfaces[1].polyline");
+  refused([](auto& of) { of.add_interfaces()->mutable_arc()->mutable_from(); },
+          "interfaces[1].arc.through");
+  refused([](auto& of) { of.mutable_inclusions(0)->mutable_line()->mutable_polyline(); },
+          "inclusions[0].line");
+  refused([](auto& of) { of.add_cracks()->mutable_line(); }, "cracks[0].line.polyline");
+  refused([](auto& of) { of.add_cracks()->mutable_line()->mutable_segment(); },
+          "cracks[0].line.segment.center");
+  refused([](auto& of) { of.add_holes()->mutable_outline(); }, "holes[0].outline.polygon");
+  refused([](auto& of) { of.add_regions(); }, "regions[0].at");
+  refused([](auto& of) { of.add_neumann(); }, "neumann[0].from");
   expect_mesh_refused([](auto& request) { request.clear_source(); }, Reason::invalid_argument,
                       "geometry");
-  expect_mesh_refused(
-      [](auto& request) {
-        request.mutable_geometry()->mutable_inclusions(0)->mutable_part()->clear_from();
-      },
-      Reason::invalid_argument, "geometry.inclusions[0].part.from");
-  expect_mesh_refused(
-      [](auto& request) {
-        request.mutable_geometry()->add_cracks()->mutable_part()->mutable_from();
-      },
-      Reason::invalid_argument, "geometry.cracks[0].part.to");
-  expect_mesh_refused(
-      [](auto& request) {
-        request.mutable_geometry()->mutable_inclusions(0)->mutable_delaminated_parts();
-      },
-      Reason::invalid_argument, "geometry.inclusions[0].delaminated_parts.parts");
-  expect_mesh_refused([](auto& request) { request.mutable_geometry()->add_interfaces(); },
-                      Reason::invalid_argument, "geometry.interfaces[1].polyline");
-  expect_mesh_refused(
-      [](auto& request) {
-        request.mutable_geometry()->add_interfaces()->mutable_arc()->mutable_from();
-      },
-      Reason::invalid_argument, "geometry.interfaces[1].arc.through");
-  expect_mesh_refused(
-      [](auto& request) {
-        request.mutable_geometry()->mutable_inclusions(0)->mutable_line()->mutable_polyline();
-      },
-      Reason::invalid_argument, "geometry.inclusions[0].line");
-  expect_mesh_refused(
-      [](auto& request) { request.mutable_geometry()->add_cracks()->mutable_line(); },
-      Reason::invalid_argument, "geometry.cracks[0].line.polyline");
-  expect_mesh_refused(
-      [](auto& request) {
-        request.mutable_geometry()->add_cracks()->mutable_line()->mutable_segment();
-      },
-      Reason::invalid_argument, "geometry.cracks[0].line.segment.center");
-  expect_mesh_refused(
-      [](auto& request) { request.mutable_geometry()->add_holes()->mutable_outline(); },
-      Reason::invalid_argument, "geometry.holes[0].outline.polygon");
-  expect_mesh_refused([](auto& request) { request.mutable_geometry()->add_regions(); },
-                      Reason::invalid_argument, "geometry.regions[0].at");
-  expect_mesh_refused([](auto& request) { request.mutable_geometry()->add_neumann(); },
-                      Reason::invalid_argument, "geometry.neumann[0].from");
   expect_mesh_refused(
       [](auto& request) { request.mutable_options()->set_preset(static_cast<v1::MeshPreset>(77)); },
       Reason::invalid_argument, "options.preset");
@@ -154,78 +137,61 @@ TEST(GeometryToDomain, RefusesWhatItsTypesCannotExpress) {
 }
 
 TEST(GeometryToDomain, CountsBeforeItConverts) {
-  expect_mesh_refused(
-      [](auto& request) {
-        for (std::size_t i = 0; i <= api::max_sides; ++i) request.mutable_geometry()->add_sides();
-      },
-      Reason::limit_exceeded, "geometry.sides");
-  expect_mesh_refused(
-      [](auto& request) {
-        for (std::size_t i = 0; i <= api::max_sides; ++i) request.mutable_geometry()->add_holes();
-      },
-      Reason::limit_exceeded, "geometry.holes");
-  expect_mesh_refused(
-      [](auto& request) {
-        auto& holes = *request.mutable_geometry()->mutable_holes();
+  const auto times = [](std::size_t count, const auto& add) {
+    for (std::size_t i = 0; i < count; ++i) add(i);
+  };
+  const auto too_many = [](const std::function<void(v1::Geometry&)>& spoil, const char* field) {
+    expect_geometry_refused(spoil, Reason::limit_exceeded, field);
+  };
+  too_many([&](auto& of) { times(api::max_sides + 1, [&](auto) { of.add_sides(); }); }, "sides");
+  too_many([&](auto& of) { times(api::max_sides + 1, [&](auto) { of.add_holes(); }); }, "holes");
+  too_many(
+      [&](auto& of) {
         for (int k = 0; k < 2; ++k) {
-          auto& polygon = *holes.Add()->mutable_outline()->mutable_polygon();
-          for (std::size_t i = 0; i <= max_vertices / 2; ++i) polygon.add_points();
+          auto& polygon = *of.add_holes()->mutable_outline()->mutable_polygon();
+          times(max_vertices / 2 + 1, [&](auto) { polygon.add_points(); });
         }
       },
-      Reason::limit_exceeded, "geometry.holes[1]");
-  expect_mesh_refused(
-      [](auto& request) {
-        auto& parts =
-            *request.mutable_geometry()->mutable_inclusions(0)->mutable_delaminated_parts();
-        for (std::size_t i = 0; i < max_parts; ++i) parts.add_stretches();
+      "holes[1]");
+  too_many(
+      [&](auto& of) {
+        auto& parts = *of.mutable_inclusions(0)->mutable_delaminated_parts();
+        times(max_parts, [&](auto) { parts.add_stretches(); });
       },
-      Reason::limit_exceeded, "geometry.inclusions");
-  expect_mesh_refused(
-      [](auto& request) {
-        for (std::size_t i = 0; i < max_vertices; ++i) request.mutable_geometry()->add_boundary();
+      "inclusions");
+  too_many([&](auto& of) { times(max_vertices, [&](auto) { of.add_boundary(); }); }, "boundary");
+  too_many(
+      [&](auto& of) {
+        auto& line = *of.mutable_interfaces(0)->mutable_polyline();
+        times(max_vertices, [&](auto) { line.add_points(); });
       },
-      Reason::limit_exceeded, "geometry.boundary");
-  expect_mesh_refused(
-      [](auto& request) {
-        for (std::size_t i = 0; i < max_vertices; ++i) {
-          request.mutable_geometry()->mutable_interfaces(0)->mutable_polyline()->add_points();
-        }
+      "interfaces[0]");
+  too_many([&](auto& of) { times(max_interfaces, [&](auto) { of.add_interfaces(); }); },
+           "interfaces");
+  too_many([&](auto& of) { times(max_parts, [&](auto) { of.add_cracks(); }); }, "inclusions");
+
+  const auto too_many_options = [](const std::function<void(v1::MeshOptions&)>& spoil,
+                                   const char* field) {
+    expect_mesh_refused([&](auto& request) { spoil(*request.mutable_options()); },
+                        Reason::limit_exceeded, field);
+  };
+  too_many_options(
+      [&](auto& of) {
+        auto& line = *of.add_align();
+        times(max_vertices + 1, [&](auto) { line.add_points(); });
       },
-      Reason::limit_exceeded, "geometry.interfaces[0]");
-  expect_mesh_refused(
-      [](auto& request) {
-        for (std::size_t i = 0; i < max_interfaces; ++i) {
-          request.mutable_geometry()->add_interfaces();
-        }
+      "options.align");
+  too_many_options(
+      [&](auto& of) {
+        times(max_regions + 1,
+              [&](auto i) { (*of.mutable_curve_groups())[static_cast<int>(i)] = "crack"; });
       },
-      Reason::limit_exceeded, "geometry.interfaces");
-  expect_mesh_refused(
-      [](auto& request) {
-        for (std::size_t i = 0; i <= max_vertices; ++i) {
-          auto& options = *request.mutable_options();
-          if (i == 0) options.add_align();
-          options.mutable_align(0)->add_points();
-        }
+      "options.curve_groups");
+  too_many_options(
+      [&](auto& of) {
+        times(max_parts + 1, [&](auto i) { (*of.mutable_inclusion_motions())[std::to_string(i)]; });
       },
-      Reason::limit_exceeded, "options.align");
-  expect_mesh_refused(
-      [](auto& request) {
-        for (std::size_t i = 0; i <= max_regions; ++i) {
-          (*request.mutable_options()->mutable_curve_groups())[static_cast<int>(i)] = "crack";
-        }
-      },
-      Reason::limit_exceeded, "options.curve_groups");
-  expect_mesh_refused(
-      [](auto& request) {
-        for (std::size_t i = 0; i <= max_parts; ++i)
-          (*request.mutable_options()->mutable_inclusion_motions())[std::to_string(i)];
-      },
-      Reason::limit_exceeded, "options.inclusion_motions");
-  expect_mesh_refused(
-      [](auto& request) {
-        for (std::size_t i = 0; i < max_parts; ++i) request.mutable_geometry()->add_cracks();
-      },
-      Reason::limit_exceeded, "geometry.inclusions");
+      "options.inclusion_motions");
 }
 
 TEST(GeometryToDomain, PutsTheDomainsFieldsIntoTheRequest) {

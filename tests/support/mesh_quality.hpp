@@ -4,8 +4,9 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "mesh/geometry_primitives.hpp"
 #include "mesh/quality.hpp"
@@ -22,10 +23,15 @@ struct Quality {
 };
 
 inline Quality quality(const Mesh& mesh) {
+  const auto angle = [](const Point& p, const Point& q, const Point& r) {
+    const auto [ux, uy] = minus(q, p);
+    const auto [vx, vy] = minus(r, p);
+    return std::atan2(std::abs(ux * vy - uy * vx), ux * vx + uy * vy) * 180 / std::numbers::pi;
+  };
   Quality found;
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     const Point a = corner(mesh, t, 0), b = corner(mesh, t, 1), c = corner(mesh, t, 2);
-    const auto [low, high] = std::ranges::minmax(angles(a, b, c));
+    const auto [low, high] = std::minmax({angle(a, b, c), angle(b, c, a), angle(c, a, b)});
     found.minimum_angle = std::min(found.minimum_angle, low);
     found.maximum_angle = std::max(found.maximum_angle, high);
     const auto [shortest, diameter] = std::minmax({distance(a, b), distance(b, c), distance(c, a)});

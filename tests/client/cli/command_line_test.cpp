@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/commands.hpp"
+#include "cli/command_line.hpp"
 #include "cli/report.hpp"
 
 namespace anticrack::cli {
