@@ -23,6 +23,19 @@ std::span<const std::byte> bytes_of(const std::string& text) {
   return std::as_bytes(std::span(text));
 }
 
+errors::Error damaged(const store::SolvedPortion& portion, const LiveJob& job) {
+  return {errors::Reason::storage,
+          "portion {} of jobs/{} is damaged in the database: submit the job again", portion.number,
+          job.id()};
+}
+
+template <class Message, class Value>
+std::string packed(const Value& value) {
+  Message to;
+  api::write_fields(value, to);
+  return api::serialized(to);
+}
+
 }  // namespace
 
 std::string pack(const std::vector<std::pair<SweepChunk, records::SweepRecord>>& chunks,
@@ -45,15 +58,13 @@ std::vector<EndedChunk> unpack(const store::SolvedPortion& portion, const JobPtr
   store::disk::SolvedPortion body;
   if (!body.ParseFromString(portion.body) || first >= plan.chunks() ||
       static_cast<std::size_t>(body.chunks_size()) !=
-          std::min(plan.portion_chunks, plan.chunks() - first)) {
-    throw errors::Error(errors::Reason::storage,
-                        "portion {} of jobs/{} is damaged in the database: submit the job again",
-                        portion.number, job->id());
-  }
+          std::min(plan.portion_chunks, plan.chunks() - first))
+    throw damaged(portion, *job);
   std::vector<EndedChunk> chunks;
   for (const store::disk::SolvedChunk& from : body.chunks()) {
     const std::size_t index = first + chunks.size();
-    EndedChunk chunk{{job, index, {}}, {}, {}, {}, {}, true};
+    EndedChunk chunk{{job, index, {}}};
+    chunk.fetched = true;
     auto columns =
         std::make_shared<contact::SweepColumns>(unsolved_rows(*job, plan.rows_in(index)));
     read_columns(bytes_of(from.columns()), *columns);
@@ -66,6 +77,33 @@ std::vector<EndedChunk> unpack(const store::SolvedPortion& portion, const JobPtr
     chunks.push_back(std::move(chunk));
   }
   return chunks;
+}
+
+std::string pack(const PositionRequest& request) {
+  return packed<store::disk::PositionRequest>(request);
+}
+
+PositionRequest unpack_request(const std::string& request) {
+  store::disk::PositionRequest from;
+  if (!from.ParseFromString(request))
+    throw errors::Error(errors::Reason::storage, "what was asked of a position is damaged");
+  PositionRequest result;
+  api::read_fields(from, result);
+  return result;
+}
+
+std::string pack(const SolvedPosition& position) {
+  return packed<store::disk::SolvedPosition>(position);
+}
+
+SolvedPosition unpack_position(const store::SolvedPortion& portion, const LiveJob& job,
+                               std::size_t loads) {
+  store::disk::SolvedPosition from;
+  if (!from.ParseFromString(portion.body) || static_cast<std::size_t>(from.energy_size()) != loads)
+    throw damaged(portion, job);
+  SolvedPosition result;
+  api::read_fields(from, result);
+  return result;
 }
 
 }  // namespace anticrack::jobs
