@@ -83,30 +83,28 @@ class Check {
         "SELECT job, n, count, 'jobs/' || job || ': the answers of portion ' || n || "
         "' are damaged' FROM portions WHERE body IS NOT NULL");
     for (std::size_t row = 0; row < rows.rows(); ++row) {
-      const Result found_row =
+      const Result body =
           _transaction.run("SELECT body, request FROM portions WHERE job = $1 AND n = $2",
                            {rows.text(row, 0), rows.integer(row, 1)});
-      const std::string body = found_row.text(0, 0), request = found_row.text(0, 1);
-      const auto count = static_cast<std::uint64_t>(rows.integer(row, 2));
-      if (request.empty() ? rows_in(body) != count : !answers(body, request))
+      if (rows_in(body.text(0, 0), body.text(0, 1)) !=
+          static_cast<std::uint64_t>(rows.integer(row, 2)))
         found.flaws.push_back(rows.text(row, 3));
     }
   }
 
-  static std::uint64_t rows_in(const std::string& body) {
+  /// How many rows a body answers; a position counts as one.
+  static std::uint64_t rows_in(const std::string& body, const std::string& request) {
     store::disk::SolvedPortion portion;
+    store::disk::SolvedPosition position;
+    store::disk::PositionRequest asked;
+    if (!request.empty())
+      return position.ParseFromString(body) && asked.ParseFromString(request) &&
+             position.energy_size() == asked.loads_size();
     std::uint64_t rows = 0;
     if (portion.ParseFromString(body))
       for (const store::disk::SolvedChunk& chunk : portion.chunks())
         rows += chunk.answer().converged() + chunk.answer().not_converged();
     return rows;
-  }
-
-  static bool answers(const std::string& body, const std::string& request) {
-    store::disk::SolvedPosition position;
-    store::disk::PositionRequest asked;
-    return position.ParseFromString(body) && asked.ParseFromString(request) &&
-           position.energy_size() == asked.loads_size();
   }
 
   void look_at_blobs() {

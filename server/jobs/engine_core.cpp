@@ -147,8 +147,7 @@ void EngineCore::begin_units(const JobPtr& job, std::optional<SweepPlan> plan) {
   if (plan) job->sweep = std::make_unique<LiveSweep>(std::move(*plan));
   std::uint64_t& waiting = meshes.at(job->mesh)->waiting[index(job->lane)];
   waiting -= job->units;
-  if (queue != nullptr && (!job->sweep || job->sweep->plan.portion_chunks > 0))
-    begin_spread(job);
+  if (queue != nullptr && (!job->sweep || job->sweep->plan.portion_chunks > 0)) begin_spread(job);
   job->units = job->spread ? 0 : job->sweep->chunks.size();
   waiting += job->units;
 }

@@ -198,7 +198,8 @@ void require_solvable(const PositionRequest& request, const growth::Fronts& fron
               request.front < static_cast<std::int64_t>(count);
   for (std::size_t i = 0; fits && i < count; ++i)
     fits = places[i] < fronts.fronts[i].track.place.size();
-  if (!fits) throw Error(Reason::storage, "a position of growth is none of its paths");
+  if (!fits)
+    throw Error(Reason::storage, "a position has other fronts than its job: submit the job again");
   if (request.max_triangles != catalogue.max_triangles())
     throw Error(Reason::limit_exceeded, "a mesh may have {} triangles here, and {} for this job",
                 catalogue.max_triangles(), request.max_triangles);
@@ -338,7 +339,7 @@ void add_final(const PreparedCase& prepared, EngineCore& core, const growth::Fro
     for (std::size_t k = 0; k < chosen.size(); ++k)
       portions.push_back({first + k, first + k, 1, pack(request_of(k))});
     solve_portions(core, job, portions, [&](std::size_t k, const std::string& body) {
-      found[k] = unpack_position({first + k, body}, *job, loads_of(k).size());
+      found[k] = unpack_position(body, loads_of(k).size());
       in_order.done(k);
     });
   } else {

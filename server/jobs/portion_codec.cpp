@@ -23,10 +23,8 @@ std::span<const std::byte> bytes_of(const std::string& text) {
   return std::as_bytes(std::span(text));
 }
 
-errors::Error damaged(const store::SolvedPortion& portion, const LiveJob& job) {
-  return {errors::Reason::storage,
-          "portion {} of jobs/{} is damaged in the database: submit the job again", portion.number,
-          job.id()};
+errors::Error damaged() {
+  return {errors::Reason::storage, "a position is damaged in the database: submit the job again"};
 }
 
 template <class Message, class Value>
@@ -34,6 +32,15 @@ std::string packed(const Value& value) {
   Message to;
   api::write_fields(value, to);
   return api::serialized(to);
+}
+
+template <class Message, class Value>
+Value unpacked(const std::string& bytes) {
+  Message from;
+  if (!from.ParseFromString(bytes)) throw damaged();
+  Value value;
+  api::read_fields(from, value);
+  return value;
 }
 
 }  // namespace
@@ -59,7 +66,9 @@ std::vector<EndedChunk> unpack(const store::SolvedPortion& portion, const JobPtr
   if (!body.ParseFromString(portion.body) || first >= plan.chunks() ||
       static_cast<std::size_t>(body.chunks_size()) !=
           std::min(plan.portion_chunks, plan.chunks() - first))
-    throw damaged(portion, *job);
+    throw errors::Error(errors::Reason::storage,
+                        "portion {} of jobs/{} is damaged in the database: submit the job again",
+                        portion.number, job->id());
   std::vector<EndedChunk> chunks;
   for (const store::disk::SolvedChunk& from : body.chunks()) {
     const std::size_t index = first + chunks.size();
@@ -84,26 +93,17 @@ std::string pack(const PositionRequest& request) {
 }
 
 PositionRequest unpack_request(const std::string& request) {
-  store::disk::PositionRequest from;
-  if (!from.ParseFromString(request))
-    throw errors::Error(errors::Reason::storage, "what was asked of a position is damaged");
-  PositionRequest result;
-  api::read_fields(from, result);
-  return result;
+  return unpacked<store::disk::PositionRequest, PositionRequest>(request);
 }
 
 std::string pack(const SolvedPosition& position) {
   return packed<store::disk::SolvedPosition>(position);
 }
 
-SolvedPosition unpack_position(const store::SolvedPortion& portion, const LiveJob& job,
-                               std::size_t loads) {
-  store::disk::SolvedPosition from;
-  if (!from.ParseFromString(portion.body) || static_cast<std::size_t>(from.energy_size()) != loads)
-    throw damaged(portion, job);
-  SolvedPosition result;
-  api::read_fields(from, result);
-  return result;
+SolvedPosition unpack_position(const std::string& body, std::size_t loads) {
+  SolvedPosition position = unpacked<store::disk::SolvedPosition, SolvedPosition>(body);
+  if (position.energy.size() != loads) throw damaged();
+  return position;
 }
 
 }  // namespace anticrack::jobs

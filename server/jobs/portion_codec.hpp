@@ -32,7 +32,6 @@ PositionRequest unpack_request(const std::string& request);
 /// The body of a position's portion, and back. Throws errors::Error (storage) if it is none under
 /// so many `loads`.
 std::string pack(const SolvedPosition& position);
-SolvedPosition unpack_position(const store::SolvedPortion& portion, const LiveJob& job,
-                               std::size_t loads);
+SolvedPosition unpack_position(const std::string& body, std::size_t loads);
 
 }  // namespace anticrack::jobs

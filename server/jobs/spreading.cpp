@@ -61,7 +61,9 @@ store::Portion portion_of(const SweepPlan& plan, std::uint64_t number) {
 
 /// Whether the portion has the rows that it has by this server's own plan, or is a position.
 bool fits(const store::Portion& portion, const LiveJob& job) {
-  if (!job.sweep) return !portion.request.empty();
+  if (!job.sweep)
+    return job.spec->growth &&
+           portion.number < job.spec->loads.size() * at(job.spec->growth->final_positions);
   const SweepPlan& plan = job.sweep->plan;
   return portion.number < portions_of(plan) && portion == portion_of(plan, portion.number);
 }
@@ -322,8 +324,9 @@ void note_solved(EngineCore& core, const EndedChunk& chunk) {
   } else {
     return;
   }
-  if (--spread->open.at(number) > 0) return;
-  spread->open.erase(number);
+  const auto open = spread->open.find(number);
+  if (open == spread->open.end() || --open->second > 0) return;
+  spread->open.erase(open);
   spread->unwritten.insert(number);
   spread->missing.erase(number);
 }
@@ -345,57 +348,48 @@ void solve_portions(EngineCore& core, const JobPtr& job,
     spread->missing.insert(portion.number);
   }
   lock.unlock();
-  bool failed = false;
   const auto is_left = [&](std::uint64_t number) { return left.contains(number); };
-  const auto work_once = [&](Lock& of_core) {
-    const auto told = std::ranges::find_if(
-        left, [&](const auto& one) { return spread->answers.contains(one.first); });
-    const auto unit = std::ranges::find_if(spread->units, is_left);
-    if (told != left.end()) {
-      const auto [number, i] = *told;
-      left.erase(told);
-      const std::string body = spread->answers.at(number);
-      of_core.unlock();
-      solved(i, body);
-      of_core.lock();
-    } else if (unit != spread->units.end()) {
-      const Task task{job, *unit, {}, spread->requests.at(*unit)};
-      spread->units.erase(unit);
-      of_core.unlock();
-      const EndedChunk ended = solve_position(task, core.catalogue);
-      of_core.lock();
-      if (ended.failure) throw Error(*ended.failure);
-      note_solved(core, ended);
-    } else {
-      ++spread->idle;
-      wake(core);
-      core.positions.wait_for(of_core, look_every);
-      --spread->idle;
-    }
-  };
   const auto work = [&](std::size_t) {
     Lock of_core(core.mutex);
     try {
-      while (!left.empty() && !failed) {
+      while (!left.empty()) {
         if (job->why != Stop::none)
           throw Error(errors::Reason::cancelled, "stopped while solving positions of growth");
-        work_once(of_core);
+        const auto told = std::ranges::find_if(
+            left, [&](const auto& one) { return spread->answers.contains(one.first); });
+        const auto unit = std::ranges::find_if(spread->units, is_left);
+        if (told != left.end()) {
+          const std::size_t i = told->second;
+          const std::string body = spread->answers.at(told->first);
+          left.erase(told);
+          of_core.unlock();
+          solved(i, body);
+          of_core.lock();
+        } else if (unit != spread->units.end()) {
+          const Task task{job, *unit, {}, spread->requests.at(*unit)};
+          spread->units.erase(unit);
+          of_core.unlock();
+          const EndedChunk ended = solve_position(task, core.catalogue);
+          of_core.lock();
+          if (ended.failure) throw Error(*ended.failure);
+          note_solved(core, ended);
+        } else {
+          ++spread->idle;
+          wake(core);
+          core.positions.wait_for(of_core, look_every);
+          --spread->idle;
+        }
       }
-    } catch (...) {
+    } catch (...) {  // the other threads end as well
       if (!of_core) of_core.lock();
-      failed = true;
+      std::erase_if(spread->units, is_left);
+      for (const auto& [number, i] : left) spread->missing.erase(number);
+      left.clear();
       throw;
     }
   };
   const int most = base::Threads::allowed();
-  try {
-    base::at_once(std::min(portions.size(), at(std::max(1, most))), most, [&] { return work; });
-  } catch (...) {
-    lock.lock();
-    std::erase_if(spread->units, is_left);
-    for (const auto& [number, i] : left) spread->missing.erase(number);
-    throw;
-  }
+  base::at_once(std::min(portions.size(), at(std::max(1, most))), most, [&] { return work; });
 }
 
 }  // namespace anticrack::jobs

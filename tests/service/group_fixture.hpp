@@ -23,8 +23,8 @@ class Group : public ::testing::Test {
  protected:
   void SetUp() override { url = database.address(); }
 
-  Daemon& add(std::vector<std::string> more = {}) {
-    std::vector<std::string> options{"--store", url, "--threads", "1", "--crashes", "0"};
+  Daemon& add(std::vector<std::string> more = {}, const char* threads = "1") {
+    std::vector<std::string> options{"--store", url, "--threads", threads, "--crashes", "0"};
     options.insert(options.end(), more.begin(), more.end());
     return *servers.emplace_back(std::make_unique<Daemon>(options));
   }

@@ -30,10 +30,14 @@ class GroupGrowth : public SpreadGroup {
     add({"--drain-time", "0"});
     note_portions();
     add({"--drain-time", "0"});
-    v1::LoadCase& second = *growing.spec.add_load_cases();
-    second = growing.spec.load_cases(0);
-    second.set_name("bent");
-    second.set_boundary_value("y * (1 + 0.1 * x)");
+  }
+
+  void add_load(const std::string& name, const std::string& boundary_value) {
+    const v1::LoadCase first = growing.spec.load_cases(0);
+    v1::LoadCase& load = *growing.spec.add_load_cases();
+    load = first;
+    load.set_name(name);
+    load.set_boundary_value(boundary_value);
   }
 
   /// Submits the job and waits until both servers have solved a position and the other one is at
@@ -96,16 +100,28 @@ class GroupGrowth : public SpreadGroup {
 };
 
 TEST_F(GroupGrowth, OfSeveralServersEqualsThatOfOneToTheBit) {
+  add_load("bent", "y * (1 + 0.1 * x)");
   const std::string name = begin();
   expect_same(helper(), name);
   EXPECT_GT(noted("helped AND n >= 8"), 0U) << "also of the second load case";
 }
 
-TEST_F(GroupGrowth, BesideADeadLoadEqualsThatOfOneServerToTheBit) {
-  growing.spec.mutable_growth()->set_dead("bent");
-  growing.spec.mutable_load_cases(1)->set_boundary_value("0.3 * y");
+TEST_F(GroupGrowth, BesideADeadLoadEqualsThatOfOneThreadToTheBit) {
+  servers.clear();
+  for (int i = 0; i < 2; ++i) add({}, "2");
+  add_load("dead", "0.3 * y");
+  growing.spec.mutable_growth()->set_dead("dead");
   const std::string name = begin();
   expect_same(runner(), name);
+}
+
+TEST_F(GroupGrowth, IsNotHelpedByAServerOfOtherLimits) {
+  servers.pop_back();
+  add({"--mesh-triangles", "1000000"});
+  client::Connection connection(servers[0]->connection());
+  expect_same(*servers[0], submit(connection, growing, "alone").name());
+  EXPECT_GT(noted(), 0U);
+  EXPECT_EQ(noted("helped"), 0U);
 }
 
 TEST_F(GroupGrowth, GoesOnWhenAHelperDiesInTheMiddleOfItsPosition) {
