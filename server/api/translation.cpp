@@ -51,7 +51,8 @@ std::string utf8(const std::string& text) {
 }
 
 void put_number(Message& to, const FieldDescriptor& field, int number) {
-  to.GetReflection()->SetEnumValue(&to, &field, number);
+  const auto set = field.is_repeated() ? &Reflection::AddEnumValue : &Reflection::SetEnumValue;
+  (to.GetReflection()->*set)(&to, &field, number);
 }
 
 int get_number(const Message& from, const FieldDescriptor& field, int index) {

@@ -34,8 +34,9 @@ class Check {
             "SELECT 'jobs/' || id || ': it has not ended, but is not queued' FROM jobs j "
             "WHERE ended IS NULL AND NOT EXISTS (SELECT FROM queue WHERE job = j.id) "
             "UNION ALL SELECT 'jobs/' || job || ': portion ' || n || ' is out of place' FROM "
-            "(SELECT job, n, count < 1 OR n <> row_number() OVER w - 1 OR first <> lag("
-            "first + count, 1, 0::bigint) OVER w OR job NOT IN (SELECT job FROM queue) AS "
+            "(SELECT job, n, count < 1 OR job NOT IN (SELECT job FROM queue) OR CASE request "
+            "WHEN '' THEN n <> row_number() OVER w - 1 OR first <> lag(first + count, 1, "
+            "0::bigint) OVER w ELSE (first, count) <> (n, 1) END AS "
             "odd FROM portions WINDOW w AS (PARTITION BY job ORDER BY n)) p WHERE odd "
             "UNION ALL SELECT sha256 || ' belongs to no record' FROM blobs b WHERE ") +
         unreferenced);
@@ -82,15 +83,28 @@ class Check {
         "SELECT job, n, count, 'jobs/' || job || ': the answers of portion ' || n || "
         "' are damaged' FROM portions WHERE body IS NOT NULL");
     for (std::size_t row = 0; row < rows.rows(); ++row) {
-      const Result body = _transaction.run("SELECT body FROM portions WHERE job = $1 AND n = $2",
-                                           {rows.text(row, 0), rows.integer(row, 1)});
-      store::disk::SolvedPortion portion;
-      auto missing = static_cast<std::uint64_t>(rows.integer(row, 2));
-      if (portion.ParseFromString(body.text(0, 0)))
-        for (const store::disk::SolvedChunk& chunk : portion.chunks())
-          missing -= chunk.answer().converged() + chunk.answer().not_converged();
-      if (missing != 0) found.flaws.push_back(rows.text(row, 3));
+      const Result body =
+          _transaction.run("SELECT body, request FROM portions WHERE job = $1 AND n = $2",
+                           {rows.text(row, 0), rows.integer(row, 1)});
+      if (rows_in(body.text(0, 0), body.text(0, 1)) !=
+          static_cast<std::uint64_t>(rows.integer(row, 2)))
+        found.flaws.push_back(rows.text(row, 3));
     }
+  }
+
+  /// How many rows a body answers; a position counts as one.
+  static std::uint64_t rows_in(const std::string& body, const std::string& request) {
+    store::disk::SolvedPortion portion;
+    store::disk::SolvedPosition position;
+    store::disk::PositionRequest asked;
+    if (!request.empty())
+      return position.ParseFromString(body) && asked.ParseFromString(request) &&
+             position.energy_size() == asked.loads_size();
+    std::uint64_t rows = 0;
+    if (portion.ParseFromString(body))
+      for (const store::disk::SolvedChunk& chunk : portion.chunks())
+        rows += chunk.answer().converged() + chunk.answer().not_converged();
+    return rows;
   }
 
   void look_at_blobs() {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Portions of sweeps: the part of the queue by which several servers solve one job.
+// Portions of jobs: the part of the queue by which several servers solve one.
 #include "group/queue.hpp"
 #include "group/rows.hpp"
 #include "store/requests.hpp"
@@ -16,7 +16,7 @@ namespace {
 /// Bodies that are read at once; each has some megabytes at most.
 constexpr std::size_t bodies_a_statement = 4;
 
-/// From a sweep with which so many processes have died the others keep away.
+/// From a job with which so many processes have died the others keep away.
 constexpr int most_crashes = 2;
 
 /// $1: epoch, $2: meshes held, $3: jobs left out, $4: most_crashes.
@@ -45,10 +45,19 @@ WITH wanted AS (
   ORDER BY n LIMIT $3 FOR UPDATE SKIP LOCKED
 ), taken AS (
   UPDATE portions p SET runner = $2 FROM free WHERE p.job = $1 AND p.n = free.n
-  RETURNING p.n, p.first, p.count
+  RETURNING p.n, p.first, p.count, p.request
 )
-SELECT n, first, count FROM portions WHERE job = $1 AND runner = $2 AND body IS NULL
+SELECT n, first, count, request FROM portions WHERE job = $1 AND runner = $2 AND body IS NULL
 AND EXISTS (SELECT FROM wanted) UNION ALL SELECT * FROM taken ORDER BY n
+)";
+
+/// $1: job, $2 to $5: number, first row, rows and request of each portion. Others are removed; of
+/// growth, which has requests, only those with the same number.
+constexpr const char* remove_others = R"(
+DELETE FROM portions p WHERE job = $1 AND (request = '' OR n = ANY ($2)) AND NOT EXISTS (
+  SELECT FROM unnest($2::bigint[], $3::bigint[], $4::bigint[], $5::bytea[])
+    v (n, first, count, request)
+  WHERE (v.n, v.first, v.count, v.request) = (p.n, p.first, p.count, p.request))
 )";
 
 std::uint64_t unsigned_at(const Result& rows, std::size_t row, int column) {
@@ -57,22 +66,28 @@ std::uint64_t unsigned_at(const Result& rows, std::size_t row, int column) {
 
 }  // namespace
 
-void Queue::spread(const std::string& job, int attempt, std::uint64_t rows,
-                   std::uint64_t portion_rows) {
+void Queue::spread(const std::string& job, int attempt,
+                   const std::vector<store::Portion>& portions) {
+  std::vector<std::int64_t> numbers, first, counts;
+  std::vector<std::string> requests;
+  for (const store::Portion& portion : portions) {
+    numbers.push_back(static_cast<std::int64_t>(portion.number));
+    first.push_back(static_cast<std::int64_t>(portion.first));
+    counts.push_back(static_cast<std::int64_t>(portion.count));
+    requests.push_back(portion.request);
+  }
+  const Value of_requests = Value::list_of_bytes(requests);
   transact(_pool, [&](postgres::Transaction& transaction) {
     if (transaction
             .run("SELECT FROM queue WHERE job = $1 AND runner = $2 AND attempt = $3 FOR SHARE",
                  {job, _epoch.load(), attempt})
             .empty())
       throw store::JobTaken(job);
+    transaction.run(remove_others, {job, numbers, first, counts, of_requests});
     transaction.run(
-        "DELETE FROM portions WHERE job = $1 AND (first, count) IS DISTINCT FROM "
-        "(n * $2::bigint, least($2, $3 - n * $2))",
-        {job, portion_rows, rows});
-    transaction.run(
-        "INSERT INTO portions (job, n, first, count) SELECT $1, n, n * $2::bigint, "
-        "least($2, $3 - n * $2) FROM generate_series(0, ($3 - 1) / $2) n ON CONFLICT DO NOTHING",
-        {job, portion_rows, rows});
+        "INSERT INTO portions (job, n, first, count, request) SELECT $1, v.* FROM "
+        "unnest($2::bigint[], $3::bigint[], $4::bigint[], $5::bytea[]) v ON CONFLICT DO NOTHING",
+        {job, numbers, first, counts, of_requests});
   });
   notify_queue();
 }
@@ -90,8 +105,8 @@ std::vector<store::Portion> Queue::take_portions(const std::string& job, std::si
   const Result rows = query(_pool, take_statement, {job, _epoch.load(), count});
   std::vector<store::Portion> portions;
   for (std::size_t row = 0; row < rows.rows(); ++row)
-    portions.push_back(
-        {unsigned_at(rows, row, 0), unsigned_at(rows, row, 1), unsigned_at(rows, row, 2)});
+    portions.push_back({unsigned_at(rows, row, 0), unsigned_at(rows, row, 1),
+                        unsigned_at(rows, row, 2), rows.text(row, 3)});
   return portions;
 }
 
@@ -102,11 +117,11 @@ void Queue::solved(const std::string& job, const store::SolvedPortion& portion) 
 }
 
 std::vector<store::SolvedPortion> Queue::solved_portions(
-    const std::string& job, const std::vector<std::int64_t>& known) const {
+    const std::string& job, const std::vector<std::int64_t>& missing) const {
   const Result rows = query(_pool,
                             "SELECT n, body FROM portions WHERE job = $1 AND body IS NOT NULL "
-                            "AND n <> ALL ($2) ORDER BY n LIMIT $3",
-                            {job, known, bodies_a_statement});
+                            "AND n = ANY ($2) ORDER BY n LIMIT $3",
+                            {job, missing, bodies_a_statement});
   std::vector<store::SolvedPortion> portions;
   for (std::size_t row = 0; row < rows.rows(); ++row)
     portions.push_back({unsigned_at(rows, row, 0), rows.text(row, 1)});

@@ -39,14 +39,14 @@ class Queue final : public store::Queue {
   std::vector<store::EventRow> events(
       const std::vector<store::EventCursor>& cursors) const override;
   std::vector<std::string> ended(const std::vector<std::string>& jobs) const override;
-  void spread(const std::string& job, int attempt, std::uint64_t rows,
-              std::uint64_t portion_rows) override;
+  void spread(const std::string& job, int attempt,
+              const std::vector<store::Portion>& portions) override;
   std::optional<records::JobRecord> to_help(const std::vector<std::string>& held,
                                             const std::vector<std::string>& except) override;
   std::vector<store::Portion> take_portions(const std::string& job, std::size_t count) override;
   void solved(const std::string& job, const store::SolvedPortion& portion) override;
   std::vector<store::SolvedPortion> solved_portions(
-      const std::string& job, const std::vector<std::int64_t>& known) const override;
+      const std::string& job, const std::vector<std::int64_t>& missing) const override;
   void give_back_portions(const std::string& job) override;
   void withdraw_portions(const std::string& job, int attempt) override;
   void listen(std::function<void(bool cancelled)> wake) override;

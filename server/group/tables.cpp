@@ -103,8 +103,8 @@ CREATE TABLE events (
 );
 )";
 
-/// Sweeps that several servers solve: a row for each run of rows, as long as the job is in the
-/// queue. `runner`: the epoch of the server that has it, or solved it; `body`: its answers.
+/// Jobs that several servers solve: a row for each portion (store/queue.hpp), as long as the job is
+/// in the queue. `runner`: the epoch of the server that has it, or solved it; `body`: its answers.
 constexpr const char* second = R"(
 CREATE TABLE portions (
   job text NOT NULL REFERENCES queue (job) ON DELETE CASCADE,
@@ -113,6 +113,7 @@ CREATE TABLE portions (
   count bigint NOT NULL,
   runner bigint,
   body bytea,
+  request bytea NOT NULL DEFAULT '',
   PRIMARY KEY (job, n)
 );
 ALTER TABLE portions ALTER body SET STORAGE EXTERNAL;

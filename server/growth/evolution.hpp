@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "fields/fields.hpp"
 #include "mesh/mesh.hpp"
 
 namespace anticrack::growth {
@@ -42,6 +43,7 @@ struct State {
   std::vector<std::size_t> at;  ///< index into Track::position
   std::vector<Fate> fate;       ///< a front that snapped has no stretch left that holds
 };
+ANTICRACK_FIELDS(State, at, fate)
 
 /// What a state is asked beside a dead load.
 struct Sought {

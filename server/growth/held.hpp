@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 
+#include "fields/fields.hpp"
 #include "growth/evolution.hpp"
 #include "growth/fronts.hpp"
 #include "growth/path.hpp"
@@ -41,6 +42,7 @@ Opened opened(const mesh::Mesh& open, const Fronts& fronts, std::span<const Path
 struct Bracket {
   double lower = 0, upper = 0;
 };
+ANTICRACK_FIELDS(Bracket, lower, upper)
 
 /// Bounds of the mean of G1 over what comes off, (Pi(from) - Pi(to)) / length >= 0, and of the load
 /// t at which that energy is what growth costs, t^2 (Pi(from) - Pi(to)) = int Gc. Fronts one after

@@ -143,14 +143,12 @@ void EngineCore::offer(const JobPtr& job) {
     mesh.wait = waits.begin(mesh.id, job->spec->priority, job->since);
 }
 
-void EngineCore::begin_sweep(const JobPtr& job, SweepPlan plan) {
-  job->sweep = std::make_unique<LiveSweep>(std::move(plan));
+void EngineCore::begin_units(const JobPtr& job, std::optional<SweepPlan> plan) {
+  if (plan) job->sweep = std::make_unique<LiveSweep>(std::move(*plan));
   std::uint64_t& waiting = meshes.at(job->mesh)->waiting[index(job->lane)];
   waiting -= job->units;
-  const bool spread = queue != nullptr && job->sweep->plan.portion_chunks > 0;
-  if (spread) job->sweep->spread = std::make_unique<SpreadSweep>();
-  job->units = spread ? 0 : job->sweep->chunks.size();
-  job->active += spread ? 1 : 0;
+  if (queue != nullptr && (!job->sweep || job->sweep->plan.portion_chunks > 0)) begin_spread(job);
+  job->units = job->spread ? 0 : job->sweep->chunks.size();
   waiting += job->units;
 }
 
@@ -270,9 +268,8 @@ void EngineCore::deliver(EndedChunk chunk) {
   const std::size_t place = chunk.task.index;
   if (chunk.failure) stop(job, Stop::failed, chunk.failure);
   Lock lock(mutex);
-  SweepChunk& solved = job->sweep->chunks[place];
-  if (chunk.columns && !solved.columns) {  // otherwise this server has it from two sides
-    solved = std::move(chunk.solved);
+  if (chunk.columns && !job->sweep->chunks[place].columns) {  // else it is here from two sides
+    job->sweep->chunks[place] = std::move(chunk.solved);
     jobs::add(job->sweep_record, chunk.record);
     lock.unlock();
     if (!job->helps) job->log->append(RowsEvent{job->sweep->plan.first_row(place), chunk.columns});

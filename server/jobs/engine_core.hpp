@@ -100,10 +100,11 @@ class EngineCore {
   /// Signalled when there is work for the kind of thread.
   std::condition_variable solvers, ending, sweeping, limits;
   std::condition_variable claiming, telling, spreading;
-  std::condition_variable settled;  ///< signalled when fewer jobs are live, ending or claimed
-  bool queue_changed = false;       ///< whether there may be a job to claim, or room for one
-  bool flags_changed = false;       ///< whether a job here may have been cancelled elsewhere
-  bool chunks_ended = false;        ///< whether there is news of a sweep that is spread
+  std::condition_variable positions;  ///< signalled when there is news for solve_portions()
+  std::condition_variable settled;    ///< signalled when fewer jobs are live, ending or claimed
+  bool queue_changed = false;         ///< whether there may be a job to claim, or room for one
+  bool flags_changed = false;         ///< whether a job here may have been cancelled elsewhere
+  bool spread_changed = false;        ///< whether there is news of a job that is spread
   int claims_under_way = 0;
   bool draining = false;      ///< whether no job may start any more
   bool interrupting = false;  ///< ends that the store refuses are left to the next start
@@ -123,7 +124,7 @@ class EngineCore {
   access::TurnQueue<JobPtr> to_end;     ///< jobs to end; owners take turns
   access::TurnQueue<JobPtr> to_refine;  ///< jobs of which a stage ended; counted in LiveJob::active
 
-  std::set<std::string> not_helped;  ///< sweeps elsewhere that this server could not solve
+  std::set<std::string> not_helped;  ///< jobs elsewhere that this server could not solve
 
   std::uint64_t last_number = 0;
   std::uint64_t created = 0;
@@ -150,9 +151,9 @@ class EngineCore {
   void move_back(const JobPtr& job);
   /// Takes a job's waiting units out of the schedule.
   void withdraw(const JobPtr& job);
-  /// Sets the chunks of a sweep that starts; they are its units from now on. One that is spread has
-  /// none yet, and counts as active until jobs/spreading.hpp has done with it.
-  void begin_sweep(const JobPtr& job, SweepPlan plan);
+  /// Sets the units of a sweep that starts, or of a job with which this server helps. One that is
+  /// spread has none yet.
+  void begin_units(const JobPtr& job, std::optional<SweepPlan> plan);
   /// Call it when a case of the job ended or the job must stop: a job that has nothing left goes to
   /// the next step.
   void settle(const JobPtr& job);
@@ -173,7 +174,7 @@ class EngineCore {
 
   /// Reports the cases and counts them as ended.
   void deliver(std::vector<EndedCase> cases);
-  /// Reports the rows of a chunk and counts it as ended.
+  /// Reports the rows of a chunk and counts it, or a position for another server, as ended.
   void deliver(EndedChunk chunk);
   /// Stops a job, whatever its phase. The first reason counts; a job that only waits for the disk
   /// can still be cancelled.

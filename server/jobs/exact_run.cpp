@@ -36,7 +36,7 @@ Solved solve(const PreparedCase& prepared, EngineCore& core) {
     Recorder recorder(prepared.task, core.iterations);
     solved.answer =
         spec_of(prepared).growth
-            ? grow(prepared, core.store, core.catalogue, recorder)
+            ? grow(prepared, core, recorder)
             : prepared.task.job->mesh_operator->solve(
                   prepared.load, std::get<contact::ActiveSetOptions>(spec_of(prepared).solver),
                   false, recorder);

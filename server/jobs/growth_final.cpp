@@ -16,9 +16,11 @@
 #include "base/at_once.hpp"
 #include "contact/observer.hpp"
 #include "estimate/marking.hpp"
-#include "growth/held.hpp"
+#include "jobs/portion_codec.hpp"
+#include "jobs/spreading.hpp"
 #include "mesh/refine.hpp"
 #include "records/mesh_record.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::jobs {
 namespace {
@@ -30,6 +32,7 @@ using operators::MeshOperator;
 using operators::PreparedLoad;
 
 constexpr double default_error = 0.05;
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 constexpr int most_meshes = 12;  // of a position
 
@@ -40,14 +43,7 @@ constexpr double hardly = 0.9;
 /// Reduction of the indicators from one mesh to the next.
 constexpr double least_reduction = 2, most_reduction = 8;
 
-/// What was found in a position.
-struct Position {
-  std::vector<std::optional<Bracket>> energy;  ///< of Pi under each load
-  std::optional<double> release;  ///< G under the first load of the front that leaves it
-  std::string no_release;         ///< why it is missing
-  std::string reason;             ///< why there are no bounds, or no closer ones
-  int in_vain = 0;                ///< the last meshes whose bounds are hardly closer
-};
+bool bounded(const Bracket& energy) { return std::isfinite(energy.lower); }
 
 class Quiet : public contact::Observer {
  public:
@@ -58,41 +54,39 @@ class Quiet : public contact::Observer {
   const std::stop_token _stop;
 };
 
-/// Solves states of one load case, each on meshes of its own. Thread-safe.
-class Positions {
+/// Solves a position on meshes of its own.
+class Position {
  public:
-  Positions(const PreparedCase& prepared, meshes::MeshCatalogue& catalogue,
-            const growth::Fronts& fronts)
-      : _task(prepared.task),
-        _job(*prepared.task.job),
+  /// `number`: over the positions of all load cases.
+  Position(const LiveJob& job, meshes::MeshCatalogue& catalogue, const growth::Fronts& fronts,
+           std::size_t number, const PositionRequest& request)
+      : _job(job),
         _catalogue(catalogue),
         _fronts(fronts),
-        _options(std::get<contact::ActiveSetOptions>(_job.spec->solver)),
-        _bisection_bound(catalogue.get(_job.mesh).bisection_bound) {}
+        _number(number),
+        _request(request),
+        _options(std::get<contact::ActiveSetOptions>(job.spec->solver)) {}
 
-  /// `front`: the one that leaves; -1: none. `loads`: t of each; without a dead load all are the
-  /// load case itself. `aim`: bounds of Pi as far apart will do.
-  Position solve(std::size_t number, const growth::State& state, int front,
-                 const std::vector<double>& loads, double aim) const {
-    mesh::Mesh mesh = growth::mesh_of(_job.mesh_operator->mesh(), _fronts, state);
-    mesh.bisection_bound = _bisection_bound;
-    Position position;
-    position.energy.resize(loads.size());
+  SolvedPosition solve() {
+    mesh::Mesh mesh = growth::mesh_of(_job.mesh_operator->mesh(), _fronts, _request.state);
+    mesh.bisection_bound = _catalogue.get(_job.mesh).bisection_bound;
+    _solved.energy.assign(_request.loads.size(), {-unbounded, unbounded});
     for (int k = 1;; ++k) {
       std::shared_ptr<const MeshOperator> op;
       try {
-        op = _catalogue.operators_of(
-            {fmt::format("jobs/{}/{}/{}/{}", _job.id(), _task.index, number, k), _job.created.owner,
-             _job.mesh_operator->bytes()},
-            std::make_shared<const mesh::Mesh>(std::move(mesh)), _job.stop.get_token());
+        op = _catalogue.operators_of({fmt::format("jobs/{}/{}/{}", _job.id(), _number, k),
+                                      _job.created.owner, _job.mesh_operator->bytes()},
+                                     std::make_shared<const mesh::Mesh>(std::move(mesh)),
+                                     _job.stop.get_token());
       } catch (const Error& error) {
-        if (error.reason() != Reason::limit_exceeded && error.reason() != Reason::busy) throw;
-        position.reason = error.what();
-        return position;
+        const bool full =
+            error.reason() == Reason::limit_exceeded || error.reason() == Reason::busy;
+        if (!full || _job.helps) throw;
+        _solved.reason = error.what();
+        return _solved;
       }
-      std::optional<mesh::Mesh> finer =
-          add(*op, state, front, loads, aim, k < most_meshes, position);
-      if (!finer) return position;
+      std::optional<mesh::Mesh> finer = add(*op, k < most_meshes);
+      if (!finer) return _solved;
       mesh = std::move(*finer);
     }
   }
@@ -100,7 +94,7 @@ class Positions {
  private:
   PreparedLoad load_on(const MeshOperator& op, double t) const {
     const std::vector<fem::Load>& loads = _job.spec->loads;
-    fem::Load load = loads[_task.index];
+    fem::Load load = loads[_number / at(_job.spec->growth->final_positions)];
     if (const std::string& dead = _job.spec->growth->dead; !dead.empty())
       load = fem::sum(*std::ranges::find(loads, dead, &fem::Load::name), t, load,
                       op.mesh().subdomains);
@@ -111,35 +105,28 @@ class Positions {
   }
 
   /// Solves on one mesh. Returns the next, if there is to be one.
-  std::optional<mesh::Mesh> add(const MeshOperator& op, const growth::State& state, int front,
-                                const std::vector<double>& loads, double aim, bool may_go_on,
-                                Position& position) const {
-    const double before = width_of(position);
+  std::optional<mesh::Mesh> add(const MeshOperator& op, bool may_go_on) {
+    const double before = width();
     std::vector<double> indicator;
-    for (std::size_t i = 0; i < loads.size(); ++i)
-      if (!add(op, state, i == 0 ? front : -1, loads[i], position.energy[i], indicator, position))
-        return {};
-    const double width = width_of(position);
-    position.in_vain = width > hardly * before ? position.in_vain + 1 : 0;
-    if (width <= aim) return {};
-    if (may_go_on && position.in_vain < most_in_vain)
-      return bisected(op.mesh(), indicator, width / aim, position);
-    position.reason = "finer meshes no longer help";
+    for (std::size_t i = 0; i < _request.loads.size(); ++i)
+      if (!add(op, i, indicator)) return {};
+    _in_vain = width() > hardly * before ? _in_vain + 1 : 0;
+    if (width() <= _request.aim) return {};
+    if (may_go_on && _in_vain < most_in_vain) return bisected(op.mesh(), indicator);
+    _solved.reason = "finer meshes no longer help";
     return {};
   }
 
   /// Under one load. Adds to the indicator; false: there are no bounds.
-  bool add(const MeshOperator& op, const growth::State& state, int front, double t,
-           std::optional<Bracket>& energy, std::vector<double>& indicator,
-           Position& position) const {
+  bool add(const MeshOperator& op, std::size_t i, std::vector<double>& indicator) {
     const std::stop_token stop = _job.stop.get_token();
-    const PreparedLoad load = load_on(op, t);
+    const PreparedLoad load = load_on(op, _request.loads[i]);
     Quiet quiet(stop);
     contact::Answer answer = op.solve(load, _options, false, quiet);
     if (answer.status == contact::Status::cancelled)
       throw Error(Reason::cancelled, "stopped while solving a position of growth");
     if (answer.status != contact::Status::converged) {
-      position.reason = answer.reason;
+      _solved.reason = answer.reason;
       return false;
     }
     const PreparedLoad* const loads[] = {&load};
@@ -149,57 +136,74 @@ class Positions {
     estimate.of_energy = true;
     op.estimate({&estimate, 1});
     if (estimate.failure) std::rethrow_exception(estimate.failure);
-    if (front >= 0) {
+    if (i == 0 && _request.front >= 0) {
       op.find_tips(load, answer, stop);
-      const growth::Front& leader = _fronts.fronts[at(front)];
-      const mesh::Point& place = leader.track.place[state.at[at(front)]];
+      const std::size_t front = at(_request.front);
+      const mesh::Point& place = _fronts.fronts[front].track.place[_request.state.at[front]];
       for (const contact::TipAnswer& tip : answer.tips)
         if (tip.x == place[0] && tip.y == place[1]) {
-          position.release = tip.closed ? 0 : tip.energy_release_rate;
-          position.no_release = tip.reason;
+          _solved.release = tip.closed ? 0 : tip.energy_release_rate;
+          _solved.no_release = tip.reason;
         }
     }
     if (!answer.energy_lower || !answer.energy_upper) {
-      position.reason = answer.no_bracket;
+      _solved.reason = answer.no_bracket;
       return false;
     }
     // Bounds of finer meshes count beside those before.
-    if (!energy) energy = {*answer.energy_lower, *answer.energy_upper};
-    energy->lower = std::max(energy->lower, *answer.energy_lower);
-    energy->upper = std::min(energy->upper, *answer.energy_upper);
+    Bracket& energy = _solved.energy[i];
+    energy.lower = std::max(energy.lower, *answer.energy_lower);
+    energy.upper = std::min(energy.upper, *answer.energy_upper);
     indicator.resize(estimate.indicator.size(), 0);
     for (std::size_t k = 0; k < indicator.size(); ++k) indicator[k] += estimate.indicator[k];
     return true;
   }
 
-  static double width_of(const Position& position) {
+  double width() const {
     double width = 0;
-    for (const std::optional<Bracket>& energy : position.energy)
-      width = std::max(
-          width, energy ? energy->upper - energy->lower : std::numeric_limits<double>::infinity());
+    for (const Bracket& energy : _solved.energy)
+      width = std::max(width, energy.upper - energy.lower);
     return width;
   }
 
   /// The next mesh; none, with the reason, beyond a limit.
-  std::optional<mesh::Mesh> bisected(const mesh::Mesh& mesh, const std::vector<double>& indicator,
-                                     double excess, Position& position) const {
-    const double reduction = std::clamp(excess, least_reduction, most_reduction);
+  std::optional<mesh::Mesh> bisected(const mesh::Mesh& mesh, const std::vector<double>& indicator) {
+    const double reduction = std::clamp(width() / _request.aim, least_reduction, most_reduction);
     try {
-      return mesh::refine(mesh, estimate::levels(indicator, reduction), _catalogue.max_triangles());
+      return mesh::refine(mesh, estimate::levels(indicator, reduction), _request.max_triangles);
     } catch (const Error& error) {
       if (error.reason() != Reason::limit_exceeded) throw;
-      position.reason = fmt::format("a mesh may have {} triangles", _catalogue.max_triangles());
+      _solved.reason = fmt::format("a mesh may have {} triangles", _request.max_triangles);
       return {};
     }
   }
 
-  const Task& _task;
   const LiveJob& _job;
   meshes::MeshCatalogue& _catalogue;
   const growth::Fronts& _fronts;
+  const std::size_t _number;
+  const PositionRequest& _request;
   const contact::ActiveSetOptions _options;
-  const double _bisection_bound;
+  SolvedPosition _solved;
+  int _in_vain = 0;  ///< the last meshes whose bounds are hardly closer
 };
+
+/// Throws errors::Error (limit_exceeded) where this server's limit would change the numbers, and
+/// (storage) for a state of other fronts.
+void require_solvable(const PositionRequest& request, const growth::Fronts& fronts,
+                      const meshes::MeshCatalogue& catalogue) {
+  const std::size_t count = fronts.fronts.size();
+  const std::vector<std::size_t>& places = request.state.at;
+  bool fits = places.size() == count && request.state.fate.size() == count &&
+              request.front < static_cast<std::int64_t>(count);
+  for (std::size_t i = 0; fits && i < count; ++i)
+    fits = places[i] < fronts.fronts[i].track.place.size();
+  if (!fits)
+    throw Error(Reason::storage, "a position has other fronts than its job: submit the job again");
+  if (request.max_triangles != catalogue.max_triangles())
+    throw Error(Reason::limit_exceeded, "a mesh may have {} triangles here, and {} for this job",
+                catalogue.max_triangles(), request.max_triangles);
+}
 
 /// How far all fronts have come in a row.
 double way_of(const growth::Row& row, const growth::Row& first) {
@@ -244,17 +248,33 @@ std::vector<std::size_t> final_rows(const std::vector<growth::Row>& rows, std::s
   return found;
 }
 
-void add_final(const PreparedCase& prepared, meshes::MeshCatalogue& catalogue,
-               const growth::Fronts& fronts, const std::vector<growth::Row>& rows,
-               const std::vector<GrownState>& states, contact::Answer& answer,
-               const std::function<void(std::size_t)>& told) {
-  const records::GrowthSpec& spec = *prepared.task.job->spec->growth;
+EndedChunk solve_position(const Task& task, meshes::MeshCatalogue& catalogue) {
+  EndedChunk ended{task};
+  const LiveJob& job = *task.job;
+  const stop::Scope scope(job.stop.get_token());
+  try {
+    const PositionRequest request = unpack_request(task.request);
+    const growth::Fronts fronts =
+        growth::find_fronts(job.mesh_operator->mesh(), job.spec->growth->paths);
+    require_solvable(request, fronts, catalogue);
+    ended.position = pack(Position(job, catalogue, fronts, task.index, request).solve());
+  } catch (...) {
+    const Error error = error_of(std::current_exception());
+    if (error.reason() != Reason::cancelled) ended.failure = error;
+  }
+  return ended;
+}
+
+void add_final(const PreparedCase& prepared, EngineCore& core, const growth::Fronts& fronts,
+               const std::vector<growth::Row>& rows, const std::vector<GrownState>& states,
+               contact::Answer& answer, const std::function<void(std::size_t)>& told) {
+  const JobPtr& job = prepared.task.job;
+  const records::GrowthSpec& spec = *job->spec->growth;
   const double error = spec.final_error > 0 ? spec.final_error : default_error;
   const std::vector<std::size_t> chosen = final_rows(rows, at(spec.final_positions));
-  const Positions positions(prepared, catalogue, fronts);
-  std::vector<Position> found(chosen.size());
+  std::vector<SolvedPosition> found(chosen.size());
   const bool driven = !spec.dead.empty();
-  const mesh::Mesh& open = prepared.task.job->mesh_operator->mesh();
+  const mesh::Mesh& open = job->mesh_operator->mesh();
   const auto between = [&](std::size_t k) {
     return growth::opened(open, fronts, spec.paths, states[chosen[k]].state,
                           states[chosen[k + 1]].state);
@@ -276,7 +296,7 @@ void add_final(const PreparedCase& prepared, meshes::MeshCatalogue& catalogue,
     return loads;
   };
   const auto aim_of = [&](std::size_t k) {
-    double least = std::numeric_limits<double>::infinity();
+    double least = unbounded;
     if (k > 0) least = freed(k - 1);
     if (k + 1 < chosen.size()) least = std::min(least, freed(k));
     return error * least;
@@ -284,15 +304,15 @@ void add_final(const PreparedCase& prepared, meshes::MeshCatalogue& catalogue,
   const auto fill = [&](std::size_t k) {
     contact::GrowthRow& row = answer.growth[chosen[k]];
     row.g1_final = found[k].release;
-    const std::optional<Bracket>& energy = found[k].energy.front();
-    if (energy && row.load) {
+    const Bracket& energy = found[k].energy.front();
+    if (bounded(energy) && row.load) {
       const double scale = driven ? 1 : *row.load * *row.load;
-      row.energy_lower = energy->lower * scale;
-      row.energy_upper = energy->upper * scale;
+      row.energy_lower = energy.lower * scale;
+      row.energy_upper = energy.upper * scale;
     }
-    if (k + 1 == chosen.size() || !energy || !found[k + 1].energy.back()) return;
+    if (k + 1 == chosen.size() || !bounded(energy) || !bounded(found[k + 1].energy.back())) return;
     const growth::MeanRelease mean =
-        growth::mean_release(*energy, *found[k + 1].energy.back(), between(k));
+        growth::mean_release(energy, found[k + 1].energy.back(), between(k));
     row.g1_lower = mean.lower;
     row.g1_upper = mean.upper;
     if (driven) return;  // G is not as the square of the load
@@ -309,19 +329,34 @@ void add_final(const PreparedCase& prepared, meshes::MeshCatalogue& catalogue,
       told(chosen[k]);
     }
   });
-  base::at_once(chosen.size(), base::Threads::allowed(), [&] {
-    return [&](std::size_t k) {
-      const std::size_t row = chosen[k];
-      found[k] = positions.solve(k, states[row].state, rows[row].leader, loads_of(k), aim_of(k));
+  const auto request_of = [&](std::size_t k) {
+    return PositionRequest{states[chosen[k]].state, rows[chosen[k]].leader, loads_of(k), aim_of(k),
+                           core.catalogue.max_triangles()};
+  };
+  const std::size_t first = prepared.task.index * at(spec.final_positions);
+  if (core.queue != nullptr) {
+    std::vector<store::Portion> portions;
+    for (std::size_t k = 0; k < chosen.size(); ++k)
+      portions.push_back({first + k, first + k, 1, pack(request_of(k))});
+    solve_portions(core, job, portions, [&](std::size_t k, const std::string& body) {
+      found[k] = unpack_position(body, loads_of(k).size());
       in_order.done(k);
-    };
-  });
+    });
+  } else {
+    base::at_once(chosen.size(), base::Threads::allowed(), [&] {
+      return [&](std::size_t k) {
+        const PositionRequest request = request_of(k);
+        found[k] = Position(*job, core.catalogue, fronts, first + k, request).solve();
+        in_order.done(k);
+      };
+    });
+  }
   for (std::size_t k = 0; k < chosen.size(); ++k) {
     const auto note = [&](const char* what, const std::string& why) {
       answer.growth_notes.push_back(fmt::format("row {} has {}: {}", chosen[k], what, why));
     };
     if (!found[k].reason.empty())
-      note(found[k].energy.front() ? "no closer bounds" : "no bounds", found[k].reason);
+      note(bounded(found[k].energy.front()) ? "no closer bounds" : "no bounds", found[k].reason);
     if (!found[k].release && !found[k].no_release.empty()) note("no G1_final", found[k].no_release);
   }
 }

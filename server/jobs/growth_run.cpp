@@ -195,13 +195,12 @@ std::optional<operators::PreparedLoad> dead_load(const PreparedCase& prepared,
   return std::get<operators::PreparedLoad>(std::move(outcome));
 }
 
-contact::Answer grown(const PreparedCase& prepared, const store::Store& store,
-                      meshes::MeshCatalogue& catalogue, contact::Observer& observer) {
+contact::Answer grown(const PreparedCase& prepared, EngineCore& core, contact::Observer& observer) {
   const LiveJob& job = *prepared.task.job;
   const records::GrowthSpec& spec = *job.spec->growth;
   const std::stop_token stop = job.stop.get_token();
   const growth::Control control = control_of(spec, job.mesh_operator->mesh());
-  std::optional<operators::PreparedLoad> dead = dead_load(prepared, store, stop);
+  std::optional<operators::PreparedLoad> dead = dead_load(prepared, core.store, stop);
   const bool driven = dead.has_value();
   operators::Growth preview(job.mesh_operator, prepared.load, spec.paths, stop, std::move(dead));
   std::vector<growth::Track> tracks = preview.tracks();
@@ -241,7 +240,7 @@ contact::Answer grown(const PreparedCase& prepared, const store::Store& store,
   if (job.spec->fields && !rows.empty())
     add_membranes(rows, states, control, spec.membranes, preview, stop, answer);
   if (spec.final_positions > 0)
-    add_final(prepared, catalogue, preview.fronts(), rows, states, answer, tell);
+    add_final(prepared, core, preview.fronts(), rows, states, answer, tell);
   return answer;
 }
 
@@ -349,10 +348,9 @@ void check_growth(const records::JobSpec& spec, const EngineOptions& options) {
         .at("growth.positions");
 }
 
-contact::Answer grow(const PreparedCase& prepared, const store::Store& store,
-                     meshes::MeshCatalogue& catalogue, contact::Observer& observer) {
+contact::Answer grow(const PreparedCase& prepared, EngineCore& core, contact::Observer& observer) {
   try {
-    return grown(prepared, store, catalogue, observer);
+    return grown(prepared, core, observer);
   } catch (Error& error) {
     if (!error.fields().empty()) error.below("growth");
     throw;

@@ -19,7 +19,6 @@ void check_growth(const records::JobSpec& spec, const EngineOptions& options);
 /// The answer of the first state with the rows of growth, each of which the job's log hears of as
 /// it comes. Throws errors::Error at "growth...": as operators::Growth, and invalid_argument for an
 /// unknown inclusion; as add_final; cancelled.
-contact::Answer grow(const PreparedCase& prepared, const store::Store& store,
-                     meshes::MeshCatalogue& catalogue, contact::Observer& observer);
+contact::Answer grow(const PreparedCase& prepared, EngineCore& core, contact::Observer& observer);
 
 }  // namespace anticrack::jobs

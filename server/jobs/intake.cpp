@@ -216,7 +216,12 @@ JobPtr take_up(EngineCore& core, JobRecord record, const std::string& why, bool 
       std::make_shared<LiveJob>(number, std::move(record), cases, core.options.event_log_bytes,
                                 std::move(mesh_use), core.memory, core.queue != nullptr);
   if (job->stages) job->stages->mesh_use = std::move(stage_use);
-  job->helps = helps;
+  if (helps) {
+    job->helps = true;
+    job->lane = Lane::sweep;
+    job->units = 1;  // until it starts
+    job->cases.clear();
+  }
   lock.lock();
   core.admission.add(job->created.owner, job->spec->mesh, cases, job->spec_bytes);
   queue(core, job,

@@ -9,6 +9,7 @@
 #include "jobs/case_outcome.hpp"
 #include "jobs/probes.hpp"
 #include "jobs/result_block.hpp"
+#include "jobs/spreading.hpp"
 #include "jobs/sweep_check.hpp"
 #include "jobs/sweep_chunk.hpp"
 #include "jobs/sweep_plan.hpp"
@@ -148,7 +149,7 @@ void start_job(EngineCore& core, std::shared_ptr<const operators::MeshOperator> 
     core.admission.started();
     ++core.running;
     job->enter(Phase::running);
-    if (plan && job->why == Stop::none) core.begin_sweep(job, std::move(*plan));
+    if ((plan || job->helps) && job->why == Stop::none) core.begin_units(job, std::move(plan));
     core.deadlines.clear(job->number, Due::queue_time);
     core.deadlines.set(job->number, Due::run_time,
                        EngineCore::Clock::now() + run_limit(*job, core.options));
@@ -168,11 +169,8 @@ void start_job(EngineCore& core, std::shared_ptr<const operators::MeshOperator> 
   tell(job->stages ? stage_name(*job) : "");
   lock.lock();
   --job->active;
-  if (job->sweep && job->sweep->spread) {
-    job->sweep->spread->ready = true;
-    job->sweep->spread->begun = EngineCore::Clock::now();
-    core.chunks_ended = true;
-    core.spreading.notify_one();
+  if (job->spread) {
+    make_ready(core, *job->spread);
   } else if (job->why == Stop::none) {
     core.offer(job);
   }

@@ -125,7 +125,10 @@ JobState LiveJob::state() const noexcept {
 
 Task take_unit(const JobPtr& job) {
   Task task{job, job->next_unit++, std::chrono::steady_clock::now()};
-  if (job->sweep && job->sweep->spread) task.index = job->sweep->spread->units[task.index];
+  if (job->spread && (job->sweep || job->helps)) {
+    task.index = job->spread->units[task.index];
+    if (!job->sweep) task.request = job->spread->requests.at(task.index);
+  }
   ++job->active;
   if (task.index < job->cases.size()) job->cases[task.index].running = true;
   return task;

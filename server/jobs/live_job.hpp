@@ -15,6 +15,7 @@
 
 #include "jobs/event_log.hpp"
 #include "jobs/force_arrays.hpp"
+#include "jobs/live_spread.hpp"
 #include "jobs/live_sweep.hpp"
 #include "jobs/result_part.hpp"
 #include "jobs/schedule.hpp"
@@ -76,7 +77,8 @@ enum class Stop {
 };
 
 /// A job is solved in units: its load cases, or the chunks of its sweep (one chunk until the job
-/// starts and they are known; of a sweep that is spread those that this server has taken). The
+/// starts and they are known). Of a sweep that is spread, and where this server helps, they are
+/// those that it has taken; positions of growth that its own server solves are parts of units. The
 /// first part of the members does not change; the engine's mutex guards the second, with the
 /// exceptions named there.
 struct PlacedProbes;
@@ -92,10 +94,10 @@ struct LiveJob {
   const records::JobRecord created;  ///< as it was submitted or recovered, without its lists
   const std::shared_ptr<const records::JobSpec> spec;
   const std::uint64_t spec_bytes;
-  const Lane lane;
+  Lane lane;                                          ///< as `helps`
   const std::chrono::steady_clock::time_point since;  ///< when this server got it
   const std::shared_ptr<EventLog> log;
-  /// Another server runs it and this one solves portions of its sweep; set before it is added.
+  /// Another server runs it and this one solves portions of it; set before it is added.
   bool helps = false;
   ForceArrays arrays;
   std::stop_source stop;
@@ -121,6 +123,7 @@ struct LiveJob {
   std::shared_ptr<store::Spool> spool;         ///< for the result; set with the operator
   std::vector<LiveCase> cases;                 ///< empty for a sweep
   std::unique_ptr<LiveSweep> sweep;            ///< set once it has started
+  std::shared_ptr<LiveSpread> spread;          ///< null: this server solves all there is
   std::unique_ptr<LiveStages> stages;          ///< of a job with an accuracy
   records::SweepRecord sweep_record;           ///< sums over the rows that have ended
   std::size_t units = 0;
@@ -142,6 +145,7 @@ struct Task {
   JobPtr job;
   std::size_t index = 0;
   std::chrono::steady_clock::time_point taken;
+  std::string request{};  ///< of a position
 };
 
 /// Takes the next unit; one must be left. Call it with the engine's mutex held.

@@ -23,6 +23,26 @@ std::span<const std::byte> bytes_of(const std::string& text) {
   return std::as_bytes(std::span(text));
 }
 
+errors::Error damaged() {
+  return {errors::Reason::storage, "a position is damaged in the database: submit the job again"};
+}
+
+template <class Message, class Value>
+std::string packed(const Value& value) {
+  Message to;
+  api::write_fields(value, to);
+  return api::serialized(to);
+}
+
+template <class Message, class Value>
+Value unpacked(const std::string& bytes) {
+  Message from;
+  if (!from.ParseFromString(bytes)) throw damaged();
+  Value value;
+  api::read_fields(from, value);
+  return value;
+}
+
 }  // namespace
 
 std::string pack(const std::vector<std::pair<SweepChunk, records::SweepRecord>>& chunks,
@@ -45,15 +65,15 @@ std::vector<EndedChunk> unpack(const store::SolvedPortion& portion, const JobPtr
   store::disk::SolvedPortion body;
   if (!body.ParseFromString(portion.body) || first >= plan.chunks() ||
       static_cast<std::size_t>(body.chunks_size()) !=
-          std::min(plan.portion_chunks, plan.chunks() - first)) {
+          std::min(plan.portion_chunks, plan.chunks() - first))
     throw errors::Error(errors::Reason::storage,
                         "portion {} of jobs/{} is damaged in the database: submit the job again",
                         portion.number, job->id());
-  }
   std::vector<EndedChunk> chunks;
   for (const store::disk::SolvedChunk& from : body.chunks()) {
     const std::size_t index = first + chunks.size();
-    EndedChunk chunk{{job, index, {}}, {}, {}, {}, {}, true};
+    EndedChunk chunk{{job, index, {}}};
+    chunk.fetched = true;
     auto columns =
         std::make_shared<contact::SweepColumns>(unsolved_rows(*job, plan.rows_in(index)));
     read_columns(bytes_of(from.columns()), *columns);
@@ -66,6 +86,24 @@ std::vector<EndedChunk> unpack(const store::SolvedPortion& portion, const JobPtr
     chunks.push_back(std::move(chunk));
   }
   return chunks;
+}
+
+std::string pack(const PositionRequest& request) {
+  return packed<store::disk::PositionRequest>(request);
+}
+
+PositionRequest unpack_request(const std::string& request) {
+  return unpacked<store::disk::PositionRequest, PositionRequest>(request);
+}
+
+std::string pack(const SolvedPosition& position) {
+  return packed<store::disk::SolvedPosition>(position);
+}
+
+SolvedPosition unpack_position(const std::string& body, std::size_t loads) {
+  SolvedPosition position = unpacked<store::disk::SolvedPosition, SolvedPosition>(body);
+  if (position.energy.size() != loads) throw damaged();
+  return position;
 }
 
 }  // namespace anticrack::jobs

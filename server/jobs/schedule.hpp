@@ -19,7 +19,8 @@
 
 namespace anticrack::jobs {
 
-/// Units of one mesh and one lane can run together: load cases, or chunks of sweeps.
+/// Units of one mesh and one lane can run together: load cases, or (`sweep`) chunks of sweeps and
+/// the positions that this server solves for another.
 enum class Lane { active_set, lumped, consistent, sweep };
 constexpr std::size_t lane_count = 4;
 constexpr std::size_t index(Lane lane) noexcept { return static_cast<std::size_t>(lane); }

@@ -11,6 +11,7 @@
 #include "jobs/block_run.hpp"
 #include "jobs/condensing.hpp"
 #include "jobs/exact_run.hpp"
+#include "jobs/growth_final.hpp"
 #include "jobs/job_start.hpp"
 #include "jobs/stage_end.hpp"
 #include "stop/stop.hpp"
@@ -288,7 +289,8 @@ void SolverPool::sweep(const Mesh& mesh, Working& working) {
     lock.unlock();
     const std::vector<Task> tasks = take(mesh, Lane::sweep, 1, std::numeric_limits<int>::max());
     if (tasks.empty()) return;
-    EndedChunk chunk = solve_chunk(tasks.front(), _core.iterations);
+    EndedChunk chunk = tasks.front().job->sweep ? solve_chunk(tasks.front(), _core.iterations)
+                                                : solve_position(tasks.front(), _core.catalogue);
     lock.lock();
     --_core.columns;
     lock.unlock();

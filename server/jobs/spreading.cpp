@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/at.hpp"
+#include "base/at_once.hpp"
 #include "jobs/event_rows.hpp"
+#include "jobs/growth_final.hpp"
 #include "jobs/intake.hpp"
 #include "jobs/portion_codec.hpp"
 
@@ -16,7 +19,7 @@ using errors::Error;
 using Lock = EngineCore::Lock;
 
 constexpr std::chrono::milliseconds look_every{100};
-/// How long a server helps with a sweep before it looks whose is next.
+/// How long a server helps with a job before it looks whose is next.
 constexpr std::chrono::seconds help_for{10};
 /// Portions that no thread here comes to for so long are given back.
 constexpr std::chrono::seconds longest_wait{1};
@@ -25,11 +28,11 @@ std::size_t threads(const EngineCore& core) {
   return static_cast<std::size_t>(std::max(1, core.options.threads));
 }
 
-/// Whether each solver thread has a turn. With the lock held.
-bool all_busy(const EngineCore& core) {
+/// How many solver threads have no turn. With the lock held.
+std::size_t free_threads(const EngineCore& core) {
   std::size_t busy = 0;
   for (const auto& [id, mesh] : core.meshes) busy += static_cast<std::size_t>(mesh->threads);
-  return busy >= threads(core);
+  return threads(core) - std::min(threads(core), busy);
 }
 
 /// Units that wait for a thread, of all jobs. With the lock held.
@@ -41,117 +44,178 @@ std::size_t waiting_here(const EngineCore& core) {
   return waiting;
 }
 
+/// Wakes the thread of solve_together(). With the lock held.
+void wake(EngineCore& core) {
+  core.spread_changed = true;
+  core.spreading.notify_one();
+}
+
 std::uint64_t portions_of(const SweepPlan& plan) {
   return (plan.chunks() + plan.portion_chunks - 1) / plan.portion_chunks;
 }
 
-/// Whether the portion has the rows that it has by this server's own plan.
-bool fits(const store::Portion& portion, const SweepPlan& plan) {
+store::Portion portion_of(const SweepPlan& plan, std::uint64_t number) {
   const std::uint64_t rows = plan.chunk_rows * plan.portion_chunks;
-  return portion.number < portions_of(plan) && portion.first == portion.number * rows &&
-         portion.count == std::min(rows, plan.rows - portion.first);
+  return {number, number * rows, std::min(rows, plan.rows - number * rows)};
+}
+
+/// Whether the portion has the rows that it has by this server's own plan, or is a position.
+bool fits(const store::Portion& portion, const LiveJob& job) {
+  if (!job.sweep)
+    return job.spec->growth &&
+           portion.number < job.spec->loads.size() * at(job.spec->growth->final_positions);
+  const SweepPlan& plan = job.sweep->plan;
+  return portion.number < portions_of(plan) && portion == portion_of(plan, portion.number);
+}
+
+/// How many more portions the threads here want. With the lock held.
+std::size_t wanted(const EngineCore& core, const LiveJob& job, const LiveSpread& spread) {
+  const std::size_t waiting = job.helps   ? waiting_here(core)
+                              : job.sweep ? job.units - job.next_unit
+                                          : spread.units.size();
+  if (!job.sweep) {  // positions take long: none waits while another server may have a thread
+    const std::size_t idle = job.helps ? free_threads(core) : spread.idle;
+    return idle - std::min(idle, waiting);
+  }
+  const std::size_t most = threads(core), chunks = job.sweep->plan.portion_chunks;
+  return waiting <= most ? (2 * most - waiting + chunks - 1) / chunks : 0;
 }
 
 /// Writes the portions that were solved here.
-void write_solved(EngineCore& core, const JobPtr& job, SpreadSweep& spread) {
+void write_solved(EngineCore& core, const JobPtr& job, LiveSpread& spread) {
   Lock lock(core.mutex);
-  const LiveSweep& sweep = *job->sweep;
   while (!spread.unwritten.empty()) {
-    const std::uint64_t number = *spread.unwritten.begin();
-    std::vector<std::pair<SweepChunk, records::SweepRecord>> chunks;
-    const std::size_t first = number * sweep.plan.portion_chunks;
-    const std::size_t end = std::min(first + sweep.plan.portion_chunks, sweep.plan.chunks());
-    for (std::size_t i = first; i < end; ++i)
-      chunks.emplace_back(sweep.chunks[i], spread.sums.at(i));
-    lock.unlock();
-    core.queue->solved(job->id(), {number, pack(chunks, *job->spool)});
+    store::SolvedPortion portion{*spread.unwritten.begin(), {}};
+    std::size_t first = 0, end = 0;
+    if (job->sweep) {
+      const LiveSweep& sweep = *job->sweep;
+      first = portion.number * sweep.plan.portion_chunks;
+      end = std::min(first + sweep.plan.portion_chunks, sweep.plan.chunks());
+      std::vector<std::pair<SweepChunk, records::SweepRecord>> chunks;
+      for (std::size_t i = first; i < end; ++i)
+        chunks.emplace_back(sweep.chunks[i], spread.sums.at(i));
+      lock.unlock();
+      portion.body = pack(chunks, *job->spool);
+    } else {
+      portion.body = spread.answers.at(portion.number);
+      lock.unlock();
+    }
+    core.queue->solved(job->id(), portion);
     lock.lock();
-    spread.unwritten.erase(number);
+    spread.unwritten.erase(portion.number);
     spread.sums.erase(spread.sums.lower_bound(first), spread.sums.lower_bound(end));
   }
 }
 
 /// Takes over what other servers solved.
-void fetch_solved(EngineCore& core, const JobPtr& job, SpreadSweep& spread) {
+void fetch_solved(EngineCore& core, const JobPtr& job, LiveSpread& spread) {
   for (;;) {
     Lock lock(core.mutex);
-    const std::vector<std::int64_t> known(spread.known.begin(), spread.known.end());
+    const std::vector<std::int64_t> missing(spread.missing.begin(), spread.missing.end());
     lock.unlock();
     const std::vector<store::SolvedPortion> portions =
-        core.queue->solved_portions(job->id(), known);
+        core.queue->solved_portions(job->id(), missing);
     if (portions.empty()) return;
     for (const store::SolvedPortion& portion : portions) {
-      for (EndedChunk& chunk : unpack(portion, job)) {
+      std::vector<EndedChunk> chunks;
+      if (job->sweep) chunks = unpack(portion, job);
+      for (EndedChunk& chunk : chunks) {
         lock.lock();
         ++job->active;
         lock.unlock();
         core.deliver(std::move(chunk));
       }
       lock.lock();
-      spread.known.insert(portion.number);
+      if (!job->sweep) spread.answers[portion.number] = portion.body;
+      spread.missing.erase(portion.number);
       lock.unlock();
     }
+    core.positions.notify_all();
     core.rows->publish({job});  // before so many rows push one another out of the log
   }
 }
 
-/// Takes portions for threads that will need them. Of a sweep that runs elsewhere it also finds out
-/// whether that still wants them.
-void take_more(EngineCore& core, const JobPtr& job, SpreadSweep& spread, bool look) {
+/// Offers what the store does not have yet.
+void offer(EngineCore& core, const JobPtr& job, LiveSpread& spread) {
   Lock lock(core.mutex);
-  const SweepPlan& plan = job->sweep->plan;
+  const std::vector<store::Portion> portions = spread.to_offer;
+  if (portions.empty()) return;
+  lock.unlock();
+  core.queue->spread(job->id(), job->created.attempt, portions);
+  lock.lock();  // there may be more of them now
+  spread.to_offer.erase(spread.to_offer.begin(),
+                        spread.to_offer.begin() + static_cast<std::ptrdiff_t>(portions.size()));
+}
+
+/// Takes portions for threads that will need them. Of a job that runs elsewhere it also finds out
+/// whether that still wants them.
+void take_more(EngineCore& core, const JobPtr& job, LiveSpread& spread, bool look) {
+  Lock lock(core.mutex);
   const auto now = EngineCore::Clock::now();
-  const std::size_t most = threads(core);
-  const std::size_t waiting = job->helps ? waiting_here(core) : job->units - job->next_unit;
   const bool served = job->active > 1;
   if (served || job->next_unit == job->units) spread.served = now;
-  const bool may = !job->helps || ((served || !all_busy(core)) && now - spread.begun < help_for);
-  const std::size_t wanted =
-      may && waiting <= most ? (2 * most - waiting + plan.portion_chunks - 1) / plan.portion_chunks
-                             : 0;
-  if (wanted == 0 && !(job->helps && look)) return;
+  const bool may =
+      !job->helps || ((served || free_threads(core) > 0) && now - spread.begun < help_for);
+  const std::size_t count = may ? wanted(core, *job, spread) : 0;
+  if (count == 0 && !(job->helps && look)) return;
   lock.unlock();
-  const std::vector<store::Portion> mine = core.queue->take_portions(job->id(), wanted);
+  const std::vector<store::Portion> mine = core.queue->take_portions(job->id(), count);
   lock.lock();
   if (job->why != Stop::none) return;
-  const bool fit = std::ranges::all_of(mine, [&](const auto& one) { return fits(one, plan); });
+  const bool fit = std::ranges::all_of(mine, [&](const auto& one) { return fits(one, *job); });
   std::size_t kept = 0, added = 0;
   for (const store::Portion& one : mine) kept += spread.open.count(one.number);
   const bool lost = kept < spread.open.size();
   for (const store::Portion& one : mine) {
     if (!fit || spread.open.contains(one.number) || spread.unwritten.contains(one.number) ||
-        spread.known.contains(one.number))
+        (!job->helps && !spread.missing.contains(one.number)))
       continue;
-    const std::size_t chunks = (one.count + plan.chunk_rows - 1) / plan.chunk_rows;
-    for (std::size_t i = 0; i < chunks; ++i)
-      spread.units.push_back(one.number * plan.portion_chunks + i);
-    spread.open[one.number] = chunks;
-    added += chunks;
+    std::size_t units = 1, first = one.number;
+    if (job->sweep) {
+      const SweepPlan& plan = job->sweep->plan;
+      units = (one.count + plan.chunk_rows - 1) / plan.chunk_rows;
+      first *= plan.portion_chunks;
+    } else {
+      spread.requests[one.number] = one.request;
+    }
+    for (std::size_t i = 0; i < units; ++i) spread.units.push_back(first + i);
+    spread.open[one.number] = units;
+    added += units;
   }
-  if (added > 0) {
+  if (added > 0 && !job->helps && !job->sweep) {
+    core.positions.notify_all();
+  } else if (added > 0) {
     job->units += added;
     core.meshes.at(job->mesh)->waiting[index(job->lane)] += added;
     core.offer(job);
   }
-  const bool done = spread.open.empty() && spread.unwritten.empty();
+  const bool asked = count > 0 || now - spread.begun > longest_wait;  // a start ends with its turn
+  const bool done = asked && spread.open.empty() && spread.unwritten.empty();
   const bool starved = job->next_unit < job->units && now - spread.served > longest_wait;
   lock.unlock();
   if (!fit)
     core.stop(job, Stop::failed,
-              Error(errors::Reason::internal, "another server has other chunks of this sweep"));
+              Error(errors::Reason::internal, "another server has other portions of this job"));
   else if (job->helps && (lost || done || starved))
     core.stop(job, Stop::interrupted);
 }
 
-/// Ends what this server does for a sweep that has ended or was stopped.
-void leave_sweep(EngineCore& core, const JobPtr& job) {
+/// The job is not spread any more. With the lock held.
+void end_spread(EngineCore& core, const JobPtr& job) {
+  job->spread.reset();
+  --job->active;
+  core.settle(job);
+}
+
+/// Ends what this server does for a job that was stopped.
+void leave(EngineCore& core, const JobPtr& job) {
   Lock lock(core.mutex);
   const Stop why = job->why;
   const auto found = core.jobs.find(job->id());
   const bool anew = found != core.jobs.end() && found->second != job;  // it has the portions
   lock.unlock();
   try {
-    if (!anew && why != Stop::none) {
+    if (!anew) {
       if (job->helps || why == Stop::interrupted)
         core.queue->give_back_portions(job->id());
       else
@@ -161,37 +225,31 @@ void leave_sweep(EngineCore& core, const JobPtr& job) {
     // They go with the job, or with the lease of this server.
   }
   lock.lock();
-  job->sweep->spread.reset();
-  --job->active;
-  core.settle(job);
+  end_spread(core, job);
 }
 
 void attend(EngineCore& core, const JobPtr& job) {
   Lock lock(core.mutex);
   const bool runs_here = core.jobs.contains(job->id());
-  const bool alone = job->helps && job->sweep && !job->sweep->spread;  // by its own limits
+  const bool alone = job->helps && job->sweep && !job->spread;  // by its own limits
   if (job->why == Stop::none && job->helps && (core.draining || runs_here || alone)) {
     lock.unlock();
     core.stop(job, alone ? Stop::failed : Stop::interrupted);
     lock.lock();
   }
-  if (!job->sweep || !job->sweep->spread) return;
-  SpreadSweep& spread = *job->sweep->spread;
+  if (!job->spread) return;
+  LiveSpread& spread = *job->spread;
   if (job->why != Stop::none) {
     lock.unlock();
-    return leave_sweep(core, job);
+    return leave(core, job);
   }
   if (!spread.ready) return;
   const auto now = EngineCore::Clock::now();
   const bool look = now - spread.looked >= look_every;
   if (look) spread.looked = now;
   lock.unlock();
-  const SweepPlan& plan = job->sweep->plan;
   try {
-    if (!job->helps && !spread.offered)
-      core.queue->spread(job->id(), job->created.attempt, plan.rows,
-                         plan.chunk_rows * plan.portion_chunks);
-    spread.offered = true;
+    offer(core, job, spread);
     take_more(core, job, spread, look);
     write_solved(core, job, spread);
     if (!job->helps && look) fetch_solved(core, job, spread);
@@ -202,9 +260,7 @@ void attend(EngineCore& core, const JobPtr& job) {
     if (!out_of_reach) core.stop(job, Stop::failed, error);
   }
   lock.lock();
-  const bool all = !job->helps && spread.known.size() == portions_of(plan);
-  lock.unlock();
-  if (all) leave_sweep(core, job);
+  if (!job->helps && spread.missing.empty() && job->why == Stop::none) end_spread(core, job);
 }
 
 }  // namespace
@@ -212,15 +268,16 @@ void attend(EngineCore& core, const JobPtr& job) {
 void solve_together(EngineCore& core) {
   Lock lock(core.mutex);
   while (!core.quitting) {
-    std::vector<JobPtr> sweeps;
+    std::vector<JobPtr> jobs;
     for (const auto& [number, job] : core.numbers)
-      if (job->helps || (job->sweep && job->sweep->spread)) sweeps.push_back(job);
+      if (job->helps || job->spread) jobs.push_back(job);
     lock.unlock();
-    for (const JobPtr& job : sweeps) attend(core, job);
-    sweeps.clear();
+    for (const JobPtr& job : jobs) attend(core, job);
+    jobs.clear();
     lock.lock();
-    core.spreading.wait_for(
-        lock, look_every, [&] { return core.quitting || std::exchange(core.chunks_ended, false); });
+    core.spreading.wait_for(lock, look_every, [&] {
+      return core.quitting || std::exchange(core.spread_changed, false);
+    });
   }
 }
 
@@ -228,7 +285,8 @@ void help(EngineCore& core, const std::vector<std::string>& meshes_held) {
   Lock lock(core.mutex);
   const bool helps =
       std::ranges::any_of(core.numbers, [](const auto& entry) { return entry.second->helps; });
-  if (core.draining || core.memory->exceeded() || helps || waiting_here(core) > 0 || all_busy(core))
+  if (core.draining || core.memory->exceeded() || helps || waiting_here(core) > 0 ||
+      free_threads(core) == 0)
     return;
   const std::vector<std::string> except(core.not_helped.begin(), core.not_helped.end());
   lock.unlock();
@@ -236,19 +294,102 @@ void help(EngineCore& core, const std::vector<std::string>& meshes_held) {
     take_up(core, std::move(*record), "", true);
 }
 
+void begin_spread(const JobPtr& job) {
+  job->spread = std::make_shared<LiveSpread>();
+  ++job->active;
+  if (job->helps || !job->sweep) return;
+  for (std::uint64_t i = 0; i < portions_of(job->sweep->plan); ++i) {
+    job->spread->to_offer.push_back(portion_of(job->sweep->plan, i));
+    job->spread->missing.insert(i);
+  }
+}
+
+void make_ready(EngineCore& core, LiveSpread& spread) {
+  spread.ready = true;
+  spread.begun = EngineCore::Clock::now();
+  wake(core);
+}
+
 void note_solved(EngineCore& core, const EndedChunk& chunk) {
   const LiveJob& job = *chunk.task.job;
-  SpreadSweep* const spread = job.sweep->spread.get();
+  LiveSpread* const spread = job.spread.get();
   if (spread == nullptr) return;
-  core.chunks_ended = true;
-  core.spreading.notify_one();
-  if (!chunk.columns) return;
-  spread->sums[chunk.task.index] = chunk.record;
-  const std::uint64_t number = chunk.task.index / job.sweep->plan.portion_chunks;
-  if (--spread->open.at(number) > 0) return;
-  spread->open.erase(number);
+  wake(core);
+  std::uint64_t number = chunk.task.index;
+  if (chunk.columns) {
+    spread->sums[number] = chunk.record;
+    number /= job.sweep->plan.portion_chunks;
+  } else if (chunk.position) {
+    spread->answers[number] = *chunk.position;
+  } else {
+    return;
+  }
+  const auto open = spread->open.find(number);
+  if (open == spread->open.end() || --open->second > 0) return;
+  spread->open.erase(open);
   spread->unwritten.insert(number);
-  if (!job.helps) spread->known.insert(number);
+  spread->missing.erase(number);
+}
+
+void solve_portions(EngineCore& core, const JobPtr& job,
+                    const std::vector<store::Portion>& portions,
+                    const std::function<void(std::size_t i, const std::string& body)>& solved) {
+  if (portions.empty()) return;
+  Lock lock(core.mutex);
+  if (!job->spread) {
+    begin_spread(job);
+    make_ready(core, *job->spread);
+  }
+  const std::shared_ptr<LiveSpread> spread = job->spread;
+  std::map<std::uint64_t, std::size_t> left;  // of `portions`: by number, those not told
+  for (const store::Portion& portion : portions) {
+    left.emplace(portion.number, left.size());
+    spread->to_offer.push_back(portion);
+    spread->missing.insert(portion.number);
+  }
+  lock.unlock();
+  const auto is_left = [&](std::uint64_t number) { return left.contains(number); };
+  const auto work = [&](std::size_t) {
+    Lock of_core(core.mutex);
+    try {
+      while (!left.empty()) {
+        if (job->why != Stop::none)
+          throw Error(errors::Reason::cancelled, "stopped while solving positions of growth");
+        const auto told = std::ranges::find_if(
+            left, [&](const auto& one) { return spread->answers.contains(one.first); });
+        const auto unit = std::ranges::find_if(spread->units, is_left);
+        if (told != left.end()) {
+          const std::size_t i = told->second;
+          const std::string body = spread->answers.at(told->first);
+          left.erase(told);
+          of_core.unlock();
+          solved(i, body);
+          of_core.lock();
+        } else if (unit != spread->units.end()) {
+          const Task task{job, *unit, {}, spread->requests.at(*unit)};
+          spread->units.erase(unit);
+          of_core.unlock();
+          const EndedChunk ended = solve_position(task, core.catalogue);
+          of_core.lock();
+          if (ended.failure) throw Error(*ended.failure);
+          note_solved(core, ended);
+        } else {
+          ++spread->idle;
+          wake(core);
+          core.positions.wait_for(of_core, look_every);
+          --spread->idle;
+        }
+      }
+    } catch (...) {  // the other threads end as well
+      if (!of_core) of_core.lock();
+      std::erase_if(spread->units, is_left);
+      for (const auto& [number, i] : left) spread->missing.erase(number);
+      left.clear();
+      throw;
+    }
+  };
+  const int most = base::Threads::allowed();
+  base::at_once(std::min(portions.size(), at(std::max(1, most))), most, [&] { return work; });
 }
 
 }  // namespace anticrack::jobs

@@ -242,7 +242,7 @@ std::shared_ptr<const operators::LoadBasis> condense_basis(
 }
 
 EndedChunk solve_chunk(const Task& task, std::atomic<std::uint64_t>& iterations) {
-  EndedChunk ended{task, {}, {}, {}, {}, false};
+  EndedChunk ended{task};
   const stop::Scope scope(task.job->stop.get_token());
   try {
     ChunkRows rows(task);

@@ -14,14 +14,16 @@
 
 namespace anticrack::jobs {
 
-/// A chunk that has ended; a thread reports it after its work without the lock.
+/// A chunk, or a position of growth, that has ended; a thread reports it after its work without the
+/// lock.
 struct EndedChunk {
   Task task;
-  SweepChunk solved;  ///< empty if the job was stopped or the chunk failed
-  std::shared_ptr<const contact::SweepColumns> columns;  ///< the spooled rows, for watchers
-  records::SweepRecord record;                           ///< sums over these rows
-  std::optional<errors::Error> failure;  ///< ends the whole job, e.g. a bad value in the matrix
-  bool fetched = false;                  ///< another server solved it
+  SweepChunk solved{};  ///< empty if the job was stopped or the chunk failed
+  std::shared_ptr<const contact::SweepColumns> columns{};  ///< the spooled rows, for watchers
+  records::SweepRecord record{};                           ///< sums over these rows
+  std::optional<errors::Error> failure{};  ///< ends the whole job, e.g. a bad value in the matrix
+  bool fetched = false;                    ///< another server solved it
+  std::optional<std::string> position{};   ///< the answer to a position, packed
 };
 
 /// Condenses the loads that a job combines. Throws errors::Error with the path in the job

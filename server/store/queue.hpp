@@ -49,9 +49,12 @@ struct EventCursor {
   std::uint64_t after = 0;
 };
 
-/// A run of rows of a sweep that one server solves.
+/// A part of a job that one server solves: a run of rows of a sweep, or a position of growth, which
+/// counts as the row of its number.
 struct Portion {
   std::uint64_t number = 0, first = 0, count = 0;  ///< first row and number of rows
+  std::string request{};  ///< of a position, jobs/portion_codec.hpp; empty: of a sweep
+  bool operator==(const Portion&) const = default;
 };
 
 /// The answers to a portion: `body` is that of jobs/portion_codec.hpp.
@@ -68,7 +71,7 @@ struct SolvedPortion {
 ///    end this server wrote before ends once, whatever replies were lost.
 /// 3. A server whose beat does not change for a lease, by the clock of the server that looks, loses
 ///    its jobs to others.
-/// 4. A portion of a sweep is solved once: at most one server has it, who dies loses it as he loses
+/// 4. A portion of a job is solved once: at most one server has it, who dies loses it as he loses
 ///    jobs, and what is solved stays for the next attempt, until the job has ended.
 /// 5. Methods may be called from any thread and throw errors::Error (storage, busy) while the
 ///    database cannot be reached.
@@ -118,11 +121,11 @@ class Queue {
   /// Which of these jobs have ended.
   virtual std::vector<std::string> ended(const std::vector<std::string>& jobs) const = 0;
 
-  /// Offers the rows of a sweep that this server runs to all servers, in portions of so many rows.
-  /// What earlier attempts solved of the same portions stays. Throws JobTaken.
-  virtual void spread(const std::string& job, int attempt, std::uint64_t rows,
-                      std::uint64_t portion_rows) = 0;
-  /// A sweep that another server runs and that has portions which nobody has; none of `except`.
+  /// Offers portions of a job that this server runs to all servers: all those of a sweep, or more
+  /// positions of growth. What earlier attempts solved of the same portions stays. Throws JobTaken.
+  virtual void spread(const std::string& job, int attempt,
+                      const std::vector<Portion>& portions) = 0;
+  /// A job that another server runs and that has portions which nobody has; none of `except`.
   /// Of the most urgent class goes first the owner for whom others are solving the fewest portions;
   /// of several one by chance, more often one on a mesh that is `held`. Nothing is taken yet.
   virtual std::optional<records::JobRecord> to_help(const std::vector<std::string>& held,
@@ -133,9 +136,9 @@ class Queue {
   /// Writes the answers to a portion; they are thrown away if this server does not have it any
   /// more.
   virtual void solved(const std::string& job, const SolvedPortion& portion) = 0;
-  /// Some of the solved portions, by number, without the `known`; none: there are no others.
+  /// Some of these portions that are solved, by number; none: no other is.
   virtual std::vector<SolvedPortion> solved_portions(
-      const std::string& job, const std::vector<std::int64_t>& known) const = 0;
+      const std::string& job, const std::vector<std::int64_t>& missing) const = 0;
   /// Gives back the portions that this server has and has not solved.
   virtual void give_back_portions(const std::string& job) = 0;
   /// Nobody is to solve portions of this attempt any more.

@@ -142,6 +142,13 @@ TEST_F(GroupCopy, ChecksFindEachDamage) {
       "INSERT INTO portions SELECT 'runs', n, 4 * n, least(4, 10 - 4 * n), NULL, CASE n "
       "WHEN 1 THEN $1::bytea END FROM generate_series(0, 2) n",
       {postgres::Value::bytes(portion.SerializeAsString())});
+  disk::PositionRequest request;
+  for (const double t : {1.0, 0.5}) request.add_loads(t);
+  disk::SolvedPosition position;
+  for (int i = 0; i < request.loads_size(); ++i) position.add_energy()->set_upper(1);
+  postgres::query(pool, "INSERT INTO portions VALUES ('waits1', 5, 5, 1, NULL, $1, $2)",
+                  {postgres::Value::bytes(position.SerializeAsString()),
+                   postgres::Value::bytes(request.SerializeAsString())});
   ASSERT_THAT(flaws(), IsEmpty());
   const std::string some = "(SELECT min(sha256) FROM blobs WHERE kind = ";
   std::vector<std::string> damages{
@@ -155,6 +162,9 @@ TEST_F(GroupCopy, ChecksFindEachDamage) {
       "UPDATE portions SET first = first + 1 WHERE n = 2",
       "UPDATE portions SET n = 7 WHERE n = 2",
       "UPDATE portions SET job = 'unknown'",
+      "UPDATE portions SET first = 0 WHERE n = 5",
+      "UPDATE portions SET body = substr(body, 1, octet_length(body) / 2) WHERE n = 5",
+      "UPDATE portions SET request = substr(request, 1, octet_length(request) / 2) WHERE n = 5",
       "UPDATE portions SET body = substr(body, 1, octet_length(body) - 1) WHERE n = 1",
       "UPDATE portions SET body = substr(body, 1, octet_length(body) / 2) WHERE n = 1",
   };

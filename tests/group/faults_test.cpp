@@ -102,19 +102,19 @@ TEST_P(GroupFaults, PortionsOfASweepAreSolvedOnceWhateverIsLost) {
               std::vector<Queue::Claim> claims;
               while ((claims = queue.claim(1, {"m"}, {})).empty()) queue.give_back({});
               record = claims[0].record;
-              queue.spread("one", record.attempt, 10, 4);
+              queue.spread("one", record.attempt, {{0, 0, 4}, {1, 4, 4}, {2, 8, 2}});
               EXPECT_FALSE(queue.to_help({}, {})) << "it runs here";
               std::map<std::uint64_t, std::string> bodies;
               for (std::size_t taken = 0; bodies.size() < 3; ++taken) {
                 for (const Portion& portion : queue.take_portions("one", 1))
                   queue.solved("one", {portion.number, std::to_string(taken)});
-                for (SolvedPortion& one : queue.solved_portions("one", {}))
+                for (SolvedPortion& one : queue.solved_portions("one", {0, 1, 2}))
                   EXPECT_EQ(bodies.emplace(one.number, one.body).first->second, one.body)
                       << "what was solved does not change";
               }
               queue.give_back_portions("one");
               queue.withdraw_portions("one", record.attempt);
-              EXPECT_TRUE(queue.solved_portions("one", {}).empty());
+              EXPECT_TRUE(queue.solved_portions("one", {0, 1, 2}).empty());
               record.state = records::JobState::succeeded;
               record.ended = records::Clock::time_point(std::chrono::seconds(7));
               store->finish(record, nullptr);

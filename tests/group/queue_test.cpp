@@ -71,8 +71,15 @@ class GroupQueue : public ::testing::Test {
   JobRecord spread(Store& by, const std::string& id, const std::string& owner = "a") {
     submit(by, job(id, owner));
     const JobRecord record = claim(by).at(0).record;
-    by.queue()->spread(id, record.attempt, 10, 4);
+    by.queue()->spread(id, record.attempt, portions(4));
     return record;
+  }
+  /// 10 rows in portions of so many.
+  static std::vector<store::Portion> portions(std::uint64_t rows) {
+    std::vector<store::Portion> result;
+    for (std::uint64_t first = 0; first < 10; first += rows)
+      result.push_back({first / rows, first, std::min(rows, 10 - first)});
+    return result;
   }
   /// By number; checks that each has its rows.
   static std::vector<std::uint64_t> take(Store& by, const std::string& job, std::size_t count) {
@@ -85,9 +92,10 @@ class GroupQueue : public ::testing::Test {
     return numbers;
   }
   static std::map<std::uint64_t, std::string> solved(Store& by, const std::string& job,
-                                                     const std::vector<std::int64_t>& known = {}) {
+                                                     const std::vector<std::int64_t>& missing = {
+                                                         0, 1, 2}) {
     std::map<std::uint64_t, std::string> bodies;
-    for (const store::SolvedPortion& one : by.queue()->solved_portions(job, known))
+    for (const store::SolvedPortion& one : by.queue()->solved_portions(job, missing))
       bodies[one.number] = one.body;
     return bodies;
   }
@@ -285,7 +293,7 @@ TEST_F(GroupQueue, GivesEachPortionOfASweepToOneServer) {
   EXPECT_EQ(take(*b, "one", 0), Numbers{2});
   EXPECT_EQ(solved(*a, "one"),
             (std::map<std::uint64_t, std::string>{{1, std::string("b\0dy", 4)}}));
-  EXPECT_TRUE(solved(*a, "one", {1}).empty());
+  EXPECT_TRUE(solved(*a, "one", {0, 2}).empty());
   b->queue()->give_back_portions("one");
   EXPECT_EQ(take(*a, "one", 5), (Numbers{0, 2}));
   a->finish(ended(record), nullptr);
@@ -301,17 +309,36 @@ TEST_F(GroupQueue, KeepsTheSolvedPortionsOfAnEarlierAttempt) {
   declare_dead("(SELECT runner FROM anticrack.queue)");
   b->queue()->beat({});
   const JobRecord again = claim(*b).at(0).record;
-  EXPECT_THROW(a->queue()->spread("one", 1, 10, 4), store::JobTaken);
+  EXPECT_THROW(a->queue()->spread("one", 1, portions(4)), store::JobTaken);
   a->queue()->solved("one", {0, "late"});
   a->queue()->withdraw_portions("one", 1);
   EXPECT_TRUE(take(*a, "one", 0).empty());
-  b->queue()->spread("one", again.attempt, 10, 4);
+  b->queue()->spread("one", again.attempt, portions(4));
   EXPECT_EQ(solved(*b, "one").size(), 1U);
   EXPECT_EQ(take(*b, "one", 5), (Numbers{0, 2}));
-  b->queue()->spread("one", again.attempt, 10, 5);
+  b->queue()->spread("one", again.attempt, portions(5));
   EXPECT_TRUE(solved(*b, "one").empty()) << "other rows are another portion";
   b->queue()->withdraw_portions("one", again.attempt);
   EXPECT_TRUE(b->queue()->take_portions("one", 5).empty());
+}
+
+TEST_F(GroupQueue, OffersPositionsOfGrowthAsTheyCome) {
+  submit(*a, job("one"));
+  const int attempt = claim(*a).at(0).record.attempt;
+  const auto position = [](std::uint64_t n, const std::string& request) {
+    return store::Portion{n, n, 1, request};
+  };
+  const std::vector<store::Portion> first{position(3, "x"), position(4, std::string("y\0", 2))};
+  const std::vector<store::Portion> more{position(1, "z")};
+  a->queue()->spread("one", attempt, first);
+  a->queue()->spread("one", attempt, more);
+  EXPECT_EQ(a->queue()->take_portions("one", 1), more);
+  EXPECT_EQ(b->queue()->take_portions("one", 9), first) << "those of before stay";
+  for (const std::uint64_t n : {3, 4}) b->queue()->solved("one", {n, "answer"});
+  const std::vector<store::Portion> other{position(3, "x"), position(4, "another")};
+  a->queue()->spread("one", attempt, other);
+  EXPECT_EQ(solved(*a, "one", {1, 3, 4}), (std::map<std::uint64_t, std::string>{{3, "answer"}}));
+  EXPECT_EQ(b->queue()->take_portions("one", 9), std::vector{other[1]});
 }
 
 TEST_F(GroupQueue, FreesThePortionsOfAHelperThatDied) {

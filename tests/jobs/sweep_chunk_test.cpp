@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <memory>
 
 #include "jobs/portion_codec.hpp"
@@ -127,6 +128,32 @@ TEST_F(TiltingChunkTest, ComesBackFromThePortionsOfTheStoreAsItWas) {
   EXPECT_TRUE(
       refused(0, pack({{last.solved, last.record}, {first.solved, first.record}}, *job->spool)))
       << "other rows";
+}
+
+TEST(PortionCodec, KeepsEachBitOfAPositionAndRefusesADamagedOne) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  const PositionRequest request{
+      {{3, 0}, {growth::Fate::not_followed, growth::Fate::grows}}, 1, {0.1, 1. / 3}, 0, 7};
+  const PositionRequest asked = unpack_request(pack(request));
+  EXPECT_EQ(asked.state.at, request.state.at);
+  EXPECT_EQ(asked.state.fate, request.state.fate);
+  EXPECT_EQ(asked.loads, request.loads);
+  EXPECT_EQ(pack(asked), pack(request));
+  EXPECT_TRUE(
+      anticrack::testing::throws([&] { unpack_request(pack(request) + "x"); }, Reason::storage));
+
+  const SolvedPosition solved{std::nullopt, "closed", "why", {{-1. / 3, 0}, {-infinite, infinite}}};
+  const std::string body = pack(solved);
+  const SolvedPosition found = unpack_position(body, 2);
+  EXPECT_FALSE(found.release);
+  EXPECT_EQ(found.reason, "why");
+  EXPECT_EQ(found.energy.at(0).lower, -1. / 3);
+  EXPECT_EQ(found.energy.at(1).upper, infinite);
+  EXPECT_EQ(pack(found), body);
+  for (std::size_t bytes = 0; bytes < body.size(); ++bytes)
+    EXPECT_TRUE(anticrack::testing::throws([&] { unpack_position(body.substr(0, bytes), 2); },
+                                           Reason::storage))
+        << bytes;
 }
 
 class BoundedChunkTest : public ChunkTest {

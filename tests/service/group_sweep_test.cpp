@@ -44,7 +44,7 @@ Sweep combinations(std::size_t rows, bool bounds = false) {
   return sweep;
 }
 
-class GroupSweep : public Group {
+class GroupSweep : public SpreadGroup {
  protected:
   std::string submit(client::Connection& connection, const Sweep& sweep) const {
     v1::JobSpec spec = sweep.spec;
@@ -64,37 +64,14 @@ class GroupSweep : public Group {
     return client::read_result(connection, name);
   }
 
-  /// From now on every portion that is solved is noted. The tables must be there.
-  void note_portions() const {
-    database.sql(
-        "CREATE TABLE noted (n integer, runner bigint, helped boolean);"
-        "CREATE FUNCTION note() RETURNS trigger LANGUAGE plpgsql AS $$BEGIN INSERT INTO "
-        "public.noted SELECT NEW.n, NEW.runner, q.runner IS DISTINCT FROM NEW.runner FROM "
-        "anticrack.queue q WHERE q.job = NEW.job; RETURN NEW; END$$;"
-        "CREATE TRIGGER note AFTER UPDATE ON anticrack.portions FOR EACH ROW "
-        "WHEN (OLD.body IS NULL AND NEW.body IS NOT NULL) EXECUTE FUNCTION note()");
-  }
-  std::size_t noted(const std::string& which = "true") const {
-    return std::stoul(database.sql("SELECT count(*) FROM noted WHERE " + which));
-  }
   /// Submits a sweep and waits until it is in the middle and both servers have solved some of it.
   std::string begin(const Sweep& sweep) {
     client::Connection connection(servers[0]->connection());
     const std::string name = submit(connection, sweep);
     EXPECT_TRUE(eventually([&] { return noted("helped") > 2 && noted("NOT helped") > 2; }));
-    const std::string runner =
-        database.sql("SELECT name FROM anticrack.servers JOIN anticrack.queue ON runner = epoch");
-    if (!runner.starts_with(read_file(servers[0]->data() + "/server")))
-      std::swap(servers[0], servers[1]);
+    runner_first();
     return name;
   }
-  Daemon& runner() { return *servers[0]; }
-  Daemon& helper() { return *servers[1]; }
-  /// Nothing was solved twice.
-  void expect_once() const {
-    EXPECT_EQ(noted(), std::stoul(database.sql("SELECT count(DISTINCT n) FROM noted")));
-  }
-
   void expect_same(client::Connection& connection, const std::string& name,
                    const Sweep& sweep) const {
     const v1::Job end = wait_for_end(connection, name);
