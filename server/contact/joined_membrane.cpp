@@ -40,7 +40,7 @@ void add_product(const Sparse& lower, const VectorXd& x, VectorXd& y) {
 ddm::SubdomainFactor factor_of(const Sparse& matrix, Index interior, Index trace,
                                std::span<const double> places, int threads) {
   const Sparse part = block_of(matrix, 0, 0, interior + trace, interior + trace);
-  return {part, interior, ddm::elimination_order(part, interior, places), threads};
+  return {part, interior, ddm::elimination_order(part, interior, places, threads), threads};
 }
 
 }  // namespace

@@ -18,8 +18,8 @@ constexpr double most_change = 1e-6;
 ddm::SubdomainFactor factor(const JoinedMembrane& membrane) {
   const Index all = membrane.size() + membrane.contacts();
   const Eigen::SparseMatrix<double> matrix = membrane.matrix().topLeftCorner(all, all);
-  return {matrix, all, ddm::elimination_order(matrix, all, membrane.places()),
-          base::Threads::allowed()};
+  const int threads = base::Threads::allowed();
+  return {matrix, all, ddm::elimination_order(matrix, all, membrane.places(), threads), threads};
 }
 
 }  // namespace

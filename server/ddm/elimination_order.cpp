@@ -54,8 +54,8 @@ Graph graph_of(const Sparse& matrix, std::int32_t interior) {
 }  // namespace
 
 std::vector<std::int32_t> elimination_order(const Sparse& stiffness, Eigen::Index interior,
-                                            std::span<const double> xy) {
-  return nested_dissection(graph_of(stiffness, static_cast<std::int32_t>(interior)), xy);
+                                            std::span<const double> xy, int threads) {
+  return nested_dissection(graph_of(stiffness, static_cast<std::int32_t>(interior)), xy, threads);
 }
 
 }  // namespace anticrack::ddm

@@ -41,15 +41,18 @@ struct Graph {
 };
 
 /// The vertices in order of elimination. `xy`: (n,2) row-major, or longer. Valid for any graph and
-/// any coordinates; deterministic. Time and fill O(n log n) for triangulations; fastest if nearby
-/// nodes have nearby numbers. 50 bytes a vertex besides the graph.
-std::vector<std::int32_t> nested_dissection(const Graph& graph, std::span<const double> xy);
+/// any finite coordinates; deterministic, and the same for any number of threads. Time and fill
+/// O(n log n) for triangulations; fastest if nearby nodes have nearby numbers. 50 bytes a vertex
+/// besides the graph, and 4 for each thread.
+std::vector<std::int32_t> nested_dissection(const Graph& graph, std::span<const double> xy,
+                                            int threads = 1);
 
 /// Orders the first `interior` unknowns of a subdomain for elimination, by nested dissection. On
 /// triangulations of 3 k to 250 k nodes it costs as much as approximate minimum degree and halves
 /// the operations of the factorisation; METIS takes seven times as long for 7 % less fill.
 /// `stiffness`: lower triangle, rows of a column ascending; `xy`: (interior,2) row-major or longer.
 std::vector<std::int32_t> elimination_order(const Eigen::SparseMatrix<double>& stiffness,
-                                            Eigen::Index interior, std::span<const double> xy);
+                                            Eigen::Index interior, std::span<const double> xy,
+                                            int threads = 1);
 
 }  // namespace anticrack::ddm

@@ -5,10 +5,13 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <deque>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "base/at.hpp"
+#include "base/at_once.hpp"
 #include "ddm/vertex_separator.hpp"
 #include "stop/stop.hpp"
 
@@ -83,11 +86,12 @@ class Circle {
   double _square;
 };
 
-class Dissection {
- public:
-  Dissection(const Graph& graph, std::span<const double> xy)
-      : _graph(graph), _part(graph.size(), 0), _local(graph.size(), -1) {
-    _nodes.reserve(graph.size());
+/// The nodes, of which each set has a range. Neighbours of a set's nodes are in it or in
+/// separators, which stay, so threads may work on sets at once.
+struct Order {
+  Order(const Graph& of, std::span<const double> xy)
+      : graph(of), part(of.size(), 0), moved(of.size()) {
+    nodes.reserve(graph.size());
     for (std::size_t v = 0; v < graph.size(); ++v) {
       stop::look_at_turn<stop::quick>(v, ordering);
       double square = 0, reach_x = 0, reach_y = 0;
@@ -98,41 +102,61 @@ class Dissection {
         reach_x = std::max(reach_x, std::abs(dx));
         reach_y = std::max(reach_y, std::abs(dy));
       }
-      _nodes.push_back({xy[2 * v], xy[2 * v + 1], rounded_up(std::sqrt(square)),
-                        rounded_up(reach_x), rounded_up(reach_y), static_cast<std::int32_t>(v)});
+      nodes.push_back({xy[2 * v], xy[2 * v + 1], rounded_up(std::sqrt(square)), rounded_up(reach_x),
+                       rounded_up(reach_y), static_cast<std::int32_t>(v)});
     }
-    _moved.resize(graph.size());
   }
 
-  std::vector<std::int32_t> order() {
-    std::vector<Set> open = {{0, _nodes.size(), 0, finest(_nodes)}};
+  static float rounded_up(double reach) { return static_cast<float>(reach * (1 + 1e-6)); }
+
+  const Graph& graph;
+  std::vector<Node> nodes;         // in the order of elimination, as far as it is known
+  std::vector<std::int32_t> part;  // of each vertex, or `separator`
+  std::vector<Node> moved;         // workspace, of each set in its range
+};
+
+bool finer(const Node& a, const Node& b) { return a.reach < b.reach; }
+
+/// Works on one set after the other.
+class Dissection {
+ public:
+  /// New parts have numbers above `parts`.
+  Dissection(Order& order, std::int32_t parts)
+      : _graph(order.graph),
+        _nodes(order.nodes),
+        _part(order.part),
+        _moved(order.moved),
+        _local(order.graph.size(), -1),
+        _parts(parts) {}
+
+  void order(const Set& whole) {
+    std::vector<Set> open = {whole};
     std::size_t turn = 0;
     while (!open.empty()) {
       stop::look_at_turn<16>(turn++, ordering);
       const Set set = open.back();
       open.pop_back();
-      if (set.size() <= SmallGraph::most) {
-        order_leaf(set);
-        continue;
-      }
-      halve(set);
-      const auto [first, second] = move_apart(set);
-      // A set that cannot be halved, such as a complete graph, keeps its order.
-      if (first.size() > 0 && second.size() > 0) {
-        open.push_back(first);
-        open.push_back(second);
-      }
+      if (const auto halves = divide(set)) open.insert(open.end(), {halves->first, halves->second});
     }
-    std::vector<std::int32_t> result;
-    result.reserve(_nodes.size());
-    for (const Node& node : _nodes) result.push_back(node.vertex);
-    return result;
   }
+
+  /// Divides a set that is too large to be ordered; nothing if it has been ordered.
+  std::optional<std::pair<Set, Set>> divide(const Set& set) {
+    if (set.size() <= SmallGraph::most) {
+      order_leaf(set);
+      return {};
+    }
+    halve(set);
+    const auto halves = move_apart(set);
+    // A set that cannot be halved, such as a complete graph, keeps its order.
+    if (halves.first.size() == 0 || halves.second.size() == 0) return {};
+    return halves;
+  }
+
+  std::int32_t parts() const { return _parts; }
 
  private:
   static constexpr std::int32_t separator = -1;
-
-  static float rounded_up(double reach) { return static_cast<float>(reach * (1 + 1e-6)); }
 
   /// The median distance of the nodes from the cut, estimated from a sample.
   double median(const Set& set, const Cut& cut) {
@@ -143,13 +167,6 @@ class Dissection {
     const auto middle = _sample.begin() + static_cast<std::ptrdiff_t>(count / 2);
     std::nth_element(_sample.begin(), middle, _sample.end());
     return *middle;
-  }
-
-  static bool finer(const Node& a, const Node& b) { return a.reach < b.reach; }
-
-  static Node finest(const std::vector<Node>& nodes) {
-    const auto found = std::min_element(nodes.begin(), nodes.end(), finer);
-    return found == nodes.end() ? Node{} : *found;
   }
 
   /// The cut that meets the fewest nodes, of two lines and a circle. Meshes are graded towards
@@ -286,13 +303,13 @@ class Dissection {
         _nodes[end++] = node;
       } else if (part == second) {
         finest[1] = finer(node, finest[1]) ? node : finest[1];
-        _moved[seconds++] = node;
+        _moved[set.first + seconds++] = node;
       } else {
         _on_separator.push_back(node);
       }
     }
-    const auto middle =
-        std::copy_n(_moved.begin(), seconds, _nodes.begin() + static_cast<std::ptrdiff_t>(end));
+    const auto middle = std::copy_n(_moved.begin() + static_cast<std::ptrdiff_t>(set.first),
+                                    seconds, _nodes.begin() + static_cast<std::ptrdiff_t>(end));
     std::copy(_on_separator.begin(), _on_separator.end(), middle);
     return {{set.first, end, first, finest[0]}, {end, end + seconds, second, finest[1]}};
   }
@@ -323,31 +340,51 @@ class Dissection {
     }
     std::array<std::int32_t, SmallGraph::most> order{};
     for (std::size_t i = 0; i < small.size; ++i) {
-      _moved[i] = _nodes[set.first + i];
-      _local[at(_moved[i].vertex)] = -1;
+      _moved[set.first + i] = _nodes[set.first + i];
+      _local[at(_nodes[set.first + i].vertex)] = -1;
     }
     for (const std::int32_t u : _taken) _local[at(u)] = -1;
     minimum_degree(small, order);
-    for (std::size_t i = 0; i < small.size; ++i) _nodes[set.first + i] = _moved[at(order[i])];
+    for (std::size_t i = 0; i < small.size; ++i)
+      _nodes[set.first + i] = _moved[set.first + at(order[i])];
   }
 
   const Graph& _graph;
-  std::vector<Node> _nodes;          // in the order of elimination, as far as it is known
-  std::vector<std::int32_t> _part;   // of each vertex, or `separator`
+  std::vector<Node>& _nodes;
+  std::vector<std::int32_t>& _part;
+  std::vector<Node>& _moved;
   std::vector<std::int32_t> _local;  // number of each vertex in the present band or leaf, or -1
-  std::int32_t _parts = 0;
+  std::int32_t _parts;
   VertexSeparator _separate;
   Band _band;
   // Workspace.
   std::vector<std::int32_t> _near, _taken;
   std::vector<double> _sample;
-  std::vector<Node> _moved, _on_separator;
+  std::vector<Node> _on_separator;
 };
 
 }  // namespace
 
-std::vector<std::int32_t> nested_dissection(const Graph& graph, std::span<const double> xy) {
-  return Dissection(graph, xy).order();
+std::vector<std::int32_t> nested_dissection(const Graph& graph, std::span<const double> xy,
+                                            int threads) {
+  Order all(graph, xy);
+  const auto finest = std::min_element(all.nodes.begin(), all.nodes.end(), finer);
+  std::deque<Set> open;
+  if (finest != all.nodes.end()) open.push_back({0, all.nodes.size(), 0, *finest});
+  Dissection first(all, 0);
+  const std::size_t enough = threads > 1 ? 2 * at(threads) : 1;
+  while (!open.empty() && open.size() < enough) {
+    if (const auto halves = first.divide(open.front()))
+      open.insert(open.end(), {halves->first, halves->second});
+    open.pop_front();
+  }
+  base::at_once(open.size(), threads, [&] {
+    return [&, own = Dissection(all, first.parts())](std::size_t i) mutable { own.order(open[i]); };
+  });
+  std::vector<std::int32_t> result;
+  result.reserve(all.nodes.size());
+  for (const Node& node : all.nodes) result.push_back(node.vertex);
+  return result;
 }
 
 }  // namespace anticrack::ddm

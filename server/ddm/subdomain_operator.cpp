@@ -25,9 +25,10 @@ SubdomainOperator::SubdomainOperator(const Subdomain& subdomain, int threads)
 
 SubdomainOperator::SubdomainOperator(const Subdomain& subdomain, const fem::Stiffness& stiffness,
                                      int threads)
-    : _factor(stiffness.free, index(subdomain.interior),
-              elimination_order(stiffness.free, index(subdomain.interior), subdomain.part.xy),
-              threads),
+    : _factor(
+          stiffness.free, index(subdomain.interior),
+          elimination_order(stiffness.free, index(subdomain.interior), subdomain.part.xy, threads),
+          threads),
       _free_dirichlet(stiffness.free_dirichlet),
       _dirichlet_dirichlet(stiffness.dirichlet),
       _floats(!subdomain.floating.empty()),

@@ -7,6 +7,7 @@
 #include <exception>
 #include <utility>
 
+#include "base/at_once.hpp"
 #include "contact/answer.hpp"
 #include "errors/errors.hpp"
 #include "jobs/growth_run.hpp"
@@ -50,6 +51,32 @@ Solved solve(const PreparedCase& prepared, EngineCore& core) {
 bool all_stopped(const std::vector<PreparedCase>& cases) {
   return std::ranges::all_of(
       cases, [](const PreparedCase& one) { return one.task.job->stop.stop_requested(); });
+}
+
+/// Whether an answer will have bounds if it converges.
+bool is_bounded(const PreparedCase& prepared) {
+  return !spec_of(prepared).without_bounds && !spec_of(prepared).growth;
+}
+
+/// Solves the cases. A thread that has nothing to do makes what bounds need of the mesh meanwhile.
+std::vector<Solved> solve(const std::vector<PreparedCase>& cases, EngineCore& core) {
+  std::vector<Solved> solved(cases.size());
+  const bool ahead = base::Threads::allowed() > 1 && std::ranges::any_of(cases, is_bounded);
+  base::at_once(ahead ? 2 : 1, base::Threads::allowed(), [&] {
+    return [&](std::size_t part) {
+      if (part == 0) {
+        std::ranges::transform(cases, solved.begin(),
+                               [&](const PreparedCase& one) { return solve(one, core); });
+        return;
+      }
+      const stop::Scope scope([&cases](const stop::Look&) { return all_stopped(cases); });
+      try {
+        cases.front().task.job->mesh_operator->make_ready_for_bounds();
+      } catch (...) {  // the first bounds try again, and tell
+      }
+    };
+  });
+  return solved;
 }
 
 /// Forces, tips and bounds are computed from fields. With growth there are none: on the mesh all
@@ -118,7 +145,7 @@ void add_bounds(const std::vector<PreparedCase>& cases, std::vector<Solved>& sol
   std::vector<operators::MeshOperator::Estimate> estimates;
   std::vector<Solved*> of_estimates;
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    if (solved[i].failure || spec_of(cases[i]).without_bounds || spec_of(cases[i]).growth ||
+    if (solved[i].failure || !is_bounded(cases[i]) ||
         solved[i].answer.status != contact::Status::converged)
       continue;
     operators::MeshOperator::Estimate one{&cases[i].load, &solved[i].answer,
@@ -169,9 +196,7 @@ std::vector<PreparedCase> take_together(std::deque<PreparedCase>& prepared, int 
 }
 
 std::vector<EndedCase> solve_exactly(const std::vector<PreparedCase>& cases, EngineCore& core) {
-  std::vector<Solved> solved;
-  solved.reserve(cases.size());
-  for (const PreparedCase& prepared : cases) solved.push_back(solve(prepared, core));
+  std::vector<Solved> solved = solve(cases, core);
   recover_fields(cases, solved);
   measure(cases, solved);
   add_bounds(cases, solved);

@@ -9,8 +9,6 @@
 #include "base/at.hpp"
 #include "errors/errors.hpp"
 #include "mesh/bisection.hpp"
-#include "mesh/edge_ends.hpp"
-#include "mesh/edges.hpp"
 #include "mesh/size_rule.hpp"
 #include "stop/stop.hpp"
 
@@ -55,7 +53,11 @@ double smallest_tip_size(const Mesh& mesh, std::span<const std::int32_t> centres
 
 std::vector<std::int32_t> tips(const Mesh& mesh) {
   const EdgeTable edges(mesh.triangles);
-  const std::vector<EdgeEnd> ends = edge_ends(mesh, edges);
+  return tips(mesh, edges, edge_ends(mesh, edges));
+}
+
+std::vector<std::int32_t> tips(const Mesh& mesh, const EdgeTable& edges,
+                               std::span<const EdgeEnd> ends) {
   const std::vector<bool> on_boundary = edges.boundary_nodes(mesh.node_count());
   const auto free_end = [&](const EdgeEnd& end) {
     if (end.kind == Kind::glue) return false;

@@ -22,6 +22,8 @@
 #include <span>
 #include <vector>
 
+#include "mesh/edge_ends.hpp"
+#include "mesh/edges.hpp"
 #include "mesh/mesh.hpp"
 
 namespace anticrack::mesh {
@@ -69,6 +71,9 @@ double smallest_tip_size(const Mesh& mesh, std::span<const std::int32_t> centres
 /// Glue between subdomains of one tension does not count: an inclusion may cross an outline.
 /// Corners of an interface or of the boundary are no tips. O(m log m).
 std::vector<std::int32_t> tips(const Mesh& mesh);
+/// The same from the edges of the mesh's triangles and edge_ends(mesh, edges). O(m).
+std::vector<std::int32_t> tips(const Mesh& mesh, const EdgeTable& edges,
+                               std::span<const EdgeEnd> ends);
 
 /// Grades the mesh towards tips(base); if there are no tips, every edge becomes at most h0.
 /// Triangles that are fine enough stay. Throws errors::Error: invalid_argument at "h0", "m" or

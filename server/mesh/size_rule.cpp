@@ -113,23 +113,19 @@ SizeRule::SizeRule(const Mesh& mesh, std::span<const std::int32_t> centres, cons
       [](const Centre& c) { return c.reach; }, [](double a, double b) { return std::max(a, b); });
 }
 
-bool SizeRule::search(std::size_t index, const std::array<Point, 3>& triangle, double diameter,
-                      double part) const noexcept {
+bool SizeRule::search(std::size_t index, const Sought& of) const noexcept {
   const Box& box = _boxes[index];
   Point gap{};
-  for (std::size_t axis = 0; axis < 2; ++axis) {
-    const auto [low, high] = std::minmax({triangle[0][axis], triangle[1][axis], triangle[2][axis]});
-    gap[axis] = std::max({box.low[axis] - high, 0.0, low - box.high[axis]});
-  }
-  const double farthest = box.value * part;
+  for (std::size_t axis = 0; axis < 2; ++axis)
+    gap[axis] =
+        std::max(std::max(box.low[axis] - of.high[axis], 0.0), of.low[axis] - box.high[axis]);
+  const double farthest = box.value * of.part;
   if (squared(gap) > farthest * farthest) return false;
-  if (box.left > 0)
-    return search(box.left, triangle, diameter, part) ||
-           search(box.right, triangle, diameter, part);
+  if (box.left > 0) return search(box.left, of) || search(box.right, of);
   for (std::size_t i = box.begin; i < box.end; ++i) {
     const Centre& centre = _centres[i];
-    const double reach = centre.reach * part;
-    if (diameter > centre.tip_size && squared_distance(triangle, centre.at) < reach * reach)
+    const double reach = centre.reach * of.part;
+    if (of.diameter > centre.tip_size && squared_distance(of.triangle, centre.at) < reach * reach)
       return true;
   }
   return false;
@@ -142,7 +138,12 @@ bool SizeRule::too_large(const std::array<Point, 3>& triangle) const noexcept {
   if (diameter > _h0) return true;
   if (diameter <= _tip_size) return false;
   // the rule solved for r/R: the diameter is too large closer to a centre than this
-  return search(0, triangle, diameter, std::pow(diameter / _h0, _exponent));
+  Sought of{triangle, a, a, diameter, std::pow(diameter / _h0, _exponent)};
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    of.low[axis] = std::min(std::min(a[axis], b[axis]), c[axis]);
+    of.high[axis] = std::max(std::max(a[axis], b[axis]), c[axis]);
+  }
+  return search(0, of);
 }
 
 }  // namespace anticrack::mesh

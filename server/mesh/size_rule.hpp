@@ -32,8 +32,14 @@ class SizeRule {
     double tip_size = 0;  ///< h_tip
   };
 
-  bool search(std::size_t box, const std::array<Point, 3>& triangle, double diameter,
-              double part) const noexcept;
+  struct Sought {
+    const std::array<Point, 3>& triangle;
+    Point low, high;  ///< the bounding box of the triangle
+    double diameter;
+    double part;  ///< of its reach: how near to a centre the diameter is too large
+  };
+
+  bool search(std::size_t box, const Sought& of) const noexcept;
 
   double _h0;
   double _exponent = 1;  ///< 1/(1-m)

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/at.hpp"
+#include "base/at_once.hpp"
 #include "base/union_find.hpp"
 #include "mesh/edges.hpp"
 #include "mesh/geometry_primitives.hpp"
@@ -78,10 +79,9 @@ void count_nodes(const mesh::Mesh& mesh, std::vector<records::SubdomainSummary>&
   }
 }
 
-/// A part consists of triangles connected without crossing an interface; it floats if none of its
-/// nodes is a Dirichlet node.
-void find_floating(const mesh::Mesh& mesh, const mesh::EdgeTable& edges,
-                   std::vector<records::SubdomainSummary>& result) {
+/// Which subdomains have a part that floats. A part consists of triangles connected without
+/// crossing an interface; it floats if none of its nodes is a Dirichlet node.
+std::vector<bool> floating_subdomains(const mesh::Mesh& mesh, const mesh::EdgeTable& edges) {
   std::vector<EdgeKey> cuts;
   for (const mesh::Interface& interface : mesh.interfaces)
     for (std::size_t i = 0; i + 1 < interface.nodes.size(); ++i)
@@ -106,22 +106,15 @@ void find_floating(const mesh::Mesh& mesh, const mesh::EdgeTable& edges,
   };
   for (std::size_t corner = 0; corner < mesh.triangles.size(); ++corner)
     if (fixed[at(mesh.triangles[corner])]) held[part_of(corner / 3)] = true;
+  std::vector<bool> floating(mesh.subdomains.size(), false);
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
-    if (!held[part_of(t)]) result[at(mesh.subdomain[t])].floating = true;
+    if (!held[part_of(t)]) floating[at(mesh.subdomain[t])] = true;
+  return floating;
 }
 
-std::vector<records::SubdomainSummary> subdomains(const mesh::Mesh& mesh,
-                                                  const mesh::EdgeTable& edges) {
-  std::vector<records::SubdomainSummary> result(mesh.subdomains.size());
-  for (std::size_t i = 0; i < result.size(); ++i) result[i].name = mesh.subdomains[i];
-  measure_triangles(mesh, result);
-  count_nodes(mesh, result);
-  find_floating(mesh, edges, result);
-  return result;
-}
-
-std::vector<records::TipSummary> tip_summaries(const mesh::Mesh& mesh) {
-  const std::vector<std::int32_t> nodes = mesh::tips(mesh);
+std::vector<records::TipSummary> tip_summaries(const mesh::Mesh& mesh,
+                                               const mesh::EdgeTable& edges) {
+  const std::vector<std::int32_t> nodes = mesh::tips(mesh, edges, mesh::edge_ends(mesh, edges));
   constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
   std::vector<std::size_t> tip_at(mesh.node_count(), none);
   std::vector<records::TipSummary> result;
@@ -185,8 +178,24 @@ records::InterfaceSummary summary(const mesh::Mesh& mesh, const mesh::Interface&
 void summarize(const mesh::Mesh& mesh, records::MeshRecord& record) {
   record.node_count = mesh.node_count();
   record.triangle_count = mesh.triangle_count();
-  const mesh::EdgeTable edges(mesh.triangles);
-  record.subdomains = subdomains(mesh, edges);
+  record.subdomains.assign(mesh.subdomains.size(), {});
+  std::vector<bool> floating(mesh.subdomains.size(), false);
+  const auto by_triangles = [&] {
+    measure_triangles(mesh, record.subdomains);
+    count_nodes(mesh, record.subdomains);
+  };
+  const auto by_edges = [&] {
+    const mesh::EdgeTable edges(mesh.triangles);
+    floating = floating_subdomains(mesh, edges);
+    record.tips = tip_summaries(mesh, edges);
+    measure_boundary(mesh, edges, record);
+  };
+  base::at_once(2, 2,
+                [&] { return [&](std::size_t part) { part == 0 ? by_triangles() : by_edges(); }; });
+  for (std::size_t i = 0; i < floating.size(); ++i) {
+    record.subdomains[i].name = mesh.subdomains[i];
+    record.subdomains[i].floating = floating[i];
+  }
   summarize_tension(mesh, record);
   record.interfaces.clear();
   for (const mesh::Interface& interface : mesh.interfaces)
@@ -197,8 +206,6 @@ void summarize(const mesh::Mesh& mesh, records::MeshRecord& record) {
       std::ranges::min(record.subdomains, {}, &records::SubdomainSummary::minimum_angle)
           .minimum_angle;
   record.bisection_bound = mesh.bisection_bound;
-  record.tips = tip_summaries(mesh);
-  measure_boundary(mesh, edges, record);
 }
 
 records::Block mesh_block(const mesh::Mesh& mesh) {

@@ -131,6 +131,11 @@ std::vector<double> MeshOperator::estimate(const PreparedLoad& load, contact::An
   return std::move(one.indicator);
 }
 
+void MeshOperator::make_ready_for_bounds() const {
+  _parts->cut_mesh();
+  _parts->boundary_forces();
+}
+
 std::size_t MeshOperator::estimated_together() const noexcept {
   constexpr std::size_t most_together = 8;         // more are not faster
   constexpr std::size_t most_triangles = 600'000;  // of all answers together: 270 MB

@@ -99,6 +99,9 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
   /// The same for several answers at once, which is faster; the bits of each are as if it were
   /// alone. An error of one is stored as its `failure`.
   void estimate(std::span<Estimate> all) const;
+  /// Makes what the first call of find_boundary() and of estimate() makes of the mesh, so that one
+  /// thread may do it while another solves. O(m log m). Throws errors::Error (cancelled).
+  void make_ready_for_bounds() const;
   /// How many answers to estimate together: as many as gain speed and fit in memory.
   std::size_t estimated_together() const noexcept;
 

@@ -111,7 +111,7 @@ std::vector<Place> find_places(const mesh::Mesh& mesh, const mesh::EdgeTable& ed
   for (const mesh::ChordEdge& chord : mesh.chords)
     chords.emplace(std::min(chord.a, chord.b), std::max(chord.a, chord.b));
   std::vector<Place> places;
-  for (const std::int32_t node : mesh::tips(mesh)) {
+  for (const std::int32_t node : mesh::tips(mesh, edges, ends)) {
     const auto here = mesh::ends_at(ends, node);
     const Met met = meet(here);
     const EdgeEnd& behind = here[met.behind];

@@ -120,6 +120,21 @@ TEST(NestedDissection, IsTheSameForTheSameMesh) {
   EXPECT_EQ(nested_dissection(graph, square.xy), nested_dissection(graph, square.xy));
 }
 
+TEST(NestedDissection, IsTheSameOnAnyNumberOfThreads) {
+  Square square(70);
+  for (double& x : square.xy) x = std::pow(1.5, x);
+  const Graph mesh = graph_of(square.size(), square.edges);
+  Edges star;
+  for (std::int32_t b = 1; b < 200; ++b) star.emplace_back(0, b);
+  const Graph no_mesh = graph_of(200, star);
+  for (const int threads : {2, 3, 16}) {
+    EXPECT_EQ(nested_dissection(mesh, square.xy, threads), nested_dissection(mesh, square.xy));
+    EXPECT_EQ(nested_dissection(no_mesh, square.xy, threads),
+              nested_dissection(no_mesh, square.xy));
+    EXPECT_EQ(nested_dissection(Graph{}, {}, threads), nested_dissection(Graph{}, {}));
+  }
+}
+
 TEST(NestedDissection, OfWhatIsNoMeshIsStillAnOrder) {
   expect_permutation(nested_dissection(Graph{}, {}), 0);
   expect_permutation(nested_dissection(graph_of(1, {}), std::vector<double>{1, 2}), 1);
