@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <map>
 #include <utility>
 
 #include "results/hdf5.hpp"
-#include "results/hdf5_chunks.hpp"
 
 namespace anticrack::results::hdf5 {
 namespace {
@@ -17,6 +15,8 @@ constexpr std::size_t compact_entries = 1024;
 /// Below this number of entries compression saves next to nothing.
 constexpr std::size_t compressed_from = 2048;
 constexpr std::size_t chunk_entries = 65536;
+/// Higher levels take several times as long and save only a twentieth of the size.
+constexpr unsigned deflate_level = 1;
 
 void require(herr_t status, const std::string& what) {
   if (status < 0) throw Fault(what);
@@ -68,11 +68,6 @@ struct Values {
   hid_t in_file, in_memory;
 };
 
-std::uint64_t rows_of_a_chunk(const Shape& shape) {
-  const std::uint64_t row = count_of(shape) / shape[0];
-  return std::min(shape[0], std::max<std::uint64_t>(chunk_entries / row, 1));
-}
-
 Handle new_creation_properties(const Shape& shape) {
   const std::string what = "HDF5 has no creation properties";
   Handle properties = without_times(H5P_DATASET_CREATE);
@@ -83,7 +78,7 @@ Handle new_creation_properties(const Shape& shape) {
     return properties;
   }
   std::vector<hsize_t> chunk(shape.begin(), shape.end());
-  chunk[0] = rows_of_a_chunk(shape);
+  chunk[0] = std::min(shape[0], std::max<std::uint64_t>(chunk_entries / (count / shape[0]), 1));
   require(H5Pset_chunk(properties.get(), static_cast<int>(chunk.size()), chunk.data()), what);
   if (count >= compressed_from) {
     require(H5Pset_shuffle(properties.get()), what);
@@ -187,12 +182,7 @@ Handle put_array(const Handle& group, const std::string& name, ValueType type, c
                  creation_properties(is_text ? Shape{0} : shape),
                  count > compact_entries && count <= chunk_entries ? one_chunk() : H5P_DEFAULT),
       H5Dclose, what);
-  if (count > chunk_entries && !is_text) {
-    static_assert(std::endian::native == std::endian::little, "values are as in the file");
-    const std::size_t bytes = count * bytes_of(type);
-    write_chunks(dataset.get(), shape, rows_of_a_chunk(shape),
-                 {static_cast<const std::byte*>(values), bytes});
-  } else if (count != 0) {
+  if (count != 0) {
     require(H5Dwrite(dataset.get(), source.in_memory, H5S_ALL, H5S_ALL,
                      is_text ? text_transfer() : H5P_DEFAULT, source.data),
             what);
