@@ -212,7 +212,7 @@ JobPtr take_up(EngineCore& core, JobRecord record, const std::string& why, bool 
   EngineCore::Lock lock(core.mutex);
   const std::uint64_t number = ++core.last_number;
   lock.unlock();
-  const auto job =
+  auto job =
       std::make_shared<LiveJob>(number, std::move(record), cases, core.options.event_log_bytes,
                                 std::move(mesh_use), core.memory, core.queue != nullptr);
   if (job->stages) job->stages->mesh_use = std::move(stage_use);
