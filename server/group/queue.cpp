@@ -181,17 +181,22 @@ std::vector<Queue::Claim> Queue::claim(std::size_t count, const std::vector<std:
   return claims_of(query(_pool, claim_statement, {_epoch.load(), count, held, slack, except}));
 }
 
-std::optional<Queue::Claim> Queue::claim_to_cancel(const std::string& job) {
+void Queue::cancel(const std::string& job) {
   query(_pool, "UPDATE queue SET cancelled = true WHERE job = $1", {job});
+  notify(cancel_channel);
+}
+
+std::optional<Queue::Claim> Queue::claim_to_cancel(const std::string& job) {
   std::vector<Claim> claims = claims_of(query(
       _pool,
       std::string(
-          "WITH taken AS (UPDATE queue SET runner = $2, attempt = attempt + 1, claimed = now() "
+          "WITH taken AS (UPDATE queue SET runner = $2, attempt = attempt + 1, claimed = now(), "
+          "cancelled = true "
           "WHERE job = $1 AND runner IS NULL RETURNING job, attempt, crashes, cancelled) ") +
           select_taken,
       {job, _epoch.load()}));
   if (!claims.empty()) return std::move(claims.front());
-  notify(cancel_channel);
+  cancel(job);
   return std::nullopt;
 }
 

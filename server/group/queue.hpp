@@ -30,6 +30,7 @@ class Queue final : public store::Queue {
                             const std::function<void(const store::QueueTotals&)>& admit) override;
   std::vector<Claim> claim(std::size_t count, const std::vector<std::string>& held,
                            const std::vector<std::string>& except) override;
+  void cancel(const std::string& job) override;
   std::optional<Claim> claim_to_cancel(const std::string& job) override;
   News beat(const std::vector<std::string>& known) override;
   void give_back(const std::vector<std::string>& known) override;

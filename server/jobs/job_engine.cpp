@@ -123,10 +123,13 @@ std::vector<JobRecord> JobEngine::list(const store::Page& page) const {
 }
 
 JobRecord JobEngine::cancel(const std::string& id) {
-  if (const JobPtr job = _state->live(id))
-    _state->core.stop(job, Stop::cancelled);
-  else if (_state->core.queue != nullptr)
-    cancel_in_group(_state->core, id);
+  EngineCore& core = _state->core;
+  if (const JobPtr job = _state->live(id)) {
+    core.stop(job, Stop::cancelled);
+    if (core.queue != nullptr) core.queue->cancel(id);  // another may have it, unheard of here
+  } else if (core.queue != nullptr) {
+    cancel_in_group(core, id);
+  }
   return get(id);
 }
 

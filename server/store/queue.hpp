@@ -95,7 +95,9 @@ class Queue {
   /// for a server that holds theirs. None of `except` is claimed, nor any after a lost lease.
   virtual std::vector<Claim> claim(std::size_t count, const std::vector<std::string>& held,
                                    const std::vector<std::string>& except) = 0;
-  /// Notes that whoever has this job is to cancel it. If nobody has it, it is claimed.
+  /// Notes that whoever has this job, or will, is to cancel it.
+  virtual void cancel(const std::string& job) = 0;
+  /// The same. If nobody has it, it is claimed.
   virtual std::optional<Claim> claim_to_cancel(const std::string& job) = 0;
 
   struct News {

@@ -137,6 +137,21 @@ TEST_F(Group, APausedServerDoesNoHarm) {
   EXPECT_TRUE(ran_to_its_end(wait_for_end(a, next.name())));
 }
 
+TEST_F(Group, ACancelAtAServerThatHasLostTheJobReachesTheOneThatHasIt) {
+  Daemon& first = add();
+  client::Connection a(first.connection());
+  const v1::Job job = submit(a, work("paper-3.toml", iterations(1'000'000)), client::make_uuid());
+  ASSERT_TRUE(iterates(a, job.name(), 1));
+  first.process().signal(SIGSTOP);
+  client::Connection b(add().connection());
+  ASSERT_TRUE(iterates(b, job.name(), 2));
+  first.process().signal(SIGCONT);
+  client::cancel_job(a, job.name());
+  const v1::Job end = wait_for_end(b, job.name());
+  EXPECT_EQ(end.status().attempt(), 2);
+  EXPECT_EQ(end.status().state(), v1::JobStatus::STATE_CANCELLED);
+}
+
 TEST_F(Group, ADrainedServerGivesItsJobsBackAtOnce) {
   Daemon& first = add({"--drain-time", "0"});
   client::Connection a(first.connection());
