@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <iterator>
 #include <limits>
 #include <system_error>
 #include <utility>
@@ -244,7 +245,6 @@ void SolverPool::solve_exactly(const Mesh& mesh, Working& working) {
   Lock lock(_core.mutex);
   do {
     working.step = Clock::now();
-    const base::Threads helped(1 + static_cast<int>(idle()));
     std::vector<EndedCase> ended;
     if (mesh->prepared.empty()) {
       lock.unlock();
@@ -265,14 +265,19 @@ void SolverPool::solve_exactly(const Mesh& mesh, Working& working) {
         }
       }
       _core.solvers.notify_all();
-    } else {
+    }
+    // With the lock held since they were prepared: a thread that took over a lone case would count
+    // this one as at work, and solve it without its help.
+    if (!mesh->prepared.empty()) {
+      working.step = Clock::now();
+      const base::Threads helped(1 + static_cast<int>(idle()));
       const std::vector<PreparedCase> cases =
           take_together(mesh->prepared, static_cast<int>(idle()) + 1);
       for (const PreparedCase& prepared : cases)
         _core.schedule.unpark(mesh->id, Lane::active_set, prepared.task.job->spec->priority);
       _core.columns += static_cast<int>(cases.size());
       lock.unlock();
-      ended = jobs::solve_exactly(cases, _core);
+      std::ranges::move(jobs::solve_exactly(cases, _core), std::back_inserter(ended));
       lock.lock();
       _core.columns -= static_cast<int>(cases.size());
     }
