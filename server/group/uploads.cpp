@@ -44,10 +44,12 @@ std::optional<std::string> Store::upload_path(const std::string& sha256,
   {
     const base::Descriptor file = store::open_to_write(part.path());
     std::uint64_t at = 0;
-    read_blob(_pool, store::FileKind::upload, sha256, [&](std::span<const std::byte> piece) {
-      store::write_at(file, part.path(), at, piece);
-      at += piece.size();
-    });
+    const std::uint64_t size =
+        read_blob(_pool, store::FileKind::upload, sha256, [&](std::span<const std::byte> piece) {
+          store::write_at(file, part.path(), at, piece);
+          at += piece.size();
+        });
+    if (size == 0) return std::nullopt;  // it has expired since
   }
   _uploads.rename(part.path(), sha256);
   part.release();
