@@ -63,6 +63,16 @@ class SpreadGroup : public Group {
   }
   Daemon& runner() { return *servers[0]; }
   Daemon& helper() { return *servers[1]; }
+  /// Drains the helper, which comes back, and then the runner. Neither keeps a portion.
+  void drain_both() {
+    const std::string of_nobody =
+        "portions WHERE body IS NULL AND runner NOT IN (SELECT epoch FROM anticrack.servers)";
+    EXPECT_EQ(helper().stop(), 0);
+    EXPECT_EQ(count(of_nobody), 0U);
+    helper().start();
+    EXPECT_EQ(runner().stop(), 0);
+    EXPECT_EQ(count(of_nobody), 0U);
+  }
   /// Nothing was solved twice.
   void expect_once() const {
     EXPECT_EQ(noted(), std::stoul(database.sql("SELECT count(DISTINCT n) FROM noted")));

@@ -162,13 +162,7 @@ TEST_F(GroupGrowth, StopsEverywhereWhenItIsCancelled) {
 
 TEST_F(GroupGrowth, AServerThatIsDrainedGivesItsPositionsBack) {
   const std::string name = begin();
-  EXPECT_EQ(helper().stop(), 0);
-  const std::string of_nobody =
-      "portions WHERE body IS NULL AND runner NOT IN (SELECT epoch FROM anticrack.servers)";
-  EXPECT_EQ(count(of_nobody), 0U);
-  helper().start();
-  EXPECT_EQ(runner().stop(), 0);
-  EXPECT_EQ(count(of_nobody), 0U);
+  drain_both();
   expect_same(helper(), name);
 }
 

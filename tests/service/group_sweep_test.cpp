@@ -195,13 +195,7 @@ TEST_F(GroupLongSweep, StopsEverywhereWhenItIsCancelled) {
 
 TEST_F(GroupLongSweep, AServerThatIsDrainedGivesItsPortionsBack) {
   const std::string name = begin(sweep);
-  EXPECT_EQ(helper().stop(), 0);
-  const std::string of_nobody =
-      "portions WHERE body IS NULL AND runner NOT IN (SELECT epoch FROM anticrack.servers)";
-  EXPECT_EQ(count(of_nobody), 0U);
-  helper().start();
-  EXPECT_EQ(runner().stop(), 0);
-  EXPECT_EQ(count(of_nobody), 0U);
+  drain_both();
   client::Connection connection(helper().connection());
   expect_same(connection, name, sweep);
   expect_once();
