@@ -139,11 +139,12 @@ void Queue::give_back_portions(const std::string& job) {
   if (freed.affected() > 0) notify_queue();
 }
 
-void Queue::withdraw_portions(const std::string& job, int attempt) {
+void Queue::withdraw_portions(const std::string& job, int attempt,
+                              const std::vector<std::int64_t>& numbers) {
   query(_pool,
-        "DELETE FROM portions WHERE job = $1 AND EXISTS "
-        "(SELECT FROM queue WHERE job = $1 AND runner = $2 AND attempt = $3)",
-        {job, _epoch.load(), attempt});
+        "DELETE FROM portions WHERE job = $1 AND (cardinality($4) = 0 OR n = ANY ($4)) "
+        "AND EXISTS (SELECT FROM queue WHERE job = $1 AND runner = $2 AND attempt = $3)",
+        {job, _epoch.load(), attempt, numbers});
 }
 
 }  // namespace anticrack::group

@@ -49,7 +49,8 @@ class Queue final : public store::Queue {
   std::vector<store::SolvedPortion> solved_portions(
       const std::string& job, const std::vector<std::int64_t>& missing) const override;
   void give_back_portions(const std::string& job) override;
-  void withdraw_portions(const std::string& job, int attempt) override;
+  void withdraw_portions(const std::string& job, int attempt,
+                         const std::vector<std::int64_t>& numbers) override;
   void listen(std::function<void(bool cancelled)> wake) override;
 
   // For the store, which writes with this server's fence:

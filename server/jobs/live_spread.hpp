@@ -31,9 +31,10 @@ struct LiveSpread {
   std::chrono::steady_clock::time_point served{};      ///< when a thread was last seen on a unit
 
   // Of the server that runs the job:
-  std::vector<store::Portion> to_offer{};  ///< portions that the store does not have yet
-  std::set<std::uint64_t> missing{};       ///< portions whose answers are not here
-  std::size_t idle = 0;                    ///< threads that wait for positions
+  std::vector<store::Portion> to_offer{};   ///< portions that the store does not have yet
+  std::set<std::uint64_t> missing{};        ///< portions whose answers are not here
+  std::vector<std::int64_t> to_withdraw{};  ///< positions of a load case that failed
+  std::size_t idle = 0;                     ///< threads that wait for positions
 };
 
 }  // namespace anticrack::jobs

@@ -147,6 +147,19 @@ void offer(EngineCore& core, const JobPtr& job, LiveSpread& spread) {
                         spread.to_offer.begin() + static_cast<std::ptrdiff_t>(portions.size()));
 }
 
+/// Takes back what is not wanted any more.
+void withdraw(EngineCore& core, const JobPtr& job, LiveSpread& spread) {
+  Lock lock(core.mutex);
+  const std::vector<std::int64_t> numbers = spread.to_withdraw;
+  if (numbers.empty()) return;
+  lock.unlock();
+  core.queue->withdraw_portions(job->id(), job->created.attempt, numbers);
+  lock.lock();
+  spread.to_withdraw.erase(
+      spread.to_withdraw.begin(),
+      spread.to_withdraw.begin() + static_cast<std::ptrdiff_t>(numbers.size()));
+}
+
 /// Takes portions for threads that will need them. Of a job that runs elsewhere it also finds out
 /// whether that still wants them.
 void take_more(EngineCore& core, const JobPtr& job, LiveSpread& spread, bool look) {
@@ -219,7 +232,7 @@ void leave(EngineCore& core, const JobPtr& job) {
       if (job->helps || why == Stop::interrupted)
         core.queue->give_back_portions(job->id());
       else
-        core.queue->withdraw_portions(job->id(), job->created.attempt);
+        core.queue->withdraw_portions(job->id(), job->created.attempt, {});
     }
   } catch (const Error&) {
     // They go with the job, or with the lease of this server.
@@ -250,6 +263,7 @@ void attend(EngineCore& core, const JobPtr& job) {
   lock.unlock();
   try {
     offer(core, job, spread);
+    withdraw(core, job, spread);
     take_more(core, job, spread, look);
     write_solved(core, job, spread);
     if (!job->helps && look) fetch_solved(core, job, spread);
@@ -383,8 +397,12 @@ void solve_portions(EngineCore& core, const JobPtr& job,
     } catch (...) {  // the other threads end as well
       if (!of_core) of_core.lock();
       std::erase_if(spread->units, is_left);
-      for (const auto& [number, i] : left) spread->missing.erase(number);
+      for (const auto& [number, i] : left) {
+        spread->missing.erase(number);
+        spread->to_withdraw.push_back(static_cast<std::int64_t>(number));
+      }
       left.clear();
+      wake(core);
       throw;
     }
   };

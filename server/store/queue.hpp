@@ -143,8 +143,9 @@ class Queue {
       const std::string& job, const std::vector<std::int64_t>& missing) const = 0;
   /// Gives back the portions that this server has and has not solved.
   virtual void give_back_portions(const std::string& job) = 0;
-  /// Nobody is to solve portions of this attempt any more.
-  virtual void withdraw_portions(const std::string& job, int attempt) = 0;
+  /// Nobody is to solve these portions of this attempt any more, by number; none: all of them.
+  virtual void withdraw_portions(const std::string& job, int attempt,
+                                 const std::vector<std::int64_t>& numbers) = 0;
 
   /// Calls `wake` on a thread of the queue whenever there may be a job to claim, or (`cancelled`)
   /// one to cancel, until listen() is called with an empty function. `wake` must be quick.

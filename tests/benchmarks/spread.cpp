@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Sweeps of a group of servers with one thread each, on a PostgreSQL of its own: rows a second of a
-// server alone, of a group of one, and of two. Where the machine has fewer free cores than there
-// are servers, wall time says little: `speedup` is by the processor time of the busier server,
-// and `speedup_balanced` by half of both, as if each had a core of its own and so as much of it.
+// Sweeps, and final positions of growth, of a group of servers with one thread each, on a
+// PostgreSQL of its own: what a server alone takes, a group of one, and of two. Where the machine
+// has fewer free cores than there are servers, wall time says little: `speedup` is by the processor
+// time of the busier server, and `speedup_balanced` by half of both, as if each had a core of its
+// own and so as much of it.
 #include <time.h>
 #include <CLI/CLI.hpp>
 
@@ -29,11 +30,19 @@ using service_test::Daemon;
 
 struct Kind {
   std::string name;
-  int rows;
+  int rows;  ///< of a sweep; 0: growth
   bool bounds, tips;
 };
 
 constexpr int basis = 8;
+
+/// Growth whose final positions take most of its time.
+service_test::Work growth_of(bool tiny) {
+  return service_test::work(
+      "growth.toml",
+      {"mesh.preset=uniform", "mesh.size=0.02", "geometry.boundary=[[-1,-1],[1,-1],[1,1],[-1,1]]",
+       "growth.positions=20", tiny ? "growth.final=2" : "growth.final=16"});
+}
 
 v1::JobSpec sweep_of(const Kind& kind) {
   v1::JobSpec spec;
@@ -63,22 +72,25 @@ double cpu_of(Daemon& server) {
 }
 
 /// Solves the sweep at the first of the servers, whose factors are all there.
-Taken solve(const std::vector<std::unique_ptr<Daemon>>& servers, const Kind& kind, int round) {
+Taken solve(const std::vector<std::unique_ptr<Daemon>>& servers, const Kind& kind, int round,
+            bool tiny) {
   client::Connection connection(servers[0]->connection());
-  const std::string mesh =
-      client::create_mesh(connection, service_test::work("paper.toml").mesh).name();
+  const service_test::Work work =
+      kind.rows > 0 ? service_test::work("paper.toml") : growth_of(tiny);
+  const std::string mesh = client::create_mesh(connection, work.mesh).name();
   for (const auto& server : servers) {
     client::Connection each(server->connection());
     client::warm_mesh(each, mesh, true);
     client::wait_for_mesh(each, mesh);
   }
-  v1::JobSpec spec = sweep_of(kind);
+  v1::JobSpec spec = kind.rows > 0 ? sweep_of(kind) : work.spec;
   spec.set_mesh(mesh);
   std::vector<double> matrix;
   for (int k = 0; k < kind.rows; ++k)
     for (int j = 0; j < basis; ++j) matrix.push_back(combination(k + round, j));
-  spec.mutable_sweep()->mutable_coefficients()->set_upload(
-      client::upload_array(connection, matrix));
+  if (!matrix.empty())
+    spec.mutable_sweep()->mutable_coefficients()->set_upload(
+        client::upload_array(connection, matrix));
   std::this_thread::sleep_for(std::chrono::seconds(2));  // for factors and BLAS's threads
   Taken taken;
   for (const auto& server : servers) taken.cpu.push_back(-cpu_of(*server));
@@ -86,8 +98,9 @@ Taken solve(const std::vector<std::unique_ptr<Daemon>>& servers, const Kind& kin
   const v1::Job ended = service_test::wait_for_end(connection, created.name());
   for (std::size_t i = 0; i < servers.size(); ++i) taken.cpu[i] += cpu_of(*servers[i]);
   const v1::SweepAnswer& answer = ended.status().sweep_answer();
-  if (answer.converged() != static_cast<std::uint64_t>(kind.rows))
-    throw std::runtime_error("not every row converged: " + answer.ShortDebugString());
+  if (!service_test::ran_to_its_end(ended) ||
+      answer.converged() != static_cast<std::uint64_t>(kind.rows))
+    throw std::runtime_error("not all of it converged: " + ended.status().ShortDebugString());
   const auto seconds = [](const google::protobuf::Timestamp& time) {
     return static_cast<double>(time.seconds()) + 1e-9 * static_cast<double>(time.nanos());
   };
@@ -99,8 +112,9 @@ Taken solve(const std::vector<std::unique_ptr<Daemon>>& servers, const Kind& kin
 void run(int repetitions, bool tiny, const std::vector<std::string>& only) {
   std::vector<Kind> kinds{{"combinations", 1'000'000, false, false},
                           {"tips", 200'000, false, true},
-                          {"bounds", 200'000, true, false}};
-  if (tiny) kinds = {{"combinations", 40'000, false, false}};
+                          {"bounds", 200'000, true, false},
+                          {"growth", 0, false, false}};
+  if (tiny) kinds = {{"combinations", 40'000, false, false}, {"growth", 0, false, false}};
   if (!only.empty())
     std::erase_if(kinds, [&](const Kind& kind) { return !std::ranges::count(only, kind.name); });
   const anticrack::testing::Database database;
@@ -114,12 +128,12 @@ void run(int repetitions, bool tiny, const std::vector<std::string>& only) {
     for (int round = 0; round < repetitions; ++round) {
       std::vector<std::unique_ptr<Daemon>> servers;
       servers.push_back(std::make_unique<Daemon>(alone));
-      const Taken by_itself = solve(servers, kind, round);
+      const Taken by_itself = solve(servers, kind, round, tiny);
       servers.clear();
       servers.push_back(std::make_unique<Daemon>(grouped));
-      const Taken by_one = solve(servers, kind, round);
+      const Taken by_one = solve(servers, kind, round, tiny);
       servers.push_back(std::make_unique<Daemon>(grouped));
-      const Taken by_two = solve(servers, kind, round);
+      const Taken by_two = solve(servers, kind, round, tiny);
       if (by_one.sha256 != by_itself.sha256 || by_two.sha256 != by_itself.sha256)
         throw std::runtime_error("the numbers differ");
       alone_wall.push_back(by_itself.wall);

@@ -113,7 +113,7 @@ TEST_P(GroupFaults, PortionsOfASweepAreSolvedOnceWhateverIsLost) {
                       << "what was solved does not change";
               }
               queue.give_back_portions("one");
-              queue.withdraw_portions("one", record.attempt);
+              queue.withdraw_portions("one", record.attempt, {});
               EXPECT_TRUE(queue.solved_portions("one", {0, 1, 2}).empty());
               record.state = records::JobState::succeeded;
               record.ended = records::Clock::time_point(std::chrono::seconds(7));

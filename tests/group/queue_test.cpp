@@ -311,14 +311,16 @@ TEST_F(GroupQueue, KeepsTheSolvedPortionsOfAnEarlierAttempt) {
   const JobRecord again = claim(*b).at(0).record;
   EXPECT_THROW(a->queue()->spread("one", 1, portions(4)), store::JobTaken);
   a->queue()->solved("one", {0, "late"});
-  a->queue()->withdraw_portions("one", 1);
+  a->queue()->withdraw_portions("one", 1, {});
   EXPECT_TRUE(take(*a, "one", 0).empty());
   b->queue()->spread("one", again.attempt, portions(4));
   EXPECT_EQ(solved(*b, "one").size(), 1U);
   EXPECT_EQ(take(*b, "one", 5), (Numbers{0, 2}));
   b->queue()->spread("one", again.attempt, portions(5));
   EXPECT_TRUE(solved(*b, "one").empty()) << "other rows are another portion";
-  b->queue()->withdraw_portions("one", again.attempt);
+  b->queue()->withdraw_portions("one", again.attempt, {0, 2});
+  EXPECT_EQ(b->queue()->take_portions("one", 5).size(), 1U);
+  b->queue()->withdraw_portions("one", again.attempt, {});
   EXPECT_TRUE(b->queue()->take_portions("one", 5).empty());
 }
 
