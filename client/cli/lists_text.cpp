@@ -109,10 +109,12 @@ std::string tips_table(const std::vector<results::Load>& loads, const v1::Units&
         reasons.insert(
             fmt::format("tip at {}, {}: {}\n", told("x"), told("y"), sanitise(tip.reason())));
       if (tip.release_factor() > 0)
-        reasons.insert(fmt::format(
-            "tip at {}, {}: a crack ahead of it would start under any load, at first with the "
-            "length l0 = ({}/Gc)^{}\n",
-            told("x"), told("y"), told("release_factor"), number(1 / (1 - 2 * tip.exponent()), 5)));
+        reasons.insert(
+            fmt::format("{}, tip at {}, {}: a crack ahead of it would start however small the load "
+                        "is, at first "
+                        "with the length l0 = ({}/Gc)^{}\n",
+                        sanitise(load.name()), told("x"), told("y"), told("release_factor"),
+                        number(1 / (1 - 2 * tip.exponent()), 5)));
     }
   }
   const std::size_t count = rows.size() - 2;
