@@ -21,6 +21,9 @@ namespace anticrack::estimate {
 /// are bisected at least once here too, so that his convergence holds. O(m log m).
 std::vector<std::uint8_t> levels(std::span<const double> indicator, double reduction);
 
+/// Asked of levels() at most, as a coarse mesh says little about a very fine one.
+constexpr double most_reduction = 8;
+
 /// The number of triangles after these levels, without bisections that only make the mesh conform.
 double expected_triangles(std::span<const std::uint8_t> levels);
 

@@ -40,9 +40,6 @@ constexpr int most_meshes = 12;  // of a position
 constexpr int most_in_vain = 3;
 constexpr double hardly = 0.9;
 
-/// Reduction of the indicators from one mesh to the next.
-constexpr double least_reduction = 2, most_reduction = 8;
-
 bool bounded(const Bracket& energy) { return std::isfinite(energy.lower); }
 
 class Quiet : public contact::Observer {
@@ -168,7 +165,7 @@ class Position {
 
   /// The next mesh; none, with the reason, beyond a limit.
   std::optional<mesh::Mesh> bisected(const mesh::Mesh& mesh, const std::vector<double>& indicator) {
-    const double reduction = std::clamp(width() / _request.aim, least_reduction, most_reduction);
+    const double reduction = std::clamp(width() / _request.aim, 2., estimate::most_reduction);
     try {
       return mesh::refine(mesh, estimate::levels(indicator, reduction), _request.max_triangles);
     } catch (const Error& error) {

@@ -25,8 +25,7 @@ using errors::Reason;
 /// The next stage aims at this fraction of the accuracy: bounds fall a little less than predicted.
 constexpr double aim = 0.85;
 
-/// Most reduction of the indicators in a stage: a coarse mesh says little about a very fine one.
-constexpr double most_reduction = 8;
+/// Of the indicators in a stage.
 constexpr double least_reduction = 1.2;
 
 /// Growth of the number of triangles by bisections that only make the mesh conform.
@@ -56,7 +55,7 @@ records::MeshRecord next_mesh(EngineCore& core, const LiveJob& job,
                               const std::vector<double>& indicator, double rate,
                               std::uint64_t most) {
   const double sum = std::accumulate(indicator.begin(), indicator.end(), 0.0);
-  for (double reduction = std::min(std::pow(sum / aim, 1 / rate), most_reduction);;
+  for (double reduction = std::min(std::pow(sum / aim, 1 / rate), estimate::most_reduction);;
        reduction = 1 + (reduction - 1) / 2) {
     const std::vector<std::uint8_t> levels =
         estimate::levels(indicator, std::max(reduction, least_reduction));

@@ -18,9 +18,9 @@ namespace {
 constexpr const char* halving = "halving a mesh";
 
 /// The midpoints of all edges; their numbers follow those of the base's nodes.
-class Midpoints {
+class EdgeMidpoints {
  public:
-  Midpoints(const Mesh& base, std::vector<double>& xy)
+  EdgeMidpoints(const Mesh& base, std::vector<double>& xy)
       : _base(base), _xy(xy), _edges(base.triangles), _of_side(base.triangles.size()) {
     _edges.each([&](std::span<const EdgeUse> uses) {
       const auto node = static_cast<std::int32_t>(xy.size() / 2);
@@ -115,7 +115,7 @@ class Midpoints {
   std::vector<std::int32_t> _of_side;
 };
 
-Interface cut(const Interface& whole, const Midpoints& midpoint) {
+Interface cut(const Interface& whole, const EdgeMidpoints& midpoint) {
   Interface fine;
   fine.name = whole.name;
   fine.nodes.reserve(2 * whole.nodes.size());
@@ -142,7 +142,7 @@ Mesh refine_uniform(const Mesh& base) {
   Mesh fine = without_triangles(base);
   fine.xy.reserve(8 * base.node_count());
   fine.xy = base.xy;
-  Midpoints midpoint(base, fine.xy);
+  EdgeMidpoints midpoint(base, fine.xy);
   fine.bent = midpoint.bend();
   fine.triangles.reserve(4 * base.triangles.size());
   fine.subdomain.reserve(4 * base.subdomain.size());
