@@ -43,22 +43,23 @@ std::pair<double, double> edge_lengths(const mesh::Mesh& mesh, std::size_t trian
 }
 
 void measure_triangles(const mesh::Mesh& mesh, std::vector<records::SubdomainSummary>& result) {
-  for (records::SubdomainSummary& to : result) {
-    to.minimum_angle = 180;
+  std::vector<mesh::Angle> least(result.size());
+  for (records::SubdomainSummary& to : result)
     to.shortest_edge = std::numeric_limits<double>::infinity();
-  }
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     stop::look_at_turn(t, measuring);
-    records::SubdomainSummary& to = result[at(mesh.subdomain[t])];
+    const std::size_t s = at(mesh.subdomain[t]);
+    records::SubdomainSummary& to = result[s];
     ++to.triangle_count;
     to.area += mesh::area(mesh, t);
-    to.minimum_angle = std::min(
-        to.minimum_angle, mesh::least_angle(mesh::corner(mesh, t, 0), mesh::corner(mesh, t, 1),
-                                            mesh::corner(mesh, t, 2)));
+    least[s] =
+        std::min(least[s], mesh::least_angle(mesh::corner(mesh, t, 0), mesh::corner(mesh, t, 1),
+                                             mesh::corner(mesh, t, 2)));
     const auto [shortest, longest] = edge_lengths(mesh, t);
     to.shortest_edge = std::min(to.shortest_edge, shortest);
     to.longest_edge = std::max(to.longest_edge, longest);
   }
+  for (std::size_t s = 0; s < result.size(); ++s) result[s].minimum_angle = least[s].degrees();
 }
 
 void count_nodes(const mesh::Mesh& mesh, std::vector<records::SubdomainSummary>& result) {
