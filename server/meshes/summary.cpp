@@ -84,16 +84,21 @@ void count_nodes(const mesh::Mesh& mesh, std::vector<records::SubdomainSummary>&
 /// crossing an interface; it floats if none of its nodes is a Dirichlet node.
 std::vector<bool> floating_subdomains(const mesh::Mesh& mesh, const mesh::EdgeTable& edges) {
   std::vector<EdgeKey> cuts;
-  for (const mesh::Interface& interface : mesh.interfaces)
+  std::vector<bool> on_interface(mesh.node_count(), false);  // few edges lie between two of these
+  for (const mesh::Interface& interface : mesh.interfaces) {
+    for (const std::int32_t node : interface.nodes) on_interface[at(node)] = true;
     for (std::size_t i = 0; i + 1 < interface.nodes.size(); ++i)
       cuts.push_back(key(interface.nodes[i], interface.nodes[i + 1]));
+  }
   std::sort(cuts.begin(), cuts.end());
   base::UnionFind parts(mesh.triangle_count());
   std::size_t turn = 0;
   edges.each([&](std::span<const mesh::EdgeUse> uses) {
     stop::look_at_turn<stop::quick>(turn++, measuring);
     const EdgeKey edge{uses[0].low(), uses[0].high()};
-    if (uses.size() != 2 || std::binary_search(cuts.begin(), cuts.end(), edge)) return;
+    const bool may_be_cut = on_interface[at(edge.first)] && on_interface[at(edge.second)];
+    if (uses.size() != 2 || (may_be_cut && std::binary_search(cuts.begin(), cuts.end(), edge)))
+      return;
     parts.unite(uses[0].triangle, uses[1].triangle);
   });
   std::vector<bool> fixed(mesh.node_count(), false);
