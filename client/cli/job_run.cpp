@@ -78,6 +78,11 @@ auto or_later(const Session& session, const v1::Job& job, const Action& action) 
   }
 }
 
+struct EndOfWait {
+  std::stop_source& of;
+  ~EndOfWait() { of.request_stop(); }
+};
+
 // Submits a case and shows its progress. If the server comes back without its jobs, the same job is
 // submitted again under the same id.
 Followed submit_and_follow(Session& session, const Case& the_case, const Prepare& prepare,
@@ -88,7 +93,9 @@ Followed submit_and_follow(Session& session, const Case& the_case, const Prepare
     const v1::Job job = submit(session, the_case, request_id, prepare);
     say(session.globals(),
         job.name() + " on " + job.spec().mesh() + ": " + counted_cases(job.spec(), rows));
-    const AheadFuture ahead = fetch_ahead(session, job);
+    std::stop_source end;
+    const AheadFuture ahead = fetch_ahead(session, job, end.get_token());
+    const EndOfWait ends{end};
     try {
       Followed followed = follow(session, job, rows);
       followed.ahead = ahead;

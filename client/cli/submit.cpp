@@ -66,9 +66,12 @@ Fetched fetch_arrays(client::Connection& connection, v1::Mesh mesh, const std::s
   return fetched;
 }
 
-std::shared_ptr<Fetched> fetch_now(Session& session, const std::string& name) {
-  v1::Mesh mesh = client::get_mesh(session.connection(), name, session.stop());
-  if (mesh.state() != v1::Mesh::STATE_READY) return nullptr;
+// Waits for the triangles, which are there before the operators. Null if there are none at the end.
+std::shared_ptr<Fetched> fetch_meshed(Session& session, const std::string& name,
+                                      const std::stop_token& end) {
+  const auto meshed = [](const v1::Mesh& mesh) { return mesh.triangle_count() > 0; };
+  v1::Mesh mesh = client::wait_for_mesh(session.connection(), name, {}, end, meshed);
+  if (!meshed(mesh)) return nullptr;
   return std::make_shared<Fetched>(
       fetch_arrays(session.connection(), std::move(mesh), session.stop()));
 }
@@ -185,6 +188,8 @@ results::Result fetch(Session& session, const v1::Job& job, const std::stop_toke
       ahead != nullptr
           ? std::move(*ahead)
           : fetch_arrays(connection, client::get_mesh(connection, mesh_of(job), stop), stop);
+  if (fetched.mesh.state() != v1::Mesh::STATE_READY)
+    fetched.mesh = client::get_mesh(connection, fetched.mesh.name(), stop);
   fetched.job = job;
   fetched.result_block = client::read_result(connection, job.name(), stop);
   return to_result(std::move(fetched));
@@ -205,11 +210,11 @@ void complain_of_failure(const v1::Job& job) {
   if (job.status().state() == v1::JobStatus::STATE_FAILED) complain(shortfalls(job).front());
 }
 
-AheadFuture fetch_ahead(Session& session, const v1::Job& job) {
-  const auto fetch = [&session, mesh = job.spec().mesh(),
+AheadFuture fetch_ahead(Session& session, const v1::Job& job, const std::stop_token& end) {
+  const auto fetch = [&session, end, mesh = job.spec().mesh(),
                       in_stages = job.spec().has_accuracy()]() -> std::shared_ptr<Fetched> {
     try {
-      return in_stages ? nullptr : fetch_now(session, mesh);
+      return in_stages ? nullptr : fetch_meshed(session, mesh, end);
     } catch (const std::exception&) {
       return nullptr;
     }

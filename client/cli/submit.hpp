@@ -59,14 +59,14 @@ v1::Job submit(Session& session, const Case& the_case, const std::string& reques
 /// The message of a command that submits and does not wait.
 void tell_submitted(const Session& session, const v1::Job& job);
 
-/// What a result needs besides the job and its answers, fetched while the job is solved. Null if
-/// the mesh was not READY yet or something failed: then everything is fetched at the end, which
-/// also reports errors.
+/// What a result needs besides the job and its answers, fetched as soon as the mesh has triangles.
+/// Null if it had none before the job ended or something failed: then everything is fetched at the
+/// end, which also reports errors.
 using AheadFuture = std::shared_future<std::shared_ptr<Fetched>>;
 
-/// Begins to fetch on another thread; null for a job in stages, which ends on another mesh. The
-/// session must outlive the future.
-AheadFuture fetch_ahead(Session& session, const v1::Job& job);
+/// Begins to fetch on another thread, which waits for the mesh until `end`; null for a job in
+/// stages, which ends on another mesh. The session must outlive the future.
+AheadFuture fetch_ahead(Session& session, const v1::Job& job, const std::stop_token& end);
 
 /// Fetches everything about a job that has ended and has results. `ahead`: the data that are here
 /// already, which are taken; may be null.

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "base/at.hpp"
 #include "base/at_once.hpp"
@@ -86,26 +85,30 @@ Partition part(const TraceProblem& traces) {
 /// Entries of x by their abscissae, to find those in a box.
 class Places {
  public:
-  explicit Places(const JoinedMembrane& membrane)
-      : _xy(membrane.places()), _order(at(membrane.size())) {
-    std::iota(_order.begin(), _order.end(), 0);
-    std::ranges::sort(_order, {}, [this](std::int32_t i) { return std::pair{_xy[2 * at(i)], i}; });
+  explicit Places(const JoinedMembrane& membrane) : _xy(membrane.places()) {
+    _by_x.reserve(at(membrane.size()));
+    for (std::int32_t i = 0; i < membrane.size(); ++i) _by_x.push_back({of(i)[0], of(i)[1], i});
+    std::ranges::sort(_by_x, {}, &Place::x);
   }
   /// Entries whose places lie in the box, ascending.
   Indices in_box(const std::array<double, 2>& low, const std::array<double, 2>& high) const {
     Indices found;
-    auto i = std::ranges::lower_bound(_order, low[0], {},
-                                      [this](std::int32_t k) { return _xy[2 * at(k)]; });
-    for (; i != _order.end() && _xy[2 * at(*i)] <= high[0]; ++i)
-      if (const double y = _xy[2 * at(*i) + 1]; y >= low[1] && y <= high[1]) found.push_back(*i);
+    auto one = std::ranges::lower_bound(_by_x, low[0], {}, &Place::x);
+    for (; one != _by_x.end() && one->x <= high[0]; ++one)
+      if (one->y >= low[1] && one->y <= high[1]) found.push_back(one->entry);
     std::ranges::sort(found);
     return found;
   }
   const double* of(std::int32_t i) const { return &_xy[2 * at(i)]; }
 
  private:
+  struct Place {
+    double x, y;
+    std::int32_t entry;
+  };
+
   const std::vector<double>& _xy;
-  Indices _order;
+  std::vector<Place> _by_x;
 };
 
 /// The membrane around one block. For one thread.

@@ -36,11 +36,9 @@ void add_product(const Sparse& lower, const VectorXd& x, VectorXd& y) {
   y += lower.selfadjointView<Eigen::Lower>() * x;
 }
 
-/// The factor of A, with the contacts as its trace or without them.
-ddm::SubdomainFactor factor_of(const Sparse& matrix, Index interior, Index trace,
-                               std::span<const double> places, int threads) {
-  const Sparse part = block_of(matrix, 0, 0, interior + trace, interior + trace);
-  return {part, interior, ddm::elimination_order(part, interior, places, threads), threads};
+ddm::SubdomainFactor factor_of(const Sparse& matrix, Index interior, std::span<const double> places,
+                               int threads) {
+  return {matrix, interior, ddm::elimination_order(matrix, interior, places, threads), threads};
 }
 
 }  // namespace
@@ -53,7 +51,10 @@ JoinedMembrane::JoinedMembrane(const TraceProblem& traces, bool condense_contact
                   _interior + traces.maps().free_count())),
       _b(block_of(_matrix, _a.rows(), 0, traces.maps().jump_count(), _a.rows())),
       _d(block_of(_matrix, _a.rows(), _a.rows(), _b.rows(), _b.rows())),
-      _factor(factor_of(_matrix, _a.rows(), condense_contacts ? _b.rows() : 0, _places, threads)) {
+      _factor(condense_contacts
+                  ? factor_of(block_of(_matrix, 0, 0, _a.rows() + _b.rows(), _a.rows() + _b.rows()),
+                              _a.rows(), _places, threads)
+                  : factor_of(_a, _a.rows(), _places, threads)) {
   const Index held = traces.maps().held_count(), last = _a.rows() + _b.rows();
   _xp = Sparse(block_of(_matrix, last, 0, held, _a.rows()).transpose());
   _dp = Sparse(block_of(_matrix, last, _a.rows(), held, _b.rows()).transpose());

@@ -300,7 +300,7 @@ Mesh Bisection::finish() && {
 double bisection_bound(const Mesh& base) {
   if (base.bisection_bound > 0) return base.bisection_bound;
   const std::vector<std::uint8_t> reference = reference_sides(base, EdgeTable(base.triangles));
-  double smallest = 180;
+  Angle smallest;
   for (std::size_t t = 0; t < base.triangle_count(); ++t) {
     stop::look_at_turn(t, bisecting);
     const Point a = corner(base, t, reference[t]);
@@ -312,7 +312,7 @@ double bisection_bound(const Mesh& base) {
     smallest =
         std::min({smallest, least_angle(a, b, c), least_angle(c, a, m), least_angle(b, c, m)});
   }
-  return smallest;
+  return smallest.degrees();
 }
 
 }  // namespace anticrack::mesh

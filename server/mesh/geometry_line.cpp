@@ -235,11 +235,8 @@ double Line::closest(const Point& p, const Sample& low, const Sample& high) cons
   return t;
 }
 
-std::optional<double> Line::locate(const Point& p, double tolerance) const {
-  const auto near = [&](const Box& box) {
-    return boxes_meet(box.diagonal, {p, p}, tolerance + box.slack);
-  };
-  if (!near(_boxes[1])) return std::nullopt;
+/// As locate(), in what lies near the box of the whole line.
+std::optional<double> Line::search(const Point& p, double tolerance) const {
   // An arc is off its circle by rounding alone.
   const double rounding = 8 * std::numeric_limits<double>::epsilon() * _radius;
   if (!_angles.empty() && std::abs(distance(p, _centre) - _radius) > 2 * tolerance + rounding)
@@ -264,7 +261,7 @@ std::optional<double> Line::locate(const Point& p, double tolerance) const {
   for (std::size_t count = 1; count > 0;) {
     const std::size_t node = open[--count];
     const Box& box = _boxes[node];
-    if (!near(box)) continue;
+    if (!near(box, p, tolerance)) continue;
     if (node >= spans) {
       try_span(node - spans, box.slack);
       continue;

@@ -65,7 +65,9 @@ class Line {
 
   /// The parameter at which the line passes within `tolerance` of `p`, in [0, spans), or up to
   /// spans if the line is open. O(log(spans)) if the line does not come near `p` many times.
-  std::optional<double> locate(const Point& p, double tolerance) const;
+  std::optional<double> locate(const Point& p, double tolerance) const {
+    return near(_boxes[1], p, tolerance) ? search(p, tolerance) : std::nullopt;  // most are far
+  }
   /// Distance of `p` from the line; exact for a polyline, else that from fine chords.
   double distance_to(const Point& p) const noexcept;
   /// The parameter up to which the line from `from` on has the fraction `part` of its length up to
@@ -87,6 +89,10 @@ class Line {
     Segment diagonal;
     double slack = 0;  ///< a curve is nearer than this to the chords of its samples
   };
+  static bool near(const Box& box, const Point& p, double tolerance) noexcept {
+    return boxes_meet(box.diagonal, {p, p}, tolerance + box.slack);
+  }
+  std::optional<double> search(const Point& p, double tolerance) const;
   Line(Shape shape, bool closed, std::vector<Point> vertices);
   void sample();
   int samples_in_span() const noexcept;

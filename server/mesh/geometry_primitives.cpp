@@ -71,14 +71,6 @@ std::pair<double, double> meeting_point(const Segment& s, const Segment& t) noex
   }
 }
 
-bool boxes_meet(const Segment& s, const Segment& t, double tolerance) noexcept {
-  for (std::size_t i = 0; i < 2; ++i) {
-    if (std::min(s.a[i], s.b[i]) > std::max(t.a[i], t.b[i]) + tolerance) return false;
-    if (std::min(t.a[i], t.b[i]) > std::max(s.a[i], s.b[i]) + tolerance) return false;
-  }
-  return true;
-}
-
 namespace {
 
 /// Projections of segments onto a direction; the sweep visits pairs whose projections overlap.

@@ -3,6 +3,7 @@
 // Points, segments and polylines of the plane. Lengths in the unit of the geometry.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <span>
@@ -39,7 +40,13 @@ double distance(const Segment& s, const Segment& t) noexcept;
 /// The parameters of the points where two segments are nearest to each other, or cross.
 std::pair<double, double> meeting_point(const Segment& s, const Segment& t) noexcept;
 /// Whether the bounding boxes, grown by `tolerance`, have a point in common. Cheap.
-bool boxes_meet(const Segment& s, const Segment& t, double tolerance) noexcept;
+inline bool boxes_meet(const Segment& s, const Segment& t, double tolerance) noexcept {
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (std::min(s.a[i], s.b[i]) > std::max(t.a[i], t.b[i]) + tolerance) return false;
+    if (std::min(t.a[i], t.b[i]) > std::max(s.a[i], s.b[i]) + tolerance) return false;
+  }
+  return true;
+}
 
 /// Calls visit(i, j) once for each pair of segments within `reach`, and some others, in a sweep
 /// along x or, where there are very many over the same x, along the best of 16 directions. O(n log

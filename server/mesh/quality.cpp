@@ -10,15 +10,16 @@
 namespace anticrack::mesh {
 namespace {
 
-double angle_at(const Point& p, const Point& q, const Point& r) noexcept {
+Angle angle_at(const Point& p, const Point& q, const Point& r) noexcept {
   const auto [ux, uy] = minus(q, p);
   const auto [vx, vy] = minus(r, p);
-  return std::atan2(std::abs(ux * vy - uy * vx), ux * vx + uy * vy) * 180 / std::numbers::pi;
+  const double across = std::abs(ux * vy - uy * vx);
+  return {across, across > 0 ? ux * vx + uy * vy : 1};
 }
 
 }  // namespace
 
-double least_angle(const Point& a, const Point& b, const Point& c) noexcept {
+Angle least_angle(const Point& a, const Point& b, const Point& c) noexcept {
   const auto squared = [](const Point& p, const Point& q) {
     const Point along = minus(q, p);
     return along[0] * along[0] + along[1] * along[1];
@@ -29,12 +30,16 @@ double least_angle(const Point& a, const Point& b, const Point& c) noexcept {
   return at_b <= at_c ? angle_at(b, c, a) : angle_at(c, a, b);
 }
 
+double Angle::degrees() const noexcept {
+  return std::atan2(across, along) * 180 / std::numbers::pi;
+}
+
 double minimum_angle(const Mesh& mesh) noexcept {
-  double smallest = 180;
+  Angle smallest;
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
     smallest =
         std::min(smallest, least_angle(corner(mesh, t, 0), corner(mesh, t, 1), corner(mesh, t, 2)));
-  return smallest;
+  return smallest.degrees();
 }
 
 double longest_edge(const Mesh& mesh) noexcept {

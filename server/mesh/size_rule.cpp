@@ -113,19 +113,23 @@ SizeRule::SizeRule(const Mesh& mesh, std::span<const std::int32_t> centres, cons
       [](const Centre& c) { return c.reach; }, [](double a, double b) { return std::max(a, b); });
 }
 
-bool SizeRule::search(std::size_t index, const Sought& of) const noexcept {
-  const Box& box = _boxes[index];
+bool SizeRule::Sought::beyond(const Point& box_low, const Point& box_high,
+                              double reach) const noexcept {
   Point gap{};
   for (std::size_t axis = 0; axis < 2; ++axis)
-    gap[axis] =
-        std::max(std::max(box.low[axis] - of.high[axis], 0.0), of.low[axis] - box.high[axis]);
-  const double farthest = box.value * of.part;
-  if (squared(gap) > farthest * farthest) return false;
+    gap[axis] = std::max(std::max(box_low[axis] - high[axis], 0.0), low[axis] - box_high[axis]);
+  return squared(gap) > reach * reach;
+}
+
+bool SizeRule::search(std::size_t index, const Sought& of) const noexcept {
+  const Box& box = _boxes[index];
+  if (of.beyond(box.low, box.high, box.value * of.part)) return false;
   if (box.left > 0) return search(box.left, of) || search(box.right, of);
   for (std::size_t i = box.begin; i < box.end; ++i) {
     const Centre& centre = _centres[i];
     const double reach = centre.reach * of.part;
-    if (of.diameter > centre.tip_size && squared_distance(of.triangle, centre.at) < reach * reach)
+    if (of.diameter > centre.tip_size && !of.beyond(centre.at, centre.at, reach) &&
+        squared_distance(of.triangle, centre.at) < reach * reach)
       return true;
   }
   return false;

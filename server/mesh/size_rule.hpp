@@ -37,6 +37,8 @@ class SizeRule {
     Point low, high;  ///< the bounding box of the triangle
     double diameter;
     double part;  ///< of its reach: how near to a centre the diameter is too large
+    /// Whether its box is farther than `reach` from another one.
+    bool beyond(const Point& box_low, const Point& box_high, double reach) const noexcept;
   };
 
   bool search(std::size_t box, const Sought& of) const noexcept;

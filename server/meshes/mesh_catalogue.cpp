@@ -238,6 +238,7 @@ MeshRecord MeshCatalogue::refine(const Parent& parent, std::span<const std::uint
     record.definition = definition;
     record.created = records::Clock::now();
     meshed(fine, start, record);
+    summarize(fine, record);
     _state->store.put(record, fine);
   } catch (...) {
     const auto lock = preparation.lock();

@@ -27,6 +27,8 @@
 
 namespace anticrack::meshes {
 
+struct Triangulation;
+
 /// Each requested mesh has a run (mesh_index.hpp) on one thread, which begins when the queue says
 /// so. preparation_run.cpp has the work of a run; preparation.cpp begins runs, retries them and
 /// gives them up, and tells the news to those who wait.
@@ -104,7 +106,10 @@ class Preparation {
   /// Takes the next run that may begin; null if there is none.
   RunPtr take();
   void perform(Run& run);
-  std::shared_ptr<const mesh::Mesh> triangulate(Run& run);
+  /// Not in the store yet; one that the mesher made has no summary yet.
+  Triangulation triangulate(Run& run);
+  /// Summarises and stores it.
+  void keep(Run& run, Triangulation& made);
   /// Locks as soon as nobody else writes the record of the run's mesh, and marks that the run
   /// writes it. The mesh is null if the run was given up.
   std::pair<Lock, LiveMesh*> lock_to_write(Run& run);
@@ -112,7 +117,11 @@ class Preparation {
   /// Begins the runs again that are due after the disk refused or memory was short.
   void begin_due();
   void begin_later(LiveMesh& mesh, const std::string& id);
-  void factorize(Run& run, std::shared_ptr<const mesh::Mesh> triangulation);
+  /// `triangulation`: null: that of the store.
+  Operator operators_of(const Run& run, const std::string& sha256, const std::string& owner,
+                        std::shared_ptr<const mesh::Mesh> triangulation);
+  /// `made`: as by triangulate(); null: the mesh is in the store.
+  void factorize(Run& run, Triangulation* made);
   void record_outcome(Run& run);
   void fail(Run& run, errors::Error error);
   void finish(Run& run);

@@ -9,8 +9,10 @@
 #include <system_error>
 #include <utility>
 
+#include "base/at_once.hpp"
 #include "meshes/preparation.hpp"
 #include "meshes/size_class.hpp"
+#include "meshes/summary.hpp"
 #include "meshes/triangulation.hpp"
 #include "stop/stop.hpp"
 
@@ -85,7 +87,9 @@ Preparation::RunPtr Preparation::take() {
 
 void Preparation::perform(Run& run) {
   try {
-    factorize(run, run.phase == MeshState::pending ? triangulate(run) : nullptr);
+    std::optional<Triangulation> made;
+    if (run.phase == MeshState::pending) made = triangulate(run);
+    factorize(run, made ? &*made : nullptr);
   } catch (const Error& error) {
     fail(run, error);
   } catch (const std::bad_alloc&) {
@@ -99,7 +103,7 @@ void Preparation::perform(Run& run) {
   }
 }
 
-std::shared_ptr<const mesh::Mesh> Preparation::triangulate(Run& run) {
+Triangulation Preparation::triangulate(Run& run) {
   std::string twin;
   {
     const auto held = lock();
@@ -115,8 +119,7 @@ std::shared_ptr<const mesh::Mesh> Preparation::triangulate(Run& run) {
     const stop::Scope scope(run.stop.get_token());
     made = copy_of(twin, record, _store);
   }
-  const bool copied = made.has_value();
-  if (!copied) {
+  if (!made) {
     ++_meshings;
     made = meshes::triangulate(record, _options, _store, run.stop.get_token(),
                                [&](const records::MeshProgress& progress) {
@@ -128,13 +131,22 @@ std::shared_ptr<const mesh::Mesh> Preparation::triangulate(Run& run) {
                                    tell(wait, {.phase = Phase::meshing, .progress = progress});
                                });
   }
+  return std::move(*made);
+}
+
+void Preparation::keep(Run& run, Triangulation& made) {
+  const bool is_new = made.record.triangle_count == 0;  // a copy has its summary
+  if (is_new) {
+    const stop::Scope scope(run.stop.get_token());
+    summarize(*made.mesh, made.record);
+  }
   {
     const auto [held, mesh] = lock_to_write(run);
     if (mesh == nullptr) throw Error(Reason::cancelled, "meshing was cancelled");
-    made->record.for_job = mesh->for_job;
+    made.record.for_job = mesh->for_job;
   }
   try {
-    _store.put(made->record, *made->mesh);
+    _store.put(made.record, *made.mesh);
   } catch (...) {
     end_writing(run);
     throw;
@@ -143,8 +155,8 @@ std::shared_ptr<const mesh::Mesh> Preparation::triangulate(Run& run) {
     const auto held = lock();
     LiveMesh& mesh = _index.known(run.id);
     mesh.stage = Stage::meshed;
-    mesh.sha256 = made->record.sha256;
-    mesh.size_class = size_class(made->record.triangle_count);
+    mesh.sha256 = made.record.sha256;
+    mesh.size_class = size_class(made.record.triangle_count);
     mesh.refusals = 0;
     ++mesh.version;
     run.phase = MeshState::factorizing;
@@ -155,37 +167,53 @@ std::shared_ptr<const mesh::Mesh> Preparation::triangulate(Run& run) {
     if (mesh.used && mesh.users.expired()) give_up_unwanted(mesh);
     _changed.notify_all();
   }
-  if (!copied && _options.meshed) _options.meshed(made->record);
-  return std::move(made->mesh);
+  if (is_new && _options.meshed) _options.meshed(made.record);
 }
 
-void Preparation::factorize(Run& run, std::shared_ptr<const mesh::Mesh> triangulation) {
-  const auto start = Steady::now();
+Preparation::Operator Preparation::operators_of(const Run& run, const std::string& sha256,
+                                                const std::string& owner,
+                                                std::shared_ptr<const mesh::Mesh> triangulation) {
+  if (Operator ready = _cache.find(sha256, owner)) return ready;
+  if (!triangulation) {
+    const stop::Scope scope(run.stop.get_token());
+    triangulation = _store.triangulation(sha256);
+  }
+  if (!triangulation) {
+    throw Error(Reason::storage,
+                "the triangulation of meshes/{} is not in the data "
+                "folder: delete the mesh and create it again",
+                run.id);
+  }
+  return _cache.acquire(sha256, std::move(triangulation), run.stop.get_token(), owner);
+}
+
+void Preparation::factorize(Run& run, Triangulation* made) {
   Lock held = lock();
   LiveMesh* mesh = mesh_of(run);
   if (mesh == nullptr) return;
-  const std::string sha256 = mesh->sha256, owner = mesh->owner;
+  const std::string sha256 = made != nullptr ? made->record.sha256 : mesh->sha256,
+                    owner = mesh->owner;
   held.unlock();
-  Operator result = _cache.find(sha256, owner);
-  if (!result) {
-    if (!triangulation) {
-      const stop::Scope scope(run.stop.get_token());
-      triangulation = _store.triangulation(sha256);
-    }
-    if (!triangulation) {
-      throw Error(Reason::storage,
-                  "the triangulation of meshes/{} is not in the data "
-                  "folder: delete the mesh and create it again",
-                  run.id);
-    }
-    result = _cache.acquire(sha256, std::move(triangulation), run.stop.get_token(), owner);
-  }
+  Operator result;
+  double seconds = 0;
+  const auto acquire = [&] {
+    const auto start = Steady::now();
+    result = operators_of(run, sha256, owner, made != nullptr ? made->mesh : nullptr);
+    seconds = std::chrono::duration<double>(Steady::now() - start).count();
+  };
+  // A new mesh is summarised and stored by one thread while another factorises: the first steps of
+  // either take one. It is stored, too, if there is no memory for its operators.
+  if (made == nullptr)
+    acquire();
+  else
+    base::at_once(
+        2, 2, [&] { return [&](std::size_t part) { part == 0 ? keep(run, *made) : acquire(); }; });
   held.lock();
   mesh = mesh_of(run);
   if (mesh == nullptr) return;
   if (std::exchange(mesh->pin, false))
     _cache.pin(sha256);  // `result` keeps it from being evicted first
-  mesh->operators = {result->bytes(), std::chrono::duration<double>(Steady::now() - start).count()};
+  mesh->operators = {result->bytes(), seconds};
   run.visible = true;
   run.ending = true;
   if (!mesh->waits.empty()) hand_over(*mesh, result, run.place);

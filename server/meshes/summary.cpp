@@ -43,22 +43,23 @@ std::pair<double, double> edge_lengths(const mesh::Mesh& mesh, std::size_t trian
 }
 
 void measure_triangles(const mesh::Mesh& mesh, std::vector<records::SubdomainSummary>& result) {
-  for (records::SubdomainSummary& to : result) {
-    to.minimum_angle = 180;
+  std::vector<mesh::Angle> least(result.size());
+  for (records::SubdomainSummary& to : result)
     to.shortest_edge = std::numeric_limits<double>::infinity();
-  }
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     stop::look_at_turn(t, measuring);
-    records::SubdomainSummary& to = result[at(mesh.subdomain[t])];
+    const std::size_t s = at(mesh.subdomain[t]);
+    records::SubdomainSummary& to = result[s];
     ++to.triangle_count;
     to.area += mesh::area(mesh, t);
-    to.minimum_angle = std::min(
-        to.minimum_angle, mesh::least_angle(mesh::corner(mesh, t, 0), mesh::corner(mesh, t, 1),
-                                            mesh::corner(mesh, t, 2)));
+    least[s] =
+        std::min(least[s], mesh::least_angle(mesh::corner(mesh, t, 0), mesh::corner(mesh, t, 1),
+                                             mesh::corner(mesh, t, 2)));
     const auto [shortest, longest] = edge_lengths(mesh, t);
     to.shortest_edge = std::min(to.shortest_edge, shortest);
     to.longest_edge = std::max(to.longest_edge, longest);
   }
+  for (std::size_t s = 0; s < result.size(); ++s) result[s].minimum_angle = least[s].degrees();
 }
 
 void count_nodes(const mesh::Mesh& mesh, std::vector<records::SubdomainSummary>& result) {
@@ -83,16 +84,21 @@ void count_nodes(const mesh::Mesh& mesh, std::vector<records::SubdomainSummary>&
 /// crossing an interface; it floats if none of its nodes is a Dirichlet node.
 std::vector<bool> floating_subdomains(const mesh::Mesh& mesh, const mesh::EdgeTable& edges) {
   std::vector<EdgeKey> cuts;
-  for (const mesh::Interface& interface : mesh.interfaces)
+  std::vector<bool> on_interface(mesh.node_count(), false);  // few edges lie between two of these
+  for (const mesh::Interface& interface : mesh.interfaces) {
+    for (const std::int32_t node : interface.nodes) on_interface[at(node)] = true;
     for (std::size_t i = 0; i + 1 < interface.nodes.size(); ++i)
       cuts.push_back(key(interface.nodes[i], interface.nodes[i + 1]));
+  }
   std::sort(cuts.begin(), cuts.end());
   base::UnionFind parts(mesh.triangle_count());
   std::size_t turn = 0;
   edges.each([&](std::span<const mesh::EdgeUse> uses) {
     stop::look_at_turn<stop::quick>(turn++, measuring);
     const EdgeKey edge{uses[0].low(), uses[0].high()};
-    if (uses.size() != 2 || std::binary_search(cuts.begin(), cuts.end(), edge)) return;
+    const bool may_be_cut = on_interface[at(edge.first)] && on_interface[at(edge.second)];
+    if (uses.size() != 2 || (may_be_cut && std::binary_search(cuts.begin(), cuts.end(), edge)))
+      return;
     parts.unite(uses[0].triangle, uses[1].triangle);
   });
   std::vector<bool> fixed(mesh.node_count(), false);

@@ -93,7 +93,6 @@ void meshed(const mesh::Mesh& mesh, std::chrono::steady_clock::time_point start,
   const mesh::Bytes encoded = mesh::encode(mesh);
   record.sha256 = store::sha256_of(encoded);
   record.state = records::MeshState::evicted;
-  summarize(mesh, record);
 }
 
 Triangulation triangulate(records::MeshRecord record, const CatalogueOptions& options,

@@ -17,7 +17,7 @@ namespace anticrack::meshes {
 
 struct Triangulation {
   std::shared_ptr<const mesh::Mesh> mesh;
-  records::MeshRecord record;  ///< has the summary; not in the store yet
+  records::MeshRecord record;  ///< not in the store yet
 };
 
 /// Path of an upload of `owner`. Throws errors::Error (not_found, at "upload").
@@ -32,14 +32,16 @@ std::size_t check_definition(const records::MeshDefinition& definition, const st
 std::size_t expected_triangles(const records::MeshRecord& record, const CatalogueOptions& options,
                                const store::Store& store);
 
-/// Fills in the record's data of the triangulation, whose making began at `start`. O(m log m).
+/// Fills in the record's data of the triangulation, whose making began at `start`, but for its
+/// summary. O(m).
 void meshed(const mesh::Mesh& mesh, std::chrono::steady_clock::time_point start,
             records::MeshRecord& record);
 
 /// Called about every second with the progress of the mesher.
 using ProgressListener = std::function<void(const records::MeshProgress&)>;
 
-/// Runs the helper: seconds to minutes. Throws as mesher::run, mesh::plan and require_upload do.
+/// Runs the helper: seconds to minutes. The record has no summary yet. Throws as mesher::run,
+/// mesh::plan and require_upload do.
 Triangulation triangulate(records::MeshRecord record, const CatalogueOptions& options,
                           const store::Store& store, const std::stop_token& stop,
                           const ProgressListener& progress);

@@ -75,11 +75,25 @@ MeshOperator::Parts::Parts(std::shared_ptr<const mesh::Mesh> cut_mesh, int threa
       problem(decomposition, operators, uzawa_obstacle.empty()),
       sweep_geometry(problem),
       geometry(contact::trace_geometry(decomposition, *mesh)) {
-  if (contact::is_joined(decomposition, condensed_up_to))
-    contact = std::make_unique<contact::JoinedProblem>(
-        problem, threads, condensed_up_to == 0 ? 0 : contact::dense_contacts(problem));
-  else
-    contact = std::make_unique<contact::CondensedProblem>(problem);
+  const bool joined = contact::is_joined(decomposition, condensed_up_to);
+  const auto make_contact = [&] {
+    if (joined)
+      contact = std::make_unique<contact::JoinedProblem>(
+          problem, threads, condensed_up_to == 0 ? 0 : contact::dense_contacts(problem));
+    else
+      contact = std::make_unique<contact::CondensedProblem>(problem);
+  };
+  // Most steps towards the factor of a joined membrane take one thread, and there are many tips:
+  // another thread finds them meanwhile.
+  base::at_once(joined && threads > 1 ? 2 : 1, threads, [&] {
+    return [&](std::size_t part) {
+      if (part == 0) return make_contact();
+      try {
+        all_tips();
+      } catch (...) {  // the first load that asks for them tries again, and tells
+      }
+    };
+  });
 }
 
 Condense MeshOperator::Parts::condense() const {

@@ -29,12 +29,13 @@ Extraction::Extraction(const Course& course, const Singular& singular,
     : _course(course),
       _singular(singular),
       _sides{Flattened(sides[0]), Flattened(sides[1])},
-      _outer(radius / std::max(longest(sides[0]), longest(sides[1]))) {}
+      _outer(radius / std::max(longest(sides[0]), longest(sides[1]))),
+      _inverse(1 / _outer) {}
 
 Extraction::Cutoff Extraction::cutoff(double r) const {
-  const double x = std::min(1.0, r / _outer);
-  return {1 - x * x * x * (10 + x * (6 * x - 15)), -30 * x * x * (1 - x) * (1 - x) / _outer,
-          -60 * x * (1 - x) * (1 - 2 * x) / (_outer * _outer)};
+  const double x = std::min(1.0, r * _inverse);
+  return {1 - x * x * x * (10 + x * (6 * x - 15)), -30 * x * x * (1 - x) * (1 - x) * _inverse,
+          -60 * x * (1 - x) * (1 - 2 * x) * _inverse * _inverse};
 }
 
 void Extraction::add(const Corners& at, const Tensor& tension, std::size_t side,
@@ -53,13 +54,14 @@ void Extraction::add(const Corners& at, const Tensor& tension, std::size_t side,
     const double across = _course.across(x), flat_x = _course.along(x) - flat.slant * across,
                  flat_y = flat.stretch * across, r = std::sqrt(flat_x * flat_x + flat_y * flat_y);
     if (r >= _outer || r == 0) continue;
-    const double c = flat_x / r, s = flat_y / r, weight = rule.weight[q] * at.area;
+    const double per_r = 1 / r, c = flat_x * per_r, s = flat_y * per_r,
+                 weight = rule.weight[q] * at.area;
     const auto [chi, chi_1, chi_2] = cutoff(r);
     const auto [phi, phi_1] = _singular.phi({c, s}, side);
     const double power = _singular.power(r), w = chi * power * phi;
     // dX dY = stretch ds dd
     const double on_u =
-        weight * flat.stretch * flat.root * power * phi * (chi_2 + (1 - 2 * alpha) * chi_1 / r);
+        weight * flat.stretch * flat.root * power * phi * (chi_2 + (1 - 2 * alpha) * chi_1 * per_r);
     for (std::size_t i = 0; i < 3; ++i) {
       weights.u[i] += on_u * hat[i];
       moments[i] += weight * w * hat[i];
@@ -67,8 +69,9 @@ void Extraction::add(const Corners& at, const Tensor& tension, std::size_t side,
     _of_slope += on_u * flat_x;
 
     // grad w in (s, d) and in (x, y), by r and theta, X and Y.
-    const double by_r = power * phi * (chi_1 - alpha * chi / r), by_angle = chi * power * phi_1 / r,
-                 w_x = c * by_r - s * by_angle, w_y = s * by_r + c * by_angle;
+    const double by_r = power * phi * (chi_1 - alpha * chi * per_r),
+                 by_angle = chi * power * phi_1 * per_r, w_x = c * by_r - s * by_angle,
+                 w_y = s * by_r + c * by_angle;
     const Point slope{w_x, flat.stretch * w_y - flat.slant * w_x},
         of_tip = product(flat.tip, slope);
     Point in_plane{};

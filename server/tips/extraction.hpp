@@ -64,7 +64,7 @@ class Extraction {
   const Course _course;
   const Singular _singular;
   std::array<Flattened, 2> _sides;
-  double _outer = 0;  ///< chi is 0 from this r on
+  double _outer = 0, _inverse = 0;  ///< chi is 0 from this r on; 1 over it
   std::vector<Weights> _weights;
   double _of_slope = 0;
 };

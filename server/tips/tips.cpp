@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_set>
 #include <utility>
 
 #include "base/at.hpp"
@@ -91,7 +90,8 @@ void Tips::prepare(const mesh::Mesh& mesh, std::span<const Cell> local, const Su
   std::ranges::sort(tip.cells, {},
                     [](const Cell& c) { return std::pair(c.subdomain, c.triangle); });
 
-  const std::unordered_set<std::int32_t> behind(place.behind.begin(), place.behind.end());
+  std::vector<std::int32_t> behind = place.behind;
+  std::ranges::sort(behind);
   std::vector<std::size_t> side;
   bool any_varies = false;
   for (std::size_t k = 0; k < tip.cells.size(); ++k) {
@@ -117,8 +117,8 @@ void Tips::prepare(const mesh::Mesh& mesh, std::span<const Cell> local, const Su
     const ddm::Subdomain& subdomain = _decomposition.subdomains[at(cell.subdomain)];
     std::array<bool, 3> jumps{};
     for (std::size_t i = 0; i < 3; ++i)
-      jumps[i] =
-          behind.contains(subdomain.node[at(subdomain.part.triangles[3 * at(cell.triangle) + i])]);
+      jumps[i] = std::ranges::binary_search(
+          behind, subdomain.node[at(subdomain.part.triangles[3 * at(cell.triangle) + i])]);
     const Corners corner = corners(cell);
     extraction.add(corner, tension(cell), side[k], jumps);
     if (any_varies)
