@@ -64,7 +64,7 @@ std::size_t bytes_of(const ddm::Decomposition& decomposition) {
 MeshOperator::Parts::Parts(std::shared_ptr<const mesh::Mesh> cut_mesh, int threads,
                            std::size_t condensed_up_to)
     : mesh(std::move(cut_mesh)),
-      decomposition(ddm::cut(*mesh)),
+      decomposition(ddm::cut(*mesh, threads)),
       neumann(*mesh, decomposition),
       operators(contact::is_joined(decomposition, condensed_up_to)
                     ? std::vector<ddm::SubdomainOperator>()
