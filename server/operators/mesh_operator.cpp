@@ -93,6 +93,7 @@ std::shared_ptr<const MeshOperator> MeshOperator::factorise(std::shared_ptr<cons
                                                             std::size_t condensed_up_to) {
   require_threadsafe_blas();
   const stop::Scope scope(stop);
+  const base::Threads allowed(threads);
   stop::look("factorising a mesh");
   auto parts = std::make_shared<const Parts>(std::move(mesh), threads, condensed_up_to);
   return std::shared_ptr<const MeshOperator>(new MeshOperator(std::move(parts)));
