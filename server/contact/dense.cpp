@@ -80,6 +80,25 @@ bool cholesky_in_blocks(Ref<MatrixXd> matrix) {
   return true;
 }
 
+/// In blocks of rows: products of BLAS are up to four times as fast as its triangular solves.
+void solve_in_blocks(const Ref<const MatrixXd>& factor, CBLAS_TRANSPOSE transposed, int columns,
+                     double* b, int leading) {
+  constexpr int block = 64;
+  const bool forward = transposed == CblasNoTrans;
+  const int rows = static_cast<int>(factor.rows()), blocks = (rows + block - 1) / block;
+  const auto entry = [&](int i, int j) { return factor.data() + j * factor.outerStride() + i; };
+  for (int k = 0; k < blocks; ++k) {
+    const int first = block * (forward ? k : blocks - 1 - k), own = std::min(block, rows - first);
+    cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, transposed, CblasNonUnit, own, columns, 1,
+                entry(first, first), stride(factor), b + first, leading);
+    const int next = forward ? first + own : 0, left = forward ? rows - next : first;
+    if (left == 0) continue;
+    cblas_dgemm(CblasColMajor, transposed, CblasNoTrans, left, columns, own, -1,
+                forward ? entry(next, first) : entry(first, 0), stride(factor), b + first, leading,
+                1, b + next, leading);
+  }
+}
+
 void solve(const Ref<const MatrixXd>& factor, CBLAS_TRANSPOSE transposed, Ref<MatrixXd> b) {
   const int rows = static_cast<int>(b.rows()), columns = static_cast<int>(b.cols());
   if (rows == 0 || columns == 0) return;
@@ -89,8 +108,7 @@ void solve(const Ref<const MatrixXd>& factor, CBLAS_TRANSPOSE transposed, Ref<Ma
     return;
   }
   for_each_part(columns, double(rows) * rows, [&](int first, int count) {
-    cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, transposed, CblasNonUnit, rows, count, 1,
-                factor.data(), stride(factor), &b(0, first), stride(b));
+    solve_in_blocks(factor, transposed, count, &b(0, first), stride(b));
   });
 }
 
