@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/at.hpp"
+#include "base/at_once.hpp"
 #include "contact/answer.hpp"
 #include "contact/dense.hpp"
 #include "errors/errors.hpp"
@@ -50,11 +51,18 @@ struct CondensedProblem::Blocks {
   MatrixXd condensed;
 
   Blocks(const Maps& maps, const MatrixXd& k) {
-    const MatrixXd of_jumps = k * maps.jumps();
-    w = maps.free().transpose() * of_jumps;
-    condensed = maps.jumps().transpose() * of_jumps;
-    const MatrixXd of_free = k * maps.free();
-    h = factorise(maps.free().transpose() * of_free);
+    const auto couple_jumps = [&] {
+      const MatrixXd of_jumps = k * maps.jumps();
+      w = maps.free().transpose() * of_jumps;
+      condensed = maps.jumps().transpose() * of_jumps;
+    };
+    const auto factorise_free = [&] {
+      const MatrixXd of_free = k * maps.free();
+      h = factorise(maps.free().transpose() * of_free);
+    };
+    base::at_once(2, base::Threads::allowed(), [&] {
+      return [&](std::size_t part) { part == 0 ? factorise_free() : couple_jumps(); };
+    });
     solve_lower(h, w);
     subtract_square(w, condensed);  // C'H^-1 C
     solve_lower_transposed(h, w);

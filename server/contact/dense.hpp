@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Dense factors by BLAS and LAPACK. Eigen's own are compiled for the oldest x86-64 and take twice
-// as long from some 60 rows, several times as long from some hundred. Same input, same bits.
+// as long from some 60 rows, several times as long from some hundred. Large ones are worked on in
+// parts, on base::Threads. Same input, same bits.
 #pragma once
 
 #include <Eigen/Core>

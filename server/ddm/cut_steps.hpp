@@ -71,7 +71,7 @@ Ties tie(const mesh::Mesh& mesh, const Sides& sides);
 /// Sets Subdomain::floating. O(n). Throws errors::Error: mesh_invalid for a part with neither
 /// Dirichlet nor interface nodes; numerical for a part that no chain of tied sides joins to a
 /// Dirichlet node.
-void find_floating_parts(Decomposition& decomposition);
+void find_floating_parts(Decomposition& decomposition, int threads);
 
 /// Sorts nodes along a Z-order curve (G. Morton, 1966) over their bounding box, 2^16 cells a side,
 /// stable within a cell, so that nearby nodes share cache lines. `xy`: (n,2) row-major. O(k).

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/at.hpp"
+#include "base/at_once.hpp"
 #include "ddm/cut_steps.hpp"
 #include "errors/errors.hpp"
 #include "stop/stop.hpp"
@@ -44,14 +45,13 @@ void sort_by_first_node(Subdomain& subdomain) {
   subdomain.part.triangles = std::move(corners);
 }
 
-/// Numbers the nodes of the subdomains, one after another.
+/// Numbers the nodes of the subdomains.
 class Numbering {
  public:
-  Numbering(const mesh::Mesh& mesh, const Sides& sides)
+  Numbering(const mesh::Mesh& mesh, const Sides& sides, int threads)
       : _mesh(mesh),
         _sides(sides),
         _side_trace(sides.sides.size()),
-        _local(mesh.node_count(), -1),
         _subdomains(mesh.subdomains.size()) {
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
       stop::look_at_turn<stop::quick>(t, cutting);
@@ -63,12 +63,14 @@ class Numbering {
       _side_trace[i] = count_of(trace);
       trace.push_back(static_cast<std::int32_t>(i));
     }
-    for (std::size_t s = 0; s < _subdomains.size(); ++s) {
-      Subdomain& subdomain = _subdomains[s];
-      subdomain.name = mesh.subdomains[s];
-      subdomain.tension = mesh.tension.empty() ? 1.0 : mesh.tension[s];
-      number(subdomain, traces[s]);
-    }
+    base::at_once(_subdomains.size(), threads, [&] {
+      return [&, local = Local(mesh.node_count(), -1)](std::size_t s) mutable {
+        Subdomain& subdomain = _subdomains[s];
+        subdomain.name = mesh.subdomains[s];
+        subdomain.tension = mesh.tension.empty() ? 1.0 : mesh.tension[s];
+        number(subdomain, traces[s], local);
+      };
+    });
   }
 
   void add_laws() {
@@ -99,15 +101,18 @@ class Numbering {
   std::vector<Subdomain> take_subdomains() { return std::move(_subdomains); }
 
  private:
-  void number(Subdomain& subdomain, const std::vector<std::int32_t>& trace) {
+  /// Of each node of the mesh: its number in the present subdomain, or -1.
+  using Local = std::vector<std::int32_t>;
+
+  void number(Subdomain& subdomain, const std::vector<std::int32_t>& trace, Local& local) {
     std::vector<std::int32_t> dirichlet;
     std::size_t turn = 0;
     for (const std::int32_t t : subdomain.triangle) {
       stop::look_at_turn<stop::quick>(turn++, cutting);
       for (std::size_t c = 3 * at(t); c < 3 * at(t) + 3; ++c) {
         const std::int32_t node = _mesh.triangles[c];
-        if (_sides.corner[c] < 0 && _local[at(node)] < 0) {
-          _local[at(node)] = 0;
+        if (_sides.corner[c] < 0 && local[at(node)] < 0) {
+          local[at(node)] = 0;
           (_sides.on_dirichlet[at(node)] != 0 ? dirichlet : subdomain.node).push_back(node);
         }
       }
@@ -120,16 +125,16 @@ class Numbering {
     subdomain.node.reserve(subdomain.interior + trace.size() + dirichlet.size());
     for (const std::int32_t side : trace) subdomain.node.push_back(_sides.sides[at(side)].node);
     subdomain.node.insert(subdomain.node.end(), dirichlet.begin(), dirichlet.end());
-    number_triangles(subdomain);
+    number_triangles(subdomain, local);
   }
 
-  void number_triangles(Subdomain& subdomain) {
+  void number_triangles(Subdomain& subdomain, Local& local) {
     subdomain.part.xy.reserve(2 * subdomain.node.size());
     for (std::size_t i = 0; i < subdomain.node.size(); ++i) {
       const std::size_t node = at(subdomain.node[i]);
       subdomain.part.xy.push_back(_mesh.xy[2 * node]);
       subdomain.part.xy.push_back(_mesh.xy[2 * node + 1]);
-      _local[node] = static_cast<std::int32_t>(i);
+      local[node] = static_cast<std::int32_t>(i);
     }
     const auto first_trace = static_cast<std::int32_t>(subdomain.interior);
     subdomain.part.triangles.reserve(3 * subdomain.triangle.size());
@@ -139,19 +144,18 @@ class Numbering {
       for (std::size_t c = 3 * at(t); c < 3 * at(t) + 3; ++c) {
         const std::int32_t side = _sides.corner[c];
         subdomain.part.triangles.push_back(side >= 0 ? first_trace + _side_trace[at(side)]
-                                                     : _local[at(_mesh.triangles[c])]);
+                                                     : local[at(_mesh.triangles[c])]);
       }
     }
     stop::look(cutting);
     sort_by_first_node(subdomain);
     for (const std::int32_t node : subdomain.node)
-      _local[at(node)] = -1;  // a Dirichlet node may be in the next subdomain as well
+      local[at(node)] = -1;  // a Dirichlet node may be in the next subdomain as well
   }
 
   const mesh::Mesh& _mesh;
   const Sides& _sides;
   std::vector<std::int32_t> _side_trace;  // trace index of each side in its subdomain
-  std::vector<std::int32_t> _local;       // of each node in the present subdomain, or -1
   std::vector<Subdomain> _subdomains;
 };
 
@@ -250,10 +254,10 @@ void place_held(const std::vector<Subdomain>& subdomains, std::vector<Held>& hel
 
 }  // namespace
 
-Decomposition cut(const mesh::Mesh& mesh) {
+Decomposition cut(const mesh::Mesh& mesh, int threads) {
   const Sides sides = find_sides(mesh);
   Ties ties = tie(mesh, sides);
-  Numbering numbering(mesh, sides);
+  Numbering numbering(mesh, sides, threads);
   numbering.add_unknowns(ties);
   numbering.add_laws();
   Decomposition result;
@@ -263,7 +267,7 @@ Decomposition cut(const mesh::Mesh& mesh) {
   result.interface_sides = place_sides(mesh, result, sides, ties, numbering.side_trace());
   result.skeleton = std::move(ties.skeleton);
   place_held(result.subdomains, result.skeleton.held);
-  find_floating_parts(result);
+  find_floating_parts(result, threads);
   return result;
 }
 

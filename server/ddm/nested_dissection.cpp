@@ -160,7 +160,8 @@ class Dissection {
 
   /// The median distance of the nodes from the cut, estimated from a sample.
   double median(const Set& set, const Cut& cut) {
-    const std::size_t count = std::min<std::size_t>(set.size(), 127);
+    // Small sets are many, and sampling them cost more than a better median saves.
+    const std::size_t count = std::clamp<std::size_t>(set.size() / 8, 31, 127);
     _sample.clear();
     for (std::size_t i = 0; i < count; ++i)
       _sample.push_back(cut.distance(_nodes[set.first + i * set.size() / count]));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/at.hpp"
+#include "base/at_once.hpp"
 #include "base/union_find.hpp"
 #include "errors/errors.hpp"
 #include "stop/stop.hpp"
@@ -68,7 +69,7 @@ void join(const Subdomain& subdomain, base::UnionFind& parts, const PartNodes& n
 
 }  // namespace
 
-void find_floating_parts(Decomposition& decomposition) {
+void find_floating_parts(Decomposition& decomposition, int threads) {
   const bool dirichlet =
       std::any_of(decomposition.subdomains.begin(), decomposition.subdomains.end(),
                   [](const Subdomain& subdomain) { return subdomain.dirichlet > 0; });
@@ -81,8 +82,13 @@ void find_floating_parts(Decomposition& decomposition) {
       held.unite(static_cast<std::int32_t>(i), skeleton.motions[at(j)].displacement.front().index);
   for (const Held& one : skeleton.held)
     held.unite(skeleton.motions[at(one.inclusion)].displacement.front().index, ground);
-  for (Subdomain& subdomain : decomposition.subdomains) {
-    base::UnionFind parts = connected_parts(subdomain);
+  std::vector<base::UnionFind> connected(decomposition.subdomains.size(), base::UnionFind(0));
+  base::at_once(connected.size(), threads, [&] {
+    return [&](std::size_t s) { connected[s] = connected_parts(decomposition.subdomains[s]); };
+  });
+  for (std::size_t s = 0; s < connected.size(); ++s) {
+    Subdomain& subdomain = decomposition.subdomains[s];
+    base::UnionFind& parts = connected[s];
     const PartNodes nodes = nodes_of_parts(subdomain, parts);
     for (std::size_t i = 0; i < subdomain.node.size(); ++i) {
       if (parts.find(static_cast<std::int32_t>(i)) != static_cast<std::int32_t>(i) ||

@@ -64,7 +64,7 @@ std::size_t bytes_of(const ddm::Decomposition& decomposition) {
 MeshOperator::Parts::Parts(std::shared_ptr<const mesh::Mesh> cut_mesh, int threads,
                            std::size_t condensed_up_to)
     : mesh(std::move(cut_mesh)),
-      decomposition(ddm::cut(*mesh)),
+      decomposition(ddm::cut(*mesh, threads)),
       neumann(*mesh, decomposition),
       operators(contact::is_joined(decomposition, condensed_up_to)
                     ? std::vector<ddm::SubdomainOperator>()
@@ -107,6 +107,7 @@ std::shared_ptr<const MeshOperator> MeshOperator::factorise(std::shared_ptr<cons
                                                             std::size_t condensed_up_to) {
   require_threadsafe_blas();
   const stop::Scope scope(stop);
+  const base::Threads allowed(threads);
   stop::look("factorising a mesh");
   auto parts = std::make_shared<const Parts>(std::move(mesh), threads, condensed_up_to);
   return std::shared_ptr<const MeshOperator>(new MeshOperator(std::move(parts)));

@@ -6,7 +6,10 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <random>
+#include <utility>
 
+#include "base/at_once.hpp"
+#include "contact/dense.hpp"
 #include "contact/random_problems.hpp"
 #include "support/random_seed.hpp"
 
@@ -25,6 +28,26 @@ LcpAnswer solve(const MatrixXd& s, const VectorXd& r, bool monotone_only = false
   LcpOptions options;
   options.monotone_only = monotone_only;
   return DenseLcp(s).solve(r, {}, options, start);
+}
+
+TEST(Dense, PartsDoNotDependOnTheNumberOfThreads) {
+  const Index n = 300;  // in four parts
+  std::mt19937 random(testing::random_seed());
+  const MatrixXd h = random_spd(random, n, 1), b = MatrixXd::Random(n, n);
+  const auto work = [&](int threads) {
+    const base::Threads allowed(threads);
+    MatrixXd factor = h, x = b, s = h;
+    EXPECT_TRUE(cholesky(factor));
+    solve_lower(factor, x);
+    subtract_square(x, s);
+    solve_lower_transposed(factor, x);
+    return std::pair(x, MatrixXd(s.triangularView<Eigen::Lower>()));
+  };
+  const auto [x, s] = work(1);
+  EXPECT_LT((h * x - b).norm(), 1e-10 * h.norm() * x.norm());
+  EXPECT_LT((s - MatrixXd((h - b.transpose() * x).triangularView<Eigen::Lower>())).norm(),
+            1e-10 * (h.norm() + b.norm() * x.norm()));
+  EXPECT_EQ(work(3), std::pair(x, s));
 }
 
 /// The conditions themselves, relative to unit diagonal and unit load.

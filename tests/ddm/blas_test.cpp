@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ddm/blas.hpp"
 
+#include <cblas.h>
 #include <gtest/gtest.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
 #include <cstddef>
+#include <cstdlib>
 #include <new>
 
 namespace anticrack::ddm {
@@ -45,6 +47,16 @@ TEST(Blas, ReadsNothingBeyondASymmetricMatrix) {
     multiply_symmetric(a, x.data(), y.data());
     EXPECT_LT((y - whole * x).norm(), 1e-13 * whole.norm() * x.norm()) << size;
   }
+}
+
+TEST(Blas, UsesTheProcessorsInstructions) {
+#ifdef __x86_64__
+  const bool chosen = std::getenv("OPENBLAS_CORETYPE") != nullptr;
+  require_threadsafe_blas();
+  if (!chosen && __builtin_cpu_supports("avx2")) {
+    EXPECT_STRNE(openblas_get_corename(), "Prescott");
+  }
+#endif
 }
 
 TEST(Blas, HasNoWordForAnEmptyMatrix) {

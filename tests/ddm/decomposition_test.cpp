@@ -43,6 +43,17 @@ TEST(Cut, NumbersInteriorThenTraceThenDirichlet) {
   }
 }
 
+TEST(Cut, IsTheSameOnAnyNumberOfThreads) {
+  const mesh::Mesh mesh = testing::structured_mesh({64, 32, {}, {}});
+  const Decomposition one = cut(mesh), other = cut(mesh, 3);
+  for (std::size_t s = 0; s < 2; ++s) {
+    EXPECT_EQ(other.subdomains[s].node, one.subdomains[s].node);
+    EXPECT_EQ(other.subdomains[s].triangle, one.subdomains[s].triangle);
+    EXPECT_EQ(other.subdomains[s].part.triangles, one.subdomains[s].part.triangles);
+    EXPECT_EQ(other.subdomains[s].floating, one.subdomains[s].floating);
+  }
+}
+
 TEST(Cut, TiesTipsToTheInclusion) {
   const Decomposition decomposition = cut(testing::structured_mesh());
   ASSERT_EQ(decomposition.pairs.size(), 15U);
