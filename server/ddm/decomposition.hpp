@@ -119,11 +119,11 @@ struct Decomposition {
   Skeleton skeleton;
 };
 
-/// Cuts the mesh; subdomains are numbered on `threads` threads. O(m log k) for k interface edges. Throws errors::Error: mesh_invalid for an
-/// interface edge without a triangle on each side, an inclusion without edges, or a part of the
-/// membrane without Dirichlet node and interface; invalid_argument for inclusions that share nodes
-/// and are fixed at different values; numerical for a part that nothing holds; what fem::tension()
-/// throws, at "tension_law".
+/// Cuts the mesh; subdomains are numbered on `threads` threads. O(m log k) for k interface edges.
+/// Throws errors::Error: mesh_invalid for an interface edge without a triangle on each side, an
+/// inclusion without edges, or a part of the membrane without Dirichlet node and interface;
+/// invalid_argument for inclusions that share nodes and are fixed at different values; numerical
+/// for a part that nothing holds; what fem::tension() throws, at "tension_law".
 Decomposition cut(const mesh::Mesh& mesh, int threads = 1);
 
 /// The reason why Algorithm 2 of the paper does not apply, with the cure; empty if it applies. It
