@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Arrays of the size of a mesh that are filled at once and live for one load.
+// Arrays of the size of a mesh that are filled at once.
 #pragma once
 
 #include <sys/mman.h>

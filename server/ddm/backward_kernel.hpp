@@ -96,7 +96,7 @@ inline void solve_backward(const double* l, int height, int own, const int* rows
 }
 
 /// As add_products() for one column, on a block: the same products, summed in the same order.
-template <int groups>
+template <int groups, class Lanes>
 inline void add_products_of_block(const double* column, int height, int own, const int* rows,
                                   int from, const Lanes* x, const Lanes* y, Lanes* sum) {
   Lanes sums[rows_at_once][groups] = {};
@@ -177,7 +177,7 @@ void solve_one_backward(const Supernodes& factor, double* y) {
       });
 }
 
-template <int groups>
+template <int groups, class Lanes>
 void solve_block_backward(const Supernodes& factor, Lanes* y) {
   Turns turns(factor, groups * lanes);
   for_supernodes(
@@ -203,6 +203,7 @@ void solve_block_backward(const Supernodes& factor, Lanes* y) {
 
 void backward_solve(const Supernodes& factor, int width, double* y) {
   Lanes* block = reinterpret_cast<Lanes*>(y);
+  if (width == few_lanes) return solve_block_backward<1>(factor, reinterpret_cast<FewLanes*>(y));
   switch (width / lanes) {
     case 0:
       return solve_one_backward(factor, y);

@@ -5,6 +5,7 @@ namespace anticrack::ddm {
 namespace {
 
 using Lanes = double __attribute__((vector_size(lanes * sizeof(double))));
+using FewLanes = double __attribute__((vector_size(few_lanes * sizeof(double))));
 
 /// Columns of a supernode whose part of y stays in the first-level cache while rows are updated.
 constexpr int panel_columns = 16;
@@ -83,7 +84,7 @@ void solve_one(const Supernodes& factor, double* y) {
 }
 
 /// Updates rows of y at `row` from the solved columns [begin, end) of a supernode, whose y is x.
-template <int groups, int count, class Row>
+template <int groups, int count, class Lanes, class Row>
 inline void update(const double* l, int height, int begin, int end, const Lanes* x, int i, Lanes* y,
                    Row row) {
   Lanes sum[count][groups];
@@ -99,7 +100,7 @@ inline void update(const double* l, int height, int begin, int end, const Lanes*
     for (int g = 0; g < groups; ++g) y[static_cast<long>(row(i + r)) * groups + g] = sum[r][g];
 }
 
-template <int groups, class Row>
+template <int groups, class Lanes, class Row>
 inline void update_rows(const double* l, int height, int begin, int end, const Lanes* x, int from,
                         int to, Lanes* y, Row row) {
   constexpr int count = ANTICRACK_ROWS / groups > 0 ? ANTICRACK_ROWS / groups : 1;
@@ -108,14 +109,15 @@ inline void update_rows(const double* l, int height, int begin, int end, const L
   for (; i < to; ++i) update<groups, 1>(l, height, begin, end, x, i, y, row);
 }
 
-template <int groups>
+template <int groups, class Lanes>
 void solve_block(const Supernodes& factor, Lanes* y) {
   Turns turns(factor, groups * lanes);
   for (int s = 0; s < factor.count && factor.super[s] < factor.columns; ++s) {
     const int first = factor.super[s];
     const int end = factor.super[s + 1] < factor.columns ? factor.super[s + 1] : factor.columns;
     Lanes* x = y + static_cast<long>(first) * groups;
-    if (is_zero(reinterpret_cast<const double*>(x), long{groups} * lanes * (end - first))) continue;
+    constexpr long width = groups * sizeof(Lanes) / sizeof(double);
+    if (is_zero(reinterpret_cast<const double*>(x), width * (end - first))) continue;
     const int* rows = factor.rows + factor.row_begin[s];
     const int height = factor.row_begin[s + 1] - factor.row_begin[s];
     const int own = factor.super[s + 1] - first;
@@ -142,6 +144,7 @@ void solve_block(const Supernodes& factor, Lanes* y) {
 
 void forward_solve(const Supernodes& factor, int width, double* y) {
   Lanes* block = reinterpret_cast<Lanes*>(y);
+  if (width == few_lanes) return solve_block<1>(factor, reinterpret_cast<FewLanes*>(y));
   switch (width / lanes) {
     case 0:
       return solve_one(factor, y);

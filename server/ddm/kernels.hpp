@@ -22,7 +22,8 @@ struct Supernodes {
   void (*look)() = nullptr;
 };
 
-/// A block has 1 column or a multiple of `lanes`, at most `most_lanes`.
+/// A block has 1 column, `few_lanes`, or a multiple of `lanes`, at most `most_lanes`.
+constexpr int few_lanes = 4;
 constexpr int lanes = 8;
 constexpr int most_lanes = 4 * lanes;
 

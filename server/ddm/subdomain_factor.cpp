@@ -93,7 +93,10 @@ void for_tiles(int rows, int columns, const Take& take) {
 template <class Put, class Solve, class Take>
 void in_blocks(int rows, int columns, const Put& put, const Solve& solve, const Take& take,
                int more_rows = 0) {
-  const auto whole = [](int count) { return count == 1 ? 1 : (count + lanes - 1) / lanes * lanes; };
+  const auto whole = [](int count) {
+    if (count <= few_lanes) return count == 1 ? 1 : few_lanes;
+    return (count + lanes - 1) / lanes * lanes;
+  };
   const int most = static_cast<int>(columns_at_once(rows + more_rows));
   const int widest = whole(std::min(columns, most));
   const Values y = make_values(at(rows + more_rows) * at(widest));

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/large.hpp"
 #include "ddm/decomposition.hpp"
 #include "estimate/shapes.hpp"
 #include "estimate/ways.hpp"
@@ -73,7 +74,7 @@ struct WayOut {
 struct CutMesh {
   std::vector<std::int32_t> first_triangle;  ///< (subdomains + 1)
   std::vector<std::int32_t> first_copy;      ///< (subdomains + 1)
-  std::vector<std::int32_t> copy;            ///< (corners) the copy at each corner
+  base::Large<std::int32_t> copy;            ///< (corners) the copy at each corner
   std::vector<Vector> at;                    ///< (copies) coordinates
   std::vector<std::int32_t> triangle;        ///< (triangles) index into the mesh's triangles
 

@@ -106,7 +106,7 @@ class EquilibratedFlux {
   const CutMesh& _cut;
   Balance _balance;
   const std::vector<double>&_tension, &_area;         // (m)
-  const std::vector<Vector>& _edge;                   // (corners) e_i
+  const base::Large<Vector>& _edge;                   // (corners) e_i
   std::shared_ptr<const base::Large<double>> _means;  // (m, 2, lanes) of all made together
   const double* _mean = nullptr;                      // its own first one
   std::size_t _lanes = 1;

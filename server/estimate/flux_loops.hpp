@@ -22,40 +22,65 @@ struct Wide<flux_lanes> {
   using Number = double __attribute__((vector_size(flux_lanes * sizeof(double))));
 };
 
-/// The types that hold a number, and a vector, for each lane.
+/// The types that hold a number, and a vector, for each lane, and what is done with a vector and an
+/// edge, or with both components of a vector.
 template <std::size_t lanes>
 struct Numbers {
   using Number = typename Wide<lanes>::Number;
   struct Vector {
     Number of[2];
-    const Number& operator[](std::size_t i) const { return of[i]; }
     Vector& operator+=(const Vector& by) {
       of[0] += by.of[0];
       of[1] += by.of[1];
       return *this;
     }
   };
+  static Vector vector(const Number& x, const Number& y) { return {{x, y}}; }
   static Vector scaled(const Number& by, const double* edge) {
     return {{by * edge[0], by * edge[1]}};
   }
   static Vector products(const Vector& a, const double* edge) {
-    return {{a[0] * edge[0], a[1] * edge[1]}};
+    return {{a.of[0] * edge[0], a.of[1] * edge[1]}};
   }
-  static Number sum(const Vector& of) { return of[0] + of[1]; }
+  static Number sum(const Vector& of) { return of.of[0] + of.of[1]; }
+  static Number square(const Vector& a) { return a.of[0] * a.of[0] + a.of[1] * a.of[1]; }
 };
+/// Of one lane and of two the components of a vector are in one register.
 template <>
 struct Numbers<1> {
   using Number = double;
   using Vector = Wide<2>::Number;
+  static Vector vector(Number x, Number y) { return Vector{x, y}; }
   static Vector scaled(Number by, const double* edge) { return Vector{by, by} * loaded(edge); }
   static Vector products(const Vector& a, const double* edge) { return a * loaded(edge); }
   static Number sum(const Vector& of) { return of[0] + of[1]; }
-
- private:
+  static Number square(const Vector& a) { return sum(a * a); }
   static Vector loaded(const double* edge) {
     Vector to;
     __builtin_memcpy(&to, edge, sizeof to);
     return to;
+  }
+};
+template <>
+struct Numbers<2> {
+  using Number = Wide<2>::Number;
+  using Vector = Wide<4>::Number;
+  static Vector vector(const Number& x, const Number& y) {
+    return __builtin_shufflevector(x, y, 0, 1, 2, 3);
+  }
+  static Vector scaled(const Number& by, const double* edge) {
+    return vector(by, by) * loaded(edge);
+  }
+  static Vector products(const Vector& a, const double* edge) { return a * loaded(edge); }
+  static Number sum(const Vector& of) {
+    return __builtin_shufflevector(of, of, 0, 1) + __builtin_shufflevector(of, of, 2, 3);
+  }
+  static Number square(const Vector& a) { return sum(a * a); }
+
+ private:
+  static Vector loaded(const double* edge) {
+    const Number once = Numbers<1>::loaded(edge);
+    return __builtin_shufflevector(once, once, 0, 0, 1, 1);
   }
 };
 
@@ -123,10 +148,11 @@ class Flux {
     const std::int32_t* const copy = _mesh.copy + 3 * t;
     const double* const edge = _mesh.edge + 6 * t;
     const double tension = _mesh.tension[t], q = tension * tension;
-    const V first = u(copy[0]), second = u(copy[1]) - first, third = u(copy[2]) - first;
-    const V gx = second * edge[2] + third * edge[4], gy = second * edge[3] + third * edge[5];
-    for (std::size_t i = 0; i < 3; ++i) half[i] = q * (gx * edge[2 * i] + gy * edge[2 * i + 1]);
-    return q * (gx * gx + gy * gy);
+    const V first = u(copy[0]);
+    Pair rise = Of::scaled(u(copy[1]) - first, edge + 2);
+    rise += Of::scaled(u(copy[2]) - first, edge + 4);
+    for (std::size_t i = 0; i < 3; ++i) half[i] = q * Of::sum(Of::products(rise, edge + 2 * i));
+    return q * Of::square(rise);
   }
 
   /// What the fan of corner i of a triangle adds between its spokes, and before the second of them.
@@ -151,14 +177,13 @@ class Flux {
       const auto t = static_cast<std::size_t>(_mesh.met[n]);
       V half[3];
       norm_squared += halves(t, half);
-      V mx{}, my{};
+      Pair mean{};
       if constexpr (loaded) {
         const double* const edge = _mesh.edge + 6 * t;
         const V f[3] = {force(3 * t), force(3 * t + 1), force(3 * t + 2)};
         const V d[3] = {f[2] - f[1], f[0] - f[2], f[1] - f[0]};
         const V sum = f[0] + f[1] + f[2];
-        mx = d[2] * edge[4] - d[0] * edge[2];
-        my = d[2] * edge[5] - d[0] * edge[3];
+        mean = Of::vector(d[2] * edge[4] - d[0] * edge[2], d[2] * edge[5] - d[0] * edge[3]);
         V rest{};
         for (std::size_t i = 0; i < 3; ++i) {
           const V bubble =
@@ -169,7 +194,7 @@ class Flux {
         for (std::size_t l = 0; l < lanes; ++l)
           if (_lane[l].distance != nullptr) _lane[l].distance[t] = of(4 * rest, l);
       }
-      _mean[t] = Pair{mx, my};
+      _mean[t] = mean;
       for (std::size_t i = 0; i < 3; ++i)
         spoke_of<loaded>(half, t, i, _spoke + 2 * (3 * (t - _block.first_triangle) + i));
     }
@@ -392,8 +417,7 @@ class Flux {
     const bool loaded = _lane->force != nullptr;
     for (std::size_t t = _block.first_triangle; t < _block.last_triangle; ++t) {
       look(t);
-      const V mx = _mean[t][0], my = _mean[t][1];
-      const V square = mx * mx + my * my;
+      const V square = Of::square(_mean[t]);
       for (std::size_t l = 0; l < lanes; ++l) {
         double* const distance = _lane[l].distance;
         if (distance != nullptr) distance[t] = loaded ? of(square, l) + distance[t] : of(square, l);

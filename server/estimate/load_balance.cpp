@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/at.hpp"
 #include "stop/stop.hpp"
@@ -68,10 +69,10 @@ void carry_out(const CutMesh& cut, std::vector<double>& source, std::vector<doub
 
 }  // namespace
 
-LoadBalance load_balance(const CutMesh& cut, const std::vector<fem::ForceParts>& force,
+LoadBalance load_balance(const CutMesh& cut, std::vector<double> load,
+                         const std::vector<fem::ForceParts>& force,
                          const std::vector<fem::TractionParts>& traction) {
-  LoadBalance balance;
-  balance.force.reserve(cut.copy.size());
+  LoadBalance balance{std::move(load), {}, {}, {}};
   const auto oscillation = [&](std::size_t t) -> double& {
     balance.oscillation.resize(cut.triangle_count(), 0);
     balance.moments.resize(cut.triangle_count(), 0);
@@ -86,7 +87,6 @@ LoadBalance load_balance(const CutMesh& cut, const std::vector<fem::ForceParts>&
   };
   for (std::size_t s = 0; s < force.size(); ++s) {
     const auto first = at(cut.first_triangle[s]);
-    balance.force.insert(balance.force.end(), force[s].load.begin(), force[s].load.end());
     for (std::size_t k = 0; k < force[s].beyond.size(); ++k) {
       stop::look_at_turn(k, balancing);
       oscillation(first + k) += size_of(cut, first + k) / j_11 * force[s].beyond[k];

@@ -33,9 +33,11 @@ struct LoadBalance {
   double unknown = 0;
 };
 
-/// `traction`: per subdomain, or empty. O(m). The oscillation is infinite if an unknown part has no
-/// way to the boundary.
-LoadBalance load_balance(const CutMesh& cut, const std::vector<fem::ForceParts>& force,
+/// `load`: becomes LoadBalance::force; `force`: what it lacks, per subdomain, whose own `load` is
+/// not read; `traction`: per subdomain, or empty. O(m). The oscillation is infinite if an unknown
+/// part has no way to the boundary.
+LoadBalance load_balance(const CutMesh& cut, std::vector<double> load,
+                         const std::vector<fem::ForceParts>& force,
                          const std::vector<fem::TractionParts>& traction);
 
 }  // namespace anticrack::estimate

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/at.hpp"
+#include "base/large.hpp"
 #include "fem/tension.hpp"
 
 namespace anticrack::estimate {
@@ -36,8 +37,8 @@ struct Shapes {
   /// (corners) e_i: the side opposite to the corner, counterclockwise, divided by 2 sqrt(area T).
   /// So a flux a E_i / (2 area) on a triangle, E_i the side itself, has the square |a e_i|^2 in the
   /// norm of 1/T.
-  std::vector<Vector> edge;
-  std::vector<FanCorner> around;  ///< of all fans
+  base::Large<Vector> edge;
+  base::Large<FanCorner> around;  ///< of all fans
   std::vector<double> softness;   ///< (fans) 1 over the sum of e_i.e_i
 
   /// The length of a side divided by the length of its e_i.

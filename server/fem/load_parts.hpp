@@ -3,6 +3,7 @@
 // A load triangle by triangle, which an equilibrated flux has to balance.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -39,8 +40,11 @@ struct TractionParts {
 
 /// The parts of a force that is linear on every triangle: a constant, an array, an expression of
 /// degree 0 or 1. None for any other force, whose parts load_vector() gives (LoadContext::parts).
-/// O(m).
+/// O(m), on base::Threads.
 std::optional<ForceParts> linear_parts(const Triangulation& part, const Force& force,
                                        const std::string& region, const LoadContext& context);
+/// Writes ForceParts::load of such a force to `room()`, (m,3); returns false for any other force.
+bool linear_load(const Triangulation& part, const Force& force, const std::string& region,
+                 const LoadContext& context, const std::function<double*()>& room);
 
 }  // namespace anticrack::fem

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <vector>
 
+#include "base/at_once.hpp"
 #include "expression/function.hpp"
 #include "fem/adaptive_load.hpp"
 #include "fem/cell.hpp"
@@ -161,35 +162,39 @@ struct AssembleForce {
   }
 };
 
-struct LinearParts {
+struct LinearLoad {
   const Triangulation& part;
   const std::string& region;
   const LoadContext& context;
-  using Result = std::optional<ForceParts>;
+  const std::function<double*()>& room;
 
   /// Calls value(corner) for each corner of all triangles.
   template <class Value>
-  Result linear(const Value& value) const {
-    ForceParts parts;
-    parts.load.resize(part.triangles.size());
-    for (std::size_t t = 0; t < part.triangle_count(); ++t) {
-      stop::look_at_turn<stop::quick>(t, summing);
-      const double twelfth = area(part, t) / 12;
-      const std::array<double, 3> f{value(3 * t), value(3 * t + 1), value(3 * t + 2)};
-      for (std::size_t i = 0; i < 3; ++i)
-        parts.load[3 * t + i] = twelfth * (f[0] + f[1] + f[2] + f[i]);
-    }
-    return parts;
+  bool linear(const Value& value) const {
+    constexpr std::size_t some = 16384;
+    const std::size_t count = part.triangle_count();
+    double* const load = room();
+    base::at_once((count + some - 1) / some, base::Threads::allowed(), [&] {
+      return [&](std::size_t block) {
+        for (std::size_t t = block * some; t < std::min(count, (block + 1) * some); ++t) {
+          const double twelfth = area(part, t) / 12;
+          const std::array<double, 3> f{value(3 * t), value(3 * t + 1), value(3 * t + 2)};
+          for (std::size_t i = 0; i < 3; ++i)
+            load[3 * t + i] = twelfth * (f[0] + f[1] + f[2] + f[i]);
+        }
+      };
+    });
+    return true;
   }
 
-  Result operator()(double value) const {
+  bool operator()(double value) const {
     return linear([value](std::size_t) { return value; });
   }
-  Result operator()(const PerRegion& regions) const {
+  bool operator()(const PerRegion& regions) const {
     const auto found = regions.values.find(region);
     return (*this)(found == regions.values.end() ? 0.0 : found->second);
   }
-  Result operator()(const Array& array) const {
+  bool operator()(const Array& array) const {
     const std::vector<double>& values = *array.values;
     return linear([&](std::size_t corner) {
       const std::int32_t place =
@@ -198,13 +203,13 @@ struct LinearParts {
       return values[static_cast<std::size_t>(place)];
     });
   }
-  Result operator()(const Expression& expression) const {
+  bool operator()(const Expression& expression) const {
     const expression::Function force(expression.text, "force.expression");
     const expression::Tape& tape = force.tape();
     const int degree = tape.degree(tape.result());
     if (degree == 0)
       return (*this)(tape.operations()[static_cast<std::size_t>(tape.result())].value);
-    if (degree != 1) return std::nullopt;
+    if (degree != 1) return false;
     const std::vector<double> values = at_points(part.xy, force);
     return linear([&](std::size_t corner) {
       return values[static_cast<std::size_t>(part.triangles[corner])];
@@ -216,7 +221,17 @@ struct LinearParts {
 
 std::optional<ForceParts> linear_parts(const Triangulation& part, const Force& force,
                                        const std::string& region, const LoadContext& context) {
-  return std::visit(LinearParts{part, region, context}, force);
+  ForceParts parts;
+  const bool linear = linear_load(part, force, region, context, [&] {
+    parts.load.resize(part.triangles.size());
+    return parts.load.data();
+  });
+  return linear ? std::optional(std::move(parts)) : std::nullopt;
+}
+
+bool linear_load(const Triangulation& part, const Force& force, const std::string& region,
+                 const LoadContext& context, const std::function<double*()>& room) {
+  return std::visit(LinearLoad{part, region, context, room}, force);
 }
 
 Eigen::VectorXd load_vector(const Triangulation& part, const Force& force,

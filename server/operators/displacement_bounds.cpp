@@ -330,7 +330,10 @@ std::vector<estimate::ForceOn> forces_on(const LoadOnTraces& load) {
 }
 
 std::vector<double> of_copies(const std::vector<contact::Field>& fields) {
+  std::size_t copies = 0;
+  for (const contact::Field& field : fields) copies += field.u.size();
   std::vector<double> u;
+  u.reserve(copies);
   for (const contact::Field& field : fields) u.insert(u.end(), field.u.begin(), field.u.end());
   return u;
 }

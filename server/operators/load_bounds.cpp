@@ -42,13 +42,14 @@ BalancedLoad balanced(const LoadParts& parts, const std::vector<ddm::Subdomain>&
     }
   }
   result.across_chords = estimate::slopes_across_chords(cut, parts.beside_chords);
-  std::vector<fem::ForceParts> force = parts.integrated;
-  for (std::size_t s = 0; s < force.size(); ++s) {
-    if (auto linear = fem::linear_parts(subdomains[s].part, parts.force, subdomains[s].name,
-                                        {subdomains[s].node, subdomains[s].triangle}))
-      force[s] = std::move(*linear);
+  std::vector<double> force(cut.copy.size());
+  for (std::size_t s = 0; s < subdomains.size(); ++s) {
+    double* const own = force.data() + 3 * at(cut.first_triangle[s]);
+    if (!fem::linear_load(subdomains[s].part, parts.force, subdomains[s].name,
+                          {subdomains[s].node, subdomains[s].triangle}, [own] { return own; }))
+      std::ranges::copy(parts.integrated[s].load, own);
   }
-  result.balance = estimate::load_balance(cut, force, parts.traction);
+  result.balance = estimate::load_balance(cut, std::move(force), parts.integrated, parts.traction);
   if (result.obstacle.empty() && !std::ranges::all_of(result.balance.oscillation, is_finite)) {
     result.obstacle =
         "a part of the membrane that cracks and inclusions enclose has a load that is not "

@@ -93,11 +93,16 @@ Operator first_answers(const Options& options, const std::shared_ptr<const mesh:
   return op;
 }
 
-/// Bounds of answers whose fields are known, so many at once, on so many threads.
-Times estimates(const MeshOperator& op, std::span<const fem::Load> loads, std::size_t at_once,
-                int threads) {
+/// A load for the fields of its answer, which reads the factors once, and for its bounds.
+struct Bounding {
+  Times fields, bounds;
+};
+
+/// Bounds so many answers at once, on so many threads.
+Bounding estimates(const MeshOperator& op, std::span<const fem::Load> loads, std::size_t at_once,
+                   int threads) {
   const base::Threads allowed(threads);
-  Times times;
+  Bounding times;
   Silent nobody;
   for (; loads.size() >= at_once; loads = loads.subspan(at_once)) {
     std::vector<operators::PreparedLoad> prepared;
@@ -106,13 +111,20 @@ Times estimates(const MeshOperator& op, std::span<const fem::Load> loads, std::s
       auto one = op.prepare(std::array{&load});
       prepared.push_back(std::get<operators::PreparedLoad>(std::move(one.front())));
       answers.push_back(
-          testing::solve(op, prepared.back(), contact::ActiveSetOptions{}, true, nobody));
+          testing::solve(op, prepared.back(), contact::ActiveSetOptions{}, false, nobody));
     }
     std::vector<MeshOperator::Estimate> all;
-    for (std::size_t k = 0; k < at_once; ++k) all.push_back({&prepared[k], &answers[k], {}});
+    std::vector<const operators::PreparedLoad*> of;
+    std::vector<contact::Answer*> to;
+    for (std::size_t k = 0; k < at_once; ++k) {
+      all.push_back({of.emplace_back(&prepared[k]), to.emplace_back(&answers[k]), {}});
+    }
+    const Stopwatch recovering;
+    op.recover_fields(of, to);
+    recovering.stop(times.fields, static_cast<double>(at_once));
     const Stopwatch watch;
     op.estimate(all);
-    watch.stop(times, static_cast<double>(at_once));
+    watch.stop(times.bounds, static_cast<double>(at_once));
     for (const MeshOperator::Estimate& one : all)
       if (one.failure) std::rethrow_exception(one.failure);
   }
@@ -132,9 +144,10 @@ void further_loads(const Options& options, const MeshOperator& op,
     answers.add(answer);
   }
   figures.set("further", alone);
-  figures.set("estimate",
-              estimates(op, std::span(loads).first(static_cast<std::size_t>(options.loads)), 1,
-                        options.threads));
+  const Bounding alone_bounded = estimates(
+      op, std::span(loads).first(static_cast<std::size_t>(options.loads)), 1, options.threads);
+  figures.set("fields", alone_bounded.fields);
+  figures.set("estimate", alone_bounded.bounds);
   answers.put(figures);
 }
 
@@ -173,7 +186,7 @@ void blocks(const Options& options, const MeshOperator& op, const std::vector<fe
   result.set("columns", static_cast<double>(block.size()));
   result.set("per_load", whole);
   result.set("condensing_per_load", condensing);
-  result.set("estimate_per_load", estimates(op, loads, block.size(), options.threads));
+  result.set("estimate_per_load", estimates(op, loads, block.size(), options.threads).bounds);
   result.set("displacement", rows.displacement);
   result.set("energy", rows.energy);
   figures.set("block", result);
