@@ -176,6 +176,7 @@ struct LinearLoad {
     double* const load = room();
     base::at_once((count + some - 1) / some, base::Threads::allowed(), [&] {
       return [&](std::size_t block) {
+        stop::look(summing);
         for (std::size_t t = block * some; t < std::min(count, (block + 1) * some); ++t) {
           const double twelfth = area(part, t) / 12;
           const std::array<double, 3> f{value(3 * t), value(3 * t + 1), value(3 * t + 2)};
