@@ -40,6 +40,7 @@ void look() { stop::look("working on dense matrices"); }
 /// each call. The parts do not depend on the number of threads.
 template <class Part>
 void for_each_part(int all, double each, const Part& part) {
+  if (all == 0) return;
   const int most = part_of(all, each);
   const auto one = [&](int first) {
     look();
