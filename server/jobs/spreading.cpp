@@ -135,29 +135,26 @@ void fetch_solved(EngineCore& core, const JobPtr& job, LiveSpread& spread) {
   }
 }
 
-/// Offers what the store does not have yet.
-void offer(EngineCore& core, const JobPtr& job, LiveSpread& spread) {
+/// Sends what is on a list to the store, and then takes it off the list, which may have grown.
+template <class Item, class Send>
+void send_listed(EngineCore& core, std::vector<Item>& list, const Send& send) {
   Lock lock(core.mutex);
-  const std::vector<store::Portion> portions = spread.to_offer;
-  if (portions.empty()) return;
+  const std::vector<Item> sent = list;
+  if (sent.empty()) return;
   lock.unlock();
-  core.queue->spread(job->id(), job->created.attempt, portions);
-  lock.lock();  // there may be more of them now
-  spread.to_offer.erase(spread.to_offer.begin(),
-                        spread.to_offer.begin() + static_cast<std::ptrdiff_t>(portions.size()));
+  send(sent);
+  lock.lock();
+  list.erase(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(sent.size()));
 }
 
-/// Takes back what is not wanted any more.
-void withdraw(EngineCore& core, const JobPtr& job, LiveSpread& spread) {
-  Lock lock(core.mutex);
-  const std::vector<std::int64_t> numbers = spread.to_withdraw;
-  if (numbers.empty()) return;
-  lock.unlock();
-  core.queue->withdraw_portions(job->id(), job->created.attempt, numbers);
-  lock.lock();
-  spread.to_withdraw.erase(
-      spread.to_withdraw.begin(),
-      spread.to_withdraw.begin() + static_cast<std::ptrdiff_t>(numbers.size()));
+/// Offers what the store does not have yet, and takes back what is not wanted any more.
+void offer(EngineCore& core, const JobPtr& job, LiveSpread& spread) {
+  const int attempt = job->created.attempt;
+  send_listed(core, spread.to_offer,
+              [&](const auto& portions) { core.queue->spread(job->id(), attempt, portions); });
+  send_listed(core, spread.to_withdraw, [&](const auto& numbers) {
+    core.queue->withdraw_portions(job->id(), attempt, numbers);
+  });
 }
 
 /// Takes portions for threads that will need them. Of a job that runs elsewhere it also finds out
@@ -263,7 +260,6 @@ void attend(EngineCore& core, const JobPtr& job) {
   lock.unlock();
   try {
     offer(core, job, spread);
-    withdraw(core, job, spread);
     take_more(core, job, spread, look);
     write_solved(core, job, spread);
     if (!job->helps && look) fetch_solved(core, job, spread);
