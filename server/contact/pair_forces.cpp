@@ -133,8 +133,8 @@ PairForces::Knot PairForces::knot_of(const std::vector<std::int32_t>& pairs_of_n
     for (const auto& [side, sign] : ends(knot.pairs[at(p)]))
       if (const Index k = number(side); k >= 0) b_root(k, p) += sign * root[p];
   }
-  if (b_root.size() > 0)
-    knot.multipliers = root.cwiseInverse().asDiagonal() * pseudo_inverse(b_root);
+  knot.multipliers = root.cwiseInverse().asDiagonal() *
+                     least_norm_solution(b_root, MatrixXd::Identity(b_root.rows(), b_root.rows()));
   for (const std::int32_t i : pairs_of_node) {
     if (!tied(_decomposition, i)) {
       for (const auto& [side, sign] : ends(i))

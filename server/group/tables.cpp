@@ -13,8 +13,8 @@ namespace {
 ///
 /// Blobs are named by the SHA-256 of their content, results by that of what comes before their
 /// bytes (result_file.hpp), and are shared by all rows that refer to them; `kind` is a FileKind.
-/// Doubles do not get smaller by compression, so pieces are stored as they are. `checksum` is that
-/// of id, owner and record (rows.hpp).
+/// Doubles do not get smaller by compression, so pieces and events are stored as they are.
+/// `checksum` is that of id, owner and record (rows.hpp).
 constexpr const char* first = R"(
 CREATE TABLE servers (
   epoch bigint GENERATED ALWAYS AS IDENTITY PRIMARY KEY,
@@ -101,6 +101,7 @@ CREATE TABLE events (
   body bytea NOT NULL,
   PRIMARY KEY (job, last)
 );
+ALTER TABLE events ALTER body SET STORAGE EXTERNAL;
 )";
 
 /// Jobs that several servers solve: a row for each portion (store/queue.hpp), as long as the job is

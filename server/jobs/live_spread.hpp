@@ -33,7 +33,7 @@ struct LiveSpread {
   // Of the server that runs the job:
   std::vector<store::Portion> to_offer{};   ///< portions that the store does not have yet
   std::set<std::uint64_t> missing{};        ///< portions whose answers are not here
-  std::vector<std::int64_t> to_withdraw{};  ///< positions of a load case that failed
+  std::vector<std::int64_t> to_withdraw{};  ///< portions that nobody else is to solve
   std::size_t idle = 0;                     ///< threads that wait for positions
 };
 

@@ -21,6 +21,9 @@ using Lock = EngineCore::Lock;
 constexpr std::chrono::milliseconds look_every{100};
 /// How long a server helps with a job before it looks whose is next.
 constexpr std::chrono::seconds help_for{10};
+/// What the server that runs a job solves faster than this stays there: to write it would take as
+/// long, and to solve it again, should the server die, not much longer.
+constexpr std::chrono::milliseconds worth_writing{50};
 /// Portions that no thread here comes to for so long are given back.
 constexpr std::chrono::seconds longest_wait{1};
 
@@ -337,8 +340,20 @@ void note_solved(EngineCore& core, const EndedChunk& chunk) {
   const auto open = spread->open.find(number);
   if (open == spread->open.end() || --open->second > 0) return;
   spread->open.erase(open);
-  spread->unwritten.insert(number);
   spread->missing.erase(number);
+  if (job.sweep && !job.helps) {
+    const std::size_t chunks = job.sweep->plan.portion_chunks;
+    const auto first = spread->sums.lower_bound(number * chunks);
+    const auto end = spread->sums.lower_bound((number + 1) * chunks);
+    std::chrono::nanoseconds time{0};
+    for (auto one = first; one != end; ++one) time += one->second.solve_time;
+    if (time < worth_writing) {
+      spread->sums.erase(first, end);
+      spread->to_withdraw.push_back(static_cast<std::int64_t>(number));
+      return;
+    }
+  }
+  spread->unwritten.insert(number);
 }
 
 void solve_portions(EngineCore& core, const JobPtr& job,

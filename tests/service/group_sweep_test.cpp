@@ -101,9 +101,13 @@ TEST_F(GroupSweep, OfSeveralServersEqualsThatOfOneToTheBit) {
     nodal.matrix.push_back(value(i));
   nodal.spec.mutable_sweep()->set_bounds(true);
   for (const Sweep* sweep : {&traced, &tips, &bounds, &nodal}) {
-    expect_same(a, submit(a, *sweep), *sweep);
-    EXPECT_GT(noted(), 0U);
-    expect_once();
+    constexpr int most_tries = 20;  // it may be over before the other server looks for work
+    for (int tries = 0; noted("helped") == 0 && tries < most_tries; ++tries) {
+      database.sql("TRUNCATE noted");
+      expect_same(a, submit(a, *sweep), *sweep);
+      expect_once();
+    }
+    EXPECT_GT(noted("helped"), 0U);
     database.sql("TRUNCATE noted");
   }
 }
