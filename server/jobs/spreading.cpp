@@ -110,32 +110,31 @@ void write_solved(EngineCore& core, const JobPtr& job, LiveSpread& spread) {
   }
 }
 
-/// Takes over what other servers solved.
-void fetch_solved(EngineCore& core, const JobPtr& job, LiveSpread& spread) {
-  for (;;) {
-    Lock lock(core.mutex);
-    const std::vector<std::int64_t> missing(spread.missing.begin(), spread.missing.end());
-    lock.unlock();
-    const std::vector<store::SolvedPortion> portions =
-        core.queue->solved_portions(job->id(), missing);
-    if (portions.empty()) return;
-    for (const store::SolvedPortion& portion : portions) {
-      std::vector<EndedChunk> chunks;
-      if (job->sweep) chunks = unpack(portion, job);
-      for (EndedChunk& chunk : chunks) {
-        lock.lock();
-        ++job->active;
-        lock.unlock();
-        core.deliver(std::move(chunk));
-      }
+/// Takes over some of what other servers solved; returns whether there may be more.
+bool fetch_solved(EngineCore& core, const JobPtr& job, LiveSpread& spread) {
+  Lock lock(core.mutex);
+  const std::vector<std::int64_t> missing(spread.missing.begin(), spread.missing.end());
+  lock.unlock();
+  const std::vector<store::SolvedPortion> portions =
+      core.queue->solved_portions(job->id(), missing);
+  if (portions.empty()) return false;
+  for (const store::SolvedPortion& portion : portions) {
+    std::vector<EndedChunk> chunks;
+    if (job->sweep) chunks = unpack(portion, job);
+    for (EndedChunk& chunk : chunks) {
       lock.lock();
-      if (!job->sweep) spread.answers[portion.number] = portion.body;
-      spread.missing.erase(portion.number);
+      ++job->active;
       lock.unlock();
+      core.deliver(std::move(chunk));
     }
-    core.positions.notify_all();
-    core.rows->publish({job});  // before so many rows push one another out of the log
+    lock.lock();
+    if (!job->sweep) spread.answers[portion.number] = portion.body;
+    spread.missing.erase(portion.number);
+    lock.unlock();
   }
+  core.positions.notify_all();
+  core.rows->publish({job});  // before so many rows push one another out of the log
+  return true;
 }
 
 /// Sends what is on a list to the store, and then takes it off the list, which may have grown.
@@ -261,11 +260,12 @@ void attend(EngineCore& core, const JobPtr& job) {
   const bool look = now - spread.looked >= look_every;
   if (look) spread.looked = now;
   lock.unlock();
+  bool more = false;  // to fetch, after the threads here have got something to do
   try {
     offer(core, job, spread);
     take_more(core, job, spread, look);
     write_solved(core, job, spread);
-    if (!job->helps && look) fetch_solved(core, job, spread);
+    more = !job->helps && look && fetch_solved(core, job, spread);
   } catch (const store::JobTaken&) {
     core.stop(job, Stop::interrupted);
   } catch (const Error& error) {
@@ -273,6 +273,10 @@ void attend(EngineCore& core, const JobPtr& job) {
     if (!out_of_reach) core.stop(job, Stop::failed, error);
   }
   lock.lock();
+  if (more) {
+    spread.looked = {};
+    wake(core);
+  }
   if (!job->helps && spread.missing.empty() && job->why == Stop::none) end_spread(core, job);
 }
 
