@@ -33,7 +33,7 @@ hdf5::Dataset open_below(const Handle& group, const std::string& path, std::uint
   if (!hdf5::has(group, name)) throw hdf5::Fault(missing_text(group, name));
   Extents any;
   if (slash == std::string::npos)
-    return hdf5::open_array(group, name, ValueType::float64, budget, shape, any);
+    return hdf5::open_array(group, name, hdf5::type_of(ValueType::float64), budget, shape, any);
   return open_below(hdf5::open_group(group, name), path.substr(slash + 1), budget, shape);
 }
 

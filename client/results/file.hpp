@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The result file, HDF5, format "anticrack-result/2": client/RESULT.md lists its contents, from
-// tables.hpp. Every dataset has the attribute `units`, some have a `meaning`. Numbers are float64,
-// int32 and uint8, little-endian; text is variable-length UTF-8. Readable with HDF5 1.10 or later.
+// tables.hpp. Every dataset has the attribute `units`, some have a `meaning`; a list is one dataset
+// of records. Numbers are float64, int32, int64 and uint8, little-endian; text is variable-length
+// UTF-8. Readable with HDF5 1.10 or later.
 #pragma once
 
 #include <cstddef>

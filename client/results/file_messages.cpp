@@ -5,6 +5,8 @@
 #include <google/protobuf/message.h>
 #include <google/protobuf/reflection.h>
 
+#include <cstring>
+#include <deque>
 #include <variant>
 
 namespace anticrack::results::hdf5 {
@@ -29,9 +31,8 @@ constexpr auto texts_and_numbers = [](ValueType type, const auto& use) {
 };
 
 void set_or_refuse(Message& message, const Entry& entry, const Value& value) {
-  if (set(message, entry, value)) return;
-  throw Fault("attribute " + entry.name + " is the unknown " + entry.name + " \"" +
-              std::get<std::string>(value) + "\"");
+  if (!set(message, entry, value))
+    throw Fault("has the unknown " + entry.name + " \"" + std::get<std::string>(value) + "\"");
 }
 
 /// Calls visit(field) for each list of a message type.
@@ -55,55 +56,83 @@ void add_meanings(const std::string& where, const Descriptor& type, const v1::Un
   });
 }
 
-/// Writes a list of a message; returns its dataset or group.
-Handle put_list(const Handle& group, const v1::Units& units, const Message& message,
-                const FieldDescriptor& field, int count) {
-  const Reflection& fields = *message.GetReflection();
-  if (field.cpp_type() == FieldDescriptor::CPPTYPE_STRING) {
-    const auto texts = fields.GetRepeatedFieldRef<std::string>(message, &field);
-    const std::vector<std::string> values(texts.begin(), texts.end());
-    return put_array(group, field.name(), ValueType::text, values.data(), {values.size()});
-  }
-  std::vector<const Message*> items;
-  items.reserve(static_cast<std::size_t>(count));
-  for (int i = 0; i < count; ++i) items.push_back(&fields.GetRepeatedMessage(message, &field, i));
-  const Descriptor& type = *field.message_type();
-  Handle columns =
-      create_group(group, field.name(), static_cast<unsigned>(entries_of(type).size()));
-  put_columns(columns, units, type, items);
-  return columns;
+Members members_of(const Types& types) {
+  Members members;
+  for (const Descriptor* type : types)
+    for (const Entry& entry : entries_of(*type))
+      members.push_back({entry.name, entry.type, entry.unit});
+  return members;
+}
+
+template <class T>
+void append(std::vector<std::byte>& records, const T& value) {
+  const auto bytes = std::as_bytes(std::span(&value, 1));
+  records.insert(records.end(), bytes.begin(), bytes.end());
+}
+
+/// Reads a value of a record, and returns where the next one begins.
+template <class T>
+const std::byte* take(const std::byte* from, T& value) {
+  std::memcpy(&value, from, sizeof value);
+  return from + sizeof value;
+}
+const std::byte* take(const std::byte* from, std::string& value) {
+  const char* text = nullptr;
+  from = take(from, text);
+  if (text != nullptr) value = text;
+  return from;
 }
 
 }  // namespace
 
-void put_columns(const Handle& group, const v1::Units& units, const Descriptor& type,
-                 const std::vector<const Message*>& messages) {
-  for (const Entry& entry : entries_of(type)) {
-    texts_and_numbers(entry.type, [&](auto empty) {
-      using T = decltype(empty);
-      std::vector<T> column;
-      column.reserve(messages.size());
-      for (const Message* message : messages) column.push_back(std::get<T>(get(*message, entry)));
-      put_array(group, entry.name, entry.type, column.data(), {column.size()},
-                unit_of(units, entry.unit));
-    });
-  }
+/// Without members the entries are texts.
+void Messages::put_list(const Handle& group, const std::string& name, const Members& members,
+                        const std::vector<std::byte>& entries) {
+  const hid_t type = members.empty() ? type_of(ValueType::text) : type_of(members);
+  const auto known = _empty.find(type);
+  if (entries.empty() && known != _empty.end()) return link(known->second, ".", group, name);
+  Handle list =
+      put_dataset(group, name, type, entries.data(), {entries.size() / H5Tget_size(type)});
+  std::vector<std::string> units;
+  for (const Member& member : members) units.push_back(unit_of(_units, member.unit));
+  if (members.empty())
+    hdf5::put(list, "units", std::string("-"));
+  else
+    hdf5::put(list, "units", units);
+  if (entries.empty()) _empty.emplace(type, std::move(list));
 }
 
-void get_columns(const Handle& group, std::uint64_t budget, const std::string& what,
-                 const Descriptor& type, std::optional<std::size_t>& length,
-                 const std::function<Message&(std::size_t)>& at) {
-  constexpr std::size_t least_bytes = 64;  // that a message takes in memory
-  for (const Entry& entry : entries_of(type)) {
-    texts_and_numbers(entry.type, [&](auto empty) {
-      const auto column =
-          get_list<decltype(empty)>(group, entry.name, budget / least_bytes * bytes_of(entry.type));
-      if (column.size() != length.value_or(column.size()))
-        throw Fault(what + " has datasets of different lengths");
-      length = column.size();
-      for (std::size_t i = 0; i < column.size(); ++i) set_or_refuse(at(i), entry, column[i]);
-    });
+void Messages::put(const Handle& group, const std::string& name, const Types& types,
+                   const std::vector<const Message*>& messages) {
+  std::vector<std::byte> records;
+  std::deque<std::string> texts;
+  for (const Message* message : messages)
+    for (const Entry& entry : entries_of(*message->GetDescriptor())) {
+      Value value = get(*message, entry);
+      if (auto* const text = std::get_if<std::string>(&value))
+        append(records, texts.emplace_back(std::move(*text)).c_str());
+      else
+        std::visit([&](const auto& number) { append(records, number); }, value);
+    }
+  put_list(group, name, members_of(types), records);
+}
+
+void Messages::put(const Handle& group, const std::string& name, std::span<const tables::Row> table,
+                   const Arrays& arrays, const std::string& path) {
+  Members members;
+  std::vector<const Array*> columns;
+  for (const tables::Row& row : table) {
+    members.push_back({row.name, row.type, row.unit});
+    const auto found = arrays.find(path + std::string(row.name));
+    if (found != arrays.end()) columns.push_back(&found->second);
   }
+  std::vector<std::byte> records;
+  for (std::size_t i = 0; !columns.empty() && i < count_of(columns[0]->shape); ++i)
+    for (const Array* column : columns) {
+      const std::byte* const from = column->data.get() + i * bytes_of(column->type);
+      records.insert(records.end(), from, from + bytes_of(column->type));
+    }
+  put_list(group, name, members, records);
 }
 
 void Messages::put(const Handle& group, const Message& message) {
@@ -112,11 +141,32 @@ void Messages::put(const Handle& group, const Message& message) {
                get(message, entry));
   const Reflection& fields = *message.GetReflection();
   for_each_list(*message.GetDescriptor(), [&](const FieldDescriptor* field) {
-    const int count = fields.FieldSize(message, field);
-    const auto known = _empty.find(field);
-    if (count == 0 && known != _empty.end()) return link(known->second, ".", group, field->name());
-    Handle list = put_list(group, _units, message, *field, count);
-    if (count == 0) _empty.emplace(field, std::move(list));
+    if (field->cpp_type() == FieldDescriptor::CPPTYPE_STRING) {
+      std::vector<std::byte> texts;
+      std::string scratch;  // not used, as texts are strings in memory
+      for (int i = 0; i < fields.FieldSize(message, field); ++i)
+        append(texts, fields.GetRepeatedStringReference(message, field, i, &scratch).c_str());
+      return put_list(group, field->name(), {}, texts);
+    }
+    std::vector<const Message*> items;
+    for (int i = 0; i < fields.FieldSize(message, field); ++i)
+      items.push_back(&fields.GetRepeatedMessage(message, field, i));
+    put(group, field->name(), {field->message_type()}, items);
+  });
+}
+
+void get_messages(const Handle& group, const std::string& name, std::uint64_t budget,
+                  const Types& types, const std::function<Message&()>& next) {
+  get_list(group, name, type_of(members_of(types)), budget, [&](const std::byte* from) {
+    for (const Descriptor* type : types) {
+      Message& message = next();
+      for (const Entry& entry : entries_of(*type)) {
+        texts_and_numbers(entry.type, [&](auto value) {
+          from = take(from, value);
+          set_or_refuse(message, entry, value);
+        });
+      }
+    }
   });
 }
 
@@ -130,17 +180,15 @@ void get_message(const Handle& group, std::uint64_t budget, Message& message) {
   const Reflection& fields = *message.GetReflection();
   for_each_list(*message.GetDescriptor(), [&](const FieldDescriptor* field) {
     if (field->cpp_type() == FieldDescriptor::CPPTYPE_STRING) {
-      for (std::string& text : get_list<std::string>(group, field->name(), budget))
-        fields.AddString(&message, field, std::move(text));
-      return;
+      return get_list(group, field->name(), type_of(ValueType::text), budget,
+                      [&](const std::byte* from) {
+                        std::string text;
+                        take(from, text);
+                        fields.AddString(&message, field, std::move(text));
+                      });
     }
-    std::optional<std::size_t> length;
-    get_columns(open_group(group, field->name()), budget, field->name(), *field->message_type(),
-                length, [&](std::size_t i) -> Message& {
-                  return static_cast<int>(i) < fields.FieldSize(message, field)
-                             ? *fields.MutableRepeatedMessage(&message, field, static_cast<int>(i))
-                             : *fields.AddMessage(&message, field);
-                });
+    get_messages(group, field->name(), budget, {field->message_type()},
+                 [&]() -> Message& { return *fields.AddMessage(&message, field); });
   });
 }
 
@@ -152,7 +200,11 @@ void put_meanings(const Handle& root, const v1::Units& units) {
   add_meanings("stages", *v1::Stage::descriptor(), units, rows);
   add_meanings("sweep", *v1::SweepAnswer::descriptor(), units, rows);
   constexpr std::size_t columns = 4;
-  put_array(root, "meanings", ValueType::text, rows.data(), {rows.size() / columns, columns});
+  std::vector<const char*> texts;
+  for (const std::string& text : rows) texts.push_back(text.c_str());
+  const Handle meanings = put_dataset(root, "meanings", type_of(ValueType::text), texts.data(),
+                                      {rows.size() / columns, columns});
+  put(meanings, "units", std::string("-"));
 }
 
 void put_arrays(const Handle& group, const v1::Units& units, std::span<const tables::Row> table,
@@ -166,7 +218,8 @@ void put_arrays(const Handle& group, const v1::Units& units, std::span<const tab
       array.shape.push_back(columns);
     if (count_of(array.shape) == 0 && row.may_be_missing()) continue;
     const Handle dataset =
-        put_array(group, name, array.type, array.data.get(), array.shape, unit_of(units, row.unit));
+        put_dataset(group, name, type_of(array.type), array.data.get(), array.shape);
+    put(dataset, "units", unit_of(units, row.unit));
     if (row.explained) put(dataset, "meaning", std::string(row.what));
   }
 }
@@ -176,7 +229,7 @@ void get_arrays(const Handle& group, std::uint64_t budget, std::span<const table
   for (const tables::Row& row : table) {
     const std::string name(row.name);
     if (row.may_be_missing() && !has(group, name)) continue;
-    const Dataset dataset = open_array(group, name, row.type, budget, row.shape, known);
+    const Dataset dataset = open_array(group, name, type_of(row.type), budget, row.shape, known);
     // Of doubles, so that numbers of all types are aligned.
     const auto owner = std::make_shared<std::vector<double>>(
         (count_of(dataset.shape) * bytes_of(row.type) + sizeof(double) - 1) / sizeof(double));

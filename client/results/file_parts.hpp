@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,32 +17,39 @@
 
 namespace anticrack::results::hdf5 {
 
-/// Writes the messages of one file; must not outlive the file.
+/// Types of the messages that a record of a list has, one after another.
+using Types = std::vector<const google::protobuf::Descriptor*>;
+
+/// Writes the messages of one file; must not outlive the file. A list that is empty is written once
+/// and linked into every group that has it: of many loads with short answers most lists would be
+/// empty ones.
 class Messages {
  public:
   explicit Messages(const v1::Units& units) : _units(units) {}
 
-  /// Writes values as attributes of the group, lists of texts as datasets, lists of messages as
-  /// groups of columns. A list that is empty is written once and linked into every group that has
-  /// it: of many loads with short answers most datasets would be empty ones.
+  /// Writes values as attributes of the group, lists as datasets: of texts, or of records with a
+  /// member for each value of a message.
   void put(const Handle& group, const google::protobuf::Message& message);
+  /// Writes a list; each record is made of messages of all types, which come one after another.
+  void put(const Handle& group, const std::string& name, const Types& types,
+           const std::vector<const google::protobuf::Message*>& messages);
+  /// Writes the arrays of a table as put_arrays, but as one dataset of records. They have one
+  /// length, or there are none.
+  void put(const Handle& group, const std::string& name, std::span<const tables::Row> table,
+           const Arrays& arrays, const std::string& path);
 
  private:
+  void put_list(const Handle& group, const std::string& name, const Members& members,
+                const std::vector<std::byte>& entries);
+
   const v1::Units& _units;
-  std::map<const google::protobuf::FieldDescriptor*, Handle> _empty;  ///< lists, as written
+  std::map<hid_t, Handle> _empty;  ///< lists by the types of their entries, as written
 };
 /// Reads what Messages writes.
 void get_message(const Handle& group, std::uint64_t budget, google::protobuf::Message& message);
-
-/// Writes messages of a type as datasets of a group, one dataset for each entry.
-void put_columns(const Handle& group, const v1::Units& units,
-                 const google::protobuf::Descriptor& type,
-                 const std::vector<const google::protobuf::Message*>& messages);
-/// Reads the columns into the messages at(0), at(1), ... Throws Fault unless all columns have the
-/// same length, and that of `length` if it is set; sets `length`. `what` names the list in errors.
-void get_columns(const Handle& group, std::uint64_t budget, const std::string& what,
-                 const google::protobuf::Descriptor& type, std::optional<std::size_t>& length,
-                 const std::function<google::protobuf::Message&(std::size_t)>& at);
+/// Reads a list: calls next(), which gives the message to be filled in, for each in it.
+void get_messages(const Handle& group, const std::string& name, std::uint64_t budget,
+                  const Types& types, const std::function<google::protobuf::Message&()>& next);
 
 /// Writes the dataset `meanings`, which explains the numbers of the messages: each row says where
 /// a number is, its name, unit and meaning.

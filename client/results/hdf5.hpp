@@ -6,6 +6,7 @@
 
 #include <hdf5.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -67,8 +68,19 @@ class Quiet {
   void* _data = nullptr;
 };
 
-/// HDF5's type of numbers in memory.
-hid_t native(ValueType type);
+/// A member of the records of a dataset. A text is a pointer to it in memory; `unit`: see unit_of.
+struct Member {
+  std::string_view name;
+  ValueType type;
+  std::string_view unit;
+  auto operator<=>(const Member&) const = default;
+};
+using Members = std::vector<Member>;
+
+/// HDF5's type of an entry or of packed records: in memory and, as both are little-endian, in
+/// files.
+hid_t type_of(ValueType type);
+hid_t type_of(const Members& members);
 /// Transfer properties with a small buffer for texts, which are few: by default HDF5 clears a
 /// megabyte for each list of texts.
 hid_t text_transfer();
@@ -99,10 +111,10 @@ inline void put(const Handle& object, const std::string& attribute,
   put_attribute(object, attribute, ValueType::text, texts.data(), texts.size());
 }
 
-/// Writes a dataset and returns it for further attributes. Numbers have a checksum; large datasets
-/// are compressed. `unit` becomes the attribute `units`.
-Handle put_array(const Handle& group, const std::string& name, ValueType type, const void* values,
-                 const Shape& shape, const std::string& unit = "-");
+/// Writes a dataset of numbers, texts or records and returns it for attributes. What has numbers
+/// has a checksum; large datasets of them are compressed.
+Handle put_dataset(const Handle& group, const std::string& name, hid_t type, const void* values,
+                   const Shape& shape);
 
 // Reading. Only hard links are followed and only data inside the file is read, so that a file
 // from elsewhere cannot make us read other files.
@@ -134,24 +146,19 @@ void get(const Handle& object, const std::string& attribute, std::vector<std::st
 struct Dataset {
   Handle id;
   std::string name;
-  ValueType type;
+  hid_t type;  ///< of its entries, as type_of gives it
   Shape shape;
 };
-/// Opens a dataset, allocating nothing. Throws Fault unless its type is `type`, its shape fits
-/// `shape` and what is `known` of it (see results::fits), and reading it takes at most `budget`
-/// bytes.
-Dataset open_array(const Handle& group, const std::string& name, ValueType type,
-                   std::uint64_t budget, std::string_view shape, Extents& known);
-/// Reads all entries into `values`, which has room for them.
+/// Opens a dataset, allocating nothing. Throws Fault unless its entries are of `type`, its shape
+/// fits `shape` and what is `known` of it (see results::fits), and reading it takes at most
+/// `budget` bytes.
+Dataset open_array(const Handle& group, const std::string& name, hid_t type, std::uint64_t budget,
+                   std::string_view shape, Extents& known);
+/// Reads all numbers into `values`, which has room for them.
 void read_values(const Dataset& dataset, void* values);
-/// Reads a dataset of one dimension.
-template <class T>
-std::vector<T> get_list(const Handle& group, const std::string& name, std::uint64_t budget) {
-  Extents any;
-  const Dataset dataset = open_array(group, name, value_type<T>, budget, "n", any);
-  std::vector<T> values(dataset.shape[0]);
-  read_values(dataset, values.data());
-  return values;
-}
+/// Reads a dataset of one dimension, of texts or records: calls use(entry) for each. A text, or one
+/// in a record, is a pointer that may be null and is not valid after the call.
+void get_list(const Handle& group, const std::string& name, hid_t type, std::uint64_t budget,
+              const std::function<void(const std::byte* entry)>& use);
 
 }  // namespace anticrack::results::hdf5

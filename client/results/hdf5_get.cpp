@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 
 #include "results/hdf5.hpp"
 #include "results/result.hpp"
@@ -17,10 +18,11 @@ void require_hard_link(const Handle& group, const std::string& name) {
   if (info.type != H5L_TYPE_HARD) throw Fault("\"" + name + "\" is a link, not data");
 }
 
-bool is(const Handle& type, ValueType wanted) {
-  if (wanted == ValueType::text) return H5Tis_variable_str(type.get()) > 0;
-  return H5Tget_class(type.get()) == (wanted == ValueType::float64 ? H5T_FLOAT : H5T_INTEGER) &&
-         H5Tget_size(type.get()) == bytes_of(wanted);
+/// Whether HDF5 makes entries of one type of the other's; of records only if they are the same.
+bool fits(hid_t type, hid_t wanted) {
+  if (H5Tget_class(wanted) == H5T_COMPOUND) return H5Tequal(type, wanted) > 0;
+  if (H5Tis_variable_str(wanted) > 0) return H5Tis_variable_str(type) > 0;
+  return H5Tget_class(type) == H5Tget_class(wanted) && H5Tget_size(type) == H5Tget_size(wanted);
 }
 
 struct Attribute {
@@ -38,30 +40,23 @@ Attribute open_attribute(const Handle& object, const std::string& name) {
   return {std::move(id), std::move(type), count};
 }
 
-/// Fills in `count` values by calling read(type in memory, destination). Texts have HDF5's type
-/// `own`; they are copied out of HDF5's memory, which is then freed.
-template <class Read>
-void read_entries(ValueType type, const Handle& own, std::size_t count, void* values,
-                  const Read& read) {
-  if (count == 0) return;
-  if (type != ValueType::text) return read(native(type), values);
-  std::vector<char*> pointers(count, nullptr);
-  read(own.get(), pointers.data());
-  auto* text = static_cast<std::string*>(values);
-  for (char* pointer : pointers) *text++ = pointer == nullptr ? "" : pointer;
-  for (char* pointer : pointers) H5free_memory(pointer);
-}
-
+/// Texts come in HDF5's own memory, which is freed here.
 void read_attribute(const Attribute& attribute, const std::string& name, ValueType type,
                     void* values) {
-  read_entries(type, attribute.type, static_cast<std::size_t>(attribute.count), values,
-               [&](hid_t memory, void* to) {
-                 if (H5Aread(attribute.id.get(), memory, to) < 0)
-                   throw Fault("attribute " + name + " is damaged");
-               });
+  const auto count = static_cast<std::size_t>(attribute.count);
+  if (count == 0) return;
+  const bool is_text = type == ValueType::text;
+  std::vector<char*> texts(is_text ? count : 0, nullptr);
+  if (H5Aread(attribute.id.get(), is_text ? attribute.type.get() : type_of(type),
+              is_text ? texts.data() : values) < 0)
+    throw Fault("attribute " + name + " is damaged");
+  auto* text = static_cast<std::string*>(values);
+  for (char* from : texts) *text++ = from == nullptr ? "" : from;
+  for (char* from : texts) H5free_memory(from);
 }
 
-Handle open_dataset(const Handle& group, const std::string& name) {
+Handle open_object(const Handle& group, const std::string& name) {
+  require_hard_link(group, name);
   Handle object(H5Oopen(group.get(), name.c_str(), H5P_DEFAULT), H5Oclose,
                 "dataset " + name + " is damaged");
   const H5I_type_t kind = H5Iget_type(object.get());
@@ -75,15 +70,15 @@ Handle open_dataset(const Handle& group, const std::string& name) {
 }
 
 /// Describes the type of a file in words, for the message that another type was expected.
-std::string description(const Handle& type) {
-  const std::string bits = std::to_string(8 * H5Tget_size(type.get()));
-  switch (H5Tget_class(type.get())) {
+std::string description(hid_t type) {
+  const std::string bits = std::to_string(8 * H5Tget_size(type));
+  switch (H5Tget_class(type)) {
     case H5T_FLOAT:
-      return "float" + bits;
+      return (H5Tget_order(type) == H5T_ORDER_BE ? "big-endian float" : "float") + bits;
     case H5T_INTEGER:
-      return (H5Tget_sign(type.get()) == H5T_SGN_NONE ? "uint" : "int") + bits;
+      return (H5Tget_sign(type) == H5T_SGN_NONE ? "uint" : "int") + bits;
     case H5T_STRING:
-      return "text";
+      return H5Tis_variable_str(type) > 0 ? "variable-length text" : "text of a fixed length";
     case H5T_COMPOUND:
       return "a compound of several, such as complex numbers or a table";
     case H5T_ENUM:
@@ -93,6 +88,26 @@ std::string description(const Handle& type) {
       return "lists of values";
     default:
       return "of another type";
+  }
+}
+
+/// Throws Fault unless entries of a type can be read as of the other: of records, if they have its
+/// members, and perhaps others. HDF5 refuses members that lie over each other.
+void require_type(hid_t type, hid_t wanted, const std::string& what) {
+  if (fits(type, wanted)) return;
+  if (H5Tget_class(type) != H5T_COMPOUND || H5Tget_class(wanted) != H5T_COMPOUND)
+    throw Fault(what + " is not " + description(wanted) + " but " + description(type));
+  for (unsigned i = 0; i < static_cast<unsigned>(H5Tget_nmembers(wanted)); ++i) {
+    char* const told = H5Tget_member_name(wanted, i);
+    const std::string name(told);
+    H5free_memory(told);
+    const int place = H5Tget_member_index(type, name.c_str());
+    if (place < 0) throw Fault(what + " has no member " + name);
+    const Handle own(H5Tget_member_type(type, static_cast<unsigned>(place)), H5Tclose, what),
+        other(H5Tget_member_type(wanted, i), H5Tclose, what);
+    if (H5Tequal(own.get(), other.get()) <= 0)
+      throw Fault(fmt::format("member {} of {} is not {} but {}", name, what,
+                              description(other.get()), description(own.get())));
   }
 }
 
@@ -122,14 +137,45 @@ void require_filters(const Handle& properties, const std::string& what) {
   }
 }
 
-}  // namespace
-
-hid_t native(ValueType type) {
-  return type == ValueType::float64 ? H5T_NATIVE_DOUBLE
-         : type == ValueType::int32 ? H5T_NATIVE_INT32
-         : type == ValueType::int64 ? H5T_NATIVE_INT64
-                                    : H5T_NATIVE_UINT8;
+void read(const Dataset& dataset, hid_t transfer, void* values) {
+  if (count_of(dataset.shape) != 0 &&
+      H5Dread(dataset.id.get(), dataset.type, H5S_ALL, H5S_ALL, transfer, values) < 0)
+    throw Fault("dataset " + dataset.name + " is damaged");
 }
+
+/// Owns the texts that HDF5 reads. They take at most so many bytes, whatever lengths the file
+/// claims, as many texts can be one in the file.
+class Texts {
+ public:
+  explicit Texts(std::uint64_t most) : _left(most) {}
+
+  /// Transfer properties by which texts are put here, not in memory that the caller has to free.
+  Handle transfer() {
+    Handle made(H5Pcopy(text_transfer()), H5Pclose, "HDF5 has no properties");
+    const auto keep = [](void*, void*) {};
+    if (H5Pset_vlen_mem_manager(made.get(), add, this, keep, nullptr) < 0)
+      throw Fault("HDF5 does not take properties");
+    return made;
+  }
+
+ private:
+  static void* add(std::size_t size, void* self) noexcept try {
+    Texts& texts = *static_cast<Texts*>(self);
+    if (size > texts._left) return nullptr;
+    texts._left -= size;
+    return texts._texts.emplace_back(new char[size]).get();
+  } catch (...) {
+    return nullptr;  // no exception may cross the C library
+  }
+
+  std::uint64_t _left;
+  std::vector<std::unique_ptr<char[]>> _texts;
+};
+
+/// Data is at most so much smaller packed, with deflate. Texts are not packed.
+constexpr std::uint64_t largest_ratio = 1032;
+
+}  // namespace
 
 Handle open_root(const std::filesystem::path& path, const std::string& cure) {
   namespace fs = std::filesystem;
@@ -150,7 +196,6 @@ Handle open_root(const std::filesystem::path& path, const std::string& cure) {
 }
 
 std::uint64_t memory_budget(const std::filesystem::path& path) {
-  constexpr std::uint64_t largest_ratio = 1032;  // to which deflate compresses
   return std::filesystem::file_size(path) * largest_ratio;
 }
 
@@ -193,7 +238,7 @@ std::string listed(const std::vector<std::string>& names) {
 
 void get_attribute(const Handle& object, const std::string& name, ValueType type, void* value) {
   const Attribute attribute = open_attribute(object, name);
-  if (attribute.count != 1 || !is(attribute.type, type))
+  if (attribute.count != 1 || !fits(attribute.type.get(), type_of(type)))
     throw Fault("attribute " + name + " is not one " + name_of(type));
   read_attribute(attribute, name, type, value);
 }
@@ -201,51 +246,54 @@ void get_attribute(const Handle& object, const std::string& name, ValueType type
 void get(const Handle& object, const std::string& attribute, std::vector<std::string>& texts,
          std::uint64_t most) {
   const Attribute found = open_attribute(object, attribute);
-  if (!is(found.type, ValueType::text) || found.count < 0 ||
+  if (!fits(found.type.get(), type_of(ValueType::text)) || found.count < 0 ||
       static_cast<std::uint64_t>(found.count) > most)
     throw Fault("attribute " + attribute + " is not a list of texts");
   texts.resize(static_cast<std::size_t>(found.count));
   read_attribute(found, attribute, ValueType::text, texts.data());
 }
 
-Dataset open_array(const Handle& group, const std::string& name, ValueType wanted,
-                   std::uint64_t budget, std::string_view shape, Extents& known) {
+Dataset open_array(const Handle& group, const std::string& name, hid_t wanted, std::uint64_t budget,
+                   std::string_view shape, Extents& known) {
   const std::string what = "dataset " + name;
-  require_hard_link(group, name);
-  Handle id = open_dataset(group, name);
+  Handle id = open_object(group, name);
   const Handle type(H5Dget_type(id.get()), H5Tclose, what + " is damaged");
-  if (!is(type, wanted))
-    throw Fault(what + " is not " + name_of(wanted) + " but " + description(type));
+  require_type(type.get(), wanted, what);
 
   const Handle properties(H5Dget_create_plist(id.get()), H5Pclose, what + " is damaged");
   if (H5Pget_external_count(properties.get()) != 0 ||
       H5Pget_layout(properties.get()) == H5D_VIRTUAL)
     throw Fault(what + " lies in another file");
-
   require_filters(properties, what);
 
   const Handle space(H5Dget_space(id.get()), H5Sclose, what + " is damaged");
   Shape found = shape_of(space);
-  if (!fits(found, shape, known)) {
+  if (!results::fits(found, shape, known)) {
     throw Fault(fmt::format("{} is not of shape ({}) but {}", what, shape,
                             H5Sget_simple_extent_type(space.get()) == H5S_NULL
                                 ? "empty"
                                 : fmt::format("({})", fmt::join(found, ","))));
   }
-  std::uint64_t bytes = bytes_of(wanted);
+  // What is made of texts and records takes more than they do.
+  const bool is_number = H5Tget_class(wanted) == H5T_FLOAT || H5Tget_class(wanted) == H5T_INTEGER;
+  std::uint64_t bytes = H5Tget_size(wanted) + (is_number ? 0 : 64);
   for (const std::uint64_t extent : found)
     if (__builtin_mul_overflow(bytes, extent, &bytes) || bytes > budget)
       throw Fault(fmt::format("{} claims {} rows, more than the file can hold", what, found[0]));
   return {std::move(id), name, wanted, std::move(found)};
 }
 
-void read_values(const Dataset& dataset, void* values) {
-  const std::string what = "dataset " + dataset.name + " is damaged";
-  const Handle type(H5Dget_type(dataset.id.get()), H5Tclose, what);
-  read_entries(dataset.type, type, count_of(dataset.shape), values, [&](hid_t memory, void* to) {
-    const hid_t transfer = dataset.type == ValueType::text ? text_transfer() : H5P_DEFAULT;
-    if (H5Dread(dataset.id.get(), memory, H5S_ALL, H5S_ALL, transfer, to) < 0) throw Fault(what);
-  });
+void read_values(const Dataset& dataset, void* values) { read(dataset, H5P_DEFAULT, values); }
+
+void get_list(const Handle& group, const std::string& name, hid_t type, std::uint64_t budget,
+              const std::function<void(const std::byte* entry)>& use) {
+  Extents any;
+  const Dataset dataset = open_array(group, name, type, budget, "n", any);
+  const std::size_t size = H5Tget_size(type);
+  std::vector<std::byte> entries(dataset.shape[0] * size);
+  Texts texts(budget / largest_ratio);
+  read(dataset, texts.transfer().get(), entries.data());
+  for (std::size_t at = 0; at < entries.size(); at += size) use(entries.data() + at);
 }
 
 }  // namespace anticrack::results::hdf5

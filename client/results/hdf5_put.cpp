@@ -30,48 +30,39 @@ Handle properties_of(hid_t property_class, const Set& set) {
   return properties;
 }
 
-// A file has thousands of datasets: the types and properties they share are made once and never
-// closed.
-
-hid_t text_type() {
-  static const hid_t id = [] {
-    Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "HDF5 has no string type");
-    require(H5Tset_size(type.get(), H5T_VARIABLE), "HDF5 has no variable-length strings");
-    require(H5Tset_cset(type.get(), H5T_CSET_UTF8), "HDF5 has no UTF-8 strings");
-    return type.release();
-  }();
-  return id;
+/// What make() makes for a key. A file has thousands of datasets: the types and properties they
+/// share are made once and never closed.
+template <class Key, class Make>
+hid_t made_once(const Key& key, const Make& make) {
+  static std::map<Key, hid_t> known;
+  const auto place = known.try_emplace(key, H5I_INVALID_HID).first;
+  if (place->second < 0) place->second = make().release();
+  return place->second;
 }
 
-hid_t type_in_file(ValueType type) {
-  return type == ValueType::float64 ? H5T_IEEE_F64LE
-         : type == ValueType::int32 ? H5T_STD_I32LE
-         : type == ValueType::int64 ? H5T_STD_I64LE
-         : type == ValueType::uint8 ? H5T_STD_U8LE
-                                    : text_type();
+Handle new_text_type() {
+  Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "HDF5 has no string type");
+  require(H5Tset_size(type.get(), H5T_VARIABLE), "HDF5 has no variable-length strings");
+  require(H5Tset_cset(type.get(), H5T_CSET_UTF8), "HDF5 has no UTF-8 strings");
+  return type;
 }
 
-/// Values as HDF5 takes them: their types in the file and in memory, and a pointer to them.
-struct Values {
-  Values(ValueType type, const void* values, std::size_t count)
-      : data(values),
-        in_file(type_in_file(type)),
-        in_memory(type == ValueType::text ? in_file : native(type)) {
-    if (type != ValueType::text) return;
-    for (std::size_t i = 0; i < count; ++i)
-      pointers.push_back(static_cast<const std::string*>(values)[i].c_str());
-    data = pointers.data();
+Handle new_record_type(const Members& members) {
+  std::size_t size = 0;
+  for (const Member& member : members) size += bytes_of(member.type);
+  Handle type(H5Tcreate(H5T_COMPOUND, size), H5Tclose, "HDF5 has no records");
+  std::size_t offset = 0;
+  for (const Member& member : members) {
+    require(H5Tinsert(type.get(), std::string(member.name).c_str(), offset, type_of(member.type)),
+            "HDF5 does not take a member of records");
+    offset += bytes_of(member.type);
   }
+  return type;
+}
 
-  std::vector<const char*> pointers;
-  const void* data;
-  hid_t in_file, in_memory;
-};
-
-Handle new_creation_properties(const Shape& shape) {
+Handle new_creation_properties(const Shape& shape, std::uint64_t count) {
   const std::string what = "HDF5 has no creation properties";
   Handle properties = without_times(H5P_DATASET_CREATE);
-  const std::uint64_t count = count_of(shape);
   if (count == 0) return properties;
   if (count <= compact_entries) {
     require(H5Pset_layout(properties.get(), H5D_COMPACT), what);
@@ -88,13 +79,10 @@ Handle new_creation_properties(const Shape& shape) {
   return properties;
 }
 
-/// Creation properties of a dataset of this shape; without entries it has no
-/// checksum.
-hid_t creation_properties(const Shape& shape) {
-  static std::map<Shape, hid_t> known;
-  const auto place = known.try_emplace(shape, H5I_INVALID_HID).first;
-  if (place->second < 0) place->second = new_creation_properties(shape).release();
-  return place->second;
+/// Creation properties of a dataset of this shape with `count` numbers and texts, which may be
+/// several in one place of it; 0: it has no checksum.
+hid_t creation_properties(const Shape& shape, std::uint64_t count) {
+  return made_once(std::pair(shape, count), [&] { return new_creation_properties(shape, count); });
 }
 
 /// Access properties for a dataset of one chunk, which needs no hash table of 521 slots.
@@ -118,6 +106,19 @@ Quiet::Quiet() {
 
 Quiet::~Quiet() { H5Eset_auto2(H5E_DEFAULT, _function, _data); }
 
+hid_t type_of(ValueType type) {
+  static const hid_t text = new_text_type().release();
+  return type == ValueType::float64 ? H5T_IEEE_F64LE
+         : type == ValueType::int32 ? H5T_STD_I32LE
+         : type == ValueType::int64 ? H5T_STD_I64LE
+         : type == ValueType::uint8 ? H5T_STD_U8LE
+                                    : text;
+}
+
+hid_t type_of(const Members& members) {
+  return made_once(members, [&] { return new_record_type(members); });
+}
+
 hid_t text_transfer() {
   static const hid_t id = properties_of(H5P_DATASET_XFER, [](hid_t transfer) {
                             return H5Pset_buffer(transfer, 4096, nullptr, nullptr);
@@ -131,9 +132,7 @@ Handle without_times(hid_t property_class) {
 }
 
 Handle create_group(const Handle& parent, const std::string& name, unsigned members) {
-  static std::map<unsigned, hid_t> known;  // by members
-  const auto place = known.try_emplace(members, H5I_INVALID_HID).first;
-  if (place->second < 0) {
+  const hid_t creation = made_once(members, [&] {
     const std::string what = "HDF5 has no creation properties";
     Handle properties = without_times(H5P_GROUP_CREATE);
     // Keeps a load's attributes and members in its header; by default HDF5 makes a heap beyond 8.
@@ -141,9 +140,9 @@ Handle create_group(const Handle& parent, const std::string& name, unsigned memb
     require(H5Pset_link_phase_change(properties.get(), 32, 16), what);
     constexpr unsigned name_bytes = 10;  // of a member, on average
     require(H5Pset_est_link_info(properties.get(), members, name_bytes), what);
-    place->second = properties.release();
-  }
-  return {H5Gcreate2(parent.get(), name.c_str(), H5P_DEFAULT, place->second, H5P_DEFAULT), H5Gclose,
+    return properties;
+  });
+  return {H5Gcreate2(parent.get(), name.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT), H5Gclose,
           "cannot create group " + name};
 }
 
@@ -157,37 +156,40 @@ void link(const Handle& parent, const std::string& path, const Handle& group,
 void put_attribute(const Handle& object, const std::string& name, ValueType type,
                    const void* values, std::optional<std::size_t> count) {
   const std::string what = "cannot write attribute " + name;
-  const Values source(type, values, count.value_or(1));
   const hsize_t extent = count.value_or(1);
+  std::vector<const char*> texts;
+  for (std::size_t i = 0; type == ValueType::text && i < extent; ++i)
+    texts.push_back(static_cast<const std::string*>(values)[i].c_str());
   const Handle space(count ? H5Screate_simple(1, &extent, nullptr) : H5Screate(H5S_SCALAR),
                      H5Sclose, what);
   const Handle id(
-      H5Acreate2(object.get(), name.c_str(), source.in_file, space.get(), H5P_DEFAULT, H5P_DEFAULT),
+      H5Acreate2(object.get(), name.c_str(), type_of(type), space.get(), H5P_DEFAULT, H5P_DEFAULT),
       H5Aclose, what);
-  if (extent != 0) require(H5Awrite(id.get(), source.in_memory, source.data), what);
+  if (extent != 0)
+    require(H5Awrite(id.get(), type_of(type), texts.empty() ? values : texts.data()), what);
 }
 
-Handle put_array(const Handle& group, const std::string& name, ValueType type, const void* values,
-                 const Shape& shape, const std::string& unit) {
+Handle put_dataset(const Handle& group, const std::string& name, hid_t type, const void* values,
+                   const Shape& shape) {
   const std::string what = "cannot write dataset " + name;
   const std::vector<hsize_t> extents(shape.begin(), shape.end());
   const Handle space(H5Screate_simple(static_cast<int>(extents.size()), extents.data(), nullptr),
                      H5Sclose, what);
-  const std::uint64_t count = count_of(shape);
-  const Values source(type, values, count);
-  // HDF5 refuses a checksum over text, as it would cover only pointers into the heap.
-  const bool is_text = type == ValueType::text;
+  // HDF5 refuses a checksum over text alone, as it would cover only pointers into the heap.
+  const bool is_text = H5Tget_class(type) == H5T_STRING;
+  const bool is_record = H5Tget_class(type) == H5T_COMPOUND;
+  const std::uint64_t count =
+      is_text ? 0
+              : count_of(shape) * (is_record ? static_cast<unsigned>(H5Tget_nmembers(type)) : 1);
   Handle dataset(
-      H5Dcreate2(group.get(), name.c_str(), source.in_file, space.get(), H5P_DEFAULT,
-                 creation_properties(is_text ? Shape{0} : shape),
+      H5Dcreate2(group.get(), name.c_str(), type, space.get(), H5P_DEFAULT,
+                 creation_properties(shape, count),
                  count > compact_entries && count <= chunk_entries ? one_chunk() : H5P_DEFAULT),
       H5Dclose, what);
-  if (count != 0) {
-    require(H5Dwrite(dataset.get(), source.in_memory, H5S_ALL, H5S_ALL,
-                     is_text ? text_transfer() : H5P_DEFAULT, source.data),
+  if (count_of(shape) != 0)
+    require(H5Dwrite(dataset.get(), type, H5S_ALL, H5S_ALL,
+                     is_text || is_record ? text_transfer() : H5P_DEFAULT, values),
             what);
-  }
-  put(dataset, "units", unit);
   return dataset;
 }
 

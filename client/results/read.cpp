@@ -31,22 +31,16 @@ void get_each(const Handle& parent, const char* list, std::uint64_t budget,
     get_arrays(open_group(groups, name), budget, table, arrays, path + list + "/" + name + "/");
 }
 
+/// Reads stages, whose records have the values of a stage and of its answer.
 std::vector<v1::Stage> get_stages(const Handle& group, std::uint64_t budget) {
   std::vector<v1::Stage> stages;
-  std::optional<std::size_t> length;
-  const auto get_columns = [&](const google::protobuf::Descriptor& type, const auto& of) {
-    hdf5::get_columns(group, budget, "stages", type, length,
-                      [&](std::size_t i) -> google::protobuf::Message& {
-                        if (stages.empty()) stages.resize(*length);
-                        return of(stages[i]);
-                      });
-  };
-  get_columns(
-      *v1::Stage::descriptor(), [](v1::Stage & stage) -> auto& { return stage; });
-  get_columns(
-      *v1::StageAnswer::descriptor(), [](v1::Stage & stage) -> auto& {
-        return stage.answers_size() == 0 ? *stage.add_answers() : *stage.mutable_answers(0);
-      });
+  hdf5::get_messages(group, "stages", budget,
+                     {v1::Stage::descriptor(), v1::StageAnswer::descriptor()},
+                     [&]() -> google::protobuf::Message& {
+                       const bool has_answer = stages.empty() || stages.back().answers_size() != 0;
+                       if (has_answer) return stages.emplace_back();
+                       return *stages.back().add_answers();
+                     });
   return stages;
 }
 
@@ -56,7 +50,7 @@ Load get_load(const Handle& group, std::uint64_t budget, Arrays& arrays) {
   const std::string path = load_path(load.name());
   get_each(group, "traces", budget, std::span(tables::trace).first(traces_shown), arrays, path);
   if (hdf5::has(group, "fields")) get_each(group, "fields", budget, tables::field, arrays, path);
-  if (hdf5::has(group, "stages")) load.stages = get_stages(open_group(group, "stages"), budget);
+  if (hdf5::has(group, "stages")) load.stages = get_stages(group, budget);
   return load;
 }
 

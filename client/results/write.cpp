@@ -40,16 +40,12 @@ void put_load(const Handle& parent, std::size_t index, const Result& result,
   for (std::size_t i = 0; has(fmt::format("traces/{}/jump", i)); ++i)
     put_arrays(create_group(traces, std::to_string(i), 8), tables::trace,
                fmt::format("traces/{}/", i));
-  put_arrays(create_group(group, "history", 8), tables::history, "history/");
+  messages.put(group, "history", tables::history, result.arrays, path + "history/");
   if (!load.stages.empty()) {
-    std::vector<const google::protobuf::Message*> stages, answers;
-    for (const v1::Stage& stage : load.stages) {
-      stages.push_back(&stage);
-      answers.push_back(&stage.answers(0));
-    }
-    const Handle columns = create_group(group, "stages");
-    hdf5::put_columns(columns, units, *v1::Stage::descriptor(), stages);
-    hdf5::put_columns(columns, units, *v1::StageAnswer::descriptor(), answers);
+    std::vector<const google::protobuf::Message*> stages;
+    for (const v1::Stage& stage : load.stages)
+      stages.insert(stages.end(), {&stage, &stage.answers(0)});
+    messages.put(group, "stages", {v1::Stage::descriptor(), v1::StageAnswer::descriptor()}, stages);
   }
   if (!has("fields/0/u")) return;
   const Handle fields = create_group(group, "fields");

@@ -717,11 +717,21 @@ def fields_cure(result: Result) -> str:
 
 
 def _arrays(group: Any, *but: str) -> Arrays:
-    return {name: item[()] for name, item in group.items() if hasattr(item, "shape") and name not in but}
+    return {name: item[()] for name, item in group.items()
+            if hasattr(item, "shape") and item.dtype.names is None and name not in but}
 
 
 def _texts(dataset: Any) -> list[str]:
     return [str(text) for text in dataset.asstr()[()]]
+
+
+def _columns(dataset: Any) -> Arrays:
+    """The members of a dataset of records."""
+    if getattr(getattr(dataset, "dtype", None), "names", None) is None:
+        raise KeyError(f"{dataset.name} is no dataset of records; run the case again")
+    records = dataset[()]
+    return {name: np.array([text.decode() for text in records[name]]) if records.dtype[name] == object else
+            records[name].copy() for name in records.dtype.names}
 
 
 def _message_in(group: Any, message: Any) -> Any:
@@ -734,10 +744,11 @@ def _message_in(group: Any, message: Any) -> Any:
         if part.message_type is None:
             items.extend(_texts(group[part.name]))
             continue
-        for name, place in entries.entries_of(part.message_type).items():
-            column = group[part.name][name]
-            for i, value in enumerate(_texts(column) if column.dtype.kind == "O" else column[()].tolist()):
-                entries.set_value(items[i] if i < len(items) else items.add(), *place, value)
+        columns = {name: values.tolist() for name, values in _columns(group[part.name]).items()}
+        for row in zip(*columns.values()):
+            item, values = items.add(), dict(zip(columns, row))
+            for name, place in entries.entries_of(part.message_type).items():
+                entries.set_value(item, *place, values[name])
     return message
 
 
@@ -770,12 +781,10 @@ def _load_in(group: Any, lines_in: list[str], mesh: Mesh) -> Load:
     def numbered(part: str) -> list[Any]:
         return [group[part][str(i)] for i in range(len(group[part]))] if part in group else []
     load.traces += [Trace(**_arrays(part)) for part in numbered("traces")]
-    history = _arrays(group["history"])
-    if any(values.size for values in history.values()):
-        load.history = history
+    if group["history"].size:
+        load.history = _columns(group["history"])
     if "stages" in group:
-        load.stages = {name: np.array(_texts(group[f"stages/{name}"])) if values.dtype == object else values
-                       for name, values in _arrays(group["stages"]).items()}
+        load.stages = _columns(group["stages"])
     load.fields += [Field(name, **_arrays(part)) for name, part in zip(mesh.subdomain_names, numbered("fields"))]
     load.indicator = group["indicator"][()] if "indicator" in group else None
     load.balanced_flux = group["balanced_flux"][()] if "balanced_flux" in group else None

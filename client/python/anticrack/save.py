@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import asdict, fields
 from typing import Any
 
@@ -17,8 +17,8 @@ from .result import FORMAT, KKT, Interface, Load, Result, Sweep, Units
 from .v1 import job_pb2, mesh_pb2, solve_pb2
 
 _TEXT = h5py.string_dtype()
-_HISTORY = {"iteration": "i4", "contact_count": "i4", "criterion": "f8", "energy": "f8",
-            **{f"kkt_{name}": "f8" for name in KKT}}
+_HISTORY = np.dtype([("iteration", "i4"), ("criterion", "f8"), ("energy", "f8"), ("contact_count", "i4"),
+                     *((f"kkt_{name}", "f8") for name in KKT)])
 
 _MEANINGS = [*entries.meanings(job_pb2.Solver.DESCRIPTOR, "solver"),
              *entries.meanings(mesh_pb2.Mesh.DESCRIPTOR, "mesh"),
@@ -63,8 +63,11 @@ def _put(group: Any, name: str, values: Any) -> None:
     array = np.array(values, dtype=_TEXT if texts else None)
     group.create_dataset(name, data=array, **({"compression": "gzip", "shuffle": True} if array.size > 1000 else {}))
     units = Units(**group.file["units"].attrs)
-    dimension = "" if array.dtype.kind == "i" else _DIMENSIONS.get(name.rpartition("/")[2], "")  # "" of indices
-    group[name].attrs["units"] = units.of(dimension)
+
+    def unit(of: str, dtype: Any) -> str:
+        return units.of("" if dtype.kind == "i" else _DIMENSIONS.get(of, ""))  # "" of indices
+    group[name].attrs["units"] = unit(name, array.dtype) if array.dtype.names is None else [
+        unit(of, array.dtype[of]) for of in array.dtype.names]
 
 
 def _put_record(group: Any, record: Any, *but: str) -> None:
@@ -82,19 +85,30 @@ def _put_record(group: Any, record: Any, *but: str) -> None:
 
 
 def _put_message(group: Any, message: Any) -> None:
-    """Writes values as attributes, lists of texts as datasets, lists of messages as groups of columns."""
+    """Writes values as attributes, lists as datasets, of texts or of records."""
     for name, place in entries.entries_of(message.DESCRIPTOR).items():
         group.attrs[name] = _typed(place[1], entries.value_of(message, *place))
     for field in entries.lists_of(message.DESCRIPTOR):
         items = getattr(message, field.name)
         if field.message_type is None:
             _put(group, field.name, list(items))
-            continue
-        columns = group.create_group(field.name)
-        for name, place in entries.entries_of(field.message_type).items():
-            values = [_typed(place[1], entries.value_of(item, *place)) for item in items]
-            kind = type(_typed(place[1], entries.none_of(place[1])))
-            _put(columns, name, values if kind is str else np.array(values, kind))
+        else:
+            _put_records(group, field.name, _records_of(field.message_type), map(entries.values_of, items))
+
+
+def _records_of(*descriptors: Any) -> np.dtype[Any]:
+    """The type of records with a member for each value of the messages."""
+    fields = {name: field for of in descriptors for name, (_, field) in entries.entries_of(of).items()}
+    kinds = {name: np.array(_typed(field, entries.none_of(field))).dtype for name, field in fields.items()}
+    return np.dtype([(name, _TEXT if kind.kind == "U" else kind) for name, kind in kinds.items()])
+
+
+def _put_records(group: Any, name: str, records: np.dtype[Any], rows: Iterable[Mapping[str, Any]]) -> None:
+    _put(group, name, np.array([tuple(row[of] for of in records.names or ()) for row in rows], records))
+
+
+def _rows(columns: Mapping[str, Any]) -> list[dict[str, Any]]:
+    return [dict(zip(columns, row)) for row in zip(*columns.values())]
 
 
 def _typed(field: Any, value: Any) -> Any:
@@ -124,36 +138,22 @@ def _put_result(file: Any, result: Result) -> None:
         _put_sweep(file.create_group("sweep"), result.sweep)
 
 
-def _put_parts(group: Any, descriptor: Any, parts: Iterable[Any]) -> None:
-    """Writes objects with the values of a message as columns."""
-    for name, (_, field) in entries.entries_of(descriptor).items():
-        column = [_typed(field, getattr(part, name)) for part in parts]
-        kind = type(_typed(field, entries.none_of(field)))
-        _put(group, name, column if kind is str else np.array(column, kind))
-
-
 def _put_load(group: Any, load: Load, interfaces: Parts[Interface]) -> None:
     _put_record(group, load)
-    _put_parts(group.create_group("inclusions"), solve_pb2.InclusionAnswer.DESCRIPTOR, load.inclusions.values())
-    _put_parts(group.create_group("probes"), solve_pb2.ProbeAnswer.DESCRIPTOR, load.probe_points)
-    _put_parts(group.create_group("boundary"), solve_pb2.BoundaryAnswer.DESCRIPTOR, load.boundary)
-    _put_parts(group.create_group("tips"), solve_pb2.Tip.DESCRIPTOR, load.tips)
-    growth = group.create_group("growth")
-    for name, (_, item) in entries.entries_of(solve_pb2.GrowthRow.DESCRIPTOR).items():
-        values = load.growth.get(name, np.empty(0))
-        text = isinstance(entries.none_of(item), str)
-        _put(growth, name, list(values) if text else values.astype(type(_typed(item, entries.none_of(item)))))
-    contact = group.create_group("contact_intervals")
-    _put(contact, "interface", [interfaces[place].name for place, _, _ in load.contact_intervals])
-    for i, name in enumerate(("begin", "end"), 1):
-        _put(contact, name, np.array([part[i] for part in load.contact_intervals], float))
+    lists = {"inclusions": map(vars, load.inclusions.values()), "probes": map(vars, load.probe_points),
+             "boundary": map(vars, load.boundary), "tips": map(vars, load.tips), "growth": _rows(load.growth),
+             "contact_intervals": [{"interface": interfaces[place].name, "begin": begin, "end": end}
+                                   for place, begin, end in load.contact_intervals]}
+    for field in entries.lists_of(solve_pb2.LoadCaseAnswer.DESCRIPTOR):
+        if field.message_type is not None:
+            _put_records(group, field.name, _records_of(field.message_type), lists[field.name])
     group.create_group("traces")
     for i, trace in enumerate(load.traces):
         _put_record(group.create_group(f"traces/{i}"), trace)
-    history = {name: load.history.get(name, np.empty(0, dtype)) for name, dtype in _HISTORY.items()}
-    for name, values in {**{f"history/{name}": values for name, values in history.items()},
-                         **{f"stages/{name}": values for name, values in load.stages.items()}}.items():
-        _put(group, name, values)
+    _put_records(group, "history", _HISTORY, _rows(load.history))
+    if load.stages:
+        _put_records(group, "stages", _records_of(solve_pb2.Stage.DESCRIPTOR, solve_pb2.StageAnswer.DESCRIPTOR),
+                     _rows(load.stages))
     for i, part in enumerate(load.fields):
         _put_record(group.create_group(f"fields/{i}"), part, "subdomain")
 

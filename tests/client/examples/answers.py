@@ -42,9 +42,10 @@ class Answers:
     def fields(self, load):
         """Of each subdomain: name, tension, points, values on them and triangles."""
         mesh = self.file["mesh"]
-        for index, (name, tension) in enumerate(zip(mesh["subdomains/name"].asstr(), mesh["subdomains/tension"])):
+        for index, part in enumerate(mesh["subdomains"][()]):
             field = self.file[f"loads/{load}/fields/{index}"]
-            yield name, tension, mesh["nodes"][:][field["nodes"][:]], field["u"][:], field["triangles"][:]
+            yield (part["name"].decode(), part["tension"], mesh["nodes"][:][field["nodes"][:]], field["u"][:],
+                   field["triangles"][:])
 
     def strain_energy(self, load):
         """Half the integral of T |grad u|^2, from the field."""

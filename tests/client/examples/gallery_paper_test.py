@@ -106,7 +106,7 @@ class Paper(GalleryTest):
         finest = {"example-1": (0.07583, 0.07583), "example-2": (0.00389, 0.09622), "example-3": (0.29283, 0.29283),
                   "example-4": (0, 0.20133)}  # the same case with mesh.size = 0.01
         for load, factors in finest.items():
-            tips = {name: column[()] for name, column in answers.file[f"loads/{load}/tips"].items()}
+            tips = answers.file[f"loads/{load}/tips"][()]
             traces = answers.traces(load)
             for tip, factor in zip((0, 1), factors):
                 self.assertEqual(bool(tips["closed"][tip]), factor == 0)

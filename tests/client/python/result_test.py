@@ -41,7 +41,8 @@ def units_in(path):
     """Of each dataset of a file, by all its names."""
     def walk(group, name):
         if isinstance(group, h5py.Dataset):
-            return {name: group.attrs["units"]}
+            units = group.attrs["units"]
+            return {name: units if isinstance(units, str) else dict(zip(group.dtype.names, units))}
         return {key: unit for part in group for key, unit in walk(group[part], f"{name}/{part}").items()}
 
     with h5py.File(path) as file:

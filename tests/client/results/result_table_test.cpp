@@ -29,8 +29,9 @@ std::string type_text(ValueType type) {
 }
 
 /// "`x`, `y` (k): coordinates; ...". A row that says nothing has the words of the next that does.
+/// Members of records have no shape.
 template <class Table>
-std::string entries(const Table& table) {
+std::string entries(const Table& table, bool records = false) {
   std::string text;
   bool joined = false;
   const auto add = [&](const auto& row) {
@@ -38,7 +39,7 @@ std::string entries(const Table& table) {
     joined = row.what.empty();
     if (joined) return;
     if constexpr (requires { row.type; })
-      text += " (" + std::string(row.shape) + ")" + type_text(row.type);
+      text += (records ? "" : " (" + std::string(row.shape) + ")") + type_text(row.type);
     text += ": " + std::string(row.what);
     if (!row.unit.empty()) text += " [" + std::string(row.unit) + "]";
   };
@@ -93,7 +94,7 @@ std::string result_table() {
          line("/loads/LOAD/growth", entries(*v1::GrowthRow::descriptor())) +
          line("/loads/LOAD/contact_intervals", entries(*v1::ContactInterval::descriptor())) +
          line("/loads/LOAD/traces/I", entries(tables::trace)) +
-         line("/loads/LOAD/history", entries(tables::history)) +
+         line("/loads/LOAD/history", entries(tables::history, true)) +
          line("/loads/LOAD/fields/D",
               "when asked for: " + entries(tables::subdomain) + "; " + entries(tables::field)) +
          line("/sweep", "of a sweep: " + values + "`description`; " + entries(tables::sweep) +
@@ -131,18 +132,29 @@ herr_t add_attribute(hid_t, const char* name, const H5A_info_t*, void* names) {
   return 0;
 }
 
-herr_t add_object(hid_t file, const char* path, const H5O_info_t* info, void* names) {
+/// A group's attributes, or the members of a dataset's records.
+herr_t add_object(hid_t file, const char* path, const H5L_info_t*, void* names) {
   const std::string full = std::string("/") + (std::string(path) == "." ? "" : path);
   Names& all = *static_cast<Names*>(names);
-  if (info->type == H5O_TYPE_DATASET) {
+  const hid_t id = H5Oopen(file, path, H5P_DEFAULT);
+  if (H5Iget_type(id) == H5I_DATASET) {
     const std::size_t slash = full.rfind('/');
-    all.emplace(where(full.substr(0, slash)), full.substr(slash + 1));
-    return 0;
+    const hid_t type = H5Dget_type(id);
+    if (H5Tget_class(type) != H5T_COMPOUND)
+      all.emplace(where(full.substr(0, slash)), full.substr(slash + 1));
+    else
+      for (int i = 0; i < H5Tget_nmembers(type); ++i) {
+        char* const name = H5Tget_member_name(type, static_cast<unsigned>(i));
+        all.emplace(where(full), name);
+        H5free_memory(name);
+      }
+    H5Tclose(type);
+  } else {
+    std::vector<std::string> attributes;
+    H5Aiterate2(id, H5_INDEX_NAME, H5_ITER_INC, nullptr, add_attribute, &attributes);
+    for (const std::string& attribute : attributes) all.emplace(where(full), attribute);
   }
-  std::vector<std::string> attributes;
-  H5Aiterate_by_name(file, path, H5_INDEX_NAME, H5_ITER_INC, nullptr, add_attribute, &attributes,
-                     H5P_DEFAULT);
-  for (const std::string& attribute : attributes) all.emplace(where(full), attribute);
+  H5Oclose(id);
   return 0;
 }
 
@@ -150,7 +162,8 @@ void add_names(const Result& result, Names& names) {
   const anticrack::testing::TemporaryFolder folder;
   write(folder / "a.h5", result);
   const hid_t file = H5Fopen((folder / "a.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  H5Ovisit(file, H5_INDEX_NAME, H5_ITER_NATIVE, add_object, &names);
+  add_object(file, ".", nullptr, &names);
+  H5Lvisit(file, H5_INDEX_NAME, H5_ITER_NATIVE, add_object, &names);  // all names of an empty list
   H5Fclose(file);
 }
 

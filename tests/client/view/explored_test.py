@@ -78,9 +78,11 @@ def in_file(path):
                       if (name, key) not in (("", "case"), ("", "total_seconds")) and key != "meaning"})
         if hasattr(item, "shape"):
             found[name] = item.dtype, repr(item[()].tolist())
+            return
+        for key in item:  # visititems leaves out the second name of an empty list
+            look(f"{name}/{key}", item[key])
     with h5py.File(path) as file:
         look("", file)
-        file.visititems(look)
     return found
 
 
