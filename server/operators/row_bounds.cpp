@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "base/at.hpp"
@@ -31,6 +32,15 @@ double quadratic(const Eigen::Ref<const Eigen::MatrixXd>& matrix,
   VectorXd product(x.size());
   multiply(matrix, x, product);
   return x.dot(product);
+}
+
+/// The same, where most of x is 0.
+double of_few(const Eigen::Ref<const Eigen::MatrixXd>& matrix,
+              const Eigen::Ref<const VectorXd>& x) {
+  double sum = 0;
+  for (Index j = 0; j < x.size(); ++j)
+    if (x[j] != 0) sum += x[j] * x.dot(matrix.col(j));
+  return sum;
 }
 
 /// Sets what is 0 to rounding to 0: it has no sign, and would need a cone.
@@ -141,6 +151,7 @@ bool RowBounds::take(std::span<const double> c, const contact::LcpAnswer& soluti
       estimate::rounding_of(energy, row.norm_squared, _of.largest_tension, largest);
   const double eta =
       std::sqrt(row.distance + row.unbalanced.squared + 2 * row.unbalanced.primal) + row.lack;
+  row.rho_squared = square(eta / 2) + row.pressure;
   _summary.energy_lower = energy - square(eta) / 2 - row.pressure - rounding;
   _summary.energy_upper = energy + rounding;
   return std::isfinite(*_summary.energy_lower) && std::isfinite(*_summary.energy_upper);
@@ -238,6 +249,22 @@ void RowBounds::finish(Index goal, Pair& pair) const {
                 of_products * square(pair.terms);
 }
 
+/// What some cones clip; only the first one of estimate::first_cone, if nothing.
+std::vector<estimate::Clipped> RowBounds::cones(const Goal& goal, double sign,
+                                                const contact::Adjoint::Room& room) const {
+  const double first = estimate::first_cone(goal.adjoint.compliance, _row.norm_squared);
+  const std::vector<double> c = estimate::cones_about(first);
+  const contact::Adjoint adjoint(_parts.contact->conditions(), _closed);
+  const auto [jumps, load] = adjoint.clippings(goal.adjoint, sign, room, c);
+  if (jumps.isZero(0) && load.isZero(0)) return {{first}};
+  std::vector<estimate::Clipped> known;
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    const auto d = jumps.col(static_cast<Index>(k)), r = load.col(static_cast<Index>(k));
+    known.push_back({c[k], of_few(_of.stiffness(), d) - 2 * d.dot(r) + of_few(_of.softness, r)});
+  }
+  return known;
+}
+
 /// The bound of A from one side, of estimate/interval.hpp; A on the mesh is `value`.
 RowBounds::Found RowBounds::bound(Index goal, estimate::Side side, double value) const {
   const Goal& of = _goals[at(goal)];
@@ -246,8 +273,12 @@ RowBounds::Found RowBounds::bound(Index goal, estimate::Side side, double value)
   const contact::Adjoint adjoint(_parts.contact->conditions(), _closed);
   Found best;
   best.bound.value = sign * unlimited;
-  double most = estimate::first_cone(of.adjoint.compliance, _row.norm_squared);
-  for (int tries = 0; tries < estimate::most_cones; ++tries) {
+  const std::vector<estimate::Clipped> known = cones(of, sign, {d, _row.forces});
+  std::optional<estimate::Clipped> cone = known.front();
+  if (known.size() > 1)
+    cone = estimate::choose_cone(known, _row.rho_squared, of.pair.square / 4).cone;
+  for (int tries = 0; cone && tries < estimate::most_cones; ++tries) {
+    const double most = cone->c;
     const contact::Adjoint::Room room{most * d, most * _row.forces};
     Found found{{}, {}, most};
     double c = least_cone(of.adjoint.jumps, sign, most, d);
@@ -263,10 +294,8 @@ RowBounds::Found RowBounds::bound(Index goal, estimate::Side side, double value)
     }
     found.bound = estimate::bound_of(terms(goal, value, found.pair), side, c, most);
     const bool better = sign * found.bound.value < sign * best.bound.value;
-    const bool last = !needs_cone || !better || !(found.bound.short_of > 1);
-    most = estimate::wider_cone(most, found.bound);
+    cone = needs_cone && better ? estimate::next_cone(known, *cone, found.bound) : std::nullopt;
     if (better) best = std::move(found);
-    if (last) break;
   }
   return best;
 }
