@@ -119,16 +119,16 @@ Promise choose_cone(std::span<const Clipped> of, double primal, double dual) {
 
 std::optional<Clipped> next_cone(std::span<const Clipped> known, const Clipped& last,
                                  const Bound& found) {
-  constexpr double worth = 0.05;
-  const bool any = std::isfinite(found.value);
-  if (!any || std::isnan(last.apart)) {
-    if (any && !(found.short_of > 1)) return std::nullopt;
-    return Clipped{last.c * (any ? std::clamp(found.short_of, 1.5, 8.0) : 8)};
+  constexpr double worth = 0.1, far_short = 2;
+  if (!std::isfinite(found.value)) return Clipped{8 * last.c};
+  const bool foreseen = !std::isnan(last.apart);
+  if (foreseen) {
+    const HalfWidth now{found.half.primal, 0, found.half.dual};
+    const Promise next = choose_cone(known, now.primal, std::max(0.0, now.dual - last.apart / 4));
+    if (next.half_width < (1 - worth) * now(found.c)) return next.cone;
   }
-  const HalfWidth now{found.half.primal, 0, found.half.dual};
-  const Promise next = choose_cone(known, now.primal, std::max(0.0, now.dual - last.apart / 4));
-  if (!(next.half_width < (1 - worth) * now(found.c))) return std::nullopt;
-  return next.cone;
+  if (!(found.short_of > (foreseen ? far_short : 1))) return std::nullopt;
+  return Clipped{last.c * std::clamp(found.short_of, 1.5, 8.0)};
 }
 
 double HalfWidth::best(double c) const {

@@ -21,7 +21,7 @@ namespace {
 
 struct Searched {
   int searches = 0, clipped = 0, tries = 0;  ///< tries: where something is clipped
-  std::vector<double> widths;                ///< over those in the best cones
+  std::vector<double> widths;                ///< of both sides, over those in the best cones
 };
 
 /// The bound by the z and tau of the present try of a search or, with c, of that cone.
@@ -79,7 +79,7 @@ void check_searches(const Solved& in, Searched& tally) {
         search.take(found);
       }
       double best = std::numeric_limits<double>::infinity();
-      for (int i = -16; i <= 36; ++i) {
+      for (int i = -10; i <= 24; ++i) {
         const Bound found = bound_in(in, search, side, first * std::exp2(0.25 * i));
         if (std::isfinite(found.value)) best = std::min(best, sign * found.value);
       }
@@ -93,30 +93,38 @@ void check_searches(const Solved& in, Searched& tally) {
   }
 }
 
-void report(const char* what, unsigned first, Searched& tally) {
-  std::ranges::sort(tally.widths);
-  const auto part = [&](double of) {
-    return tally.widths.at(
-        static_cast<std::size_t>(of * static_cast<double>(tally.widths.size() - 1)));
-  };
-  std::printf(
-      "[ figures  ] %s, seeds from %u: %d searches, %d with clipping, for which %.2f cones are "
-      "tried; widths over the best %.3f, %.3f, %.3f (half, 95 %%, all)\n",
-      what, first, tally.searches, tally.clipped,
-      static_cast<double>(tally.tries) / std::max(1, tally.clipped), part(0.5), part(0.95),
-      part(1));
+/// What part of the widths is at most this many times those in the best cones.
+double width(Searched& of, double part) {
+  std::ranges::sort(of.widths);
+  return of.widths.at(static_cast<std::size_t>(part * static_cast<double>(of.widths.size() - 1)));
 }
 
-TEST(BoundSearch, OfRandomMembranesTriesOneConeAsARule) {
+double tries_of(const Searched& of) {
+  return static_cast<double>(of.tries) / std::max(1, of.clipped);
+}
+
+void report(const char* what, unsigned first, Searched& of) {
+  std::printf(
+      "[ figures  ] %s, seeds from %u: %d searches, %d that clip, in %.2f cones each; widths over "
+      "those in the best cones %.3f, %.3f, %.3f (half, 95 %%, all)\n",
+      what, first, of.searches, of.clipped, tries_of(of), width(of, 0.5), width(of, 0.95),
+      width(of, 1));
+}
+
+TEST(BoundSearch, OfRandomMembranesSeldomNeedsASecondCone) {
   const unsigned first = testing::random_seed();
   for (const bool rich : {false, true}) {
-    Searched tally;
-    for (unsigned seed = first; seed < first + 60; ++seed) {
+    Searched all;
+    for (unsigned seed = first; seed < first + 40; ++seed) {
       SCOPED_TRACE("seed " + std::to_string(seed));
       const Nested nested(seed, rich);
-      if (nested.fine) check_searches(*nested.fine, tally);
+      if (nested.fine) check_searches(*nested.fine, all);
     }
-    report(rich ? "rich" : "plain", first, tally);
+    report(rich ? "rich" : "plain", first, all);
+    EXPECT_GT(all.clipped, 50);
+    EXPECT_LT(tries_of(all), rich ? 1.7 : 1.4);  // a larger one after each has 1.4 and 1.3
+    EXPECT_LT(width(all, 0.5), 1.03);
+    EXPECT_LT(width(all, 0.95), 1.5);
   }
 }
 
@@ -142,15 +150,21 @@ Solved bar(unsigned seed, int refinements) {
   return {mesh, load, force};
 }
 
-TEST(BoundSearch, OfABarThatIsPartlyInContactTriesOneConeAsARule) {
+/// Two fields and a flux for the side that clips. A larger cone after each that falls short took
+/// 1.3 to 1.5 cones there, for widths of 0.98 to 1.06 times these.
+TEST(BoundSearch, OfABarThatIsPartlyInContactTakesOneConeAsARule) {
   const unsigned first = testing::random_seed();
-  for (const int refinements : {0, 1, 2}) {
-    Searched tally;
+  for (const int refinements : {0, 1}) {
+    Searched all;
     for (unsigned seed = first; seed < first + 20; ++seed) {
       SCOPED_TRACE("seed " + std::to_string(seed));
-      check_searches(bar(seed, refinements), tally);
+      check_searches(bar(seed, refinements), all);
     }
-    report("bar", first, tally);
+    report("bar", first, all);
+    EXPECT_GT(all.clipped, 10);
+    EXPECT_LT(tries_of(all), 1.15);
+    EXPECT_LT(width(all, 0.5), 1.02);
+    EXPECT_LT(width(all, 1), 1.12);
   }
 }
 
