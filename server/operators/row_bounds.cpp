@@ -34,15 +34,6 @@ double quadratic(const Eigen::Ref<const Eigen::MatrixXd>& matrix,
   return x.dot(product);
 }
 
-/// The same, where most of x is 0.
-double of_few(const Eigen::Ref<const Eigen::MatrixXd>& matrix,
-              const Eigen::Ref<const VectorXd>& x) {
-  double sum = 0;
-  for (Index j = 0; j < x.size(); ++j)
-    if (x[j] != 0) sum += x[j] * x.dot(matrix.col(j));
-  return sum;
-}
-
 /// Sets what is 0 to rounding to 0: it has no sign, and would need a cone.
 void drop_rounding(VectorXd& values, double largest) {
   const double rounding = 1e-12 * std::max(largest, values.lpNorm<Eigen::Infinity>());
@@ -151,7 +142,6 @@ bool RowBounds::take(std::span<const double> c, const contact::LcpAnswer& soluti
       estimate::rounding_of(energy, row.norm_squared, _of.largest_tension, largest);
   const double eta =
       std::sqrt(row.distance + row.unbalanced.squared + 2 * row.unbalanced.primal) + row.lack;
-  row.rho_squared = square(eta / 2) + row.pressure;
   _summary.energy_lower = energy - square(eta) / 2 - row.pressure - rounding;
   _summary.energy_upper = energy + rounding;
   return std::isfinite(*_summary.energy_lower) && std::isfinite(*_summary.energy_upper);
@@ -249,22 +239,6 @@ void RowBounds::finish(Index goal, Pair& pair) const {
                 of_products * square(pair.terms);
 }
 
-/// What some cones clip; only the first one of estimate::first_cone, if nothing.
-std::vector<estimate::Clipped> RowBounds::cones(const Goal& goal, double sign,
-                                                const contact::Adjoint::Room& room) const {
-  const double first = estimate::first_cone(goal.adjoint.compliance, _row.norm_squared);
-  const std::vector<double> c = estimate::cones_about(first);
-  const contact::Adjoint adjoint(_parts.contact->conditions(), _closed);
-  const auto [jumps, load] = adjoint.clippings(goal.adjoint, sign, room, c);
-  if (jumps.isZero(0) && load.isZero(0)) return {{first}};
-  std::vector<estimate::Clipped> known;
-  for (std::size_t k = 0; k < c.size(); ++k) {
-    const auto d = jumps.col(static_cast<Index>(k)), r = load.col(static_cast<Index>(k));
-    known.push_back({c[k], of_few(_of.stiffness(), d) - 2 * d.dot(r) + of_few(_of.softness, r)});
-  }
-  return known;
-}
-
 /// The bound of A from one side, of estimate/interval.hpp; A on the mesh is `value`.
 RowBounds::Found RowBounds::bound(Index goal, estimate::Side side, double value) const {
   const Goal& of = _goals[at(goal)];
@@ -273,10 +247,9 @@ RowBounds::Found RowBounds::bound(Index goal, estimate::Side side, double value)
   const contact::Adjoint adjoint(_parts.contact->conditions(), _closed);
   Found best;
   best.bound.value = sign * unlimited;
-  const std::vector<estimate::Clipped> known = cones(of, sign, {d, _row.forces});
-  std::optional<estimate::Clipped> cone = known.front();
-  if (known.size() > 1)
-    cone = estimate::choose_cone(known, _row.rho_squared, of.pair.square / 4).cone;
+  // To choose among cones takes longer here than to try them.
+  std::optional<estimate::Clipped> cone{
+      {estimate::first_cone(of.adjoint.compliance, _row.norm_squared)}};
   for (int tries = 0; cone && tries < estimate::most_cones; ++tries) {
     const double most = cone->c;
     const contact::Adjoint::Room room{most * d, most * _row.forces};
@@ -294,7 +267,7 @@ RowBounds::Found RowBounds::bound(Index goal, estimate::Side side, double value)
     }
     found.bound = estimate::bound_of(terms(goal, value, found.pair), side, c, most);
     const bool better = sign * found.bound.value < sign * best.bound.value;
-    cone = needs_cone && better ? estimate::next_cone(known, *cone, found.bound) : std::nullopt;
+    cone = needs_cone && better ? estimate::next_cone({}, *cone, found.bound) : std::nullopt;
     if (better) best = std::move(found);
   }
   return best;

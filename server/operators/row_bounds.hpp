@@ -69,7 +69,6 @@ class RowBounds {
     Eigen::VectorXd slope;         ///< int phi_k.(sigma - T grad u) / T, before
     double terms = 0;              ///< as of a pair
     double norm_squared = 0, distance = 0, lack = 0, work = 0, pressure = 0;
-    double rho_squared = 0;           ///< E of estimate/interval.hpp
     double unbalancing = 0;           ///< what sum y_b sigma_b lacks, a part of `lack`
     estimate::Unbalanced unbalanced;  ///< `dual`: root of the sum of o^2 / omega
   };
@@ -78,8 +77,6 @@ class RowBounds {
   bool aim(const std::vector<char>& closed);
   Pair pair(Eigen::Index goal, Eigen::VectorXd jumps, Eigen::VectorXd forces, bool clipped) const;
   Found bound(Eigen::Index goal, estimate::Side side, double value) const;
-  std::vector<estimate::Clipped> cones(const Goal& goal, double sign,
-                                       const contact::Adjoint::Room& room) const;
   estimate::Terms terms(Eigen::Index goal, double value, const Pair& z) const;
   double turn_within(Eigen::Index goal, double sign, double most, Pair& pair) const;
   void finish(Eigen::Index goal, Pair& pair) const;
