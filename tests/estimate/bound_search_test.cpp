@@ -24,10 +24,10 @@ struct Searched {
   std::vector<double> widths;                ///< of both sides, over those in the best cones
 };
 
-/// The bound by the z and tau of the present try of a search or, with c, of that cone.
-Bound bound_in(const Solved& in, const operators::Search& search, Side side, double c) {
+/// z and z' of the present try of a search or, with c, of that cone; none if z' is not solved for.
+std::vector<std::vector<double>> fields_in(const Solved& in, const operators::Search& search,
+                                           double sign, double c) {
   const operators::Target& target = search.target();
-  const double sign = side == Side::upper ? 1 : -1;
   const contact::Adjoint& adjoint = target.adjoints.adjoint;
   const contact::Adjoint::Room room{c * target.adjoints.room.jumps,
                                     c * target.adjoints.room.forces};
@@ -37,10 +37,32 @@ Bound bound_in(const Solved& in, const operators::Search& search, Side side, dou
   const contact::Displaced pair[] = {
       {&target.aim().goal, c > 0 ? adjoint.jumps(target.goal, sign, room) : search.jumps()},
       {&target.aim().goal, opened.d}};
-  const std::vector<std::vector<double>> fields = in.parts.contact->fields_of(pair);
+  return in.parts.contact->fields_of(pair);
+}
+
+Bound bound_in(const Solved& in, const operators::Search& search, double sign, double c) {
+  const std::vector<std::vector<double>> fields = fields_in(in, search, sign, c);
+  if (fields.empty()) return {};
   Aimed aimed = search.aimed(fields[0], fields[1]);
   if (c > 0) aimed.dual.c = c;
   return bounds(in.cut, {&aimed, 1}).front();
+}
+
+/// |z' - z|^2 is known before there is a field.
+void expect_foreseen(const Solved& in, const EquilibratedFlux& sigma,
+                     const operators::Search& search, double sign, double c) {
+  const operators::Target& target = search.target();
+  const std::vector<std::vector<double>> fields = fields_in(in, search, sign, c);
+  const auto [jumps, load] =
+      target.adjoints.adjoint.clippings(target.goal, sign, target.adjoints.room, {{c}});
+  const Eigen::VectorXd foreseen = in.parts.contact->apart(jumps, load);
+  ASSERT_EQ(foreseen.size(), fields.empty() ? 0 : 1);
+  if (fields.empty()) return;
+  std::vector<double> off(fields[0].size());
+  for (std::size_t i = 0; i < off.size(); ++i) off[i] = fields[1][i] - fields[0][i];
+  double squared = 0;
+  for (std::size_t t = 0; t < in.cut.triangle_count(); ++t) squared += sigma.energy_of(t, off);
+  EXPECT_NEAR(foreseen[0], squared, 1e-8 * target.goal.compliance);
 }
 
 void check_searches(const Solved& in, Searched& tally) {
@@ -73,14 +95,15 @@ void check_searches(const Solved& in, Searched& tally) {
       const double sign = side == Side::upper ? 1 : -1;
       operators::Search search(in.parts, target, side);
       const bool clips = search.clips();
+      for (const double c : {0.5 * first, 4 * first}) expect_foreseen(in, sigma, search, sign, c);
       int tries = 0;
       for (; !search.done(); ++tries) {
-        const Bound found = bound_in(in, search, side, 0);
+        const Bound found = bound_in(in, search, sign, 0);
         search.take(found);
       }
       double best = std::numeric_limits<double>::infinity();
       for (int i = -10; i <= 24; ++i) {
-        const Bound found = bound_in(in, search, side, first * std::exp2(0.25 * i));
+        const Bound found = bound_in(in, search, sign, first * std::exp2(0.25 * i));
         if (std::isfinite(found.value)) best = std::min(best, sign * found.value);
       }
       width += sign * search.best().value;
