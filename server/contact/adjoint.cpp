@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "base/at.hpp"
+
 namespace anticrack::contact {
 namespace {
 
@@ -43,12 +45,28 @@ VectorXd Adjoint::reactions(const Goal& goal, double sign, const Room& room) con
 }
 
 VectorXd Adjoint::load(const Goal& goal, double sign, const Room& room) const {
-  const VectorXd clipped = reactions(goal, sign, room);
-  VectorXd load = goal.force->r + clipped.head(goal.force->r.size());
+  return goal.force->r + on_contacts(reactions(goal, sign, room));
+}
+
+/// Forces on the contacts, of reactions of all conditions.
+VectorXd Adjoint::on_contacts(const VectorXd& reactions) const {
+  VectorXd forces = reactions.head(_conditions.contacts());
   for (std::size_t k = 0; k < _conditions.rows().size(); ++k)
     for (const auto& [i, factor] : _conditions.rows()[k])
-      load[i] += clipped[_conditions.row(k)] * factor;
-  return load;
+      forces[i] += reactions[_conditions.row(k)] * factor;
+  return forces;
+}
+
+Adjoint::Clippings Adjoint::clippings(const Goal& goal, double sign, const Room& room,
+                                      std::span<const double> c) const {
+  const Index contacts = _conditions.contacts(), count = static_cast<Index>(c.size());
+  Clippings of{{contacts, count}, {contacts, count}};
+  for (Index k = 0; k < count; ++k) {
+    const Room own{c[at(k)] * room.jumps, c[at(k)] * room.forces};
+    of.jumps.col(k) = goal.jumps - jumps(goal, sign, own);
+    of.load.col(k) = on_contacts(goal.reactions - reactions(goal, sign, own));
+  }
+  return of;
 }
 
 }  // namespace anticrack::contact

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 #include "contact/contact_problem.hpp"
@@ -42,7 +43,16 @@ class Adjoint {
   /// Load of z' on the contacts, all of which are open: r plus the reactions.
   Eigen::VectorXd load(const Goal& goal, double sign, const Room& room) const;
 
+  /// For each c, what is clipped if the room is c times `room`: of the jumps, and of the load.
+  struct Clippings {
+    Eigen::MatrixXd jumps, load;
+  };
+  Clippings clippings(const Goal& goal, double sign, const Room& room,
+                      std::span<const double> c) const;
+
  private:
+  Eigen::VectorXd on_contacts(const Eigen::VectorXd& reactions) const;
+
   const Conditions& _conditions;
   const std::vector<char>& _closed;
 };

@@ -36,6 +36,9 @@ class CondensedProblem final : public ContactProblem {
   std::vector<Opened> solve_open(const std::vector<char>& closed,
                                  std::span<const Eigen::VectorXd> r,
                                  double tolerance) const override;
+  Eigen::VectorXd apart(const Eigen::MatrixXd& d, const Eigen::MatrixXd& r) const override {
+    return _contact.apart(d, r);
+  }
   std::unique_ptr<RowContact> rows(const LcpOptions& options, std::span<const char> start,
                                    std::vector<ddm::Terms> motions,
                                    OpenResponses* responses) const override;

@@ -141,6 +141,11 @@ class ContactProblem {
   virtual std::vector<Opened> solve_open(const std::vector<char>& closed,
                                          std::span<const Eigen::VectorXd> r,
                                          double tolerance = 0) const = 0;
+  /// For each column, how far jumps d are from those that forces r on the contacts make with every
+  /// contact open: |.|^2 of the difference of both fields, (d - S^-1 r)'S^(d - S^-1 r). Empty where
+  /// S^ is not formed, as each would take solves, or singular. Costs O(c) for each d that is not 0,
+  /// and O(c^2) a column.
+  virtual Eigen::VectorXd apart(const Eigen::MatrixXd& d, const Eigen::MatrixXd& r) const = 0;
   /// A solver for rows of a sweep. `start`: closed contacts, empty: all; `motions`: sums of
   /// unknowns that RowContact::motion reports; `responses`: to loads of which each r is a
   /// combination; null: none are known. Keeps references.

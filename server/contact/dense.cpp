@@ -216,6 +216,12 @@ VectorXd OpenFactor::solve(const VectorXd& b) const {
   return x;
 }
 
+VectorXd OpenFactor::squares(Ref<MatrixXd> b) const {
+  const auto n = static_cast<Index>(_nodes.size());
+  solve_lower(Eigen::Map<const MatrixXd>(_values.data(), n, n), b);
+  return b.colwise().squaredNorm();
+}
+
 void OpenFactor::solve(const VectorXd& b, Ref<VectorXd> x) const {
   const auto n = static_cast<Index>(_nodes.size());
   for (Index i = 0; i < n; ++i) x[i] = b[_nodes[at(i)]];

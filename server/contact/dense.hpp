@@ -52,6 +52,9 @@ class OpenFactor {
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
   /// Writes the same into x, which has the size of b. Does not allocate if there are no rows.
   void solve(const Eigen::VectorXd& b, Eigen::Ref<Eigen::VectorXd> x) const;
+  /// b'S^-1 b for each column of b, if every node is open and no row is closed. Overwrites b.
+  /// O(n^2) each.
+  Eigen::VectorXd squares(Eigen::Ref<Eigen::MatrixXd> b) const;
 
  private:
   void hold(const std::vector<ddm::Terms>& rows, Eigen::Index contacts);

@@ -43,6 +43,19 @@ std::vector<Opened> DenseContact::solve_open(const std::vector<char>& closed,
   return result;
 }
 
+VectorXd DenseContact::apart(const MatrixXd& d, const MatrixXd& r) const {
+  const OpenFactor& factor = all_open();
+  if (!factor.regular()) return {};
+  const auto scale = _lcp.scale().head(_lcp.size());
+  MatrixXd off = -(scale.asDiagonal() * r);
+  for (Eigen::Index k = 0; k < d.cols(); ++k) {
+    stop::look("solving for contact");
+    for (Eigen::Index j = 0; j < d.rows(); ++j)
+      if (d(j, k) != 0) off.col(k) += d(j, k) / scale[j] * _lcp.scaled_matrix().col(j);
+  }
+  return factor.squares(off);
+}
+
 namespace {
 
 class DenseRows final : public RowContact {

@@ -26,6 +26,7 @@ class DenseContact {
                   const OnStep& on_step) const;
   std::vector<Opened> solve_open(const std::vector<char>& closed,
                                  std::span<const Eigen::VectorXd> r) const;
+  Eigen::VectorXd apart(const Eigen::MatrixXd& d, const Eigen::MatrixXd& r) const;
   std::unique_ptr<RowContact> rows(const LcpOptions& options, std::span<const char> start,
                                    Eigen::MatrixXd motions, OpenResponses* responses) const;
 

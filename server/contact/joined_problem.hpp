@@ -53,6 +53,9 @@ class JoinedProblem final : public ContactProblem {
   std::vector<Opened> solve_open(const std::vector<char>& closed,
                                  std::span<const Eigen::VectorXd> r,
                                  double tolerance) const override;
+  Eigen::VectorXd apart(const Eigen::MatrixXd& d, const Eigen::MatrixXd& r) const override {
+    return _dense ? _dense->apart(d, r) : Eigen::VectorXd();
+  }
   std::unique_ptr<RowContact> rows(const LcpOptions& options, std::span<const char> start,
                                    std::vector<ddm::Terms> motions,
                                    OpenResponses* responses) const override;

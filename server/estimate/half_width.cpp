@@ -102,8 +102,33 @@ double first_cone(double compliance, double norm_squared) {
   return 2 * (norm_squared > 0 ? std::sqrt(compliance / norm_squared) : 1);
 }
 
-double wider_cone(double c, const Bound& last) {
-  return c * (std::isfinite(last.value) ? std::clamp(last.short_of, 1.5, 8.0) : 8);
+std::vector<double> cones_about(double first) {
+  std::vector<double> cones;
+  for (int k = -3; k <= 11; ++k) cones.push_back(first * std::exp2(0.5 * k));
+  return cones;
+}
+
+Promise choose_cone(std::span<const Clipped> of, double primal, double dual) {
+  Promise best;
+  for (const Clipped& one : of) {
+    const double half_width = HalfWidth{primal, 0, dual + one.apart / 4}(one.c);
+    if (half_width < best.half_width) best = {one, half_width};
+  }
+  return best;
+}
+
+std::optional<Clipped> next_cone(std::span<const Clipped> known, const Clipped& last,
+                                 const Bound& found) {
+  constexpr double worth = 0.1, far_short = 2;
+  if (!std::isfinite(found.value)) return Clipped{8 * last.c};
+  const bool foreseen = !std::isnan(last.apart);
+  if (foreseen) {
+    const HalfWidth now{found.half.primal, 0, found.half.dual};
+    const Promise next = choose_cone(known, now.primal, std::max(0.0, now.dual - last.apart / 4));
+    if (next.half_width < (1 - worth) * now(found.c)) return next.cone;
+  }
+  if (!(found.short_of > (foreseen ? far_short : 1))) return std::nullopt;
+  return Clipped{last.c * std::clamp(found.short_of, 1.5, 8.0)};
 }
 
 double HalfWidth::best(double c) const {

@@ -167,11 +167,34 @@ std::optional<HalfWidth> half_of_parts(const std::array<PartNorms, 2>& of, doubl
 /// The bound made of these terms, if z and tau obey the cone of `c`, in that of `most`.
 Bound bound_of(const Terms& terms, Side side, double c, double most);
 
-/// Most cones to try, of which most answers need two; the first, for a goal of this compliance and
-/// |u|^2; and the next one.
+/// Most cones to try, of which most answers need one.
 constexpr int most_cones = 4;
+
+/// A cone to try, and |z' - z|^2 for z and z' that are clipped to it, which jumps and forces of the
+/// contacts tell before there is a field; NaN: it is not known.
+struct Clipped {
+  double c = 0;
+  double apart = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// The first cone where nothing is known of what it clips, for a goal of this compliance and |u|^2;
+/// and cones about it to choose from.
 double first_cone(double compliance, double norm_squared);
-double wider_cone(double c, const Bound& last);
+std::vector<double> cones_about(double first);
+
+/// The cone with the least R where E = `primal` and F = `dual` + |z' - z|^2 / 4, `dual` without
+/// clipping. F is that if tau - T grad z' and z' - z are orthogonal, as they nearly are.
+struct Promise {
+  Clipped cone;
+  double half_width = std::numeric_limits<double>::infinity();  ///< R
+};
+Promise choose_cone(std::span<const Clipped> of, double primal, double dual);
+
+/// The cone to try after `last` gave `found`: of those known, if it promises to take off a part of
+/// R that is worth the fields; else a wider one, if there is no bound yet or a larger c is probably
+/// better. None: `last` is good enough.
+std::optional<Clipped> next_cone(std::span<const Clipped> known, const Clipped& last,
+                                 const Bound& found);
 
 /// The tau of a Dual: on one side of 0, q is within c k p at each end of a face.
 EquilibratedFlux dual_flux(const Primal& primal, const Dual& dual);

@@ -38,8 +38,8 @@ contact::Adjoint::Room room_of(const MeshOperator::Parts& parts, const estimate:
                                const std::vector<char>& closed,
                                const estimate::Weight* weight = nullptr, double stiff = 1);
 
-/// Searches for the best bound from one side. Tries a few c, each larger than the last, then
-/// weights about the ends of contact zones, if bounds are to be close.
+/// Searches for the best bound from one side. Tries the c that promises most, another if it did not
+/// keep that, then weights about the ends of contact zones, if bounds are to be close.
 class Search {
  public:
   Search(const MeshOperator::Parts& parts, Target& target, estimate::Side side);
@@ -65,14 +65,18 @@ class Search {
   double sign() const { return _side == estimate::Side::upper ? 1 : -1; }
   contact::Adjoint::Room room() const;           ///< for the present c
   double off(const estimate::Bound& one) const;  ///< from the middle
+  void choose_cone();
+  bool take_next(const estimate::Bound& one);    ///< whether another cone is worth it
   bool take_wanted(const estimate::Bound& one);  ///< whether another cone of both parts is worth it
   void weigh();
 
   const MeshOperator::Parts& _parts;
   Target& _target;
   const estimate::Side _side;
-  contact::Adjoint::Room _room;  // for c = 1 and the present weight
-  double _c = 0, _stiff = 1;     // estimate::ConeSize
+  contact::Adjoint::Room _room;           // for c = 1 and the present weight
+  std::vector<estimate::Clipped> _known;  // what cones clip; empty: nothing, or S^ is not formed
+  estimate::Clipped _cone;                // of the present try
+  double _stiff = 1;                      // estimate::ConeSize
   estimate::Bound _best;
   std::optional<std::vector<estimate::ContactEnd>> _ends;  // found with the first weight
   std::optional<estimate::Weight> _weight;

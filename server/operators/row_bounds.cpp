@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "base/at.hpp"
@@ -246,8 +247,11 @@ RowBounds::Found RowBounds::bound(Index goal, estimate::Side side, double value)
   const contact::Adjoint adjoint(_parts.contact->conditions(), _closed);
   Found best;
   best.bound.value = sign * unlimited;
-  double most = estimate::first_cone(of.adjoint.compliance, _row.norm_squared);
-  for (int tries = 0; tries < estimate::most_cones; ++tries) {
+  // To choose among cones takes longer here than to try them.
+  std::optional<estimate::Clipped> cone{
+      {estimate::first_cone(of.adjoint.compliance, _row.norm_squared)}};
+  for (int tries = 0; cone && tries < estimate::most_cones; ++tries) {
+    const double most = cone->c;
     const contact::Adjoint::Room room{most * d, most * _row.forces};
     Found found{{}, {}, most};
     double c = least_cone(of.adjoint.jumps, sign, most, d);
@@ -263,10 +267,8 @@ RowBounds::Found RowBounds::bound(Index goal, estimate::Side side, double value)
     }
     found.bound = estimate::bound_of(terms(goal, value, found.pair), side, c, most);
     const bool better = sign * found.bound.value < sign * best.bound.value;
-    const bool last = !needs_cone || !better || !(found.bound.short_of > 1);
-    most = estimate::wider_cone(most, found.bound);
+    cone = needs_cone && better ? estimate::next_cone({}, *cone, found.bound) : std::nullopt;
     if (better) best = std::move(found);
-    if (last) break;
   }
   return best;
 }
