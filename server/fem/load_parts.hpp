@@ -38,13 +38,12 @@ struct TractionParts {
   std::vector<double> unknown;  ///< (edges) >= |int (g - g_h)|
 };
 
-/// The parts of a force that is linear on every triangle: a constant, an array, an expression of
-/// degree 0 or 1. None for any other force, whose parts load_vector() gives (LoadContext::parts).
-/// O(m), on base::Threads.
-std::optional<ForceParts> linear_parts(const Triangulation& part, const Force& force,
-                                       const std::string& region, const LoadContext& context);
-/// Writes ForceParts::load of such a force to `room()`, (m,3); returns false for any other force.
+/// Writes ForceParts::load to `room()`, (m,3), of a force that is linear on every triangle: a
+/// constant, an array, an expression of degree 0 or 1. Returns false for any other force, whose
+/// parts load_vector() gives (LoadContext::parts). `only`: the triangles whose values are written,
+/// each once; unset: all. O(m), on base::Threads.
 bool linear_load(const Triangulation& part, const Force& force, const std::string& region,
-                 const LoadContext& context, const std::function<double*()>& room);
+                 const LoadContext& context, const std::function<double*()>& room,
+                 std::optional<std::span<const std::int32_t>> only = std::nullopt);
 
 }  // namespace anticrack::fem

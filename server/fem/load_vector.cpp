@@ -167,17 +167,19 @@ struct LinearLoad {
   const std::string& region;
   const LoadContext& context;
   const std::function<double*()>& room;
+  const std::optional<std::span<const std::int32_t>>& only;
 
-  /// Calls value(corner) for each corner of all triangles.
+  /// Calls value(corner) for each corner of the triangles.
   template <class Value>
   bool linear(const Value& value) const {
     constexpr std::size_t some = 16384;
-    const std::size_t count = part.triangle_count();
+    const std::size_t count = only ? only->size() : part.triangle_count();
     double* const load = room();
     base::at_once((count + some - 1) / some, base::Threads::allowed(), [&] {
       return [&](std::size_t block) {
         stop::look(summing);
-        for (std::size_t t = block * some; t < std::min(count, (block + 1) * some); ++t) {
+        for (std::size_t k = block * some; k < std::min(count, (block + 1) * some); ++k) {
+          const std::size_t t = only ? static_cast<std::size_t>((*only)[k]) : k;
           const double twelfth = area(part, t) / 12;
           const std::array<double, 3> f{value(3 * t), value(3 * t + 1), value(3 * t + 2)};
           for (std::size_t i = 0; i < 3; ++i)
@@ -220,19 +222,10 @@ struct LinearLoad {
 
 }  // namespace
 
-std::optional<ForceParts> linear_parts(const Triangulation& part, const Force& force,
-                                       const std::string& region, const LoadContext& context) {
-  ForceParts parts;
-  const bool linear = linear_load(part, force, region, context, [&] {
-    parts.load.resize(part.triangles.size());
-    return parts.load.data();
-  });
-  return linear ? std::optional(std::move(parts)) : std::nullopt;
-}
-
 bool linear_load(const Triangulation& part, const Force& force, const std::string& region,
-                 const LoadContext& context, const std::function<double*()>& room) {
-  return std::visit(LinearLoad{part, region, context, room}, force);
+                 const LoadContext& context, const std::function<double*()>& room,
+                 std::optional<std::span<const std::int32_t>> only) {
+  return std::visit(LinearLoad{part, region, context, room, only}, force);
 }
 
 Eigen::VectorXd load_vector(const Triangulation& part, const Force& force,

@@ -252,6 +252,11 @@ void SolverPool::solve_exactly(const Mesh& mesh, Working& working) {
           take(mesh, Lane::active_set, std::max(1, _core.options.columns),
                std::numeric_limits<int>::max());
       if (tasks.empty()) return;
+      lock.lock();
+      // Threads that are idle take what waits, if anything does.
+      const bool waiting = mesh->waiting[index(Lane::active_set)] > 0;
+      const base::Threads helped(waiting ? 1 : 1 + static_cast<int>(idle()));
+      lock.unlock();
       Condensed condensed = condense(*mesh->mesh_operator, tasks, _core.store);
       ended = std::move(condensed.ended);
       lock.lock();

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "base/at.hpp"
+#include "base/at_once.hpp"
 #include "fem/adaptive_load.hpp"
 #include "fem/load_vector.hpp"
 #include "fem/traction.hpp"
@@ -15,6 +17,8 @@
 
 namespace anticrack::operators {
 namespace {
+
+constexpr const char* integrating = "integrating a load";
 
 void require_known_regions(const fem::Load& load, const mesh::Mesh& mesh) {
   if (const auto* regions = std::get_if<fem::PerRegion>(&load.force))
@@ -89,6 +93,7 @@ class Block {
         _neumann(neumann),
         _parts(parts),
         _placed(loads.size()),
+        _told(decomposition.subdomains.size(), std::vector<Told>(loads.size())),
         _outcomes(loads.size()) {
     for (std::size_t i = 0; i < loads.size(); ++i) {
       attempt(i, [&](LoadOnTraces& result) {
@@ -96,49 +101,25 @@ class Block {
         require_array_fits(*loads[i], mesh);
         require_traction_acts(*loads[i]);
         _placed[i] = place_forces(*loads[i], mesh, decomposition);
-        result.subdomains.reserve(decomposition.subdomains.size());
+        result.subdomains.resize(decomposition.subdomains.size());
         result.inclusion_forces = _placed[i].inclusions;
         if (_parts) describe(*loads[i], _placed[i], result.parts);
       });
     }
   }
 
-  void condense_on(std::size_t s, const Condense& condense) {
-    const ddm::Subdomain& subdomain = _decomposition.subdomains[s];
-    const auto columns = static_cast<Eigen::Index>(_loads.size());
-    Eigen::MatrixXd dirichlet(static_cast<Eigen::Index>(subdomain.dirichlet), columns);
-    std::vector<std::size_t> sound;
-    Eigen::MatrixXd of_nodes = integrate_arrays(subdomain), apart;
-    if (of_nodes.cols() < columns) {  // not all are arrays: put these into their columns
-      apart.swap(of_nodes);
-      of_nodes.resize(static_cast<Eigen::Index>(subdomain.node.size()), columns);
-    }
-    const Eigen::MatrixXd& of_arrays = apart.size() > 0 ? apart : of_nodes;
-    Eigen::Index arrays = 0;
-    for (std::size_t i = 0; i < _loads.size(); ++i) {
-      attempt(i, [&](LoadOnTraces& result) {
-        const auto column = static_cast<Eigen::Index>(sound.size());
-        if (nodal_values(i) != nullptr) {
-          if (&of_arrays != &of_nodes || arrays != column)
-            of_nodes.col(column) = of_arrays.col(arrays);
-          ++arrays;
-        } else {
-          of_nodes.col(column) = integrate(i, s, result);
-        }
-        add_rest(i, s, result, of_nodes.col(column));
-        dirichlet.col(column) = fem::boundary_values(subdomain.part, _loads[i]->boundary_value,
-                                                     subdomain.free(), subdomain.dirichlet);
-        sound.push_back(i);
-      });
-    }
-    const auto width = static_cast<Eigen::Index>(sound.size());
+  /// Condenses on all subdomains, on base::Threads.
+  void condense(const Condense& condense) {
+    std::optional<errors::Error> failure;
     try {
-      std::vector<ddm::CondensedLoad> condensed =
-          condense(s, of_nodes.leftCols(width), dirichlet.leftCols(width));
-      for (std::size_t k = 0; k < sound.size(); ++k)
-        std::get<LoadOnTraces>(_outcomes[sound[k]]).subdomains.push_back(std::move(condensed[k]));
+      base::at_once(_told.size(), base::Threads::allowed(),
+                    [&] { return [&](std::size_t s) { condense_on(s, condense); }; });
     } catch (const errors::Error& error) {  // without memory every load of the block fails
-      for (const std::size_t i : sound) _outcomes[i] = error;
+      failure = error;
+    }
+    for (std::size_t i = 0; i < _loads.size(); ++i) {
+      for (const std::vector<Told>& of_subdomain : _told) hear(of_subdomain[i], _outcomes[i]);
+      if (failure && std::holds_alternative<LoadOnTraces>(_outcomes[i])) _outcomes[i] = *failure;
     }
   }
 
@@ -157,6 +138,60 @@ class Block {
   std::vector<CondensedOutcome> take() { return std::move(_outcomes); }
 
  private:
+  /// What integrating a load on a subdomain has to say.
+  struct Told {
+    std::vector<std::string> warnings;
+    std::string obstacle;
+    std::optional<errors::Error> error;
+  };
+
+  static void hear(const Told& told, CondensedOutcome& outcome) {
+    auto* result = std::get_if<LoadOnTraces>(&outcome);
+    if (result == nullptr) return;
+    result->warnings.insert(result->warnings.end(), told.warnings.begin(), told.warnings.end());
+    if (!told.obstacle.empty()) result->parts.obstacle = told.obstacle;
+    if (told.error) outcome = *told.error;
+  }
+
+  /// On one subdomain; for several threads, each with its own.
+  void condense_on(std::size_t s, const Condense& condense) {
+    const ddm::Subdomain& subdomain = _decomposition.subdomains[s];
+    const auto columns = static_cast<Eigen::Index>(_loads.size());
+    Eigen::MatrixXd dirichlet(static_cast<Eigen::Index>(subdomain.dirichlet), columns);
+    std::vector<LoadOnTraces*> sound;
+    Eigen::MatrixXd of_nodes = integrate_arrays(subdomain), apart;
+    if (of_nodes.cols() < columns) {  // not all are arrays: put these into their columns
+      apart.swap(of_nodes);
+      of_nodes.resize(static_cast<Eigen::Index>(subdomain.node.size()), columns);
+    }
+    const Eigen::MatrixXd& of_arrays = apart.size() > 0 ? apart : of_nodes;
+    Eigen::Index arrays = 0;
+    for (std::size_t i = 0; i < _loads.size(); ++i) {
+      auto* const result = std::get_if<LoadOnTraces>(&_outcomes[i]);
+      if (result == nullptr) continue;
+      const auto column = static_cast<Eigen::Index>(sound.size());
+      const bool array = nodal_values(i) != nullptr;
+      if (array && (&of_arrays != &of_nodes || arrays != column))
+        of_nodes.col(column) = of_arrays.col(arrays);
+      arrays += array ? 1 : 0;
+      try {
+        stop::look(integrating);
+        if (!array) of_nodes.col(column) = integrate(i, s, *result);
+        add_rest(i, s, *result, of_nodes.col(column));
+        dirichlet.col(column) = fem::boundary_values(subdomain.part, _loads[i]->boundary_value,
+                                                     subdomain.free(), subdomain.dirichlet);
+        sound.push_back(result);
+      } catch (const errors::Error& error) {
+        _told[s][i].error = error;
+      }
+    }
+    const auto width = static_cast<Eigen::Index>(sound.size());
+    std::vector<ddm::CondensedLoad> condensed =
+        condense(s, of_nodes.leftCols(width), dirichlet.leftCols(width));
+    for (std::size_t k = 0; k < sound.size(); ++k)
+      sound[k]->subdomains[s] = std::move(condensed[k]);
+  }
+
   void describe(const fem::Load& load, const PlacedForces& placed, LoadParts& parts) const {
     parts.force = load.force;
     parts.integrated.resize(_decomposition.subdomains.size());
@@ -199,7 +234,7 @@ class Block {
   void attempt(std::size_t i, const Work& work) {
     if (auto* result = std::get_if<LoadOnTraces>(&_outcomes[i])) {
       try {
-        stop::look("integrating a load");
+        stop::look(integrating);
         work(*result);
       } catch (const errors::Error& error) {
         _outcomes[i] = error;
@@ -223,7 +258,7 @@ class Block {
     return fem::load_vectors(subdomain.part, subdomain.node, arrays);
   }
 
-  Eigen::VectorXd integrate(std::size_t i, std::size_t s, LoadOnTraces& result) const {
+  Eigen::VectorXd integrate(std::size_t i, std::size_t s, LoadOnTraces& result) {
     const ddm::Subdomain& subdomain = _decomposition.subdomains[s];
     fem::IntegrationReport report{};
     Eigen::VectorXd of_nodes = fem::load_vector(subdomain.part, _loads[i]->force, subdomain.name,
@@ -232,15 +267,15 @@ class Block {
     const std::size_t triangles = subdomain.part.triangle_count();
     judge({"the force", subdomain.name, report.relative_error_estimate,
            fem::force_tolerance(triangles), report.proof, 3 * fem::proof_tolerance(triangles)},
-          result);
+          _told[s][i]);
     return of_nodes;
   }
 
-  static void judge(const Integrated& one, LoadOnTraces& result) {
+  static void judge(const Integrated& one, Told& told) {
     if (std::string warning = inexact(one); !warning.empty())
-      result.warnings.push_back(std::move(warning));
+      told.warnings.push_back(std::move(warning));
     if (std::string obstacle = no_proof(one); !obstacle.empty())
-      result.parts.obstacle = std::move(obstacle);
+      told.obstacle = std::move(obstacle);
   }
 
   /// Throws where a traction was given and no edge takes it.
@@ -268,7 +303,7 @@ class Block {
 
   /// Adds traction and point forces.
   void add_rest(std::size_t i, std::size_t s, LoadOnTraces& result,
-                Eigen::Ref<Eigen::VectorXd> of_nodes) const {
+                Eigen::Ref<Eigen::VectorXd> of_nodes) {
     const ddm::Subdomain& subdomain = _decomposition.subdomains[s];
     const fem::Load& load = *_loads[i];
     if (!load.traction.empty() && !_neumann.of(s).nodes.empty()) {
@@ -281,7 +316,7 @@ class Block {
       constexpr double enough = 1e-4;
       judge({"the traction", subdomain.name, report.relative_error_estimate,
              fem::traction_tolerance, report.proof, enough},
-            result);
+            _told[s][i]);
     }
     for (const NodalForce& force : _placed[i].subdomains[s]) of_nodes[force.node] += force.value;
     if (!of_nodes.allFinite()) {
@@ -295,6 +330,7 @@ class Block {
   const ddm::NeumannBoundary& _neumann;
   bool _parts;
   std::vector<PlacedForces> _placed;
+  std::vector<std::vector<Told>> _told;  // (subdomains, loads)
   std::vector<CondensedOutcome> _outcomes;
 };
 
@@ -319,8 +355,7 @@ std::vector<CondensedOutcome> condense_loads(std::span<const fem::Load* const> l
   for (std::size_t first = 0; first < loads.size(); first += at_once) {
     Block block(loads.subspan(first, std::min(at_once, loads.size() - first)), mesh, decomposition,
                 neumann, parts);
-    for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s)
-      block.condense_on(s, condense);
+    block.condense(condense);
     block.require_agreement(mesh);
     for (CondensedOutcome& outcome : block.take()) result.push_back(std::move(outcome));
   }

@@ -23,7 +23,7 @@ namespace anticrack::operators {
 /// The load on each triangle and Neumann edge, for bounds of the error.
 struct LoadParts {
   fem::Force force;
-  std::vector<fem::ForceParts> integrated;   ///< per subdomain; empty: from fem::linear_parts
+  std::vector<fem::ForceParts> integrated;   ///< per subdomain; empty: from fem::linear_load
   std::vector<fem::TractionParts> traction;  ///< per subdomain; empty: no traction
   std::string boundary_value;                ///< g_D; empty: linear along edges
   std::string beside_chords;                 ///< g_D, whatever it is
@@ -53,7 +53,7 @@ using CondensedOutcome = std::variant<LoadOnTraces, errors::Error>;
 /// g_D is not zero, in blocks of loads. Entry i holds the result or error of loads[i]:
 /// invalid_argument (unknown subdomain or inclusion, array of another length, point force outside
 /// or on a crack, overflow), expression_invalid, or cancelled (stop/stop.hpp). `parts`: whether to
-/// fill LoadOnTraces::parts.
+/// fill LoadOnTraces::parts. Subdomains are done on base::Threads.
 std::vector<CondensedOutcome> condense_loads(std::span<const fem::Load* const> loads,
                                              const mesh::Mesh& mesh,
                                              const ddm::Decomposition& decomposition,

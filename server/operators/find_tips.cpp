@@ -10,13 +10,21 @@ const tips::Tips& MeshOperator::Parts::all_tips() const {
 }
 
 ForceOnTriangles::ForceOnTriangles(const LoadParts& parts,
-                                   const std::vector<ddm::Subdomain>& subdomains)
+                                   const std::vector<ddm::Subdomain>& subdomains,
+                                   const tips::Tips* tips)
     : linear(subdomains.size()) {
   for (std::size_t s = 0; s < subdomains.size(); ++s) {
     const ddm::Subdomain& one = subdomains[s];
-    auto made = fem::linear_parts(one.part, parts.force, one.name, {one.node, one.triangle});
-    if (made) linear[s] = std::move(*made);
-    of_subdomains.emplace_back(made ? std::span<const double>(linear[s].load)
+    const std::size_t size = one.part.triangles.size();
+    const auto room = [&] {
+      linear[s] = std::make_unique_for_overwrite<double[]>(size);
+      return linear[s].get();
+    };
+    std::optional<std::span<const std::int32_t>> only;
+    if (tips != nullptr) only = tips->triangles(s);
+    const bool made =
+        fem::linear_load(one.part, parts.force, one.name, {one.node, one.triangle}, room, only);
+    of_subdomains.emplace_back(made ? std::span<const double>(linear[s].get(), size)
                                     : parts.integrated[s].load);
   }
 }
@@ -44,7 +52,7 @@ void MeshOperator::find_tips(const PreparedLoad& load, contact::Answer& answer,
     recover_fields(loads, answers);
   }
   const LoadParts& parts = load._data->condensed.parts;
-  const ForceOnTriangles force(parts, _parts->decomposition.subdomains);
+  const ForceOnTriangles force(parts, _parts->decomposition.subdomains, &tips);
   answer.tips = tips.of({answer, force.of_subdomains, parts.points});
   if (recovered) answer.fields.clear();
 }

@@ -59,10 +59,12 @@ struct MeshOperator::Parts {
   Condense condense() const;
 };
 
-/// Per subdomain (m,3): int f hat_i for the corners i of each triangle. Refers to the load.
+/// Per subdomain (m,3): int f hat_i for the corners i of each triangle; with `tips` only of those
+/// near tips, the others are not set. Refers to the load.
 struct ForceOnTriangles {
-  ForceOnTriangles(const LoadParts& parts, const std::vector<ddm::Subdomain>& subdomains);
-  std::vector<fem::ForceParts> linear;  ///< what `of_subdomains` refers to besides
+  ForceOnTriangles(const LoadParts& parts, const std::vector<ddm::Subdomain>& subdomains,
+                   const tips::Tips* tips = nullptr);
+  std::vector<std::unique_ptr<double[]>> linear;  ///< what `of_subdomains` refers to besides
   std::vector<std::span<const double>> of_subdomains;
 };
 

@@ -63,6 +63,13 @@ Tips::Tips(const mesh::Mesh& mesh, const ddm::Decomposition& decomposition)
     if (!tip.place.reason.empty()) tip.cells = {};
   };
   base::at_once(_tips.size(), base::Threads::allowed(), [&] { return prepare_one; });
+  _triangles.resize(decomposition.subdomains.size());
+  for (const Tip& tip : _tips)
+    for (const Cell& cell : tip.cells) _triangles[at(cell.subdomain)].push_back(cell.triangle);
+  for (std::vector<std::int32_t>& some : _triangles) {
+    std::ranges::sort(some);
+    some.erase(std::unique(some.begin(), some.end()), some.end());
+  }
 }
 
 void Tips::prepare(const mesh::Mesh& mesh, std::span<const Cell> local, const Support& support,
@@ -183,17 +190,18 @@ std::string Tips::obstacle(std::size_t index, std::span<const Point> points) con
 }
 
 std::vector<TipAnswer> Tips::of(const Solved& solved) const {
-  std::vector<TipAnswer> rows;
-  for (std::size_t i = 0; i < _tips.size(); ++i) {
+  std::vector<TipAnswer> rows(_tips.size());
+  const auto measure = [&](std::size_t i) {
     stop::look(measuring, i);
     const Tip& tip = _tips[i];
-    TipAnswer& row = rows.emplace_back(row_of(tip));
+    TipAnswer& row = rows[i] = row_of(tip);
     row.reason = reason_of(tip, solved.point_forces);
-    if (!row.reason.empty()) continue;
+    if (!row.reason.empty()) return;
     const contact::Trace& trace = solved.answer.traces[at(tip.place.interface)];
     row = told(i, integrals(i, solved),
                trace.contact[tip.first_behind] != 0 || trace.jump[tip.first_behind] <= 0);
-  }
+  };
+  base::at_once(_tips.size(), base::Threads::allowed(), [&] { return measure; });
   return rows;
 }
 
@@ -259,6 +267,8 @@ TipAnswer Tips::told(std::size_t index, const Integrals& integrals, bool touchin
 
 std::size_t Tips::bytes() const noexcept {
   std::size_t bytes = 0;
+  for (const std::vector<std::int32_t>& some : _triangles)
+    bytes += some.capacity() * sizeof(std::int32_t);
   for (const Tip& tip : _tips) {
     bytes += sizeof(Tip) + tip.cells.capacity() * sizeof(Cell) +
              tip.change.capacity() * sizeof(Tensor) +

@@ -31,7 +31,7 @@ std::vector<Cell> cells_of(const mesh::Mesh& mesh, const ddm::Decomposition& dec
 /// An answer with its fields and its load.
 struct Solved {
   const contact::Answer& answer;  ///< with fields, one per subdomain
-  /// Per subdomain (m,3): int f hat_i for the corners i of each triangle.
+  /// Per subdomain (m,3): int f hat_i for the corners i of each triangle; read in Tips::triangles.
   std::span<const std::span<const double>> force;
   std::span<const Point> point_forces;  ///< where they act
 };
@@ -50,7 +50,7 @@ class Tips {
   Tips(const mesh::Mesh& mesh, const ddm::Decomposition& decomposition);
 
   /// A row for each of mesh::tips(mesh), in their order. What cannot be computed is empty, with
-  /// the reason. O(triangles near tips).
+  /// the reason. O(triangles near tips), on base::Threads.
   std::vector<contact::TipAnswer> of(const Solved& solved) const;
   /// The integrals of a tip, by its index, which has no reason.
   Integrals integrals(std::size_t tip, const Solved& solved) const;
@@ -69,6 +69,10 @@ class Tips {
   std::vector<contact::TipAnswer> without_numbers(const std::string& reason) const;
 
   std::size_t size() const noexcept { return _tips.size(); }
+  /// The triangles of a subdomain that are near any tip, ascending.
+  std::span<const std::int32_t> triangles(std::size_t subdomain) const {
+    return _triangles[subdomain];
+  }
   /// Memory in bytes.
   std::size_t bytes() const noexcept;
 
@@ -95,6 +99,7 @@ class Tips {
   std::vector<std::string> _interfaces;
   std::vector<char> _tilts;  ///< (inclusions)
   std::vector<Tip> _tips;
+  std::vector<std::vector<std::int32_t>> _triangles;  ///< (subdomains) those of `cells`
 };
 
 }  // namespace anticrack::tips

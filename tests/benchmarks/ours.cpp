@@ -133,6 +133,7 @@ Bounding estimates(const MeshOperator& op, std::span<const fem::Load> loads, std
 
 void further_loads(const Options& options, const MeshOperator& op,
                    const std::vector<fem::Load>& loads, Figures& figures) {
+  const base::Threads allowed(options.threads);  // as in a job
   Times alone;
   Answers answers;
   Silent nobody;

@@ -76,9 +76,11 @@ tips::Integrals Prepared::integrals(std::size_t tip, const contact::Answer& answ
   for (std::size_t s = 0; s < parts.size(); ++s) {
     const ddm::Subdomain& one = _decomposition.subdomains[s];
     const fem::LoadContext context{one.node, one.triangle, nullptr, &parts[s]};
-    if (auto linear = fem::linear_parts(one.part, force, one.name, context))
-      parts[s] = std::move(*linear);
-    else
+    const auto room = [&] {
+      parts[s].load.resize(one.part.triangles.size());
+      return parts[s].load.data();
+    };
+    if (!fem::linear_load(one.part, force, one.name, context, room))
       fem::load_vector(one.part, force, one.name, context);
     loads.emplace_back(parts[s].load);
   }
