@@ -68,7 +68,9 @@ void Search::choose_cone() {
     _known.push_back({cones[k], apart[static_cast<Eigen::Index>(k)]});
   if (_known.empty()) return;
   const double primal = std::pow(of.bracket.distance / 2, 2) + of.bracket.work;
-  _cone = estimate::choose_cone(_known, primal, likely_dual * primal * first * first).cone;
+  const estimate::Promise best =
+      estimate::choose_cone(_known, primal, likely_dual * primal * first * first);
+  if (std::isfinite(best.half_width)) _cone = best.cone;
 }
 
 contact::Adjoint::Room Search::room() const {

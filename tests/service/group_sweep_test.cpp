@@ -112,6 +112,14 @@ TEST_F(GroupSweep, OfSeveralServersEqualsThatOfOneToTheBit) {
   }
 }
 
+TEST_F(GroupSweep, OfCheapRowsIsNotWrittenByTheServerThatRunsIt) {
+  client::Connection a(add().connection());
+  note_portions();
+  const Sweep sweep = combinations(50'000);  // 66 portions, of some milliseconds each
+  expect_same(a, submit(a, sweep), sweep);
+  EXPECT_LT(noted(), 33U);  // none where the machine has nothing else to do
+}
+
 TEST_F(GroupSweep, OfFewRowsIsSolvedByOneServer) {
   client::Connection a(add().connection());
   note_portions();
