@@ -32,7 +32,9 @@ class Notebooks(unittest.TestCase):
         kept = nbformat.read(path, 4)
         ran = nbformat.read(path, 4)
         os.environ["PATH"] = f"{pathlib.Path(ANTICRACKD).parent}:{os.environ['PATH']}"
-        nbclient.NotebookClient(ran, timeout=500, kernel_name="python3").execute()
+        nbclient.NotebookClient(ran, timeout=500, kernel_name="python3", record_timing=False).execute()
+        if os.environ.get("ANTICRACK_RENEW_GOLDEN"):
+            return nbformat.write(ran, path)
         self.assertTrue(any(cell.get("outputs") for cell in kept.cells))
         for (words, numbers, kinds), (theirs, others, more) in zip(outputs(ran), outputs(kept), strict=True):
             self.assertEqual(kinds, more)
