@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Small systems that have no solution or many, by LAPACK's dgelsy: Eigen's templates for them take a
-// fifth of the time in which this folder is compiled.
+// Small systems that have no solution or many, by LAPACK's dgelsy: Eigen's templates for them take
+// a fifth of the time in which this folder is compiled.
 #pragma once
 
 #include <Eigen/Core>
