@@ -148,9 +148,10 @@ void Messages::put(const Handle& group, const Message& message) {
         append(texts, fields.GetRepeatedStringReference(message, field, i, &scratch).c_str());
       return put_list(group, field->name(), {}, texts);
     }
+    const int count = fields.FieldSize(message, field);
     std::vector<const Message*> items;
-    for (int i = 0; i < fields.FieldSize(message, field); ++i)
-      items.push_back(&fields.GetRepeatedMessage(message, field, i));
+    items.reserve(static_cast<std::size_t>(count));
+    for (int i = 0; i < count; ++i) items.push_back(&fields.GetRepeatedMessage(message, field, i));
     put(group, field->name(), {field->message_type()}, items);
   });
 }
@@ -201,6 +202,7 @@ void put_meanings(const Handle& root, const v1::Units& units) {
   add_meanings("sweep", *v1::SweepAnswer::descriptor(), units, rows);
   constexpr std::size_t columns = 4;
   std::vector<const char*> texts;
+  texts.reserve(rows.size());
   for (const std::string& text : rows) texts.push_back(text.c_str());
   const Handle meanings = put_dataset(root, "meanings", type_of(ValueType::text), texts.data(),
                                       {rows.size() / columns, columns});
