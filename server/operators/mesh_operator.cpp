@@ -88,7 +88,8 @@ MeshOperator::Parts::Parts(std::shared_ptr<const mesh::Mesh> cut_mesh, int threa
   base::at_once(joined && threads > 1 ? 2 : 1, threads, [&] {
     return [&](std::size_t part) {
       if (part == 0) return make_contact();
-      // They are the longer part of many short cracks, and would end on one thread.
+      // They are the longer part of many short cracks, and would end on one thread: a tenth of the
+      // time of a thousand fibres. While both parts work, one thread more than `threads` does.
       const base::Threads helped(threads);
       try {
         all_tips();
