@@ -84,7 +84,9 @@ constexpr Keys interface_keys{v1::InterfaceCurve::descriptor, {interface_rows, c
 constexpr Key motion_rows[] = {
     {"tilt", boolean,
      "true: a straight inclusion moves by u = A + B s, s from its middle, any other as a thin "
-     "rigid plate, u = A + Bx (x - x0) + By (y - y0) about the middle of its bounding box",
+     "rigid plate, u = A + Bx (x - x0) + By (y - y0) about the middle of its bounding box. "
+     "Inclusions "
+     "that share nodes are one body, which tilts if all of them do",
      "false: u = A"_absent},
     {"fixed", number, "L"_unit,
      "u of an inclusion that is held; it does not tilt, and a force on it is refused",

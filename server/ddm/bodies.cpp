@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "base/at.hpp"
-#include "base/union_find.hpp"
 #include "errors/errors.hpp"
+#include "mesh/joined_inclusions.hpp"
 
 namespace anticrack::ddm {
 namespace {
@@ -29,19 +29,6 @@ struct Box {
   }
   Point centre() const { return {(low[0] + high[0]) / 2, (low[1] + high[1]) / 2}; }
 };
-
-base::UnionFind join_at_nodes(const mesh::Mesh& mesh, const Sides& sides) {
-  base::UnionFind joined(mesh.inclusions.size());
-  std::vector<std::int32_t> first(mesh.node_count(), -1);
-  for (const CutEdge& edge : sides.edges) {
-    if (edge.inclusion < 0) continue;
-    for (const std::int32_t node : edge.node) {
-      if (first[at(node)] < 0) first[at(node)] = edge.inclusion;
-      joined.unite(first[at(node)], edge.inclusion);
-    }
-  }
-  return joined;
-}
 
 void hold(Body& body, const mesh::Motion& motion, const std::string& name) {
   if (!motion.fixed) return;
@@ -86,7 +73,7 @@ double lever(const Body& body, std::size_t axis, const Point& x) {
 
 Bodies find_bodies(const mesh::Mesh& mesh, const Sides& sides) {
   const std::size_t count = mesh.inclusions.size();
-  base::UnionFind joined = join_at_nodes(mesh, sides);
+  base::UnionFind joined = mesh::join_inclusions(mesh);
   std::vector<Box> box(count);
   std::vector<std::vector<Point>> nodes(count);  // by the first inclusion of the body
   std::vector<std::vector<std::int32_t>> on_dirichlet(count);

@@ -16,6 +16,7 @@
 #include "base/union_find.hpp"
 #include "mesh/edges.hpp"
 #include "mesh/geometry_primitives.hpp"
+#include "mesh/joined_inclusions.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/refine.hpp"
 #include "meshes/tension_laws.hpp"
@@ -179,6 +180,14 @@ records::InterfaceSummary summary(const mesh::Mesh& mesh, const mesh::Interface&
   return result;
 }
 
+void note_tilts(const mesh::Mesh& mesh, std::vector<std::string>& warnings) {
+  constexpr std::size_t most = 20;
+  std::size_t count = 0;
+  for (std::string& why : mesh::why_none_tilts(mesh))
+    if (!why.empty() && ++count <= most) warnings.push_back(std::move(why));
+  if (count > most) warnings.push_back(fmt::format("and {} more such inclusions", count - most));
+}
+
 }  // namespace
 
 void summarize(const mesh::Mesh& mesh, records::MeshRecord& record) {
@@ -208,6 +217,7 @@ void summarize(const mesh::Mesh& mesh, records::MeshRecord& record) {
     record.interfaces.push_back(summary(mesh, interface));
   record.inclusions = mesh.inclusions;
   record.warnings = mesh.warnings;
+  note_tilts(mesh, record.warnings);
   record.minimum_angle =
       std::ranges::min(record.subdomains, {}, &records::SubdomainSummary::minimum_angle)
           .minimum_angle;

@@ -100,7 +100,9 @@ class Block {
         require_known_regions(*loads[i], mesh);
         require_array_fits(*loads[i], mesh);
         require_traction_acts(*loads[i]);
+        require_boundary_value_acts(*loads[i]);
         _placed[i] = place_forces(*loads[i], mesh, decomposition);
+        result.warnings = std::move(_placed[i].warnings);
         result.subdomains.resize(decomposition.subdomains.size());
         result.inclusion_forces = _placed[i].inclusions;
         if (_parts) describe(*loads[i], _placed[i], result.parts);
@@ -288,6 +290,17 @@ class Block {
                         "name its sides or holes in the geometry's neumann, or the curves of an "
                         "uploaded mesh neumann")
         .at("traction");
+  }
+
+  /// Throws where a boundary value was given and no part of the boundary takes it.
+  void require_boundary_value_acts(const fem::Load& load) const {
+    if (load.boundary_value.empty() || load.boundary_value == "0") return;
+    for (const ddm::Subdomain& subdomain : _decomposition.subdomains)
+      if (subdomain.dirichlet > 0) return;
+    throw errors::Error(errors::Reason::invalid_argument,
+                        "nothing has a boundary value, as all of the boundary is a Neumann "
+                        "boundary; leave it out, or name fewer sides in the geometry's neumann")
+        .at("boundary_value");
   }
 
   /// Lets a traction act on the length of the curve of which an edge is a chord.

@@ -37,8 +37,9 @@ struct LoadOnTraces {
   /// Total force on each of Mesh::inclusions, point forces included; on_nodes is in `g` of
   /// `subdomains`.
   std::vector<contact::InclusionForce> inclusion_forces;
-  std::vector<std::string> warnings;  ///< integrals that reached a limit, with their error bound
-  LoadParts parts;                    ///< only if asked for
+  /// Integrals that reached a limit, with their error bound; PlacedForces::warnings.
+  std::vector<std::string> warnings;
+  LoadParts parts;  ///< only if asked for
 };
 
 /// (subdomain, int f phi_i of all its nodes, g_D in its Dirichlet nodes); each column is a load.
@@ -78,6 +79,8 @@ struct PlacedForces {
   std::vector<std::vector<NodalForce>> subdomains;  ///< one list per subdomain
   std::vector<contact::InclusionForce> inclusions;  ///< as LoadOnTraces::inclusion_forces
   std::vector<mesh::Point> points;                  ///< where one acts on the membrane itself
+  /// Forces and moments that move nothing, as what they act on is held or does not turn that way.
+  std::vector<std::string> warnings;
 };
 
 /// A point force on an edge of an inclusion, bonded or delaminated, acts on the inclusion;

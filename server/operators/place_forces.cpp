@@ -11,6 +11,7 @@
 #include "base/at.hpp"
 #include "contact/least_norm.hpp"
 #include "errors/errors.hpp"
+#include "mesh/joined_inclusions.hpp"
 #include "operators/find_points.hpp"
 
 namespace anticrack::operators {
@@ -19,9 +20,49 @@ namespace {
 using errors::Error;
 using errors::Reason;
 
+constexpr double of_rounding = 1e-12;
+
+std::string field_of(std::size_t point) { return fmt::format("point_forces[{}]", point); }
+
 Error refused(std::size_t index, const fem::PointForce& force, const std::string& why) {
   return Error(Reason::invalid_argument, "the point {} is {}", errors::shown(force.x, force.y), why)
-      .at(fmt::format("point_forces[{}].at", index));
+      .at(field_of(index) + ".at");
+}
+
+/// The free motions (A, Bx, By) of an inclusion, in columns; held ones are not among them.
+Eigen::Matrix3Xd free_motions(const ddm::Skeleton& skeleton, std::size_t inclusion) {
+  const ddm::RigidMotion& motion = skeleton.motions[inclusion];
+  std::map<std::int32_t, Eigen::Vector3d> columns;
+  const std::array<const ddm::Terms*, 3> parts{&motion.displacement, &motion.slope_x,
+                                               &motion.slope_y};
+  for (Eigen::Index k = 0; k < 3; ++k)
+    for (const auto& [unknown, factor] : *parts[at(k)])
+      for (const auto& [free, of_unknown] : skeleton.rows[at(unknown)].free)
+        columns.try_emplace(free, Eigen::Vector3d::Zero()).first->second[k] += factor * of_unknown;
+  Eigen::Matrix3Xd result(3, static_cast<Eigen::Index>(columns.size()));
+  Eigen::Index count = 0;
+  for (const auto& [free, column] : columns) result.col(count++) = column;
+  return result;
+}
+
+Eigen::Vector3d vector_of(const contact::RigidForce& force) {
+  return {force.force, force.moment_x, force.moment_y};
+}
+
+/// Warns of a force, or a moment, that does no work on the free motions of an inclusion.
+void warn_of_idle(const contact::RigidForce& given, std::size_t inclusion, const std::string& field,
+                  const mesh::Mesh& mesh, const ddm::Skeleton& skeleton,
+                  std::vector<std::string>& warnings) {
+  const Eigen::Vector3d force = vector_of(given);
+  const Eigen::Matrix3Xd motions = free_motions(skeleton, inclusion);
+  for (Eigen::Index k = 0; k < motions.cols(); ++k) {
+    const Eigen::Vector3d work = motions.col(k).cwiseProduct(force);
+    if (std::abs(work.sum()) > of_rounding * work.lpNorm<1>()) return;
+  }
+  if (force.isZero(0)) return;
+  warnings.push_back(fmt::format("{} moves nothing: the inclusion \"{}\" {}", field,
+                                 mesh.inclusions[inclusion],
+                                 motions.cols() > 0 ? "does not turn that way" : "is held"));
 }
 
 void place_points(const std::vector<fem::PointForce>& forces, const mesh::Mesh& mesh,
@@ -38,11 +79,13 @@ void place_points(const std::vector<fem::PointForce>& forces, const mesh::Mesh& 
     if (on != nullptr && on->inclusion[at(edge)] >= 0) {
       const auto j = at(on->inclusion[at(edge)]);
       const ddm::RigidMotion& motion = decomposition.skeleton.motions[j];
-      contact::RigidForce& on_inclusion = given[j];
-      on_inclusion.force += forces[i].value;
-      if (motion.slope_x.empty()) continue;
-      on_inclusion.moment_x += forces[i].value * (forces[i].x - motion.centre[0]);
-      on_inclusion.moment_y += forces[i].value * (forces[i].y - motion.centre[1]);
+      contact::RigidForce own{forces[i].value, 0, 0};
+      if (!motion.slope_x.empty()) {
+        own.moment_x = own.force * (forces[i].x - motion.centre[0]);
+        own.moment_y = own.force * (forces[i].y - motion.centre[1]);
+      }
+      warn_of_idle(own, j, field_of(i), mesh, decomposition.skeleton, placed.warnings);
+      add(given[j], own, 1);
       continue;
     }
     if (on != nullptr && on->kind[at(edge)] != mesh::Kind::glue) {
@@ -53,10 +96,14 @@ void place_points(const std::vector<fem::PointForce>& forces, const mesh::Mesh& 
     if (location.triangle < 0) throw refused(i, forces[i], "outside the membrane: move it inside");
     const ddm::Subdomain& subdomain = decomposition.subdomains[in];
     placed.points.push_back({forces[i].x, forces[i].y});
+    bool held = true;
     for (std::size_t a = 0; a < 3; ++a) {
-      placed.subdomains[in].push_back({subdomain.part.triangles[3 * at(location.triangle) + a],
-                                       location.weight[a] * forces[i].value});
+      const std::int32_t node = subdomain.part.triangles[3 * at(location.triangle) + a];
+      placed.subdomains[in].push_back({node, location.weight[a] * forces[i].value});
+      held = held && (location.weight[a] < of_rounding || at(node) >= subdomain.free());
     }
+    if (held)
+      placed.warnings.push_back(field_of(i) + " moves nothing: it acts where the boundary is held");
   }
 }
 
@@ -93,26 +140,6 @@ std::vector<RigidNode> nodes_of(std::size_t inclusion, const ddm::Decomposition&
     }
   }
   return nodes;
-}
-
-/// The free motions (A, Bx, By) of an inclusion, in columns; held ones are not among them.
-Eigen::Matrix3Xd free_motions(const ddm::Skeleton& skeleton, std::size_t inclusion) {
-  const ddm::RigidMotion& motion = skeleton.motions[inclusion];
-  std::map<std::int32_t, Eigen::Vector3d> columns;
-  const std::array<const ddm::Terms*, 3> parts{&motion.displacement, &motion.slope_x,
-                                               &motion.slope_y};
-  for (Eigen::Index k = 0; k < 3; ++k)
-    for (const auto& [unknown, factor] : *parts[at(k)])
-      for (const auto& [free, of_unknown] : skeleton.rows[at(unknown)].free)
-        columns.try_emplace(free, Eigen::Vector3d::Zero()).first->second[k] += factor * of_unknown;
-  Eigen::Matrix3Xd result(3, static_cast<Eigen::Index>(columns.size()));
-  Eigen::Index count = 0;
-  for (const auto& [free, column] : columns) result.col(count++) = column;
-  return result;
-}
-
-Eigen::Vector3d vector_of(const contact::RigidForce& force) {
-  return {force.force, force.moment_x, force.moment_y};
 }
 
 void place_on_inclusion(std::size_t inclusion, const contact::RigidForce& given,
@@ -153,19 +180,22 @@ void place_on_inclusion(std::size_t inclusion, const contact::RigidForce& given,
 }
 
 void add_moments(const fem::Load& load, const mesh::Mesh& mesh,
-                 const ddm::Decomposition& decomposition, std::vector<contact::RigidForce>& given) {
+                 const ddm::Decomposition& decomposition, PlacedForces& placed,
+                 std::vector<contact::RigidForce>& given) {
   for (const auto& [name, moment] : load.inclusion_moments) {
     const std::string field = "inclusion_moments[" + name + "]";
     const std::size_t j = index_of(mesh.inclusions, name, "inclusion", field);
     if (decomposition.skeleton.motions[j].slope_x.empty()) {
-      throw Error(Reason::invalid_argument,
-                  "the inclusion \"{}\" does not tilt, so a moment on it does nothing: let it "
-                  "tilt, or leave the moment out",
-                  name)
+      const std::string why = mesh::why_none_tilts(mesh)[j];
+      throw Error(Reason::invalid_argument, "a moment does nothing here: {}",
+                  why.empty() ? "the inclusion \"" + name +
+                                    "\" does not tilt; let it tilt, or leave the moment out"
+                              : why)
           .at(field);
     }
-    given[j].moment_x += moment.x;
-    given[j].moment_y += moment.y;
+    const contact::RigidForce own{0, moment.x, moment.y};
+    warn_of_idle(own, j, field, mesh, decomposition.skeleton, placed.warnings);
+    add(given[j], own, 1);
   }
 }
 
@@ -193,12 +223,20 @@ PlacedForces place_forces(const fem::Load& load, const mesh::Mesh& mesh,
   std::vector<contact::RigidForce> given(mesh.inclusions.size());
   for (const auto& [name, value] : load.inclusion_forces) {
     const std::string field = "inclusion_forces[" + name + "]";
-    given[index_of(mesh.inclusions, name, "inclusion", field)].force += value;
+    const std::size_t j = index_of(mesh.inclusions, name, "inclusion", field);
+    warn_of_idle({value, 0, 0}, j, field, mesh, decomposition.skeleton, placed.warnings);
+    given[j].force += value;
   }
-  add_moments(load, mesh, decomposition, given);
+  add_moments(load, mesh, decomposition, placed, given);
   place_points(load.point_forces, mesh, decomposition, placed, given);
   for (std::size_t j = 0; j < given.size(); ++j)
     if (!vector_of(given[j]).isZero(0)) place_on_inclusion(j, given[j], decomposition, placed);
+  constexpr std::size_t most_warnings = 20;
+  if (const std::size_t count = placed.warnings.size(); count > most_warnings) {
+    placed.warnings.resize(most_warnings);
+    placed.warnings.push_back(
+        fmt::format("and {} more forces that move nothing", count - most_warnings));
+  }
   return placed;
 }
 

@@ -8,6 +8,7 @@
 
 #include "ddm/neumann_boundary.hpp"
 #include "ddm_support.hpp"
+#include "mesh/joined_inclusions.hpp"
 #include "support/grid_mesh.hpp"
 
 namespace anticrack::ddm {
@@ -345,8 +346,15 @@ TEST(CrossPoint, ABodyOfTwoDirectionsThatTiltsHasTwoSlopes) {
   const Skeleton skeleton = cut_valid(grid).skeleton;
   EXPECT_EQ(skeleton.motions[0].slope_x.size(), 2U);
   EXPECT_EQ(skeleton.motions[1].displacement.size(), 3U);
+  EXPECT_THAT(mesh::why_none_tilts(grid.mesh), ::testing::ElementsAre("", ""));
   grid.mesh.motions[1].tilt = false;  // it keeps the direction of both
   EXPECT_TRUE(cut_valid(grid).skeleton.motions[0].slope_x.empty());
+  EXPECT_THAT(
+      why_none_tilts(grid.mesh),
+      ::testing::ElementsAre(::testing::HasSubstr("\"two\" does not tilt: let that one"), ""));
+  grid.mesh.motions[1].fixed = 1.0;
+  EXPECT_THAT(mesh::why_none_tilts(grid.mesh),
+              ::testing::ElementsAre(::testing::HasSubstr("\"two\" is held: do not hold"), ""));
   grid.mesh.motions = {{false, 1.0}, {false, 2.0}};
   expect_refused(grid.mesh, Reason::invalid_argument, "is fixed at 2, but shares nodes");
 }

@@ -4,8 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
+#include <string>
 
 #include "mesh/refine.hpp"
 #include "meshes/tension_laws.hpp"
@@ -41,6 +44,27 @@ TEST(Summary, CountsAndMeasures) {
     EXPECT_EQ(subdomain.triangle_count, 64U);
     EXPECT_NEAR(subdomain.area, 2, 1e-12);
   }
+}
+
+TEST(Summary, SaysOfTwentyInclusionsWhyTheyDoNotTilt) {
+  mesh::Mesh mesh = example();
+  const auto& edges = mesh.interfaces[0].inclusion;
+  const auto first = std::ranges::find(edges, 0) - edges.begin();
+  mesh.inclusions.clear();
+  for (std::int32_t j = 0; j < 23; ++j) {  // the last alone does not tilt
+    mesh.inclusions.push_back(std::to_string(j));
+    mesh.motions.push_back({j < 22, {}});
+    mesh::Interface own = mesh.interfaces[0];
+    for (auto& inclusion : own.inclusion) inclusion = -1;
+    own.inclusion[static_cast<std::size_t>(first)] = j;
+    mesh.interfaces.push_back(own);
+  }
+  mesh.interfaces.erase(mesh.interfaces.begin());
+  records::MeshRecord record;
+  summarize(mesh, record);
+  ASSERT_EQ(record.warnings.size(), 1U + 20 + 1);
+  EXPECT_THAT(record.warnings[1], ::testing::HasSubstr("\"0\" does not tilt"));
+  EXPECT_EQ(record.warnings.back(), "and 2 more such inclusions");
 }
 
 TEST(Summary, JoinsEdgesOfOneKindToSegments) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "operators/condense_loads.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,6 +28,9 @@ using errors::Reason;
 
 /// The square with an inclusion on (-0.5, 0.5) of y = 0, of which (0, 0.5) is bonded, and a crack
 /// on (0.5, 0.75); its right side is free.
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
 mesh::Mesh membrane() {
   StructuredOptions options;
   options.columns = 16;
@@ -193,6 +197,48 @@ TEST_F(CondenseLoad, ForcesOnAHeldInclusionActOnItsHolders) {
   EXPECT_EQ(placed.inclusions.at(0).on_nodes.force, 0);
   EXPECT_EQ(placed.inclusions.at(0).on_holders.force, 7);
   EXPECT_EQ(placed_sum(placed), 0);
+  EXPECT_THAT(placed.warnings,
+              ElementsAre("inclusion_forces[stiffener] moves nothing: the inclusion \"stiffener\" "
+                          "is held"));
+}
+
+TEST_F(CondenseLoad, WarnsOfWhatMovesNothing) {
+  fem::Load load;
+  load.point_forces = {{0.3, -0.7, 1.0}, {-1, 0.3, 1.0}, {-0.2, 0, 1.0}};
+  const std::string on_boundary =
+      "point_forces[1] moves nothing: it acts where the boundary is held";
+  EXPECT_THAT(place_forces(load, mesh, decomposition).warnings, ElementsAre(on_boundary));
+  EXPECT_THAT(condense(load).warnings, ElementsAre(on_boundary));
+  mesh.motions = {{true, {}}};
+  decomposition = ddm::cut(mesh);
+  load.inclusion_moments = {{"stiffener", {0, 1}}};  // across a line along x
+  EXPECT_THAT(place_forces(load, mesh, decomposition).warnings,
+              ElementsAre(HasSubstr("inclusion_moments[stiffener] moves nothing: the inclusion "
+                                    "\"stiffener\" does not turn that way"),
+                          on_boundary));
+  mesh.motions = {{false, 0.25}};
+  decomposition = ddm::cut(mesh);
+  load.inclusion_moments.clear();
+  load.point_forces.assign(23, {-0.2, 0, 1.0});
+  const std::vector<std::string> many = place_forces(load, mesh, decomposition).warnings;
+  ASSERT_EQ(many.size(), 21U);
+  EXPECT_EQ(many.back(), "and 3 more forces that move nothing");
+}
+
+TEST_F(CondenseLoad, RefusesABoundaryValueThatNothingTakes) {
+  mesh.dirichlet.clear();
+  mesh.motions = {{false, 0.25}};
+  decomposition = ddm::cut(mesh);
+  operators.clear();
+  for (const ddm::Subdomain& subdomain : decomposition.subdomains)
+    operators.emplace_back(subdomain);
+  fem::Load load;
+  load.boundary_value = "0";
+  EXPECT_NO_THROW(condense(load));
+  load.boundary_value = "x";
+  const auto error = error_of([&] { condense(load); });
+  ASSERT_TRUE(error);
+  EXPECT_EQ(error->fields().at(0).field, "boundary_value");
 }
 
 TEST_F(CondenseLoad, RefusesAMomentOnWhatDoesNotTilt) {
@@ -201,7 +247,7 @@ TEST_F(CondenseLoad, RefusesAMomentOnWhatDoesNotTilt) {
   const auto error = error_of([&] { condense(load); });
   ASSERT_TRUE(error);
   EXPECT_EQ(error->fields().at(0).field, "inclusion_moments[stiffener]");
-  EXPECT_NE(std::string(error->what()).find("does not tilt"), std::string::npos);
+  EXPECT_NE(std::string(error->what()).find("does not tilt; let it tilt"), std::string::npos);
 }
 
 TEST_F(CondenseLoad, SharesAPointForceAmongTheCornersAroundIt) {
