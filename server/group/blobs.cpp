@@ -59,17 +59,15 @@ void write_blob(postgres::Transaction& transaction, store::FileKind kind, const 
 std::vector<std::string> remove_unreferenced(postgres::Transaction& transaction,
                                              std::vector<std::string> names) {
   std::erase(names, "");
-  std::vector<std::string> removed;
-  if (names.empty()) return removed;
+  if (names.empty()) return {};
   // Who refers to a blob anew holds its row. So the row is taken first, and the second statement
   // sees what others have committed until then.
   transaction.run("SELECT FROM blobs WHERE sha256 = ANY ($1) ORDER BY sha256 FOR UPDATE", {names});
-  const Result rows =
-      transaction.run(std::string("DELETE FROM blobs b WHERE sha256 = ANY ($1) AND ") +
-                          unreferenced + " RETURNING sha256",
-                      {names});
-  for (std::size_t row = 0; row < rows.rows(); ++row) removed.push_back(rows.text(row, 0));
-  return removed;
+  return transaction
+      .run(std::string("DELETE FROM blobs b WHERE sha256 = ANY ($1) AND ") + unreferenced +
+               " RETURNING sha256",
+           {names})
+      .texts();
 }
 
 void hold_uploads(postgres::Transaction& transaction, const std::string& owner,
@@ -86,7 +84,7 @@ std::uint64_t read_blob(postgres::Pool& pool, store::FileKind kind, const std::s
       postgres::query(pool, "SELECT bytes FROM blobs WHERE sha256 = $1 AND kind = $2",
                       {name, static_cast<int>(kind)});
   if (blob.empty()) return 0;
-  const auto size = static_cast<std::uint64_t>(blob.integer(0, 0));
+  const std::uint64_t size = blob.count(0, 0);
   for (std::uint64_t at = 0; at < size; at += piece_bytes) {
     stop::look("reading from the database");
     // With the blob in one statement: one that was removed meanwhile has no damage.

@@ -40,10 +40,8 @@ class Check {
             "odd FROM portions WINDOW w AS (PARTITION BY job ORDER BY n)) p WHERE odd "
             "UNION ALL SELECT sha256 || ' belongs to no record' FROM blobs b WHERE ") +
         unreferenced);
-    for (std::size_t row = 0; row < flawed.rows(); ++row)
-      found.flaws.push_back(flawed.text(row, 0));
-    found.records +=
-        static_cast<std::size_t>(_transaction.run("SELECT count(*) FROM uploads").integer(0, 0));
+    std::ranges::move(flawed.texts(), std::back_inserter(found.flaws));
+    found.records += _transaction.run("SELECT count(*) FROM uploads").count(0, 0);
     look_at_portions();
     look_at_blobs();
   }
@@ -86,8 +84,7 @@ class Check {
       const Result body =
           _transaction.run("SELECT body, request FROM portions WHERE job = $1 AND n = $2",
                            {rows.text(row, 0), rows.integer(row, 1)});
-      if (rows_in(body.text(0, 0), body.text(0, 1)) !=
-          static_cast<std::uint64_t>(rows.integer(row, 2)))
+      if (rows_in(body.text(0, 0), body.text(0, 1)) != rows.count(row, 2))
         found.flaws.push_back(rows.text(row, 3));
     }
   }
@@ -120,8 +117,7 @@ class Check {
         last = rows.text(row, 0);
         attempt(last + " in the database: ", [&] {
           if (rows.integer(row, 3) == 0) throw Error(Reason::storage, "pieces are missing");
-          look_at_blob(last, static_cast<FileKind>(rows.integer(row, 1)),
-                       static_cast<std::uint64_t>(rows.integer(row, 2)));
+          look_at_blob(last, static_cast<FileKind>(rows.integer(row, 1)), rows.count(row, 2));
         });
       }
     }

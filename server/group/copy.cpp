@@ -67,8 +67,8 @@ class Copy {
     write_blob(_to, kind, name, size, read);
   }
 
-  /// Returns the first bytes.
-  std::array<std::byte, 16> copy_file(FileKind kind, const std::string& name) {
+  /// Returns whether it is a .msh.
+  bool copy_file(FileKind kind, const std::string& name) {
     const std::string path = store::folder_of(_data, kind) + "/" + name;
     const base::Descriptor file = store::open_to_read(path);
     if (!file) throw Error(Reason::storage, "{} is missing", path);
@@ -77,9 +77,7 @@ class Copy {
       store::read_at(file, path, offset, to);
     };
     copy_blob(kind, name, size, read);
-    std::array<std::byte, 16> start{};
-    read(0, std::span(start).first(std::min<std::uint64_t>(start.size(), size)));
-    return start;
+    return store::is_msh(file, path);
   }
 
   void copy_meshes() {
@@ -101,7 +99,7 @@ class Copy {
     Statement from = _source.prepare("SELECT sha256, owner, created FROM uploads");
     for (; from.step(); _progress(++_records, _bytes)) {
       const std::string sha256 = from.text(0);
-      const bool is_array = !store::begins_like_msh(copy_file(FileKind::upload, sha256));
+      const bool is_array = !copy_file(FileKind::upload, sha256);
       _to.run("INSERT INTO uploads (owner, sha256, created, is_array) VALUES ($1, $2, $3, $4)",
               {to_column(from.text(1)), sha256, from.integer(2), is_array});
     }

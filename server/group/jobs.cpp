@@ -23,22 +23,15 @@ JobRecord Store::create(const JobRecord& record, const std::string& fingerprint)
   return _queue.create_here(record, fingerprint);
 }
 
-std::optional<JobRecord> Store::created_before(const std::string& owner,
-                                               const std::string& request_id,
-                                               const std::string& fingerprint) const {
-  const auto row = same_request(
+std::optional<store::Row> Store::row_of_request(const std::string& owner,
+                                                const std::string& request_id,
+                                                const std::string& fingerprint) const {
+  return same_request(
       postgres::query(_pool, select_request, {to_column(owner), to_column(request_id)}), request_id,
       fingerprint);
-  return row ? std::optional(store::job_of(*row)) : std::nullopt;
 }
 
 void Store::put(const JobRecord& record) { _queue.put(record, store::encode(record)); }
-
-std::shared_ptr<store::Spool> Store::new_spool() {
-  return std::make_shared<store::Spool>(
-      [this] { return _results.nameless(); },
-      [this](std::uint64_t bytes) { return _usage.reserve(bytes, 0); });
-}
 
 void Store::finish(const JobRecord& record, std::shared_ptr<const records::BlockSource> result) {
   const std::string bytes = store::encode(record);
@@ -62,24 +55,9 @@ void Store::finish(const JobRecord& record, std::shared_ptr<const records::Block
   });
 }
 
-std::optional<JobRecord> Store::job(const std::string& id) const {
-  const std::optional<store::Row> found = row("jobs", id);
-  return found ? std::optional(store::job_of(*found)) : std::nullopt;
-}
-
-std::vector<JobRecord> Store::jobs(const store::Page& asked) const {
-  return store::jobs_of(page("jobs", asked));
-}
-
-std::vector<JobRecord> Store::unfinished() const {
-  const Result rows = postgres::query(_pool, std::string("SELECT ") + row_columns +
-                                                 " FROM jobs WHERE ended IS NULL ORDER BY number");
-  std::vector<JobRecord> records;
-  for (std::size_t i = 0; i < rows.rows(); ++i) {
-    JobRecord record = store::job_of(row_at(rows, i));
-    if (!records::ended(record.state)) records.push_back(std::move(record));
-  }
-  return records;
+std::vector<store::Row> Store::unfinished_rows() const {
+  return rows_at(postgres::query(_pool, std::string("SELECT ") + row_columns +
+                                            " FROM jobs WHERE ended IS NULL ORDER BY number"));
 }
 
 bool Store::set_running(bool /*running*/) { return false; }  // the queue counts crashes
@@ -88,12 +66,10 @@ std::vector<store::EndedJob> Store::ended() const {
   const Result rows = postgres::query(_pool,
                                       "SELECT id, ended, result_bytes, owner FROM jobs "
                                       "WHERE ended IS NOT NULL ORDER BY ended, number");
-  std::vector<store::EndedJob> jobs;
-  for (std::size_t row = 0; row < rows.rows(); ++row)
-    jobs.push_back({rows.text(row, 0), store::time_of(rows.integer(row, 1)),
-                    static_cast<std::uint64_t>(rows.integer(row, 2)),
-                    of_column(rows.view(row, 3))});
-  return jobs;
+  return rows.each([&](std::size_t row) {
+    return store::EndedJob{rows.text(row, 0), store::time_of(rows.integer(row, 1)),
+                           rows.count(row, 2), of_column(rows.view(row, 3))};
+  });
 }
 
 std::shared_ptr<const records::BlockSource> Store::result(const std::string& job) const {
@@ -112,7 +88,7 @@ std::shared_ptr<const records::BlockSource> Store::result(const std::string& job
     throw Error(Reason::storage, "the result in {} is damaged: delete its job and run it again",
                 place);
   }
-  const auto size = static_cast<std::uint64_t>(found.integer(0, 5));
+  const std::uint64_t size = found.count(0, 5);
   if (size <= piece_bytes) return store::open_result(found.text(0, 6), place);
   return store::open_result(reader_of_blob(_pool, found.text(0, 4), size), size, place);
 }
@@ -123,11 +99,7 @@ void Store::expire(const std::string& job, records::Clock::time_point now) {
         std::string("SELECT ") + row_columns + ", result FROM jobs WHERE id = $1 FOR UPDATE",
         {job});
     if (found.empty()) throw store::unknown("jobs", job);
-    JobRecord record = store::read_job(row_at(found, 0));
-    if (!records::ended(record.state))
-      throw Error(Reason::in_use, "jobs/{} has not ended: cancel it first", job);
-    record.expired = now;
-    record.result_bytes = 0;
+    const JobRecord record = store::expired_job(row_at(found, 0), now);
     const std::string bytes = store::encode(record);
     transaction.run(
         "UPDATE jobs SET record = $2, checksum = $3, result = NULL, result_bytes = 0 WHERE id = $1",

@@ -9,8 +9,6 @@
 
 namespace anticrack::group {
 
-using errors::Error;
-using errors::Reason;
 using postgres::Result;
 using postgres::Value;
 
@@ -54,17 +52,6 @@ void Store::put(const records::MeshRecord& record, const mesh::Mesh& triangulati
   save(record, &encoded);
 }
 
-std::optional<records::MeshRecord> Store::mesh(const std::string& id) const {
-  const std::optional<store::Row> found = row("meshes", id);
-  return found ? std::optional(store::mesh_of(*found)) : std::nullopt;
-}
-
-std::vector<records::MeshRecord> Store::meshes(const store::Page& asked) const {
-  std::vector<records::MeshRecord> found;
-  for (const store::Row& row : page("meshes", asked)) found.push_back(store::mesh_of(row));
-  return found;
-}
-
 std::size_t Store::mesh_count() const {
   return static_cast<std::size_t>(
       postgres::query(_pool, "SELECT count(*) FROM meshes").integer(0, 0));
@@ -74,22 +61,13 @@ void Store::erase_mesh(const std::string& id) {
   for (const std::string& name : erase("meshes", "blob", id)) _triangulations.forget(name);
 }
 
-std::shared_ptr<const mesh::Mesh> Store::triangulation(const std::string& sha256) const {
-  if (!store::is_sha256(sha256)) return nullptr;
-  if (auto held = _triangulations.find(sha256)) return held;
-  std::vector<std::byte> bytes;
+std::optional<mesh::Bytes> Store::encoded_mesh(const std::string& sha256) const {
+  mesh::Bytes bytes;
   const auto take = [&](std::span<const std::byte> piece) {
     bytes.insert(bytes.end(), piece.begin(), piece.end());
   };
-  if (read_blob(_pool, store::FileKind::mesh, sha256, take) == 0) return nullptr;
-  if (store::sha256_of(bytes) != sha256) {
-    throw Error(Reason::storage,
-                "the triangulation {} in the database is damaged: delete its mesh and make it "
-                "again",
-                sha256);
-  }
-  return _triangulations.share(sha256,
-                               std::make_shared<const mesh::Mesh>(mesh::decode_mesh(bytes)));
+  if (read_blob(_pool, store::FileKind::mesh, sha256, take) == 0) return std::nullopt;
+  return bytes;
 }
 
 }  // namespace anticrack::group

@@ -60,10 +60,6 @@ DELETE FROM portions p WHERE job = $1 AND (request = '' OR n = ANY ($2)) AND NOT
   WHERE (v.n, v.first, v.count, v.request) = (p.n, p.first, p.count, p.request))
 )";
 
-std::uint64_t unsigned_at(const Result& rows, std::size_t row, int column) {
-  return static_cast<std::uint64_t>(rows.integer(row, column));
-}
-
 }  // namespace
 
 void Queue::spread(const std::string& job, int attempt,
@@ -103,11 +99,10 @@ std::optional<records::JobRecord> Queue::to_help(const std::vector<std::string>&
 
 std::vector<store::Portion> Queue::take_portions(const std::string& job, std::size_t count) {
   const Result rows = query(_pool, take_statement, {job, _epoch.load(), count});
-  std::vector<store::Portion> portions;
-  for (std::size_t row = 0; row < rows.rows(); ++row)
-    portions.push_back({unsigned_at(rows, row, 0), unsigned_at(rows, row, 1),
-                        unsigned_at(rows, row, 2), rows.text(row, 3)});
-  return portions;
+  return rows.each([&](std::size_t row) {
+    return store::Portion{rows.count(row, 0), rows.count(row, 1), rows.count(row, 2),
+                          rows.text(row, 3)};
+  });
 }
 
 void Queue::solved(const std::string& job, const store::SolvedPortion& portion) {
@@ -122,10 +117,9 @@ std::vector<store::SolvedPortion> Queue::solved_portions(
                             "SELECT n, body FROM portions WHERE job = $1 AND body IS NOT NULL "
                             "AND n = ANY ($2) ORDER BY n LIMIT $3",
                             {job, missing, bodies_a_statement});
-  std::vector<store::SolvedPortion> portions;
-  for (std::size_t row = 0; row < rows.rows(); ++row)
-    portions.push_back({unsigned_at(rows, row, 0), rows.text(row, 1)});
-  return portions;
+  return rows.each([&](std::size_t row) {
+    return store::SolvedPortion{rows.count(row, 0), rows.text(row, 1)};
+  });
 }
 
 void Queue::give_back_portions(const std::string& job) {

@@ -140,10 +140,8 @@ JobRecord Queue::insert(const JobRecord& record, const std::string& fingerprint,
         "coalesce(sum(bytes) FILTER (WHERE owner = $1), 0)::bigint, "
         "coalesce(sum(cases) FILTER (WHERE mesh = $2), 0)::bigint FROM queue",
         {owner, mesh});
-    const auto number = [&](int column) {
-      return static_cast<std::uint64_t>(held.integer(0, column));
-    };
-    admit({number(0), number(1), number(2), number(3), number(4)});
+    admit(
+        {held.count(0, 0), held.count(0, 1), held.count(0, 2), held.count(0, 3), held.count(0, 4)});
     transaction.run(
         "INSERT INTO jobs (id, owner, request, fingerprint, uploads, record, checksum) "
         "VALUES ($1, $2, $3, $4, $5, $6, $7)",
@@ -209,9 +207,9 @@ Queue::News Queue::beat(const std::vector<std::string>& known) {
                   .affected() == 0;
   if (news.lost) enter(false);
   const Result rows = query(_pool, "SELECT epoch, beats FROM servers WHERE NOT dead");
-  std::vector<Beat> read;
-  for (std::size_t row = 0; row < rows.rows(); ++row)
-    read.push_back({rows.integer(row, 0), rows.integer(row, 1)});
+  const std::vector<Beat> read = rows.each([&](std::size_t row) {
+    return Beat{rows.integer(row, 0), rows.integer(row, 1)};
+  });
   for (const Beat& one : _leases.silent(read, std::chrono::steady_clock::now()))
     query(_pool, "UPDATE servers SET dead = true WHERE epoch = $1 AND beats = $2",
           {one.epoch, one.beats});
@@ -231,10 +229,9 @@ Queue::News Queue::beat(const std::vector<std::string>& known) {
                  "AND NOT EXISTS (SELECT FROM servers s WHERE s.epoch = p.runner AND NOT s.dead)")
                .affected();
   if (freed > 0) notify_queue();
-  const Result flagged =
-      query(_pool, "SELECT job FROM queue WHERE runner = $1 AND cancelled", {_epoch.load()});
-  for (std::size_t row = 0; row < flagged.rows(); ++row)
-    news.cancelled.push_back(flagged.text(row, 0));
+  news.cancelled =
+      query(_pool, "SELECT job FROM queue WHERE runner = $1 AND cancelled", {_epoch.load()})
+          .texts();
   if (_beats++ % beats_between_cleaning != 0) return news;
   query(_pool,
         "DELETE FROM events e WHERE written < now() - $1::text::interval AND NOT EXISTS "
@@ -298,21 +295,17 @@ std::vector<EventRow> Queue::events(const std::vector<store::EventCursor>& curso
             "CROSS JOIN LATERAL (SELECT job, last, body FROM events e WHERE e.job = c.job "
             "AND e.last > c.after ORDER BY e.last LIMIT 500) e ORDER BY e.job, e.last LIMIT 2000",
             {jobs, after});
-  std::vector<EventRow> found;
-  for (std::size_t row = 0; row < rows.rows(); ++row)
-    found.push_back({rows.text(row, 0), 0, static_cast<std::uint64_t>(rows.integer(row, 1)),
-                     rows.text(row, 2)});
-  return found;
+  return rows.each([&](std::size_t row) {
+    return EventRow{rows.text(row, 0), 0, rows.count(row, 1), rows.text(row, 2)};
+  });
 }
 
 std::vector<std::string> Queue::ended(const std::vector<std::string>& jobs) const {
-  const Result rows = query(
-      _pool,
-      "SELECT id FROM unnest($1::text[]) id WHERE NOT EXISTS (SELECT FROM queue WHERE job = id)",
-      {jobs});
-  std::vector<std::string> found;
-  for (std::size_t row = 0; row < rows.rows(); ++row) found.push_back(rows.text(row, 0));
-  return found;
+  return query(_pool,
+               "SELECT id FROM unnest($1::text[]) id WHERE NOT EXISTS "
+               "(SELECT FROM queue WHERE job = id)",
+               {jobs})
+      .texts();
 }
 
 void Queue::put(const JobRecord& record, const std::string& bytes) {

@@ -53,6 +53,10 @@ store::Row row_at(const postgres::Result& rows, std::size_t row) {
   return {rows.text(row, 0), std::move(owner), intact, rows.text(row, 3), {}};
 }
 
+std::vector<store::Row> rows_at(const postgres::Result& rows) {
+  return rows.each([&](std::size_t row) { return row_at(rows, row); });
+}
+
 const std::string select_request = std::string("SELECT ") + row_columns +
                                    ", fingerprint FROM jobs "
                                    "WHERE owner = $1 AND request = $2 AND request <> ''";

@@ -25,6 +25,7 @@ std::int64_t row_checksum(std::string_view id, std::string_view owner, std::stri
 /// SQL: the columns of a row, in this order.
 constexpr const char* row_columns = "id, owner, checksum, record";
 store::Row row_at(const postgres::Result& rows, std::size_t row);
+std::vector<store::Row> rows_at(const postgres::Result& rows);
 
 /// SQL: row_columns and fingerprint of the job that this owner ($1) made with this request id ($2).
 extern const std::string select_request;

@@ -60,27 +60,28 @@ postgres::Settings settings_of(const std::string& url) {
 }
 
 Store::Store(const store::StoreOptions& options)
-    : _pool([&] {
+    : CommonStore(own_folder(options.folder), options.disk_budget),
+      _pool([&] {
         postgres::Settings settings = settings_of(options.url);
         settings.answered = options.answered;
         return settings;
       }()),
-      _usage(options.disk_budget),
-      _results(own_folder(options.folder), store::FileKind::result, _usage),
-      _uploads(options.folder, store::FileKind::upload, _usage),
       _queue((postgres::make_tables(_pool, tables()), _pool), name_of(options.folder)) {
   for (store::Files* files : {&_results, &_uploads})
     for (const std::string& name : files->sweep([](const std::string&) { return false; }))
       files->remove(name);
 }
 
-std::optional<store::Row> Store::row(const char* table, const std::string& id) const {
+std::optional<store::Row> Store::row(store::FileKind kind, const std::string& id) const {
   const Result rows = postgres::query(
-      _pool, fmt::format("SELECT {} FROM {} WHERE id = $1", row_columns, table), {id});
+      _pool,
+      fmt::format("SELECT {} FROM {} WHERE id = $1", row_columns, store::table_of(kind).name),
+      {id});
   return rows.empty() ? std::nullopt : std::optional(row_at(rows, 0));
 }
 
-std::vector<store::Row> Store::page(const char* table, const store::Page& page) const {
+std::vector<store::Row> Store::page(store::FileKind kind, const store::Page& page) const {
+  const std::string& table = store::table_of(kind).name;
   const std::string owner = to_column(page.owner.value_or(""));
   std::int64_t last = page.oldest_first ? 0 : std::numeric_limits<std::int64_t>::max();
   if (!page.after.empty()) {
@@ -96,11 +97,8 @@ std::vector<store::Row> Store::page(const char* table, const store::Page& page) 
                   row_columns, table, page.oldest_first ? ">" : "<",
                   page.owner ? "AND owner = $3" : "", page.oldest_first ? "" : "DESC");
   const std::size_t count = std::min(page.count, most);
-  const Result found = page.owner ? postgres::query(_pool, select, {last, count, owner})
-                                  : postgres::query(_pool, select, {last, count});
-  std::vector<store::Row> rows;
-  for (std::size_t i = 0; i < found.rows(); ++i) rows.push_back(row_at(found, i));
-  return rows;
+  return rows_at(page.owner ? postgres::query(_pool, select, {last, count, owner})
+                            : postgres::query(_pool, select, {last, count}));
 }
 
 std::vector<std::string> Store::erase(const char* table, const char* blob, const std::string& id) {
@@ -121,7 +119,7 @@ store::Usage Store::usage() const {
   const Result sums =
       postgres::query(_pool, "SELECT kind, sum(bytes)::bigint FROM blobs GROUP BY kind");
   for (std::size_t row = 0; row < sums.rows(); ++row) {
-    const auto bytes = static_cast<std::uint64_t>(sums.integer(row, 1));
+    const std::uint64_t bytes = sums.count(row, 1);
     switch (static_cast<store::FileKind>(sums.integer(row, 0))) {
       case store::FileKind::mesh:
         usage.meshes = bytes;
@@ -134,11 +132,10 @@ store::Usage Store::usage() const {
         break;
     }
   }
-  usage.database = static_cast<std::uint64_t>(
-      postgres::query(_pool,
-                      "SELECT greatest(0, pg_database_size(current_database()) - "
-                      "pg_total_relation_size('pieces'))")
-          .integer(0, 0));
+  usage.database = postgres::query(_pool,
+                                   "SELECT greatest(0, pg_database_size(current_database()) - "
+                                   "pg_total_relation_size('pieces'))")
+                       .count(0, 0);
   return usage;
 }
 
@@ -147,14 +144,10 @@ std::vector<store::OwnerUsage> Store::owners() const {
       postgres::query(_pool,
                       "SELECT owner, count(*), count(*) FILTER (WHERE ended IS NULL), "
                       "sum(result_bytes)::bigint FROM jobs GROUP BY owner");
-  const auto number = [&](std::size_t row, int column) {
-    return static_cast<std::uint64_t>(rows.integer(row, column));
-  };
-  std::vector<store::OwnerUsage> owners;
-  for (std::size_t row = 0; row < rows.rows(); ++row)
-    owners.push_back(
-        {of_column(rows.view(row, 0)), number(row, 1), number(row, 2), number(row, 3)});
-  return owners;
+  return rows.each([&](std::size_t row) {
+    return store::OwnerUsage{of_column(rows.view(row, 0)), rows.count(row, 1), rows.count(row, 2),
+                             rows.count(row, 3)};
+  });
 }
 
 std::optional<store::GroupState> Store::group() const {
@@ -165,13 +158,10 @@ std::optional<store::GroupState> Store::group() const {
       "(SELECT count(*) FILTER (WHERE NOT dead), count(*) FILTER (WHERE dead) FROM servers) s, "
       "(SELECT count(*) FILTER (WHERE runner IS NULL), count(runner), coalesce((extract(epoch "
       "FROM now() - min(queued) FILTER (WHERE runner IS NULL)) * 1000)::bigint, 0) FROM queue) q");
-  const auto number = [&](int column) {
-    return static_cast<std::uint64_t>(row.integer(0, column));
-  };
-  const double wait = static_cast<double>(row.integer(0, 4)) * 1e-3;
-  return store::GroupState{number(0), number(1),
-                           number(2), number(3),
-                           wait,      static_cast<double>(row.integer(0, 5) - now) * 1e-9};
+  const double wait = static_cast<double>(row.integer(0, 4)) * 1e-3,
+               offset = static_cast<double>(row.integer(0, 5) - now) * 1e-9;
+  return store::GroupState{row.count(0, 0), row.count(0, 1), row.count(0, 2), row.count(0, 3), wait,
+                           offset};
 }
 
 }  // namespace anticrack::group

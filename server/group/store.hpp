@@ -13,12 +13,7 @@
 
 #include "group/queue.hpp"
 #include "postgres/pool.hpp"
-#include "store/disk_usage.hpp"
-#include "store/files.hpp"
-#include "store/rows.hpp"
-#include "store/store.hpp"
-#include "store/triangulations.hpp"
-#include "store/upload_parts.hpp"
+#include "store/common_store.hpp"
 
 namespace anticrack::group {
 
@@ -26,7 +21,7 @@ namespace anticrack::group {
 /// the address has a password, which the command line shows to others.
 postgres::Settings settings_of(const std::string& url);
 
-class Store final : public store::Store {
+class Store final : public store::CommonStore {
  public:
   /// Makes the tables where there are none. Throws errors::Error (storage): the database cannot be
   /// reached, lets nobody in or is of another version, or the folder is a store of its own.
@@ -34,24 +29,14 @@ class Store final : public store::Store {
 
   void put(const records::MeshRecord& record) override;
   void put(const records::MeshRecord& record, const mesh::Mesh& triangulation) override;
-  std::optional<records::MeshRecord> mesh(const std::string& id) const override;
-  std::vector<records::MeshRecord> meshes(const store::Page& page) const override;
   std::size_t mesh_count() const override;
   void erase_mesh(const std::string& id) override;
-  std::shared_ptr<const mesh::Mesh> triangulation(const std::string& sha256) const override;
 
   records::JobRecord create(const records::JobRecord& record,
                             const std::string& fingerprint) override;
-  std::optional<records::JobRecord> created_before(const std::string& owner,
-                                                   const std::string& request_id,
-                                                   const std::string& fingerprint) const override;
   void put(const records::JobRecord& record) override;
-  std::shared_ptr<store::Spool> new_spool() override;
   void finish(const records::JobRecord& record,
               std::shared_ptr<const records::BlockSource> result) override;
-  std::optional<records::JobRecord> job(const std::string& id) const override;
-  std::vector<records::JobRecord> jobs(const store::Page& page) const override;
-  std::vector<records::JobRecord> unfinished() const override;
   bool set_running(bool running) override;
   std::vector<store::EndedJob> ended() const override;
   std::shared_ptr<const records::BlockSource> result(const std::string& job) const override;
@@ -60,13 +45,8 @@ class Store final : public store::Store {
 
   std::optional<std::string> upload_path(const std::string& sha256,
                                          const std::string& owner) const override;
-  std::string new_upload_path(std::uint64_t bytes) override;
   records::Clock::time_point keep_uploads(const std::vector<store::Upload>& uploads,
                                           const std::string& owner) override;
-  std::optional<store::UploadRecord> upload(const std::string& sha256,
-                                            const std::string& owner) const override;
-  std::vector<store::UploadRecord> uploads(const std::string& owner, const std::string& after,
-                                           std::size_t count) const override;
   void erase_upload(const std::string& sha256, const std::string& owner) override;
   std::size_t expire_uploads(records::Clock::time_point before) override;
 
@@ -78,11 +58,15 @@ class Store final : public store::Store {
 
  private:
   void save(const records::MeshRecord& record, const std::vector<std::byte>* triangulation);
-  std::optional<store::Row> row(const char* table, const std::string& id) const;
-  std::vector<store::Row> page(const char* table, const store::Page& page) const;
+  std::optional<store::Row> row(store::FileKind kind, const std::string& id) const override;
+  std::vector<store::Row> page(store::FileKind kind, const store::Page& page) const override;
+  std::optional<store::Row> row_of_request(const std::string& owner, const std::string& request_id,
+                                           const std::string& fingerprint) const override;
+  std::vector<store::Row> unfinished_rows() const override;
+  std::optional<mesh::Bytes> encoded_mesh(const std::string& sha256) const override;
   std::vector<store::UploadRecord> uploads_where(const char* comparison, const std::string& owner,
                                                  const std::string& sha256,
-                                                 std::size_t count) const;
+                                                 std::size_t count) const override;
   /// Deletes a row and the blob in that column, if no other row has it; returns the blob's name
   /// then. Throws not_found.
   std::vector<std::string> erase(const char* table, const char* blob, const std::string& id);
@@ -90,12 +74,7 @@ class Store final : public store::Store {
   void remove_copies();
 
   mutable postgres::Pool _pool;
-  mutable store::DiskUsage _usage;  ///< of the data folder
-  store::Files _results;
-  mutable store::Files _uploads;
   std::mutex _removing;  ///< of copies in _uploads: one thread at a time
-  store::UploadParts _parts;
-  mutable store::Triangulations _triangulations;
   Queue _queue;
 };
 

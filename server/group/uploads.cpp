@@ -24,12 +24,6 @@ const std::string needed =
     "AND u.sha256 = ANY (j.uploads)) OR EXISTS (SELECT FROM meshes m WHERE m.owner = u.owner "
     "AND m.upload = u.sha256 AND m.upload <> '' AND m.sha256 = ''))";
 
-std::vector<std::string> names_of(const Result& rows) {
-  std::vector<std::string> names;
-  for (std::size_t row = 0; row < rows.rows(); ++row) names.push_back(rows.text(row, 0));
-  return names;
-}
-
 }  // namespace
 
 std::optional<std::string> Store::upload_path(const std::string& sha256,
@@ -56,10 +50,6 @@ std::optional<std::string> Store::upload_path(const std::string& sha256,
   return path;
 }
 
-std::string Store::new_upload_path(std::uint64_t bytes) {
-  return _parts.begin(_uploads, [&] { return _usage.reserve(bytes, 0); });
-}
-
 records::Clock::time_point Store::keep_uploads(const std::vector<store::Upload>& uploads,
                                                const std::string& owner) {
   for (const store::Upload& upload : uploads) store::require_part(upload, _uploads);
@@ -73,13 +63,11 @@ records::Clock::time_point Store::keep_uploads(const std::vector<store::Upload>&
       };
       if (!file) throw Error(Reason::storage, "{} is gone: upload it again", upload.path);
       write_blob(transaction, store::FileKind::upload, upload.sha256, size, read);
-      std::array<std::byte, 16> buffer{};
-      const std::span start = std::span(buffer).first(std::min<std::uint64_t>(buffer.size(), size));
-      read(0, start);
       transaction.run(
           "INSERT INTO uploads (owner, sha256, created, is_array) VALUES ($1, $2, $3, $4) "
           "ON CONFLICT (owner, sha256) DO UPDATE SET created = excluded.created",
-          {to_column(owner), upload.sha256, store::to_disk(now), !store::begins_like_msh(start)});
+          {to_column(owner), upload.sha256, store::to_disk(now),
+           !store::is_msh(file, upload.path)});
     }
   });
   for (const store::Upload& upload : uploads) {
@@ -105,22 +93,10 @@ std::vector<store::UploadRecord> Store::uploads_where(const char* comparison,
                   "WHERE owner = $1 AND sha256 COLLATE \"C\" ") +
           comparison + " $2 ORDER BY sha256 COLLATE \"C\" LIMIT $3",
       {to_column(owner), to_column(sha256), count});
-  std::vector<store::UploadRecord> found;
-  for (std::size_t row = 0; row < rows.rows(); ++row)
-    found.push_back({rows.text(row, 0), owner, store::time_of(rows.integer(row, 1)),
-                     static_cast<std::uint64_t>(rows.integer(row, 2)), rows.integer(row, 3) != 0});
-  return found;
-}
-
-std::optional<store::UploadRecord> Store::upload(const std::string& sha256,
-                                                 const std::string& owner) const {
-  const std::vector<store::UploadRecord> found = uploads_where("=", owner, sha256, 1);
-  return found.empty() ? std::nullopt : std::optional(found.front());
-}
-
-std::vector<store::UploadRecord> Store::uploads(const std::string& owner, const std::string& after,
-                                                std::size_t count) const {
-  return uploads_where(">", owner, after, count);
+  return rows.each([&](std::size_t row) {
+    return store::UploadRecord{rows.text(row, 0), owner, store::time_of(rows.integer(row, 1)),
+                               rows.count(row, 2), rows.integer(row, 3) != 0};
+  });
 }
 
 void Store::erase_upload(const std::string& sha256, const std::string& owner) {
@@ -146,7 +122,7 @@ std::size_t Store::expire_uploads(records::Clock::time_point before) {
     const std::int64_t time = store::to_disk(before);
     transaction.run("SELECT" + these + " ORDER BY u.sha256, u.owner FOR UPDATE", {time});
     const std::vector<std::string> names =
-        names_of(transaction.run("DELETE" + these + " RETURNING u.sha256", {time}));
+        transaction.run("DELETE" + these + " RETURNING u.sha256", {time}).texts();
     removed = names.size();
     remove_unreferenced(transaction, names);
   });
@@ -159,10 +135,11 @@ void Store::remove_copies() {
   const std::vector<std::string> copies = _uploads.names();
   if (copies.empty()) return;
   for (const std::string& sha256 :
-       names_of(postgres::query(_pool,
-                                "SELECT copy FROM unnest($1::text[]) copy WHERE NOT EXISTS "
-                                "(SELECT FROM uploads WHERE sha256 = copy)",
-                                {copies})))
+       postgres::query(_pool,
+                       "SELECT copy FROM unnest($1::text[]) copy WHERE NOT EXISTS "
+                       "(SELECT FROM uploads WHERE sha256 = copy)",
+                       {copies})
+           .texts())
     _uploads.remove(sha256);
 }
 

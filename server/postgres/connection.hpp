@@ -46,6 +46,20 @@ class Result {
   /// A text or a bytea; empty for null. The view lives as long as the result.
   std::string_view view(std::size_t row, int column) const noexcept;
   std::string text(std::size_t row, int column) const { return std::string(view(row, column)); }
+  /// An integer that is not negative.
+  std::uint64_t count(std::size_t row, int column) const {
+    return static_cast<std::uint64_t>(integer(row, column));
+  }
+  /// What make(row) returns for each row, in their order; the texts of the first column.
+  template <class Make>
+  auto each(const Make& make) const {
+    std::vector<decltype(make(std::size_t{}))> made;
+    for (std::size_t row = 0; row < rows(); ++row) made.push_back(make(row));
+    return made;
+  }
+  std::vector<std::string> texts() const {
+    return each([this](std::size_t row) { return text(row, 0); });
+  }
   const pg_result* get() const noexcept { return _result.get(); }
 
  private:

@@ -23,7 +23,7 @@ Error unreadable(const std::string& path) {
   return {Reason::storage, "cannot read " + path + "; upload it again"};
 }
 
-Error is_msh() {
+Error no_array() {
   return {Reason::invalid_argument,
           "the upload is a .msh, not an array of values; upload the values as KIND_ARRAY"};
 }
@@ -45,21 +45,26 @@ void require_finite(std::span<const double> values, std::uint64_t first) {
               first + static_cast<std::size_t>(bad - values.begin()), *bad);
 }
 
-}  // namespace
+constexpr std::string_view msh_start = "$MeshFormat";
 
 bool begins_like_msh(std::span<const std::byte> start) {
-  constexpr std::string_view magic = "$MeshFormat";
-  return start.size() >= magic.size() && std::memcmp(start.data(), magic.data(), magic.size()) == 0;
+  return start.size() >= msh_start.size() && std::memcmp(start.data(), msh_start.data(), msh_start.size()) == 0;
+}
+
+}  // namespace
+
+bool is_msh(const base::Descriptor& file, const std::string& path) {
+  std::array<std::byte, msh_start.size()> start{};
+  const bool long_enough = file_size(file, path) >= start.size();
+  if (long_enough) read_at(file, path, 0, start);
+  return long_enough && begins_like_msh(start);
 }
 
 std::size_t array_length(const std::string& path) {
   const base::Descriptor file = open_to_read(path);
   if (!file) throw unreadable(path);
   const std::uint64_t bytes = file_size(file, path);
-  std::array<std::byte, 16> start{};
-  const auto head = std::span(start).first(std::min<std::uint64_t>(bytes, start.size()));
-  read_at(file, path, 0, head);
-  if (begins_like_msh(head)) throw is_msh();
+  if (is_msh(file, path)) throw no_array();
   if (bytes == 0 || bytes % sizeof(double) != 0) {
     throw Error(Reason::invalid_argument,
                 "the upload has {} bytes; an array of f64 has 8 for each value", bytes);
@@ -68,7 +73,7 @@ std::size_t array_length(const std::string& path) {
 }
 
 void ArrayCheck::add(std::span<const std::byte> bytes) {
-  if (_values == 0 && _part.empty() && begins_like_msh(bytes)) throw is_msh();
+  if (_values == 0 && _part.empty() && begins_like_msh(bytes)) throw no_array();
   std::array<double, 4096> values;
   while (!bytes.empty()) {
     // The number of whole values; the first one began in the bytes before.

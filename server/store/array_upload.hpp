@@ -9,10 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "base/descriptor.hpp"
+
 namespace anticrack::store {
 
-/// Whether a file with these first bytes is a .msh. No array begins like that.
-bool begins_like_msh(std::span<const std::byte> start);
+/// Whether a file is a .msh, by its first bytes. No array begins like that. Throws as read_at does.
+bool is_msh(const base::Descriptor& file, const std::string& path);
 
 /// The number of values in a file. Throws errors::Error: invalid_argument for a .msh (it begins
 /// with $MeshFormat) and for a size that is zero or no multiple of 8; storage. Reads a few bytes.

@@ -95,7 +95,7 @@ class Backup {
     {
       Connection source(database_path(_data));
       require_version(source);
-      source.prepare("VACUUM INTO ?").bind(std::string_view(path)).run();
+      source.run("VACUUM INTO ?", path);
     }
     Connection copy(path);
     copy.execute("UPDATE store SET stopped = 1");  // a server that starts from it has not crashed

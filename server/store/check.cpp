@@ -90,8 +90,7 @@ class Check {
       read_job(row);
       Statement select = _database->prepare(
           "SELECT small_result FROM jobs WHERE id = ? AND result = '' AND result_bytes > 0");
-      if (select.bind(std::string_view(row.id)).step())
-        open_result(select.text(0), "the row of jobs/" + row.id);
+      if (select.bind(row.id).step()) open_result(select.text(0), "the row of jobs/" + row.id);
     }
   }
 

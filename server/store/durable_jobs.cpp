@@ -20,33 +20,20 @@ namespace {
 /// latter nothing.
 constexpr std::size_t most_small_result = std::size_t{32} << 10U;
 
-void bind_end(Statement& statement, const records::JobRecord& record) {
-  if (ended(record.state))
-    statement.bind(to_disk(record.ended.value_or(record.created)));
-  else
-    statement.bind_null();
+std::optional<std::int64_t> end_of(const records::JobRecord& record) {
+  if (!ended(record.state)) return std::nullopt;
+  return to_disk(record.ended.value_or(record.created));
 }
 
 void insert(Connection& connection, const records::JobRecord& record,
             const std::string& fingerprint, const std::string& bytes) {
-  {
-    Statement statement = connection.prepare(
-        "INSERT INTO jobs (id, owner, request, fingerprint, ended, result, result_bytes, record, "
-        "checksum) VALUES (?1, ?2, ?3, ?4, ?5, '', 0, ?6, "
-        "crc32c(?1, ?2, ?3, ?4, ?5, '', 0, ?6))");
-    statement.bind(std::string_view(record.id))
-        .bind(std::string_view(record.owner))
-        .bind(std::string_view(record.request_id))
-        .bind(std::string_view(fingerprint));
-    bind_end(statement, record);
-    statement.bind_blob(bytes).run();
-  }
-  for (const std::string& upload : uploads_of(record.spec)) {
-    connection.prepare("INSERT INTO job_uploads SELECT number, ? FROM jobs WHERE id = ?")
-        .bind(std::string_view(upload))
-        .bind(std::string_view(record.id))
-        .run();
-  }
+  connection.run(
+      "INSERT INTO jobs (id, owner, request, fingerprint, ended, result, result_bytes, record, "
+      "checksum) VALUES (?1, ?2, ?3, ?4, ?5, '', 0, ?6, crc32c(?1, ?2, ?3, ?4, ?5, '', 0, ?6))",
+      record.id, record.owner, record.request_id, fingerprint, end_of(record), Blob{bytes});
+  for (const std::string& upload : uploads_of(record.spec))
+    connection.run("INSERT INTO job_uploads SELECT number, ? FROM jobs WHERE id = ?", upload,
+                   record.id);
 }
 
 /// The job that the owner made with this request id before.
@@ -55,8 +42,7 @@ std::optional<Row> find_request(Connection& connection, const std::string& owner
   if (request_id.empty()) return std::nullopt;
   Statement select = connection.prepare(
       "SELECT id, fingerprint FROM jobs WHERE owner = ? AND request = ? AND request <> ''");
-  if (!select.bind(std::string_view(owner)).bind(std::string_view(request_id)).step())
-    return std::nullopt;
+  if (!select.bind(owner, request_id).step()) return std::nullopt;
   std::optional<Row> row = find_row(connection, FileKind::result, select.text(0));
   if (row && row->intact) require_same_request(request_id, row->id, select.text(1), fingerprint);
   return row;
@@ -65,7 +51,7 @@ std::optional<Row> find_request(Connection& connection, const std::string& owner
 /// The name of the result's file; empty if there is none.
 std::string result_name(Connection& connection, const std::string& job) {
   Statement select = connection.prepare("SELECT result FROM jobs WHERE id = ?");
-  if (!select.bind(std::string_view(job)).step()) throw unknown("jobs", job);
+  if (!select.bind(job).step()) throw unknown("jobs", job);
   return select.text(0);
 }
 
@@ -78,21 +64,11 @@ struct ResultColumns {
 
 void end(Connection& connection, const records::JobRecord& record, const ResultColumns& result,
          const std::string& bytes) {
-  Statement update = connection.prepare(
+  connection.run(
       "UPDATE jobs SET ended = ?1, result = ?2, small_result = ?3, result_bytes = ?4, record = ?5, "
-      "checksum = crc32c(?6, ?7, ?8, fingerprint, ?1, ?2, ?4, ?5) WHERE id = ?6");
-  bind_end(update, record);
-  update.bind(std::string_view(result.name));
-  if (result.small.empty())
-    update.bind_null();
-  else
-    update.bind_blob(result.small);
-  update.bind(static_cast<std::int64_t>(result.bytes))
-      .bind_blob(bytes)
-      .bind(std::string_view(record.id))
-      .bind(std::string_view(record.owner))
-      .bind(std::string_view(record.request_id))
-      .run();
+      "checksum = crc32c(?6, ?7, ?8, fingerprint, ?1, ?2, ?4, ?5) WHERE id = ?6",
+      end_of(record), result.name, Blob{result.small}, static_cast<std::int64_t>(result.bytes),
+      Blob{bytes}, record.id, record.owner, record.request_id);
 }
 
 }  // namespace
@@ -108,35 +84,25 @@ records::JobRecord DurableStore::create(const records::JobRecord& record,
   return existing ? job_of(*existing) : record;
 }
 
-std::optional<records::JobRecord> DurableStore::created_before(
-    const std::string& owner, const std::string& request_id, const std::string& fingerprint) const {
-  const auto existing = reading([&](Connection& connection) {
+std::optional<Row> DurableStore::row_of_request(const std::string& owner,
+                                                const std::string& request_id,
+                                                const std::string& fingerprint) const {
+  return reading([&](Connection& connection) {
     return find_request(connection, owner, request_id, fingerprint);
   });
-  return existing ? std::optional(job_of(*existing)) : std::nullopt;
 }
 
 void DurableStore::put(const records::JobRecord& record) {
   const std::string bytes = encode(record);
   _writer.run(
       [&](Connection& connection) {
-        Statement update = connection.prepare(
+        connection.run(
             "UPDATE jobs SET ended = ?1, record = ?2, checksum = "
-            "crc32c(?3, ?4, ?5, fingerprint, ?1, result, result_bytes, ?2) WHERE id = ?3");
-        bind_end(update, record);
-        update.bind_blob(bytes)
-            .bind(std::string_view(record.id))
-            .bind(std::string_view(record.owner))
-            .bind(std::string_view(record.request_id))
-            .run();
+            "crc32c(?3, ?4, ?5, fingerprint, ?1, result, result_bytes, ?2) WHERE id = ?3",
+            end_of(record), Blob{bytes}, record.id, record.owner, record.request_id);
         if (connection.changes() == 0) throw unknown("jobs", record.id);
       },
       GroupCommit::Flush::no);
-}
-
-std::shared_ptr<Spool> DurableStore::new_spool() {
-  return std::make_shared<Spool>([this] { return _results.nameless(); },
-                                 [this](std::uint64_t bytes) { return reserve(bytes); });
 }
 
 void DurableStore::finish(const records::JobRecord& record,
@@ -175,26 +141,11 @@ void DurableStore::finish(const records::JobRecord& record,
   });
 }
 
-std::optional<records::JobRecord> DurableStore::job(const std::string& id) const {
-  const std::optional<Row> found = row(FileKind::result, id);
-  return found ? std::optional(job_of(*found)) : std::nullopt;
-}
-
-std::vector<records::JobRecord> DurableStore::jobs(const Page& asked) const {
-  return jobs_of(page(FileKind::result, asked));
-}
-
-std::vector<records::JobRecord> DurableStore::unfinished() const {
-  std::vector<records::JobRecord> records = jobs_of(reading([](Connection& connection) {
-    std::vector<Row> rows;
-    Statement select =
-        connection.prepare(select_rows(FileKind::result) + " WHERE ended IS NULL ORDER BY number");
-    while (select.step()) rows.push_back(row_at(select));
-    return rows;
-  }));
-  std::erase_if(records,
-                [](const records::JobRecord& record) { return records::ended(record.state); });
-  return records;
+std::vector<Row> DurableStore::unfinished_rows() const {
+  return reading([](Connection& connection) {
+    return rows_at(
+        connection.prepare(select_rows(FileKind::result) + " WHERE ended IS NULL ORDER BY number"));
+  });
 }
 
 bool DurableStore::set_running(bool running) {
@@ -226,10 +177,9 @@ std::shared_ptr<const records::BlockSource> DurableStore::result(const std::stri
         read_job(*row);  // throws if the record is damaged, as its columns of the result then are
       Statement select =
           connection.prepare("SELECT result, small_result, result_bytes FROM jobs WHERE id = ?");
-      return select.bind(std::string_view(job)).step()
-                 ? ResultColumns{select.text(0), select.text(1),
-                                 static_cast<std::uint64_t>(select.integer(2))}
-                 : ResultColumns{};
+      return select.bind(job).step() ? ResultColumns{select.text(0), select.text(1),
+                                                     static_cast<std::uint64_t>(select.integer(2))}
+                                     : ResultColumns{};
     });
   };
   ResultColumns found = look();
@@ -252,11 +202,8 @@ std::shared_ptr<const records::BlockSource> DurableStore::result(const std::stri
 void DurableStore::expire(const std::string& job, records::Clock::time_point now) {
   _writer.run([&](Connection& connection) {
     const std::string result = result_name(connection, job);
-    records::JobRecord record = read_job(*find_row(connection, FileKind::result, job));
-    if (!records::ended(record.state))
-      throw Error(Reason::in_use, "jobs/{} has not ended: cancel it first", job);
-    record.expired = now;
-    record.result_bytes = 0;
+    const records::JobRecord record =
+        expired_job(*find_row(connection, FileKind::result, job), now);
     end(connection, record, {}, encode(record));
     if (!result.empty()) _unreferenced.push_back({FileKind::result, result});
   });
@@ -266,10 +213,9 @@ void DurableStore::erase_job(const std::string& id) {
   _writer.run([&](Connection& connection) {
     if (const std::string result = result_name(connection, id); !result.empty())
       _unreferenced.push_back({FileKind::result, result});
-    connection.prepare("DELETE FROM job_uploads WHERE job = (SELECT number FROM jobs WHERE id = ?)")
-        .bind(std::string_view(id))
-        .run();
-    connection.prepare("DELETE FROM jobs WHERE id = ?").bind(std::string_view(id)).run();
+    connection.run("DELETE FROM job_uploads WHERE job = (SELECT number FROM jobs WHERE id = ?)",
+                   id);
+    connection.run("DELETE FROM jobs WHERE id = ?", id);
   });
 }
 

@@ -58,11 +58,9 @@ Connection open_reader(const std::string& folder) {
 }  // namespace
 
 DurableStore::DurableStore(const StoreOptions& options)
-    : _folder(made(options.folder)),
-      _usage(options.disk_budget),
+    : CommonStore(made(options.folder), options.disk_budget),
+      _folder(options.folder),
       _meshes(_folder, FileKind::mesh, _usage),
-      _results(_folder, FileKind::result, _usage),
-      _uploads(_folder, FileKind::upload, _usage),
       _writer(open_writer(_folder),
               [this](Connection& connection) { remove_unreferenced(connection); }),
       _reader(open_reader(_folder)) {
@@ -124,8 +122,8 @@ std::vector<Row> DurableStore::page(FileKind kind, const Page& page) const {
     if (!page.after.empty()) {
       Statement select =
           connection.prepare("SELECT number FROM " + table + " WHERE id = ?" + of_owner);
-      select.bind(std::string_view(page.after));
-      if (page.owner) select.bind(std::string_view(*page.owner));
+      select.bind(page.after);
+      if (page.owner) select.bind(*page.owner);
       if (!select.step()) throw unknown(table, page.after);
       last = select.integer(0);
     }
@@ -133,12 +131,10 @@ std::vector<Row> DurableStore::page(FileKind kind, const Page& page) const {
         select_rows(kind) + " WHERE number " + (page.oldest_first ? ">" : "<") + " ?" + of_owner +
         " ORDER BY number " + (page.oldest_first ? "" : "DESC ") + "LIMIT ?");
     select.bind(last);
-    if (page.owner) select.bind(std::string_view(*page.owner));
+    if (page.owner) select.bind(*page.owner);
     constexpr std::size_t most = std::numeric_limits<std::int64_t>::max();
     select.bind(static_cast<std::int64_t>(std::min(page.count, most)));
-    std::vector<Row> rows;
-    while (select.step()) rows.push_back(row_at(select));
-    return rows;
+    return rows_at(std::move(select));
   });
 }
 

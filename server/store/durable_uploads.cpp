@@ -20,11 +20,7 @@ void look_at(const std::string& path, UploadRecord& upload) {
   const base::Descriptor file = open_to_read(path);
   if (!file) return;
   upload.bytes = file_size(file, path);
-  std::array<std::byte, 16> buffer{};
-  const std::span start =
-      std::span(buffer).first(std::min<std::uint64_t>(buffer.size(), upload.bytes));
-  read_at(file, path, 0, start);
-  upload.array = !begins_like_msh(start);
+  upload.array = !is_msh(file, path);
 }
 
 }  // namespace
@@ -34,15 +30,10 @@ std::optional<std::string> DurableStore::upload_path(const std::string& sha256,
   return reading([&](Connection& connection) -> std::optional<std::string> {
     Statement select =
         connection.prepare(select_rows(FileKind::upload) + " WHERE sha256 = ? AND owner = ?");
-    if (!select.bind(std::string_view(sha256)).bind(std::string_view(owner)).step())
-      return std::nullopt;
+    if (!select.bind(sha256, owner).step()) return std::nullopt;
     require_intact(row_at(select), FileKind::upload);
     return _uploads.path(sha256);
   });
-}
-
-std::string DurableStore::new_upload_path(std::uint64_t bytes) {
-  return _parts.begin(_uploads, [&] { return reserve(bytes); });
 }
 
 records::Clock::time_point DurableStore::keep_uploads(const std::vector<Upload>& uploads,
@@ -78,14 +69,10 @@ records::Clock::time_point DurableStore::keep_uploads(const std::vector<Upload>&
     }
     _uploads.flush_names();
     for (const Upload& upload : uploads)
-      connection
-          .prepare(
-              "INSERT OR REPLACE INTO uploads (sha256, owner, created, checksum) "
-              "VALUES (?1, ?2, ?3, crc32c(?1, ?2, ?3))")
-          .bind(std::string_view(upload.sha256))
-          .bind(std::string_view(owner))
-          .bind(to_disk(now))
-          .run();
+      connection.run(
+          "INSERT OR REPLACE INTO uploads (sha256, owner, created, checksum) "
+          "VALUES (?1, ?2, ?3, crc32c(?1, ?2, ?3))",
+          upload.sha256, owner, to_disk(now));
   });
   for (const Upload& upload : uploads) {
     _parts.forget(upload.path);
@@ -94,44 +81,26 @@ records::Clock::time_point DurableStore::keep_uploads(const std::vector<Upload>&
   return now;
 }
 
-std::vector<UploadRecord> DurableStore::uploads_where(const std::string& condition,
+std::vector<UploadRecord> DurableStore::uploads_where(const char* comparison,
                                                       const std::string& owner,
                                                       const std::string& sha256,
                                                       std::size_t count) const {
   std::vector<UploadRecord> found;
   reading([&](Connection& connection) {
     Statement select =
-        connection.prepare("SELECT sha256, created FROM uploads WHERE " + condition +
-                           " AND owner = ? AND checksum IS " + table_of(FileKind::upload).checksum +
-                           " ORDER BY sha256 LIMIT ?");
-    select.bind(std::string_view(sha256))
-        .bind(std::string_view(owner))
-        .bind(static_cast<std::int64_t>(count));
+        connection.prepare(std::string("SELECT sha256, created FROM uploads WHERE sha256 ") +
+                           comparison + " ? AND owner = ? AND checksum IS " +
+                           table_of(FileKind::upload).checksum + " ORDER BY sha256 LIMIT ?");
+    select.bind(sha256, owner, static_cast<std::int64_t>(count));
     while (select.step()) found.push_back({select.text(0), owner, time_of(select.integer(1))});
   });
   for (UploadRecord& upload : found) look_at(_uploads.path(upload.id), upload);
   return found;
 }
 
-std::optional<UploadRecord> DurableStore::upload(const std::string& sha256,
-                                                 const std::string& owner) const {
-  const std::vector<UploadRecord> found = uploads_where("sha256 = ?", owner, sha256, 1);
-  return found.empty() ? std::nullopt : std::optional(found.front());
-}
-
-std::vector<UploadRecord> DurableStore::uploads(const std::string& owner, const std::string& after,
-                                                std::size_t count) const {
-  return uploads_where("sha256 > ?", owner, after, count);
-}
-
 void DurableStore::erase_upload(const std::string& sha256, const std::string& owner) {
   _writer.run([&](Connection& connection) {
-    const auto any = [&](const char* sql) {
-      return connection.prepare(sql)
-          .bind(std::string_view(sha256))
-          .bind(std::string_view(owner))
-          .step();
-    };
+    const auto any = [&](const char* sql) { return connection.any(sql, sha256, owner); };
     // Jobs of other owners have uploads of their own.
     if (any("SELECT 1 FROM job_uploads r JOIN jobs j ON j.number = r.job "
             "WHERE r.upload = ? AND j.owner = ? AND j.ended IS NULL") ||

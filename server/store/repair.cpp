@@ -36,9 +36,8 @@ void remove_records(Connection& connection, const CheckedStore& checked) {
   Transaction transaction(connection);
   connection.execute("REINDEX");  // a row that differs from its index cannot be removed
   const auto remove = [&](const CheckedStore::Name& name, const std::string& column) {
-    connection.prepare("DELETE FROM " + table_of(name.first).name + " WHERE " + column + " = ?")
-        .bind(std::string_view(name.second))
-        .run();
+    connection.run("DELETE FROM " + table_of(name.first).name + " WHERE " + column + " = ?",
+                   name.second);
   };
   for (const CheckedStore::Name& record : checked.damaged)
     remove(record, table_of(record.first).id);
@@ -58,7 +57,7 @@ std::string repair(const std::string& folder, const CheckedStore& checked) {
   move("identity", folder, aside);  // the next start takes that of the database, or makes another
   if (database) {
     const std::string copy = database_path(aside);
-    database->prepare("VACUUM INTO ?").bind(std::string_view(copy)).run();
+    database->run("VACUUM INTO ?", copy);
     flush(copy);
     remove_records(*database, checked);
   } else {

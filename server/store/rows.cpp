@@ -65,9 +65,15 @@ Row row_at(Statement& select) {
   return {select.text(0), select.text(1), select.integer(2) != 0, select.text(3), select.text(4)};
 }
 
+std::vector<Row> rows_at(Statement&& select) {
+  std::vector<Row> rows;
+  while (select.step()) rows.push_back(row_at(select));
+  return rows;
+}
+
 std::optional<Row> find_row(Connection& connection, FileKind kind, const std::string& id) {
   Statement select = connection.prepare(select_rows(kind) + " WHERE id = ?");
-  if (!select.bind(std::string_view(id)).step()) return std::nullopt;
+  if (!select.bind(id).step()) return std::nullopt;
   Row row = row_at(select);
   row.id = id;  // a damaged index may lead to another row
   return row;
@@ -98,20 +104,16 @@ std::vector<records::JobRecord> jobs_of(const std::vector<Row>& rows) {
 
 bool is_referenced(Connection& connection, FileKind kind, const std::string& sha256, bool by_rows) {
   const Table& table = table_of(kind);
-  return connection
-      .prepare("SELECT 1 FROM " + table.name + (by_rows ? " NOT INDEXED" : "") + " WHERE " +
-               table.file + " = ? AND " + table.file + " <> '' LIMIT 1")
-      .bind(std::string_view(sha256))
-      .step();
+  return connection.any("SELECT 1 FROM " + table.name + (by_rows ? " NOT INDEXED" : "") +
+                            " WHERE " + table.file + " = ? AND " + table.file + " <> '' LIMIT 1",
+                        sha256);
 }
 
 bool all_intact(Connection& connection) {
   return std::ranges::none_of(file_kinds, [&](FileKind kind) {
     const Table& table = table_of(kind);
-    return connection
-        .prepare("SELECT 1 FROM " + table.name + " WHERE checksum IS NOT " + table.checksum +
-                 " LIMIT 1")
-        .step();
+    return connection.any("SELECT 1 FROM " + table.name + " WHERE checksum IS NOT " +
+                          table.checksum + " LIMIT 1");
   });
 }
 

@@ -38,8 +38,9 @@ struct Row {
 
 /// SQL: SELECT with the columns of a row.
 std::string select_rows(FileKind kind);
-/// The present row of a statement with these columns.
+/// The present row of a statement with these columns; all its rows.
 Row row_at(Statement& select);
+std::vector<Row> rows_at(Statement&& select);
 /// The row of a mesh or job; empty if there is none.
 std::optional<Row> find_row(Connection& connection, FileKind kind, const std::string& id);
 

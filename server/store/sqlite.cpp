@@ -42,25 +42,27 @@ Statement::~Statement() {
   sqlite3_clear_bindings(_statement);
 }
 
-Statement& Statement::checked(int code) {
+void Statement::check(int code) {
   if (code != SQLITE_OK) throw _connection.error(code);
-  return *this;
 }
 
-Statement& Statement::bind(std::int64_t value) {
-  return checked(sqlite3_bind_int64(_statement, ++_bound, value));
+void Statement::bind_next(std::int64_t value) {
+  check(sqlite3_bind_int64(_statement, ++_bound, value));
 }
 
-Statement& Statement::bind(std::string_view text) {
-  return checked(
-      sqlite3_bind_text64(_statement, ++_bound, text.data(), text.size(), nullptr, SQLITE_UTF8));
+void Statement::bind_next(const std::optional<std::int64_t>& value) {
+  if (value) return bind_next(*value);
+  check(sqlite3_bind_null(_statement, ++_bound));
 }
 
-Statement& Statement::bind_blob(std::string_view bytes) {
-  return checked(sqlite3_bind_blob64(_statement, ++_bound, bytes.data(), bytes.size(), nullptr));
+void Statement::bind_next(std::string_view text) {
+  check(sqlite3_bind_text64(_statement, ++_bound, text.data(), text.size(), nullptr, SQLITE_UTF8));
 }
 
-Statement& Statement::bind_null() { return checked(sqlite3_bind_null(_statement, ++_bound)); }
+void Statement::bind_next(Blob blob) {
+  const char* const bytes = blob.bytes.empty() ? nullptr : blob.bytes.data();
+  check(sqlite3_bind_blob64(_statement, ++_bound, bytes, blob.bytes.size(), nullptr));
+}
 
 bool Statement::step() {
   const int code = sqlite3_step(_statement);

@@ -17,6 +17,11 @@ namespace anticrack::store {
 
 class Connection;
 
+/// Bytes as a parameter; null where there are none.
+struct Blob {
+  std::string_view bytes;
+};
+
 /// A statement of a connection, which keeps it compiled. Reset at the end of the scope: a statement
 /// left in the middle would keep its transaction, and an error of the disk, alive.
 class Statement {
@@ -27,11 +32,12 @@ class Statement {
   Statement(const Statement&) = delete;
   Statement& operator=(const Statement&) = delete;
 
-  /// Binds the next parameter, beginning with the first. Texts must outlive the statement.
-  Statement& bind(std::int64_t value);
-  Statement& bind(std::string_view text);
-  Statement& bind_blob(std::string_view bytes);
-  Statement& bind_null();
+  /// Binds the next parameters, beginning with the first. Texts must outlive the statement.
+  template <class... Values>
+  Statement& bind(const Values&... values) {
+    (bind_next(values), ...);
+    return *this;
+  }
 
   /// Goes to the next row; false if there is none.
   bool step();
@@ -43,7 +49,11 @@ class Statement {
   std::string text(int column);  ///< of a text or of a blob
 
  private:
-  Statement& checked(int code);
+  void bind_next(std::int64_t value);
+  void bind_next(const std::optional<std::int64_t>& value);
+  void bind_next(std::string_view text);
+  void bind_next(Blob bytes);
+  void check(int code);
 
   Connection& _connection;
   sqlite3_stmt* _statement;
@@ -59,6 +69,16 @@ class Connection {
 
   /// A statement; each text is compiled once.
   Statement prepare(const std::string& sql);
+  /// Runs a statement with these parameters to its end.
+  template <class... Values>
+  void run(const std::string& sql, const Values&... values) {
+    prepare(sql).bind(values...).run();
+  }
+  /// Whether the statement with these parameters has a row.
+  template <class... Values>
+  bool any(const std::string& sql, const Values&... values) {
+    return prepare(sql).bind(values...).step();
+  }
   /// Runs statements without parameters and without rows.
   void execute(const std::string& sql);
   /// The first column of the first row of a query.
