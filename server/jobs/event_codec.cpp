@@ -44,40 +44,10 @@ void write(std::span<const NumberedEvent> run, v1::Samples& to) {
   }
 }
 
-void write(const PhaseEvent& phase, WatchJobResponse& to) {
-  to.mutable_phase()->set_state(static_cast<v1::JobStatus::State>(phase.state));
-  to.mutable_phase()->set_detail(api::utf8(phase.detail));
-}
-
 void write(const CaseEvent& ended, WatchJobResponse& to) {
   v1::LoadCaseEnded& load_case = *to.add_load_cases_ended();
   load_case.set_load_case(ended.load_case);
   *load_case.mutable_answer() = api::message(*ended.record);
-}
-
-void write(const RowsEvent& event, WatchJobResponse& to) {
-  const contact::SweepColumns& from = *event.rows;
-  v1::SweepRows& rows = *to.mutable_sweep_rows();
-  rows.set_first_row(event.first_row);
-  for (const contact::Status status : from.status)
-    rows.add_status(static_cast<std::int32_t>(status));
-  *rows.mutable_steps() = {from.steps.begin(), from.steps.end()};
-  *rows.mutable_energy() = {from.energy.begin(), from.energy.end()};
-  *rows.mutable_contact_length() = {from.contact_length.begin(), from.contact_length.end()};
-  *rows.mutable_kkt() = {from.kkt.begin(), from.kkt.end()};
-  *rows.mutable_displacement() = {from.displacement.begin(), from.displacement.end()};
-  *rows.mutable_slope() = {from.slope.begin(), from.slope.end()};
-}
-
-void write(const StageEvent& event, WatchJobResponse& to) {
-  *to.mutable_stage_ended() = api::message(*event.stage);
-}
-
-void write(const GrowthEvent& event, WatchJobResponse& to) {
-  v1::GrowthStep& step = *to.mutable_growth_step();
-  step.set_load_case(event.load_case);
-  step.set_number(event.number);
-  api::write_fields(*event.row, *step.mutable_row());
 }
 
 /// Whether it can be the body of a row with this last number.
@@ -147,6 +117,36 @@ Event read_event(const WatchJobResponse& from) {
 }
 
 }  // namespace
+
+void write(const PhaseEvent& phase, WatchJobResponse& to) {
+  to.mutable_phase()->set_state(static_cast<v1::JobStatus::State>(phase.state));
+  to.mutable_phase()->set_detail(api::utf8(phase.detail));
+}
+
+void write(const RowsEvent& event, WatchJobResponse& to) {
+  const contact::SweepColumns& from = *event.rows;
+  v1::SweepRows& rows = *to.mutable_sweep_rows();
+  rows.set_first_row(event.first_row);
+  for (const contact::Status status : from.status)
+    rows.add_status(static_cast<std::int32_t>(status));
+  *rows.mutable_steps() = {from.steps.begin(), from.steps.end()};
+  *rows.mutable_energy() = {from.energy.begin(), from.energy.end()};
+  *rows.mutable_contact_length() = {from.contact_length.begin(), from.contact_length.end()};
+  *rows.mutable_kkt() = {from.kkt.begin(), from.kkt.end()};
+  *rows.mutable_displacement() = {from.displacement.begin(), from.displacement.end()};
+  *rows.mutable_slope() = {from.slope.begin(), from.slope.end()};
+}
+
+void write(const StageEvent& event, WatchJobResponse& to) {
+  *to.mutable_stage_ended() = api::message(*event.stage);
+}
+
+void write(const GrowthEvent& event, WatchJobResponse& to) {
+  v1::GrowthStep& step = *to.mutable_growth_step();
+  step.set_load_case(event.load_case);
+  step.set_number(event.number);
+  api::write_fields(*event.row, *step.mutable_row());
+}
 
 std::vector<store::EventRow> pack(const std::string& job, int attempt,
                                   std::span<const NumberedEvent> events) {

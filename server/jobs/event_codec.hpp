@@ -12,7 +12,17 @@
 #include "jobs/event_log.hpp"
 #include "store/queue.hpp"
 
+namespace anticrack::v1 {
+class WatchJobResponse;
+}  // namespace anticrack::v1
+
 namespace anticrack::jobs {
+
+/// An event as a watcher gets it; `to` is empty.
+void write(const PhaseEvent& phase, v1::WatchJobResponse& to);
+void write(const RowsEvent& event, v1::WatchJobResponse& to);
+void write(const StageEvent& event, v1::WatchJobResponse& to);
+void write(const GrowthEvent& event, v1::WatchJobResponse& to);
 
 /// Most samples of a load case in a row; of more, every n-th and the last are kept.
 constexpr std::size_t samples_a_row = 64;

@@ -32,17 +32,14 @@ MetricFamily gauge(std::string name, std::string help, Number value) {
   return {std::move(name), std::move(help), MetricType::Gauge, {metric}};
 }
 
-MetricFamily disk_family(const store::Usage& disk) {
-  MetricFamily family{
-      "anticrack_disk_bytes", "Bytes of the data folder, by kind.", MetricType::Gauge, {}};
-  for (const auto& [kind, bytes] : {std::pair{"meshes", disk.meshes},
-                                    {"results", disk.results},
-                                    {"uploads", disk.uploads},
-                                    {"database", disk.database}}) {
-    ClientMetric metric;
-    metric.label = {{"kind", kind}};
-    metric.gauge.value = static_cast<double>(bytes);
-    family.metric.push_back(std::move(metric));
+/// A gauge with a value for each word of a label.
+using Values = std::vector<std::pair<std::string, std::uint64_t>>;
+MetricFamily gauges(const char* name, const char* help, const char* label, const Values& values) {
+  MetricFamily family{name, help, MetricType::Gauge, {}};
+  for (const auto& [word, value] : values) {
+    ClientMetric& metric = family.metric.emplace_back();
+    metric.label = {{label, word}};
+    metric.gauge.value = static_cast<double>(value);
   }
   return family;
 }
@@ -64,17 +61,11 @@ std::vector<store::OwnerUsage> bounded(std::vector<store::OwnerUsage> owners) {
   return owners;
 }
 
-MetricFamily owner_family(std::string name, std::string help,
-                          const std::vector<store::OwnerUsage>& owners,
-                          std::uint64_t store::OwnerUsage::*amount) {
-  MetricFamily family{std::move(name), std::move(help), MetricType::Gauge, {}};
-  for (const store::OwnerUsage& usage : owners) {
-    ClientMetric metric;
-    metric.label = {{"owner", usage.owner}};
-    metric.gauge.value = static_cast<double>(usage.*amount);
-    family.metric.push_back(std::move(metric));
-  }
-  return family;
+Values by_owner(const std::vector<store::OwnerUsage>& owners,
+                std::uint64_t store::OwnerUsage::*amount) {
+  Values values;
+  for (const store::OwnerUsage& usage : owners) values.emplace_back(usage.owner, usage.*amount);
+  return values;
 }
 
 double seconds(const timeval& time) {
@@ -97,21 +88,11 @@ std::ptrdiff_t open_descriptors() {
 
 std::vector<MetricFamily> group_families(const store::GroupState& group,
                                          std::uint64_t leases_lost) {
-  const auto by_state = [](const char* name, const char* help,
-                           std::initializer_list<std::pair<const char*, std::uint64_t>> values) {
-    MetricFamily family{name, help, MetricType::Gauge, {}};
-    for (const auto& [state, value] : values) {
-      ClientMetric& metric = family.metric.emplace_back();
-      metric.label = {{"state", state}};
-      metric.gauge.value = static_cast<double>(value);
-    }
-    return family;
-  };
   return {
-      by_state("anticrack_group_servers", "Servers on the database, by state.",
-               {{"living", group.living}, {"dead", group.dead}}),
-      by_state("anticrack_group_jobs", "Jobs of all servers that have not ended, by state.",
-               {{"waiting", group.waiting}, {"running", group.running}}),
+      gauges("anticrack_group_servers", "Servers on the database, by state.", "state",
+             {{"living", group.living}, {"dead", group.dead}}),
+      gauges("anticrack_group_jobs", "Jobs of all servers that have not ended, by state.", "state",
+             {{"waiting", group.waiting}, {"running", group.running}}),
       counter("anticrack_group_leases_lost_total", "Leases that this server lost.", leases_lost),
       gauge("anticrack_group_oldest_wait_seconds", "Longest wait of a job for a server.",
             group.oldest_wait),
@@ -160,13 +141,17 @@ std::vector<MetricFamily> server_families(const Snapshot& now) {
             now.pending_meshes),
       gauge("anticrack_store_unreachable_seconds", "How long the store has been out of reach.",
             now.store_unreachable.count()),
-      disk_family(now.disk),
-      owner_family("anticrack_owner_jobs", "Jobs kept, ended ones too, by owner.", owners,
-                   &store::OwnerUsage::jobs),
-      owner_family("anticrack_owner_unfinished_jobs", "Jobs that have not ended, by owner.", owners,
-                   &store::OwnerUsage::unfinished),
-      owner_family("anticrack_owner_result_bytes", "Bytes of results kept, by owner.", owners,
-                   &store::OwnerUsage::result_bytes),
+      gauges("anticrack_disk_bytes", "Bytes of the data folder, by kind.", "kind",
+             {{"meshes", now.disk.meshes},
+              {"results", now.disk.results},
+              {"uploads", now.disk.uploads},
+              {"database", now.disk.database}}),
+      gauges("anticrack_owner_jobs", "Jobs kept, ended ones too, by owner.", "owner",
+             by_owner(owners, &store::OwnerUsage::jobs)),
+      gauges("anticrack_owner_unfinished_jobs", "Jobs that have not ended, by owner.", "owner",
+             by_owner(owners, &store::OwnerUsage::unfinished)),
+      gauges("anticrack_owner_result_bytes", "Bytes of results kept, by owner.", "owner",
+             by_owner(owners, &store::OwnerUsage::result_bytes)),
       gauge("anticrack_connections", "Connections that are open.", now.connections),
       gauge("anticrack_connections_limit", "Most connections open at once, of all addresses.",
             now.connections_limit),

@@ -21,6 +21,14 @@ using Unary = grpc::ServerUnaryReactor;
 template <class Response>
 using Answers = grpc::ServerWriteReactor<Response>;
 
+/// A call that is refused before it begins: it ends at once, without a message.
+template <class Reactor>
+class Refused final : public Reactor {
+ public:
+  explicit Refused(grpc::Status status) { this->Finish(std::move(status)); }
+  void OnDone() noexcept override { delete this; }
+};
+
 /// Most bytes of one request, gRPC's own default; larger data travel in chunks.
 constexpr int max_message_bytes = 4 << 20;
 

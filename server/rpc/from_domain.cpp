@@ -7,7 +7,6 @@
 
 #include "api/names.hpp"
 #include "api/translations.hpp"
-#include "contact/sweep_columns.hpp"
 #include "jobs/sample_run.hpp"
 #include "records/case_record.hpp"
 #include "records/job_record.hpp"
@@ -46,12 +45,6 @@ std::int32_t load_cases_ended(const records::JobRecord& record) {
       std::ranges::count_if(record.cases, [](const records::CaseRecord& each) {
         return has_answer(each.status) || each.status == Status::failed;
       }));
-}
-
-template <class To, class From>
-void append_rows(To& to, const std::vector<From>& from, std::size_t first, std::size_t count) {
-  const auto begin = from.begin() + static_cast<std::ptrdiff_t>(first);
-  to.Add(begin, begin + static_cast<std::ptrdiff_t>(count));
 }
 
 void clear_rows(v1::LoadCaseAnswer& answer) {
@@ -143,27 +136,6 @@ void append(v1::Samples& samples, const std::vector<jobs::SampleRun>& runs) {
   column(*samples.mutable_kkt_sign(), &SamplePage::sign);
   column(*samples.mutable_kkt_complementarity(), &SamplePage::complementarity);
   column(*samples.mutable_kkt_equilibrium(), &SamplePage::equilibrium);
-}
-
-void append(v1::SweepRows& rows, const jobs::RowsEvent& event, std::size_t first,
-            std::size_t count) {
-  const contact::SweepColumns& from = *event.rows;
-  if (first >= from.rows()) return;
-  count = std::min(count, from.rows() - first);
-  if (rows.status().empty()) rows.set_first_row(event.first_row + first);
-  rows.mutable_status()->Reserve(rows.status_size() + static_cast<int>(count));
-  for (std::size_t row = first; row < first + count; ++row)
-    rows.add_status(static_cast<std::int32_t>(from.status[row]));
-  append_rows(*rows.mutable_steps(), from.steps, first, count);
-  append_rows(*rows.mutable_energy(), from.energy, first, count);
-  append_rows(*rows.mutable_contact_length(), from.contact_length, first, count);
-  append_rows(*rows.mutable_kkt(), from.kkt, first, count);
-  append_rows(*rows.mutable_displacement(), from.displacement, first * from.inclusions,
-              count * from.inclusions);
-  if (!from.slope.empty()) {
-    append_rows(*rows.mutable_slope(), from.slope, first * 2 * from.inclusions,
-                count * 2 * from.inclusions);
-  }
 }
 
 }  // namespace anticrack::rpc

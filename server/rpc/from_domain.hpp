@@ -39,9 +39,4 @@ v1::LoadCaseAnswer from_domain(const records::CaseRecord& record, const std::str
 /// Appends the samples to the arrays, with one allocation per array and one copy per array and run.
 void append(v1::Samples& samples, const std::vector<jobs::SampleRun>& runs);
 
-/// Appends at most `count` rows of the event, from its row `first` on. `rows` must be empty, or end
-/// with the row before. O(count inclusions), with one reservation per array.
-void append(v1::SweepRows& rows, const jobs::RowsEvent& event, std::size_t first,
-            std::size_t count);
-
 }  // namespace anticrack::rpc

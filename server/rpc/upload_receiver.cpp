@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "rpc/upload_receiver.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
-
-#include <cerrno>
 #include <span>
-#include <system_error>
 #include <utility>
 
 #include "api/names.hpp"
@@ -19,13 +14,6 @@ namespace {
 
 using errors::Error;
 using errors::Reason;
-
-Error storage_error(const std::string& what) {
-  const bool full = errno == ENOSPC || errno == EDQUOT;
-  return Error(full ? Reason::disk_full : Reason::storage,
-               what + ": " + std::generic_category().message(errno) + "; the upload is dropped")
-      .retry_after(std::chrono::seconds(10));
-}
 
 bool is_array(v1::Upload::Kind kind) {
   switch (kind) {
@@ -53,49 +41,8 @@ void at_chunk(const Check& check) {
 
 }  // namespace
 
-/// A file that is removed unless it was released.
-class UploadReceiver::File {
- public:
-  explicit File(std::string path)
-      : _path(std::move(path)),
-        _descriptor(
-            ::open(_path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0600)) {
-    if (_descriptor < 0) throw storage_error("cannot create a file for the upload");
-  }
-  File(const File&) = delete;
-  File& operator=(const File&) = delete;
-  ~File() {
-    if (_descriptor >= 0) ::close(_descriptor);
-    if (!_path.empty()) ::unlink(_path.c_str());
-  }
-
-  void write(std::span<const std::byte> bytes) {
-    while (!bytes.empty()) {
-      const ssize_t written = ::write(_descriptor, bytes.data(), bytes.size());
-      if (written < 0 && errno == EINTR) continue;
-      if (written < 0) throw storage_error("cannot write the upload");
-      bytes = bytes.subspan(static_cast<std::size_t>(written));
-    }
-  }
-
-  /// The store flushes it.
-  void close() {
-    if (::close(std::exchange(_descriptor, -1)) != 0)
-      throw storage_error("cannot write the upload");
-  }
-
-  const std::string& path() const { return _path; }
-  void release() { _path.clear(); }
-
- private:
-  std::string _path;
-  int _descriptor;
-};
-
 UploadReceiver::UploadReceiver(store::Store& store, std::string owner, std::uint64_t max_bytes)
     : _store(store), _owner(std::move(owner)), _max_bytes(max_bytes) {}
-
-UploadReceiver::~UploadReceiver() = default;
 
 void UploadReceiver::accept(const v1::CreateUploadsRequest& request) {
   std::size_t index = _complete.size();
@@ -161,7 +108,9 @@ void UploadReceiver::begin(const v1::CreateUploadsRequest::Header& header) {
   _received_bytes = 0;
   _announced_sha256 = header.sha256();
   _array = array ? std::optional<store::ArrayCheck>(std::in_place) : std::nullopt;
-  _file = std::make_unique<File>(_store.new_upload_path(header.size()));
+  store::Part part(_store.new_upload_path(header.size()));
+  base::Descriptor file = store::open_to_write(part.path());
+  _file.emplace(File{std::move(part), std::move(file)});
 }
 
 void UploadReceiver::append(const std::string& chunk) {
@@ -179,7 +128,7 @@ void UploadReceiver::append(const std::string& chunk) {
   }
   const auto bytes = std::as_bytes(std::span(chunk));
   if (_array) at_chunk([&] { _array->add(bytes); });
-  _file->write(bytes);
+  store::write_at(_file->file, _file->part.path(), _received_bytes, bytes);
   _hash.add(bytes);
   _received_bytes += chunk.size();
 }
@@ -196,10 +145,10 @@ void UploadReceiver::end_file() {
                 "the bytes received have the sha256 {}, not the one announced", sha256)
         .at("header.sha256");
   }
-  _file->close();
   // Nothing but a mesh may reach gmsh, which would run a file that it takes for a script.
-  if (!_array) at_chunk([&] { mesher::require_msh(_file->path()); });
-  _complete.push_back(std::move(_file));
+  if (!_array) at_chunk([&] { mesher::require_msh(_file->part.path()); });
+  _complete.push_back(std::move(_file->part));
+  _file.reset();
   _records.push_back({std::move(sha256), _owner, {}, _received_bytes, _array.has_value()});
 }
 
@@ -212,12 +161,12 @@ std::vector<store::UploadRecord> UploadReceiver::complete() {
     drop();
     throw error.with("file", std::to_string(index));
   }
-  const std::vector<std::unique_ptr<File>> files = std::move(_complete);
+  std::vector<store::Part> files = std::move(_complete);
   std::vector<store::Upload> uploads;
   for (std::size_t i = 0; i < files.size(); ++i)
-    uploads.push_back({files[i]->path(), _records[i].id});
+    uploads.push_back({files[i].path(), _records[i].id});
   const records::Clock::time_point now = _store.keep_uploads(uploads, _owner);
-  for (const auto& file : files) file->release();
+  for (store::Part& file : files) file.release();
   for (store::UploadRecord& record : _records) record.created = now;
   return std::move(_records);
 }

@@ -12,6 +12,7 @@
 #include "anticrack/v1/upload.pb.h"
 #include "digest/digest.hpp"
 #include "store/array_upload.hpp"
+#include "store/files.hpp"
 #include "store/store.hpp"
 
 namespace anticrack::rpc {
@@ -27,7 +28,6 @@ class UploadReceiver {
   UploadReceiver(store::Store& store, std::string owner, std::uint64_t max_bytes);
   UploadReceiver(const UploadReceiver&) = delete;
   UploadReceiver& operator=(const UploadReceiver&) = delete;
-  ~UploadReceiver();
 
   /// Takes a message. Stores nothing before a header within the limits, and no byte more than the
   /// header announced. Throws errors::Error: invalid_argument, limit_exceeded, disk_full, storage.
@@ -39,7 +39,10 @@ class UploadReceiver {
   std::vector<store::UploadRecord> complete();
 
  private:
-  class File;
+  struct File {
+    store::Part part;
+    base::Descriptor file;
+  };
 
   void begin(const v1::CreateUploadsRequest::Header& header);
   void append(const std::string& chunk);
@@ -49,9 +52,9 @@ class UploadReceiver {
   store::Store& _store;
   const std::string _owner;
   const std::uint64_t _max_bytes;
-  std::vector<std::unique_ptr<File>> _complete;
+  std::vector<store::Part> _complete;
   std::vector<store::UploadRecord> _records;  ///< records of these files
-  std::unique_ptr<File> _file;                ///< the file that is being received
+  std::optional<File> _file;                  ///< the file that is being received
   digest::Sha256 _hash;
   std::string _announced_sha256;
   std::uint64_t _announced_bytes = 0;

@@ -15,12 +15,6 @@ namespace {
 /// StreamLimits::stall; slower ones would hold their places for hours.
 constexpr double least_rate = 4096;
 
-class RefusedUpload final : public grpc::ServerReadReactor<v1::CreateUploadsRequest> {
- public:
-  explicit RefusedUpload(grpc::Status status) { Finish(std::move(status)); }
-  void OnDone() noexcept override { delete this; }
-};
-
 }  // namespace
 
 UploadStream::UploadStream(Edge& edge, std::string owner, v1::CreateUploadsResponse* response)
@@ -142,7 +136,8 @@ grpc::ServerReadReactor<v1::CreateUploadsRequest>* receive_upload(
     upload->start(client_of(who, *context));
     return upload.get();
   } catch (...) {
-    return new RefusedUpload(to_status(current_error("CreateUploads")));
+    return new Refused<grpc::ServerReadReactor<v1::CreateUploadsRequest>>(
+        to_status(current_error("CreateUploads")));
   }
 }
 

@@ -5,9 +5,6 @@
 #include <utility>
 #include <variant>
 
-#include "api/translations.hpp"
-#include "contact/answer.hpp"
-#include "contact/sweep_columns.hpp"
 #include "errors/errors.hpp"
 #include "jobs/job_engine.hpp"
 #include "records/job_record.hpp"
@@ -111,23 +108,7 @@ void WatchFeed::fill(const jobs::ProgressEvents& progress, v1::WatchJobResponse&
 void WatchFeed::fill(const jobs::PhaseEvent& phase, v1::WatchJobResponse& response) {
   _state = static_cast<v1::JobStatus::State>(phase.state);
   _detail = phase.detail;
-  response.mutable_phase()->set_state(_state);
-  response.mutable_phase()->set_detail(_detail);
-}
-
-void WatchFeed::fill(const jobs::RowsEvent& rows, v1::WatchJobResponse& response) {
-  append(*response.mutable_sweep_rows(), rows, 0, rows.rows->rows());
-}
-
-void WatchFeed::fill(const jobs::StageEvent& stage, v1::WatchJobResponse& response) {
-  *response.mutable_stage_ended() = api::message(*stage.stage);
-}
-
-void WatchFeed::fill(const jobs::GrowthEvent& step, v1::WatchJobResponse& response) {
-  v1::GrowthStep& growth = *response.mutable_growth_step();
-  growth.set_load_case(step.load_case);
-  growth.set_number(step.number);
-  api::write_fields(*step.row, *growth.mutable_row());
+  jobs::write(phase, response);
 }
 
 void WatchFeed::fill(const jobs::EndEvent& end, v1::WatchJobResponse& response) {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "anticrack/v1/solve.pb.h"
+#include "jobs/event_codec.hpp"
 #include "jobs/event_log.hpp"
 #include "rpc/backend.hpp"
 #include "rpc/feed.hpp"
@@ -49,10 +50,11 @@ class WatchFeed final : public Feed<v1::WatchJobResponse> {
   jobs::NumberedBatch read();
   void fill(const jobs::ProgressEvents& progress, v1::WatchJobResponse& response);
   void fill(const jobs::PhaseEvent& phase, v1::WatchJobResponse& response);
-  void fill(const jobs::RowsEvent& rows, v1::WatchJobResponse& response);
-  static void fill(const jobs::GrowthEvent& step, v1::WatchJobResponse& response);
-  static void fill(const jobs::StageEvent& stage, v1::WatchJobResponse& response);
   void fill(const jobs::EndEvent& end, v1::WatchJobResponse& response);
+  template <class Event>
+  void fill(const Event& event, v1::WatchJobResponse& response) {
+    jobs::write(event, response);
+  }
 
   const Backend _backend;
   const std::string _id;

@@ -240,15 +240,6 @@ class WriteStream final : public grpc::ServerWriteReactor<Response>,
   std::optional<grpc::Status> _asked_to_end;
 };
 
-/// A stream that was refused before it began.
-template <class Response>
-class RefusedStream final : public grpc::ServerWriteReactor<Response> {
- public:
-  /// Ends with `status` at once, without a message.
-  explicit RefusedStream(grpc::Status status) { this->Finish(std::move(status)); }
-  void OnDone() noexcept override { delete this; }
-};
-
 /// The reactor of a streaming method: finds out who calls, refuses a request with unknown fields,
 /// then sends what `make_feed` returns
 /// (unique_ptr<Feed<Response>>(const access::Identity&), called on the pool), or its error.
@@ -263,7 +254,8 @@ Answers<Response>* stream(Edge& edge, Context* context, StreamKind kind,
     call->start(client_of(who, *context));
     return call.get();
   } catch (...) {
-    return new RefusedStream<Response>(to_status(current_error(request.GetDescriptor()->name())));
+    return new Refused<Answers<Response>>(
+        to_status(current_error(request.GetDescriptor()->name())));
   }
 }
 
