@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // A check that runs before libraries are set up, because OpenBLAS starts threads then and hangs if
-// there is no address space for them. No library is set up here, so this uses only system calls.
+// there is no address space for them. Of the libraries only libc is set up here.
 #include <sched.h>
 #include <unistd.h>
+
+#include <cstdio>
 
 #include "app/address_space.hpp"
 
@@ -21,31 +23,6 @@
 namespace anticrack::app {
 namespace {
 
-class Line {
- public:
-  Line& operator<<(const char* text) noexcept {
-    while (*text != 0 && _size < sizeof _text) _text[_size++] = *text++;
-    return *this;
-  }
-  Line& operator<<(std::uint64_t number) noexcept {
-    char digits[21];
-    char* first = digits + 20;
-    for (*first = 0; number > 0 || *first == 0; number /= 10) {
-      *--first = static_cast<char>('0' + number % 10);
-      if (number < 10) break;
-    }
-    return *this << first;
-  }
-  void write() const noexcept {
-    const auto ignored = ::write(STDERR_FILENO, _text, _size);
-    static_cast<void>(ignored);
-  }
-
- private:
-  char _text[300] = {};
-  std::size_t _size = 0;
-};
-
 std::uint64_t processors() noexcept {
   cpu_set_t set;
   if (::sched_getaffinity(0, sizeof set, &set) != 0) return CPU_SETSIZE;
@@ -57,11 +34,10 @@ void refuse_too_little_space() {
   constexpr std::uint64_t kibibyte = 1024;
   const std::uint64_t limit = address_space_limit(), wanted = address_space_to_load(processors());
   if (limit == 0 || limit >= wanted) return;
-  Line line;
-  line << "anticrackd: ulimit -v (address space) of " << limit / kibibyte
-       << " KiB is too small to load the program: it takes " << wanted / kibibyte
-       << " KiB; raise it, or leave it away\n";
-  line.write();
+  ::dprintf(STDERR_FILENO,
+            "anticrackd: ulimit -v (address space) of %ju KiB is too small to load the program: "
+            "it takes %ju KiB; raise it, or leave it away\n",
+            std::uintmax_t{limit / kibibyte}, std::uintmax_t{wanted / kibibyte});
   ::_exit(2);
 }
 

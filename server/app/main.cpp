@@ -20,14 +20,13 @@
 #include <thread>
 
 #include "app/address_space.hpp"
-#include "app/backup.hpp"
-#include "app/check_files.hpp"
 #include "app/command_line.hpp"
 #include "app/config_file.hpp"
 #include "app/descriptors.hpp"
 #include "app/notify.hpp"
 #include "app/orphans.hpp"
 #include "app/private_place.hpp"
+#include "app/security.hpp"
 #include "app/service.hpp"
 #include "app/signals.hpp"
 #include "app/store_check.hpp"

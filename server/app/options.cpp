@@ -36,6 +36,10 @@ rpc::ServerOptions server_options(const Config& config) {
   options.listen = config.listen;
   options.limits = config.limits;
   options.limits.mesh_triangles = config.meshes.max_triangles;
+  options.limits.meshes = config.meshes.max_meshes;
+  options.limits.pending_meshes = config.meshes.max_pending;
+  options.limits.disk_budget_bytes = config.store.disk_budget;
+  options.limits.mesher_memory_bytes = config.meshes.helper.memory_limit;
   options.limits.meshing_time = std::chrono::ceil<std::chrono::seconds>(config.meshing_time);
   return options;
 }

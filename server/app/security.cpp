@@ -2,19 +2,27 @@
 #include "app/security.hpp"
 
 #include <fmt/core.h>
+#include <unistd.h>
 
+#include <cerrno>
+#include <filesystem>
+#include <functional>
 #include <optional>
 #include <sstream>
+#include <system_error>
 #include <utility>
 
 #include "access/tokens.hpp"
 #include "app/listen_address.hpp"
+#include "app/options.hpp"
 #include "app/secret_file.hpp"
 #include "errors/errors.hpp"
 #include "rpc/tls.hpp"
 
 namespace anticrack::app {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr int warn_days = 14;
 
@@ -65,6 +73,21 @@ ReadFiles read_files(const Config& config,
   return files;
 }
 
+/// Checks that the folder is writable or, if it does not exist, the one in which it will be made.
+void require_writable(const std::string& data) {
+  std::error_code code;
+  fs::path path = fs::absolute(data).lexically_normal();
+  while (path.has_relative_path() && !fs::exists(path, code)) path = path.parent_path();
+  const std::string where = "data-dir: " + data + ": ";
+  if (!fs::is_directory(path, code))
+    throw ConfigError(where + path.string() + " is not a folder; choose another with --data-dir");
+  if (::access(path.c_str(), W_OK | X_OK) != 0) {
+    throw ConfigError(where + path.string() +
+                      " cannot be written: " + std::generic_category().message(errno) +
+                      "; give it to the server's user or choose another with --data-dir");
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> split_names(const std::string& names) {
@@ -78,17 +101,18 @@ std::vector<std::string> split_names(const std::string& names) {
   return result;
 }
 
-void note_problem(std::vector<std::string>& problems, const std::function<void()>& check) {
-  try {
-    as_config_error(check);
-  } catch (const ConfigError& error) {
-    problems.emplace_back(error.what());
-  }
-}
-
-std::vector<std::string> problems_of_security(const Config& config) {
+std::vector<std::string> problems_of_files(const Config& config) {
   std::vector<std::string> problems;
-  read_files(config, [&](const std::function<void()>& check) { note_problem(problems, check); });
+  const auto note = [&](const std::function<void()>& check) {
+    try {
+      as_config_error(check);
+    } catch (const ConfigError& error) {
+      problems.emplace_back(error.what());
+    }
+  };
+  read_files(config, note);
+  note([&] { require_writable(config.store.folder); });
+  note([&] { require_mesher(config); });
   return problems;
 }
 

@@ -10,6 +10,7 @@
 #include "group/check.hpp"
 #include "group/copy.hpp"
 #include "group/store.hpp"
+#include "store/backup.hpp"
 #include "store/check.hpp"
 #include "store/files.hpp"
 
@@ -94,6 +95,17 @@ int copy_store(const Config& config, bool dry_run, std::ostream& out) {
     out << "copied " << records << " records, " << bytes << " bytes" << std::endl;
   });
   out << "All of this is in " << to << " now, and was read there again.\n";
+  return 0;
+}
+
+int back_up(const Config& config, const std::string& to, std::ostream& out) {
+  if (!config.store.url.empty())
+    throw ConfigError(
+        "backup: --store is a database: back it up with pg_dump --format=custom "
+        "--schema=anticrack");
+  const store::BackedUp made = store::back_up(config.store.folder, to);
+  out << made.folder << ": " << made.files << " files, " << made.bytes
+      << " bytes, and the database; it is a data folder itself\n";
   return 0;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <iosfwd>
+#include <string>
 
 #include "app/config.hpp"
 
@@ -17,5 +18,9 @@ int check_store(const Config& config, bool repair, std::ostream& out);
 /// what it would copy. Returns 0, or 3 where the folder has flaws. Throws ConfigError if a server
 /// uses the folder, and as group::copy() does.
 int copy_store(const Config& config, bool dry_run, std::ostream& out);
+
+/// Implements --backup: copies the data folder to the new folder `to`, while a server may serve it,
+/// and prints what was copied. Returns 0. Throws as store::back_up() does.
+int back_up(const Config& config, const std::string& to, std::ostream& out);
 
 }  // namespace anticrack::app

@@ -87,7 +87,11 @@ TEST(Options, OfMeshesAndTheStoreAreTheConfigurations) {
 TEST(Options, OfTheEdgeAreTheConfigurations) {
   const rpc::ServerOptions options = server_options(distinct());
   EXPECT_EQ(options.listen, "127.0.0.1:1");
+  EXPECT_EQ(options.limits.disk_budget_bytes, 101u);
+  EXPECT_EQ(options.limits.mesher_memory_bytes, 102u);
   EXPECT_EQ(options.limits.mesh_triangles, 103u);
+  EXPECT_EQ(options.limits.pending_meshes, 201u);
+  EXPECT_EQ(options.limits.meshes, 202u);
   EXPECT_EQ(options.limits.upload_bytes, 104u);
   EXPECT_EQ(options.limits.memory_budget_bytes, 105u);
   EXPECT_EQ(options.limits.meshing_time, seconds(2));
