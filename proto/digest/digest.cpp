@@ -22,6 +22,8 @@ struct Sha256::Context {
 
 namespace {
 
+constexpr std::string_view digits = "0123456789abcdef";
+
 void require(bool ok) {
   if (!ok) throw std::runtime_error("OpenSSL refused to compute a SHA-256");
 }
@@ -46,7 +48,6 @@ Sha256& Sha256::add(const std::string& text) { return add(std::as_bytes(std::spa
 std::string Sha256::finish() {
   std::array<unsigned char, 32> hash{};
   require(EVP_DigestFinal_ex(_context->evp, hash.data(), nullptr) == 1);
-  constexpr std::string_view digits = "0123456789abcdef";
   std::string text;
   text.reserve(2 * hash.size());
   for (const unsigned char byte : hash) {
@@ -54,6 +55,10 @@ std::string Sha256::finish() {
     text += digits[byte & 15U];
   }
   return text;
+}
+
+bool is_sha256(std::string_view text) noexcept {
+  return text.size() == 64 && text.find_first_not_of(digits) == std::string_view::npos;
 }
 
 std::string sha256_of(

@@ -7,6 +7,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace anticrack::digest {
 
@@ -28,6 +29,10 @@ class Sha256 {
   struct Context;
   std::unique_ptr<Context> _context;
 };
+
+/// Whether a text is 64 lower-case hexadecimal digits, and nothing else, as it becomes part of
+/// paths.
+bool is_sha256(std::string_view text) noexcept;
 
 /// Of the `size` bytes that read(offset, bytes) fills in, piece by piece.
 std::string sha256_of(

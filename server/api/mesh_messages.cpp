@@ -7,6 +7,7 @@
 
 #include "api/names.hpp"
 #include "api/translations.hpp"
+#include "errors/placed.hpp"
 
 namespace anticrack::api {
 
@@ -71,13 +72,9 @@ void read_curve(const Curve& from, Spec& value) {
       return;
     case Curve::kArc:
       value.shape = mesh::Shape::arc;
-      for (const char* point : {"from", "through", "to"}) {
-        try {
-          value.points.push_back(read_one<mesh::Point>(from.arc(), point));
-        } catch (Error& error) {
-          throw error.below("arc");
-        }
-      }
+      for (const char* point : {"from", "through", "to"})
+        value.points.push_back(
+            errors::below("arc", [&] { return read_one<mesh::Point>(from.arc(), point); }));
       return;
     default:
       break;
@@ -89,11 +86,7 @@ void read_curve(const Curve& from, Spec& value) {
 /// The middle of a v1::Segment or v1::Circle.
 template <class Shape>
 mesh::Point center_of(const Shape& from, const char* name) {
-  try {
-    return read_one<mesh::Point>(from, "center");
-  } catch (Error& error) {
-    throw error.below(name);
-  }
+  return errors::below(name, [&] { return read_one<mesh::Point>(from, "center"); });
 }
 
 /// An inclusion, crack or region is given by itself, in `own`, or by a point or part of others,
@@ -218,7 +211,7 @@ mesh::InclusionSpec Translation<mesh::InclusionSpec>::read(const v1::Inclusion& 
     return value;
   }
   const v1::InterfaceParts& parts = from.delaminated_parts();
-  try {
+  errors::below("delaminated_parts", [&] {
     if (parts.parts().empty() && parts.stretches().empty()) {
       throw Error(Reason::invalid_argument,
                   "no part is named; set delaminated = false for a bonded inclusion")
@@ -226,9 +219,7 @@ mesh::InclusionSpec Translation<mesh::InclusionSpec>::read(const v1::Inclusion& 
     }
     read_field(parts, "parts", value.delaminated);
     read_field(parts, "stretches", value.stretches);
-  } catch (Error& error) {
-    throw error.below("delaminated_parts");
-  }
+  });
   return value;
 }
 

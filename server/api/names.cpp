@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 
+#include "digest/digest.hpp"
 #include "errors/errors.hpp"
 #include "words/shown.hpp"
 
@@ -41,7 +42,7 @@ std::string job_id(const std::string& name, std::string_view field) {
 
 std::string upload_sha256(const std::string& name, std::string_view field) {
   std::string sha256 = id_below("uploads", name, field);
-  if (!is_sha256(sha256)) {
+  if (!digest::is_sha256(sha256)) {
     throw Error(Reason::invalid_argument,
                 "\"{}\" does not end in a sha256 of 64 lower-case hexadecimal digits", name)
         .at(std::string(field));
@@ -65,12 +66,6 @@ std::string after_slash(const std::string& name, std::string_view field) {
         .at(std::string(field));
   }
   return name.substr(slash + 1);
-}
-
-bool is_sha256(std::string_view text) noexcept {
-  return text.size() == 64 && std::all_of(text.begin(), text.end(), [](char c) {
-           return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
-         });
 }
 
 }  // namespace anticrack::api

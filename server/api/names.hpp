@@ -25,7 +25,5 @@ std::string after_slash(const std::string& name, std::string_view field);
 
 /// Whether a text is an id: 1 to 64 letters, digits, '-' and '_'.
 bool is_id(std::string_view text) noexcept;
-/// Whether a text is 64 lower-case hexadecimal digits.
-bool is_sha256(std::string_view text) noexcept;
 
 }  // namespace anticrack::api

@@ -32,23 +32,18 @@ void read_align(const Section& section, v1::MeshOptions& options, Spots& spots) 
 template <class Groups>
 void read_groups(const Section& section, const char* key, const std::string& field, Groups& groups,
                  Spots& spots) {
-  const toml::node* node = section.find(key);
-  if (!node) return;
-  spots[field] = section.spot_of(key);
-  const toml::table* table = node->as_table();
-  if (!table) throw Error(section.spot_of(key), shown(*node) + " is not a table; " + group_cure);
-  for (const auto& [name, entry] : *table) {
-    const std::string tag_text(name.str());
-    const Spot spot = spot_of(entry, section.path_of(key) + "." + tag_text);
+  if (section.find(key)) spots[field] = section.spot_of(key);
+  for (const auto& [tag_text, entry] : section.entries(key, group_cure)) {
+    const Spot spot = spot_of(*entry, section.path_of(key, tag_text));
     std::int32_t tag = 0;
     const char* end = tag_text.data() + tag_text.size();
     const auto [stopped, error] = std::from_chars(tag_text.data(), end, tag);
     if (error != std::errc() || stopped != end || tag < 1)
       throw Error(spot, fmt::format("'{}' is not a tag; {}", tag_text, group_cure));
-    const auto meaning = entry.template value_exact<std::string>();
+    const auto meaning = entry->template value_exact<std::string>();
     if (!meaning || meaning->empty())
       throw Error(spot,
-                  fmt::format("{} is not a meaning of a group; {}", shown(entry), group_cure));
+                  fmt::format("{} is not a meaning of a group; {}", shown(*entry), group_cure));
     groups[tag] = *meaning;
     set_entry(spots, field, tag_text, spot);
   }
@@ -56,20 +51,15 @@ void read_groups(const Section& section, const char* key, const std::string& fie
 
 void read_motions(const Section& section, v1::MeshOptions& options, Spots& spots) {
   constexpr const char* cure =
-      " is not a table; write NAME = { tilt = true } or NAME = { fixed = 0.1 } for each of them";
+      "write NAME = { tilt = true } or NAME = { fixed = 0.1 } for each of them";
   const std::string field = "options.inclusion_motions";
-  const toml::node* node = section.find("inclusions");
-  if (!node) return;
-  const toml::table* inclusions = node->as_table();
-  if (!inclusions) throw Error(section.spot_of("inclusions"), shown(*node) + cure);
-  for (const auto& [key, entry] : *inclusions) {
-    const std::string name(key.str());
-    const std::string path = section.path_of("inclusions") + "." + name;
-    const toml::table* motion = entry.as_table();
-    if (!motion) throw Error(spot_of(entry, path), shown(entry) + cure);
+  for (const auto& [name, entry] : section.entries("inclusions", cure)) {
+    const std::string path = section.path_of("inclusions", name);
+    const toml::table* motion = entry->as_table();
+    if (!motion) throw Error(spot_of(*entry, path), shown(*entry) + " is not a table; " + cure);
     fill(Section(*motion, path, section.below("inclusions")),
          (*options.mutable_inclusion_motions())[name], field + "[" + name + "]", spots);
-    spots[field + "." + name] = spot_of(entry, path);
+    spots[field + "." + name] = spot_of(*entry, path);
   }
 }
 

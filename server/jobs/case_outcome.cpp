@@ -7,9 +7,11 @@
 #include <new>
 #include <string>
 #include <utility>
+#include <variant>
 
 #include "errors/errors.hpp"
 #include "jobs/result_block.hpp"
+#include "operators/mesh_operator.hpp"
 #include "records/case_record.hpp"
 
 namespace anticrack::jobs {
@@ -30,6 +32,15 @@ Error placed(Error error, std::size_t index) {
     error.below(path);
   return error;
 }
+
+class UntilStopped final : public contact::Observer {
+ public:
+  explicit UntilStopped(std::stop_token stop) : _stop(std::move(stop)) {}
+  bool on_iteration(const contact::Sample& /*sample*/) override { return !_stop.stop_requested(); }
+
+ private:
+  const std::stop_token _stop;
+};
 
 std::shared_ptr<records::CaseRecord> new_record(const Task& task, Status status) {
   auto record = std::make_shared<records::CaseRecord>();
@@ -72,6 +83,23 @@ Error error_of(const std::exception_ptr& failure) {
   } catch (const std::exception& error) {
     return {Reason::internal, std::string("solving failed: ") + error.what()};
   }
+}
+
+contact::Answer solve_quietly(const LiveJob& job, const operators::MeshOperator& on,
+                              const operators::PreparedLoad& load) {
+  UntilStopped observer(job.stop.get_token());
+  contact::Answer answer =
+      on.solve(load, std::get<contact::ActiveSetOptions>(job.spec->solver), false, observer);
+  if (answer.status == Status::cancelled) throw Error(Reason::cancelled, "the job was stopped");
+  return answer;
+}
+
+operators::PreparedLoad prepare_one(const LiveJob& job, const operators::MeshOperator& on,
+                                    const fem::Load& load) {
+  const fem::Load* const one[] = {&load};
+  auto outcome = std::move(on.prepare(one, job.stop.get_token()).front());
+  if (const auto* error = std::get_if<Error>(&outcome)) throw Error(*error);
+  return std::get<operators::PreparedLoad>(std::move(outcome));
 }
 
 CaseOutcome solved_case(const Task& task, const contact::Answer& answer,

@@ -17,6 +17,10 @@
 namespace anticrack::contact {
 struct Answer;
 }  // namespace anticrack::contact
+namespace anticrack::operators {
+class MeshOperator;
+class PreparedLoad;
+}  // namespace anticrack::operators
 
 namespace anticrack::jobs {
 
@@ -71,6 +75,14 @@ CaseOutcome solved_case(const Task& task, const contact::Answer& answer,
                         const std::vector<contact::Sample>& history,
                         std::vector<double> indicator = {},
                         const std::vector<double>& balanced_flux = {});
+/// Solves a load by the active set, without a history. Throws errors::Error (cancelled) if the job
+/// is to stop.
+contact::Answer solve_quietly(const LiveJob& job, const operators::MeshOperator& on,
+                              const operators::PreparedLoad& load);
+/// Prepares a load. Throws the errors::Error that it gets from MeshOperator::prepare().
+operators::PreparedLoad prepare_one(const LiveJob& job, const operators::MeshOperator& on,
+                                    const fem::Load& load);
+
 /// Any exception as an error.
 errors::Error error_of(const std::exception_ptr& failure);
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <unordered_set>
 
-#include "errors/errors.hpp"
+#include "errors/placed.hpp"
 #include "jobs/accuracy.hpp"
 #include "jobs/growth_run.hpp"
 #include "jobs/probes.hpp"
@@ -107,20 +107,9 @@ void check(const records::JobSpec& spec, const EngineOptions& options) {
   }
   check_names(spec.loads);
   check_probes(spec.probes);
-  for (std::size_t i = 0; i < spec.loads.size(); ++i) {
-    try {
-      fem::check(spec.loads[i], options.max_expression_bytes);
-    } catch (Error& error) {
-      error.below(load_path(i));
-      throw;
-    }
-  }
-  try {
-    contact::check(spec.solver, options.max_iterations);
-  } catch (Error& error) {
-    error.below("solver");
-    throw;
-  }
+  for (std::size_t i = 0; i < spec.loads.size(); ++i)
+    errors::below(load_path(i), [&] { fem::check(spec.loads[i], options.max_expression_bytes); });
+  errors::below("solver", [&] { contact::check(spec.solver, options.max_iterations); });
 }
 
 void check_on_mesh(const records::JobSpec& spec, const records::MeshDefinition& definition) {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <variant>
 
-#include "errors/errors.hpp"
+#include "errors/placed.hpp"
 #include "store/array_upload.hpp"
 #include "store/files.hpp"
 
@@ -17,26 +17,6 @@ namespace {
 using errors::Error;
 using errors::Reason;
 
-std::string path_of(const store::Store& store, const std::string& sha256,
-                    const std::string& owner) {
-  std::optional<std::string> path = store.upload_path(sha256, owner);
-  if (!path) {
-    throw Error(Reason::not_found, "there is no uploads/{}; upload the values of the force first",
-                sha256);
-  }
-  return std::move(*path);
-}
-
-template <class Call>
-auto at_field(const std::string& field, const Call& call) {
-  try {
-    return call();
-  } catch (Error& error) {
-    error.at(field);
-    throw;
-  }
-}
-
 }  // namespace
 
 void require_arrays(const std::vector<fem::Load>& loads, const store::Store& store,
@@ -45,8 +25,9 @@ void require_arrays(const std::vector<fem::Load>& loads, const store::Store& sto
   for (std::size_t i = 0; i < loads.size(); ++i) {
     const auto* array = std::get_if<fem::Array>(&loads[i].force);
     if (array != nullptr && seen.insert(array->upload).second) {
-      at_field(fmt::format("load_cases[{}].force.array", i),
-               [&] { return store::array_length(path_of(store, array->upload, owner)); });
+      errors::at(fmt::format("load_cases[{}].force.array", i), [&] {
+        return store::array_length(store::require_upload(store, array->upload, owner));
+      });
     }
   }
 }
@@ -61,7 +42,7 @@ ForceArrays::ForceArrays(const std::vector<fem::Load>& loads, std::string owner)
 fem::Load ForceArrays::resolve(const fem::Load& load, const store::Store& store) {
   fem::Load resolved = load;
   if (auto* array = std::get_if<fem::Array>(&resolved.force))
-    array->values = at_field("force.array", [&] { return take(array->upload, store); });
+    array->values = errors::at("force.array", [&] { return take(array->upload, store); });
   return resolved;
 }
 
@@ -72,7 +53,7 @@ ForceArrays::Values ForceArrays::take(const std::string& sha256, const store::St
   const bool last = --entry.cases_left == 0;
   Values values = entry.in_use.lock();
   if (!values) {
-    const std::string path = path_of(store, sha256, _owner);
+    const std::string path = store::require_upload(store, sha256, _owner);
     store::require_intact_upload(path, sha256);
     values = std::make_shared<const std::vector<double>>(store::read_array(path));
     entry.in_use = values;

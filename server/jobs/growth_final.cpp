@@ -14,7 +14,6 @@
 
 #include "base/at.hpp"
 #include "base/at_once.hpp"
-#include "contact/observer.hpp"
 #include "estimate/marking.hpp"
 #include "jobs/portion_codec.hpp"
 #include "jobs/spreading.hpp"
@@ -42,27 +41,13 @@ constexpr double hardly = 0.9;
 
 bool bounded(const Bracket& energy) { return std::isfinite(energy.lower); }
 
-class Quiet : public contact::Observer {
- public:
-  explicit Quiet(std::stop_token stop) : _stop(std::move(stop)) {}
-  bool on_iteration(const contact::Sample&) override { return !_stop.stop_requested(); }
-
- private:
-  const std::stop_token _stop;
-};
-
 /// Solves a position on meshes of its own.
 class Position {
  public:
   /// `number`: over the positions of all load cases.
   Position(const LiveJob& job, meshes::MeshCatalogue& catalogue, const growth::Fronts& fronts,
            std::size_t number, const PositionRequest& request)
-      : _job(job),
-        _catalogue(catalogue),
-        _fronts(fronts),
-        _number(number),
-        _request(request),
-        _options(std::get<contact::ActiveSetOptions>(job.spec->solver)) {}
+      : _job(job), _catalogue(catalogue), _fronts(fronts), _number(number), _request(request) {}
 
   SolvedPosition solve() {
     mesh::Mesh mesh = growth::mesh_of(_job.mesh_operator->mesh(), _fronts, _request.state);
@@ -95,10 +80,7 @@ class Position {
     if (const std::string& dead = _job.spec->growth->dead; !dead.empty())
       load = fem::sum(*std::ranges::find(loads, dead, &fem::Load::name), t, load,
                       op.mesh().subdomains);
-    const fem::Load* const one[] = {&load};
-    auto outcome = std::move(op.prepare(one, _job.stop.get_token()).front());
-    if (const auto* error = std::get_if<Error>(&outcome)) throw Error(*error);
-    return std::get<PreparedLoad>(std::move(outcome));
+    return prepare_one(_job, op, load);
   }
 
   /// Solves on one mesh. Returns the next, if there is to be one.
@@ -118,10 +100,7 @@ class Position {
   bool add(const MeshOperator& op, std::size_t i, std::vector<double>& indicator) {
     const std::stop_token stop = _job.stop.get_token();
     const PreparedLoad load = load_on(op, _request.loads[i]);
-    Quiet quiet(stop);
-    contact::Answer answer = op.solve(load, _options, false, quiet);
-    if (answer.status == contact::Status::cancelled)
-      throw Error(Reason::cancelled, "stopped while solving a position of growth");
+    contact::Answer answer = solve_quietly(_job, op, load);
     if (answer.status != contact::Status::converged) {
       _solved.reason = answer.reason;
       return false;
@@ -180,7 +159,6 @@ class Position {
   const growth::Fronts& _fronts;
   const std::size_t _number;
   const PositionRequest& _request;
-  const contact::ActiveSetOptions _options;
   SolvedPosition _solved;
   int _in_vain = 0;  ///< the last meshes whose bounds are hardly closer
 };

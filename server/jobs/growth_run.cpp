@@ -182,17 +182,13 @@ void add_membranes(const std::vector<growth::Row>& rows, const std::vector<Grown
 
 /// The load that acts beside this one, if there is one.
 std::optional<operators::PreparedLoad> dead_load(const PreparedCase& prepared,
-                                                 const store::Store& store,
-                                                 const std::stop_token& stop) {
+                                                 const store::Store& store) {
   LiveJob& job = *prepared.task.job;
   const std::string& name = job.spec->growth->dead;
   if (name.empty() || job.spec->loads[prepared.task.index].name == name) return {};
   const fem::Load load =
       job.arrays.resolve(*std::ranges::find(job.spec->loads, name, &fem::Load::name), store);
-  const fem::Load* const one[] = {&load};
-  auto outcome = std::move(job.mesh_operator->prepare(one, stop).front());
-  if (const auto* error = std::get_if<Error>(&outcome)) throw Error(*error);
-  return std::get<operators::PreparedLoad>(std::move(outcome));
+  return prepare_one(job, *job.mesh_operator, load);
 }
 
 contact::Answer grown(const PreparedCase& prepared, EngineCore& core, contact::Observer& observer) {
@@ -200,7 +196,7 @@ contact::Answer grown(const PreparedCase& prepared, EngineCore& core, contact::O
   const records::GrowthSpec& spec = *job.spec->growth;
   const std::stop_token stop = job.stop.get_token();
   const growth::Control control = control_of(spec, job.mesh_operator->mesh());
-  std::optional<operators::PreparedLoad> dead = dead_load(prepared, core.store, stop);
+  std::optional<operators::PreparedLoad> dead = dead_load(prepared, core.store);
   const bool driven = dead.has_value();
   operators::Growth preview(job.mesh_operator, prepared.load, spec.paths, stop, std::move(dead));
   std::vector<growth::Track> tracks = preview.tracks();

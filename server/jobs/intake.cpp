@@ -7,7 +7,7 @@
 #include <random>
 #include <utility>
 
-#include "errors/errors.hpp"
+#include "errors/placed.hpp"
 #include "fields/walk.hpp"
 #include "jobs/check.hpp"
 #include "jobs/job_start.hpp"
@@ -50,12 +50,7 @@ JobRecord new_record(const Submission& submission) {
 }
 
 std::shared_ptr<void> use(EngineCore& core, const std::string& mesh) {
-  try {
-    return core.catalogue.use(mesh);
-  } catch (Error& error) {
-    error.at("mesh");
-    throw;
-  }
+  return errors::at("mesh", [&] { return core.catalogue.use(mesh); });
 }
 
 /// A place in the queue; the destructor gives it back unless the job has taken it.

@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "errors/errors.hpp"
+#include "errors/placed.hpp"
 #include "jobs/case_outcome.hpp"
 #include "jobs/probes.hpp"
 #include "jobs/result_block.hpp"
@@ -37,12 +37,8 @@ std::optional<SweepPlan> plan_of(const EngineCore& core, const LiveJob& job,
   const std::optional<records::SweepSpec>& sweep = job.spec->sweep;
   if (!sweep) return std::nullopt;
   MatrixFile matrix = find_matrix(*sweep, core.store, job.created.owner);
-  try {
-    store::require_intact_upload(matrix.path, sweep->upload);
-  } catch (Error& error) {
-    error.at(matrix_field(*sweep));
-    throw;
-  }
+  errors::at(matrix_field(*sweep),
+             [&] { store::require_intact_upload(matrix.path, sweep->upload); });
   return plan_sweep(*job.spec, std::move(matrix), mesh_operator, core.options);
 }
 

@@ -4,12 +4,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 #include <variant>
 
-#include "errors/errors.hpp"
+#include "errors/placed.hpp"
 #include "store/array_upload.hpp"
+#include "store/files.hpp"
 
 namespace anticrack::jobs {
 
@@ -116,18 +116,11 @@ void check_sweep(const records::JobSpec& spec, const EngineOptions& options) {
 
 MatrixFile find_matrix(const SweepSpec& sweep, const store::Store& store,
                        const std::string& owner) {
-  try {
-    std::optional<std::string> path = store.upload_path(sweep.upload, owner);
-    if (!path) {
-      throw Error(Reason::not_found, "there is no uploads/{}; upload the matrix of the sweep first",
-                  sweep.upload);
-    }
-    const std::uint64_t values = store::array_length(*path);
-    return {std::move(*path), values};
-  } catch (Error& error) {
-    error.at(matrix_field(sweep));
-    throw;
-  }
+  return errors::at(matrix_field(sweep), [&]() -> MatrixFile {
+    std::string path = store::require_upload(store, sweep.upload, owner);
+    const std::uint64_t values = store::array_length(path);
+    return {std::move(path), values};
+  });
 }
 
 std::uint64_t rows_of(const SweepSpec& sweep, std::uint64_t values, std::uint64_t columns,

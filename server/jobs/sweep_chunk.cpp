@@ -13,6 +13,7 @@
 
 #include "contact/answer.hpp"
 #include "contact/sweep_columns.hpp"
+#include "errors/placed.hpp"
 #include "jobs/case_outcome.hpp"
 #include "jobs/sweep_result.hpp"
 #include "jobs/trace_arrays.hpp"
@@ -27,19 +28,6 @@ namespace {
 using contact::SweepColumns;
 using errors::Error;
 using errors::Reason;
-
-/// The error that is thrown when the job must stop.
-Error stopped() { return {Reason::cancelled, "the job was stopped"}; }
-
-/// Stops a solve with its job; the steps of a row are not reported.
-class StopOnly final : public contact::Observer {
- public:
-  explicit StopOnly(std::stop_token stop) : _stop(std::move(stop)) {}
-  bool on_iteration(const contact::Sample& /*sample*/) override { return !_stop.stop_requested(); }
-
- private:
-  const std::stop_token _stop;
-};
 
 void add_new(const std::string& warning, std::vector<std::string>& warnings) {
   if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(warning);
@@ -84,7 +72,7 @@ class ChunkRows {
   }
 
   static void require_complete(bool complete) {
-    if (!complete) throw stopped();
+    if (!complete) throw Error(Reason::cancelled, "the job was stopped");
   }
 
   Error in_row(std::uint64_t row, const std::string& what, Reason reason) const {
@@ -134,10 +122,7 @@ class ChunkRows {
   }
 
   contact::Answer solve(const operators::PreparedLoad& load) const {
-    StopOnly observer(_stop);
-    contact::Answer answer = mesh_operator().solve(load, options(), false, observer);
-    require_complete(answer.status != contact::Status::cancelled);
-    return answer;
+    return solve_quietly(_job, mesh_operator(), load);
   }
 
   /// Computes bounds, as for load cases, of the rows that converged and do not share theirs; a few
@@ -229,12 +214,8 @@ std::shared_ptr<const operators::LoadBasis> condense_basis(
   std::vector<const fem::Load*> pointers;
   loads.reserve(job.spec->loads.size());
   for (const fem::Load& load : job.spec->loads) {
-    try {
-      loads.push_back(job.arrays.resolve(load, store));
-    } catch (Error& error) {
-      error.below(fmt::format("load_cases[{}]", loads.size()));
-      throw;
-    }
+    loads.push_back(errors::below(fmt::format("load_cases[{}]", loads.size()),
+                                  [&] { return job.arrays.resolve(load, store); }));
     pointers.push_back(&loads.back());
   }
   return mesh_operator.basis(pointers, job.stop.get_token(), job.spec->sweep->bounds,

@@ -4,10 +4,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstdlib>
 #include <map>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "mesh/codec_bytes.hpp"
@@ -16,11 +18,9 @@ namespace anticrack::mesh {
 namespace {
 
 // The first eight bytes name the kind of message and the version of the format.
-constexpr std::string_view mesh_tag = "ACMESH2\n";
-constexpr std::string_view moving_mesh_tag = "ACMESH3\n";       // motions follow
-constexpr std::string_view mesh_with_laws_tag = "ACMESH4\n";    // motions and tension laws follow
-constexpr std::string_view mesh_with_chords_tag = "ACMESH5\n";  // motions, laws, chords follow
-constexpr std::string_view mesh_with_parts_tag = "ACMESH6\n";   // the same and boundary parts
+/// Of a mesh that is followed by so many of the fields that `later` names, in their order.
+constexpr std::array<std::string_view, 5> mesh_tags{"ACMESH2\n", "ACMESH3\n", "ACMESH4\n",
+                                                    "ACMESH5\n", "ACMESH6\n"};
 constexpr std::string_view request_tag = "ACMREQ6\n";
 constexpr std::string_view reply_tag = "ACMREP5\n";
 
@@ -55,6 +55,24 @@ std::size_t bytes_of(const Mesh& mesh) {
   return mesh.xy.size() * sizeof(double) +
          (mesh.triangles.size() + mesh.subdomain.size()) * sizeof(std::int32_t) +
          mesh.dirichlet.size() * lines + lines * lines;
+}
+
+/// Calls visit() with the first `count` of the fields that meshes got later.
+template <class AnyMesh, class Visit>
+void later(AnyMesh& mesh, std::size_t count, const Visit& visit) {
+  if (count > 0) visit(mesh.motions);
+  if (count > 1) visit(mesh.tension_laws);
+  if (count > 2) visit(mesh.chords);
+  if (count > 3) visit(mesh.boundary_parts);
+}
+
+/// How many of these a mesh needs.
+std::size_t later_of(const Mesh& mesh) {
+  return !mesh.boundary_parts.empty() ? 4
+         : !mesh.chords.empty()       ? 3
+         : !mesh.tension_laws.empty() ? 2
+         : moves(mesh)                ? 1
+                                      : 0;
 }
 
 Mesh get_mesh(Reader& in) {
@@ -138,37 +156,24 @@ static Choices choices_of(Preset) {
 }
 
 Bytes encode(const Mesh& mesh) {
-  const bool moving = moves(mesh), parts = !mesh.boundary_parts.empty(),
-             chords = parts || !mesh.chords.empty(), laws = chords || !mesh.tension_laws.empty();
-  Writer out(parts    ? mesh_with_parts_tag
-             : chords ? mesh_with_chords_tag
-             : laws   ? mesh_with_laws_tag
-             : moving ? moving_mesh_tag
-                      : mesh_tag,
-             bytes_of(mesh));
+  const std::size_t count = later_of(mesh);
+  Writer out(mesh_tags[count], bytes_of(mesh));
   put(out, mesh);
-  if (moving || laws) out.value(moving ? mesh.motions : std::vector<Motion>());
-  if (laws) out.value(mesh.tension_laws);
-  if (chords) out.value(mesh.chords);
-  if (parts) out.value(mesh.boundary_parts);
+  later(mesh, count, [&]<class Field>(const Field& field) {
+    if constexpr (std::is_same_v<Field, std::vector<Motion>>)
+      out.value(moves(mesh) ? field : Field());
+    else
+      out.value(field);
+  });
   return out.take();
 }
 
 Mesh decode_mesh(std::span<const std::byte> bytes) {
-  const bool moving = Reader::begins(bytes, moving_mesh_tag),
-             parts = Reader::begins(bytes, mesh_with_parts_tag),
-             chords = parts || Reader::begins(bytes, mesh_with_chords_tag),
-             laws = chords || Reader::begins(bytes, mesh_with_laws_tag);
-  Reader in(bytes, parts    ? mesh_with_parts_tag
-                   : chords ? mesh_with_chords_tag
-                   : laws   ? mesh_with_laws_tag
-                   : moving ? moving_mesh_tag
-                            : mesh_tag);
+  std::size_t count = mesh_tags.size() - 1;
+  while (count > 0 && !Reader::begins(bytes, mesh_tags[count])) --count;
+  Reader in(bytes, mesh_tags[count]);
   Mesh mesh = get_mesh(in);
-  if (moving || laws) in.read(mesh.motions);
-  if (laws) in.read(mesh.tension_laws);
-  if (chords) in.read(mesh.chords);
-  if (parts) in.read(mesh.boundary_parts);
+  later(mesh, count, [&](auto& field) { in.read(field); });
   in.end();
   return mesh;
 }
@@ -198,10 +203,7 @@ Bytes encode(const MesherReply& reply) {
   out.number(static_cast<std::int32_t>(reply.index()));
   if (const auto* mesh = std::get_if<Mesh>(&reply)) {
     put(out, *mesh);
-    out.value(mesh->motions);
-    out.value(mesh->tension_laws);
-    out.value(mesh->chords);
-    out.value(mesh->boundary_parts);
+    later(*mesh, mesh_tags.size() - 1, [&](const auto& field) { out.value(field); });
     out.value(mesh->warnings);
     out.value(mesh->bisection_bound);
   } else {
@@ -218,10 +220,7 @@ MesherReply decode_reply(std::span<const std::byte> bytes) {
     return error;
   }
   Mesh mesh = get_mesh(in);
-  in.read(mesh.motions);
-  in.read(mesh.tension_laws);
-  in.read(mesh.chords);
-  in.read(mesh.boundary_parts);
+  later(mesh, mesh_tags.size() - 1, [&](auto& field) { in.read(field); });
   in.read(mesh.warnings);
   in.read(mesh.bisection_bound);
   in.end();

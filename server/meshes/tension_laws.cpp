@@ -7,20 +7,11 @@
 #include <variant>
 
 #include "base/at.hpp"
+#include "errors/placed.hpp"
 #include "fem/tension.hpp"
 
 namespace anticrack::meshes {
 namespace {
-
-/// Calls check() and puts the field of the law before the fields of its errors.
-template <class Check>
-void below(const std::string& law, const Check& check) {
-  try {
-    check();
-  } catch (errors::Error& error) {
-    throw error.below(law);
-  }
-}
 
 std::string region_field(std::size_t i) { return fmt::format("regions[{}].tension_law", i); }
 std::string option_field(const std::string& name) { return "options.tension_laws[" + name + "]"; }
@@ -61,15 +52,15 @@ void check_laws(const records::MeshDefinition& definition, std::size_t max_expre
     for (std::size_t i = 0; i < regions.size(); ++i) {
       if (!regions[i].tension_law) continue;
       // A region with an outline has no point of its own.
-      below(region_field(i), [&] {
+      errors::below(region_field(i), [&] {
         fem::check(*regions[i].tension_law, max_expression_bytes,
                    regions[i].outline ? nullptr : &regions[i].at);
       });
     }
   } else if (const auto* upload = std::get_if<records::UploadRef>(&definition)) {
     for (const auto& [name, law] : upload->options.tension_laws)
-      below(option_field(name),
-            [&law = law, max_expression_bytes] { fem::check(law, max_expression_bytes); });
+      errors::below(option_field(name),
+                    [&law = law, max_expression_bytes] { fem::check(law, max_expression_bytes); });
   }
 }
 
@@ -79,8 +70,9 @@ void summarize_tension(const mesh::Mesh& mesh, records::MeshRecord& record) {
     if (!mesh.tension.empty()) to.tension = mesh.tension[s];
     if (mesh.tension_laws.empty() || mesh.tension_laws[s].along.empty()) continue;
     to.tension_law = mesh.tension_laws[s];
-    below(field_of(record.definition, to.name),
-          [&] { to.tension = fem::tension(part_of(mesh, s), *to.tension_law, to.name).mean; });
+    errors::below(field_of(record.definition, to.name), [&] {
+      to.tension = fem::tension(part_of(mesh, s), *to.tension_law, to.name).mean;
+    });
   }
 }
 

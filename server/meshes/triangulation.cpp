@@ -9,7 +9,7 @@
 #include <utility>
 #include <variant>
 
-#include "errors/errors.hpp"
+#include "errors/placed.hpp"
 #include "mesh/codec.hpp"
 #include "meshes/summary.hpp"
 #include "meshes/tension_laws.hpp"
@@ -33,7 +33,8 @@ mesh::MesherRequest request_for(const records::MeshRecord& record, const Catalog
         "the triangulation of meshes/{}, which a job made, is gone: run the job again", record.id);
   }
   const auto& upload = std::get<records::UploadRef>(record.definition);
-  std::string path = require_upload(store, upload, record.owner);
+  std::string path = errors::at(
+      "upload", [&] { return store::require_upload(store, upload.sha256, record.owner); });
   try {
     store::require_intact_upload(path, upload.sha256);
   } catch (const errors::Error& damaged) {  // unlike an error of the disk, this is for good
@@ -50,17 +51,6 @@ std::uint64_t expected_of(const mesh::MesherRequest& request) {
 
 }  // namespace
 
-std::string require_upload(const store::Store& store, const records::UploadRef& upload,
-                           const std::string& owner) {
-  std::optional<std::string> path = store.upload_path(upload.sha256, owner);
-  if (!path) {
-    throw errors::Error(errors::Reason::not_found, "there is no uploads/{}: upload the file first",
-                        upload.sha256)
-        .at("upload");
-  }
-  return std::move(*path);
-}
-
 std::size_t check_definition(const records::MeshDefinition& definition, const std::string& owner,
                              const CatalogueOptions& options, const store::Store& store) {
   check_laws(definition, options.max_expression_bytes);
@@ -70,7 +60,8 @@ std::size_t check_definition(const records::MeshDefinition& definition, const st
   constexpr std::size_t bytes_a_triangle = 60;  // of a .msh file, nodes included
   const auto& upload = std::get<records::UploadRef>(definition);
   mesh::check_for_upload(upload.options);
-  const std::string path = require_upload(store, upload, owner);
+  const std::string path =
+      errors::at("upload", [&] { return store::require_upload(store, upload.sha256, owner); });
   mesher::require_msh(path);
   std::error_code unknown;
   const std::uintmax_t bytes = std::filesystem::file_size(path, unknown);

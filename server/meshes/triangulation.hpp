@@ -20,12 +20,8 @@ struct Triangulation {
   records::MeshRecord record;  ///< not in the store yet
 };
 
-/// Path of an upload of `owner`. Throws errors::Error (not_found, at "upload").
-std::string require_upload(const store::Store& store, const records::UploadRef& upload,
-                           const std::string& owner);
-
 /// Checks a definition without the mesher and returns a rough number of triangles. Throws as
-/// mesh::plan, mesh::check_for_upload, require_upload and mesher::require_msh do.
+/// mesh::plan, mesh::check_for_upload and mesher::require_msh do, and not_found at "upload".
 std::size_t check_definition(const records::MeshDefinition& definition, const std::string& owner,
                              const CatalogueOptions& options, const store::Store& store);
 /// The same for a record; 0 if its definition is wrong.
@@ -41,7 +37,7 @@ void meshed(const mesh::Mesh& mesh, std::chrono::steady_clock::time_point start,
 using ProgressListener = std::function<void(const records::MeshProgress&)>;
 
 /// Runs the helper: seconds to minutes. The record has no summary yet. Throws as mesher::run,
-/// mesh::plan and require_upload do.
+/// mesh::plan do, and not_found at "upload".
 Triangulation triangulate(records::MeshRecord record, const CatalogueOptions& options,
                           const store::Store& store, const std::stop_token& stop,
                           const ProgressListener& progress);

@@ -99,7 +99,7 @@ void UploadReceiver::begin(const v1::CreateUploadsRequest::Header& header) {
                 _max_bytes)
         .at("header.size");
   }
-  if (!api::is_sha256(header.sha256())) {
+  if (!digest::is_sha256(header.sha256())) {
     throw Error(Reason::invalid_argument,
                 "sha256 is not 64 lower-case hexadecimal digits, as sha256sum prints them")
         .at("header.sha256");

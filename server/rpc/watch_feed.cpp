@@ -5,7 +5,7 @@
 #include <utility>
 #include <variant>
 
-#include "errors/errors.hpp"
+#include "errors/placed.hpp"
 #include "jobs/job_engine.hpp"
 #include "records/job_record.hpp"
 #include "rpc/from_domain.hpp"
@@ -19,12 +19,7 @@ WatchFeed::WatchFeed(const Backend& backend, WatchGroups& groups, std::string id
       _group(groups.of(_backend.engine.events(_id))),
       _cursor(after),
       _from_earliest(after == 0) {
-  try {
-    read();
-  } catch (errors::Error& error) {
-    error.at("after_sequence");
-    throw;
-  }
+  errors::at("after_sequence", [&] { read(); });
 }
 
 WatchFeed::~WatchFeed() {

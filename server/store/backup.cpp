@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "digest/digest.hpp"
 #include "store/disk_errors.hpp"
 #include "store/files.hpp"
 #include "store/identity.hpp"
@@ -112,7 +113,7 @@ class Backup {
   /// Links the files that the records name; returns the path of a missing one, or an empty text.
   std::string link_named_files() const {
     for (const auto& [kind, name] : _named) {
-      if (!is_sha256(name)) continue;  // a damaged row, which --check-store will find
+      if (!digest::is_sha256(name)) continue;  // a damaged row, which --check-store will find
       if (!link(kind, name)) return folder_of(_data, kind) + "/" + name;
     }
     return {};

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "digest/digest.hpp"
 #include "errors/errors.hpp"
 #include "records/job_record.hpp"
 #include "records/mesh_record.hpp"
@@ -29,7 +30,7 @@ std::vector<records::MeshRecord> CommonStore::meshes(const Page& asked) const {
 }
 
 std::shared_ptr<const mesh::Mesh> CommonStore::triangulation(const std::string& sha256) const {
-  if (!is_sha256(sha256)) return nullptr;
+  if (!digest::is_sha256(sha256)) return nullptr;
   if (auto held = _triangulations.find(sha256)) return held;
   const std::optional<mesh::Bytes> bytes = encoded_mesh(sha256);
   if (!bytes) return nullptr;

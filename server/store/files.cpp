@@ -19,6 +19,7 @@
 #include "digest/digest.hpp"
 #include "stop/stop.hpp"
 #include "store/disk_errors.hpp"
+#include "store/store.hpp"
 
 namespace anticrack::store {
 
@@ -36,12 +37,6 @@ void flush_file(const base::Descriptor& file, const std::string& path) {
 
 }  // namespace
 
-bool is_sha256(const std::string& text) noexcept {
-  return text.size() == 64 && std::all_of(text.begin(), text.end(), [](char c) {
-           return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
-         });
-}
-
 std::string database_path(const std::string& data) { return data + "/anticrack.db"; }
 
 std::string folder_of(const std::string& data, FileKind kind) {
@@ -54,7 +49,7 @@ std::vector<std::string> file_names(const std::string& folder) {
   std::vector<std::string> names;
   for (fs::directory_iterator entry(folder, code), end; !code && entry != end;
        entry.increment(code))
-    if (std::string name = entry->path().filename().string(); is_sha256(name))
+    if (std::string name = entry->path().filename().string(); digest::is_sha256(name))
       names.push_back(std::move(name));
   if (code && code != std::errc::no_such_file_or_directory)
     throw disk_error("list " + folder, code.value());
@@ -186,6 +181,12 @@ std::string sha256_of(std::span<const std::byte> bytes) {
   return hash.finish();
 }
 
+std::string require_upload(const Store& store, const std::string& sha256,
+                           const std::string& owner) {
+  if (std::optional<std::string> path = store.upload_path(sha256, owner)) return std::move(*path);
+  throw errors::Error(errors::Reason::not_found, "there is no uploads/{}; upload it first", sha256);
+}
+
 void require_intact_upload(const std::string& path, const std::string& sha256) {
   if (sha256_of(path) != sha256) {
     throw errors::Error(errors::Reason::storage,
@@ -294,7 +295,7 @@ std::vector<std::string> Files::sweep(
       continue;
     }
     _usage.add(_kind, file_size(entry->path().string()).value_or(0));
-    if (is_sha256(name) && !wanted(name)) unwanted.push_back(name);
+    if (digest::is_sha256(name) && !wanted(name)) unwanted.push_back(name);
   }
   if (code) throw disk_error("list " + _folder, code.value());
   for (const std::string& name : parts)

@@ -17,9 +17,7 @@
 
 namespace anticrack::store {
 
-/// Whether a text is a sha256, 64 lower-case digits, and nothing else, as it becomes part of a
-/// path.
-bool is_sha256(const std::string& text) noexcept;
+class Store;
 
 /// The paths, in a data folder, of its database and of the folder for files of a kind.
 std::string database_path(const std::string& data);
@@ -55,6 +53,8 @@ std::optional<std::vector<std::byte>> read_file(const std::string& path);
 std::string sha256_of(const std::string& path);
 /// The hash of bytes in memory. Both functions look at the stop token (stop/stop.hpp).
 std::string sha256_of(std::span<const std::byte> bytes);
+/// The path of an upload of `owner`. Throws errors::Error (not_found).
+std::string require_upload(const Store& store, const std::string& sha256, const std::string& owner);
 /// Reads the file. Throws errors::Error (storage) if its content no longer has the hash `sha256`.
 void require_intact_upload(const std::string& path, const std::string& sha256);
 /// Makes the file or replaces its content, on the disk, all or nothing. Throws as disk_error does.

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "digest/digest.hpp"
 #include "errors/errors.hpp"
 #include "store/disk_usage.hpp"
 #include "store/files.hpp"
@@ -17,7 +18,7 @@ namespace anticrack::store {
 /// Throws errors::Error unless the upload has a hash (invalid_argument) and a file of new_part()
 /// (internal).
 inline void require_part(const Upload& upload, const Files& files) {
-  if (!is_sha256(upload.sha256)) {
+  if (!digest::is_sha256(upload.sha256)) {
     throw errors::Error(errors::Reason::invalid_argument,
                         "\"{}\" is not a sha256: give its 64 lower-case hexadecimal digits",
                         upload.sha256);

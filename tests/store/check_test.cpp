@@ -79,7 +79,8 @@ class StoreCheck : public StoreTest {
     aside = repair(folder.path(), found);
     std::size_t count = 0;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(aside)) {
-      count += entry.is_regular_file() && is_sha256(entry.path().filename().string()) ? 1U : 0U;
+      count +=
+          entry.is_regular_file() && digest::is_sha256(entry.path().filename().string()) ? 1U : 0U;
     }
     EXPECT_EQ(count, files_aside);
     EXPECT_THAT(store::check(folder.path()).flaws, IsEmpty());
