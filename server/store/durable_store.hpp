@@ -20,7 +20,7 @@
 
 namespace anticrack::store {
 
-class DurableStore final : public CommonStore {
+class DurableStore : public CommonStore {
  public:
   /// Makes or opens the folder, and removes the files in it that no record names. Throws
   /// errors::Error (storage, disk_full).

@@ -8,6 +8,7 @@
 
 #include "casefile/sample_case.hpp"
 #include "errors/errors.hpp"
+#include "support/errors.hpp"
 
 namespace anticrack::casefile {
 namespace {
@@ -24,12 +25,7 @@ v1::ReadCaseRequest asked(const std::string& toml) {
 
 std::optional<errors::Error> refusal(const v1::ReadCaseRequest& request,
                                      const Limits& limits = {}) {
-  try {
-    read_case(request, limits);
-  } catch (const errors::Error& error) {
-    return error;
-  }
-  return std::nullopt;
+  return anticrack::testing::error_of([&] { read_case(request, limits); });
 }
 
 TEST(ReadCase, GivesTheRequestsAndThePlacesOfTheirFields) {

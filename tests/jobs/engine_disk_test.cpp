@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "jobs/engine_support.hpp"
-#include "jobs/failing_store.hpp"
 #include "support/errors.hpp"
 
 namespace anticrack::jobs {
@@ -31,7 +30,7 @@ class EngineDisk : public ::testing::Test {
   }
 
   Backend backend;
-  FailingStore store{*backend.store};
+  FailingStore& store = *backend.store;
   const std::string mesh = ready_mesh(backend);
 };
 

@@ -6,7 +6,6 @@
 #include <thread>
 
 #include "jobs/engine_support.hpp"
-#include "jobs/failing_store.hpp"
 
 namespace anticrack::jobs {
 namespace {
@@ -21,14 +20,14 @@ using namespace std::chrono_literals;
 class EngineLongStep : public ::testing::Test {
  protected:
   EngineLongStep() {
-    _store.reading_upload = [this, test = std::this_thread::get_id()] {
+    backend.store->reading_upload = [this, test = std::this_thread::get_id()] {
       if (std::this_thread::get_id() != test) _door.pass({});
     };
     _door.shut();
     EngineOptions options;
     options.threads = 1;
     options.long_step = 5ms;
-    engine = std::make_unique<JobEngine>(options, _store, backend.catalogue);
+    engine = std::make_unique<JobEngine>(options, *backend.store, backend.catalogue);
   }
   ~EngineLongStep() override { _door.open(); }
 
@@ -59,7 +58,6 @@ class EngineLongStep : public ::testing::Test {
 
  private:
   anticrack::testing::Door _door;
-  anticrack::testing::FailingStore _store{*backend.store};
 
  protected:
   std::unique_ptr<JobEngine> engine;  // the last: it uses the others

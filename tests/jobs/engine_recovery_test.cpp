@@ -9,7 +9,6 @@
 #include <thread>
 
 #include "jobs/engine_support.hpp"
-#include "jobs/failing_store.hpp"
 #include "records/case_record.hpp"
 #include "support/errors.hpp"
 
@@ -162,7 +161,7 @@ TEST(EngineRecovery, WritesNoJobBeforeItStarts) {
   const std::string mesh = ready_mesh(backend);
   std::string id;
   ASSERT_NO_FATAL_FAILURE(submit_and_stop(backend, mesh, id));
-  anticrack::testing::FailingStore store(*backend.store);
+  anticrack::testing::FailingStore& store = *backend.store;
   store.put_fails = true;
   JobEngine engine(unlimited(one_thread()), store, backend.catalogue);
   EXPECT_EQ(engine.get(id).attempt, 2);

@@ -10,7 +10,6 @@
 #include <variant>
 
 #include "jobs/engine_support.hpp"
-#include "jobs/failing_store.hpp"
 #include "records/case_record.hpp"
 
 namespace anticrack::jobs {
@@ -320,7 +319,7 @@ TEST(EngineStages, GoOnAfterAStopInEachOfThemWithTheSameBits) {
 
 TEST(EngineStages, DoNotNeedToBeStored) {
   Backend backend;
-  anticrack::testing::FailingStore store(*backend.store);
+  anticrack::testing::FailingStore& store = *backend.store;
   JobEngine engine(unlimited(), store, backend.catalogue);
   const records::JobSpec spec = accurate_job(ready_mesh(backend, 0.4));
   const std::string id = engine.submit({spec, "", ""}).id;

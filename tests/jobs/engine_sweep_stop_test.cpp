@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "jobs/failing_store.hpp"
 #include "jobs/sweep_support.hpp"
 #include "support/errors.hpp"
 
@@ -234,7 +233,7 @@ TEST(EngineSweepAgain, AMatrixThatIsGoneFailsTheJob) {
 
 TEST(EngineSweepAgain, IsWrittenWhenTheDiskHasSpace) {
   Backend backend;
-  FailingStore store(*backend.store);
+  FailingStore& store = *backend.store;
   const std::string mesh = ready_mesh(backend, mesh_size);
   JobEngine engine(one_thread(), store, backend.catalogue);
   store.finish_fails = true;

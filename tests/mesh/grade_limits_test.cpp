@@ -6,6 +6,7 @@
 #include "errors/errors.hpp"
 #include "mesh/refine.hpp"
 #include "mesh/refinement_mesh.hpp"
+#include "support/errors.hpp"
 
 namespace anticrack::mesh {
 namespace {
@@ -17,13 +18,9 @@ using testing::plenty;
 using testing::structured_mesh;
 
 errors::Error refusal(const Mesh& base, const Grading& grading, std::size_t limit = plenty) {
-  try {
-    grade(base, grading, limit);
-  } catch (const errors::Error& error) {
-    return error;
-  }
-  ADD_FAILURE() << "not refused";
-  return {errors::Reason::internal, ""};
+  const auto error = testing::error_of([&] { grade(base, grading, limit); });
+  EXPECT_TRUE(error) << "not refused";
+  return error.value_or(errors::Error(errors::Reason::internal, ""));
 }
 
 TEST(Grade, KeepsToTheLimitAndSaysWhatToChange) {

@@ -25,13 +25,9 @@ using records::MeshState;
 
 class Memory : public ::testing::Test {
  protected:
-  MeshState state(const std::string& id) { return backend.catalogue.get(id).state; }
-  bool reaches(const std::string& id, MeshState wanted) {
-    return eventually([&] { return state(id) == wanted; });
-  }
   std::string ready_mesh(double size = 0.2) {
     const std::string id = backend.create(size);
-    EXPECT_TRUE(reaches(id, MeshState::ready));
+    EXPECT_TRUE(backend.reaches(id, MeshState::ready));
     return id;
   }
   bool pinned(const std::string& id) {
@@ -49,7 +45,7 @@ TEST_F(Memory, IsWarmedInTheBackground) {
   backend.door.shut();
   EXPECT_EQ(backend.catalogue.warm(id, false).state, MeshState::factorizing);
   backend.door.open();
-  EXPECT_TRUE(reaches(id, MeshState::ready));
+  EXPECT_TRUE(backend.reaches(id, MeshState::ready));
   EXPECT_FALSE(backend.catalogue.pinned(id));
   EXPECT_EQ(backend.catalogue.meshings(), 1U);
   EXPECT_EQ(backend.cache.metrics().factorizations, 2U);
@@ -69,12 +65,12 @@ TEST_F(Memory, IsPinnedAtOnceWhereItIsThere) {
 TEST_F(Memory, IsPinnedWhenItHasCome) {
   backend.door.shut();
   const std::string id = backend.create();
-  ASSERT_TRUE(reaches(id, MeshState::factorizing));
+  ASSERT_TRUE(backend.reaches(id, MeshState::factorizing));
   backend.catalogue.warm(id, true);
   EXPECT_FALSE(backend.catalogue.pinned(id));
   backend.door.open();
   EXPECT_TRUE(pinned(id));
-  EXPECT_TRUE(reaches(id, MeshState::ready));
+  EXPECT_TRUE(backend.reaches(id, MeshState::ready));
   EXPECT_FALSE(backend.catalogue.pinned("unknown"));
 }
 
@@ -91,7 +87,7 @@ TEST_F(Memory, IsNotEvictedWhileItIsHeldOrMade) {
   ASSERT_TRUE(eventually([&] { return backend.cache.metrics().factorizations == 2; }));
   EXPECT_TRUE(throws([&] { backend.catalogue.evict(id); }, Reason::in_use));
   backend.door.open();
-  EXPECT_TRUE(reaches(id, MeshState::ready));
+  EXPECT_TRUE(backend.reaches(id, MeshState::ready));
   EXPECT_TRUE(throws([&] { backend.catalogue.evict("unknown"); }, Reason::not_found));
 }
 
@@ -110,7 +106,7 @@ TEST_F(Memory, GoesWithAMeshThatIsErased) {
 TEST_F(Memory, GoesWithAMeshThatIsErasedWhileItIsFactorised) {
   backend.door.shut();
   const std::string id = backend.create();
-  ASSERT_TRUE(reaches(id, MeshState::factorizing));
+  ASSERT_TRUE(backend.reaches(id, MeshState::factorizing));
   std::stop_source stop;
   auto caller =
       std::async(std::launch::async, [&] { return backend.prepare(id, stop.get_token()); });
@@ -139,8 +135,7 @@ TEST(MemoryQueue, IsBusyWhenTooManyWaitToBeWarmed) {
   std::vector<std::string> ids;
   for (const double size : {0.2, 0.25, 0.3, 0.35}) {
     ids.push_back(backend.create(size));
-    ASSERT_TRUE(
-        eventually([&] { return backend.catalogue.get(ids.back()).state == MeshState::ready; }));
+    ASSERT_TRUE(backend.reaches(ids.back(), MeshState::ready));
     backend.catalogue.evict(ids.back());
   }
   backend.door.shut();
@@ -151,7 +146,7 @@ TEST(MemoryQueue, IsBusyWhenTooManyWaitToBeWarmed) {
   backend.catalogue.warm(ids[2], false);
   EXPECT_TRUE(throws([&] { backend.catalogue.warm(ids[3], false); }, Reason::busy));
   backend.door.open();
-  EXPECT_TRUE(eventually([&] { return backend.catalogue.get(ids[2]).state == MeshState::ready; }));
+  EXPECT_TRUE(backend.reaches(ids[2], MeshState::ready));
 }
 
 }  // namespace

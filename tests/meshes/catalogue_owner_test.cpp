@@ -24,9 +24,7 @@ class Owners : public ::testing::Test {
   MeshRecord create(const std::string& owner) {
     return backend.catalogue.create(Backend::definition(), "", owner);
   }
-  bool ready(const std::string& id) {
-    return eventually([&] { return backend.catalogue.get(id).state == MeshState::ready; });
-  }
+  bool ready(const std::string& id) { return backend.reaches(id, MeshState::ready); }
 
   Backend backend;
 };
@@ -91,7 +89,7 @@ TEST_F(Owners, KeepWhatTheOtherErases) {
   ASSERT_TRUE(ready(bob));
   backend.catalogue.erase(ann);
   EXPECT_TRUE(throws([&] { backend.catalogue.get(ann); }, Reason::not_found));
-  EXPECT_EQ(backend.catalogue.get(bob).state, MeshState::ready);
+  EXPECT_EQ(backend.state(bob), MeshState::ready);
   EXPECT_NE(backend.catalogue.read(bob), nullptr);
   EXPECT_EQ(backend.cache.metrics().entries, 1);
   backend.catalogue.erase(bob);

@@ -28,10 +28,6 @@ class Prepare : public ::testing::Test {
   Operator prepare(const std::string& id, std::stop_token stop = {}) {
     return backend.prepare(id, stop);
   }
-  MeshState state(const std::string& id) { return backend.catalogue.get(id).state; }
-  bool reaches(const std::string& id, MeshState wanted) {
-    return eventually([&] { return state(id) == wanted; });
-  }
 
   Backend backend;
 };
@@ -49,14 +45,14 @@ TEST_F(Prepare, SharesTheWorkWithTheBackgroundAndOthers) {
   EXPECT_EQ(prepare(id), first);
   EXPECT_EQ(backend.catalogue.meshings(), 1U);
   EXPECT_EQ(backend.cache.metrics().factorizations, 1U);
-  EXPECT_TRUE(reaches(id, MeshState::ready));
+  EXPECT_TRUE(backend.reaches(id, MeshState::ready));
 }
 
 TEST_F(Prepare, SaysEvictedWhenTheFactorsAreGoneAndMakesThemAgain) {
   const std::string id = backend.create();
-  ASSERT_TRUE(reaches(id, MeshState::ready));
+  ASSERT_TRUE(backend.reaches(id, MeshState::ready));
   EXPECT_EQ(backend.catalogue.evict(id).state, MeshState::evicted);
-  EXPECT_EQ(state(id), MeshState::evicted);
+  EXPECT_EQ(backend.state(id), MeshState::evicted);
   EXPECT_EQ(backend.catalogue.list({{}, 1, {}}).at(0).state, MeshState::evicted);
   EXPECT_FALSE(backend.catalogue.ready(id));
 
@@ -64,7 +60,7 @@ TEST_F(Prepare, SaysEvictedWhenTheFactorsAreGoneAndMakesThemAgain) {
   const auto hear = [&](const MeshNews& news) { heard.push_back(news.phase); };
   const Operator result = backend.prepare(id, {}, hear);
   EXPECT_THAT(heard, ElementsAre(Phase::factorising, Phase::ready));
-  EXPECT_EQ(state(id), MeshState::ready);
+  EXPECT_EQ(backend.state(id), MeshState::ready);
   EXPECT_EQ(backend.catalogue.meshings(), 1U);
   EXPECT_EQ(backend.cache.metrics().factorizations, 2U);
   EXPECT_TRUE(throws([&] { backend.catalogue.evict(id); }, Reason::in_use));  // held here
@@ -81,7 +77,7 @@ TEST_F(Prepare, TellsTheStepsOnTheWay) {
   auto caller = std::async(std::launch::async, [&] {
     return backend.prepare(id, {}, [&](const MeshNews& news) { heard.push_back(news.phase); });
   });
-  EXPECT_TRUE(reaches(id, MeshState::factorizing));
+  EXPECT_TRUE(backend.reaches(id, MeshState::factorizing));
   backend.door.open();
   EXPECT_NE(caller.get(), nullptr);
   ASSERT_FALSE(heard.empty());
@@ -92,37 +88,37 @@ TEST_F(Prepare, TellsTheStepsOnTheWay) {
 TEST_F(Prepare, ObeysAStopWhileFactorisingAndLeavesTheOthersAlone) {
   backend.door.shut();
   const std::string id = backend.create();
-  ASSERT_TRUE(reaches(id, MeshState::factorizing));
+  ASSERT_TRUE(backend.reaches(id, MeshState::factorizing));
   std::stop_source stop;
   auto caller = std::async(std::launch::async, [&] { return prepare(id, stop.get_token()); });
   ASSERT_TRUE(eventually([&] { return backend.cache.metrics().joins == 1; }));
   stop.request_stop();
   EXPECT_TRUE(throws([&] { caller.get(); }, Reason::cancelled));
-  EXPECT_EQ(state(id), MeshState::factorizing);
+  EXPECT_EQ(backend.state(id), MeshState::factorizing);
   backend.door.open();
-  EXPECT_TRUE(reaches(id, MeshState::ready));
+  EXPECT_TRUE(backend.reaches(id, MeshState::ready));
   EXPECT_EQ(backend.cache.metrics().factorizations, 1U);
 }
 
 TEST_F(Prepare, SaysEvictedAgainAfterTheOnlyCallerStopped) {
   const std::string id = backend.create();
-  ASSERT_TRUE(reaches(id, MeshState::ready));
+  ASSERT_TRUE(backend.reaches(id, MeshState::ready));
   EXPECT_EQ(backend.catalogue.evict(id).state, MeshState::evicted);
   backend.door.shut();
   std::stop_source stop;
   auto caller = std::async(std::launch::async, [&] { return prepare(id, stop.get_token()); });
-  ASSERT_TRUE(reaches(id, MeshState::factorizing));
+  ASSERT_TRUE(backend.reaches(id, MeshState::factorizing));
   ASSERT_TRUE(eventually([&] { return backend.cache.metrics().factorizations == 2; }));
   stop.request_stop();
   EXPECT_TRUE(throws([&] { caller.get(); }, Reason::cancelled));
-  EXPECT_EQ(state(id), MeshState::evicted);
+  EXPECT_EQ(backend.state(id), MeshState::evicted);
   backend.door.open();
   EXPECT_NE(prepare(id), nullptr);
 }
 
 TEST_F(Prepare, GoesOnForTheOthersWhenTheFirstCallerStops) {
   const std::string id = backend.create();
-  ASSERT_TRUE(reaches(id, MeshState::ready));
+  ASSERT_TRUE(backend.reaches(id, MeshState::ready));
   backend.catalogue.evict(id);
   backend.door.shut();
   std::stop_source stop;
@@ -132,7 +128,7 @@ TEST_F(Prepare, GoesOnForTheOthersWhenTheFirstCallerStops) {
   ASSERT_TRUE(eventually([&] { return backend.cache.metrics().joins == 1; }));
   stop.request_stop();
   EXPECT_TRUE(throws([&] { first.get(); }, Reason::cancelled));  // while the door is shut
-  EXPECT_EQ(state(id), MeshState::factorizing);
+  EXPECT_EQ(backend.state(id), MeshState::factorizing);
   backend.door.open();
   EXPECT_NE(second.get(), nullptr);
   EXPECT_EQ(backend.cache.metrics().factorizations, 2U);
@@ -140,7 +136,7 @@ TEST_F(Prepare, GoesOnForTheOthersWhenTheFirstCallerStops) {
 
 TEST_F(Prepare, LetsACallerGoThoughTheFactorisationNoticesItsStopLate) {
   const std::string id = backend.create();
-  ASSERT_TRUE(reaches(id, MeshState::ready));
+  ASSERT_TRUE(backend.reaches(id, MeshState::ready));
   backend.catalogue.evict(id);
   backend.deaf = true;
   backend.door.shut();
@@ -149,13 +145,13 @@ TEST_F(Prepare, LetsACallerGoThoughTheFactorisationNoticesItsStopLate) {
   ASSERT_TRUE(eventually([&] { return backend.door.waiting() == 1; }));
   stop.request_stop();
   EXPECT_TRUE(throws([&] { first.get(); }, Reason::cancelled));
-  EXPECT_EQ(state(id), MeshState::evicted);
+  EXPECT_EQ(backend.state(id), MeshState::evicted);
   auto second = std::async(std::launch::async, [&] { return prepare(id); });
-  ASSERT_TRUE(reaches(id, MeshState::factorizing));
+  ASSERT_TRUE(backend.reaches(id, MeshState::factorizing));
   EXPECT_EQ(backend.door.waiting(), 1);  // not beside the one that is being stopped
   backend.door.open();
   EXPECT_NE(second.get(), nullptr);
-  EXPECT_EQ(state(id), MeshState::ready);
+  EXPECT_EQ(backend.state(id), MeshState::ready);
 }
 
 TEST_F(Prepare, KnowsNoOtherMeshes) {
@@ -177,7 +173,7 @@ TEST(PrepareMeshing, ObeysAStopAndTheMesherIsKilledAtTheEnd) {
   meshing.get_future().wait();
   stop.request_stop();
   EXPECT_TRUE(throws([&] { caller.get(); }, Reason::cancelled));
-  EXPECT_EQ(backend.catalogue.get(id).state, MeshState::meshing);
+  EXPECT_EQ(backend.state(id), MeshState::meshing);
   // The destructor would wait for an hour if it did not kill the helper.
 }
 
@@ -195,11 +191,10 @@ TEST(PrepareBudget, PassesOnThatMemoryIsHeldByOthers) {
   Operator held = backend.prepare(first);
   const std::string second = backend.create(0.2);
   EXPECT_TRUE(throws([&] { backend.prepare(second); }, Reason::busy));
-  EXPECT_TRUE(
-      eventually([&] { return backend.catalogue.get(second).state == MeshState::evicted; }));
+  EXPECT_TRUE(backend.reaches(second, MeshState::evicted));
   held.reset();
   EXPECT_NE(backend.prepare(second), nullptr);
-  EXPECT_EQ(backend.catalogue.get(first).state, MeshState::evicted);
+  EXPECT_EQ(backend.state(first), MeshState::evicted);
 }
 
 TEST(PrepareFailure, OfTheFactorisationFailsTheMesh) {
@@ -208,11 +203,11 @@ TEST(PrepareFailure, OfTheFactorisationFailsTheMesh) {
   Backend backend(options);
   const std::string id = backend.create();
   EXPECT_TRUE(throws([&] { backend.prepare(id); }, Reason::limit_exceeded));
-  ASSERT_TRUE(eventually([&] { return backend.catalogue.get(id).state == MeshState::failed; }));
+  ASSERT_TRUE(backend.reaches(id, MeshState::failed));
   EXPECT_EQ(backend.catalogue.get(id).error->reason(), Reason::limit_exceeded);
   EXPECT_NE(backend.catalogue.read(id), nullptr);  // the triangulation is good
   EXPECT_EQ(backend.catalogue.create(Backend::definition(), "", "").state, MeshState::factorizing);
-  EXPECT_TRUE(eventually([&] { return backend.catalogue.get(id).state == MeshState::failed; }));
+  EXPECT_TRUE(backend.reaches(id, MeshState::failed));
   EXPECT_EQ(backend.catalogue.meshings(), 1U);
 }
 

@@ -27,9 +27,6 @@ using records::MeshState;
 class Restart : public ::testing::Test {
  protected:
   Restart() { options.data_folder = (folder / "data").string(); }
-  static bool reaches(Backend& backend, const std::string& id, MeshState state) {
-    return eventually([&] { return backend.catalogue.get(id).state == state; });
-  }
 
   TemporaryFolder folder;
   BackendOptions options;
@@ -40,7 +37,7 @@ TEST_F(Restart, FindsMeshesEvictedAndMakesTheirOperatorsAgain) {
   {
     Backend backend(options);
     const std::string id = backend.catalogue.create(Backend::definition(), "a title", "ann").id;
-    ASSERT_TRUE(reaches(backend, id, MeshState::ready));
+    ASSERT_TRUE(backend.reaches(id, MeshState::ready));
     before = backend.catalogue.get(id);
   }
   Backend backend(options);
@@ -70,8 +67,8 @@ TEST_F(Restart, MeshesWhatWasNotMeshed) {
   }
   options.mesher_hangs = false;
   Backend backend(options);
-  EXPECT_TRUE(reaches(backend, meshing, MeshState::ready));
-  EXPECT_TRUE(reaches(backend, waiting, MeshState::ready));
+  EXPECT_TRUE(backend.reaches(meshing, MeshState::ready));
+  EXPECT_TRUE(backend.reaches(waiting, MeshState::ready));
   EXPECT_EQ(backend.catalogue.meshings(), 3U);
 }
 
@@ -80,7 +77,7 @@ TEST_F(Restart, FindsAFailedMeshWithItsError) {
   {
     Backend backend(options);
     id = backend.catalogue.create(backend.upload("$MeshFormat\n"), "", "").id;
-    ASSERT_TRUE(reaches(backend, id, MeshState::failed));
+    ASSERT_TRUE(backend.reaches(id, MeshState::failed));
   }
   Backend backend(options);
   const MeshRecord record = backend.catalogue.get(id);
@@ -95,7 +92,7 @@ TEST_F(Restart, MakesAMeshWhoseRecordIsDamagedAgain) {
   {
     Backend backend(options);
     id = backend.catalogue.create(Backend::definition(), "a long title", "").id;
-    ASSERT_TRUE(reaches(backend, id, MeshState::ready));
+    ASSERT_TRUE(backend.reaches(id, MeshState::ready));
   }
   const std::string database = options.data_folder + "/anticrack.db";
   const auto places = anticrack::testing::places_of("a long title", database);
@@ -108,7 +105,7 @@ TEST_F(Restart, MakesAMeshWhoseRecordIsDamagedAgain) {
   EXPECT_EQ(backend.catalogue.list({{}, 9, {}}).size(), 1U);
   EXPECT_TRUE(throws([&] { backend.prepare(id); }, Reason::storage));
   EXPECT_EQ(backend.catalogue.create(Backend::definition(), "again", "").id, id);
-  ASSERT_TRUE(reaches(backend, id, MeshState::ready));
+  ASSERT_TRUE(backend.reaches(id, MeshState::ready));
   EXPECT_EQ(backend.catalogue.get(id).title, "again");
   EXPECT_FALSE(backend.catalogue.get(id).error);
 }
@@ -129,7 +126,7 @@ TEST_F(Restart, MeshesWhatTheDiskHadNoRoomFor) {
     Backend backend(options);
     id = backend.create(0.2);
     EXPECT_TRUE(throws([&] { backend.prepare(id); }, Reason::disk_full));
-    EXPECT_TRUE(reaches(backend, id, MeshState::pending));
+    EXPECT_TRUE(backend.reaches(id, MeshState::pending));
     EXPECT_FALSE(backend.catalogue.get(id).error);
     EXPECT_TRUE(eventually([&] { return backend.catalogue.pending() == 0; }));
     const std::uint64_t before = backend.catalogue.meshings();
@@ -138,7 +135,7 @@ TEST_F(Restart, MeshesWhatTheDiskHadNoRoomFor) {
   }
   options.disk_budget = 0;
   Backend backend(options);
-  EXPECT_TRUE(reaches(backend, id, MeshState::ready));
+  EXPECT_TRUE(backend.reaches(id, MeshState::ready));
 }
 
 TEST_F(Restart, TellsWhoWaitsThatTheDiskRefusesAndTriesAgainLater) {
@@ -149,14 +146,14 @@ TEST_F(Restart, TellsWhoWaitsThatTheDiskRefusesAndTriesAgainLater) {
   const std::string id = backend.create(0.2);
   const auto prepare = [&] { return backend.prepare(id); };
   EXPECT_TRUE(throws(prepare, Reason::storage));
-  EXPECT_TRUE(reaches(backend, id, MeshState::pending));
+  EXPECT_TRUE(backend.reaches(id, MeshState::pending));
   EXPECT_FALSE(backend.catalogue.get(id).error);
   EXPECT_TRUE(eventually([&] { return backend.catalogue.pending() == 0; }));
 
   std::filesystem::rename(away, meshes);
   EXPECT_EQ(backend.create(0.2), id);
   EXPECT_NE(prepare(), nullptr);
-  EXPECT_EQ(backend.catalogue.get(id).state, MeshState::ready);
+  EXPECT_EQ(backend.state(id), MeshState::ready);
 }
 
 TEST_F(Restart, TriesAgainForWhoAsksForTheOperators) {

@@ -37,7 +37,6 @@ class Sizes : public ::testing::Test {
   std::vector<std::string> create_large() {
     return {backend.create(0.032), backend.create(0.033), backend.create(0.034)};
   }
-  MeshState state(const std::string& id) { return backend.catalogue.get(id).state; }
 
   Backend backend;
 };
@@ -48,20 +47,20 @@ TEST_F(Sizes, ASmallMeshIsReadyWhileLargeOnesAreFactorised) {
   const std::vector<std::string> large = create_large();
   ASSERT_TRUE(eventually([&] { return backend.door.waiting() == 2; }));
   const std::string small = backend.create(0.2);
-  EXPECT_TRUE(eventually([&] { return state(small) == MeshState::ready; }));
+  EXPECT_TRUE(backend.reaches(small, MeshState::ready));
   for (const std::string& id : large) {
-    EXPECT_NE(state(id), MeshState::ready);
+    EXPECT_NE(backend.state(id), MeshState::ready);
   }
   EXPECT_EQ(backend.door.waiting(), 2);  // no more of a size at a time
   backend.door.open();
   for (const std::string& id : large) {
-    EXPECT_TRUE(eventually([&] { return state(id) == MeshState::ready; }));
+    EXPECT_TRUE(backend.reaches(id, MeshState::ready));
   }
 }
 
 TEST_F(Sizes, ACallerGetsASmallMeshThatWasEvictedWhileLargeOnesAreFactorised) {
   const std::string small = backend.create(0.2);
-  ASSERT_TRUE(eventually([&] { return state(small) == MeshState::ready; }));
+  ASSERT_TRUE(backend.reaches(small, MeshState::ready));
   backend.catalogue.evict(small);
   backend.kept_out = large_triangles;
   backend.door.shut();
@@ -81,8 +80,8 @@ TEST(SizesMeshing, ASmallMeshIsMeshedWhileTheMesherHasLargeOnes) {
   ASSERT_TRUE(eventually([&] { return backend.catalogue.meshings() == 2; }));
   const std::string third = backend.create(0.011);
   const std::string small = backend.create(0.2);
-  EXPECT_TRUE(eventually([&] { return backend.catalogue.get(small).state == MeshState::meshing; }));
-  EXPECT_EQ(backend.catalogue.get(third).state, MeshState::pending);
+  EXPECT_TRUE(backend.reaches(small, MeshState::meshing));
+  EXPECT_EQ(backend.state(third), MeshState::pending);
   EXPECT_TRUE(eventually([&] { return backend.catalogue.meshings() == 3U; }));
 }
 
@@ -100,7 +99,7 @@ TEST(SizesMeshing, ASmallMeshIsMeshedFirstThoughLargeOnesWaitedWhenTheServerStar
     small = backend.create(0.2);
   }
   Backend backend(options);
-  EXPECT_TRUE(eventually([&] { return backend.catalogue.get(small).state == MeshState::meshing; }));
+  EXPECT_TRUE(backend.reaches(small, MeshState::meshing));
   EXPECT_TRUE(eventually([&] { return backend.catalogue.meshings() == 3U; }));
 }
 
@@ -117,12 +116,12 @@ TEST_F(Sizes, AMeshIsReadyWhileThoseOfAnotherOwnerAreMade) {
   create(0.25, "modest");
   const std::string third = create(0.3, "third");
   ASSERT_TRUE(eventually([&] { return backend.door.waiting() == 4; }));
-  EXPECT_TRUE(eventually([&] { return state(third) == MeshState::factorizing; }))
+  EXPECT_TRUE(backend.reaches(third, MeshState::factorizing))
       << "before the second one of the modest owner";
   const std::string last = create(0.4, "fourth");
   backend.door.open();
   for (const std::string& id : {modest, third, last})
-    EXPECT_TRUE(eventually([&] { return state(id) == MeshState::ready; }));
+    EXPECT_TRUE(backend.reaches(id, MeshState::ready));
 }
 
 TEST_F(Sizes, OwnersTakeTurnsInTheQueue) {

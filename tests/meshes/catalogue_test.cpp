@@ -23,9 +23,6 @@ using records::MeshState;
 
 class Catalogue : public ::testing::Test {
  protected:
-  bool reaches(const std::string& id, MeshState state) {
-    return eventually([&] { return backend.catalogue.get(id).state == state; });
-  }
   Backend backend;
 };
 
@@ -33,7 +30,7 @@ TEST_F(Catalogue, MakesAMeshReadyInTheBackground) {
   const MeshRecord created = backend.catalogue.create(Backend::definition(), "a title", "");
   EXPECT_EQ(created.state, MeshState::pending);
   EXPECT_EQ(created.id.size(), 16U);
-  ASSERT_TRUE(reaches(created.id, MeshState::ready));
+  ASSERT_TRUE(backend.reaches(created.id, MeshState::ready));
   const MeshRecord record = backend.catalogue.get(created.id);
   EXPECT_EQ(record.title, "a title");
   EXPECT_EQ(record.sha256.size(), 64U);
@@ -58,7 +55,7 @@ TEST_F(Catalogue, MakesAMeshReadyInTheBackground) {
 
 TEST_F(Catalogue, ReadsTheMeshOnceThereIsOne) {
   const std::string id = backend.create();
-  ASSERT_TRUE(reaches(id, MeshState::ready));
+  ASSERT_TRUE(backend.reaches(id, MeshState::ready));
   const auto block = backend.catalogue.read(id);
   const MeshRecord record = backend.catalogue.get(id);
   EXPECT_EQ(block->arrays()[0].shape[0], record.node_count);
@@ -68,7 +65,7 @@ TEST_F(Catalogue, ReadsTheMeshOnceThereIsOne) {
 
 TEST_F(Catalogue, RefusesARefinementThatAddsNothing) {
   const std::string id = backend.create();
-  ASSERT_TRUE(reaches(id, MeshState::ready));
+  ASSERT_TRUE(backend.reaches(id, MeshState::ready));
   std::vector<std::uint8_t> levels(backend.catalogue.get(id).triangle_count, 0);
   EXPECT_TRUE(throws(
       [&] {
@@ -83,7 +80,7 @@ TEST_F(Catalogue, RefusesARefinementThatAddsNothing) {
 
 TEST_F(Catalogue, GivesTheSameMeshForTheSameDefinition) {
   const MeshRecord first = backend.catalogue.create(Backend::definition(), "first", "");
-  ASSERT_TRUE(reaches(first.id, MeshState::ready));
+  ASSERT_TRUE(backend.reaches(first.id, MeshState::ready));
   const MeshRecord again = backend.catalogue.create(Backend::definition(), "second", "");
   EXPECT_EQ(again.id, first.id);
   EXPECT_EQ(again.title, "first");
@@ -101,7 +98,7 @@ TEST_F(Catalogue, MakesOneMeshOfADefinitionThatManyThreadsSend) {
   for (std::thread& thread : threads) {
     thread.join();
   }
-  ASSERT_TRUE(reaches(ids[0], MeshState::ready));
+  ASSERT_TRUE(backend.reaches(ids[0], MeshState::ready));
   EXPECT_THAT(ids, ::testing::Each(ids[0]));
   EXPECT_EQ(backend.catalogue.meshings(), 1U);
   EXPECT_EQ(backend.cache.metrics().factorizations, 1U);
@@ -131,7 +128,7 @@ TEST_F(Catalogue, KeepsTheErrorOfAMeshThatFailedAndTriesItAgain) {
   const records::MeshDefinition truncated =
       backend.upload("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n9");
   const std::string id = backend.catalogue.create(truncated, "", "").id;
-  ASSERT_TRUE(reaches(id, MeshState::failed));
+  ASSERT_TRUE(backend.reaches(id, MeshState::failed));
   EXPECT_EQ(backend.catalogue.get(id).error->reason(), Reason::mesh_invalid);
   EXPECT_TRUE(throws([&] { backend.catalogue.read(id); }, Reason::not_ready));
   EXPECT_TRUE(throws([&] { backend.prepare(id); }, Reason::mesh_invalid));
@@ -142,7 +139,7 @@ TEST_F(Catalogue, KeepsTheErrorOfAMeshThatFailedAndTriesItAgain) {
   EXPECT_EQ(again.id, id);
   EXPECT_EQ(again.state, MeshState::pending);
   EXPECT_TRUE(eventually([&] { return backend.catalogue.meshings() == 2; }));
-  EXPECT_TRUE(reaches(id, MeshState::failed));
+  EXPECT_TRUE(backend.reaches(id, MeshState::failed));
 }
 
 TEST_F(Catalogue, ListsNewestFirst) {
@@ -165,7 +162,7 @@ TEST(CatalogueQueue, IsBusyWhenTooManyWait) {
   backend.create(0.3);
   ASSERT_TRUE(eventually([&] { return backend.catalogue.meshings() == 2; }));
   const std::string waiting = backend.create(0.4);
-  EXPECT_EQ(backend.catalogue.get(waiting).state, MeshState::pending);
+  EXPECT_EQ(backend.state(waiting), MeshState::pending);
   const auto error = anticrack::testing::error_of([&] { backend.create(0.5); });
   ASSERT_TRUE(error);
   EXPECT_EQ(error->reason(), Reason::busy);
@@ -183,7 +180,7 @@ TEST(CatalogueQueue, KeepsNoMoreMeshesThanItMay) {
   backend.create(0.35);
   EXPECT_TRUE(throws([&] { backend.create(0.4); }, Reason::quota_exceeded));
   EXPECT_EQ(backend.create(0.3), first);  // no new one
-  ASSERT_TRUE(eventually([&] { return backend.catalogue.get(first).state == MeshState::ready; }));
+  ASSERT_TRUE(backend.reaches(first, MeshState::ready));
   backend.catalogue.erase(first);
   EXPECT_FALSE(backend.create(0.4).empty());
 }
@@ -198,7 +195,7 @@ TEST(CatalogueMeshed, TellsOfEachMeshTheHelperMadeOrDidNot) {
   };
   Backend backend(options);
   const std::string good = backend.create();
-  ASSERT_TRUE(eventually([&] { return backend.catalogue.get(good).state == MeshState::ready; }));
+  ASSERT_TRUE(backend.reaches(good, MeshState::ready));
   const std::string bad = backend.catalogue.create(backend.upload("$MeshFormat\n"), "", "").id;
   ASSERT_TRUE(eventually([&] {
     const std::lock_guard lock(mutex);

@@ -51,10 +51,6 @@ class Wanted : public ::testing::Test {
   std::string create(bool for_job, double size = 0.1) {
     return backend.catalogue.create(Backend::definition(size), "", "", for_job).id;
   }
-  MeshState state(const std::string& id) { return backend.catalogue.get(id).state; }
-  bool reaches(const std::string& id, MeshState wanted) {
-    return eventually([&] { return state(id) == wanted; });
-  }
   bool meshers(int count) {
     return eventually([&] { return children("sleep") == count; });
   }
@@ -70,13 +66,13 @@ class Wanted : public ::testing::Test {
 TEST_F(Wanted, ByTheJobsItWasMadeForUntilTheLastEnds) {
   const std::string id = create(true);
   std::shared_ptr<void> first = backend.catalogue.use(id), second = backend.catalogue.use(id);
-  ASSERT_TRUE(reaches(id, MeshState::meshing));
+  ASSERT_TRUE(backend.reaches(id, MeshState::meshing));
   ASSERT_TRUE(meshers(1));
   first.reset();
   std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  EXPECT_EQ(state(id), MeshState::meshing);
+  EXPECT_EQ(backend.state(id), MeshState::meshing);
   second.reset();
-  EXPECT_EQ(state(id), MeshState::pending);
+  EXPECT_EQ(backend.state(id), MeshState::pending);
   EXPECT_TRUE(meshers(0));
 }
 
@@ -89,19 +85,19 @@ TEST_F(Wanted, StopsWithTheWaitOfItsJobs) {
   stop.request_stop();
   EXPECT_TRUE(throws([&] { waiter.get(); }, Reason::cancelled));
   use.reset();
-  EXPECT_EQ(state(id), MeshState::pending);
+  EXPECT_EQ(backend.state(id), MeshState::pending);
   EXPECT_TRUE(meshers(0));
 }
 
 TEST_F(Wanted, GoesOnForTheNextJob) {
   const std::string id = create(true);
   backend.catalogue.use(id).reset();
-  EXPECT_TRUE(eventually([&] { return state(id) == MeshState::pending; }));
+  EXPECT_TRUE(backend.reaches(id, MeshState::pending));
   EXPECT_TRUE(meshers(0));
   std::shared_ptr<void> use = backend.catalogue.use(id);
   std::stop_source stop;
   auto waiter = wait(id, stop);
-  EXPECT_TRUE(reaches(id, MeshState::meshing));
+  EXPECT_TRUE(backend.reaches(id, MeshState::meshing));
   EXPECT_TRUE(meshers(1));
   stop.request_stop();
   EXPECT_TRUE(throws([&] { waiter.get(); }, Reason::cancelled));
@@ -109,24 +105,24 @@ TEST_F(Wanted, GoesOnForTheNextJob) {
 
 TEST_F(Wanted, ByItsOwnerWhoCreatedItOnItsOwn) {
   const std::string id = create(false);
-  ASSERT_TRUE(reaches(id, MeshState::meshing));
+  ASSERT_TRUE(backend.reaches(id, MeshState::meshing));
   std::shared_ptr<void> use = backend.catalogue.use(id);
   std::stop_source stop;
   auto waiter = wait(id, stop);
   stop.request_stop();
   EXPECT_TRUE(throws([&] { waiter.get(); }, Reason::cancelled));
   use.reset();
-  EXPECT_EQ(state(id), MeshState::meshing);
+  EXPECT_EQ(backend.state(id), MeshState::meshing);
 }
 
 TEST_F(Wanted, ByAnOwnerWhoCreatesItBesideItsJobs) {
   const std::string id = create(true);
   std::shared_ptr<void> use = backend.catalogue.use(id);
-  ASSERT_TRUE(reaches(id, MeshState::meshing));
+  ASSERT_TRUE(backend.reaches(id, MeshState::meshing));
   EXPECT_EQ(create(false), id);
   EXPECT_EQ(create(true), id);  // a job more does not take it from its owner
   use.reset();
-  EXPECT_EQ(state(id), MeshState::meshing);
+  EXPECT_EQ(backend.state(id), MeshState::meshing);
   EXPECT_TRUE(meshers(1));
   EXPECT_EQ(backend.catalogue.meshings(), 1U);
   EXPECT_FALSE(backend.store->mesh(id)->for_job) << "after a restart it is wanted still";
@@ -135,10 +131,10 @@ TEST_F(Wanted, ByAnOwnerWhoCreatesItBesideItsJobs) {
 TEST_F(Wanted, ByWhoWarmsIt) {
   const std::string id = create(true);
   std::shared_ptr<void> use = backend.catalogue.use(id);
-  ASSERT_TRUE(reaches(id, MeshState::meshing));
+  ASSERT_TRUE(backend.reaches(id, MeshState::meshing));
   backend.catalogue.warm(id, false);
   use.reset();
-  EXPECT_EQ(state(id), MeshState::meshing);
+  EXPECT_EQ(backend.state(id), MeshState::meshing);
 }
 
 TEST_F(Wanted, MakesRoomForOthersThatWait) {
@@ -149,9 +145,9 @@ TEST_F(Wanted, MakesRoomForOthersThatWait) {
     uses.push_back(backend.catalogue.use(ids.back()));
   }
   ASSERT_TRUE(eventually([&] { return backend.catalogue.meshings() == 2; }));
-  EXPECT_EQ(state(ids[2]), MeshState::pending);
+  EXPECT_EQ(backend.state(ids[2]), MeshState::pending);
   uses[0].reset();
-  EXPECT_TRUE(reaches(ids[2], MeshState::meshing));
+  EXPECT_TRUE(backend.reaches(ids[2], MeshState::meshing));
   uses[2].reset();
   uses[1].reset();
   EXPECT_TRUE(meshers(0));
@@ -165,7 +161,7 @@ TEST_F(Wanted, IsErasedWhileItIsMeshedOrWaits) {
   ASSERT_TRUE(meshers(2));
   std::stop_source stop;
   auto waiter = wait(ids[0], stop);
-  ASSERT_TRUE(reaches(ids[0], MeshState::meshing));
+  ASSERT_TRUE(backend.reaches(ids[0], MeshState::meshing));
   for (const std::string& id : {ids[2], ids[0], ids[1]}) {
     backend.catalogue.erase(id);
     EXPECT_TRUE(throws([&] { backend.catalogue.get(id); }, Reason::not_found));
@@ -174,14 +170,14 @@ TEST_F(Wanted, IsErasedWhileItIsMeshedOrWaits) {
   EXPECT_TRUE(meshers(0));
   EXPECT_TRUE(backend.catalogue.list({{}, 10, {}}).empty());
   EXPECT_EQ(create(false, 0.2), ids[0]);
-  EXPECT_TRUE(reaches(ids[0], MeshState::meshing));
+  EXPECT_TRUE(backend.reaches(ids[0], MeshState::meshing));
 }
 
 TEST_F(Wanted, IsNotErasedWhileAJobNeedsIt) {
   const std::string id = create(true);
   const std::shared_ptr<void> use = backend.catalogue.use(id);
   EXPECT_TRUE(throws([&] { backend.catalogue.erase(id); }, Reason::in_use));
-  EXPECT_TRUE(reaches(id, MeshState::meshing));
+  EXPECT_TRUE(backend.reaches(id, MeshState::meshing));
 }
 
 TEST(WantedAfterARestart, ByItsOwnerAndNotForJobsThatHaveGone) {
@@ -197,9 +193,8 @@ TEST(WantedAfterARestart, ByItsOwnerAndNotForJobsThatHaveGone) {
   }
   options.mesher_hangs = false;
   Backend backend(options);
-  EXPECT_TRUE(
-      eventually([&] { return backend.catalogue.get(of_owner).state == MeshState::ready; }));
-  EXPECT_EQ(backend.catalogue.get(of_job).state, MeshState::pending);
+  EXPECT_TRUE(backend.reaches(of_owner, MeshState::ready));
+  EXPECT_EQ(backend.state(of_job), MeshState::pending);
   EXPECT_NE(backend.prepare(of_job), nullptr);
 }
 
@@ -216,7 +211,7 @@ TEST(WantedRace, ErasedAtAnyMoment) {
   }
   EXPECT_EQ(backend.store->usage().meshes, 0U);
   const std::string id = backend.create(0.2);
-  EXPECT_TRUE(eventually([&] { return backend.catalogue.get(id).state == MeshState::ready; }));
+  EXPECT_TRUE(backend.reaches(id, MeshState::ready));
 }
 
 TEST(WantedRace, LetGoAtAnyMoment) {
@@ -228,7 +223,7 @@ TEST(WantedRace, LetGoAtAnyMoment) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5 * (i % 20)));
     use.reset();
     EXPECT_TRUE(eventually([&] {
-      const MeshState state = backend.catalogue.get(id).state;
+      const MeshState state = backend.state(id);
       return state == MeshState::pending || state == MeshState::ready ||
              state == MeshState::evicted;
     }));
@@ -246,9 +241,9 @@ TEST(DiskRefuses, AMeshGoesOnWhenThereIsRoomAgain) {
   const std::string id = backend.create(0.2);
   ASSERT_TRUE(eventually(
       [&] { return backend.catalogue.meshings() >= 1 && backend.catalogue.pending() == 0; }));
-  EXPECT_EQ(backend.catalogue.get(id).state, MeshState::pending);
+  EXPECT_EQ(backend.state(id), MeshState::pending);
   std::filesystem::rename(away, meshes);
-  EXPECT_TRUE(eventually([&] { return backend.catalogue.get(id).state == MeshState::ready; }));
+  EXPECT_TRUE(backend.reaches(id, MeshState::ready));
 }
 
 TEST(DamagedUpload, FailsItsMeshWithTheCause) {
@@ -267,7 +262,7 @@ TEST(DamagedUpload, FailsItsMeshWithTheCause) {
     else
       anticrack::testing::flip(path, content.size() - 1);
     const std::string id = backend.catalogue.create(upload, "", "").id;
-    ASSERT_TRUE(eventually([&] { return backend.catalogue.get(id).state == MeshState::failed; }));
+    ASSERT_TRUE(backend.reaches(id, MeshState::failed));
     const records::MeshRecord record = backend.catalogue.get(id);
     EXPECT_EQ(record.error.value().reason(), Reason::not_found);
     EXPECT_THAT(record.error->what(), ::testing::HasSubstr("is damaged"));
@@ -293,7 +288,7 @@ TEST(Progress, IsToldWhileAMeshIsMade) {
       [&] {
         backend.prepare(id, enough.get_token(), [&](const MeshNews& news) {
           if (!news.progress) return;
-          EXPECT_EQ(backend.catalogue.get(id).state, MeshState::meshing);
+          EXPECT_EQ(backend.state(id), MeshState::meshing);
           if (heard.empty()) {
             EXPECT_TRUE(backend.catalogue.get(id).progress);
           }

@@ -13,6 +13,7 @@ namespace anticrack::rpc {
 namespace {
 
 using anticrack::testing::Context;
+using anticrack::testing::named;
 using anticrack::testing::opening_job;
 using anticrack::testing::owner_token;
 using anticrack::testing::RunningServer;
@@ -57,10 +58,8 @@ TEST(CallMeter, IsToldOfEveryCallHoweverItEnds) {
 
   const auto watch = [&](const std::string& token) {
     Context context(token);
-    v1::WatchJobRequest request;
-    request.set_name("jobs/none");
     v1::WatchJobResponse event;
-    const auto reader = server.jobs->WatchJob(&context, request);
+    const auto reader = server.jobs->WatchJob(&context, named<v1::WatchJobRequest>("jobs/none"));
     EXPECT_FALSE(reader->Read(&event));
     return reader->Finish();
   };

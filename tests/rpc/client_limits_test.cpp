@@ -13,13 +13,14 @@
 namespace anticrack::rpc {
 namespace {
 
-using anticrack::testing::Context;
+using anticrack::testing::BegunUpload;
 using anticrack::testing::eventually;
 using anticrack::testing::expect_error;
 using anticrack::testing::other_token;
 using anticrack::testing::owner_token;
 using anticrack::testing::RunningServer;
 using anticrack::testing::small_msh;
+using anticrack::testing::upload_header;
 
 TEST(ClientLimits, AMachineIsOneClientWhateverItsConnections) {
   EXPECT_EQ(without_port("ipv4:10.0.0.1:4711"), "ipv4:10.0.0.1");
@@ -27,53 +28,23 @@ TEST(ClientLimits, AMachineIsOneClientWhateverItsConnections) {
   EXPECT_EQ(without_port("unix:"), "unix:");
 }
 
-/// An upload that is begun.
-class Upload {
- public:
-  Upload(RunningServer& server, const std::string& token, const std::string& content)
-      : _context(token), _writer(server.uploads->CreateUploads(&_context, &_response)) {
-    v1::CreateUploadsRequest part;
-    part.mutable_header()->set_size(content.size());
-    part.mutable_header()->set_sha256(digest::Sha256().add(content).finish());
-    _writer->Write(part);
-  }
-  bool send(const std::string& chunk) {
-    v1::CreateUploadsRequest part;
-    part.set_chunk(chunk);
-    return _writer->Write(part);
-  }
-  grpc::Status finish() {
-    _writer->WritesDone();
-    return _writer->Finish();
-  }
-  grpc::Status drop() {
-    _context.TryCancel();
-    return _writer->Finish();
-  }
-  const std::string& name() const { return _response.uploads(0).name(); }
-
- private:
-  Context _context;
-  v1::CreateUploadsResponse _response;
-  std::unique_ptr<grpc::ClientWriter<v1::CreateUploadsRequest>> _writer;
-};
-
 TEST(ClientLimits, HalfOpenStreamsOfOneHoldNobodyElseOff) {
   constexpr int cap = 8;
   RunningServer server([](auto& settings) {
     settings.server.security.tokens = anticrack::testing::people();
     settings.server.limits.streams_a_client = cap;
   });
-  std::vector<std::unique_ptr<Upload>> held;
+  std::vector<std::unique_ptr<BegunUpload>> held;
   for (int i = 0; i < cap; ++i) {
-    held.push_back(std::make_unique<Upload>(server, owner_token, small_msh()));
+    held.push_back(std::make_unique<BegunUpload>(server, upload_header(small_msh()), owner_token));
   }
   ASSERT_TRUE(eventually([&] { return server.server().metrics().transfers == cap; }));
-  std::vector<std::unique_ptr<Upload>> refused;  // all of them open at once, for their client
+  std::vector<std::unique_ptr<BegunUpload>> refused;  // all of them open at once, for their client
   for (int i = 0; i < 10'000; ++i) {
-    refused.push_back(std::make_unique<Upload>(server, owner_token, small_msh()));
+    refused.push_back(
+        std::make_unique<BegunUpload>(server, upload_header(small_msh()), owner_token));
   }
-  Upload other(server, other_token, small_msh());
+  BegunUpload other(server, upload_header(small_msh()), other_token);
   other.send(small_msh());
   EXPECT_TRUE(other.finish().ok());
   EXPECT_TRUE(eventually([&] { return server.server().metrics().transfers == cap; }));
@@ -90,13 +61,13 @@ TEST(ClientLimits, TransfersOfOneLeaveRoomForOthers) {
     settings.server.security.tokens = anticrack::testing::people();
     settings.server.limits.transfers = 8;
   });
-  std::vector<std::unique_ptr<Upload>> held;
+  std::vector<std::unique_ptr<BegunUpload>> held;
   for (int i = 0; i < 4; ++i)
-    held.push_back(std::make_unique<Upload>(server, owner_token, small_msh()));
+    held.push_back(std::make_unique<BegunUpload>(server, upload_header(small_msh()), owner_token));
   ASSERT_TRUE(eventually([&] { return server.server().metrics().transfers == 4; }));
-  Upload fifth(server, owner_token, small_msh());
+  BegunUpload fifth(server, upload_header(small_msh()), owner_token);
   expect_error(fifth.finish(), grpc::StatusCode::RESOURCE_EXHAUSTED, "BUSY", "");
-  Upload other(server, other_token, small_msh());
+  BegunUpload other(server, upload_header(small_msh()), other_token);
   other.send(small_msh());
   EXPECT_TRUE(other.finish().ok());
   for (const auto& upload : held) upload->drop();
@@ -106,7 +77,7 @@ TEST(ClientLimits, SlowUploadsAreCutOff) {
   RunningServer server(
       [](auto& settings) { settings.server.stall = std::chrono::milliseconds(200); });
   const std::string content = small_msh();
-  Upload slow(server, "", content);
+  BegunUpload slow(server, upload_header(content));
   // Never silent for as long as a stall, and far below the least rate: ends before its last byte.
   std::size_t sent = 0;
   for (; sent < content.size() && slow.send(std::string(1, content[sent])); ++sent)
@@ -119,8 +90,8 @@ TEST(ClientLimits, SlowUploadsAreCutOff) {
 TEST(ClientLimits, TwoUploadsOfTheSameAtOnceAreOne) {
   RunningServer server;
   const std::string content = small_msh();
-  Upload first(server, "", content);
-  Upload second(server, "", content);
+  BegunUpload first(server, upload_header(content));
+  BegunUpload second(server, upload_header(content));
   for (const char c : content) {
     ASSERT_TRUE(first.send(std::string(1, c)));
     ASSERT_TRUE(second.send(std::string(1, c)));
@@ -136,14 +107,14 @@ TEST(ClientLimits, AnUploadIsNotSpoiledByAForgeryOfItsName) {
   const std::string content = small_msh();
   std::string forged = content;
   forged.back() = ' ';
-  Upload honest(server, "", content);
-  Upload forgery(server, "", content);
+  BegunUpload honest(server, upload_header(content));
+  BegunUpload forgery(server, upload_header(content));
   forgery.send(forged);
   honest.send(content);
   expect_error(forgery.finish(), grpc::StatusCode::INVALID_ARGUMENT, "INVALID_ARGUMENT",
                "header.sha256");
   EXPECT_TRUE(honest.finish().ok());
-  Upload late(server, "", content);  // what is there already is not replaced either
+  BegunUpload late(server, upload_header(content));  // what is there already is not replaced either
   late.send(forged);
   EXPECT_FALSE(late.finish().ok());
   v1::CreateMeshRequest request;
@@ -154,7 +125,7 @@ TEST(ClientLimits, AnUploadIsNotSpoiledByAForgeryOfItsName) {
 
 TEST(ClientLimits, ChunksWithoutEndStopAtWhatWasAnnounced) {
   RunningServer server;
-  Upload upload(server, "", small_msh());
+  BegunUpload upload(server, upload_header(small_msh()));
   while (upload.send(small_msh())) {
   }
   expect_error(upload.finish(), grpc::StatusCode::INVALID_ARGUMENT, "INVALID_ARGUMENT",

@@ -17,21 +17,16 @@ using anticrack::testing::details_of;
 using anticrack::testing::endless_job;
 using anticrack::testing::eventually;
 using anticrack::testing::expect_error;
+using anticrack::testing::named;
 using anticrack::testing::opening_job;
 using anticrack::testing::paper_mesh;
 using anticrack::testing::RunningServer;
-
-v1::WatchJobRequest request_for(const std::string& job) {
-  v1::WatchJobRequest request;
-  request.set_name(job);
-  return request;
-}
 
 TEST(Drain, EndsWatchesAndUploadsWithADelay) {
   RunningServer server;
   const std::string job = server.create(endless_job(server.create(paper_mesh()).name())).name();
   Context watch_context;
-  const auto watch = server.jobs->WatchJob(&watch_context, request_for(job));
+  const auto watch = server.jobs->WatchJob(&watch_context, named<v1::WatchJobRequest>(job));
   v1::WatchJobResponse event;
   ASSERT_TRUE(watch->Read(&event));
   Context upload_context;
@@ -61,7 +56,7 @@ TEST(Drain, RefusesNewWorkAndLetsOldWorkEnd) {
   const std::string mesh = server.create(paper_mesh()).name();
   const std::string job = server.create(endless_job(mesh)).name();
   Context context;
-  const auto watch = server.jobs->WatchJob(&context, request_for(job));
+  const auto watch = server.jobs->WatchJob(&context, named<v1::WatchJobRequest>(job));
   v1::WatchJobResponse event;
   while (watch->Read(&event) && !event.has_samples()) {
   }
@@ -88,7 +83,7 @@ TEST(Drain, PutsWhatDoesNotEndBackForTheNextStart) {
   const std::string mesh = server.create(paper_mesh()).name();
   const std::string running = server.create(endless_job(mesh)).name();
   Context context;
-  const auto watch = server.jobs->WatchJob(&context, request_for(running));
+  const auto watch = server.jobs->WatchJob(&context, named<v1::WatchJobRequest>(running));
   v1::WatchJobResponse event;
   while (watch->Read(&event) && !event.has_samples()) {
   }
@@ -108,7 +103,7 @@ TEST(Drain, AWatchOfAnEndedJobSendsTheRestFirst) {
   const std::string mesh = server.create(paper_mesh(0.05)).name();
   const std::string job = server.create(endless_job(mesh)).name();
   Context context;
-  const auto watch = server.jobs->WatchJob(&context, request_for(job));
+  const auto watch = server.jobs->WatchJob(&context, named<v1::WatchJobRequest>(job));
   ASSERT_TRUE(eventually([&] { return server.info().metrics().iterations() > 20'000; }));
   EXPECT_TRUE(server.cancel(job).ok());
   ASSERT_TRUE(eventually(
@@ -130,7 +125,8 @@ TEST(Drain, DoesNotWaitForWhoDoesNotRead) {
   std::vector<std::unique_ptr<grpc::ClientReader<v1::WatchJobResponse>>> readers;
   for (int i = 0; i < 4; ++i) {
     contexts.push_back(std::make_unique<Context>());
-    readers.push_back(server.jobs->WatchJob(contexts.back().get(), request_for(job)));
+    readers.push_back(
+        server.jobs->WatchJob(contexts.back().get(), named<v1::WatchJobRequest>(job)));
   }
   ASSERT_TRUE(eventually([&] { return server.info().metrics().iterations() > 200'000; }));
   server.server().drain(0ms);

@@ -15,10 +15,13 @@
 namespace anticrack::rpc {
 namespace {
 
+using anticrack::testing::call;
 using anticrack::testing::Context;
 using anticrack::testing::doubles;
 using anticrack::testing::endless_job;
 using anticrack::testing::expect_error;
+using anticrack::testing::Jobs;
+using anticrack::testing::named;
 using anticrack::testing::opening_job;
 using anticrack::testing::paper_mesh;
 using anticrack::testing::read_mesh;
@@ -183,9 +186,7 @@ TEST(Job, IsCancelledWhileItRuns) {
   const std::string mesh = server.create(paper_mesh()).name();
   const std::string name = server.create(endless_job(mesh)).name();
   Context context;
-  v1::WatchJobRequest request;
-  request.set_name(name);
-  const auto reader = server.jobs->WatchJob(&context, request);
+  const auto reader = server.jobs->WatchJob(&context, named<v1::WatchJobRequest>(name));
   v1::WatchJobResponse event;
   while (reader->Read(&event) && !event.has_samples()) {
   }
@@ -219,11 +220,7 @@ TEST(Job, IsDeletedOnceItEnded) {
   RunningServer server;
   const std::string name = server.create(endless_job(server.create(paper_mesh()).name())).name();
   const auto remove = [&] {
-    Context context;
-    v1::DeleteJobRequest request;
-    request.set_name(name);
-    google::protobuf::Empty empty;
-    return server.jobs->DeleteJob(&context, request, &empty);
+    return call(*server.jobs, &Jobs::DeleteJob, named<v1::DeleteJobRequest>(name));
   };
   expect_error(remove(), grpc::StatusCode::FAILED_PRECONDITION, "IN_USE", "");
   Received block;

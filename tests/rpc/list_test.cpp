@@ -9,23 +9,22 @@
 namespace anticrack::rpc {
 namespace {
 
-using anticrack::testing::Context;
+using anticrack::testing::call;
 using anticrack::testing::expect_error;
+using anticrack::testing::Jobs;
+using anticrack::testing::Meshes;
+using anticrack::testing::must;
 using anticrack::testing::opening_job;
 using anticrack::testing::paper_mesh;
 using anticrack::testing::RunningServer;
 
 v1::ListJobsResponse list(RunningServer& server, int size, const std::string& token,
                           v1::JobView view = v1::JOB_VIEW_UNSPECIFIED) {
-  Context context;
   v1::ListJobsRequest request;
   request.set_view(view);
   request.set_page_size(size);
   request.set_page_token(token);
-  v1::ListJobsResponse response;
-  const grpc::Status status = server.jobs->ListJobs(&context, request, &response);
-  EXPECT_TRUE(status.ok()) << status.error_message();
-  return response;
+  return must(*server.jobs, &Jobs::ListJobs, request);
 }
 
 TEST(List, PagesThroughJobsNewestFirst) {
@@ -88,9 +87,7 @@ TEST(List, IsFilteredByStateAndMeshInEitherOrder) {
     request.set_page_size(2);
     std::vector<std::string> found;
     do {
-      Context context;
-      v1::ListJobsResponse page;
-      EXPECT_TRUE(server.jobs->ListJobs(&context, request, &page).ok());
+      const v1::ListJobsResponse page = must(*server.jobs, &Jobs::ListJobs, request);
       EXPECT_LE(page.jobs_size(), 2);
       for (const v1::Job& job : page.jobs()) found.push_back(job.name());
       request.set_page_token(page.next_page_token());
@@ -110,11 +107,9 @@ TEST(List, IsFilteredByStateAndMeshInEitherOrder) {
   EXPECT_EQ(listed([&](auto& request) { request.add_states(v1::JobStatus::STATE_RUNNING); }),
             Names{});
 
-  Context context;
   v1::ListJobsRequest request;
   request.set_mesh("jobs/0123456789abcdef");
-  v1::ListJobsResponse jobs;
-  expect_error(server.jobs->ListJobs(&context, request, &jobs), grpc::StatusCode::INVALID_ARGUMENT,
+  expect_error(call(*server.jobs, &Jobs::ListJobs, request), grpc::StatusCode::INVALID_ARGUMENT,
                "INVALID_ARGUMENT", "mesh");
 }
 
@@ -144,20 +139,17 @@ TEST(List, ClosesAPageOfFewThatFit) {
 
 TEST(List, RefusesPagesThereAreNot) {
   RunningServer server;
-  Context a, b, c;
-  v1::ListJobsResponse jobs;
-  v1::ListMeshesResponse meshes;
   v1::ListJobsRequest request;
   request.set_page_size(1001);
-  expect_error(server.jobs->ListJobs(&a, request, &jobs), grpc::StatusCode::INVALID_ARGUMENT,
+  expect_error(call(*server.jobs, &Jobs::ListJobs, request), grpc::StatusCode::INVALID_ARGUMENT,
                "INVALID_ARGUMENT", "page_size");
   request.set_page_size(10);
   request.set_page_token("deadbeef");
-  expect_error(server.jobs->ListJobs(&b, request, &jobs), grpc::StatusCode::INVALID_ARGUMENT,
+  expect_error(call(*server.jobs, &Jobs::ListJobs, request), grpc::StatusCode::INVALID_ARGUMENT,
                "INVALID_ARGUMENT", "page_token");
   v1::ListMeshesRequest mesh_request;
   mesh_request.set_page_size(-1);
-  expect_error(server.meshes->ListMeshes(&c, mesh_request, &meshes),
+  expect_error(call(*server.meshes, &Meshes::ListMeshes, mesh_request),
                grpc::StatusCode::INVALID_ARGUMENT, "INVALID_ARGUMENT", "page_size");
 }
 
@@ -166,19 +158,13 @@ TEST(List, ShowsMeshes) {
   const std::string a = server.create(paper_mesh(0.2)).name();
   const std::string b = server.create(paper_mesh(0.3)).name();
   EXPECT_EQ(server.create(paper_mesh(0.2)).name(), a);  // the same content is the same mesh
-  Context context;
-  v1::ListMeshesResponse response;
-  ASSERT_TRUE(server.meshes->ListMeshes(&context, {}, &response).ok());
+  const v1::ListMeshesResponse response = must(*server.meshes, &Meshes::ListMeshes, {});
   ASSERT_EQ(response.meshes_size(), 2);
   EXPECT_EQ(response.meshes(0).name(), b);
   EXPECT_EQ(response.meshes(1).name(), a);
   EXPECT_EQ(response.meshes(1).source_case(), v1::Mesh::SOURCE_NOT_SET);
 
-  Context get;
-  v1::GetMeshRequest request;
-  request.set_name(a);
-  v1::Mesh mesh;
-  ASSERT_TRUE(server.meshes->GetMesh(&get, request, &mesh).ok());
+  const v1::Mesh mesh = server.mesh(a);
   v1::CreateMeshRequest again;
   *again.mutable_geometry() = mesh.geometry();
   *again.mutable_options() = mesh.options();

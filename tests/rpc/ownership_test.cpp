@@ -12,49 +12,44 @@ namespace anticrack::rpc {
 namespace {
 
 using anticrack::testing::admin_token;
+using anticrack::testing::call;
 using anticrack::testing::Context;
 using anticrack::testing::expect_error;
+using anticrack::testing::Jobs;
+using anticrack::testing::Meshes;
+using anticrack::testing::must;
+using anticrack::testing::named;
 using anticrack::testing::opening_job;
 using anticrack::testing::other_token;
 using anticrack::testing::owner_token;
 using anticrack::testing::paper_mesh;
 using anticrack::testing::RunningServer;
+using anticrack::testing::Servers;
 using anticrack::testing::small_msh;
 
 class Ownership : public ::testing::Test {
  protected:
   v1::Mesh create_mesh(const std::string& token) {
-    Context context(token);
-    v1::Mesh mesh;
-    const grpc::Status status = server.meshes->CreateMesh(&context, paper_mesh(), &mesh);
-    EXPECT_TRUE(status.ok()) << status.error_message();
-    return mesh;
+    return must(*server.meshes, &Meshes::CreateMesh, paper_mesh(), token);
   }
-  grpc::Status create_job(const std::string& token, const v1::CreateJobRequest& request,
-                          v1::Job& job) {
-    Context context(token);
-    return server.jobs->CreateJob(&context, request, &job);
+  v1::Job create_job(const std::string& token, const v1::CreateJobRequest& request) {
+    return must(*server.jobs, &Jobs::CreateJob, request, token);
+  }
+  /// The opening on a mesh of their own.
+  v1::Job create_job(const std::string& token) {
+    return create_job(token, opening_job(create_mesh(token).name()));
   }
   grpc::Status get_job(const std::string& token, const std::string& name) {
-    Context context(token);
-    v1::GetJobRequest request;
-    request.set_name(name);
-    v1::Job job;
-    return server.jobs->GetJob(&context, request, &job);
+    return call(*server.jobs, &Jobs::GetJob, named<v1::GetJobRequest>(name), nullptr, token);
   }
   std::vector<std::string> list_jobs(const std::string& token) {
-    Context context(token);
-    v1::ListJobsResponse response;
-    EXPECT_TRUE(server.jobs->ListJobs(&context, {}, &response).ok());
     std::vector<std::string> names;
-    for (const v1::Job& job : response.jobs()) names.push_back(job.name());
+    const v1::ListJobsResponse listed = must(*server.jobs, &Jobs::ListJobs, {}, token);
+    for (const v1::Job& job : listed.jobs()) names.push_back(job.name());
     return names;
   }
   int count_meshes(const std::string& token) {
-    Context context(token);
-    v1::ListMeshesResponse response;
-    EXPECT_TRUE(server.meshes->ListMeshes(&context, {}, &response).ok());
-    return response.meshes_size();
+    return must(*server.meshes, &Meshes::ListMeshes, {}, token).meshes_size();
   }
 
   RunningServer server{
@@ -74,9 +69,7 @@ TEST_F(Ownership, EqualMeshesOfTwoAreTwo) {
 }
 
 TEST_F(Ownership, ListsShowOnesOwn) {
-  v1::Job ours, theirs;
-  ASSERT_TRUE(create_job(owner_token, opening_job(create_mesh(owner_token).name()), ours).ok());
-  ASSERT_TRUE(create_job(other_token, opening_job(create_mesh(other_token).name()), theirs).ok());
+  const v1::Job ours = create_job(owner_token), theirs = create_job(other_token);
   EXPECT_EQ(ours.owner(), "ada");
   EXPECT_EQ(list_jobs(owner_token), std::vector<std::string>{ours.name()});
   EXPECT_EQ(list_jobs(other_token), std::vector<std::string>{theirs.name()});
@@ -84,41 +77,32 @@ TEST_F(Ownership, ListsShowOnesOwn) {
 }
 
 TEST_F(Ownership, AdministratorsListWhatIsOfOneOwner) {
-  v1::Job ours, theirs;
-  ASSERT_TRUE(create_job(owner_token, opening_job(create_mesh(owner_token).name()), ours).ok());
-  ASSERT_TRUE(create_job(other_token, opening_job(create_mesh(other_token).name()), theirs).ok());
-  const auto list = [&](const std::string& token, const std::string& owner, auto& response) {
-    Context context(token);
-    if constexpr (std::is_same_v<decltype(response), v1::ListJobsResponse&>) {
-      v1::ListJobsRequest request;
-      request.set_owner(owner);
-      return server.jobs->ListJobs(&context, request, &response).error_code();
-    } else {
-      v1::ListMeshesRequest request;
-      request.set_owner(owner);
-      return server.meshes->ListMeshes(&context, request, &response).error_code();
-    }
-  };
+  create_job(owner_token);
+  const v1::Job theirs = create_job(other_token);
+  v1::ListJobsRequest of_jobs;
+  v1::ListMeshesRequest of_meshes;
+  of_jobs.set_owner("bob");
+  of_meshes.set_owner("bob");
   for (const std::string& token : {admin_token, other_token}) {
-    v1::ListJobsResponse jobs;
-    EXPECT_EQ(list(token, "bob", jobs), grpc::StatusCode::OK);
+    const v1::ListJobsResponse jobs = must(*server.jobs, &Jobs::ListJobs, of_jobs, token);
     ASSERT_EQ(jobs.jobs_size(), 1);
     EXPECT_EQ(jobs.jobs(0).name(), theirs.name());
-    v1::ListMeshesResponse meshes;
-    EXPECT_EQ(list(token, "bob", meshes), grpc::StatusCode::OK);
+    const v1::ListMeshesResponse meshes =
+        must(*server.meshes, &Meshes::ListMeshes, of_meshes, token);
     ASSERT_EQ(meshes.meshes_size(), 1);
     EXPECT_EQ(meshes.meshes(0).owner(), "bob");
   }
-  v1::ListJobsResponse jobs;
-  EXPECT_EQ(list(admin_token, "nobody", jobs), grpc::StatusCode::OK);
-  EXPECT_EQ(jobs.jobs_size(), 0);
-  EXPECT_EQ(list(owner_token, "bob", jobs), grpc::StatusCode::PERMISSION_DENIED);
-  EXPECT_EQ(list(owner_token, "nobody", jobs), grpc::StatusCode::PERMISSION_DENIED);
+  const auto code_for_owner = [&] {
+    return call(*server.jobs, &Jobs::ListJobs, of_jobs, nullptr, owner_token).error_code();
+  };
+  EXPECT_EQ(code_for_owner(), grpc::StatusCode::PERMISSION_DENIED);
+  of_jobs.set_owner("nobody");
+  EXPECT_EQ(code_for_owner(), grpc::StatusCode::PERMISSION_DENIED);
+  EXPECT_EQ(must(*server.jobs, &Jobs::ListJobs, of_jobs, admin_token).jobs_size(), 0);
 }
 
 TEST_F(Ownership, AnothersJobIsAsIfItDidNotExist) {
-  v1::Job job;
-  ASSERT_TRUE(create_job(owner_token, opening_job(create_mesh(owner_token).name()), job).ok());
+  const v1::Job job = create_job(owner_token);
   const grpc::Status hidden = get_job(other_token, job.name());
   std::string missing = job.name();
   missing.back() = missing.back() == '0' ? '1' : '0';
@@ -132,33 +116,20 @@ TEST_F(Ownership, AnothersJobIsAsIfItDidNotExist) {
 TEST_F(Ownership, RequestIdsAreOnesOwn) {
   v1::CreateJobRequest request = opening_job(create_mesh(owner_token).name());
   request.set_request_id("123e4567-e89b-12d3-a456-426614174000");
-  v1::Job ours, theirs, again;
-  ASSERT_TRUE(create_job(owner_token, request, ours).ok());
-  ASSERT_TRUE(create_job(owner_token, request, again).ok());
-  EXPECT_EQ(again.name(), ours.name());
+  const v1::Job ours = create_job(owner_token, request);
+  EXPECT_EQ(create_job(owner_token, request).name(), ours.name());
   request.mutable_spec()->set_mesh(create_mesh(other_token).name());
-  ASSERT_TRUE(create_job(other_token, request, theirs).ok());
-  EXPECT_NE(theirs.name(), ours.name());
+  EXPECT_NE(create_job(other_token, request).name(), ours.name());
 }
 
 TEST_F(Ownership, UploadsAreOnesOwn) {
-  Context context(owner_token);
-  v1::CreateUploadsResponse response;
-  const auto writer = server.uploads->CreateUploads(&context, &response);
-  v1::CreateUploadsRequest part;
-  part.mutable_header()->set_size(small_msh().size());
-  part.mutable_header()->set_sha256(digest::Sha256().add(small_msh()).finish());
-  writer->Write(part);
-  part.set_chunk(small_msh());
-  writer->Write(part);
-  writer->WritesDone();
-  ASSERT_TRUE(writer->Finish().ok());
   v1::CreateMeshRequest request;
-  request.set_upload(response.uploads(0).name());
+  ASSERT_TRUE(server
+                  .upload(anticrack::testing::upload_header(small_msh()), small_msh(),
+                          request.mutable_upload(), 1000, owner_token)
+                  .ok());
   const auto create = [&](const std::string& token) {
-    Context call(token);
-    v1::Mesh mesh;
-    return server.meshes->CreateMesh(&call, request, &mesh);
+    return call(*server.meshes, &Meshes::CreateMesh, request, nullptr, token);
   };
   expect_error(create(other_token), grpc::StatusCode::NOT_FOUND, "NOT_FOUND", "upload");
   EXPECT_TRUE(create(owner_token).ok());
@@ -189,9 +160,7 @@ TEST(OwnershipWithoutTokens, NobodyIsAskedAndEverybodyMay) {
   const v1::Mesh mesh = server.create(paper_mesh());
   EXPECT_EQ(mesh.owner(), "");
   EXPECT_EQ(server.create(opening_job(mesh.name())).owner(), "");
-  Context context("whatever");  // asked by nobody, read by nobody
-  v1::ServerInfo info;
-  EXPECT_TRUE(server.servers->GetServerInfo(&context, {}, &info).ok());
+  must(*server.servers, &Servers::GetServerInfo, {}, "whatever");  // which nobody reads
 }
 
 }  // namespace

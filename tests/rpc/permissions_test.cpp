@@ -17,12 +17,19 @@
 namespace anticrack::rpc {
 namespace {
 
+using anticrack::testing::call;
 using anticrack::testing::Context;
 using anticrack::testing::eventually;
+using anticrack::testing::Jobs;
+using anticrack::testing::Meshes;
+using anticrack::testing::must;
+using anticrack::testing::named;
 using anticrack::testing::opening_job;
 using anticrack::testing::paper_mesh;
 using anticrack::testing::RunningServer;
+using anticrack::testing::Servers;
 using anticrack::testing::small_msh;
+using anticrack::testing::Uploads;
 namespace testing = anticrack::testing;
 using Code = grpc::StatusCode;
 
@@ -43,78 +50,80 @@ class Things {
 
   std::string fresh_mesh() {
     _size += 0.01;
-    v1::Mesh made;
-    must([&](Context& context) {
-      return server.meshes->CreateMesh(&context, paper_mesh(_size), &made);
-    });
-    v1::GetMeshRequest request;
-    request.set_name(made.name());
+    const std::string name =
+        must(*server.meshes, &Meshes::CreateMesh, paper_mesh(_size), testing::owner_token).name();
+    const auto request = named<v1::GetMeshRequest>(name);
     EXPECT_TRUE(eventually([&] {
-      must([&](Context& context) { return server.meshes->GetMesh(&context, request, &made); });
-      return made.state() == v1::Mesh::STATE_READY;
+      return must(*server.meshes, &Meshes::GetMesh, request, testing::owner_token).state() ==
+             v1::Mesh::STATE_READY;
     }));
-    return made.name();
+    return name;
   }
 
   std::string fresh_job() {
-    v1::Job made;
-    must([&](Context& context) {
-      return server.jobs->CreateJob(&context, opening_job(mesh), &made);
-    });
-    v1::GetJobRequest request;
-    request.set_name(made.name());
+    const std::string name =
+        must(*server.jobs, &Jobs::CreateJob, opening_job(mesh), testing::owner_token).name();
+    const auto request = named<v1::GetJobRequest>(name);
     EXPECT_TRUE(eventually([&] {
-      must([&](Context& context) { return server.jobs->GetJob(&context, request, &made); });
-      return made.status().state() == v1::JobStatus::STATE_SUCCEEDED;
+      return must(*server.jobs, &Jobs::GetJob, request, testing::owner_token).status().state() ==
+             v1::JobStatus::STATE_SUCCEEDED;
     }));
-    return made.name();
+    return name;
   }
 
   /// An array of its own for each call.
   std::string fresh_upload() {
-    Context context(testing::owner_token);
-    v1::CreateUploadsResponse response;
-    const auto writer = server.uploads->CreateUploads(&context, &response);
     _size += 0.01;
-    const std::string bytes(reinterpret_cast<const char*>(&_size), sizeof _size);
-    v1::CreateUploadsRequest part;
-    part.mutable_header()->set_size(bytes.size());
-    part.mutable_header()->set_sha256(digest::Sha256().add(bytes).finish());
-    part.mutable_header()->set_kind(v1::Upload::KIND_ARRAY);
-    writer->Write(part);
-    part.set_chunk(bytes);
-    writer->Write(part);
-    writer->WritesDone();
-    EXPECT_TRUE(writer->Finish().ok());
-    return response.uploads(0).name();
+    const std::string bytes = testing::packed({_size});
+    std::string name;
+    EXPECT_TRUE(server
+                    .upload(testing::upload_header(bytes, v1::Upload::KIND_ARRAY), bytes, &name,
+                            bytes.size(), testing::owner_token)
+                    .ok());
+    return name;
   }
 
   RunningServer server;
   const std::string mesh;
   const std::string job;
-
- private:
-  void must(const std::function<grpc::Status(Context&)>& call) {
-    Context context(testing::owner_token);
-    const grpc::Status status = call(context);
-    ASSERT_TRUE(status.ok()) << status.error_message();
-  }
 };
 
-using Call = std::function<grpc::Status(Things&, Context&)>;
+using Call = std::function<grpc::Status(Things&, const std::string& token)>;
 
-template <class Request>
-Request named(const std::string& name) {
-  Request request;
-  request.set_name(name);
-  return request;
+/// Calls a method with the request that make(things) gives.
+template <class Stub, class Request, class Response>
+Call on(
+    std::unique_ptr<Stub> RunningServer::*stub,
+    grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*),
+    const std::function<std::type_identity_t<Request>(Things&)>& make = [](Things&) {
+      return Request();
+    }) {
+  return [=](Things& things, const std::string& token) {
+    return call(*(things.server.*stub), method, make(things), nullptr, token);
+  };
+}
+/// The same for a request about what has name(things).
+template <class Stub, class Request, class Response>
+Call of(std::unique_ptr<Stub> RunningServer::*stub,
+        grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*),
+        const std::function<std::string(Things&)>& name) {
+  return on(stub, method, [=](Things& things) { return named<Request>(name(things)); });
 }
 
-template <class Reader, class Response>
-grpc::Status read_all(const std::unique_ptr<Reader>& reader, Response response) {
-  while (reader->Read(&response)) {
-  }
-  return reader->Finish();
+/// Reads a stream about what has name(things) to its end.
+template <class Stub, class Request, class Response>
+Call read(std::unique_ptr<Stub> RunningServer::*stub,
+          std::unique_ptr<grpc::ClientReader<Response>> (Stub::*method)(grpc::ClientContext*,
+                                                                        const Request&),
+          const std::string Things::*name) {
+  return [=](Things& things, const std::string& token) {
+    Context context(token);
+    const auto reader = ((*(things.server.*stub)).*method)(&context, named<Request>(things.*name));
+    Response response;
+    while (reader->Read(&response)) {
+    }
+    return reader->Finish();
+  };
 }
 
 struct Row {
@@ -124,146 +133,71 @@ struct Row {
   std::array<Code, 5> expected;
 };
 
-grpc::Status upload(Things& things, Context& context) {
-  v1::CreateUploadsResponse response;
-  const auto writer = things.server.uploads->CreateUploads(&context, &response);
-  v1::CreateUploadsRequest part;
-  part.mutable_header()->set_size(small_msh().size());
-  part.mutable_header()->set_sha256(digest::Sha256().add(small_msh()).finish());
-  if (writer->Write(part)) {
-    part.set_chunk(small_msh());
-    writer->Write(part);
-  }
-  writer->WritesDone();
-  return writer->Finish();
+grpc::Status upload(Things& things, const std::string& token) {
+  return things.server.upload(testing::upload_header(small_msh()), small_msh(), nullptr, 1000,
+                              token);
 }
 
 Call warm(bool pin) {
-  return [pin](Things& things, Context& context) {
+  return on(&RunningServer::meshes, &Meshes::WarmMesh, [pin](Things& things) {
     auto request = named<v1::WarmMeshRequest>(things.mesh);
     request.set_pin(pin);
-    v1::Mesh mesh;
-    return things.server.meshes->WarmMesh(&context, request, &mesh);
-  };
+    return request;
+  });
 }
 
 std::vector<Row> permission_rows() {
-  const std::string uploads = "anticrack.v1.UploadService.";
-  const std::string meshes = "anticrack.v1.MeshService.";
-  const std::string solves = "anticrack.v1.SolveService.";
+  const std::string uploads = "anticrack.v1.UploadService.", meshes = "anticrack.v1.MeshService.",
+                    solves = "anticrack.v1.SolveService.";
+  constexpr auto to_uploads = &RunningServer::uploads;
+  constexpr auto to_meshes = &RunningServer::meshes;
+  constexpr auto to_jobs = &RunningServer::jobs;
   return {
       {uploads + "CreateUploads", upload, {who, who, ok, ok, ok}},
       {uploads + "GetUpload",
-       [](Things& things, Context& context) {
-         v1::Upload answer;
-         return things.server.uploads->GetUpload(
-             &context, named<v1::GetUploadRequest>(things.fresh_upload()), &answer);
-       },
+       of(to_uploads, &Uploads::GetUpload, &Things::fresh_upload),
        {who, who, not_found, ok, not_found}},
-      {uploads + "ListUploads",
-       [](Things& things, Context& context) {
-         v1::ListUploadsResponse response;
-         return things.server.uploads->ListUploads(&context, {}, &response);
-       },
-       {who, who, ok, ok, ok}},
+      {uploads + "ListUploads", on(to_uploads, &Uploads::ListUploads), {who, who, ok, ok, ok}},
       {uploads + "DeleteUpload",
-       [](Things& things, Context& context) {
-         google::protobuf::Empty nothing;
-         return things.server.uploads->DeleteUpload(
-             &context, named<v1::DeleteUploadRequest>(things.fresh_upload()), &nothing);
-       },
+       of(to_uploads, &Uploads::DeleteUpload, &Things::fresh_upload),
        {who, who, not_found, ok, not_found}},
       {meshes + "CreateMesh",
-       [](Things& things, Context& context) {
-         v1::Mesh mesh;
-         return things.server.meshes->CreateMesh(&context, paper_mesh(0.2), &mesh);
-       },
+       on(to_meshes, &Meshes::CreateMesh, [](Things&) { return paper_mesh(0.2); }),
        {who, who, ok, ok, ok}},
       {meshes + "GetMesh",
-       [](Things& things, Context& context) {
-         v1::Mesh mesh;
-         return things.server.meshes->GetMesh(&context, named<v1::GetMeshRequest>(things.mesh),
-                                              &mesh);
-       },
+       of(to_meshes, &Meshes::GetMesh, &Things::mesh),
        {who, who, not_found, ok, ok}},
-      {meshes + "ListMeshes",
-       [](Things& things, Context& context) {
-         v1::ListMeshesResponse response;
-         return things.server.meshes->ListMeshes(&context, {}, &response);
-       },
-       {who, who, ok, ok, ok}},
+      {meshes + "ListMeshes", on(to_meshes, &Meshes::ListMeshes), {who, who, ok, ok, ok}},
       {meshes + "ReadMesh",
-       [](Things& things, Context& context) {
-         const auto request = named<v1::ReadMeshRequest>(things.mesh);
-         return read_all(things.server.meshes->ReadMesh(&context, request), v1::ReadMeshResponse());
-       },
+       read(to_meshes, &Meshes::ReadMesh, &Things::mesh),
        {who, who, not_found, ok, ok}},
       {meshes + "DeleteMesh",
-       [](Things& things, Context& context) {
-         google::protobuf::Empty nothing;
-         return things.server.meshes->DeleteMesh(
-             &context, named<v1::DeleteMeshRequest>(things.fresh_mesh()), &nothing);
-       },
+       of(to_meshes, &Meshes::DeleteMesh, &Things::fresh_mesh),
        {who, who, not_found, ok, ok}},
       {meshes + "WarmMesh", warm(false), {who, who, not_found, ok, ok}},
       {meshes + "WarmMesh", warm(true), {who, who, denied, denied, ok}},
       {meshes + "EvictMesh",
-       [](Things& things, Context& context) {
-         v1::Mesh mesh;
-         return things.server.meshes->EvictMesh(&context, named<v1::EvictMeshRequest>(things.mesh),
-                                                &mesh);
-       },
+       of(to_meshes, &Meshes::EvictMesh, &Things::mesh),
        {who, who, denied, denied, ok}},
       {solves + "CreateJob",
-       [](Things& things, Context& context) {
-         v1::Job job;
-         return things.server.jobs->CreateJob(&context, opening_job(things.mesh), &job);
-       },
+       on(to_jobs, &Jobs::CreateJob, [](Things& things) { return opening_job(things.mesh); }),
        {who, who, not_found, ok, ok}},
-      {solves + "GetJob",
-       [](Things& things, Context& context) {
-         v1::Job job;
-         return things.server.jobs->GetJob(&context, named<v1::GetJobRequest>(things.job), &job);
-       },
-       {who, who, not_found, ok, ok}},
-      {solves + "ListJobs",
-       [](Things& things, Context& context) {
-         v1::ListJobsResponse response;
-         return things.server.jobs->ListJobs(&context, {}, &response);
-       },
-       {who, who, ok, ok, ok}},
+      {solves + "GetJob", of(to_jobs, &Jobs::GetJob, &Things::job), {who, who, not_found, ok, ok}},
+      {solves + "ListJobs", on(to_jobs, &Jobs::ListJobs), {who, who, ok, ok, ok}},
       {solves + "CancelJob",
-       [](Things& things, Context& context) {
-         v1::Job job;
-         return things.server.jobs->CancelJob(&context, named<v1::CancelJobRequest>(things.job),
-                                              &job);
-       },
+       of(to_jobs, &Jobs::CancelJob, &Things::job),
        {who, who, not_found, ok, ok}},
       {solves + "DeleteJob",
-       [](Things& things, Context& context) {
-         google::protobuf::Empty nothing;
-         return things.server.jobs->DeleteJob(
-             &context, named<v1::DeleteJobRequest>(things.fresh_job()), &nothing);
-       },
+       of(to_jobs, &Jobs::DeleteJob, &Things::fresh_job),
        {who, who, not_found, ok, ok}},
       {solves + "WatchJob",
-       [](Things& things, Context& context) {
-         const auto request = named<v1::WatchJobRequest>(things.job);
-         return read_all(things.server.jobs->WatchJob(&context, request), v1::WatchJobResponse());
-       },
+       read(to_jobs, &Jobs::WatchJob, &Things::job),
        {who, who, not_found, ok, ok}},
       {solves + "ReadResult",
-       [](Things& things, Context& context) {
-         const auto request = named<v1::ReadResultRequest>(things.job);
-         return read_all(things.server.jobs->ReadResult(&context, request),
-                         v1::ReadResultResponse());
-       },
+       read(to_jobs, &Jobs::ReadResult, &Things::job),
        {who, who, not_found, ok, ok}},
       {"anticrack.v1.ServerService.GetServerInfo",
-       [](Things& things, Context& context) {
-         v1::ServerInfo info;
-         return things.server.servers->GetServerInfo(&context, {}, &info);
-       },
+       on(&RunningServer::servers, &Servers::GetServerInfo),
        {who, who, ok, ok, ok}},
   };
 }
@@ -282,8 +216,7 @@ TEST(Permissions, HoldForEveryMethodAndEverybody) {
       grpc::Status status;
       // What a job or a factorisation that just ended still holds is free in a moment.
       EXPECT_TRUE(eventually([&] {
-        Context context(everybody[i].second);
-        status = row.call(things, context);
+        status = row.call(things, everybody[i].second);
         return status.error_code() != Code::FAILED_PRECONDITION;
       }));
       EXPECT_EQ(status.error_code(), row.expected[i]) << status.error_message();

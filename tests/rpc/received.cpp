@@ -39,8 +39,7 @@ grpc::Status receive(Reader& reader, std::uint64_t offset, Received& to) {
 grpc::Status read_result(RunningServer& server, const std::string& job, std::uint64_t offset,
                          Received& to) {
   Context context;
-  v1::ReadResultRequest request;
-  request.set_name(job);
+  auto request = named<v1::ReadResultRequest>(job);
   request.set_offset(offset);
   const auto reader = server.jobs->ReadResult(&context, request);
   return receive<v1::ReadResultResponse>(*reader, offset, to);
@@ -49,8 +48,7 @@ grpc::Status read_result(RunningServer& server, const std::string& job, std::uin
 grpc::Status read_mesh(RunningServer& server, const std::string& mesh, std::uint64_t offset,
                        Received& to) {
   Context context;
-  v1::ReadMeshRequest request;
-  request.set_name(mesh);
+  auto request = named<v1::ReadMeshRequest>(mesh);
   request.set_offset(offset);
   const auto reader = server.meshes->ReadMesh(&context, request);
   return receive<v1::ReadMeshResponse>(*reader, offset, to);

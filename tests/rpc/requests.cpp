@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "rpc/requests.hpp"
 
+#include "digest/digest.hpp"
+
 namespace anticrack::testing {
 namespace {
 
@@ -10,6 +12,14 @@ void add_point(v1::Point& to, double x, double y) {
 }
 
 }  // namespace
+
+v1::CreateUploadsRequest::Header upload_header(const std::string& content, v1::Upload::Kind kind) {
+  v1::CreateUploadsRequest::Header header;
+  header.set_size(content.size());
+  header.set_sha256(digest::Sha256().add(content).finish());
+  header.set_kind(kind);
+  return header;
+}
 
 v1::CreateMeshRequest paper_mesh(double size) {
   v1::CreateMeshRequest request;

@@ -8,6 +8,7 @@
 
 #include "anticrack/v1/mesh.pb.h"
 #include "anticrack/v1/solve.pb.h"
+#include "anticrack/v1/upload.pb.h"
 
 namespace anticrack::testing {
 
@@ -17,6 +18,10 @@ v1::CreateMeshRequest paper_mesh(double size = 0.2);
 
 /// One load case "opening" (Example 3: f = 1 above the interface, -1 below) on the mesh.
 v1::CreateJobRequest opening_job(const std::string& mesh);
+
+/// The header of a file with this content.
+v1::CreateUploadsRequest::Header upload_header(
+    const std::string& content, v1::Upload::Kind kind = v1::Upload::KIND_UNSPECIFIED);
 
 /// f64, little-endian, as they lie in memory.
 std::string packed(const std::vector<double>& values);

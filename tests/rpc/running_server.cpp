@@ -7,8 +7,8 @@
 #include <thread>
 #include <utility>
 
-#include "digest/digest.hpp"
 #include "operators/mesh_operator.hpp"
+#include "rpc/requests.hpp"
 
 namespace anticrack::testing {
 Context::Context() { set_deadline(std::chrono::system_clock::now() + std::chrono::minutes(2)); }
@@ -74,100 +74,55 @@ std::shared_ptr<grpc::Channel> RunningServer::channel(
 }
 
 v1::Mesh RunningServer::create(const v1::CreateMeshRequest& request) {
-  Context context;
-  v1::Mesh mesh;
-  const grpc::Status status = meshes->CreateMesh(&context, request, &mesh);
-  EXPECT_TRUE(status.ok()) << status.error_message();
-  return mesh;
+  return must(*meshes, &Meshes::CreateMesh, request);
 }
 
 v1::Job RunningServer::create(const v1::CreateJobRequest& request) {
-  Context context;
-  v1::Job job;
-  const grpc::Status status = jobs->CreateJob(&context, request, &job);
-  EXPECT_TRUE(status.ok()) << status.error_message();
-  return job;
+  return must(*jobs, &Jobs::CreateJob, request);
 }
 
-v1::ServerInfo RunningServer::info() {
-  Context context;
-  v1::ServerInfo info;
-  const grpc::Status status = servers->GetServerInfo(&context, {}, &info);
-  EXPECT_TRUE(status.ok()) << status.error_message();
-  return info;
-}
+v1::ServerInfo RunningServer::info() { return must(*servers, &Servers::GetServerInfo, {}); }
 
 v1::Job RunningServer::job(const std::string& name) {
-  Context context;
-  v1::GetJobRequest request;
-  request.set_name(name);
-  v1::Job job;
-  const grpc::Status status = jobs->GetJob(&context, request, &job);
-  EXPECT_TRUE(status.ok()) << status.error_message();
-  return job;
+  return must(*jobs, &Jobs::GetJob, named<v1::GetJobRequest>(name));
 }
 
 v1::Mesh RunningServer::mesh(const std::string& name) {
-  Context context;
-  v1::GetMeshRequest request;
-  request.set_name(name);
-  v1::Mesh mesh;
-  const grpc::Status status = meshes->GetMesh(&context, request, &mesh);
-  EXPECT_TRUE(status.ok()) << status.error_message();
-  return mesh;
+  return must(*meshes, &Meshes::GetMesh, named<v1::GetMeshRequest>(name));
 }
 
 grpc::Status RunningServer::try_create(const v1::CreateMeshRequest& request) {
-  Context context;
-  v1::Mesh mesh;
-  return meshes->CreateMesh(&context, request, &mesh);
+  return call(*meshes, &Meshes::CreateMesh, request);
 }
 
 grpc::Status RunningServer::try_create(const v1::CreateJobRequest& request) {
-  Context context;
-  v1::Job job;
-  return jobs->CreateJob(&context, request, &job);
+  return call(*jobs, &Jobs::CreateJob, request);
 }
 
 grpc::Status RunningServer::cancel(const std::string& job) {
-  Context context;
-  v1::CancelJobRequest request;
-  request.set_name(job);
-  v1::Job answer;
-  return jobs->CancelJob(&context, request, &answer);
+  return call(*jobs, &Jobs::CancelJob, named<v1::CancelJobRequest>(job));
 }
 
 grpc::Status RunningServer::upload(const v1::CreateUploadsRequest::Header& header,
-                                   const std::string& content, std::string* name,
-                                   std::size_t chunk) {
-  Context context;
-  v1::CreateUploadsResponse response;
-  const auto writer = uploads->CreateUploads(&context, &response);
-  v1::CreateUploadsRequest request;
-  *request.mutable_header() = header;
-  bool open = writer->Write(request);
-  for (std::size_t offset = 0; open && offset < content.size(); offset += chunk) {
-    request.set_chunk(content.substr(offset, chunk));
-    open = writer->Write(request);
-  }
-  writer->WritesDone();
-  const grpc::Status status = writer->Finish();
-  if (name != nullptr && status.ok()) *name = response.uploads(0).name();
+                                   const std::string& content, std::string* name, std::size_t chunk,
+                                   const std::string& token) {
+  BegunUpload begun(*this, header, token);
+  bool open = true;
+  for (std::size_t offset = 0; open && offset < content.size(); offset += chunk)
+    open = begun.send(content.substr(offset, chunk));
+  const grpc::Status status = begun.finish();
+  if (name != nullptr && status.ok()) *name = begun.name();
   return status;
 }
 
 grpc::Status RunningServer::upload(const std::string& content, std::string* name) {
-  v1::CreateUploadsRequest::Header header;
-  header.set_size(content.size());
-  header.set_sha256(digest::Sha256().add(content).finish());
-  return upload(header, content, name);
+  return upload(upload_header(content), content, name);
 }
 
 grpc::Status RunningServer::watch(const std::string& job, std::uint64_t after,
                                   std::vector<v1::WatchJobResponse>& events) {
   Context context;
-  v1::WatchJobRequest request;
-  request.set_name(job);
+  auto request = named<v1::WatchJobRequest>(job);
   request.set_after_sequence(after);
   const auto reader = jobs->WatchJob(&context, request);
   v1::WatchJobResponse event;
@@ -191,6 +146,30 @@ v1::Mesh RunningServer::settle(const std::string& name) {
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
+}
+
+BegunUpload::BegunUpload(RunningServer& server, const v1::CreateUploadsRequest::Header& header,
+                         const std::string& token)
+    : _context(token), _writer(server.uploads->CreateUploads(&_context, &_response)) {
+  v1::CreateUploadsRequest part;
+  *part.mutable_header() = header;
+  _writer->Write(part);
+}
+
+bool BegunUpload::send(const std::string& chunk) {
+  v1::CreateUploadsRequest part;
+  part.set_chunk(chunk);
+  return _writer->Write(part);
+}
+
+grpc::Status BegunUpload::finish() {
+  _writer->WritesDone();
+  return _writer->Finish();
+}
+
+grpc::Status BegunUpload::drop() {
+  _context.TryCancel();
+  return _writer->Finish();
 }
 
 }  // namespace anticrack::testing

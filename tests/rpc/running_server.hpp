@@ -4,10 +4,12 @@
 #pragma once
 
 #include <grpcpp/grpcpp.h>
+#include <gtest/gtest.h>
 
 #include <functional>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "anticrack/v1/mesh.grpc.pb.h"
@@ -22,6 +24,48 @@
 #include "support/temporary_folder.hpp"
 
 namespace anticrack::testing {
+
+/// A context that ends a call that hangs, so that a test fails instead of standing still.
+struct Context : grpc::ClientContext {
+  Context();
+  /// With "authorization: Bearer TOKEN" where the token is not empty.
+  explicit Context(const std::string& token);
+};
+
+using Uploads = v1::UploadService::Stub;
+using Meshes = v1::MeshService::Stub;
+using Jobs = v1::SolveService::Stub;
+using Servers = v1::ServerService::Stub;
+
+/// A request about what has this name.
+template <class Request>
+Request named(const std::string& name) {
+  Request request;
+  request.set_name(name);
+  return request;
+}
+
+/// Calls a method that takes and gives one message: call(*server.jobs, &Jobs::GetJob, request).
+template <class Stub, class Request, class Response>
+grpc::Status call(Stub& stub,
+                  grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*),
+                  const std::type_identity_t<Request>& request,
+                  std::type_identity_t<Response>* answer = nullptr, const std::string& token = {}) {
+  Context context(token);
+  Response unread;
+  return (stub.*method)(&context, request, answer != nullptr ? answer : &unread);
+}
+
+/// The answer to a call that must succeed.
+template <class Stub, class Request, class Response>
+Response must(Stub& stub,
+              grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*),
+              const std::type_identity_t<Request>& request, const std::string& token = {}) {
+  Response answer;
+  const grpc::Status status = call(stub, method, request, &answer, token);
+  EXPECT_TRUE(status.ok()) << status.error_message();
+  return answer;
+}
 
 struct Settings {
   meshes::CatalogueOptions catalogue;
@@ -64,7 +108,8 @@ class RunningServer {
   grpc::Status cancel(const std::string& job);
   /// Uploads `content` in chunks of `chunk` bytes under the header given.
   grpc::Status upload(const v1::CreateUploadsRequest::Header& header, const std::string& content,
-                      std::string* name = nullptr, std::size_t chunk = 1000);
+                      std::string* name = nullptr, std::size_t chunk = 1000,
+                      const std::string& token = {});
   /// With the right header.
   grpc::Status upload(const std::string& content, std::string* name = nullptr);
 
@@ -76,10 +121,10 @@ class RunningServer {
   /// Waits until the mesh is READY or FAILED.
   v1::Mesh settle(const std::string& mesh);
 
-  std::unique_ptr<v1::UploadService::Stub> uploads;
-  std::unique_ptr<v1::MeshService::Stub> meshes;
-  std::unique_ptr<v1::SolveService::Stub> jobs;
-  std::unique_ptr<v1::ServerService::Stub> servers;
+  std::unique_ptr<Uploads> uploads;
+  std::unique_ptr<Meshes> meshes;
+  std::unique_ptr<Jobs> jobs;
+  std::unique_ptr<Servers> servers;
 
  private:
   void start();
@@ -94,11 +139,20 @@ class RunningServer {
   std::unique_ptr<rpc::Server> _server;
 };
 
-/// A context that ends a call that hangs, so that a test fails instead of standing still.
-struct Context : grpc::ClientContext {
-  Context();
-  /// With "authorization: Bearer TOKEN" where the token is not empty.
-  explicit Context(const std::string& token);
+/// An upload of one file that is begun.
+class BegunUpload {
+ public:
+  BegunUpload(RunningServer& server, const v1::CreateUploadsRequest::Header& header,
+              const std::string& token = {});
+  bool send(const std::string& chunk);
+  grpc::Status finish();
+  grpc::Status drop();
+  const std::string& name() const { return _response.uploads(0).name(); }
+
+ private:
+  Context _context;
+  v1::CreateUploadsResponse _response;
+  std::unique_ptr<grpc::ClientWriter<v1::CreateUploadsRequest>> _writer;
 };
 
 }  // namespace anticrack::testing

@@ -11,13 +11,18 @@
 #include "rpc/details.hpp"
 #include "rpc/requests.hpp"
 #include "rpc/running_server.hpp"
+#include "support/errors.hpp"
 #include "support/eventually.hpp"
 
 namespace anticrack::rpc {
 namespace {
 
+using anticrack::testing::call;
 using anticrack::testing::Context;
 using anticrack::testing::expect_error;
+using anticrack::testing::Meshes;
+using anticrack::testing::must;
+using anticrack::testing::named;
 using anticrack::testing::opening_job;
 using anticrack::testing::paper_mesh;
 using anticrack::testing::RunningServer;
@@ -122,15 +127,11 @@ TEST(Server, ListsItsServicesByReflection) {
 
 TEST(Server, TakesNoPortThatAnotherHas) {
   RunningServer first;
-  try {
-    RunningServer second(
-        [&](auto& settings) { settings.server.listen = first.server().address(); });
-    ADD_FAILURE() << "both listen on " << first.server().address();
-  } catch (const errors::Error& error) {
-    EXPECT_EQ(error.reason(), errors::Reason::invalid_argument);
-    ASSERT_EQ(error.fields().size(), 1u);
-    EXPECT_EQ(error.fields()[0].field, "listen");
-  }
+  const auto listen_there = [&](auto& settings) {
+    settings.server.listen = first.server().address();
+  };
+  EXPECT_TRUE(anticrack::testing::throws([&] { RunningServer second(listen_there); },
+                                         errors::Reason::invalid_argument, "listen"));
   EXPECT_FALSE(first.info().version().empty());
 }
 
@@ -179,28 +180,19 @@ TEST(Server, WarmsEvictsAndDeletesMeshes) {
     }));
     return status;
   };
-  v1::WarmMeshRequest warm;
-  warm.set_name(name);
+  auto warm = named<v1::WarmMeshRequest>(name);
   warm.set_pin(true);
-  v1::Mesh mesh;
-  Context first;
-  ASSERT_TRUE(server.meshes->WarmMesh(&first, warm, &mesh).ok());
+  must(*server.meshes, &Meshes::WarmMesh, warm);
   ASSERT_TRUE(anticrack::testing::eventually([&] { return server.mesh(name).pinned(); }));
-  v1::EvictMeshRequest evict;
-  evict.set_name(name);
+  v1::Mesh mesh;
   const grpc::Status evicted = until_free([&] {
-    Context context;
-    return server.meshes->EvictMesh(&context, evict, &mesh);
+    return call(*server.meshes, &Meshes::EvictMesh, named<v1::EvictMeshRequest>(name), &mesh);
   });
   EXPECT_TRUE(evicted.ok()) << evicted.error_message();
   EXPECT_EQ(mesh.state(), v1::Mesh::STATE_EVICTED);
   EXPECT_FALSE(mesh.pinned());
-  v1::DeleteMeshRequest remove;
-  remove.set_name(name);
-  google::protobuf::Empty empty;
   const auto erase = [&] {
-    Context context;
-    return server.meshes->DeleteMesh(&context, remove, &empty);
+    return call(*server.meshes, &Meshes::DeleteMesh, named<v1::DeleteMeshRequest>(name));
   };
   EXPECT_TRUE(until_free(erase).ok());
   expect_error(erase(), grpc::StatusCode::NOT_FOUND, "NOT_FOUND", "");

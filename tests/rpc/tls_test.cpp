@@ -15,7 +15,10 @@ namespace anticrack::rpc {
 namespace {
 
 using anticrack::testing::Authority;
+using anticrack::testing::call;
 using anticrack::testing::Context;
+using anticrack::testing::Meshes;
+using anticrack::testing::named;
 using anticrack::testing::paper_mesh;
 using anticrack::testing::Pem;
 using anticrack::testing::RunningServer;
@@ -64,11 +67,8 @@ TEST(Tls, MutualTakesTheNameFromTheCertificate) {
   EXPECT_THAT(server.info().features(), ::testing::Contains("tls.mutual"));
   const auto get = [&](const Pem& who) {
     const auto stub = v1::MeshService::NewStub(server.channel(client(authority.root(), who)));
-    Context context;
-    v1::GetMeshRequest request;
-    request.set_name(mesh.name());
-    v1::Mesh answer;
-    return stub->GetMesh(&context, request, &answer).error_code();
+    const auto request = named<v1::GetMeshRequest>(mesh.name());
+    return call(*stub, &Meshes::GetMesh, request).error_code();
   };
   EXPECT_EQ(get(authority.issue("ada")), grpc::StatusCode::OK);
   EXPECT_EQ(get(authority.issue("bob")), grpc::StatusCode::NOT_FOUND);

@@ -9,20 +9,22 @@
 #include <sstream>
 
 #include "errors/errors.hpp"
+#include "rpc/refusals.hpp"
 #include "rpc/requests.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace anticrack::rpc {
 namespace {
 
+using anticrack::testing::packed;
 using anticrack::testing::small_msh;
 using errors::Error;
 using errors::Reason;
 
-v1::CreateUploadsRequest header_of(const std::string& content) {
+v1::CreateUploadsRequest header_of(const std::string& content,
+                                   v1::Upload::Kind kind = v1::Upload::KIND_UNSPECIFIED) {
   v1::CreateUploadsRequest request;
-  request.mutable_header()->set_size(content.size());
-  request.mutable_header()->set_sha256(digest::Sha256().add(content).finish());
+  *request.mutable_header() = anticrack::testing::upload_header(content, kind);
   return request;
 }
 
@@ -45,16 +47,13 @@ class UploadReceiverTest : public ::testing::Test {
   /// The requests, then complete(); expects the error, and no file left.
   void expect_refused(const std::vector<v1::CreateUploadsRequest>& requests, Reason reason,
                       const std::string& field) {
-    try {
-      UploadReceiver receiver(*_store, "ada", 10'000);
-      for (const auto& request : requests) receiver.accept(request);
-      receiver.complete();
-      ADD_FAILURE() << "accepted; expected " << field;
-    } catch (const Error& error) {
-      EXPECT_EQ(error.reason(), reason) << error.what();
-      ASSERT_EQ(error.fields().size(), 1u);
-      EXPECT_EQ(error.fields()[0].field, field);
-    }
+    rpc::expect_refused(
+        [&] {
+          UploadReceiver receiver(*_store, "ada", 10'000);
+          for (const auto& request : requests) receiver.accept(request);
+          receiver.complete();
+        },
+        reason, field);
     EXPECT_EQ(files(), 0u);
   }
 
@@ -121,17 +120,11 @@ TEST_F(UploadReceiverTest, LetsNothingPassThatGmshWouldRun) {
 }
 
 v1::CreateUploadsRequest array_header_of(const std::string& content) {
-  v1::CreateUploadsRequest request = header_of(content);
-  request.mutable_header()->set_kind(v1::Upload::KIND_ARRAY);
-  return request;
-}
-
-std::string bytes_of(const std::vector<double>& values) {
-  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double)};
+  return header_of(content, v1::Upload::KIND_ARRAY);
 }
 
 TEST_F(UploadReceiverTest, KeepsArrays) {
-  const std::string content = bytes_of({1, -2.5, 1e300});
+  const std::string content = packed({1, -2.5, 1e300});
   UploadReceiver receiver(*_store, "ada", 10'000);
   receiver.accept(array_header_of(content));
   receiver.accept(chunk_of(content.substr(0, 5)));
@@ -143,11 +136,11 @@ TEST_F(UploadReceiverTest, TakesNothingElseForAnArray) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   expect_refused({array_header_of("")}, Reason::invalid_argument, "header.size");
   expect_refused({array_header_of("123456789")}, Reason::invalid_argument, "header.size");
-  const std::string bad = bytes_of({1, nan});
+  const std::string bad = packed({1, nan});
   expect_refused({array_header_of(bad), chunk_of(bad)}, Reason::invalid_argument, "chunk");
   const std::string msh = "$MeshFormat\n2.2 ";
   expect_refused({array_header_of(msh), chunk_of(msh)}, Reason::invalid_argument, "chunk");
-  const std::string array = bytes_of({1, 2});
+  const std::string array = packed({1, 2});
   expect_refused({header_of(array), chunk_of(array)}, Reason::mesh_invalid, "chunk");
   v1::CreateUploadsRequest unknown = header_of(array);
   unknown.mutable_header()->set_kind(static_cast<v1::Upload::Kind>(9));

@@ -12,18 +12,17 @@
 namespace anticrack::rpc {
 namespace {
 
+using anticrack::testing::BegunUpload;
+using anticrack::testing::call;
 using anticrack::testing::Context;
 using anticrack::testing::eventually;
 using anticrack::testing::expect_error;
+using anticrack::testing::must;
+using anticrack::testing::named;
 using anticrack::testing::RunningServer;
 using anticrack::testing::small_msh;
-
-v1::CreateUploadsRequest::Header upload_header(const std::string& content) {
-  v1::CreateUploadsRequest::Header header;
-  header.set_size(content.size());
-  header.set_sha256(digest::Sha256().add(content).finish());
-  return header;
-}
+using anticrack::testing::upload_header;
+using anticrack::testing::Uploads;
 
 TEST(Upload, IsKeptUnderItsHash) {
   RunningServer server;
@@ -40,34 +39,26 @@ TEST(Upload, IsKeptUnderItsHash) {
 
 std::string upload_array(RunningServer& server, const std::vector<double>& values) {
   const std::string bytes = anticrack::testing::packed(values);
-  v1::CreateUploadsRequest::Header header = upload_header(bytes);
-  header.set_kind(v1::Upload::KIND_ARRAY);
   std::string name;
-  EXPECT_TRUE(server.upload(header, bytes, &name).ok());
+  EXPECT_TRUE(server.upload(upload_header(bytes, v1::Upload::KIND_ARRAY), bytes, &name).ok());
   return name;
 }
 
 grpc::Status erase(RunningServer& server, const std::string& name) {
-  Context context;
-  v1::DeleteUploadRequest request;
-  request.set_name(name);
-  google::protobuf::Empty nothing;
-  return server.uploads->DeleteUpload(&context, request, &nothing);
+  return call(*server.uploads, &Uploads::DeleteUpload, named<v1::DeleteUploadRequest>(name));
 }
 
 TEST(Upload, SaysWhatItIs) {
   RunningServer server([](auto& settings) { settings.engine.upload_ttl = std::chrono::hours(1); });
   v1::GetUploadRequest request;
-  v1::Upload upload;
   ASSERT_TRUE(server.upload(small_msh(), request.mutable_name()).ok());
-  Context first, second;
-  ASSERT_TRUE(server.uploads->GetUpload(&first, request, &upload).ok());
+  v1::Upload upload = must(*server.uploads, &Uploads::GetUpload, request);
   EXPECT_EQ(upload.name(), request.name());
   EXPECT_EQ(upload.kind(), v1::Upload::KIND_MSH);
   EXPECT_EQ(upload.size(), small_msh().size());
   EXPECT_EQ(upload.expire_time().seconds() - upload.create_time().seconds(), 3600);
   request.set_name(upload_array(server, {1.5}));
-  ASSERT_TRUE(server.uploads->GetUpload(&second, request, &upload).ok());
+  upload = must(*server.uploads, &Uploads::GetUpload, request);
   EXPECT_EQ(upload.kind(), v1::Upload::KIND_ARRAY);
   EXPECT_EQ(upload.size(), sizeof(double));
 }
@@ -80,9 +71,7 @@ TEST(Upload, IsListedByNameInPages) {
   v1::ListUploadsRequest request;
   request.set_page_size(2);
   do {
-    Context context;
-    v1::ListUploadsResponse response;
-    ASSERT_TRUE(server.uploads->ListUploads(&context, request, &response).ok());
+    const v1::ListUploadsResponse response = must(*server.uploads, &Uploads::ListUploads, request);
     EXPECT_LE(response.uploads_size(), 2);
     for (const v1::Upload& upload : response.uploads()) names.push_back(upload.name());
     request.set_page_token(response.next_page_token());
@@ -128,17 +117,10 @@ TEST(Upload, LeavesNothingWhereItIsRefused) {
 TEST(Upload, LeavesNothingWhenItsClientGoes) {
   RunningServer server;
   {
-    Context context;
-    v1::CreateUploadsResponse response;
-    const auto writer = server.uploads->CreateUploads(&context, &response);
-    v1::CreateUploadsRequest request;
-    *request.mutable_header() = upload_header(small_msh());
-    ASSERT_TRUE(writer->Write(request));
-    request.set_chunk("$MeshFormat");
-    ASSERT_TRUE(writer->Write(request));
+    BegunUpload upload(server, upload_header(small_msh()));
+    ASSERT_TRUE(upload.send("$MeshFormat"));
     ASSERT_TRUE(eventually([&] { return server.upload_files() == 1; }));
-    context.TryCancel();
-    EXPECT_EQ(writer->Finish().error_code(), grpc::StatusCode::CANCELLED);
+    EXPECT_EQ(upload.drop().error_code(), grpc::StatusCode::CANCELLED);
   }
   EXPECT_TRUE(eventually([&] { return server.upload_files() == 0; }));
 }
@@ -157,29 +139,16 @@ TEST(Upload, ThatStallsGivesItsPlaceUp) {
 
 TEST(Upload, IsRefusedBeyondTheLimitOfTransfers) {
   RunningServer server([](auto& settings) { settings.server.limits.transfers = 1; });
-  Context context;
-  v1::CreateUploadsResponse response;
-  const auto writer = server.uploads->CreateUploads(&context, &response);
-  v1::CreateUploadsRequest request;
-  *request.mutable_header() = upload_header(small_msh());
-  ASSERT_TRUE(writer->Write(request));
+  BegunUpload upload(server, upload_header(small_msh()));
   ASSERT_TRUE(eventually([&] { return server.upload_files() == 1; }));
   expect_error(server.upload(small_msh()), grpc::StatusCode::RESOURCE_EXHAUSTED, "BUSY", "");
-  context.TryCancel();
-  writer->Finish();
+  upload.drop();
 }
 
 TEST(Upload, IsUsedAsWhatItIs) {
   RunningServer server;
-  const std::vector<double> values(6, 1.0);
-  const std::string bytes(reinterpret_cast<const char*>(values.data()),
-                          values.size() * sizeof(double));
-  v1::CreateUploadsRequest::Header header = upload_header(bytes);
-  header.set_kind(v1::Upload::KIND_ARRAY);
-  std::string array;
-  ASSERT_TRUE(server.upload(header, bytes, &array).ok());
   v1::CreateMeshRequest mesh;
-  mesh.set_upload(array);
+  mesh.set_upload(upload_array(server, std::vector<double>(6, 1.0)));
   expect_error(server.try_create(mesh), grpc::StatusCode::INVALID_ARGUMENT, "MESH_INVALID",
                "upload");
   std::string msh;

@@ -16,15 +16,14 @@ using anticrack::testing::Context;
 using anticrack::testing::details_of;
 using anticrack::testing::endless_job;
 using anticrack::testing::eventually;
+using anticrack::testing::named;
 using anticrack::testing::opening_job;
 using anticrack::testing::paper_mesh;
 using anticrack::testing::RunningServer;
 
 struct Watcher {
   Watcher(RunningServer& server, const std::string& job) {
-    v1::WatchJobRequest request;
-    request.set_name(job);
-    reader = server.jobs->WatchJob(&context, request);
+    reader = server.jobs->WatchJob(&context, named<v1::WatchJobRequest>(job));
   }
   Context context;
   std::unique_ptr<grpc::ClientReader<v1::WatchJobResponse>> reader;

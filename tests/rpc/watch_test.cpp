@@ -18,6 +18,7 @@ using anticrack::testing::details_of;
 using anticrack::testing::endless_job;
 using anticrack::testing::eventually;
 using anticrack::testing::expect_error;
+using anticrack::testing::named;
 using anticrack::testing::opening_job;
 using anticrack::testing::paper_mesh;
 using anticrack::testing::RunningServer;
@@ -25,8 +26,7 @@ using anticrack::testing::sweep_job;
 using Events = std::vector<v1::WatchJobResponse>;
 
 v1::WatchJobRequest watch_request(const std::string& job, std::uint64_t after = 0) {
-  v1::WatchJobRequest request;
-  request.set_name(job);
+  auto request = named<v1::WatchJobRequest>(job);
   request.set_after_sequence(after);
   return request;
 }

@@ -24,6 +24,8 @@
 #include "operators/operator_cache.hpp"
 #include "records/mesh_record.hpp"
 #include "store/store.hpp"
+#include "support/eventually.hpp"
+#include "support/failing_store.hpp"
 #include "support/paper_geometry.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -74,9 +76,9 @@ struct BackendOptions {
 class Backend {
  public:
   explicit Backend(const BackendOptions& options = {})
-      : store(store::open(
-            {options.data_folder.empty() ? (folder / "data").string() : options.data_folder,
-             options.disk_budget})),
+      : store(std::make_unique<FailingStore>(store::StoreOptions{
+            options.data_folder.empty() ? (folder / "data").string() : options.data_folder,
+            options.disk_budget})),
         cache(options.memory_budget,
               [this](std::shared_ptr<const mesh::Mesh> mesh, std::stop_token stop) {
                 if (mesh->triangle_count() >= kept_out) {
@@ -91,6 +93,12 @@ class Backend {
     return records::GeometrySource{paper_geometry(), {mesh::Preset::uniform, size}};
   }
   std::string create(double size = 0.1) { return catalogue.create(definition(size), "", "").id; }
+
+  records::MeshState state(const std::string& id) const { return catalogue.get(id).state; }
+  /// Waits until the mesh has this state.
+  bool reaches(const std::string& id, records::MeshState wanted) const {
+    return eventually([&] { return state(id) == wanted; });
+  }
 
   /// Sleeps until the operators are there, to be held by nobody else; `hear` gets all news. Throws
   /// the error of the wait, busy as soon as others hold the memory, cancelled on `stop`.
@@ -129,7 +137,7 @@ class Backend {
   Door door;                             ///< of the factorisation
   std::atomic<bool> deaf{false};         ///< a stop is noticed behind the door only
   std::atomic<std::size_t> kept_out{0};  ///< smaller meshes pass beside the door, triangles
-  std::unique_ptr<store::Store> store;
+  std::unique_ptr<FailingStore> store;
   operators::OperatorCache cache;
   meshes::MeshCatalogue catalogue;
 
