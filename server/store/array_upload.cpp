@@ -48,7 +48,8 @@ void require_finite(std::span<const double> values, std::uint64_t first) {
 constexpr std::string_view msh_start = "$MeshFormat";
 
 bool begins_like_msh(std::span<const std::byte> start) {
-  return start.size() >= msh_start.size() && std::memcmp(start.data(), msh_start.data(), msh_start.size()) == 0;
+  return start.size() >= msh_start.size() &&
+         std::memcmp(start.data(), msh_start.data(), msh_start.size()) == 0;
 }
 
 }  // namespace

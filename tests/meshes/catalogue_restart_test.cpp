@@ -27,6 +27,9 @@ using records::MeshState;
 class Restart : public ::testing::Test {
  protected:
   Restart() { options.data_folder = (folder / "data").string(); }
+  /// From now on the disk refuses meshes; give_back() ends that.
+  void take_away() { std::filesystem::rename(folder / "data/meshes", folder / "away"); }
+  void give_back() { std::filesystem::rename(folder / "away", folder / "data/meshes"); }
 
   TemporaryFolder folder;
   BackendOptions options;
@@ -140,9 +143,7 @@ TEST_F(Restart, MeshesWhatTheDiskHadNoRoomFor) {
 
 TEST_F(Restart, TellsWhoWaitsThatTheDiskRefusesAndTriesAgainLater) {
   Backend backend(options);
-  const std::filesystem::path meshes = folder / "data/meshes";
-  const std::filesystem::path away = folder / "away";
-  std::filesystem::rename(meshes, away);
+  take_away();
   const std::string id = backend.create(0.2);
   const auto prepare = [&] { return backend.prepare(id); };
   EXPECT_TRUE(throws(prepare, Reason::storage));
@@ -150,7 +151,7 @@ TEST_F(Restart, TellsWhoWaitsThatTheDiskRefusesAndTriesAgainLater) {
   EXPECT_FALSE(backend.catalogue.get(id).error);
   EXPECT_TRUE(eventually([&] { return backend.catalogue.pending() == 0; }));
 
-  std::filesystem::rename(away, meshes);
+  give_back();
   EXPECT_EQ(backend.create(0.2), id);
   EXPECT_NE(prepare(), nullptr);
   EXPECT_EQ(backend.state(id), MeshState::ready);
@@ -158,13 +159,11 @@ TEST_F(Restart, TellsWhoWaitsThatTheDiskRefusesAndTriesAgainLater) {
 
 TEST_F(Restart, TriesAgainForWhoAsksForTheOperators) {
   Backend backend(options);
-  const std::filesystem::path meshes = folder / "data/meshes";
-  const std::filesystem::path away = folder / "away";
-  std::filesystem::rename(meshes, away);
+  take_away();
   const std::string id = backend.create(0.2);
   ASSERT_TRUE(eventually(
       [&] { return backend.catalogue.meshings() == 1 && backend.catalogue.pending() == 0; }));
-  std::filesystem::rename(away, meshes);
+  give_back();
   EXPECT_NE(backend.prepare(id), nullptr);
   EXPECT_GE(backend.catalogue.meshings(), 2U);
 }

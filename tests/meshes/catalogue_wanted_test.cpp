@@ -247,10 +247,7 @@ TEST(DiskRefuses, AMeshGoesOnWhenThereIsRoomAgain) {
 }
 
 TEST(DamagedUpload, FailsItsMeshWithTheCause) {
-  const anticrack::testing::TemporaryFolder folder;
-  BackendOptions options;
-  options.data_folder = (folder / "data").string();
-  Backend backend(options);
+  Backend backend;
   const std::string text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n9";
   for (const bool cut : {false, true}) {
     SCOPED_TRACE(cut);
