@@ -12,19 +12,18 @@
 namespace anticrack::cli {
 namespace {
 
-using guide::Option;
 using Words = std::vector<std::string>;
 
-Words commands_of(const guide::Command& command) {
+Words commands_of(const CLI::App& command) {
   Words names;
-  for (const guide::Command& below : command.commands) names.push_back(below.name);
+  for (const CLI::App* below : guide::commands_of(command)) names.push_back(below->get_name());
   return names;
 }
 
 /// Walks the words as CLI11 does, to the command that is meant and the first unknown word.
 class Walk {
  public:
-  Walk(const guide::Command& program, const Words& words)
+  Walk(const CLI::App& program, const Words& words)
       : _program(program), _level(&program), _words(words) {}
 
   /// The problem; empty if every word has its place.
@@ -39,50 +38,47 @@ class Walk {
     return "";
   }
 
-  const guide::Command& level() const { return *_level; }
-  /// The command, like "anticrack job watch".
-  std::string path() const {
-    return _program.name + (_level->path.empty() ? "" : " " + _level->path);
-  }
+  const CLI::App& level() const { return *_level; }
+  std::string path() const { return guide::path_of(*_level); }
   std::string see() const { return "; see " + path() + " --help"; }
 
  private:
   std::string of_option(const std::string& word) {
     const bool is_long = word[1] == '-';
     const std::string name = is_long ? word.substr(0, word.find('=')) : word.substr(0, 2);
-    const Option* option = guide::option_of(*_level, _program, name);
+    const CLI::Option* option = guide::option_of(*_level, name);
     if (option == nullptr) return unknown_option(is_long ? name : word);
     const bool holds_value = word.size() > name.size();
-    _next += option->value.kind != guide::Value::Kind::none && !holds_value ? 1 : 0;
+    _next += !guide::type_of(*option).empty() && !holds_value ? 1 : 0;
     return "";
   }
 
   std::string unknown_option(const std::string& name) const {
-    const std::size_t here = _level->path.empty() ? 0 : _level->path.size() + 1;
     std::string takers;
-    for (const guide::Command* command : guide::with_all_below(*_level))
-      if (guide::option_of(*command, *command, name) != nullptr)
-        takers += (takers.empty() ? "" : ", ") + command->path.substr(here);
+    for (const CLI::App* command : guide::with_all_below(*_level))
+      if (command->get_option_no_throw(name) != nullptr)
+        takers += (takers.empty() ? "" : ", ") + guide::path_of(*command).substr(path().size() + 1);
     if (!takers.empty())
       return name + " is an option of " + takers + "; write it behind the command";
     Words names;
-    for (const guide::Command* command : {_level, &_program})
-      for (const Option& option : command->options)
-        if (option.names.back().starts_with("--")) names.push_back(option.names.back());
+    for (const CLI::App* command : {_level, &_program})
+      for (const CLI::Option* option : guide::options_of(*command))
+        if (!option->get_lnames().empty()) names.push_back("--" + option->get_lnames().back());
     const auto meant = words::nearest(name, names);
     return "unknown option " + name + " of " + path() +
            (meant ? "; did you mean " + *meant + "?" : see());
   }
 
   std::string of_word(const std::string& word) {
-    if (_level->commands.empty()) {
-      return ++_arguments > _level->positionals.size()
+    if (guide::commands_of(*_level).empty()) {
+      const auto options = guide::options_of(*_level);
+      return ++_arguments > std::ranges::count_if(options, &CLI::Option::get_positional)
                  ? "unexpected argument " + word + " of " + path() + see()
                  : "";
     }
-    const auto below = std::ranges::find(_level->commands, word, &guide::Command::name);
-    if (below == _level->commands.end()) return "unknown command " + word + "; " + cure(word);
-    _level = &*below;
+    const CLI::App* const below = guide::command_of(*_level, word);
+    if (below == nullptr) return "unknown command " + word + "; " + cure(word);
+    _level = below;
     return "";
   }
 
@@ -94,11 +90,11 @@ class Walk {
     return words::suggestion(word, commands_of(*_level));
   }
 
-  const guide::Command& _program;
-  const guide::Command* _level;
+  const CLI::App& _program;
+  const CLI::App* _level;
   const Words& _words;
   std::size_t _next = 0;
-  std::size_t _arguments = 0;
+  std::ptrdiff_t _arguments = 0;
 };
 
 std::string before_colon(const std::string& text) { return text.substr(0, text.find(':')); }
@@ -131,10 +127,9 @@ std::string of_error(const CLI::ParseError& error) {
 }  // namespace
 
 std::string usage_text(const CLI::App& app, const CLI::ParseError& error, const Words& words) {
-  const guide::Command program = guide::command_tree(app);
-  Walk walk(program, words);
+  Walk walk(app, words);
   if (std::string problem = walk.problem(); !problem.empty()) return problem;
-  if (!walk.level().commands.empty()) {
+  if (!guide::commands_of(walk.level()).empty()) {
     return "a command is missing after " + walk.path() + "; " +
            words::suggestion("", commands_of(walk.level()));
   }

@@ -1,82 +1,66 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "guide/guide.hpp"
-
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <sstream>
+#include <functional>
+#include <iterator>
+
+#include "guide/guide.hpp"
 
 namespace anticrack::guide {
 namespace {
 
-Value value_of(const CLI::Option& option) {
-  if (option.get_items_expected_max() == 0) return {};
-  const std::string type = option.get_type_name();
-  if (type.rfind("FILE", 0) == 0)  // FILE.csv, too
-    return {Value::Kind::file, {}};
-  if (type == "DIR") return {Value::Kind::folder, {}};
-  if (type == "KEY") return {Value::Kind::key, {}};
-  if (type == "KEY=VALUE") return {Value::Kind::assignment, {}};
-  if (type.size() > 2 && type.front() == '{' && type.back() == '}') {
-    Value value{Value::Kind::word, {}};
-    std::istringstream words(type.substr(1, type.size() - 2));
-    for (std::string word; std::getline(words, word, ',');) value.words.push_back(word);
-    return value;
-  }
-  return {Value::Kind::text, {}};
-}
-
-void add_options(const CLI::App& app, Command& command) {
-  for (const CLI::Option* option : app.get_options()) {
-    const Value value = value_of(*option);
-    const std::string type = value.kind == Value::Kind::none ? "" : option->get_type_name();
-    if (option->get_positional()) {
-      command.positionals.push_back(
-          {{option->get_name(true)}, type, option->get_description(), value});
-      continue;
-    }
-    Option result{{}, type, option->get_description(), value};
-    for (const std::string& name : option->get_snames()) result.names.push_back("-" + name);
-    for (const std::string& name : option->get_lnames()) result.names.push_back("--" + name);
-    const bool known = std::any_of(command.options.begin(), command.options.end(),
-                                   [&](const Option& o) { return o.names == result.names; });
-    if (!known)  // --help is repeated in each group of options
-      command.options.push_back(std::move(result));
-  }
-}
-
-Command tree_of(const CLI::App& app, const std::string& path) {
-  Command command{path, app.get_name(), app.get_description(), {}, {}, {}, app.get_footer()};
-  add_options(app, command);
-  for (const CLI::App* below : app.get_subcommands({})) {
-    if (below->get_name().empty()) {  // it is a group of options
-      add_options(*below, command);
-    } else {
-      const std::string& name = below->get_name();
-      command.commands.push_back(tree_of(*below, path.empty() ? name : path + " " + name));
-    }
-  }
-  return command;
-}
+const auto has_name = [](const CLI::App* command) { return !command->get_name().empty(); };
 
 }  // namespace
 
-Command command_tree(const CLI::App& app) { return tree_of(app, ""); }
-
-const Option* option_of(const Command& command, const Command& program, const std::string& name) {
-  for (const Command* taker : {&command, &program})
-    for (const Option& option : taker->options)
-      if (std::ranges::count(option.names, name) > 0) return &option;
-  return nullptr;
+std::vector<const CLI::App*> commands_of(const CLI::App& command) {
+  return command.get_subcommands(has_name);
 }
 
-std::vector<const Command*> with_all_below(const Command& command) {
-  std::vector<const Command*> result{&command};
-  for (const Command& below : command.commands) {
-    const std::vector<const Command*> more = with_all_below(below);
-    result.insert(result.end(), more.begin(), more.end());
-  }
+const CLI::App* command_of(const CLI::App& command, const std::string& name) {
+  const auto all = commands_of(command);
+  const auto found = std::ranges::find(all, name, &CLI::App::get_name);
+  return found == all.end() ? nullptr : *found;
+}
+
+std::vector<const CLI::App*> with_all_below(const CLI::App& command) {
+  std::vector<const CLI::App*> result{&command};
+  for (const CLI::App* below : commands_of(command))
+    std::ranges::copy(with_all_below(*below), std::back_inserter(result));
   return result;
+}
+
+std::string path_of(const CLI::App& command) {
+  const CLI::App* const parent = command.get_parent();
+  return parent == nullptr ? command.get_name() : path_of(*parent) + " " + command.get_name();
+}
+
+std::vector<const CLI::Option*> options_of(const CLI::App& command) {
+  std::vector<const CLI::Option*> options = command.get_options();
+  for (const CLI::App* group : command.get_subcommands(std::not_fn(has_name)))
+    for (const CLI::Option* option : group->get_options())
+      if (command.get_option_no_throw(option->get_name()) == option) options.push_back(option);
+  return options;
+}
+
+const CLI::Option* option_of(const CLI::App& command, const std::string& name) {
+  const CLI::App* program = &command;
+  while (program->get_parent() != nullptr) program = program->get_parent();
+  const CLI::Option* const own = command.get_option_no_throw(name);
+  return own != nullptr ? own : program->get_option_no_throw(name);
+}
+
+std::vector<std::string> names_of(const CLI::Option& option) {
+  if (option.get_positional()) return {option.get_name(true)};
+  std::vector<std::string> names;
+  for (const std::string& name : option.get_snames()) names.push_back("-" + name);
+  for (const std::string& name : option.get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+std::string type_of(const CLI::Option& option) {
+  return option.get_items_expected_max() == 0 ? "" : option.get_type_name();
 }
 
 }  // namespace anticrack::guide

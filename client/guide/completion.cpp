@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
+#include <sstream>
 
 #include "guide/guide.hpp"
 
@@ -74,17 +77,23 @@ class Lines {
   void add(const std::string& word, const std::string& description) {
     if (word.starts_with(_begin)) _text += word + '\t' + description + '\n';
   }
-  void add(const Value& value) {
-    if (value.kind == Value::Kind::file) _text += ":files\n";
-    if (value.kind == Value::Kind::folder) _text += ":folders\n";
-    const bool assigned = value.kind == Value::Kind::assignment;
-    const bool keys = assigned || value.kind == Value::Kind::key;
-    for (const std::string& word : keys ? _keys() : value.words)
+  /// Adds what the value of an option or an argument may be, by the type that --help gives.
+  void add_values(const std::string& type) {
+    if (type.starts_with("FILE")) _text += ":files\n";  // FILE.csv, too
+    if (type == "DIR") _text += ":folders\n";
+    std::vector<std::string> words;
+    if (type.starts_with('{')) {
+      std::istringstream list(type.substr(1, type.size() - 2));
+      for (std::string word; std::getline(list, word, ',');) words.push_back(word);
+    }
+    const bool assigned = type == "KEY=VALUE";
+    if (assigned || type == "KEY") words = _keys();
+    for (const std::string& word : words)
       if (word.starts_with(_begin)) _text += word + (assigned ? "=\n" : "\n");
   }
-  void add(const std::vector<Option>& options) {
-    for (const Option& option : options)
-      for (const std::string& name : option.names) add(name, option.description);
+  void add(const CLI::Option& option) {
+    if (option.get_positional()) return;
+    for (const std::string& name : names_of(option)) add(name, option.get_description());
   }
   const std::string& text() const { return _text; }
 
@@ -102,31 +111,30 @@ std::string_view completion_script(Shell shell) {
 
 std::string completions(const CLI::App& app, const std::vector<std::string>& words,
                         const std::function<std::vector<std::string>()>& keys) {
-  const Command program = command_tree(app);
-  const Command* command = &program;
+  const CLI::App* command = &app;
   const std::string last = words.empty() ? "" : words.back();
   Lines lines(last, keys);
   for (std::size_t i = 0; i + 1 < words.size(); ++i) {
-    const Option* option = option_of(*command, program, words[i]);
-    if (option != nullptr && option->value.kind != Value::Kind::none) {
+    const CLI::Option* option = words[i].starts_with('-') ? option_of(*command, words[i]) : nullptr;
+    if (option != nullptr && !type_of(*option).empty()) {
       if (++i + 1 < words.size()) continue;
-      lines.add(option->value);
+      lines.add_values(type_of(*option));
       return lines.text();
     }
-    const auto below = std::ranges::find(command->commands, words[i], &Command::name);
-    if (below != command->commands.end()) command = &*below;
+    if (const CLI::App* below = command_of(*command, words[i])) command = below;
   }
   if (last.starts_with('-')) {
-    lines.add(command->options);
-    if (command != &program) {
-      for (const Option& option : program.options)
-        if (option_of(*command, program, option.names.front()) == &option) lines.add({option});
-    }
-  } else if (!command->commands.empty()) {
-    for (const Command& below : command->commands) lines.add(below.name, below.description);
-  } else if (!command->positionals.empty()) {
-    lines.add(command->positionals.front().value);
+    for (const CLI::Option* option : options_of(*command)) lines.add(*option);
+    for (const CLI::Option* option : options_of(app))
+      if (command != &app && option_of(*command, names_of(*option).front()) == option)
+        lines.add(*option);
+    return lines.text();
   }
+  for (const CLI::App* below : commands_of(*command))
+    lines.add(below->get_name(), below->get_description());
+  const auto options = options_of(*command);
+  const auto argument = std::ranges::find_if(options, &CLI::Option::get_positional);
+  if (argument != options.end()) lines.add_values(type_of(**argument));
   return lines.text();
 }
 

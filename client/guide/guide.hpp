@@ -12,44 +12,35 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace anticrack::guide {
 
-/// The value of an option or of a positional argument.
-struct Value {
-  /// The last two are a key of a case, and key=value.
-  enum class Kind { none, text, file, folder, word, key, assignment };
-  Kind kind = Kind::none;
-  std::vector<std::string> words;  ///< the choices of Kind::word
-};
+/// The commands directly below a command.
+std::vector<const CLI::App*> commands_of(const CLI::App& command);
 
-struct Option {
-  std::vector<std::string> names;  ///< with their dashes; for a positional argument its name
-  std::string type;                ///< as in --help, e.g. FILE; empty for a flag
-  std::string description;
-  Value value;
-};
+/// The one of them with this name, or null.
+const CLI::App* command_of(const CLI::App& command, const std::string& name);
 
-struct Command {
-  std::string path;  ///< words after the program's name; empty for the program itself
-  std::string name;  ///< last word of the path
-  std::string description;
-  std::vector<Command> commands;
-  std::vector<Option> options;
-  std::vector<Option> positionals;
-  std::string footer;  ///< the end of --help
-};
+/// The command and all below it, parents first.
+std::vector<const CLI::App*> with_all_below(const CLI::App& command);
 
-/// The program with all its commands. Options in groups belong to their command.
-Command command_tree(const CLI::App& app);
+/// The words that lead to a command, with the program: "anticrack job watch".
+std::string path_of(const CLI::App& command);
+
+/// The options and arguments of a command, also those in groups.
+std::vector<const CLI::Option*> options_of(const CLI::App& command);
 
 /// The option with this name that may follow the command: one of its own, or one of the program,
 /// which every command takes. Null if there is none.
-const Option* option_of(const Command& command, const Command& program, const std::string& name);
+const CLI::Option* option_of(const CLI::App& command, const std::string& name);
 
-/// The command and all its subcommands, parents first.
-std::vector<const Command*> with_all_below(const Command& command);
+/// The names of an option with their dashes, long ones last; the name of an argument.
+std::vector<std::string> names_of(const CLI::Option& option);
+
+/// What --help calls the value of an option, as "FILE"; empty for a flag.
+std::string type_of(const CLI::Option& option);
 
 enum class Shell { bash, zsh, fish };
 

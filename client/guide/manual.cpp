@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cctype>
@@ -30,29 +31,27 @@ std::string upper(std::string text) {
 
 class PageWriter {
  public:
-  PageWriter(const Command& program, const Command& command, int section,
-             const std::string& version)
-      : _program(program), _command(command), _section(section) {
+  PageWriter(const CLI::App& command, int section, const std::string& version)
+      : _command(command), _section(section) {
     _out << ".TH " << upper(page_of(command)) << ' ' << section << " \"\" \"" << version << "\"\n";
     _out << ".SH NAME\n"
-         << plain(page_of(command)) << " \\- " << plain(command.description) << '\n';
+         << plain(page_of(command)) << " \\- " << plain(command.get_description()) << '\n';
     synopsis();
     listed("COMMANDS", [this] {
-      for (const Command& below : _command.commands)
-        item("\\fB" + plain(below.name) + "\\fR",
-             fmt::format("{}: see {}({})", below.description, page_of(below), _section));
+      for (const CLI::App* below : commands_of(_command))
+        item("\\fB" + plain(below->get_name()) + "\\fR",
+             fmt::format("{}: see {}({})", below->get_description(), page_of(*below), _section));
     });
-    listed("ARGUMENTS", [this] {
-      for (const Option& argument : _command.positionals) {
-        item("\\fI" + plain(argument.names.front()) + "\\fR", argument.description);
-      }
-    });
-    listed("OPTIONS", [this] {
-      for (const Option& option : _command.options) add(option);
-    });
+    for (const bool arguments : {true, false}) {
+      listed(arguments ? "ARGUMENTS" : "OPTIONS", [&] {
+        for (const CLI::Option* option : options_of(_command))
+          if (option->get_positional() == arguments) add(*option);
+      });
+    }
     footer();
-    if (&program != &command) {
-      _out << ".SH SEE ALSO\n.BR " << plain(program.name) << " (" << section
+    if (const CLI::App* const parent = command.get_parent()) {
+      const std::string path = path_of(*parent);
+      _out << ".SH SEE ALSO\n.BR " << plain(path.substr(0, path.find(' '))) << " (" << section
            << "):\noptions of every command, exit codes\n";
     }
   }
@@ -60,19 +59,17 @@ class PageWriter {
   Page page() const { return {fmt::format("{}.{}", page_of(_command), _section), _out.str()}; }
 
  private:
-  std::string page_of(const Command& command) const {
-    std::string path = command.path;
-    std::replace(path.begin(), path.end(), ' ', '-');
-    return path.empty() ? _program.name : _program.name + "-" + path;
+  static std::string page_of(const CLI::App& command) {
+    std::string path = path_of(command);
+    std::ranges::replace(path, ' ', '-');
+    return path;
   }
 
   void synopsis() {
-    _out << ".SH SYNOPSIS\n.B " << plain(_program.name);
-    if (!_command.path.empty()) _out << ' ' << plain(_command.path);
-    _out << "\n[\\fIOPTIONS\\fR]";
-    for (const Option& argument : _command.positionals)
-      _out << " \\fI" << plain(argument.names.front()) << "\\fR";
-    if (!_command.commands.empty()) _out << " \\fICOMMAND\\fR";
+    _out << ".SH SYNOPSIS\n.B " << plain(path_of(_command)) << "\n[\\fIOPTIONS\\fR]";
+    for (const CLI::Option* option : options_of(_command))
+      if (option->get_positional()) _out << " \\fI" << plain(option->get_name(true)) << "\\fR";
+    if (!commands_of(_command).empty()) _out << " \\fICOMMAND\\fR";
     _out << '\n';
   }
 
@@ -89,17 +86,18 @@ class PageWriter {
     _out << ".TP\n" << head << '\n' << plain(text) << '\n';
   }
 
-  void add(const Option& option) {
+  void add(const CLI::Option& option) {
     std::string head;
-    for (const std::string& name : option.names)
-      head += (head.empty() ? "" : ", ") + ("\\fB" + plain(name) + "\\fR");
-    item(option.type.empty() ? head : head + " \\fI" + plain(option.type) + "\\fR",
-         option.description);
+    for (const std::string& name : names_of(option))
+      head += (head.empty() ? "" : ", ") +
+              ((option.get_positional() ? "\\fI" : "\\fB") + plain(name) + "\\fR");
+    const std::string type = option.get_positional() ? "" : type_of(option);
+    item(type.empty() ? head : head + " \\fI" + plain(type) + "\\fR", option.get_description());
   }
 
   /// Writes paragraphs; one whose first line ends with a colon becomes a section of that name.
   void footer() {
-    std::istringstream lines(_command.footer);
+    std::istringstream lines(_command.get_footer());
     bool begins = true;
     bool verbatim = false;
     for (std::string line; std::getline(lines, line);) {
@@ -121,8 +119,7 @@ class PageWriter {
     if (verbatim) _out << ".fi\n";
   }
 
-  const Command& _program;
-  const Command& _command;
+  const CLI::App& _command;
   int _section;
   std::string _title;  // title of a section that is still empty
   bool _described = false;
@@ -132,10 +129,9 @@ class PageWriter {
 }  // namespace
 
 std::vector<Page> manual(const CLI::App& app, int section, const std::string& version) {
-  const Command program = command_tree(app);
   std::vector<Page> pages;
-  for (const Command* command : with_all_below(program))
-    pages.push_back(PageWriter(program, *command, section, version).page());
+  for (const CLI::App* command : with_all_below(app))
+    pages.push_back(PageWriter(*command, section, version).page());
   return pages;
 }
 
