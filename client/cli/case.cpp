@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "cli/text.hpp"
-#include "client/cases.hpp"
 #include "client/jobs.hpp"
 #include "words/nearest_field.hpp"
 

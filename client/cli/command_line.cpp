@@ -13,8 +13,8 @@
 
 #include "cli/commands.hpp"
 #include "cli/connection_flags.hpp"
-#include "cli/external.hpp"
 #include "cli/json.hpp"
+#include "cli/programs.hpp"
 #include "cli/report.hpp"
 #include "guide/guide.hpp"
 #include "output/standard.hpp"
@@ -80,15 +80,15 @@ int parse_and_run(int argc, char** argv) {
   add_sweep(app, globals, chosen);
   add_mesh(app, globals, chosen);
   add_job(app, globals, chosen);
-  add_files(app, globals, chosen);
-  add_server(app, globals, chosen);
-  add_explain(app, globals, chosen);
+  add_show(app, globals, chosen);
   std::vector<std::string> words(argv + 1, argv + argc);
   auto command_at = first_command(app, words);
   const std::string name = command_at == words.end() ? "" : *command_at;
   std::vector<std::string> others = words;  // options before the name are the command's own
   if (!name.empty()) others.erase(others.begin() + (command_at - words.begin()));
-  add_programs(app, others, chosen);
+  add_programs(app, globals, others, chosen);
+  add_server(app, globals, chosen);
+  add_explain(app, globals, chosen);
   add_guide(app, globals, chosen);
   if (argc > 1 && std::string_view(argv[1]) == "--complete") {
     print_document(guide::completions(app, {argv + 2, argv + argc}, [&] {

@@ -23,10 +23,12 @@ void add_run(CLI::App& app, const Globals& globals, Command& chosen);
 void add_sweep(CLI::App& app, const Globals& globals, Command& chosen);
 void add_mesh(CLI::App& app, const Globals& globals, Command& chosen);
 void add_job(CLI::App& app, const Globals& globals, Command& chosen);
-void add_files(CLI::App& app, const Globals& globals, Command& chosen);  ///< show, plot, export
+void add_show(CLI::App& app, const Globals& globals, Command& chosen);
 void add_server(CLI::App& app, const Globals& globals, Command& chosen);
-/// Adds study and view, which pass on `words`, the command line without the command.
-void add_programs(CLI::App& app, const std::vector<std::string>& words, Command& chosen);
+/// Adds plot, export, study and view; the last two pass on `words`, the command line without the
+/// command.
+void add_programs(CLI::App& app, const Globals& globals, const std::vector<std::string>& words,
+                  Command& chosen);
 void add_explain(CLI::App& app, const Globals& globals, Command& chosen);
 /// The keys of cases that the server knows, for completion; empty if it does not answer within a
 /// second.
@@ -70,14 +72,8 @@ inline void add_list_flags(CLI::App& command, const std::string& what, int& limi
             "Only the " + what + " of this user; others' are for administrators");
 }
 
-/// Adds an option that is passed on, as a word of `words`, to the program that draws or exports,
-/// which checks it; without a `type` a flag. `words` must outlive the app.
-CLI::Option* pass_on(CLI::App& command, std::vector<std::string>& words, const std::string& flag,
-                     const std::string& type, const std::string& help,
-                     const std::string& if_absent = "");
-
-/// Adds the options of figures.
-void add_figure_options(CLI::App& command, std::vector<std::string>& words,
-                        const std::string& folder_help);
+/// Adds the options of a figure. Those that are given become words for the program that draws,
+/// which checks them; `words` must outlive the app.
+void add_figure_options(CLI::App& command, std::vector<std::string>& words);
 
 }  // namespace anticrack::cli

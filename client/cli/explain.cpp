@@ -13,7 +13,7 @@
 #include "cli/json.hpp"
 #include "cli/report.hpp"
 #include "cli/text.hpp"
-#include "client/cases.hpp"
+#include "client/jobs.hpp"
 
 namespace anticrack::cli {
 namespace {

@@ -38,8 +38,6 @@ struct JobOptions {
   std::string mesh;
   bool oldest_first = false;
   bool fields = false;
-
-  std::string full() const { return full_name(Collection::jobs, name); }
 };
 
 void print_job(const Globals& globals, const v1::Job& job) {
@@ -110,48 +108,41 @@ int list_jobs(const JobOptions& options, const Globals& globals) {
   return exit_ok;
 }
 
-v1::Job get_job(Session& session, const std::string& name) {
-  return call_about(session, Collection::jobs, name, client::get_job);
+v1::Job get_job(Session& session, const JobOptions& options) {
+  return call_about(session, Collection::jobs, options.name, client::get_job);
 }
 
 int show(const JobOptions& options, const Globals& globals) {
-  const std::string name = options.full();
   Session session(globals);
-  print_job(globals, get_job(session, name));
+  print_job(globals, get_job(session, options));
   return exit_ok;
 }
 
 int cancel(const JobOptions& options, const Globals& globals) {
-  const std::string name = options.full();
   Session session(globals);
-  const v1::Job job = call_about(session, Collection::jobs, name, client::cancel_job);
+  const v1::Job job = call_about(session, Collection::jobs, options.name, client::cancel_job);
   if (prints_outcome(globals)) print_job(globals, job);
   return exit_ok;
 }
 
 int remove(const JobOptions& options, const Globals& globals) {
-  const std::string name = options.full();
   Session session(globals);
-  call_about(session, Collection::jobs, name, client::delete_job);
-  tell_deleted(globals, name);
+  call_about(session, Collection::jobs, options.name, client::delete_job);
+  tell_deleted(globals, full_name(Collection::jobs, options.name));
   return exit_ok;
 }
 
 int watch_job(const JobOptions& options, const Globals& globals) {
-  const std::string name = options.full();
   Session session(globals);
   session.signals().end_on_closed_output();
-  const v1::Job job = get_job(session, name);
-  const Followed followed = follow(session, job);
-  if (followed.how == Followed::How::detached) {
-    if (globals.json) print_document(to_json(followed.job));
-    return exit_interrupted;
-  }
+  const Followed followed = follow(session, get_job(session, options));
+  const int code = code_of(globals, followed);
+  if (followed.how == Followed::How::detached) return code;
   if (prints_outcome(globals))
     print_job(globals, followed.job);
   else
     complain_of(followed.job);
-  return followed.how == Followed::How::cancelled ? exit_interrupted : exit_code_of(followed.job);
+  return code;
 }
 
 // A job that solves the load cases of another one again, with fields, on the same mesh.
@@ -182,12 +173,12 @@ Followed solve_with_fields(Session& session, const v1::Job& job) {
 
 int fetch_result(const JobOptions& options, const Globals& given) {
   const Globals globals = with_outputs(given, {options.output});
-  const std::string name = options.full();
+  const std::string name = full_name(Collection::jobs, options.name);
   const std::string output =
       options.output.empty() ? name.substr(std::string("jobs/").size()) + ".h5" : options.output;
   output::check_writable(output);
   Session session(globals);
-  v1::Job job = get_job(session, name);
+  v1::Job job = get_job(session, options);
   if (options.fields && client::ended(job.status().state()) && !has_fields(job)) {
     Followed followed = solve_with_fields(session, job);
     if (followed.how == Followed::How::detached) return exit_interrupted;

@@ -45,8 +45,7 @@ int run_job(Session& session, const Case& the_case, const std::filesystem::path&
 struct Followed {
   enum class How { ended, detached, cancelled };  ///< cancelled: by this command, in time
   How how = How::ended;
-  v1::Job job;        ///< as it ended, or as it was when detached
-  AheadFuture ahead;  ///< set by run_job
+  v1::Job job;  ///< as it ended, or as it was when detached
 };
 
 /// Shows a job's progress until it ends. Ctrl-C detaches and says how to attach again; a second one
@@ -54,6 +53,9 @@ struct Followed {
 /// server would not outlive the command. `rows`: those of a sweep, if the caller knows them, since
 /// the server does not tell before it has the mesh.
 Followed follow(Session& session, const v1::Job& job, std::uint64_t rows = 0);
+
+/// The exit code. Prints the job for --json if the command detached from it.
+int code_of(const Globals& globals, const Followed& followed);
 
 /// Waits until the server is done with a mesh, and returns it: READY, EVICTED or FAILED. On a
 /// terminal one line shows state and time and is wiped at the end; elsewhere each state is a line.

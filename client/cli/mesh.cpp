@@ -9,9 +9,9 @@
 #include <optional>
 
 #include "cli/commands.hpp"
-#include "cli/external.hpp"
 #include "cli/job_run.hpp"
 #include "cli/json.hpp"
+#include "cli/programs.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
 #include "cli/resource_names.hpp"
@@ -54,10 +54,6 @@ int tell_mesh(const Globals& globals, const v1::Mesh& mesh, bool made,
   if (!globals.quiet || globals.json) return show_mesh(globals, mesh, facts);
   if (made) print_document(mesh.name());
   return exit_ok;
-}
-
-v1::Mesh get_mesh(Session& session, const std::string& name) {
-  return call_about(session, Collection::meshes, name, client::get_mesh);
 }
 
 v1::Mesh checked(v1::Mesh mesh) {
@@ -129,7 +125,8 @@ int show_mesh(const MeshOptions& options, const Globals& globals) {
   const std::string name = the_case ? create_mesh(session, *the_case).name() : given;
   const bool drawn = std::ranges::any_of(
       options.figures, [](const std::string& word) { return word.starts_with("--output="); });
-  if (!drawn && !the_case) return show_mesh(globals, get_mesh(session, name));
+  if (!drawn && !the_case)
+    return show_mesh(globals, call_about(session, Collection::meshes, name, client::get_mesh));
   const v1::Mesh mesh =
       about(session, Collection::meshes, name, [&] { return wait_for(session, name); });
   const CaseFacts facts = the_case ? facts_of(*the_case) : CaseFacts{};
@@ -167,25 +164,22 @@ int list_meshes(const MeshOptions& options, const Globals& globals) {
 }
 
 int warm(const MeshOptions& options, const Globals& globals) {
-  const std::string name = full_name(Collection::meshes, options.name);
   Session session(globals);
   const v1::Mesh mesh =
-      call_about(session, Collection::meshes, name, client::warm_mesh, options.pin);
+      call_about(session, Collection::meshes, options.name, client::warm_mesh, options.pin);
   return tell_mesh(globals, options.no_wait ? mesh : wait_for(session, mesh.name()), false);
 }
 
 int evict(const MeshOptions& options, const Globals& globals) {
-  const std::string name = full_name(Collection::meshes, options.name);
   Session session(globals);
-  return tell_mesh(globals, call_about(session, Collection::meshes, name, client::evict_mesh),
-                   false);
+  const v1::Mesh mesh = call_about(session, Collection::meshes, options.name, client::evict_mesh);
+  return tell_mesh(globals, mesh, false);
 }
 
 int delete_mesh(const MeshOptions& options, const Globals& globals) {
-  const std::string name = full_name(Collection::meshes, options.name);
   Session session(globals);
-  call_about(session, Collection::meshes, name, client::delete_mesh);
-  tell_deleted(globals, name);
+  call_about(session, Collection::meshes, options.name, client::delete_mesh);
+  tell_deleted(globals, full_name(Collection::meshes, options.name));
   return exit_ok;
 }
 
@@ -243,7 +237,7 @@ void add_mesh(CLI::App& app, const Globals& globals, Command& chosen) {
   add_value(*show_command, "MESH", options->name, "FILE",
             "meshes/ID, or a case (.toml) or .msh file to mesh")
       ->required();
-  add_figure_options(*show_command, options->figures, "Folder for the figure");
+  add_figure_options(*show_command, options->figures);
   add_overrides(show_command);
 
   CLI::App* warm_command =

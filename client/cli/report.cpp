@@ -5,8 +5,8 @@
 #include <sstream>
 #include <string>
 
-#include "cli/external.hpp"
 #include "cli/json.hpp"
+#include "cli/programs.hpp"
 #include "results/result.hpp"
 
 namespace anticrack::cli {

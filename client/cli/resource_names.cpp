@@ -13,16 +13,8 @@ namespace {
 
 constexpr int names_looked_at = 1000;
 
-struct CollectionWords {
-  std::string prefix;  ///< of the collection's names
-  std::string one;
-  std::string see;
-};
-
-CollectionWords words_of(Collection collection) {
-  return collection == Collection::meshes
-             ? CollectionWords{"meshes/", "mesh", "; see anticrack mesh list"}
-             : CollectionWords{"jobs/", "job", "; see anticrack job list"};
+std::string see(const Collection& collection) {
+  return "; see anticrack " + collection.one + " list";
 }
 
 bool is_id(const std::string& text) {
@@ -33,13 +25,13 @@ bool is_id(const std::string& text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), fits);
 }
 
-std::vector<std::string> names_of(Session& session, Collection collection) {
+std::vector<std::string> names_of(Session& session, const Collection& collection) {
   std::vector<std::string> names;
   const auto list = [&](const auto& call, auto request) {
     request.set_page_size(names_looked_at);
     return call(session.connection(), request, session.stop());
   };
-  if (collection == Collection::meshes) {
+  if (collection.one == "mesh") {
     const auto response = list(client::list_meshes, v1::ListMeshesRequest());
     for (const v1::Mesh& mesh : response.meshes()) names.push_back(mesh.name());
   } else {
@@ -51,35 +43,33 @@ std::vector<std::string> names_of(Session& session, Collection collection) {
 
 }  // namespace
 
-std::string full_name(Collection collection, const std::string& given) {
-  const CollectionWords words = words_of(collection);
-  const CollectionWords other =
-      words_of(collection == Collection::meshes ? Collection::jobs : Collection::meshes);
-  if (given.starts_with(other.prefix))
-    throw UsageError(given + " is a " + other.one + "; name a " + words.one + words.see);
-  const bool whole = given.starts_with(words.prefix);
-  if (!is_id(whole ? given.substr(words.prefix.size()) : given)) {
-    throw UsageError("\"" + given + "\" is not a name of a " + words.one + "; write " +
-                     words.prefix + "ID" + words.see);
+std::string full_name(const Collection& collection, const std::string& given) {
+  for (const Collection& other : {Collection::meshes, Collection::jobs})
+    if (other.one != collection.one && given.starts_with(other.prefix))
+      throw UsageError(given + " is a " + other.one + "; name a " + collection.one +
+                       see(collection));
+  const bool whole = given.starts_with(collection.prefix);
+  if (!is_id(whole ? given.substr(collection.prefix.size()) : given)) {
+    throw UsageError("\"" + given + "\" is not a name of a " + collection.one + "; write " +
+                     collection.prefix + "ID" + see(collection));
   }
-  return whole ? given : words.prefix + given;
+  return whole ? given : collection.prefix + given;
 }
 
-std::string name_cure(Collection collection, const std::string& name,
+std::string name_cure(const Collection& collection, const std::string& name,
                       const std::vector<std::string>& known) {
-  const CollectionWords words = words_of(collection);
   std::vector<std::string> ids;  // without the common prefix
   std::vector<std::string> longer;
-  const std::string id = name.substr(words.prefix.size());
+  const std::string id = name.substr(collection.prefix.size());
   for (const std::string& each : known) {
-    ids.push_back(each.substr(words.prefix.size()));
+    ids.push_back(each.substr(collection.prefix.size()));
     if (each.starts_with(name)) longer.push_back(ids.back());
   }
   const auto meant = longer.size() == 1 ? longer.front() : words::nearest(id, ids).value_or("");
-  return meant.empty() ? words.see : "; did you mean " + words.prefix + meant + "?";
+  return meant.empty() ? see(collection) : "; did you mean " + collection.prefix + meant + "?";
 }
 
-client::Error with_cure(Session& session, Collection collection, const std::string& name,
+client::Error with_cure(Session& session, const Collection& collection, const std::string& name,
                         const client::Error& error) {
   std::string cure;
   try {

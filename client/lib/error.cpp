@@ -21,11 +21,11 @@ Code to_code(int code) {
                                                                          : Code::unknown;
 }
 
-// Compares names of types: details have those of google.rpc, with the same fields as our messages.
-bool is(const google::protobuf::Any& detail, std::string_view type) {
-  const std::string& url = detail.type_url();
-  const std::size_t slash = url.rfind('/');
-  return slash != std::string::npos && std::string_view(url).substr(slash + 1) == type;
+// Reads a detail if it is of this type: those of google.rpc have the same fields as our messages.
+template <class Message>
+bool reads(const google::protobuf::Any& detail, Message& message) {
+  return detail.type_url().ends_with("/google.rpc." + Message::descriptor()->name()) &&
+         message.ParseFromString(detail.value());
 }
 
 std::chrono::milliseconds to_milliseconds(const google::protobuf::Duration& duration) {
@@ -38,21 +38,17 @@ std::chrono::milliseconds to_milliseconds(const google::protobuf::Duration& dura
 Details decode_details(const v1::Status& status) {
   Details details;
   for (const google::protobuf::Any& detail : status.details()) {
-    if (is(detail, "google.rpc.ErrorInfo")) {
-      v1::ErrorInfo info;
-      if (info.ParseFromString(detail.value())) {
-        details.reason = info.reason();
-        details.metadata.insert(info.metadata().begin(), info.metadata().end());
-      }
-    } else if (is(detail, "google.rpc.BadRequest")) {
-      v1::BadRequest request;
-      if (request.ParseFromString(detail.value()))
-        for (const auto& violation : request.field_violations())
-          details.fields.push_back({violation.field(), violation.description()});
-    } else if (is(detail, "google.rpc.RetryInfo")) {
-      v1::RetryInfo retry;
-      if (retry.ParseFromString(detail.value()))
-        details.retry_delay = to_milliseconds(retry.retry_delay());
+    v1::ErrorInfo info;
+    v1::BadRequest request;
+    v1::RetryInfo retry;
+    if (reads(detail, info)) {
+      details.reason = info.reason();
+      details.metadata.insert(info.metadata().begin(), info.metadata().end());
+    } else if (reads(detail, request)) {
+      for (const auto& violation : request.field_violations())
+        details.fields.push_back({violation.field(), violation.description()});
+    } else if (reads(detail, retry)) {
+      details.retry_delay = to_milliseconds(retry.retry_delay());
     }
   }
   return details;

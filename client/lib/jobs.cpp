@@ -8,6 +8,17 @@
 
 namespace anticrack::client {
 
+v1::ReadCaseResponse read_case(Connection& connection, const v1::ReadCaseRequest& request,
+                               const std::stop_token& stop) {
+  return call(connection, &v1::CaseService::Stub::ReadCase, request, stop);
+}
+
+v1::ListCaseKeysResponse list_case_keys(Connection& connection,
+                                        const v1::ListCaseKeysRequest& request,
+                                        const std::stop_token& stop) {
+  return call(connection, &v1::CaseService::Stub::ListCaseKeys, request, stop);
+}
+
 std::string make_uuid() {
   std::string uuid;
   if (!(std::ifstream("/proc/sys/kernel/random/uuid") >> uuid))

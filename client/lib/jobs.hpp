@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Jobs on the server: submit them, watch them, read their results (SolveService and ServerService;
-// requests and answers, with units, are those of anticrack/v1/job.proto, solve.proto and
-// server.proto).
+// Cases, read by the server, and jobs on it: submit them, watch them, read their results
+// (CaseService, SolveService and ServerService; requests and answers, with units, are those of
+// anticrack/v1/case.proto, job.proto, solve.proto and server.proto).
 //
 // Every function may be called from any thread. It returns when the server has answered, or throws:
 //   Error        the server refused; each call lists its codes. A lost connection is first retried
@@ -17,6 +17,7 @@
 #include <stop_token>
 #include <string>
 
+#include "anticrack/v1/case.pb.h"
 #include "anticrack/v1/server.pb.h"
 #include "anticrack/v1/solve.pb.h"
 #include "block.hpp"
@@ -24,6 +25,17 @@
 #include "error.hpp"
 
 namespace anticrack::client {
+
+/// The requests for which a case stands. Error: invalid_argument (Details::reason CASE_INVALID;
+/// what() has place, value and cure).
+v1::ReadCaseResponse read_case(Connection& connection, const v1::ReadCaseRequest& request,
+                               const std::stop_token& stop = {});
+
+/// The meaning of the keys of cases that a name selects. Error: invalid_argument (no such key;
+/// what() has the nearest).
+v1::ListCaseKeysResponse list_case_keys(Connection& connection,
+                                        const v1::ListCaseKeysRequest& request,
+                                        const std::stop_token& stop = {});
 
 /// A random UUID (version 4), 36 characters, which makes a submission idempotent.
 std::string make_uuid();

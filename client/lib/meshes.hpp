@@ -97,13 +97,12 @@ void delete_mesh(Connection& connection, const std::string& name, const std::sto
 /// Whether the server is done with a mesh: READY, EVICTED or FAILED.
 bool settled(v1::Mesh::State state);
 
-/// Polls, at most once a second, until the mesh is settled or `enough`; calls `seen` for every new
-/// state, on this thread. A mesh that FAILED is returned and does not throw: see Mesh.error. Error:
+/// Polls, at most once a second, until the mesh is settled; calls `seen` for every new state, on
+/// this thread. A mesh that FAILED is returned and does not throw: see Mesh.error. Error:
 /// not_found.
 v1::Mesh wait_for_mesh(Connection& connection, const std::string& name,
                        const std::function<void(const v1::Mesh&)>& seen = {},
-                       const std::stop_token& stop = {},
-                       const std::function<bool(const v1::Mesh&)>& enough = {});
+                       const std::stop_token& stop = {});
 
 /// Nodes, triangles and interfaces (ReadMeshResponse in mesh.proto lists the arrays); after a lost
 /// connection the read goes on where it was. Coordinates are in the unit of the geometry. Error:

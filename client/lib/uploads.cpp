@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <bit>
 #include <charconv>
-#include <deque>
 #include <fstream>
 #include <functional>
 #include <future>
@@ -23,26 +22,21 @@ namespace {
 constexpr std::size_t chunk_bytes = 1u << 20;
 constexpr std::size_t files_a_stream = 500;  // the server takes 1000
 
-/// A file to send, and what returns its next chunk, empty at its end.
+/// A file to send; `owner`, if any, keeps its bytes.
 struct Outgoing {
   v1::CreateUploadsRequest::Header header;
-  std::function<std::string()> next;
+  std::string_view bytes;
+  std::shared_ptr<const void> owner;
 };
 /// Opens a file by its index; called in order, and from the first one on for every try to send.
 using Open = std::function<Outgoing(std::size_t)>;
 
-/// A file of bytes that `owner`, if any, keeps.
 Outgoing outgoing(v1::Upload::Kind kind, std::string_view bytes,
                   std::shared_ptr<const void> owner = nullptr) {
-  Outgoing file;
+  Outgoing file{{}, bytes, std::move(owner)};
   file.header.set_size(bytes.size());
   file.header.set_sha256(digest::Sha256().add(std::as_bytes(std::span(bytes))).finish());
   file.header.set_kind(kind);
-  file.next = [owner = std::move(owner), rest = bytes]() mutable {
-    std::string chunk(rest.substr(0, chunk_bytes));
-    rest.remove_prefix(chunk.size());
-    return chunk;
-  };
   return file;
 }
 
@@ -50,49 +44,6 @@ std::string_view bytes_of(std::span<const double> values) {
   static_assert(std::endian::native == std::endian::little, "arrays are sent little-endian");
   return {reinterpret_cast<const char*>(values.data()), values.size_bytes()};
 }
-
-/// Reads and hashes the next arrays, a megabyte at a time, while those before are sent.
-class ArrayFiles {
- public:
-  ArrayFiles(std::size_t first, std::size_t end, const ReadArray& read)
-      : _first(first), _end(end), _read(read) {}
-
-  Outgoing open(std::size_t index) {
-    if (index == 0) {
-      _pending = {};  // waits for the reading of an earlier try
-      _ready.clear();
-      _next = _first;
-      read_next();
-    }
-    if (_ready.empty()) {
-      _ready = _pending.get();
-      read_next();
-    }
-    Outgoing file = std::move(_ready.front());
-    _ready.pop_front();
-    return file;
-  }
-
- private:
-  void read_next() {
-    if (_next == _end) return;
-    _pending = std::async(std::launch::async, [this] {
-      std::deque<Outgoing> files;
-      for (std::size_t bytes = 0; _next != _end && bytes < chunk_bytes; ++_next) {
-        const auto values = std::make_shared<const std::vector<double>>(_read(_next));
-        files.push_back(outgoing(v1::Upload::KIND_ARRAY, bytes_of(*values), values));
-        bytes += std::span(*values).size_bytes();
-      }
-      return files;
-    });
-  }
-
-  std::size_t _next = 0;
-  const std::size_t _first, _end;
-  const ReadArray& _read;
-  std::deque<Outgoing> _ready;
-  std::future<std::deque<Outgoing>> _pending;
-};
 
 // The server may refuse before everything is sent; the status then gives the reason.
 grpc::Status send_once(Connection::State& state, const Open& open, std::size_t count,
@@ -109,9 +60,9 @@ grpc::Status send_once(Connection::State& state, const Open& open, std::size_t c
       Outgoing file = open(i);
       *request.mutable_header() = std::move(file.header);
       writing = writer->Write(request);
-      for (std::string chunk = file.next(); writing && !chunk.empty(); chunk = file.next()) {
-        request.set_chunk(std::move(chunk));
-        writing = writer->Write(request);
+      for (; writing && !file.bytes.empty(); writing = writer->Write(request)) {
+        request.set_chunk(std::string(file.bytes.substr(0, chunk_bytes)));
+        file.bytes.remove_prefix(request.chunk().size());
       }
     }
   } catch (...) {  // a file cannot be read
@@ -171,8 +122,22 @@ std::vector<std::string> upload_arrays(Connection& connection, std::size_t count
   std::vector<std::string> names;
   for (std::size_t first = 0; first < count; first += files_a_stream) {
     const std::size_t end = std::min(count, first + files_a_stream);
-    ArrayFiles files(first, end, read);
-    const auto open = [&files](std::size_t index) { return files.open(index); };
+    const auto begin = [&read](std::size_t index) {
+      return std::async(std::launch::async, [&read, index] {
+        const auto values = std::make_shared<const std::vector<double>>(read(index));
+        return outgoing(v1::Upload::KIND_ARRAY, bytes_of(*values), values);
+      });
+    };
+    std::future<Outgoing> next;  // read and hashed while the one before is sent
+    const auto open = [&](std::size_t index) {
+      if (index == 0) {
+        next = {};  // waits for the reading of an earlier try
+        next = begin(first);
+      }
+      Outgoing file = next.get();
+      if (first + index + 1 < end) next = begin(first + index + 1);
+      return file;
+    };
     try {
       const auto sent = send(connection, open, end - first, stop);
       names.insert(names.end(), sent.begin(), sent.end());

@@ -8,12 +8,13 @@
 
 #include <atomic>
 #include <cerrno>
+#include <charconv>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
 
 #include "output/standard.hpp"
-#include "output/write_all.hpp"
 
 namespace anticrack::output {
 namespace {
@@ -81,6 +82,56 @@ class TemporaryFile {
   bool _renamed = false;
 };
 
+/// The N of /dev/fd/N and /proc/self/fd/N, whose links lead to names that may not be those of the
+/// open file.
+std::optional<int> descriptor_named(const fs::path& path) {
+  std::error_code none;
+  if (!fs::equivalent(path.has_parent_path() ? path.parent_path() : fs::path("."), "/proc/self/fd",
+                      none) ||
+      none)
+    return std::nullopt;
+  const std::string name = path.filename();
+  int number = -1;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+  if (error != std::errc() || end != name.data() + name.size() || fcntl(number, F_GETFD) < 0)
+    return std::nullopt;
+  return number;
+}
+
+bool is_terminal(const fs::path& path) {
+  const int descriptor = open(path.c_str(), O_WRONLY | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const bool terminal = isatty(descriptor) == 1;
+  close(descriptor);
+  return terminal;
+}
+
+/// The descriptor of standard output or standard error if one of them is this file, else -1. A
+/// device such as /dev/null counts as a stream of its own.
+int standard_stream(const struct stat& file, const fs::path& path) {
+  if (S_ISCHR(file.st_mode) && !is_terminal(path)) return -1;
+  for (const int number : {STDOUT_FILENO, STDERR_FILENO}) {
+    struct stat own {};
+    if (fstat(number, &own) == 0 && own.st_dev == file.st_dev && own.st_ino == file.st_ino)
+      return number;
+  }
+  return -1;
+}
+
+Target target_behind(const fs::path& given, const fs::path& path) {
+  struct stat status {};
+  if (stat(path.c_str(), &status) != 0) {
+    if (errno != ENOENT && errno != ENOTDIR) fail(given, "cannot be written", errno);
+    return {Target::Kind::file, path};
+  }
+  if (S_ISDIR(status.st_mode)) return {Target::Kind::folder, path};
+  if (S_ISBLK(status.st_mode)) throw Error(given.string(), "is a disk", "choose another path");
+  if (S_ISSOCK(status.st_mode)) throw Error(given.string(), "is a socket", "choose another path");
+  const int number = standard_stream(status, path);
+  if (number >= 0 || !S_ISREG(status.st_mode)) return {Target::Kind::stream, path, number};
+  return {Target::Kind::file, path};
+}
+
 void write_stream(const fs::path& path, const Target& target, std::span<const std::byte> bytes) {
   if (target.is_standard_output()) return print(bytes);
   const int descriptor = target.descriptor >= 0 ? dup(target.descriptor)
@@ -93,15 +144,29 @@ void write_stream(const fs::path& path, const Target& target, std::span<const st
 
 }  // namespace
 
+Target target_of(const fs::path& given) {
+  if (given == "-") return {Target::Kind::stream, given, STDOUT_FILENO};
+  constexpr int most_links = 40;  // the kernel's limit
+  fs::path path = given;
+  for (int links = 0; links <= most_links; ++links) {
+    if (const auto number = descriptor_named(path)) return {Target::Kind::stream, path, *number};
+    std::error_code error;
+    const fs::path next = fs::read_symlink(path, error);
+    if (error) return target_behind(given, path);  // it is no link
+    path = next.is_absolute() ? next : path.parent_path() / next;
+  }
+  fail(given, "cannot be written", ELOOP);
+}
+
 fs::path backup_of(const fs::path& path) {
   fs::path backup = path;
   return backup += "~";
 }
 
 void check_writable(const fs::path& path) {
-  if (path.filename().empty() || path.filename() == "." || path.filename() == "..")
-    throw Error(path.string(), "is a folder", "name a file with -o");
-  const Target target = target_of(path);
+  const fs::path name = path.filename();
+  const bool named = !name.empty() && name != "." && name != "..";
+  const Target target = named ? target_of(path) : Target{Target::Kind::folder, path};
   if (target.kind == Target::Kind::folder)
     throw Error(path.string(), "is a folder", "name a file with -o");
   if (target.descriptor >= 0) return;

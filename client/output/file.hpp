@@ -38,18 +38,7 @@ void make_folder(const std::filesystem::path& folder);
 class Error : public std::runtime_error {
  public:
   Error(const std::string& subject, const std::string& cause, const std::string& cure)
-      : std::runtime_error(subject + ": " + cause + (cure.empty() ? "" : "; " + cure)),
-        _subject(subject),
-        _cause(cause),
-        _cure(cure) {}
-
-  /// The path, or the source of the data.
-  const std::string& subject() const noexcept { return _subject; }
-  const std::string& cause() const noexcept { return _cause; }
-  const std::string& cure() const noexcept { return _cure; }  ///< may be empty
-
- private:
-  std::string _subject, _cause, _cure;
+      : std::runtime_error(subject + ": " + cause + (cure.empty() ? "" : "; " + cure)) {}
 };
 
 /// A file, which is replaced as a whole, or a stream, which is written from its present position.

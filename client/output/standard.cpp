@@ -2,14 +2,13 @@
 #include "output/standard.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
 #include <mutex>
-
-#include "output/write_all.hpp"
 
 namespace anticrack::output {
 namespace {
@@ -27,6 +26,21 @@ void prepare_process() noexcept {
   }
   signal(SIGXFSZ, SIG_IGN);
   signal(SIGCHLD, SIG_DFL);
+}
+
+int write_all(int descriptor, std::span<const std::byte> bytes) noexcept {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+    if (written >= 0) {
+      bytes = bytes.subspan(static_cast<std::size_t>(written));
+    } else if (errno == EAGAIN) {
+      pollfd waiting{descriptor, POLLOUT, 0};
+      ::poll(&waiting, 1, -1);
+    } else if (errno != EINTR) {
+      return errno;
+    }
+  }
+  return 0;
 }
 
 void print(std::span<const std::byte> bytes) noexcept {

@@ -16,6 +16,10 @@ namespace anticrack::output {
 /// child processes can be waited for, whatever the parent of this process chose.
 void prepare_process() noexcept;
 
+/// Writes all bytes, and waits while the descriptor takes none. Returns the error number of a write
+/// that failed, 0 if none did.
+int write_all(int descriptor, std::span<const std::byte> bytes) noexcept;
+
 /// Writes the text and flushes; does nothing once a write has failed. Thread-safe.
 void print(std::string_view text) noexcept;
 /// The same for bytes that are not text.

@@ -8,7 +8,7 @@
 namespace anticrack::cli {
 namespace {
 
-std::string complaint(Collection collection, const std::string& given) {
+std::string complaint(const Collection& collection, const std::string& given) {
   try {
     return "accepted as " + full_name(collection, given);
   } catch (const UsageError& error) {
