@@ -78,64 +78,63 @@ std::string scale_of(const v1::Job& job) {
 }  // namespace
 
 StageErrors errors_of(const v1::Stage& stage) {
-  StageErrors errors{stage.mesh(), stage.triangles(), 0, 0, 0, stage.seconds(), stage.forecast()};
+  StageErrors errors;
   for (const v1::StageAnswer& answer : stage.answers()) {
+    const auto take = [&answer](double& largest, const char* name) {
+      largest = larger(largest, results::number_in(answer, name));
+    };
     errors.energy = larger(errors.energy, energy_error(answer));
-    errors.displacement =
-        larger(errors.displacement,
-               answer.has_displacement_error() ? answer.displacement_error() : results::unknown);
-    errors.probable = larger(errors.probable, answer.has_displacement_error_probable()
-                                                  ? answer.displacement_error_probable()
-                                                  : results::unknown);
+    take(errors.displacement, "displacement_error");
+    take(errors.probable, "displacement_error_probable");
   }
   return errors;
 }
 
-std::vector<StageErrors> stages_of(const v1::Job& job) {
-  std::vector<StageErrors> stages;
+std::vector<v1::Stage> stages_of(const v1::Job& job) {
+  std::vector<v1::Stage> stages;
   for (const v1::Stage& stage : job.status().stages())
-    if (stage.answers_size() > 0) stages.push_back(errors_of(stage));
+    if (stage.answers_size() > 0) stages.push_back(stage);
   return stages;
 }
 
-std::vector<std::string> stage_lines(const std::vector<StageErrors>& stages,
+std::vector<std::string> stage_lines(const std::vector<v1::Stage>& stages,
                                      const v1::Accuracy& asked, std::size_t width,
                                      std::size_t count) {
-  const bool foretold = count > 0 && !stages.empty() && !stages.back().forecast.empty();
+  const bool foretold = count > 0 && !stages.empty() && !stages.back().forecast().empty();
   if (foretold) --count;
   std::vector<std::string> lines;
   for (std::size_t i = stages.size() - std::min(stages.size(), count); i < stages.size(); ++i) {
     std::string line = "  stage " + pad_left(std::to_string(i + 1), 2) + "  " +
-                       pad_left(std::to_string(stages[i].triangles), 8) + " triangles";
-    for (const auto& [name, error] : errors_told(stages[i], asked))
+                       pad_left(std::to_string(stages[i].triangles()), 8) + " triangles";
+    for (const auto& [name, error] : errors_told(errors_of(stages[i]), asked))
       line += "   " + name + " " + error;
     lines.push_back(std::move(line));
   }
   std::size_t widest = 0;
   for (const std::string& line : lines) widest = std::max(widest, line.size());
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    const StageErrors& stage = stages[stages.size() - lines.size() + i];
+    const StageErrors errors = errors_of(stages[stages.size() - lines.size() + i]);
     if (widest + bar_room <= width)
-      lines[i] = pad_right(lines[i], widest) + bar(fraction_of(stage, asked), width - widest);
+      lines[i] = pad_right(lines[i], widest) + bar(fraction_of(errors, asked), width - widest);
     lines[i] = fit(lines[i], width);
   }
-  if (foretold) lines.push_back(fit("  " + sanitise(stages.back().forecast), width));
+  if (foretold) lines.push_back(fit("  " + sanitise(stages.back().forecast()), width));
   return lines;
 }
 
-std::string stage_text(std::size_t number, const StageErrors& stage, const v1::Accuracy& asked) {
-  return fmt::format("stage {}: {} triangles, {}", number, stage.triangles,
-                     errors_text(stage, asked)) +
-         (stage.forecast.empty() ? "" : "; " + sanitise(stage.forecast));
+std::string stage_text(std::size_t number, const v1::Stage& stage, const v1::Accuracy& asked) {
+  return fmt::format("stage {}: {} triangles, {}", number, stage.triangles(),
+                     errors_text(errors_of(stage), asked)) +
+         (stage.forecast().empty() ? "" : "; " + sanitise(stage.forecast()));
 }
 
 std::string accuracy_text(const v1::Job& job) {
   std::string text;
   if (const auto stages = stages_of(job); !stages.empty()) {
-    const StageErrors& last = stages.back();
+    const v1::Stage& last = stages.back();
     text = fmt::format("accuracy: {}; {}, {} triangles, {} s\n",
-                       errors_text(last, job.spec().accuracy(), scale_of(job)),
-                       counted(stages.size(), "stage"), last.triangles, seconds(last.seconds));
+                       errors_text(errors_of(last), job.spec().accuracy(), scale_of(job)),
+                       counted(stages.size(), "stage"), last.triangles(), seconds(last.seconds()));
   }
   if (!job.status().not_reached().empty())
     text += "not reached: " + sanitise(job.status().not_reached()) + "\n";

@@ -88,29 +88,32 @@ std::size_t widest_status(const JobProgress& job, const std::vector<std::size_t>
 // The layout for a width. A narrow terminal drops first the labels, then the bar, then the ends of
 // names, then all numbers but the criterion.
 Layout layout_of(const JobProgress& job, const std::vector<std::size_t>& shown, std::size_t width) {
-  Layout layout = widest_layout(job, shown);
-  for (const bool with_bar : {true, false}) {
-    for (const Detail detail : {Detail::labels, Detail::brief}) {
-      layout.detail = detail;
-      const std::size_t used = widest_line(job, shown, layout) + (with_bar ? bar_room : 0);
-      if (used <= width && (job.target > 0 || !with_bar)) {
-        layout.bar = with_bar;
-        return layout;
-      }
-    }
-  }
-  layout.status_width = widest_status(job, shown);
-  const std::size_t name_width = layout.name_width;
-  for (const Detail detail : {Detail::brief, Detail::criterion, Detail::status}) {
+  const Layout widest = widest_layout(job, shown);
+  const std::size_t whole = widest.name_width;
+  struct Try {
+    Detail detail;
+    bool bar;
+    std::size_t narrowest = 1000;  // of names; wider than all: none is cut
+  };
+  constexpr Try tries[]{{Detail::labels, true},
+                        {Detail::brief, true},
+                        {Detail::labels, false},
+                        {Detail::brief, false},
+                        {Detail::brief, false, narrowest_name},
+                        {Detail::criterion, false, narrowest_name},
+                        {Detail::status, false, 1}};
+  Layout layout;
+  for (const auto& [detail, with_bar, narrowest] : tries) {
+    if (with_bar && !(job.target > 0)) continue;
+    layout = widest;
     layout.detail = detail;
-    layout.name_width = name_width;
-    const std::size_t used = widest_line(job, shown, layout);
+    if (narrowest < widest_name) layout.status_width = widest_status(job, shown);
+    const std::size_t used = widest_line(job, shown, layout) + (with_bar ? bar_room : 0);
     const std::size_t excess = used > width ? used - width : 0;
-    const std::size_t narrowest = detail == Detail::status ? 1 : narrowest_name;
-    if (name_width >= excess + std::min(name_width, narrowest)) {
-      layout.name_width = name_width - excess;
-      break;
-    }
+    layout.bar = with_bar;
+    if (whole < excess + std::min(whole, narrowest)) continue;
+    layout.name_width = whole - excess;
+    break;
   }
   return layout;
 }

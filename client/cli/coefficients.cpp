@@ -143,26 +143,14 @@ class Reader {
   }
 
   void take_header() {
-    std::vector<bool> named(_loads.size(), false);
-    std::vector<std::size_t> columns;
-    for (std::size_t i = 0; i < _fields.size(); ++i) {
-      const auto found = std::find(_loads.begin(), _loads.end(), _fields[i]);
-      if (found == _loads.end()) {
-        fail(i, shown_field(_fields[i]) + " is not a load of the case; " +
-                    words::suggestion(_fields[i], _loads));
-      }
-      const auto load = static_cast<std::size_t>(found - _loads.begin());
-      if (named[load]) fail(i, "load " + *found + " is named twice; keep one of the two columns");
-      named[load] = true;
-      columns.push_back(load);
-    }
-    const auto missing = std::find(named.begin(), named.end(), false);
-    if (missing != named.end()) {
-      fail("there is no column for load " +
-           _loads[static_cast<std::size_t>(missing - named.begin())] +
-           "; add one (of zeros, where it takes no part), or take the load out of the case");
-    }
-    _columns = std::move(columns);
+    const auto place = [this](std::size_t column) {
+      return fmt::format("{}: column {}", at_line(), column + 1);
+    };
+    _columns = loads_of_columns({_fields.begin(), _fields.end()}, _loads, place);
+    for (std::size_t load = 0; load < _loads.size(); ++load)
+      if (std::ranges::count(_columns, load) == 0)
+        fail("there is no column for load " + _loads[load] +
+             "; add one (of zeros, where it takes no part), or take the load out of the case");
   }
 
   std::string cure_of(std::string_view field) const {
@@ -204,6 +192,24 @@ class Reader {
 };
 
 }  // namespace
+
+std::vector<std::size_t> loads_of_columns(const std::vector<std::string>& names,
+                                          const std::vector<std::string>& loads,
+                                          const std::function<std::string(std::size_t)>& place) {
+  std::vector<std::size_t> columns;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto found = std::ranges::find(loads, names[i]);
+    if (found == loads.end()) {
+      throw CaseError(place(i), shown_field(names[i]) + " is not a load of the case; " +
+                                    words::suggestion(names[i], loads));
+    }
+    const auto load = static_cast<std::size_t>(found - loads.begin());
+    if (std::ranges::count(columns, load) > 0)
+      throw CaseError(place(i), "load " + *found + " is named twice; keep one of the two columns");
+    columns.push_back(load);
+  }
+  return columns;
+}
 
 std::vector<double> parse_coefficients(std::istream& text, const std::string& source,
                                        const std::vector<std::string>& loads) {

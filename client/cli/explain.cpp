@@ -44,6 +44,16 @@ std::string blocks(const v1::ListCaseKeysResponse& found) {
   return text;
 }
 
+int explain(const std::string& name, const Globals& globals) {
+  Session session(globals);
+  v1::ListCaseKeysRequest request;
+  request.set_name(sanitise(name));
+  const v1::ListCaseKeysResponse found =
+      client::list_case_keys(session.connection(), request, session.stop());
+  print_document(globals.json ? to_json(found) : name.empty() ? overview(found) : blocks(found));
+  return exit_ok;
+}
+
 }  // namespace
 
 void add_explain(CLI::App& app, const Globals& globals, Command& chosen) {
@@ -53,19 +63,7 @@ void add_explain(CLI::App& app, const Globals& globals, Command& chosen) {
             "As in messages and --set, such as mesh.tip_size; its end is enough, and of a "
             "table all its keys are told. Without it: what a case consists of");
   command->footer("Example:\n  anticrack --local explain tip_size");
-  command->callback([name, &globals, &chosen] {
-    chosen = [name, &globals] {
-      Session session(globals);
-      v1::ListCaseKeysRequest request;
-      request.set_name(sanitise(*name));
-      const v1::ListCaseKeysResponse found =
-          client::list_case_keys(session.connection(), request, session.stop());
-      print_document(globals.json    ? to_json(found)
-                     : name->empty() ? overview(found)
-                                     : blocks(found));
-      return exit_ok;
-    };
-  });
+  on(*command, name, globals, chosen, explain);
 }
 
 std::vector<std::string> case_keys(const ConnectionFlags& flags) {

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
-#include <memory>
 #include <mutex>
 #include <optional>
 #include <stop_token>
@@ -43,13 +42,22 @@ class View {
       : _session(session), _begin(steady_seconds() - age) {
     _progress.job = sanitise(name);
     if (rows > 0) _progress.sweep.emplace().total = rows;
-    if (shows_frames(session.globals()))
-      _frames = std::make_unique<Frames>(session, [this](Size size) { return frame_now(size); });
+    if (shows_frames(session.globals())) {
+      _painter.emplace(people(session.globals()), [this](Size size) { return frame_now(size); });
+      session.signals().tell_screen([this](Signals::Screen event) {
+        if (event == Signals::Screen::leaving) _painter->pause();
+        if (event == Signals::Screen::back) _painter->resume();
+        if (event == Signals::Screen::resized) _painter->redraw();
+      });
+    }
     session.tell([this](const std::string& message) {
       change([&](JobProgress& progress) { progress.notice = sanitise(message); });
     });
   }
-  ~View() { _session.tell({}); }
+  ~View() {
+    _session.tell({});
+    _session.signals().tell_screen({});
+  }
   View(const View&) = delete;
   View& operator=(const View&) = delete;
 
@@ -57,10 +65,7 @@ class View {
   void change(const Change& apply) {
     const std::lock_guard lock(_mutex);
     apply(_progress);
-    if (_frames) {
-      _frames->refresh();
-      return;
-    }
+    if (_painter) return _painter->refresh();
     if (_progress.job.empty()) return;
     for (const std::string& line : _log.lines(_progress)) say(_session.globals(), line);
   }
@@ -82,60 +87,32 @@ class View {
   std::mutex _mutex;
   JobProgress _progress;
   PlainLog _log;
-  std::unique_ptr<Frames> _frames;  // last: its thread uses the others
+  std::optional<Painter> _painter;  // last: its thread uses the others
 };
 
 /// Handles Ctrl-C while a job is watched: the first one detaches, a second one cancels. With a
-/// private server the first one cancels.
-class Interrupts {
- public:
-  Interrupts(Session& session, const std::string& job, View& view)
-      : _thread([&session, job, &view, this](const std::stop_token& over) {
-          try {
-            heed(session, job, view, over);
-          } catch (const client::Interrupted&) {
-            // The watch was over before the server could be told.
-          } catch (...) {
-            _failure = std::current_exception();
-            _detached.request_stop();
-          }
-        }) {}
-
-  /// The token that ends the watch.
-  std::stop_token detached() const noexcept { return _detached.get_token(); }
-
-  /// Whether the job was to be cancelled; to be called after the watch. Throws the error if
-  /// cancelling failed.
-  bool asked_to_cancel() {
-    _thread.request_stop();
-    _thread.join();
-    if (_failure) std::rethrow_exception(_failure);
-    return _cancelling;
-  }
-
- private:
-  void heed(Session& session, const std::string& job, View& view, const std::stop_token& over) {
-    Signals& signals = session.signals();
-    if (!signals.wait_for_first(over)) return;
-    if (!session.globals().local) {
-      constexpr std::chrono::seconds time_to_cancel{2};
-      if (signals.interactive())
-        view.prompt("Detaching; press Ctrl-C again now to cancel the job instead");
-      if (!signals.second_within(time_to_cancel, over)) {
-        _detached.request_stop();
-        return;
-      }
+/// private server the first one cancels. Returns whether the job was cancelled.
+bool heed_interrupts(Session& session, const std::string& job, View& view,
+                     std::stop_source& detached, const std::stop_token& over) {
+  Signals& signals = session.signals();
+  if (!signals.wait_for_first(over)) return false;
+  if (!session.globals().local) {
+    constexpr std::chrono::seconds time_to_cancel{2};
+    if (signals.interactive())
+      view.prompt("Detaching; press Ctrl-C again now to cancel the job instead");
+    if (!signals.second_within(time_to_cancel, over)) {
+      detached.request_stop();
+      return false;
     }
-    view.prompt("Cancelling " + job);
-    _cancelling = true;
-    client::cancel_job(session.connection(), job, over);
   }
-
-  std::stop_source _detached;
-  bool _cancelling = false;
-  std::exception_ptr _failure;
-  std::jthread _thread;  // last: it uses the others
-};
+  view.prompt("Cancelling " + job);
+  try {
+    client::cancel_job(session.connection(), job, over);
+  } catch (const client::Interrupted&) {
+    // The watch was over before the server could be told.
+  }
+  return true;
+}
 
 // The job as it ended; empty if the watch was detached.
 std::optional<v1::Job> watch(Session& session, const std::string& job, View& view,
@@ -159,9 +136,20 @@ Followed follow(Session& session, const v1::Job& job, std::uint64_t rows) {
   bool cancelling = false;
   {
     View view(session, job.name(), age_of(job), rows);
-    Interrupts interrupts(session, job.name(), view);
-    last = watch(session, job.name(), view, interrupts.detached());
-    cancelling = interrupts.asked_to_cancel();
+    std::stop_source detached;
+    std::exception_ptr failure;
+    std::jthread interrupts([&](const std::stop_token& over) {
+      try {
+        cancelling = heed_interrupts(session, job.name(), view, detached, over);
+      } catch (...) {
+        failure = std::current_exception();
+        detached.request_stop();
+      }
+    });
+    last = watch(session, job.name(), view, detached.get_token());
+    interrupts.request_stop();
+    interrupts.join();
+    if (failure) std::rethrow_exception(failure);
     view.prompt("");
   }
   if (!last) {

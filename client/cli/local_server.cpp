@@ -2,11 +2,12 @@
 #include "cli/local_server.hpp"
 
 #include <fcntl.h>
-#include <fmt/core.h>
+#include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/mman.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -15,9 +16,9 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
-#include <sstream>
+#include <deque>
+#include <fstream>
 #include <thread>
-#include <vector>
 
 #include "cli/programs.hpp"
 #include "cli/text.hpp"
@@ -42,17 +43,6 @@ constexpr milliseconds dying_time{1'000};
 void close_once(int& descriptor) noexcept {
   if (descriptor >= 0) close(descriptor);
   descriptor = -1;
-}
-
-/// Starts the server with default signals in its own session: Ctrl-C and the end of the terminal
-/// are for the client, with which it ends.
-pid_t start_server(const fs::path& program, int in, int out, int err) {
-  int error = 0;
-  const int descriptors[] = {in, out, err};
-  const pid_t process = spawn({program.string(), "--private", "--log-level", "warn"}, descriptors,
-                              environ, POSIX_SPAWN_SETSID, error);
-  if (error != 0) fail("cannot start " + program.string(), error);
-  return process;
 }
 
 /// The text that says how the server ended. `when`: "", or " before ...".
@@ -100,24 +90,22 @@ LocalServer::LocalServer(const std::stop_token& stop) {
 LocalServer::~LocalServer() { end(); }
 
 void LocalServer::start(const fs::path& program) {
-  std::array<int, 2> in{-1, -1}, out{-1, -1};
-  const bool made = pipe2(in.data(), O_CLOEXEC) == 0 && pipe2(out.data(), O_CLOEXEC) == 0;
-  const int cause = errno;
-  _lifeline = in[1];
-  _output = out[0];
-  try {
-    if (!made) fail("cannot make a pipe", cause);
-    _log = memfd_create("anticrackd-log", MFD_CLOEXEC);
-    if (_log < 0) fail("cannot make a file in memory", errno);
+  std::array<int, 2> ends{-1, -1};
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
+    fail("cannot make a pair of sockets", errno);
+  _lifeline = ends[0];
+  _log = memfd_create("anticrackd-log", MFD_CLOEXEC);
+  int error = _log < 0 ? errno : 0;
+  if (error == 0) {
     fcntl(_log, F_SETFL, O_APPEND);
-    _process = start_server(program, in[0], out[1], _log);
-  } catch (...) {
-    close_once(in[0]);
-    close_once(out[1]);
-    throw;
+    // In a session of its own: Ctrl-C and the end of the terminal are for the client, with which it
+    // ends.
+    const int descriptors[] = {ends[1], ends[1], _log};
+    _process = spawn({program.string(), "--private", "--log-level", "warn"}, descriptors, environ,
+                     POSIX_SPAWN_SETSID, error);
   }
-  close_once(in[0]);
-  close_once(out[1]);
+  close(ends[1]);
+  if (error != 0) fail("cannot start " + program.string(), error);
 }
 
 void LocalServer::wait_until_ready(const std::stop_token& stop) {
@@ -130,10 +118,10 @@ void LocalServer::wait_until_ready(const std::stop_token& stop) {
       throw LocalServerError(fmt::format("anticrackd did not get ready within {} s{}",
                                          start_limit.count() / 1000, last_words()));
     }
-    pollfd waiting{_output, POLLIN, 0};
+    pollfd waiting{_lifeline, POLLIN, 0};
     if (poll(&waiting, 1, poll_milliseconds) <= 0) continue;
     std::array<char, 512> buffer{};
-    const ssize_t count = read(_output, buffer.data(), buffer.size());
+    const ssize_t count = read(_lifeline, buffer.data(), buffer.size());
     if (count <= 0) {
       const bool ended = has_ended(dying_time);
       const std::string when = " before it was ready";
@@ -175,25 +163,18 @@ void LocalServer::end() noexcept {
     has_ended(stop_limit);
   }
   if (_status && *_status != 0) remove_left(_address);
-  close_once(_output);
   close_once(_log);
 }
 
 std::string LocalServer::last_words() const {
-  constexpr std::size_t kept_lines = 5, kept_bytes = 4'000;
-  const off_t size = lseek(_log, 0, SEEK_END);
-  std::string text(
-      std::min<std::size_t>(kept_bytes, static_cast<std::size_t>(std::max<off_t>(size, 0))), '\0');
-  const ssize_t count = pread(_log, text.data(), text.size(),
-                              std::max<off_t>(size - static_cast<off_t>(text.size()), 0));
-  text.resize(static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
-  std::vector<std::string> lines;
-  std::istringstream log(text);
-  for (std::string line; std::getline(log, line);) lines.push_back("\n  " + sanitise(line));
-  std::string last = lines.empty() ? "" : ":";
-  for (std::size_t i = lines.size() - std::min(lines.size(), kept_lines); i < lines.size(); ++i)
-    last += lines[i];
-  return last;
+  constexpr std::size_t kept_lines = 5;
+  std::ifstream log(fmt::format("/proc/self/fd/{}", _log));
+  std::deque<std::string> lines;
+  for (std::string line; std::getline(log, line);) {
+    lines.push_back("\n  " + sanitise(line));
+    if (lines.size() > kept_lines) lines.pop_front();
+  }
+  return lines.empty() ? "" : fmt::format(":{}", fmt::join(lines, ""));
 }
 
 }  // namespace anticrack::cli

@@ -48,9 +48,8 @@ class LocalServer {
   std::mutex _mutex;  ///< guards the next two
   pid_t _process = -1;
   std::optional<int> _status;  ///< status of waitpid, once the server has ended
-  int _lifeline = -1;          ///< the server's standard input, which ends with this process
-  int _output = -1;
-  int _log = -1;  ///< a file in memory
+  int _lifeline = -1;  ///< the server's standard input and output; it ends with this process
+  int _log = -1;       ///< a file in memory
 };
 
 }  // namespace anticrack::cli

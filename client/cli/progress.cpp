@@ -75,8 +75,8 @@ void JobProgress::begin_stage() {
 // Adds a stage, unless the snapshot had it already: a late watch repeats stages.
 void JobProgress::apply(const v1::Stage& stage) {
   _between_stages = true;
-  const auto known = std::ranges::find(stages, stage.mesh(), &StageErrors::mesh);
-  if (known == stages.end()) stages.push_back(errors_of(stage));
+  const auto known = std::ranges::find(stages, stage.mesh(), &v1::Stage::mesh);
+  if (known == stages.end()) stages.push_back(stage);
 }
 
 void JobProgress::enter(v1::JobStatus::State next, const std::string& what) {

@@ -17,23 +17,17 @@
 
 namespace anticrack::cli {
 
-/// A stage that has ended. The errors are those for which Accuracy asks: relative, and the largest
-/// of all load cases; NaN if a load case has no bounds.
+/// The errors for which Accuracy asks: relative, and the largest of all load cases; NaN if a load
+/// case has no bounds.
 struct StageErrors {
-  std::string mesh;  ///< "meshes/ID"
-  std::uint64_t triangles = 0;
   double energy = 0;
   double displacement = 0;
-  double probable = 0;        ///< of A by estimate
-  double seconds = 0;         ///< since the first stage began
-  std::string forecast = {};  ///< what cannot be proved within the limits
+  double probable = 0;  ///< of A by estimate
 };
-
-/// The errors of a stage that has ended.
 StageErrors errors_of(const v1::Stage& stage);
 
 /// The stages of a job that have ended.
-std::vector<StageErrors> stages_of(const v1::Job& job);
+std::vector<v1::Stage> stages_of(const v1::Job& job);
 
 /// The progress of a sweep.
 class SweepProgress {
@@ -98,7 +92,7 @@ struct JobProgress {
   std::vector<CaseProgress> cases;       ///< none for a sweep; with an accuracy of the newest stage
   std::optional<SweepProgress> sweep;    ///< for a sweep
   std::optional<v1::Accuracy> accuracy;  ///< for a job in stages
-  std::vector<StageErrors> stages;       ///< stages that have ended
+  std::vector<v1::Stage> stages;         ///< stages that have ended
   std::size_t ended_count = 0;
   /// Seconds since the job was submitted; NaN: unknown. The caller sets it until the job has ended.
   double elapsed = std::numeric_limits<double>::quiet_NaN();

@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "results/file.hpp"
-#include "words/nearest.hpp"
 
 namespace anticrack::cli {
 namespace {
@@ -52,25 +51,6 @@ void read_nodal(const SweepFiles& files, SweepInput& input) {
   take(results::read_matrix(dataset->file, dataset->path), input);
 }
 
-// The load of each column, by the names that the dataset has for its columns.
-std::vector<std::size_t> loads_of_columns(const std::vector<std::string>& names,
-                                          const std::vector<std::string>& loads,
-                                          const std::string& source) {
-  std::vector<std::size_t> columns;
-  for (const std::string& name : names) {
-    const auto found = std::find(loads.begin(), loads.end(), name);
-    const auto load = static_cast<std::size_t>(found - loads.begin());
-    if (found == loads.end()) {
-      fail(source, "its attribute loads: " + name + " is not a load of the case; " +
-                       words::suggestion(name, loads));
-    }
-    if (std::find(columns.begin(), columns.end(), load) != columns.end())
-      fail(source, "its attribute loads: " + name + " is there twice; name each load once");
-    columns.push_back(load);
-  }
-  return columns;
-}
-
 // Sorts the columns into the order of the case's loads.
 void sort_columns(const std::vector<std::size_t>& loads_of, SweepInput& input) {
   std::vector<double> sorted(input.columns);
@@ -94,7 +74,9 @@ void read_combinations(const SweepFiles& files, const Case& the_case, SweepInput
   const Dataset dataset =
       dataset_of(files.coefficients).value_or(Dataset{files.coefficients, "/coefficients"});
   results::Matrix matrix = results::read_matrix(dataset.file, dataset.path);
-  const auto loads_of = loads_of_columns(matrix.loads, loads, files.coefficients);
+  const auto loads_of = loads_of_columns(matrix.loads, loads, [&](std::size_t) {
+    return files.coefficients + ": its attribute loads";
+  });
   take(std::move(matrix), input);
   if (input.columns != loads.size()) {
     fail(files.coefficients,

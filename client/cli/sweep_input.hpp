@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <istream>
 #include <string>
 #include <vector>
@@ -26,7 +27,7 @@ struct SweepFiles {
 
 struct SweepInput {
   SweepFiles files;
-  std::vector<double> values;  ///< (rows, columns) row-major
+  std::vector<double> values{};  ///< (rows, columns) row-major
   std::size_t rows = 0;
   std::size_t columns = 0;
 
@@ -62,6 +63,12 @@ v1::Sweep::Matrix& matrix_of(const SweepInput& input, v1::JobSpec& spec);
 /// overlapping. Returns each row once, ascending. Throws CaseError for anything else, and for a row
 /// outside 0..rows. O(rows) if no range is there many times.
 std::vector<std::uint32_t> select_rows(const std::string& text, std::size_t rows);
+
+/// The load of each column by its name. Throws CaseError for a name that is no load of the case, or
+/// is there twice; place(i) tells where name i is.
+std::vector<std::size_t> loads_of_columns(const std::vector<std::string>& names,
+                                          const std::vector<std::string>& loads,
+                                          const std::function<std::string(std::size_t)>& place);
 
 /// Comma-separated numbers, a line per row; separated by semicolons where the first line has one,
 /// and then decimal commas are read, too. Blank lines and lines that begin with # are skipped.

@@ -151,7 +151,7 @@ TEST(JobProgress, OfStagesIsTheSameForWhoComesLate) {
     progress.apply(late);
     for (std::size_t i = first; i < events.size(); ++i) progress.apply(events[i]);
     ASSERT_EQ(progress.stages.size(), 2U) << first;
-    EXPECT_EQ(progress.stages[1].triangles, 5000U);
+    EXPECT_EQ(progress.stages[1].triangles(), 5000U);
     EXPECT_EQ(progress.ended_count, 0U) << first;
     EXPECT_EQ(progress.cases[0].iteration, first < events.size() ? 2 : 0) << first;
   }

@@ -198,7 +198,7 @@ COMMANDS = [
      "plain.h5:/wide: it has 5 columns, the case 2 loads; write one column for each load, in their "
      "order, or name them in an attribute loads of the dataset"),
     ("sweep two.toml --coefficients plain.h5:/named", 2,
-     "plain.h5:/named: its attribute loads: skwe is not a load of the case; did you mean skew?"),
+     'plain.h5:/named: its attribute loads: "skwe" is not a load of the case; did you mean skew?'),
     ("sweep two.toml --nodal plain.h5", 2,
      "plain.h5: no dataset is named; write FILE.h5:/PATH, for example plain.h5:/f"),
     ("sweep two.toml --nodal plain.h5:/matrix", 2,
