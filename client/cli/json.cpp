@@ -56,16 +56,13 @@ Json json_of(const google::protobuf::Message& message, Json json) {
 }
 
 Json with_lists(const google::protobuf::Message& message, Json json) {
-  const auto& fields = *message.GetReflection();
-  const auto& type = *message.GetDescriptor();
-  for (int i = 0; i < type.field_count(); ++i) {
-    const auto* const field = type.field(i);
-    if (!field->is_repeated()) continue;
-    Json& list = json[field->name()] = Json::array();
-    for (int k = 0; k < fields.FieldSize(message, field); ++k)
-      list.push_back(field->message_type() == nullptr
-                         ? Json(fields.GetRepeatedString(message, field, k))
-                         : json_of(fields.GetRepeatedMessage(message, field, k)));
+  for (const auto* list : results::lists_of(*message.GetDescriptor())) {
+    Json& items = json[list->name()] = Json::array();
+    if (list->message_type() == nullptr) {
+      items = results::texts_of(message, *list);
+      continue;
+    }
+    for (const auto* item : results::items_of(message, *list)) items.push_back(json_of(*item));
   }
   return json;
 }

@@ -77,12 +77,11 @@ std::string list_table(const results::Result& result, const char* name) {
     rows[1].push_back(text ? "" : results::unit_of(result.units, column.unit));
   }
   for (const results::Load& load : result.loads) {
-    const auto& fields = *load.answer.GetReflection();
-    for (int i = 0; load.has_answer() && i < fields.FieldSize(load.answer, &list); ++i) {
+    if (!load.has_answer()) continue;
+    for (const auto* item : results::items_of(load.answer, list)) {
       auto& row = rows.emplace_back(1, load.name());
       for (const results::Entry& column : columns)
-        row.push_back(
-            text_of(results::get(fields.GetRepeatedMessage(load.answer, &list, i), column)));
+        row.push_back(text_of(results::get(*item, column)));
     }
   }
   return rows.size() == 2 ? std::string("no ") + name + "\n" : table(rows, left);

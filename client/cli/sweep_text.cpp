@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
@@ -15,7 +16,9 @@
 namespace anticrack::cli {
 namespace {
 
-using results::SweepSummary;
+using results::Range;
+using results::range_of;
+using results::slope_range;
 
 constexpr std::array<const char*, 2> slope_parts{"Bx", "By"};
 
@@ -52,19 +55,21 @@ std::string end_of(double value, int sign) {
   return number(sign * (value - shown) > 1e-6 * unit ? shown + sign * unit : shown);
 }
 
-void add_span(const std::string& name, const std::string& unit, const SweepSummary::Range& range,
-              Rows& rows) {
+void add_span(const std::string& name, const std::string& unit, const Range& range, Rows& rows) {
   rows.push_back(
       {results::labelled(name, unit), end_of(range.low, -1), "", end_of(range.high, 1), ""});
 }
 
-void add_inclusions(const results::Sweep& sweep, const SweepSummary& counts, const v1::Units& units,
-                    Rows& rows) {
+bool tilts(const results::Sweep& sweep, std::size_t inclusion) {
+  return slope_range(sweep, inclusion, 0).nonzero() || slope_range(sweep, inclusion, 1).nonzero();
+}
+
+void add_inclusions(const results::Sweep& sweep, const v1::Units& units, Rows& rows) {
   for (std::size_t i = 0; i < sweep.inclusions.size(); ++i) {
-    add_span(name_of("A", sweep, i), results::label_of(units, "L"), counts.displacement_bounds[i],
-             rows);
-    for (std::size_t part = 0; part < slope_parts.size() && counts.tilted(i); ++part)
-      add_span(name_of(slope_parts[part], sweep, i), "", counts.slope[i][part], rows);
+    add_span(name_of("A", sweep, i), results::label_of(units, "L"),
+             range_of(sweep, "displacement", i, true), rows);
+    for (std::size_t part = 0; part < slope_parts.size() && tilts(sweep, i); ++part)
+      add_span(name_of(slope_parts[part], sweep, i), "", slope_range(sweep, i, part), rows);
   }
 }
 
@@ -76,28 +81,28 @@ std::string table_of_spans(Rows rows) {
 }
 
 /// Adds the least and the greatest value of all inclusions, with the inclusions' names.
-void add_extremes(const results::Sweep& sweep, const SweepSummary& counts, const v1::Units& units,
-                  Rows& rows) {
+void add_extremes(const results::Sweep& sweep, const v1::Units& units, Rows& rows) {
   const std::size_t inclusions = sweep.inclusions.size();
-  const auto add_one = [&](const char* name, const std::string& unit, const auto& range_of) {
-    std::size_t least = 0, most = 0;
-    for (std::size_t i = 1; i < inclusions; ++i) {
-      if (range_of(i).low < range_of(least).low) least = i;
-      if (range_of(i).high > range_of(most).high) most = i;
-    }
+  const auto add_one = [&](const char* name, const std::string& unit, const auto& range_at) {
+    std::vector<Range> ranges;
+    for (std::size_t i = 0; i < inclusions; ++i) ranges.push_back(range_at(i));
+    const auto least = std::ranges::min_element(ranges, {}, &Range::low),
+               most = std::ranges::max_element(ranges, {}, &Range::high);
+    const auto name_at = [&](auto place) {
+      return sweep.inclusions[static_cast<std::size_t>(place - ranges.begin())];
+    };
     rows.push_back({results::labelled(fmt::format("{} of {} inclusions", name, inclusions), unit),
-                    end_of(range_of(least).low, -1), sweep.inclusions[least],
-                    end_of(range_of(most).high, 1), sweep.inclusions[most]});
+                    end_of(least->low, -1), name_at(least), end_of(most->high, 1), name_at(most)});
   };
   add_one("A", results::label_of(units, "L"),
-          [&](std::size_t i) { return counts.displacement_bounds[i]; });
-  for (std::size_t part = 0; part < slope_parts.size() && counts.tilted(); ++part)
-    add_one(slope_parts[part], "", [&](std::size_t i) { return counts.slope[i][part]; });
+          [&](std::size_t i) { return range_of(sweep, "displacement", i, true); });
+  bool tilted = false;
+  for (std::size_t i = 0; i < inclusions; ++i) tilted = tilted || tilts(sweep, i);
+  for (std::size_t part = 0; part < slope_parts.size() && tilted; ++part)
+    add_one(slope_parts[part], "", [&](std::size_t i) { return slope_range(sweep, i, part); });
 }
 
-Json range_json(const SweepSummary::Range& range) {
-  return {{"min", range.low}, {"max", range.high}};
-}
+Json range_json(const Range& range) { return {{"min", range.low}, {"max", range.high}}; }
 
 /// A text like "rows 3, 7, 12, 20, 21 and 4 more", with the rows for which `holds` is true.
 template <class Holds>
@@ -114,18 +119,18 @@ std::string first_rows(const results::Sweep& sweep, const Holds& holds) {
 }
 
 /// A text like "bounds of 9 rows: of the energy at most 0.89 % wide, of A at most +- 0.0056".
-std::string bounds_text(const results::Sweep& sweep, const SweepSummary& counts,
-                        const v1::Units& units) {
+std::string bounds_text(const results::Sweep& sweep, const v1::Units& units) {
   const auto lower = sweep.numbers("energy_lower");
   if (lower.empty()) return "";
-  if (counts.bounded == 0) return "no row has bounds\n";
-  std::string text = "bounds of " + counted(counts.bounded, "row") + ": of the energy at most " +
-                     per_cent(counts.energy_width) + " wide";
-  if (std::isfinite(counts.displacement_error))
-    text += ", of A at most +- " + number(counts.displacement_error, 2) +
+  const results::Widths widths = widths_of(sweep);
+  if (widths.rows == 0) return "no row has bounds\n";
+  std::string text = "bounds of " + counted(widths.rows, "row") + ": of the energy at most " +
+                     per_cent(widths.energy) + " wide";
+  if (std::isfinite(widths.displacement))
+    text += ", of A at most +- " + number(widths.displacement, 2) +
             (results::label_of(units, "L").empty() ? ""
                                                    : " " + sanitise(results::label_of(units, "L")));
-  if (counts.bounded < sweep.answer.converged()) {
+  if (widths.rows < sweep.answer.converged()) {
     text += "; none of " + first_rows(sweep, [&](std::size_t row) {
               return sweep.converged(row) && std::isnan(lower[row]);
             });
@@ -205,7 +210,6 @@ std::string worst_of(const v1::SweepAnswer& answer) {
 }
 
 std::string sweep_table(const results::Sweep& sweep, const v1::Units& units) {
-  const SweepSummary counts = summary(sweep);
   std::string text = counted(sweep.rows(), "row");
   if (!sweep.source.empty()) text += " of " + sanitise(sweep.source);
   text += ": " + endings(sweep.answer);
@@ -217,18 +221,18 @@ std::string sweep_table(const results::Sweep& sweep, const v1::Units& units) {
     text += worst_of(sweep.answer) + "\n\n";
     Rows rows{head_of_spans};
     if (sweep.inclusions.size() > few_inclusions)
-      add_extremes(sweep, counts, units, rows);
+      add_extremes(sweep, units, rows);
     else
-      add_inclusions(sweep, counts, units, rows);
-    const auto& [shortest, longest] = counts.contact_length;
+      add_inclusions(sweep, units, rows);
+    const auto [shortest, longest] = range_of(sweep, "contact_length");
     rows.push_back({results::labelled("contact length", results::label_of(units, "L")),
                     contact_text(shortest), "", contact_text(longest), ""});
-    add_span("energy", results::label_of(units, "F L"), counts.energy_bounds, rows);
+    add_span("energy", results::label_of(units, "F L"), range_of(sweep, "energy", 0, true), rows);
     text += table_of_spans(std::move(rows));
     if (sweep.inclusions.size() > few_inclusions)
       text += "all inclusions: anticrack show RESULT --inclusions, or --csv FILE\n";
   }
-  text += bounds_text(sweep, counts, units) + tips_text(sweep, units);
+  text += bounds_text(sweep, units) + tips_text(sweep, units);
   if (const std::size_t kept = sweep.integers("kept").size(); kept > 0)
     text += "traces of " + counted(kept, "row") + "\n";
   if (!sweep.error.empty()) text += sanitise(sweep.error) + "\n";
@@ -237,23 +241,23 @@ std::string sweep_table(const results::Sweep& sweep, const v1::Units& units) {
 
 std::string sweep_inclusions(const results::Sweep& sweep, const v1::Units& units) {
   Rows rows{head_of_spans};
-  const SweepSummary counts = summary(sweep);
-  if (sweep.answer.converged() > 0) add_inclusions(sweep, counts, units, rows);
+  if (sweep.answer.converged() > 0) add_inclusions(sweep, units, rows);
   return rows.size() == 1 ? "no inclusions\n" : table_of_spans(std::move(rows));
 }
 
 Json sweep_json(const results::Sweep& sweep) {
-  const SweepSummary counts = summary(sweep);
   Json inclusions = Json::array();
   for (std::size_t i = 0; i < sweep.inclusions.size(); ++i) {
-    Json inclusion{{"name", sweep.inclusions[i]}, {"A", range_json(counts.displacement[i])}};
+    Json inclusion{{"name", sweep.inclusions[i]},
+                   {"A", range_json(range_of(sweep, "displacement", i))}};
     for (std::size_t part = 0; part < slope_parts.size(); ++part)
-      inclusion[slope_parts[part]] = range_json(counts.slope[i][part]);
+      inclusion[slope_parts[part]] = range_json(slope_range(sweep, i, part));
     inclusions.push_back(std::move(inclusion));
   }
   Json tips = Json::array();
   for (const Largest& tip : largest_rates(sweep))
     tips.push_back({{"G", tip.row < 0 ? results::unknown : tip.g}, {"row", tip.row}});
+  const results::Widths widths = widths_of(sweep);
   Json json = json_of(sweep.answer);
   json.update({{"source", sweep.source},
                {"not_solved", not_solved(sweep.answer)},
@@ -261,11 +265,11 @@ Json sweep_json(const results::Sweep& sweep) {
                {"loads", sweep.loads},
                {"inclusions", std::move(inclusions)},
                {"tips", std::move(tips)},
-               {"contact_length", range_json(counts.contact_length)},
-               {"energy", range_json(counts.energy)},
-               {"bounded", counts.bounded},
-               {"energy_width", counts.energy_width},
-               {"displacement_error", counts.displacement_error}});
+               {"contact_length", range_json(range_of(sweep, "contact_length"))},
+               {"energy", range_json(range_of(sweep, "energy"))},
+               {"bounded", widths.rows},
+               {"energy_width", widths.energy},
+               {"displacement_error", widths.displacement}});
   return json;
 }
 

@@ -4,6 +4,7 @@
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/duration.pb.h>
 #include <google/protobuf/message.h>
+#include <google/protobuf/reflection.h>
 #include <google/protobuf/timestamp.pb.h>
 #include <google/protobuf/util/time_util.h>
 
@@ -45,12 +46,6 @@ bool is_nested(const FieldDescriptor& field) {
   return is_message(field) && !is_duration(field) &&
          field.message_type() != Timestamp::descriptor() &&
          field.message_type() != v1::Status::descriptor();
-}
-
-bool has_lists(const Descriptor& type) {
-  for (int i = 0; i < type.field_count(); ++i)
-    if (type.field(i)->is_repeated()) return true;
-  return false;
 }
 
 std::string name_of(const FieldDescriptor& field) {
@@ -97,7 +92,7 @@ void add_entries(const Descriptor& type, const FieldDescriptor* outer,
       auto [meaning, unit] = comments::of(field);
       entries.push_back({(outer == nullptr ? "" : outer->name() + "_") + name_of(field),
                          std::move(meaning), std::move(unit), type_of(field), outer, &field});
-    } else if (outer == nullptr && !has_lists(*field.message_type())) {
+    } else if (outer == nullptr && lists_of(*field.message_type()).empty()) {
       add_entries(*field.message_type(), &field, entries);
     }
   }
@@ -176,6 +171,26 @@ const std::vector<Entry>& entries_of(const Descriptor& type) {
   std::vector<Entry>& entries = known[&type];
   if (entries.empty()) add_entries(type, nullptr, entries);
   return entries;
+}
+
+std::vector<const FieldDescriptor*> lists_of(const Descriptor& type) {
+  std::vector<const FieldDescriptor*> lists;
+  for (int i = 0; i < type.field_count(); ++i)
+    if (type.field(i)->is_repeated()) lists.push_back(type.field(i));
+  return lists;
+}
+
+std::vector<const Message*> items_of(const Message& message, const FieldDescriptor& list) {
+  std::vector<const Message*> items;
+  const Reflection& fields = *message.GetReflection();
+  for (int i = 0; i < fields.FieldSize(message, &list); ++i)
+    items.push_back(&fields.GetRepeatedMessage(message, &list, i));
+  return items;
+}
+
+std::vector<std::string> texts_of(const Message& message, const FieldDescriptor& list) {
+  const auto& texts = message.GetReflection()->GetRepeatedFieldRef<std::string>(message, &list);
+  return {texts.begin(), texts.end()};
 }
 
 const Entry* entry_of(const Descriptor& type, std::string_view name) {

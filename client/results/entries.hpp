@@ -38,6 +38,18 @@ struct Entry {
 /// The entries of a message type in field order, without lists and nested messages with lists.
 const std::vector<Entry>& entries_of(const google::protobuf::Descriptor& type);
 
+/// The lists of a message type.
+std::vector<const google::protobuf::FieldDescriptor*> lists_of(
+    const google::protobuf::Descriptor& type);
+
+/// The messages of a list.
+std::vector<const google::protobuf::Message*> items_of(
+    const google::protobuf::Message& message, const google::protobuf::FieldDescriptor& list);
+
+/// The texts of a list.
+std::vector<std::string> texts_of(const google::protobuf::Message& message,
+                                  const google::protobuf::FieldDescriptor& list);
+
 /// The entry of this name, or null.
 const Entry* entry_of(const google::protobuf::Descriptor& type, std::string_view name);
 

@@ -3,7 +3,6 @@
 
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/message.h>
-#include <google/protobuf/reflection.h>
 
 #include <cstring>
 #include <deque>
@@ -35,13 +34,6 @@ void set_or_refuse(Message& message, const Entry& entry, const Value& value) {
     throw Fault("has the unknown " + entry.name + " \"" + std::get<std::string>(value) + "\"");
 }
 
-/// Calls visit(field) for each list of a message type.
-template <class Visit>
-void for_each_list(const Descriptor& type, const Visit& visit) {
-  for (int i = 0; i < type.field_count(); ++i)
-    if (type.field(i)->is_repeated()) visit(type.field(i));
-}
-
 /// Adds the rows of put_meanings for a message type and its lists.
 void add_meanings(const std::string& where, const Descriptor& type, const v1::Units& units,
                   std::vector<std::string>& rows) {
@@ -50,10 +42,9 @@ void add_meanings(const std::string& where, const Descriptor& type, const v1::Un
       rows.insert(rows.end(), {at, entry.name, unit_of(units, entry.unit), entry.meaning});
   };
   add(where, type);
-  for_each_list(type, [&](const FieldDescriptor* field) {
-    if (field->cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE && !field->is_map())
-      add(field->name(), *field->message_type());
-  });
+  for (const FieldDescriptor* list : lists_of(type))
+    if (list->cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE && !list->is_map())
+      add(list->name(), *list->message_type());
 }
 
 Members members_of(const Types& types) {
@@ -139,21 +130,16 @@ void Messages::put(const Handle& group, const Message& message) {
   for (const Entry& entry : entries_of(*message.GetDescriptor()))
     std::visit([&](const auto& value) { hdf5::put(group, entry.name, value); },
                get(message, entry));
-  const Reflection& fields = *message.GetReflection();
-  for_each_list(*message.GetDescriptor(), [&](const FieldDescriptor* field) {
-    if (field->cpp_type() == FieldDescriptor::CPPTYPE_STRING) {
-      std::vector<std::byte> texts;
-      std::string scratch;  // not used, as texts are strings in memory
-      for (int i = 0; i < fields.FieldSize(message, field); ++i)
-        append(texts, fields.GetRepeatedStringReference(message, field, i, &scratch).c_str());
-      return put_list(group, field->name(), {}, texts);
+  for (const FieldDescriptor* list : lists_of(*message.GetDescriptor())) {
+    if (list->cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE) {
+      put(group, list->name(), {list->message_type()}, items_of(message, *list));
+      continue;
     }
-    const int count = fields.FieldSize(message, field);
-    std::vector<const Message*> items;
-    items.reserve(static_cast<std::size_t>(count));
-    for (int i = 0; i < count; ++i) items.push_back(&fields.GetRepeatedMessage(message, field, i));
-    put(group, field->name(), {field->message_type()}, items);
-  });
+    const std::vector<std::string> texts = texts_of(message, *list);
+    std::vector<std::byte> entries;
+    for (const std::string& text : texts) append(entries, text.c_str());
+    put_list(group, list->name(), {}, entries);
+  }
 }
 
 void get_messages(const Handle& group, const std::string& name, std::uint64_t budget,
@@ -179,18 +165,18 @@ void get_message(const Handle& group, std::uint64_t budget, Message& message) {
     });
   }
   const Reflection& fields = *message.GetReflection();
-  for_each_list(*message.GetDescriptor(), [&](const FieldDescriptor* field) {
+  for (const FieldDescriptor* field : lists_of(*message.GetDescriptor())) {
     if (field->cpp_type() == FieldDescriptor::CPPTYPE_STRING) {
-      return get_list(group, field->name(), type_of(ValueType::text), budget,
-                      [&](const std::byte* from) {
-                        std::string text;
-                        take(from, text);
-                        fields.AddString(&message, field, std::move(text));
-                      });
+      get_list(group, field->name(), type_of(ValueType::text), budget, [&](const std::byte* from) {
+        std::string text;
+        take(from, text);
+        fields.AddString(&message, field, std::move(text));
+      });
+      continue;
     }
     get_messages(group, field->name(), budget, {field->message_type()},
                  [&]() -> Message& { return *fields.AddMessage(&message, field); });
-  });
+  }
 }
 
 void put_meanings(const Handle& root, const v1::Units& units) {

@@ -25,31 +25,27 @@ bool fits(hid_t type, hid_t wanted) {
   return H5Tget_class(type) == H5Tget_class(wanted) && H5Tget_size(type) == H5Tget_size(wanted);
 }
 
-struct Attribute {
-  Handle id;
-  Handle type;  ///< as in the file, since HDF5 does not convert between ASCII and UTF-8
-  hssize_t count;
-};
-
-Attribute open_attribute(const Handle& object, const std::string& name) {
+/// Reads an attribute of this many values into what room(count) gives. Texts come in HDF5's own
+/// memory, which is freed here. `expected`: of the error for another type or count.
+template <class Room>
+void read_attribute(const Handle& object, const std::string& name, ValueType type,
+                    std::uint64_t least, std::uint64_t most, const std::string& expected,
+                    const Room& room) {
   const std::string what = "attribute " + name;
-  Handle id(H5Aopen(object.get(), name.c_str(), H5P_DEFAULT), H5Aclose, what + " is missing");
-  Handle type(H5Aget_type(id.get()), H5Tclose, what + " cannot be read");
+  const Handle id(H5Aopen(object.get(), name.c_str(), H5P_DEFAULT), H5Aclose, what + " is missing");
+  // As in the file, since HDF5 does not convert between ASCII and UTF-8.
+  const Handle own(H5Aget_type(id.get()), H5Tclose, what + " cannot be read");
   const Handle space(H5Aget_space(id.get()), H5Sclose, what + " cannot be read");
-  const hssize_t count = H5Sget_simple_extent_npoints(space.get());
-  return {std::move(id), std::move(type), count};
-}
-
-/// Texts come in HDF5's own memory, which is freed here.
-void read_attribute(const Attribute& attribute, const std::string& name, ValueType type,
-                    void* values) {
-  const auto count = static_cast<std::size_t>(attribute.count);
+  // A negative one, of an error, is more than the most.
+  const auto count = static_cast<std::size_t>(H5Sget_simple_extent_npoints(space.get()));
+  if (!fits(own.get(), type_of(type)) || count < least || count > most)
+    throw Fault(what + " is not " + expected);
+  void* const values = room(count);
   if (count == 0) return;
   const bool is_text = type == ValueType::text;
   std::vector<char*> texts(is_text ? count : 0, nullptr);
-  if (H5Aread(attribute.id.get(), is_text ? attribute.type.get() : type_of(type),
-              is_text ? texts.data() : values) < 0)
-    throw Fault("attribute " + name + " is damaged");
+  if (H5Aread(id.get(), is_text ? own.get() : type_of(type), is_text ? texts.data() : values) < 0)
+    throw Fault(what + " is damaged");
   auto* text = static_cast<std::string*>(values);
   for (char* from : texts) *text++ = from == nullptr ? "" : from;
   for (char* from : texts) H5free_memory(from);
@@ -237,20 +233,17 @@ std::string listed(const std::vector<std::string>& names) {
 }
 
 void get_attribute(const Handle& object, const std::string& name, ValueType type, void* value) {
-  const Attribute attribute = open_attribute(object, name);
-  if (attribute.count != 1 || !fits(attribute.type.get(), type_of(type)))
-    throw Fault("attribute " + name + " is not one " + name_of(type));
-  read_attribute(attribute, name, type, value);
+  read_attribute(object, name, type, 1, 1, std::string("one ") + name_of(type),
+                 [value](std::size_t) { return value; });
 }
 
 void get(const Handle& object, const std::string& attribute, std::vector<std::string>& texts,
          std::uint64_t most) {
-  const Attribute found = open_attribute(object, attribute);
-  if (!fits(found.type.get(), type_of(ValueType::text)) || found.count < 0 ||
-      static_cast<std::uint64_t>(found.count) > most)
-    throw Fault("attribute " + attribute + " is not a list of texts");
-  texts.resize(static_cast<std::size_t>(found.count));
-  read_attribute(found, attribute, ValueType::text, texts.data());
+  read_attribute(object, attribute, ValueType::text, 0, most, "a list of texts",
+                 [&texts](std::size_t count) {
+                   texts.resize(count);
+                   return texts.data();
+                 });
 }
 
 Dataset open_array(const Handle& group, const std::string& name, hid_t wanted, std::uint64_t budget,

@@ -38,8 +38,10 @@ Largest largest_of(const Result& result) {
         if (array->first.ends_with(name)) largest.take(array->second.as<double>(), load.name());
   }
   if (result.sweep) {
-    for (const SweepSummary::Range& range : summary(*result.sweep).displacement)
+    for (std::size_t i = 0; i < result.sweep->inclusions.size(); ++i) {
+      const Range range = range_of(*result.sweep, "displacement", i);
       largest.take(std::array{range.low, range.high}, "");
+    }
   }
   return largest;
 }

@@ -9,28 +9,6 @@
 namespace anticrack::results {
 namespace {
 
-void widen(SweepSummary::Range& range, double value) {
-  range.low = std::fmin(range.low, value);  // fmin ignores NaN
-  range.high = std::fmax(range.high, value);
-}
-
-/// A column with its bounds, if it has them.
-struct Bounded {
-  std::span<const double> values, lower, upper;
-
-  Bounded(const Sweep& sweep, const std::string& name)
-      : values(sweep.numbers(name)),
-        lower(sweep.numbers(name + "_lower")),
-        upper(sweep.numbers(name + "_upper")) {}
-
-  bool has(std::size_t place) const { return !lower.empty() && std::isfinite(lower[place]); }
-  /// Widens the range to the bounds of an entry, or to its value if it has no bounds.
-  void widen_range(SweepSummary::Range& range, std::size_t place) const {
-    widen(range, has(place) ? lower[place] : values[place]);
-    widen(range, has(place) ? upper[place] : values[place]);
-  }
-};
-
 std::string counts_fault(const Sweep& sweep) {
   const v1::SweepAnswer& answer = sweep.answer;
   std::uint64_t left = sweep.rows();
@@ -69,46 +47,36 @@ std::string range_fault(const Sweep& sweep) {
 
 }  // namespace
 
-bool SweepSummary::tilted() const noexcept {
-  for (std::size_t i = 0; i < slope.size(); ++i)
-    if (tilted(i)) return true;
-  return false;
+Range range_of(const Sweep& sweep, const std::string& column, std::size_t place, bool exact) {
+  const auto values = sweep.numbers(column), lower = sweep.numbers(column + "_lower"),
+             upper = sweep.numbers(column + "_upper");
+  Range range;
+  for (std::size_t row = 0; row < sweep.rows(); ++row) {
+    if (!sweep.converged(row)) continue;
+    const std::size_t at = row * (values.size() / sweep.rows()) + place;
+    const bool bounded = exact && !lower.empty() && std::isfinite(lower[at]);
+    const double value = values.empty() ? 0 : values[at];
+    range.low = std::fmin(range.low, bounded ? lower[at] : value);  // fmin ignores NaN
+    range.high = std::fmax(range.high, bounded ? upper[at] : value);
+  }
+  return range;
 }
 
-SweepSummary summary(const Sweep& sweep) {
-  SweepSummary result;
+Widths widths_of(const Sweep& sweep) {
+  Widths widths;
+  const auto energy = sweep.numbers("energy"), lower = sweep.numbers("energy_lower"),
+             upper = sweep.numbers("energy_upper"), a_lower = sweep.numbers("displacement_lower"),
+             a_upper = sweep.numbers("displacement_upper");
   const std::size_t inclusions = sweep.inclusions.size();
-  result.displacement.resize(inclusions);
-  result.displacement_bounds.resize(inclusions);
-  result.slope.resize(inclusions);
-  const Bounded energy(sweep, "energy"), displacement(sweep, "displacement");
-  const auto status = sweep.status();
-  const auto length = sweep.numbers("contact_length"), slope = sweep.numbers("slope");
-  for (std::size_t row = 0; row < status.size(); ++row) {
-    if (status[row] != v1::LoadCaseAnswer::STATUS_CONVERGED) continue;
-    widen(result.energy, energy.values[row]);
-    energy.widen_range(result.energy_bounds, row);
-    widen(result.contact_length, length[row]);
-    const bool bounded = energy.has(row);
-    if (bounded) {
-      ++result.bounded;
-      const double width = energy.upper[row] - energy.lower[row];
-      result.energy_width =
-          std::fmax(result.energy_width, width > 0 ? width / std::abs(energy.values[row]) : 0);
-    }
-    for (std::size_t i = 0; i < inclusions; ++i) {
-      const std::size_t place = row * inclusions + i;
-      widen(result.displacement[i], displacement.values[place]);
-      displacement.widen_range(result.displacement_bounds[i], place);
-      for (const std::size_t part : {0U, 1U})
-        widen(result.slope[i][part], slope.empty() ? 0 : slope[2 * place + part]);
-      if (bounded)
-        result.displacement_error =
-            std::fmax(result.displacement_error,
-                      0.5 * (displacement.upper[place] - displacement.lower[place]));
-    }
+  for (std::size_t row = 0; row < lower.size(); ++row) {
+    if (!sweep.converged(row) || !std::isfinite(lower[row])) continue;
+    ++widths.rows;
+    const double width = upper[row] - lower[row];
+    widths.energy = std::fmax(widths.energy, width > 0 ? width / std::abs(energy[row]) : 0);
+    for (std::size_t at = row * inclusions; at < (row + 1) * inclusions; ++at)
+      widths.displacement = std::fmax(widths.displacement, 0.5 * (a_upper[at] - a_lower[at]));
   }
-  return result;
+  return widths;
 }
 
 std::string row_name(std::int64_t row) { return fmt::format("row-{}", row); }

@@ -3,8 +3,6 @@
 // Many load cases on one mesh, answered in columns: row k of every array is load case k.
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -48,36 +46,31 @@ struct Sweep {
   }
 };
 
-/// Ranges over the converged rows.
-struct SweepSummary {
-  struct Range {
-    double low = std::numeric_limits<double>::quiet_NaN();  ///< NaN if no row converged
-    double high = std::numeric_limits<double>::quiet_NaN();
-    bool nonzero() const noexcept { return low < 0 || high > 0; }
-  };
-  std::vector<Range> displacement;          ///< of A, one per inclusion
-  std::vector<std::array<Range, 2>> slope;  ///< of Bx and By, one per inclusion
-  Range contact_length, energy;
-  /// Ranges of the membrane's exact A and energy: from the bounds of a row or, without bounds, from
-  /// its value.
-  std::vector<Range> displacement_bounds;
-  Range energy_bounds;
-  std::size_t bounded = 0;  ///< converged rows whose energy has bounds
-  /// Over the bounded rows: the largest width of the energy's bounds relative to the energy, and
-  /// half the largest width of the bounds of A over all inclusions; NaN if no row is bounded.
-  double energy_width = std::numeric_limits<double>::quiet_NaN();
-  double displacement_error = std::numeric_limits<double>::quiet_NaN();
-
-  /// Whether the inclusion has a slope other than 0 in a converged row.
-  bool tilted(std::size_t inclusion) const noexcept {
-    return std::ranges::any_of(slope[inclusion], &Range::nonzero);
-  }
-  /// Whether any inclusion has a slope other than 0 in a converged row.
-  bool tilted() const noexcept;
+/// The least and the greatest of some numbers; NaN of none.
+struct Range {
+  double low = std::numeric_limits<double>::quiet_NaN();
+  double high = std::numeric_limits<double>::quiet_NaN();
+  bool nonzero() const noexcept { return low < 0 || high > 0; }
 };
 
-/// The ranges and the widths of the bounds over the converged rows. O(rows).
-SweepSummary summary(const Sweep& sweep);
+/// The range, over the converged rows, of the number at `place` of each row of a column; of 0 if
+/// there is no such column. `exact`: the range of the membrane's exact numbers, from the bounds of
+/// a row or, without bounds, from its number. O(rows).
+Range range_of(const Sweep& sweep, const std::string& column, std::size_t place = 0,
+               bool exact = false);
+
+/// The range of Bx (`part` 0) or By of an inclusion.
+inline Range slope_range(const Sweep& sweep, std::size_t inclusion, std::size_t part) {
+  return range_of(sweep, "slope", 2 * inclusion + part);
+}
+
+/// How wide the bounds of the converged rows that have them are; NaN if none has.
+struct Widths {
+  std::size_t rows = 0;                                      ///< that have bounds of the energy
+  double energy = std::numeric_limits<double>::quiet_NaN();  ///< the largest, relative
+  double displacement = std::numeric_limits<double>::quiet_NaN();  ///< half the largest, of any A
+};
+Widths widths_of(const Sweep& sweep);
 
 /// The name of a row's load: "row-17".
 std::string row_name(std::int64_t row);

@@ -136,41 +136,38 @@ TEST(Sweep, IsNotWrittenFromWhatDoesNotFitTogether) {
   }
 }
 
-TEST(SweepSummary, SpansTheConvergedRows) {
+TEST(RangeOf, SpansTheConvergedRows) {
   Result result = sample_sweep(5);  // row 3 did not converge
   const auto status = values_of<std::int32_t>(result.sweep->columns, "status");
   status[2] = v1::LoadCaseAnswer::STATUS_FAILED;
   status[1] = v1::LoadCaseAnswer::STATUS_CANCELLED;
-  const SweepSummary counts = summary(*result.sweep);
-  EXPECT_DOUBLE_EQ(counts.displacement.at(0).low, -0.1);
-  EXPECT_DOUBLE_EQ(counts.displacement.at(0).high, 0.1);
-  EXPECT_FALSE(counts.tilted());
-  EXPECT_DOUBLE_EQ(counts.energy.low, -2);
+  EXPECT_DOUBLE_EQ(range_of(*result.sweep, "displacement").low, -0.1);
+  EXPECT_DOUBLE_EQ(range_of(*result.sweep, "displacement").high, 0.1);
+  EXPECT_FALSE(slope_range(*result.sweep, 0, 0).nonzero());
+  EXPECT_DOUBLE_EQ(range_of(*result.sweep, "energy").low, -2);
 }
 
-TEST(SweepSummary, TellsTheWidestBounds) {
-  const SweepSummary counts = summary(*anticrack::testing::bounded_sweep(5).sweep);
-  EXPECT_EQ(counts.bounded, 3U) << "a row did not converge, another has none";
-  EXPECT_NEAR(counts.energy_width, 0.005, 1e-12);
-  EXPECT_NEAR(counts.displacement_error, 0.01, 1e-12);
-  EXPECT_TRUE(std::isnan(summary(*sample_sweep(5).sweep).energy_width));
+TEST(WidthsOf, AreTheWidestBounds) {
+  const Widths widths = widths_of(*anticrack::testing::bounded_sweep(5).sweep);
+  EXPECT_EQ(widths.rows, 3U) << "a row did not converge, another has none";
+  EXPECT_NEAR(widths.energy, 0.005, 1e-12);
+  EXPECT_NEAR(widths.displacement, 0.01, 1e-12);
+  EXPECT_TRUE(std::isnan(widths_of(*sample_sweep(5).sweep).energy));
 }
 
-TEST(SweepSummary, SpansTheSlopes) {
-  const SweepSummary counts = summary(*tilting_sweep(5).sweep);  // row 3 did not converge
-  EXPECT_TRUE(counts.tilted());
-  EXPECT_DOUBLE_EQ(counts.slope.at(0)[0].low, -0.2);
-  EXPECT_DOUBLE_EQ(counts.slope.at(0)[0].high, 0.2);
-  EXPECT_EQ(counts.slope.at(0)[1].high, -0.5);
+TEST(RangeOf, SpansTheSlopes) {
+  const Result result = tilting_sweep(5);  // row 3 did not converge
+  EXPECT_DOUBLE_EQ(slope_range(*result.sweep, 0, 0).low, -0.2);
+  EXPECT_DOUBLE_EQ(slope_range(*result.sweep, 0, 0).high, 0.2);
+  EXPECT_EQ(slope_range(*result.sweep, 0, 1).high, -0.5);
 }
 
-TEST(SweepSummary, KnowsNoRangeWhereNothingConverged) {
+TEST(RangeOf, IsUnknownWhereNothingConverged) {
   Result result = sample_sweep(3);
   std::ranges::fill(values_of<std::int32_t>(result.sweep->columns, "status"),
                     v1::LoadCaseAnswer::STATUS_FAILED);
-  const SweepSummary counts = summary(*result.sweep);
-  EXPECT_TRUE(std::isnan(counts.energy.low));
-  EXPECT_TRUE(std::isnan(counts.displacement.at(0).high));
+  EXPECT_TRUE(std::isnan(range_of(*result.sweep, "energy").low));
+  EXPECT_TRUE(std::isnan(range_of(*result.sweep, "displacement").high));
 }
 
 }  // namespace
