@@ -13,7 +13,6 @@
 
 #include "cli/commands.hpp"
 #include "cli/connection_flags.hpp"
-#include "cli/json.hpp"
 #include "cli/programs.hpp"
 #include "cli/report.hpp"
 #include "guide/guide.hpp"

@@ -10,7 +10,6 @@
 
 #include "client/connection.hpp"
 #include "client/credentials.hpp"
-#include "client/error.hpp"
 
 namespace CLI {
 class App;

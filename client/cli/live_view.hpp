@@ -52,15 +52,13 @@ inline constexpr std::size_t bar_room = 12;  ///< fewest columns of a bar
 /// bar_room).
 std::string bar(double fraction, std::size_t room);
 
-/// "  stage 4    12345 triangles   energy  0.213 % (asked 0.1 %)   A 0.8 %  [######----]" for each
-/// of the last stages, at most `count`. The bar is full if everything asked for is reached; a
-/// narrow terminal has none.
+/// A line for each of the last stages, at most `count`. The bar is full if everything asked for is
+/// reached; a narrow terminal has none.
 std::vector<std::string> stage_lines(const std::vector<v1::Stage>& stages,
                                      const v1::Accuracy& asked, std::size_t width,
                                      std::size_t count);
 
-/// "stage 4: 12345 triangles, energy 0.213 % (asked 0.1 %), A 0.8 %, probably
-/// 0.02 %", and the forecast.
+/// "stage 4: 12345 triangles, energy 0.213 % (asked 0.1 %), A 0.8 %", and the forecast.
 std::string stage_text(std::size_t number, const v1::Stage& stage, const v1::Accuracy& asked);
 
 }  // namespace anticrack::cli

@@ -18,7 +18,6 @@
 #include "cli/submit.hpp"
 #include "cli/tables.hpp"
 #include "cli/text.hpp"
-#include "cli/to_result.hpp"
 
 namespace anticrack::cli {
 namespace {

@@ -12,7 +12,6 @@
 
 #include "cli/commands.hpp"
 #include "cli/job_run.hpp"
-#include "cli/json.hpp"
 #include "cli/programs.hpp"
 #include "cli/report.hpp"
 #include "cli/tables.hpp"

@@ -3,7 +3,6 @@
 // Sends a case to the server, and fetches its answers.
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <stop_token>
 #include <string>

@@ -23,18 +23,13 @@ namespace anticrack::cli {
 inline constexpr std::size_t few_inclusions = 6;
 
 /// A head row, a row of units ("-": dimensionless, or without a name) and one row per load case;
-/// below the table, why load cases did not converge or failed. There is a column "A" per inclusion,
-/// with its name if there are several; for one that tilts also "Bx", "By", "Mx" and "My". For more
-/// than few_inclusions there are their number, the least and the greatest A and, if any tilts, the
-/// greatest |B|, with the names of these inclusions. For Uzawa's method there are the criterion
-/// that stops it, and theta; for the active set, which is exact, the largest relative KKT residual.
+/// below the table, why load cases did not converge or failed, tips and growth.
 std::string answers_table(const std::vector<results::Load>& loads, const v1::Units& units);
 /// The same for a result; for a sweep how its rows ended, and their ranges. Ends with the notes on
 /// the result.
 std::string answers_table(const results::Result& result);
 
-/// A row per load case with an answer and inclusion: A, for those that tilt also B and the moment,
-/// resultant and contact length. For a sweep a row per inclusion with the ranges of its rows.
+/// A row per load case with an answer and inclusion; for a sweep one per inclusion, with ranges.
 std::string inclusions_table(const results::Result& result);
 
 /// The same as comma-separated text, with numbers to full precision and unknown values left out;
@@ -44,8 +39,7 @@ std::string answers_csv(const results::Result& result);
 /// Of the mesh, a sweep and each load case a row for every number: value, unit, what it is.
 std::string numbers_table(const results::Result& result);
 
-/// {title, file, job, mesh, sizes, timings, notes, answers: [one per load case]}; for a sweep also
-/// {sweep: {rows, converged, ...}}, and the answers are those of the rows whose traces were kept.
+/// All of a result but arrays; of a sweep the answers are those of the rows whose traces were kept.
 std::string answers_json(const results::Result& result, const std::filesystem::path& file);
 
 /// The text below the answers: what was reached on which mesh, and what was not and why. Empty for
@@ -67,16 +61,14 @@ std::string tips_table(const std::vector<results::Load>& loads, const v1::Units&
 /// after jumps, and the last.
 std::string growth_table(const std::vector<results::Load>& loads, const v1::Units& units, bool all);
 
-/// A row for each stage of the load: its triangles, the energy and its bounds, the error of u in
-/// the energy norm and, if it is known, that of A. Empty if there are no stages.
+/// A row for each stage of the load; empty if there are none.
 std::string stages_table(const results::Load& load);
 
 /// The most steps and the largest residual of the rows that converged.
 std::string worst_of(const v1::SweepAnswer& answer);
 
-/// How many rows ended in which way, the ranges of A, contact length and energy, what went wrong,
-/// and how wide the bounds are. With bounds, the ranges of A and of the energy contain the exact
-/// values of the membrane. For many inclusions there is one range, with the inclusions at its ends.
+/// How rows ended, the ranges of their numbers, and how wide the bounds are. With bounds, the ranges
+/// of A and of the energy contain the exact values of the membrane.
 std::string sweep_table(const results::Sweep& sweep, const v1::Units& units);
 
 /// The range of A of every inclusion, and of B of those that tilt.
@@ -84,9 +76,8 @@ std::string sweep_inclusions(const results::Sweep& sweep, const v1::Units& units
 
 nlohmann::ordered_json sweep_json(const results::Sweep& sweep);  ///< the same as JSON
 
-/// A line per row: row, coefficients by the names of their loads, A per inclusion, energy,
-/// contact_length, steps, status; bounds stand beside their numbers. Numbers have full precision;
-/// those of a row that did not converge are left out. O(size of the sweep).
+/// A line per row; numbers have full precision, and those of a row that did not converge are left
+/// out. O(size of the sweep).
 std::string sweep_csv(const results::Sweep& sweep);
 
 /// Facts about a mesh that only its case tells; of a mesh given by its name nothing is known.
@@ -95,10 +86,10 @@ struct CaseFacts {
   bool free = false;  ///< no load gives a traction
 };
 
-/// State and sizes; subdomains; interfaces by segments; tips; conditions on the boundary; warnings.
+/// What the server tells of a mesh, in words and tables.
 std::string mesh_text(const v1::Mesh& mesh, const CaseFacts& facts = {});
 
-/// State, owner, attempt, the answers so far, and the times of its steps.
+/// What the server tells of a job: also the answers so far, and the times of its steps.
 std::string job_text(const v1::Job& job);
 
 /// A text that says that the results of a job were removed, and what to do.

@@ -4,12 +4,7 @@
 // loads are made (MeshService, UploadService; requests and answers, with units, are those of
 // anticrack/v1/mesh.proto and upload.proto).
 //
-// Every function may be called from any thread. It returns when the server has answered, or throws:
-//   Error        the server refused; each call lists its codes. A lost connection is first retried
-//                with back-off (ConnectionOptions::retry) and becomes Error (unavailable) in the
-//                end; RESOURCE_EXHAUSTED with a retry delay is retried, too. Retrying is safe:
-//                every call here can be repeated.
-//   Interrupted  once `stop` is requested.
+// Threads, retries, Error and Interrupted are as in jobs.hpp.
 #pragma once
 
 #include <filesystem>
@@ -50,19 +45,6 @@ using ReadArray = std::function<std::vector<double>(std::size_t index)>;
 /// what `read` throws.
 std::vector<std::string> upload_arrays(Connection& connection, std::size_t count,
                                        const ReadArray& read, const std::stop_token& stop = {});
-
-/// An upload of this client ("uploads/SHA256"). Error: not_found.
-v1::Upload get_upload(Connection& connection, const std::string& name,
-                      const std::stop_token& stop = {});
-
-/// One page of this client's uploads, by name. Error: invalid_argument (page token or size).
-v1::ListUploadsResponse list_uploads(Connection& connection, const v1::ListUploadsRequest& request,
-                                     const std::stop_token& stop = {});
-
-/// Deletes an upload of this client. Error: not_found, failed_precondition (a job that has not
-/// ended or a mesh that is not meshed needs it).
-void delete_upload(Connection& connection, const std::string& name,
-                   const std::stop_token& stop = {});
 
 /// Requests the mesh of a geometry or of an upload. Returns before the mesh is made, most often
 /// PENDING; a job may name it at once, and wait_for_mesh() waits for it. Equal requests give the

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <memory>
 #include <optional>
-#include <utility>
 
 #include "results/hdf5.hpp"
 #include "results/result.hpp"

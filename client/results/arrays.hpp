@@ -3,6 +3,7 @@
 // Arrays of numbers by their paths in a result file, "loads/opening/traces/0/jump".
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -13,12 +14,43 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
-#include "results/value_type.hpp"
-
 namespace anticrack::results {
+
+/// Type of the entries of an array, in a block and in a file. The first three have the numbers of
+/// the API's ArrayLayout.Type; a block holds no other types.
+enum class ValueType { float64 = 1, int32, uint8, int64, text };
+
+/// The ValueType of double, std::int32_t or an enum of its size, std::uint8_t, std::int64_t, or
+/// std::string.
+template <class T>
+inline constexpr ValueType value_type = [] {
+  static_assert(std::is_same_v<T, double> || std::is_same_v<T, std::int32_t> ||
+                std::is_same_v<T, std::uint8_t> || std::is_same_v<T, std::int64_t> ||
+                std::is_same_v<T, std::string> ||
+                (std::is_enum_v<T> && sizeof(T) == sizeof(std::int32_t)));
+  return std::is_same_v<T, double>        ? ValueType::float64
+         : std::is_same_v<T, std::string> ? ValueType::text
+         : sizeof(T) == 1                 ? ValueType::uint8
+         : sizeof(T) == 8                 ? ValueType::int64
+                                          : ValueType::int32;
+}();
+
+/// The name of a type in messages: "float64".
+constexpr const char* name_of(ValueType type) {
+  return type == ValueType::float64 ? "float64"
+         : type == ValueType::int32 ? "int32"
+         : type == ValueType::uint8 ? "uint8"
+         : type == ValueType::int64 ? "int64"
+                                    : "variable-length text";
+}
+/// Size of an entry in bytes; a text counts as the pointer to it.
+constexpr std::size_t bytes_of(ValueType type) {
+  return type == ValueType::int32 ? 4 : type == ValueType::uint8 ? 1 : 8;
+}
 
 using Shape = std::vector<std::uint64_t>;
 
@@ -67,6 +99,16 @@ using Extents = std::map<std::string, std::uint64_t, std::less<>>;
 
 /// Whether an array of this shape is one of `wanted`, as "rows,inclusions,2"; a word that is not
 /// yet in `known` is added.
-bool fits(const Shape& shape, std::string_view wanted, Extents& known);
+inline bool fits(const Shape& shape, std::string_view wanted, Extents& known) {
+  for (const std::uint64_t extent : shape) {
+    const std::string word(wanted.substr(0, wanted.find(',')));
+    wanted.remove_prefix(std::min(word.size() + 1, wanted.size()));
+    const bool number = !word.empty() && word[0] >= '0' && word[0] <= '9';  // of one digit
+    if (word.empty() || extent != (number ? static_cast<std::uint64_t>(word[0] - '0')
+                                          : known.try_emplace(word, extent).first->second))
+      return false;
+  }
+  return wanted.empty();
+}
 
 }  // namespace anticrack::results

@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "results/value_type.hpp"
+#include "results/arrays.hpp"
 
 namespace google::protobuf {
 class Descriptor;

@@ -8,7 +8,6 @@
 // times are in seconds. [u] = u+ - u-; the plus side lies on the left of an interface.
 #pragma once
 
-#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>

@@ -15,7 +15,7 @@
 #include "results/entries.hpp"
 #include "results/file.hpp"
 #include "results/tables.hpp"
-#include "results/value_type.hpp"
+#include "results/arrays.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace anticrack::results {
