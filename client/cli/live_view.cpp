@@ -68,10 +68,8 @@ std::string head_of(const JobProgress& progress, std::size_t width) {
   if (progress.sweep) {
     done = short_done = ", " + rows_of(*progress.sweep);
   } else if (progress.cases.size() > 1) {
-    const std::string ended_cases = fmt::format(", {}", progress.ended_count);
-    const std::string count = std::to_string(progress.cases.size());
-    done = ended_cases + " of " + count + " load cases ended";
-    short_done = ended_cases + "/" + count + " ended";
+    done = fmt::format(", {} of {} load cases ended", progress.ended_count, progress.cases.size());
+    short_done = fmt::format(", {}/{} ended", progress.ended_count, progress.cases.size());
   }
   for (const std::string& text : {name + state + done, state + done})
     if (columns_of(text) <= width) return text;

@@ -6,11 +6,8 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
-#include <optional>
 #include <string_view>
 #include <utility>
-
-#include "results/file.hpp"
 
 namespace anticrack::cli {
 namespace {
@@ -24,73 +21,57 @@ struct Dataset {
   std::string path;
 };
 
-// The dataset of "FILE.h5:/PATH"; empty for the name of a file.
-std::optional<Dataset> dataset_of(const std::string& name) {
+// The dataset of "FILE.h5:/PATH"; without a path for the name of a file.
+Dataset dataset_of(const std::string& name) {
   const std::size_t colon = name.rfind(":/");
-  if (colon == std::string::npos || colon == 0) return std::nullopt;
-  return Dataset{name.substr(0, colon), name.substr(colon + 1)};
+  if (colon == std::string::npos || colon == 0) return {name, ""};
+  return {name.substr(0, colon), name.substr(colon + 1)};
 }
 
-bool is_hdf5_name(const std::string& name) {
-  const std::string extension = std::filesystem::path(name).extension();
-  return extension == ".h5" || extension == ".hdf5";
-}
-
-void take(results::Matrix&& matrix, SweepInput& input) {
-  input.values = std::move(matrix.values);
-  input.rows = matrix.rows;
-  input.columns = matrix.columns;
-}
-
-void read_nodal(const SweepFiles& files, SweepInput& input) {
-  const auto dataset = dataset_of(files.nodal);
-  if (!dataset) {
-    fail(files.nodal,
-         "no dataset is named; write FILE.h5:/PATH, for example " + files.nodal + ":/f");
-  }
-  take(results::read_matrix(dataset->file, dataset->path), input);
+results::Matrix read_nodal(const std::string& name) {
+  const Dataset dataset = dataset_of(name);
+  if (dataset.path.empty())
+    fail(name, "no dataset is named; write FILE.h5:/PATH, for example " + name + ":/f");
+  return results::read_matrix(dataset.file, dataset.path);
 }
 
 // Sorts the columns into the order of the case's loads.
-void sort_columns(const std::vector<std::size_t>& loads_of, SweepInput& input) {
-  std::vector<double> sorted(input.columns);
-  for (auto row = input.values.begin(); row != input.values.end();
-       row += static_cast<std::ptrdiff_t>(input.columns)) {
-    for (std::size_t j = 0; j < input.columns; ++j)
-      sorted[loads_of[j]] = row[static_cast<std::ptrdiff_t>(j)];
-    std::copy(sorted.begin(), sorted.end(), row);
+void sort_columns(const std::vector<std::size_t>& loads_of, results::Matrix& matrix) {
+  std::vector<double> sorted(matrix.columns);
+  for (std::size_t first = 0; first < matrix.values.size(); first += matrix.columns) {
+    for (std::size_t j = 0; j < matrix.columns; ++j) sorted[loads_of[j]] = matrix.values[first + j];
+    std::ranges::copy(sorted, matrix.values.data() + first);
   }
 }
 
-void read_combinations(const SweepFiles& files, const Case& the_case, SweepInput& input) {
+results::Matrix read_combinations(const std::string& name, const Case& the_case) {
   std::vector<std::string> loads;
   for (const v1::LoadCase& load : the_case.spec.load_cases()) loads.push_back(load.name());
-  if (!dataset_of(files.coefficients) && !is_hdf5_name(files.coefficients)) {
-    input.values = read_coefficients(files.coefficients, loads);
-    input.columns = loads.size();
-    input.rows = input.values.size() / input.columns;
-    return;
+  Dataset dataset = dataset_of(name);
+  if (dataset.path.empty()) {
+    const std::string extension = std::filesystem::path(name).extension();
+    if (extension != ".h5" && extension != ".hdf5") {
+      std::vector<double> values = read_coefficients(name, loads);
+      const std::size_t rows = values.size() / loads.size();
+      return {std::move(values), rows, loads.size(), {}};
+    }
+    dataset.path = "/coefficients";
   }
-  const Dataset dataset =
-      dataset_of(files.coefficients).value_or(Dataset{files.coefficients, "/coefficients"});
   results::Matrix matrix = results::read_matrix(dataset.file, dataset.path);
-  const auto loads_of = loads_of_columns(matrix.loads, loads, [&](std::size_t) {
-    return files.coefficients + ": its attribute loads";
-  });
-  take(std::move(matrix), input);
-  if (input.columns != loads.size()) {
-    fail(files.coefficients,
-         fmt::format("it has {} columns, the case {} loads; write one column for each load, in "
-                     "their order, or name them in an attribute loads of the dataset",
-                     input.columns, loads.size()));
+  const auto loads_of = loads_of_columns(
+      matrix.loads, loads, [&](std::size_t) { return name + ": its attribute loads"; });
+  if (matrix.columns != loads.size()) {
+    fail(name, fmt::format("it has {} columns, the case {} loads; write one column for each load, "
+                           "in their order, or name them in an attribute loads of the dataset",
+                           matrix.columns, loads.size()));
   }
-  if (loads_of.size() == input.columns) {
-    sort_columns(loads_of, input);
+  if (loads_of.size() == matrix.columns) {
+    sort_columns(loads_of, matrix);
   } else if (!loads_of.empty()) {
-    fail(files.coefficients,
-         fmt::format("its attribute loads names {} of {} columns; name all of them",
-                     loads_of.size(), input.columns));
+    fail(name, fmt::format("its attribute loads names {} of {} columns; name all of them",
+                           loads_of.size(), matrix.columns));
   }
+  return matrix;
 }
 
 }  // namespace
@@ -104,12 +85,9 @@ bool leave_out_accuracy(Case& the_case) {
 }
 
 SweepInput read_sweep_input(const SweepFiles& files, const Case& the_case) {
-  SweepInput input{files, {}};
-  if (input.nodal())
-    read_nodal(files, input);
-  else
-    read_combinations(files, the_case, input);
-  return input;
+  return {files.nodal.empty() ? read_combinations(files.coefficients, the_case)
+                              : read_nodal(files.nodal),
+          files};
 }
 
 std::vector<std::uint32_t> select_rows(const std::string& text, std::size_t rows) {

@@ -13,6 +13,7 @@
 
 #include "anticrack/v1/job.pb.h"
 #include "cli/case.hpp"
+#include "results/file.hpp"
 
 namespace anticrack::cli {
 
@@ -25,11 +26,8 @@ struct SweepFiles {
   bool tips = false;
 };
 
-struct SweepInput {
+struct SweepInput : results::Matrix {
   SweepFiles files;
-  std::vector<double> values{};  ///< (rows, columns) row-major
-  std::size_t rows = 0;
-  std::size_t columns = 0;
 
   /// Whether rows have f on the nodes; else coefficients of the loads.
   bool nodal() const noexcept { return !files.nodal.empty(); }

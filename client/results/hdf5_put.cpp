@@ -59,6 +59,8 @@ Handle new_record_type(const Members& members) {
   return type;
 }
 
+/// Creation properties of a dataset of this shape with `count` numbers and texts, which may be
+/// several in one place of it; 0: it has no checksum.
 Handle new_creation_properties(const Shape& shape, std::uint64_t count) {
   const std::string what = "HDF5 has no creation properties";
   Handle properties = without_times(H5P_DATASET_CREATE);
@@ -76,21 +78,6 @@ Handle new_creation_properties(const Shape& shape, std::uint64_t count) {
   }
   require(H5Pset_fletcher32(properties.get()), what);
   return properties;
-}
-
-/// Creation properties of a dataset of this shape with `count` numbers and texts, which may be
-/// several in one place of it; 0: it has no checksum.
-hid_t creation_properties(const Shape& shape, std::uint64_t count) {
-  return made_once(std::pair(shape, count), [&] { return new_creation_properties(shape, count); });
-}
-
-/// Access properties for a dataset of one chunk, which needs no hash table of 521 slots.
-hid_t one_chunk() {
-  static const hid_t id = properties_of(H5P_DATASET_ACCESS, [](hid_t access) {
-                            return H5Pset_chunk_cache(access, 1, H5D_CHUNK_CACHE_NBYTES_DEFAULT,
-                                                      H5D_CHUNK_CACHE_W0_DEFAULT);
-                          }).release();
-  return id;
 }
 
 }  // namespace
@@ -180,10 +167,10 @@ Handle put_dataset(const Handle& group, const std::string& name, hid_t type, con
   const std::uint64_t count =
       is_text ? 0
               : count_of(shape) * (is_record ? static_cast<unsigned>(H5Tget_nmembers(type)) : 1);
+  const hid_t creation =
+      made_once(std::pair(shape, count), [&] { return new_creation_properties(shape, count); });
   Handle dataset(
-      H5Dcreate2(group.get(), name.c_str(), type, space.get(), H5P_DEFAULT,
-                 creation_properties(shape, count),
-                 count > compact_entries && count <= chunk_entries ? one_chunk() : H5P_DEFAULT),
+      H5Dcreate2(group.get(), name.c_str(), type, space.get(), H5P_DEFAULT, creation, H5P_DEFAULT),
       H5Dclose, what);
   if (count_of(shape) != 0)
     require(H5Dwrite(dataset.get(), type, H5S_ALL, H5S_ALL,

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <charconv>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "results/file.hpp"
@@ -96,17 +95,6 @@ Result get_result(const Handle& root, std::uint64_t budget) {
   return result;
 }
 
-/// The number after the slash; empty if the text before it differs from that of `format`.
-std::optional<int> version_of(std::string_view text) {
-  const std::string_view family = format.substr(0, format.find('/') + 1);
-  int version = 0;
-  if (!text.starts_with(family) ||
-      std::from_chars(text.data() + family.size(), text.data() + text.size(), version).ptr !=
-          text.data() + text.size())
-    return {};
-  return version;
-}
-
 /// Throws Error unless the root's attribute `format` is `format`.
 void check_format(const fs::path& path, const Handle& root) {
   const char* cure = "name a file that `anticrack run -o` wrote";
@@ -116,11 +104,11 @@ void check_format(const fs::path& path, const Handle& root) {
   hdf5::get(root, "format", found);
   if (found == format) return;
 
-  const std::optional<int> version = version_of(found);
-  if (version) {
+  if (found.starts_with(format.substr(0, format.find('/') + 1))) {
+    const auto version = [](std::string_view text) { return std::pair(text.size(), text); };
     throw Error(path.string(),
                 "has format \"" + found + "\", this client reads \"" + std::string(format) + "\"",
-                version > version_of(format) ? "use a newer anticrack" : "run the case again");
+                version(found) > version(format) ? "use a newer anticrack" : "run the case again");
   }
   if (found.starts_with("anticrack-study/"))
     throw IsStudy(path.string(), "is a study, no result", "see anticrack study --show");

@@ -14,14 +14,10 @@ namespace {
 
 /// Whether a load may have this name, which becomes the name of a group in the file.
 bool is_load_name(std::string_view name) noexcept {
-  // std::isalnum would depend on the locale.
-  const auto alphanumeric = [](char c) {
-    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
-  };
-  if (name.empty() || name.size() > 64 || !alphanumeric(name.front())) return false;
-  for (const char c : name)
-    if (!alphanumeric(c) && c != '_' && c != '.' && c != ' ' && c != '-') return false;
-  return true;
+  constexpr std::string_view all =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_. -";
+  return !name.empty() && name.size() <= 64 && name.find_first_not_of(all) == name.npos &&
+         name.find_first_not_of("_. -") == 0;
 }
 
 }  // namespace
