@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "cli/json.hpp"
 #include "cli/tables.hpp"
 #include "cli/text.hpp"
 #include "results/result.hpp"

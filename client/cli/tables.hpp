@@ -67,8 +67,8 @@ std::string stages_table(const results::Load& load);
 /// The most steps and the largest residual of the rows that converged.
 std::string worst_of(const v1::SweepAnswer& answer);
 
-/// How rows ended, the ranges of their numbers, and how wide the bounds are. With bounds, the ranges
-/// of A and of the energy contain the exact values of the membrane.
+/// How rows ended, the ranges of their numbers, and how wide the bounds are. With bounds, the
+/// ranges of A and of the energy contain the exact values of the membrane.
 std::string sweep_table(const results::Sweep& sweep, const v1::Units& units);
 
 /// The range of A of every inclusion, and of B of those that tilt.

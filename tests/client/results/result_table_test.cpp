@@ -12,10 +12,10 @@
 #include <sstream>
 
 #include "client/sample_sweep.hpp"
+#include "results/arrays.hpp"
 #include "results/entries.hpp"
 #include "results/file.hpp"
 #include "results/tables.hpp"
-#include "results/arrays.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace anticrack::results {
