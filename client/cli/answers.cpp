@@ -364,7 +364,7 @@ std::string answers_json(const results::Result& result, const std::filesystem::p
   if (result.sweep) json["sweep"] = sweep_json(*result.sweep);
   Json& answers = json["answers"] = Json::array();
   for (const results::Load& load : result.loads)
-    answers.push_back(load_json(load, results::method_of(result.solver)));
+    answers.push_back(load_json(load, result.solver.has_uzawa() ? "uzawa" : "active-set"));
   return to_text(json);
 }
 

@@ -143,8 +143,7 @@ std::string boundary(const v1::Mesh& mesh, const CaseFacts& facts) {
   std::string sides;
   for (const std::string& name : mesh.geometry().neumann_sides())
     sides += (sides.empty() ? ": " : ", ") + sanitise(name);
-  const std::string unit = sanitise(results::label_of(facts.units, "L")),
-                    shown = unit.empty() ? "" : " " + unit;
+  const std::string shown = sanitise(results::unit_behind(facts.units, "L"));
   std::string text =
       "\nboundary: u given on a length of " + number(mesh.dirichlet_length()) + shown;
   if (mesh.neumann_length() > 0)

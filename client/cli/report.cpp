@@ -19,18 +19,14 @@ struct Complaint {
   client::Details details;
 };
 
-Complaint complaint_of(const client::Error& error) {
-  return {exit_code_of(error.code()), std::string(name(error.code())), error.what(),
-          error.details()};
-}
-
 Complaint current_complaint() {
   try {
     throw;
   } catch (const client::Interrupted&) {
     return {exit_interrupted, "INTERRUPTED", "interrupted", {}};
   } catch (const client::Error& error) {
-    return complaint_of(error);
+    return {exit_code_of(error.code()), std::string(name(error.code())), error.what(),
+            error.details()};
   } catch (const LocalServerError& error) {
     return {exit_server, "LOCAL_SERVER", error.what(), {}};
   } catch (const UsageError& error) {

@@ -56,9 +56,8 @@ std::string end_of(double value, int sign) {
   return number(sign * (value - shown) > 1e-6 * unit ? shown + sign * unit : shown);
 }
 
-void add_span(const std::string& name, const std::string& unit, const Range& range, Rows& rows) {
-  rows.push_back(
-      {results::labelled(name, unit), end_of(range.low, -1), "", end_of(range.high, 1), ""});
+void add_span(const std::string& label, const Range& range, Rows& rows) {
+  rows.push_back({label, end_of(range.low, -1), "", end_of(range.high, 1), ""});
 }
 
 bool tilts(const results::Sweep& sweep, std::size_t inclusion) {
@@ -67,10 +66,10 @@ bool tilts(const results::Sweep& sweep, std::size_t inclusion) {
 
 void add_inclusions(const results::Sweep& sweep, const v1::Units& units, Rows& rows) {
   for (std::size_t i = 0; i < sweep.inclusions.size(); ++i) {
-    add_span(name_of("A", sweep, i), results::label_of(units, "L"),
+    add_span(results::labelled(name_of("A", sweep, i), units, "L"),
              range_of(sweep, "displacement", i, true), rows);
     for (std::size_t part = 0; part < slope_parts.size() && tilts(sweep, i); ++part)
-      add_span(name_of(slope_parts[part], sweep, i), "", slope_range(sweep, i, part), rows);
+      add_span(name_of(slope_parts[part], sweep, i), slope_range(sweep, i, part), rows);
   }
 }
 
@@ -84,7 +83,7 @@ std::string table_of_spans(Rows rows) {
 /// Adds the least and the greatest value of all inclusions, with the inclusions' names.
 void add_extremes(const results::Sweep& sweep, const v1::Units& units, Rows& rows) {
   const std::size_t inclusions = sweep.inclusions.size();
-  const auto add_one = [&](const char* name, const std::string& unit, const auto& range_at) {
+  const auto add_one = [&](const char* name, const char* dimension, const auto& range_at) {
     std::vector<Range> ranges;
     for (std::size_t i = 0; i < inclusions; ++i) ranges.push_back(range_at(i));
     const auto least = std::ranges::min_element(ranges, {}, &Range::low),
@@ -92,11 +91,11 @@ void add_extremes(const results::Sweep& sweep, const v1::Units& units, Rows& row
     const auto name_at = [&](auto place) {
       return sweep.inclusions[static_cast<std::size_t>(place - ranges.begin())];
     };
-    rows.push_back({results::labelled(fmt::format("{} of {} inclusions", name, inclusions), unit),
-                    end_of(least->low, -1), name_at(least), end_of(most->high, 1), name_at(most)});
+    rows.push_back(
+        {results::labelled(fmt::format("{} of {} inclusions", name, inclusions), units, dimension),
+         end_of(least->low, -1), name_at(least), end_of(most->high, 1), name_at(most)});
   };
-  add_one("A", results::label_of(units, "L"),
-          [&](std::size_t i) { return range_of(sweep, "displacement", i, true); });
+  add_one("A", "L", [&](std::size_t i) { return range_of(sweep, "displacement", i, true); });
   bool tilted = false;
   for (std::size_t i = 0; i < inclusions; ++i) tilted = tilted || tilts(sweep, i);
   for (std::size_t part = 0; part < slope_parts.size() && tilted; ++part)
@@ -129,8 +128,7 @@ std::string bounds_text(const results::Sweep& sweep, const v1::Units& units) {
                      per_cent(widths.energy) + " wide";
   if (std::isfinite(widths.displacement))
     text += ", of A at most +- " + number(widths.displacement, 2) +
-            (results::label_of(units, "L").empty() ? ""
-                                                   : " " + sanitise(results::label_of(units, "L")));
+            sanitise(results::unit_behind(units, "L"));
   if (widths.rows < sweep.answer.converged()) {
     text += "; none of " + first_rows(sweep, [&](std::size_t row) {
               return sweep.converged(row) && std::isnan(lower[row]);
@@ -165,7 +163,7 @@ std::string tips_text(const results::Sweep& sweep, const v1::Units& units) {
   for (std::size_t tip = 0; tip < found.size(); ++tip)
     if (found[tip].row >= 0)
       text += fmt::format("largest {} of tip {}: {} in row {}\n",
-                          sanitise(results::labelled("G", results::label_of(units, "F"))), tip,
+                          sanitise(results::labelled("G", units, "F")), tip,
                           number(found[tip].g, 5), found[tip].row);
   return text;
 }
@@ -226,9 +224,9 @@ std::string sweep_table(const results::Sweep& sweep, const v1::Units& units) {
     else
       add_inclusions(sweep, units, rows);
     const auto [shortest, longest] = range_of(sweep, "contact_length");
-    rows.push_back({results::labelled("contact length", results::label_of(units, "L")),
-                    contact_text(shortest), "", contact_text(longest), ""});
-    add_span("energy", results::label_of(units, "F L"), range_of(sweep, "energy", 0, true), rows);
+    rows.push_back({results::labelled("contact length", units, "L"), contact_text(shortest), "",
+                    contact_text(longest), ""});
+    add_span(results::labelled("energy", units, "F L"), range_of(sweep, "energy", 0, true), rows);
     text += table_of_spans(std::move(rows));
     if (sweep.inclusions.size() > few_inclusions)
       text += "all inclusions: anticrack show RESULT --inclusions, or --csv FILE\n";

@@ -154,8 +154,8 @@ struct Dataset {
 /// `budget` bytes.
 Dataset open_array(const Handle& group, const std::string& name, hid_t type, std::uint64_t budget,
                    std::string_view shape, Extents& known);
-/// Reads all numbers into `values`, which has room for them.
-void read_values(const Dataset& dataset, void* values);
+/// Reads all entries into `values`, which has room for them.
+void read_values(const Dataset& dataset, void* values, hid_t transfer = H5P_DEFAULT);
 /// Reads a dataset of one dimension, of texts or records: calls use(entry) for each. A text, or one
 /// in a record, is a pointer that may be null and is not valid after the call.
 void get_list(const Handle& group, const std::string& name, hid_t type, std::uint64_t budget,

@@ -133,12 +133,6 @@ void require_filters(const Handle& properties, const std::string& what) {
   }
 }
 
-void read(const Dataset& dataset, hid_t transfer, void* values) {
-  if (count_of(dataset.shape) != 0 &&
-      H5Dread(dataset.id.get(), dataset.type, H5S_ALL, H5S_ALL, transfer, values) < 0)
-    throw Fault("dataset " + dataset.name + " is damaged");
-}
-
 /// Owns the texts that HDF5 reads. They take at most so many bytes, whatever lengths the file
 /// claims, as many texts can be one in the file.
 class Texts {
@@ -276,7 +270,11 @@ Dataset open_array(const Handle& group, const std::string& name, hid_t wanted, s
   return {std::move(id), name, wanted, std::move(found)};
 }
 
-void read_values(const Dataset& dataset, void* values) { read(dataset, H5P_DEFAULT, values); }
+void read_values(const Dataset& dataset, void* values, hid_t transfer) {
+  if (count_of(dataset.shape) != 0 &&
+      H5Dread(dataset.id.get(), dataset.type, H5S_ALL, H5S_ALL, transfer, values) < 0)
+    throw Fault("dataset " + dataset.name + " is damaged");
+}
 
 void get_list(const Handle& group, const std::string& name, hid_t type, std::uint64_t budget,
               const std::function<void(const std::byte* entry)>& use) {
@@ -285,7 +283,7 @@ void get_list(const Handle& group, const std::string& name, hid_t type, std::uin
   const std::size_t size = H5Tget_size(type);
   std::vector<std::byte> entries(dataset.shape[0] * size);
   Texts texts(budget / largest_ratio);
-  read(dataset, texts.transfer().get(), entries.data());
+  read_values(dataset, entries.data(), texts.transfer().get());
   for (std::size_t at = 0; at < entries.size(); at += size) use(entries.data() + at);
 }
 

@@ -47,10 +47,6 @@ double solve_seconds(const Result& result) {
   return seconds;
 }
 
-std::string method_of(const v1::Solver& solver) {
-  return solver.has_uzawa() ? "uzawa" : "active-set";
-}
-
 std::string unit_of(const v1::Units& units, std::string_view dimension) {
   std::string unit;
   for (const char c : dimension) {
@@ -65,13 +61,14 @@ std::string unit_of(const v1::Units& units, std::string_view dimension) {
   return unit.empty() ? "-" : unit;
 }
 
-std::string label_of(const v1::Units& units, std::string_view dimension) {
+std::string unit_behind(const v1::Units& units, std::string_view dimension) {
   const std::string unit = unit_of(units, dimension);
-  return unit == "-" ? "" : unit;
+  return unit == "-" ? "" : " " + unit;
 }
 
-std::string labelled(const std::string& name, const std::string& unit) {
-  return unit.empty() ? name : name + " [" + unit + "]";
+std::string labelled(const std::string& name, const v1::Units& units, std::string_view dimension) {
+  const std::string unit = unit_of(units, dimension);
+  return unit == "-" ? name : name + " [" + unit + "]";
 }
 
 std::string interval(double value, double lower, double upper) {

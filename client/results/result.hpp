@@ -56,11 +56,11 @@ double largest_kkt(const v1::LoadCaseAnswer& answer) noexcept;
 /// Any other text, as "s", is a unit already. Returns "-" for an empty dimension, and if the case
 /// does not name the unit of the length or the force.
 std::string unit_of(const v1::Units& units, std::string_view dimension);
-/// The unit as unit_of, for a label: empty instead of "-".
-std::string label_of(const v1::Units& units, std::string_view dimension);
+/// The unit behind a number, " mm"; empty instead of " -".
+std::string unit_behind(const v1::Units& units, std::string_view dimension);
 
-/// Returns "x [mm]", or the name alone if the unit is empty.
-std::string labelled(const std::string& name, const std::string& unit);
+/// Returns "x [mm]", or the name alone without a unit.
+std::string labelled(const std::string& name, const v1::Units& units, std::string_view dimension);
 
 struct Result {
   std::string title;
@@ -82,9 +82,6 @@ struct Result {
 
 /// Solve time of all load cases, or of the sweep [s].
 double solve_seconds(const Result& result);
-
-/// The name of the method: "active-set" or "uzawa".
-std::string method_of(const v1::Solver& solver);
 
 /// Describes the first invariant of what this program looks at that does not hold (names, enums,
 /// rows of a sweep): "sweep.status[3] is 9, no status"; empty if all hold. Arrays have been checked

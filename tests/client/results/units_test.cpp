@@ -14,14 +14,14 @@ TEST(Units, follow_from_those_of_length_and_force) {
   EXPECT_EQ(unit_of(units, "F/L^2"), "N/mm^2");
   EXPECT_EQ(unit_of(units, "F L"), "N mm");
   EXPECT_EQ(unit_of(units, "s"), "s");
-  EXPECT_EQ(labelled("x", label_of(units, "L")), "x [mm]");
+  EXPECT_EQ(labelled("x", units, "L"), "x [mm]");
 }
 
 TEST(Units, are_not_made_up) {
   EXPECT_EQ(unit_of(units_of("mm", ""), "F/L"), "-");
   EXPECT_EQ(unit_of(units_of("", "N"), "F L"), "-");
   EXPECT_EQ(unit_of({}, ""), "-");
-  EXPECT_EQ(labelled("x", label_of({}, "L")), "x");
+  EXPECT_EQ(labelled("x", {}, "L"), "x");
 }
 
 }  // namespace
