@@ -23,6 +23,7 @@ struct StageErrors {
   double displacement = 0;
   double probable = 0;  ///< of A by estimate
 };
+/// The errors of a stage that has ended.
 StageErrors errors_of(const v1::Stage& stage);
 
 /// The stages of a job that have ended.

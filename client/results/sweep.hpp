@@ -70,6 +70,7 @@ struct Widths {
   double energy = std::numeric_limits<double>::quiet_NaN();  ///< the largest, relative
   double displacement = std::numeric_limits<double>::quiet_NaN();  ///< half the largest, of any A
 };
+/// The widths of a sweep. O(rows).
 Widths widths_of(const Sweep& sweep);
 
 /// The name of a row's load: "row-17".
