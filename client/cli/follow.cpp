@@ -157,10 +157,10 @@ Followed follow(Session& session, const v1::Job& job, std::uint64_t rows) {
     say_always(session.globals(),
                "The job goes on. To attach again: anticrack job watch " + target);
     say_always(session.globals(), "To save its results in the end: anticrack job fetch " + target);
-    return {Followed::How::detached, job};
+    return {Followed::How::detached, job, {}};
   }
   const bool in_time = cancelling && last->status().state() == v1::JobStatus::STATE_CANCELLED;
-  return {in_time ? Followed::How::cancelled : Followed::How::ended, *std::move(last)};
+  return {in_time ? Followed::How::cancelled : Followed::How::ended, *std::move(last), {}};
 }
 
 v1::Mesh follow_mesh(Session& session, const std::string& name) {

@@ -50,8 +50,11 @@ std::vector<std::string> causes(const Case& the_case, const v1::Job& job) {
 }
 
 // Prints the warnings of an import: what it assumed, or repaired.
-void tell_warnings(Session& session, const v1::Job& job, const std::stop_token& stop) {
-  const v1::Mesh mesh = client::get_mesh(session.connection(), job.spec().mesh(), stop);
+void tell_warnings(Session& session, const v1::Job& job, const std::stop_token& stop,
+                   const Fetched* ahead) {
+  const v1::Mesh mesh = ahead != nullptr
+                            ? ahead->mesh
+                            : client::get_mesh(session.connection(), job.spec().mesh(), stop);
   for (const std::string& warning : mesh.warnings()) say(session.globals(), "mesh: " + warning);
 }
 
@@ -75,6 +78,11 @@ auto or_later(const Session& session, const v1::Job& job, const Action& action) 
   }
 }
 
+struct EndOfWait {
+  std::stop_source& of;
+  ~EndOfWait() { of.request_stop(); }
+};
+
 // Submits a case and shows its progress. If the server comes back without its jobs, the same job is
 // submitted again under the same id.
 Followed submit_and_follow(Session& session, const Case& the_case, const Prepare& prepare,
@@ -85,8 +93,13 @@ Followed submit_and_follow(Session& session, const Case& the_case, const Prepare
     const v1::Job job = submit(session, the_case, request_id, prepare);
     say(session.globals(),
         job.name() + " on " + job.spec().mesh() + ": " + counted_cases(job.spec(), rows));
+    std::stop_source end;
+    const AheadFuture ahead = fetch_ahead(session, job, end.get_token());
+    const EndOfWait ends{end};
     try {
-      return follow(session, job, rows);
+      Followed followed = follow(session, job, rows);
+      followed.ahead = ahead;
+      return followed;
     } catch (const client::Error& error) {
       if (error.code() != client::Code::not_found || attempt == tries) throw;
       say(session.globals(), "The server has lost the job; submitting it again");
@@ -103,13 +116,14 @@ std::optional<results::Result> results_of(Session& session, const Case& the_case
   // The signal that cancelled the job must not prevent saving what it had solved.
   const std::stop_token stop =
       followed.how == Followed::How::cancelled ? std::stop_token() : session.stop();
-  or_later(session, job, [&] { tell_warnings(session, job, stop); });
+  Fetched* const ahead = followed.ahead.get().get();
+  or_later(session, job, [&] { tell_warnings(session, job, stop, ahead); });
   if (job.status().result_bytes() == 0) {
     for (const std::string& line : causes(the_case, job)) complain(line);
     if (session.globals().json) print_document(to_json(job));
     return std::nullopt;
   }
-  results::Result result = or_later(session, job, [&] { return fetch(session, job, stop); });
+  results::Result result = or_later(session, job, [&] { return fetch(session, job, stop, ahead); });
   result.case_text = the_case.text;
   result.total_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -45,7 +45,8 @@ int run_job(Session& session, const Case& the_case, const std::filesystem::path&
 struct Followed {
   enum class How { ended, detached, cancelled };  ///< cancelled: by this command, in time
   How how = How::ended;
-  v1::Job job;  ///< as it ended, or as it was when detached
+  v1::Job job;        ///< as it ended, or as it was when detached
+  AheadFuture ahead;  ///< set by run_job
 };
 
 /// Shows a job's progress until it ends. Ctrl-C detaches and says how to attach again; a second one

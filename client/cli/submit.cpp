@@ -4,14 +4,15 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <exception>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "cli/commands.hpp"
 #include "cli/json.hpp"
 #include "cli/report.hpp"
 #include "cli/tables.hpp"
-#include "cli/to_result.hpp"
 #include "client/jobs.hpp"
 #include "client/meshes.hpp"
 #include "results/file.hpp"
@@ -54,6 +55,25 @@ void upload_forces(Session& session, const Case& the_case, v1::JobSpec& spec) {
         ->mutable_array()
         ->set_upload(uploads[indices.at({file.path, file.dataset})]);
   }
+}
+
+// The mesh with its arrays, and the server.
+Fetched fetch_arrays(client::Connection& connection, v1::Mesh mesh, const std::stop_token& stop) {
+  Fetched fetched;
+  fetched.server = client::server_info(connection, stop);
+  fetched.mesh_block = client::read_mesh(connection, mesh.name(), stop);
+  fetched.mesh = std::move(mesh);
+  return fetched;
+}
+
+// Waits for the triangles, which are there before the operators. Null if there are none at the end.
+std::shared_ptr<Fetched> fetch_meshed(Session& session, const std::string& name,
+                                      const std::stop_token& end) {
+  const auto meshed = [](const v1::Mesh& mesh) { return mesh.triangle_count() > 0; };
+  v1::Mesh mesh = client::wait_for_mesh(session.connection(), name, {}, end, meshed);
+  if (!meshed(mesh)) return nullptr;
+  return std::make_shared<Fetched>(
+      fetch_arrays(session.connection(), std::move(mesh), session.stop()));
 }
 
 }  // namespace
@@ -161,13 +181,18 @@ void tell_submitted(const Session& session, const v1::Job& job) {
   }
 }
 
-results::Result fetch(Session& session, const v1::Job& job, const std::stop_token& stop) {
+results::Result fetch(Session& session, const v1::Job& job, const std::stop_token& stop,
+                      Fetched* ahead) {
   client::Connection& connection = session.connection();
-  const std::string mesh = mesh_of(job);
-  return to_result({job, client::get_mesh(connection, mesh, stop),
-                    client::server_info(connection, stop),
-                    client::read_mesh(connection, mesh, stop),
-                    client::read_result(connection, job.name(), stop)});
+  Fetched fetched =
+      ahead != nullptr
+          ? std::move(*ahead)
+          : fetch_arrays(connection, client::get_mesh(connection, mesh_of(job), stop), stop);
+  if (fetched.mesh.state() != v1::Mesh::STATE_READY)
+    fetched.mesh = client::get_mesh(connection, fetched.mesh.name(), stop);
+  fetched.job = job;
+  fetched.result_block = client::read_result(connection, job.name(), stop);
+  return to_result(std::move(fetched));
 }
 
 int exit_code_of(const v1::Job& job) {
@@ -183,6 +208,18 @@ void complain_of(const v1::Job& job) {
 
 void complain_of_failure(const v1::Job& job) {
   if (job.status().state() == v1::JobStatus::STATE_FAILED) complain(shortfalls(job).front());
+}
+
+AheadFuture fetch_ahead(Session& session, const v1::Job& job, const std::stop_token& end) {
+  const auto fetch = [&session, end, mesh = job.spec().mesh(),
+                      in_stages = job.spec().has_accuracy()]() -> std::shared_ptr<Fetched> {
+    try {
+      return in_stages ? nullptr : fetch_meshed(session, mesh, end);
+    } catch (const std::exception&) {
+      return nullptr;
+    }
+  };
+  return std::async(std::launch::async, fetch).share();
 }
 
 }  // namespace anticrack::cli

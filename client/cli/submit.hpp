@@ -3,7 +3,10 @@
 // Sends a case to the server, and fetches its answers.
 #pragma once
 
+#include <filesystem>
 #include <functional>
+#include <future>
+#include <memory>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -12,7 +15,8 @@
 #include "anticrack/v1/solve.pb.h"
 #include "cli/case.hpp"
 #include "cli/session.hpp"
-#include "results/result.hpp"
+#include "cli/to_result.hpp"
+#include "results/file.hpp"
 
 namespace CLI {
 class App;
@@ -55,8 +59,19 @@ v1::Job submit(Session& session, const Case& the_case, const std::string& reques
 /// The message of a command that submits and does not wait.
 void tell_submitted(const Session& session, const v1::Job& job);
 
-/// Fetches everything about a job that has ended and has results.
-results::Result fetch(Session& session, const v1::Job& job, const std::stop_token& stop);
+/// What a result needs besides the job and its answers, fetched as soon as the mesh has triangles.
+/// Null if it had none before the job ended or something failed: then everything is fetched at the
+/// end, which also reports errors.
+using AheadFuture = std::shared_future<std::shared_ptr<Fetched>>;
+
+/// Begins to fetch on another thread, which waits for the mesh until `end`; null for a job in
+/// stages, which ends on another mesh. The session must outlive the future.
+AheadFuture fetch_ahead(Session& session, const v1::Job& job, const std::stop_token& end);
+
+/// Fetches everything about a job that has ended and has results. `ahead`: the data that are here
+/// already, which are taken; may be null.
+results::Result fetch(Session& session, const v1::Job& job, const std::stop_token& stop,
+                      Fetched* ahead = nullptr);
 
 /// The exit code for a job that has ended: exit_ok, exit_not_converged, or exit_job_failed if it or
 /// one of its load cases failed or was cancelled.

@@ -54,7 +54,8 @@ bool settled(v1::Mesh::State state) {
 
 v1::Mesh wait_for_mesh(Connection& connection, const std::string& name,
                        const std::function<void(const v1::Mesh&)>& seen,
-                       const std::stop_token& stop) {
+                       const std::stop_token& stop,
+                       const std::function<bool(const v1::Mesh&)>& enough) {
   std::chrono::milliseconds delay = shortest_poll;
   std::optional<v1::Mesh::State> last;
   std::string progress;
@@ -64,7 +65,7 @@ v1::Mesh wait_for_mesh(Connection& connection, const std::string& name,
     if (seen && (last != mesh.state() || progress != farther)) seen(mesh);
     last = mesh.state();
     progress = std::move(farther);
-    if (settled(mesh.state())) return mesh;
+    if (settled(mesh.state()) || (enough && enough(mesh))) return mesh;
     sleep(delay, stop);
     delay = std::min(2 * delay, longest_poll);
   }

@@ -46,6 +46,19 @@ using ReadArray = std::function<std::vector<double>(std::size_t index)>;
 std::vector<std::string> upload_arrays(Connection& connection, std::size_t count,
                                        const ReadArray& read, const std::stop_token& stop = {});
 
+/// An upload of this client ("uploads/SHA256"). Error: not_found.
+v1::Upload get_upload(Connection& connection, const std::string& name,
+                      const std::stop_token& stop = {});
+
+/// One page of this client's uploads, by name. Error: invalid_argument (page token or size).
+v1::ListUploadsResponse list_uploads(Connection& connection, const v1::ListUploadsRequest& request,
+                                     const std::stop_token& stop = {});
+
+/// Deletes an upload of this client. Error: not_found, failed_precondition (a job that has not
+/// ended or a mesh that is not meshed needs it).
+void delete_upload(Connection& connection, const std::string& name,
+                   const std::stop_token& stop = {});
+
 /// Requests the mesh of a geometry or of an upload. Returns before the mesh is made, most often
 /// PENDING; a job may name it at once, and wait_for_mesh() waits for it. Equal requests give the
 /// same mesh. Error: invalid_argument (Details::fields names the fields), not_found (the upload),
@@ -79,12 +92,13 @@ void delete_mesh(Connection& connection, const std::string& name, const std::sto
 /// Whether the server is done with a mesh: READY, EVICTED or FAILED.
 bool settled(v1::Mesh::State state);
 
-/// Polls, at most once a second, until the mesh is settled; calls `seen` for every new state, on
-/// this thread. A mesh that FAILED is returned and does not throw: see Mesh.error. Error:
+/// Polls, at most once a second, until the mesh is settled or `enough`; calls `seen` for every new
+/// state, on this thread. A mesh that FAILED is returned and does not throw: see Mesh.error. Error:
 /// not_found.
 v1::Mesh wait_for_mesh(Connection& connection, const std::string& name,
                        const std::function<void(const v1::Mesh&)>& seen = {},
-                       const std::stop_token& stop = {});
+                       const std::stop_token& stop = {},
+                       const std::function<bool(const v1::Mesh&)>& enough = {});
 
 /// Nodes, triangles and interfaces (ReadMeshResponse in mesh.proto lists the arrays); after a lost
 /// connection the read goes on where it was. Coordinates are in the unit of the geometry. Error:

@@ -155,4 +155,18 @@ std::vector<std::string> upload_arrays(Connection& connection, std::size_t count
   return names;
 }
 
+v1::Upload get_upload(Connection& connection, const std::string& name,
+                      const std::stop_token& stop) {
+  return call_named(connection, &v1::UploadService::Stub::GetUpload, name, stop);
+}
+
+v1::ListUploadsResponse list_uploads(Connection& connection, const v1::ListUploadsRequest& request,
+                                     const std::stop_token& stop) {
+  return call(connection, &v1::UploadService::Stub::ListUploads, request, stop);
+}
+
+void delete_upload(Connection& connection, const std::string& name, const std::stop_token& stop) {
+  call_named(connection, &v1::UploadService::Stub::DeleteUpload, name, stop, true);
+}
+
 }  // namespace anticrack::client

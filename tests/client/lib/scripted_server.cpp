@@ -4,6 +4,7 @@
 #include <grpcpp/grpcpp.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <stdexcept>
 #include <thread>
@@ -145,6 +146,29 @@ class Uploads : public v1::UploadService::Service {
     return grpc::Status::OK;
   }
 
+  grpc::Status GetUpload(grpc::ServerContext*, const v1::GetUploadRequest* request,
+                         v1::Upload* response) override {
+    if (deleted) return {grpc::StatusCode::NOT_FOUND, "there is no " + request->name()};
+    response->set_name(request->name());
+    response->set_size(requests.all().at(0).header().size());
+    return grpc::Status::OK;
+  }
+
+  grpc::Status ListUploads(grpc::ServerContext*, const v1::ListUploadsRequest*,
+                           v1::ListUploadsResponse* response) override {
+    for (const v1::CreateUploadsRequest& request : requests.all())
+      if (request.has_header())
+        response->add_uploads()->set_name("uploads/" + request.header().sha256());
+    return grpc::Status::OK;
+  }
+
+  grpc::Status DeleteUpload(grpc::ServerContext*, const v1::DeleteUploadRequest*,
+                            google::protobuf::Empty*) override {
+    deleted = true;
+    return grpc::Status::OK;
+  }
+
+  std::atomic<bool> deleted = false;
   Record<v1::CreateUploadsRequest> requests;
 };
 

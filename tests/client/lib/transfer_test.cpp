@@ -139,6 +139,23 @@ TEST(Upload, SendsValuesAsTheyAre) {
   EXPECT_EQ(upload, "uploads/" + digest::Sha256().add(sent).finish());
 }
 
+TEST(Upload, IsShownListedAndDeleted) {
+  ScriptedServer server;
+  Connection connection(server.options());
+  const std::string name = upload_array(connection, std::vector<double>{1, 2, 3});
+  EXPECT_EQ(get_upload(connection, name).size(), 24U);
+  const v1::ListUploadsResponse list = list_uploads(connection, {});
+  ASSERT_EQ(list.uploads_size(), 1);
+  EXPECT_EQ(list.uploads(0).name(), name);
+  delete_upload(connection, name);
+  try {
+    get_upload(connection, name);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), Code::not_found);
+  }
+}
+
 TEST(Upload, OfWhatCannotBeReadNamesThePath) {
   ScriptedServer server;
   const testing::TemporaryFolder folder;
