@@ -37,9 +37,9 @@ struct Flattened {
 
 class Extraction {
  public:
-  /// `sides`: T0 of the minus and the plus side. The support has this radius.
+  /// `sides`: T0 of the minus and the plus side. The support has this radius and so many triangles.
   Extraction(const Course& course, const Singular& singular, const std::array<Tensor, 2>& sides,
-             double radius);
+             double radius, std::size_t triangles);
 
   /// Prepares the next triangle, on the minus (0) or plus side (1), with its tension. `jumps`: 1
   /// for corners on faces that may part.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <tuple>
 
 #include "base/at.hpp"
 
@@ -14,11 +15,14 @@ namespace {
 using mesh::TipKind;
 using std::numbers::pi;
 
-/// The direction of half the angle, which is in [-pi, pi].
-Point half(const Point& direction) {
-  const auto [c, s] = direction;
-  const double larger = std::sqrt(0.5 * (1 + std::abs(c))), smaller = 0.5 * std::abs(s) / larger;
-  return {c < 0 ? smaller : larger, std::copysign(c < 0 ? larger : smaller, s)};
+/// Halves the angles, which are in [-pi, pi].
+void halve(Lanes& c, Lanes& s) {
+  for (std::size_t q = 0; q < c.size(); ++q) {
+    const double larger = std::sqrt(0.5 * (1 + std::abs(c[q]))),
+                 smaller = 0.5 * std::abs(s[q]) / larger, behind = c[q];
+    c[q] = behind < 0 ? smaller : larger;
+    s[q] = std::copysign(behind < 0 ? larger : smaller, s[q]);
+  }
 }
 
 }  // namespace
@@ -49,40 +53,68 @@ Singular::Singular(TipKind kind, const Tensor& minus, const Tensor& plus)
 }
 
 // Most exponents are 1/2 or 1/4, and roots take a fifth of the time of angles and powers.
-double Singular::power(double r) const {
-  if (_exponent == 0.5) return 1 / std::sqrt(r);
-  if (_exponent == 0.25) return 1 / std::sqrt(std::sqrt(r));
-  return std::pow(r, -_exponent);
+Lanes Singular::power(const Lanes& r) const {
+  Lanes result;
+  if (_exponent == 0.5)
+    for (std::size_t q = 0; q < r.size(); ++q) result[q] = 1 / std::sqrt(r[q]);
+  else if (_exponent == 0.25)
+    for (std::size_t q = 0; q < r.size(); ++q) result[q] = 1 / std::sqrt(std::sqrt(r[q]));
+  else
+    for (std::size_t q = 0; q < r.size(); ++q) result[q] = std::pow(r[q], -_exponent);
+  return result;
 }
 
-/// The direction of alpha times the angle.
-Point Singular::turned(const Point& direction) const {
-  if (_exponent == 0.5) return half(direction);
-  if (_exponent == 0.25) return half(half(direction));
-  const double angle = _exponent * std::atan2(direction[1], direction[0]);
-  return {std::cos(angle), std::sin(angle)};
-}
-
-std::array<double, 2> Singular::phi(const Point& direction, std::size_t side) const {
-  const double a = _exponent;
-  const auto [c, s] = turned(direction);
-  switch (_kind) {
-    case TipKind::delaminated_end: {
-      const double beta = -_jump,
-                   all = 1 / std::sqrt(1 + beta * beta);  // cos and sin of pi a: all, beta all
-      if (side == 1) return {all * (beta * c - s), -a * all * (c + beta * s)};
-      return {beta * all * (c - beta * s), -a * beta * all * (beta * c + s)};
-    }
-    case TipKind::front:
-      if (side == 1) return {0, 0};
-      return {s, c / 2};
-    case TipKind::crack_tip: {
-      const double share = _theta_mean / _root[side];
-      return {share * s, share * c / 2};
-    }
-    default:
-      return {c, -s / 2};
+/// Multiplies the angles by alpha.
+void Singular::turn(Lanes& c, Lanes& s) const {
+  if (_exponent == 0.5 || _exponent == 0.25) {
+    halve(c, s);
+    if (_exponent == 0.25) halve(c, s);
+    return;
   }
+  for (std::size_t q = 0; q < c.size(); ++q) {
+    const double angle = _exponent * std::atan2(s[q], c[q]);
+    c[q] = std::cos(angle);
+    s[q] = std::sin(angle);
+  }
+}
+
+std::array<Lanes, 2> Singular::phi(Lanes c, Lanes s, std::size_t side) const {
+  const double a = _exponent, beta = -_jump,
+               all = 1 / std::sqrt(1 + beta * beta);  // cos and sin of pi a: all, beta all
+  turn(c, s);
+  std::array<Lanes, 2> result{};
+  auto& [phi, phi_1] = result;
+  const auto each = [](const auto& of) {
+    for (std::size_t q = 0; q < std::tuple_size_v<Lanes>; ++q) of(q);
+  };
+  switch (_kind) {
+    case TipKind::delaminated_end:
+      each([&, plus = side == 1](std::size_t q) {
+        phi[q] = plus ? all * (beta * c[q] - s[q]) : beta * all * (c[q] - beta * s[q]);
+        phi_1[q] = plus ? -a * all * (c[q] + beta * s[q]) : -a * beta * all * (beta * c[q] + s[q]);
+      });
+      break;
+    case TipKind::front:
+      if (side == 1) break;
+      each([&](std::size_t q) {
+        phi[q] = s[q];
+        phi_1[q] = c[q] / 2;
+      });
+      break;
+    case TipKind::crack_tip:
+      each([&, share = _theta_mean / _root[side]](std::size_t q) {
+        phi[q] = share * s[q];
+        phi_1[q] = share * c[q] / 2;
+      });
+      break;
+    default:
+      each([&](std::size_t q) {
+        phi[q] = c[q];
+        phi_1[q] = -s[q] / 2;
+      });
+      break;
+  }
+  return result;
 }
 
 double Singular::intensity_of(double rate) const {

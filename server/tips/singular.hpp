@@ -13,6 +13,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <span>
 
 #include "mesh/tip_kind.hpp"
@@ -20,6 +21,9 @@
 #include "tips/tensor.hpp"
 
 namespace anticrack::tips {
+
+/// Numbers of eight points, which are worked on at once.
+using Lanes = std::array<double, 8>;
 
 class Singular {
  public:
@@ -30,10 +34,10 @@ class Singular {
   double exponent() const noexcept { return _exponent; }
   /// int D phi^2 over the angle, phi = s*/r^-alpha.
   double norm() const noexcept { return _norm; }
-  /// phi and its derivative in the direction (X, Y) / r; `side` 0: minus, 1: plus.
-  std::array<double, 2> phi(const Point& direction, std::size_t side) const;
+  /// phi and its derivative in the directions (c, s) = (X, Y) / r; `side` 0: minus, 1: plus.
+  std::array<Lanes, 2> phi(Lanes c, Lanes s, std::size_t side) const;
   /// r^-alpha.
-  double power(double r) const;
+  Lanes power(const Lanes& r) const;
   /// [phi] on the faces.
   double jump() const noexcept { return _jump; }
   /// 1, or -1 where the solution has -c s.
@@ -48,7 +52,7 @@ class Singular {
   double release_factor(double intensity) const;
 
  private:
-  Point turned(const Point& direction) const;
+  void turn(Lanes& c, Lanes& s) const;
 
   mesh::TipKind _kind;
   std::array<double, 2> _root;  ///< D of the minus and the plus side

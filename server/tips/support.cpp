@@ -83,16 +83,16 @@ Support Surroundings::of(const Place& place, Marks& seen) const {
     for (std::size_t i = 0; i < 3; ++i) {
       const std::int32_t a = _mesh.triangles[3 * at(triangle) + i],
                          b = _mesh.triangles[3 * at(triangle) + (i + 1) % 3];
+      const std::int32_t other = _across[3 * at(triangle) + i];
+      const bool obstacle = other < 0 || is_obstacle(a, b, place);
+      if (!obstacle && seen[at(other)] != 0) continue;
       const double distance = a == place.node || b == place.node
                                   ? 0
                                   : distance_to_edge(tip, position(_mesh, a), position(_mesh, b));
-      if (distance >= support.radius) continue;
-      const std::int32_t other = _across[3 * at(triangle) + i];
-      if (other < 0 || is_obstacle(a, b, place)) {
+      if (obstacle)
         support.radius = std::min(support.radius, distance);
-        continue;
-      }
-      add(other, std::max(nearest, distance));
+      else
+        add(other, std::max(nearest, distance));
     }
   }
   for (const std::int32_t triangle : marked) seen[at(triangle)] = 0;
@@ -102,7 +102,6 @@ Support Surroundings::of(const Place& place, Marks& seen) const {
   support.inner = std::min(found[quarter].first, support.radius / 2);
   for (const auto& [distance, triangle] : found)
     if (distance < support.radius) support.triangles.push_back(triangle);
-  std::ranges::sort(support.triangles);
   return support;
 }
 

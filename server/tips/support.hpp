@@ -19,7 +19,7 @@ struct Support {
   double radius = 0;
   double inner =
       0;  ///< a quarter of the triangles, but not too few, are nearer; at most radius / 2
-  std::vector<std::int32_t> triangles;  ///< of the mesh, ascending
+  std::vector<std::int32_t> triangles;  ///< of the mesh
 };
 
 /// Most triangles of a support: more make its numbers no better than the mesh is elsewhere.

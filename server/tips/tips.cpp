@@ -84,6 +84,7 @@ void Tips::prepare(const mesh::Mesh& mesh, std::span<const Cell> local, const Su
         support.triangles.size(), support.radius);
     return;
   }
+  tip.cells.reserve(support.triangles.size());
   for (const std::int32_t t : support.triangles) {
     const auto s = at(mesh.subdomain[at(t)]);
     if (laws[s].varies() && laws[s].may_jump()) {
@@ -99,35 +100,29 @@ void Tips::prepare(const mesh::Mesh& mesh, std::span<const Cell> local, const Su
 
   std::vector<std::int32_t> behind = place.behind;
   std::ranges::sort(behind);
-  std::vector<std::size_t> side;
-  bool any_varies = false;
-  for (std::size_t k = 0; k < tip.cells.size(); ++k) {
-    const Cell& cell = tip.cells[k];
-    const Corners corner = corners(cell);
-    double d = 0;
-    for (const Point& x : corner.x) d += place.course.across(x);
-    side.push_back(d > 0 ? 1 : 0);
-    const ddm::Subdomain& subdomain = _decomposition.subdomains[at(cell.subdomain)];
-    any_varies = any_varies || laws[at(cell.subdomain)].varies();
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (subdomain.node[at(subdomain.part.triangles[3 * at(cell.triangle) + i])] != place.node)
-        continue;
-      tip.tip_cell = k;
-      tip.tip_corner = i;
-    }
-  }
-  Extraction& extraction = tip.extraction.emplace_back(place.course, tip.singular.front(),
-                                                       tensors_at(place, laws), support.radius);
+  const bool any_varies = std::ranges::any_of(
+      tip.cells, [&](const Cell& cell) { return laws[at(cell.subdomain)].varies(); });
+  Extraction& extraction =
+      tip.extraction.emplace_back(place.course, tip.singular.front(), tensors_at(place, laws),
+                                  support.radius, tip.cells.size());
   for (std::size_t k = 0; k < tip.cells.size(); ++k) {
     stop::look_at_turn<1024>(k, measuring);
     const Cell& cell = tip.cells[k];
     const ddm::Subdomain& subdomain = _decomposition.subdomains[at(cell.subdomain)];
-    std::array<bool, 3> jumps{};
-    for (std::size_t i = 0; i < 3; ++i)
-      jumps[i] = std::ranges::binary_search(
-          behind, subdomain.node[at(subdomain.part.triangles[3 * at(cell.triangle) + i])]);
     const Corners corner = corners(cell);
-    extraction.add(corner, tension(cell), side[k], jumps);
+    double d = 0;
+    for (const Point& x : corner.x) d += place.course.across(x);
+    const std::size_t side = d > 0 ? 1 : 0;
+    std::array<bool, 3> jumps{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::int32_t node =
+          subdomain.node[at(subdomain.part.triangles[3 * at(cell.triangle) + i])];
+      jumps[i] = side == 0 && std::ranges::binary_search(behind, node);
+      if (node != place.node) continue;
+      tip.tip_cell = k;
+      tip.tip_corner = i;
+    }
+    extraction.add(corner, tension(cell), side, jumps);
     if (any_varies)
       tip.change.push_back(
           change_of(laws[at(cell.subdomain)], place.course, corner, support.radius));
