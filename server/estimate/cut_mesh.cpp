@@ -51,6 +51,8 @@ class Cutting {
  private:
   void number() {
     _place.resize(_mesh.triangle_count());
+    _cut.triangle.reserve(_mesh.triangle_count());
+    _cut.copy.reserve(_mesh.triangles.size());
     _cut.first_triangle.push_back(0);
     _cut.first_copy.push_back(0);
     for (const ddm::Subdomain& subdomain : _decomposition.subdomains) {

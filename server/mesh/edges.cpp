@@ -16,31 +16,40 @@ constexpr const char* listing = "listing the edges of a mesh";
 }  // namespace
 
 EdgeTable::EdgeTable(std::span<const std::int32_t> triangles) : _uses(triangles.size()) {
-  const auto use = [&](std::size_t corner) {
-    const std::size_t next = corner % 3 == 2 ? corner - 2 : corner + 1;
-    return EdgeUse{triangles[corner], triangles[next], static_cast<std::int32_t>(corner / 3)};
-  };
   // A counting sort by the lower node, then each node's few sides by the others.
   const std::size_t nodes = triangles.empty() ? 0 : at(std::ranges::max(triangles)) + 1;
-  std::vector<std::size_t> end(nodes + 1, 0);
-  for (std::size_t c = 0; c < triangles.size(); ++c) {
-    stop::look_at_turn<std::size_t{1} << 18>(c, listing);
-    ++end[at(use(c).low())];
-  }
+  const auto each_side = [&](const auto& visit) {
+    for (std::size_t t = 0; t < triangles.size() / 3; ++t) {
+      stop::look_at_turn<std::size_t{1} << 17>(t, listing);
+      const std::int32_t* const node = &triangles[3 * t];
+      const auto triangle = static_cast<std::int32_t>(t);
+      visit(EdgeUse{node[0], node[1], triangle});
+      visit(EdgeUse{node[1], node[2], triangle});
+      visit(EdgeUse{node[2], node[0], triangle});
+    }
+  };
+  std::vector<std::uint32_t> begin(nodes + 2, 0);  // of the node before: filling moves it on
+  each_side([&](const EdgeUse& use) { ++begin[at(use.low()) + 2]; });
   stop::look(listing);
-  std::partial_sum(end.begin(), end.end(), end.begin());
-  for (std::size_t c = triangles.size(); c-- > 0;) {
-    stop::look_at_turn<std::size_t{1} << 18>(c, listing);
-    _uses[--end[at(use(c).low())]] = use(c);
-  }
-  _first = std::move(end);  // it is now where each node begins
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  each_side([&](const EdgeUse& use) { _uses[begin[at(use.low()) + 1]++] = use; });
+  begin.pop_back();
+  _first = std::move(begin);
+  const auto before = [](const EdgeUse& a, const EdgeUse& b) { return a.high() < b.high(); };
   for (std::size_t n = 0; n < nodes; ++n) {
     stop::look_at_turn<stop::quick>(n, listing);
-    std::sort(_uses.begin() + static_cast<std::ptrdiff_t>(_first[n]),
-              _uses.begin() + static_cast<std::ptrdiff_t>(_first[n + 1]),
-              [](const EdgeUse& a, const EdgeUse& b) {
-                return std::pair(a.high(), a.triangle) < std::pair(b.high(), b.triangle);
-              });
+    // They are in the order of triangles, which a stable sort keeps.
+    const auto first = _uses.begin() + _first[n], last = _uses.begin() + _first[n + 1];
+    if (last - first > 32) {
+      std::stable_sort(first, last, before);
+      continue;
+    }
+    for (auto sorted = first; sorted != last; ++sorted) {
+      const EdgeUse use = *sorted;
+      auto to = sorted;
+      for (; to != first && before(use, to[-1]); --to) *to = to[-1];
+      *to = use;
+    }
   }
 }
 

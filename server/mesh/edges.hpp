@@ -21,7 +21,7 @@ struct EdgeUse {
   std::int32_t high() const noexcept { return from < to ? to : from; }
 };
 
-/// All sides of all triangles, sorted by (low, high), then by triangle. 12 bytes a side, 8 a node.
+/// All sides of all triangles, sorted by (low, high), then by triangle. 12 bytes a side, 4 a node.
 class EdgeTable {
  public:
   /// `triangles` (m,3) row-major. O(n + m) for n nodes with few edges each.
@@ -51,7 +51,7 @@ class EdgeTable {
   }
 
   std::vector<EdgeUse> _uses;
-  std::vector<std::size_t> _first;  // (nodes + 1) of _uses, by the lower node
+  std::vector<std::uint32_t> _first;  // (nodes + 1) of _uses, by the lower node
 };
 
 }  // namespace anticrack::mesh

@@ -170,6 +170,7 @@ void Line::sample() {
   for (std::size_t k = 0; k < spans; ++k) _boxes[spans + k] = box_of(k * step, (k + 1) * step);
   for (std::size_t node = spans; node-- > 1;)
     _boxes[node] = around(_boxes[2 * node], _boxes[2 * node + 1]);
+  _box = _boxes[1];
 }
 
 int Line::span_of(double t) const noexcept {

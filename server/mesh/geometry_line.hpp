@@ -66,7 +66,7 @@ class Line {
   /// The parameter at which the line passes within `tolerance` of `p`, in [0, spans), or up to
   /// spans if the line is open. O(log(spans)) if the line does not come near `p` many times.
   std::optional<double> locate(const Point& p, double tolerance) const {
-    return near(_boxes[1], p, tolerance) ? search(p, tolerance) : std::nullopt;  // most are far
+    return near(_box, p, tolerance) ? search(p, tolerance) : std::nullopt;  // most are far
   }
   /// Distance of `p` from the line; exact for a polyline, else that from fine chords.
   double distance_to(const Point& p) const noexcept;
@@ -105,6 +105,7 @@ class Line {
   double closest(const Point& p, const Sample& low, const Sample& high) const noexcept;
   std::vector<double> measure(double from, double to, const ChordRule& rule, int steps) const;
 
+  Box _box{};  ///< of the whole line; here, not with the others, as many lines are looked at
   Shape _shape = Shape::polyline;
   bool _closed = false;
   int _spans = 0;
