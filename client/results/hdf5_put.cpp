@@ -72,7 +72,9 @@ Handle new_creation_properties(const Shape& shape, std::uint64_t count) {
   std::vector<hsize_t> chunk(shape.begin(), shape.end());
   chunk[0] = std::min(shape[0], std::max<std::uint64_t>(chunk_entries / (count / shape[0]), 1));
   require(H5Pset_chunk(properties.get(), static_cast<int>(chunk.size()), chunk.data()), what);
-  if (count >= compressed_from) {
+  // Coordinates would save a fifth of their size in half of the time that all compression takes.
+  const bool points = shape.size() == 2 && shape[1] == 2;
+  if (count >= compressed_from && !points) {
     require(H5Pset_shuffle(properties.get()), what);
     require(H5Pset_deflate(properties.get(), deflate_level), what);
   }
