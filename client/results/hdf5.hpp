@@ -112,7 +112,7 @@ inline void put(const Handle& object, const std::string& attribute,
 }
 
 /// Writes a dataset of numbers, texts or records and returns it for attributes. What has numbers
-/// has a checksum; large datasets of them are compressed.
+/// has a checksum; large datasets of them but coordinates are compressed.
 Handle put_dataset(const Handle& group, const std::string& name, hid_t type, const void* values,
                    const Shape& shape);
 

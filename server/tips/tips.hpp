@@ -45,7 +45,7 @@ struct Integrals {
 /// What the numbers of the tips need of the mesh. Keeps a reference to the decomposition.
 class Tips {
  public:
-  /// O(m log m), and some 2 microseconds for each triangle that is near a tip, at most
+  /// O(m log m), and a microsecond for each triangle that is near a tip, at most
   /// most_triangles a tip. Throws errors::Error (cancelled).
   Tips(const mesh::Mesh& mesh, const ddm::Decomposition& decomposition);
 
