@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 #include "base/at.hpp"
 #include "base/at_once.hpp"
@@ -36,9 +37,13 @@ void add_product(const Sparse& lower, const VectorXd& x, VectorXd& y) {
   y += lower.selfadjointView<Eigen::Lower>() * x;
 }
 
-ddm::SubdomainFactor factor_of(const Sparse& matrix, Index interior, std::span<const double> places,
-                               int threads) {
-  return {matrix, interior, ddm::elimination_order(matrix, interior, places, threads), threads};
+/// The order of the first `interior` unknowns.
+std::vector<std::int32_t> order_of(const std::vector<std::int32_t>& all, Index interior) {
+  std::vector<std::int32_t> order;
+  order.reserve(at(interior));
+  std::ranges::copy_if(all, std::back_inserter(order),
+                       [=](std::int32_t i) { return i < interior; });
+  return order;
 }
 
 }  // namespace
@@ -51,14 +56,18 @@ JoinedMembrane::JoinedMembrane(const TraceProblem& traces, bool condense_contact
                   _interior + traces.maps().free_count())),
       _b(block_of(_matrix, _a.rows(), 0, traces.maps().jump_count(), _a.rows())),
       _d(block_of(_matrix, _a.rows(), _a.rows(), _b.rows(), _b.rows())),
+      _order(ddm::elimination_order(_matrix, _a.rows() + _b.rows(), _places, threads)),
       _factor(condense_contacts
-                  ? factor_of(block_of(_matrix, 0, 0, _a.rows() + _b.rows(), _a.rows() + _b.rows()),
-                              _a.rows(), _places, threads)
-                  : factor_of(_a, _a.rows(), _places, threads)) {
+                  ? ddm::SubdomainFactor(open(), _a.rows(), order_of(_order, _a.rows()), threads)
+                  : ddm::SubdomainFactor(_a, _a.rows(), order_of(_order, _a.rows()), threads)) {
   const Index held = traces.maps().held_count(), last = _a.rows() + _b.rows();
   _xp = Sparse(block_of(_matrix, last, 0, held, _a.rows()).transpose());
   _dp = Sparse(block_of(_matrix, last, _a.rows(), held, _b.rows()).transpose());
   _pp = block_of(_matrix, last, last, held, held);
+}
+
+Sparse JoinedMembrane::open() const {
+  return block_of(_matrix, 0, 0, size() + contacts(), size() + contacts());
 }
 
 /// Sets _stiffness, _first, _interior and _places as well.
@@ -308,7 +317,8 @@ VectorXd JoinedMembrane::residual(std::span<const ddm::CondensedLoad> loads, con
 }
 
 std::size_t JoinedMembrane::bytes() const noexcept {
-  std::size_t bytes = _factor.bytes() + _places.capacity() * sizeof(double);
+  std::size_t bytes = _factor.bytes() + _places.capacity() * sizeof(double) +
+                      _order.capacity() * sizeof(std::int32_t);
   for (const Sparse* one : {&_matrix, &_a, &_d, &_xp, &_dp, &_pp}) bytes += bytes_of(*one);
   bytes += bytes_of(_matrix) - bytes_of(_a) - bytes_of(_d);  // B
   for (const fem::Stiffness& stiffness : _stiffness)

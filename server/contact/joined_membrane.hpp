@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -79,6 +80,9 @@ class JoinedMembrane {
   /// The lower triangle of K in [x d p], and a place (x, y) in the plane for each entry of x and d.
   const Eigen::SparseMatrix<double>& matrix() const noexcept { return _matrix; }
   const std::vector<double>& places() const noexcept { return _places; }
+  /// The lower triangle of K on [x d], and the order in which both are eliminated.
+  Eigen::SparseMatrix<double> open() const;
+  const std::vector<std::int32_t>& order() const noexcept { return _order; }
   /// B, by rows.
   const Eigen::SparseMatrix<double, Eigen::RowMajor>& coupling() const noexcept { return _b; }
   std::size_t bytes() const noexcept;
@@ -99,6 +103,7 @@ class JoinedMembrane {
   Eigen::SparseMatrix<double, Eigen::RowMajor> _b;  // B
   Eigen::SparseMatrix<double> _d;                   // D, lower triangle
   Eigen::SparseMatrix<double> _xp, _dp, _pp;
+  std::vector<std::int32_t> _order;  // of x and d; that of x alone is the same without d
   ddm::SubdomainFactor _factor;
 };
 

@@ -3,7 +3,6 @@
 
 #include "base/at.hpp"
 #include "base/at_once.hpp"
-#include "ddm/elimination_order.hpp"
 
 namespace anticrack::contact {
 namespace {
@@ -15,17 +14,12 @@ using Eigen::VectorXd;
 /// Largest relative change of u by the second solve; beyond it, rounding errors dominate.
 constexpr double most_change = 1e-6;
 
-ddm::SubdomainFactor factor(const JoinedMembrane& membrane) {
-  const Index all = membrane.size() + membrane.contacts();
-  const Eigen::SparseMatrix<double> matrix = membrane.matrix().topLeftCorner(all, all);
-  const int threads = base::Threads::allowed();
-  return {matrix, all, ddm::elimination_order(matrix, all, membrane.places(), threads), threads};
-}
-
 }  // namespace
 
 OpenMembrane::OpenMembrane(const JoinedMembrane& membrane)
-    : _membrane(membrane), _factor(factor(membrane)) {}
+    : _membrane(membrane),
+      _factor(membrane.open(), membrane.size() + membrane.contacts(), membrane.order(),
+              base::Threads::allowed()) {}
 
 std::vector<std::vector<double>> OpenMembrane::fields(std::span<const ddm::Terms* const> sums,
                                                       bool refined,
