@@ -81,13 +81,16 @@ EquilibratedFlux::EquilibratedFlux(const Balance& balance, const CutMesh& cut, b
 EquilibratedFlux::EquilibratedFlux(const CutMesh& cut, const Balance& balance, FaceBounds bounds,
                                    int polish)
     : EquilibratedFlux(balance, cut, true) {
-  make({this, 1}, {&bounds, 1}, polish);
+  FluxMemory memory;
+  make({this, 1}, {&bounds, 1}, polish, memory);
 }
 
 std::vector<EquilibratedFlux> EquilibratedFlux::of_all(const CutMesh& cut,
                                                        std::span<const Balance> loads,
                                                        std::span<const FaceBounds> bounds,
-                                                       int polish, bool distances) {
+                                                       int polish, bool distances,
+                                                       FluxMemory* memory) {
+  FluxMemory own;
   std::vector<EquilibratedFlux> fluxes;
   fluxes.reserve(loads.size());
   for (const Balance& load : loads) {
@@ -97,14 +100,15 @@ std::vector<EquilibratedFlux> EquilibratedFlux::of_all(const CutMesh& cut,
   for (std::size_t done = 0; done < loads.size(); done += flux_lanes) {
     const std::size_t count = std::min(loads.size() - done, flux_lanes);
     make(std::span(fluxes).subspan(done, count),
-         bounds.empty() ? bounds : bounds.subspan(done, count), polish);
+         bounds.empty() ? bounds : bounds.subspan(done, count), polish,
+         memory != nullptr ? *memory : own);
   }
   return fluxes;
 }
 
 /// If loads are fewer than lanes, the last load fills the rest.
 void EquilibratedFlux::make(std::span<EquilibratedFlux> fluxes, std::span<const FaceBounds> bounds,
-                            int polish) {
+                            int polish, FluxMemory& memory) {
   static const FluxKernels& kernels = *supported_flux_kernels(0);
   const CutMesh& cut = fluxes.front()._cut;
   const std::size_t lanes = fluxes.size() <= 2 ? fluxes.size() : flux_lanes;
@@ -122,8 +126,9 @@ void EquilibratedFlux::make(std::span<EquilibratedFlux> fluxes, std::span<const 
                more && !own._distance.empty() ? own._distance.data() : nullptr};
   }
   look();
-  base::Large<double> side_by_side(lanes == 1 ? 0 : lanes * cut.at.size());
+  base::Large<double>& side_by_side = memory.side_by_side;
   if (lanes > 1) {
+    side_by_side.resize(lanes * cut.at.size());
     constexpr std::size_t some = 65536;
     base::at_once((cut.at.size() + some - 1) / some, base::Threads::allowed(), [&] {
       return [&](std::size_t part) {
@@ -135,7 +140,9 @@ void EquilibratedFlux::make(std::span<EquilibratedFlux> fluxes, std::span<const 
   }
   std::vector<FluxBlock> blocks = blocks_of(cut);
   const std::size_t own_scratch = lanes * flux_scratch(mesh, largest_of(blocks));
-  const auto means = std::make_shared<base::Large<double>>(lanes * 2 * cut.triangle_count());
+  if (memory.means.use_count() != 1) memory.means = std::make_shared<base::Large<double>>();
+  const auto means = memory.means;
+  means->resize(lanes * 2 * cut.triangle_count());
   base::Large<double> through(lanes * 2 * cut.faces.size(), 0.0);
   const FluxLoop loop = lanes == 1 ? kernels.one : lanes == 2 ? kernels.two : kernels.several;
   const auto take = [&](FluxStep step) {
