@@ -25,6 +25,7 @@ namespace fs = std::filesystem;
 /// The words as exec takes them; the pointers are valid as long as `words` live.
 std::vector<char*> pointers_to(std::vector<std::string>& words) {
   std::vector<char*> pointers;
+  pointers.reserve(words.size() + 1);
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   return pointers;

@@ -83,7 +83,7 @@ std::array<Lanes, 2> Singular::phi(Lanes c, Lanes s, std::size_t side) const {
                all = 1 / std::sqrt(1 + beta * beta);  // cos and sin of pi a: all, beta all
   turn(c, s);
   std::array<Lanes, 2> result{};
-  auto& [phi, phi_1] = result;
+  Lanes &phi = result[0], &phi_1 = result[1];
   const auto each = [](const auto& of) {
     for (std::size_t q = 0; q < std::tuple_size_v<Lanes>; ++q) of(q);
   };
