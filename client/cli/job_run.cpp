@@ -192,6 +192,7 @@ int run_job(Session& session, const Case& the_case, const fs::path& output,
   if (followed.how == Followed::How::detached) return code;
   std::optional<results::Result> result = results_of(session, the_case, followed, begin);
   if (!result) return code;
+  session.leave_server();
   if (more.complete) more.complete(*result);
   save(output, *result, session);
   if (more.saved) more.saved(*result);

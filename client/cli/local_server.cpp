@@ -155,8 +155,10 @@ void LocalServer::require_alive() {
     throw LocalServerError("the server of --local " + how_it_ended(*_status) + last_words());
 }
 
+void LocalServer::ask_to_end() noexcept { close_once(_lifeline); }
+
 void LocalServer::end() noexcept {
-  close_once(_lifeline);  // which asks it to end
+  ask_to_end();
   if (_process > 0 && !has_ended(stop_limit)) {
     kill(_process, SIGKILL);
     has_ended(stop_limit);

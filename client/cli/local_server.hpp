@@ -36,6 +36,8 @@ class LocalServer {
   /// To be called after a lost connection: throws LocalServerError, with the cause of its end and
   /// its last messages, if the server has ended. Thread-safe.
   void require_alive();
+  /// Asks the server to end; the destructor waits until it has.
+  void ask_to_end() noexcept;
 
  private:
   void start(const std::filesystem::path& program);

@@ -59,6 +59,10 @@ class Session {
 
   client::Connection& connection() noexcept { return *_connection; }
   Signals& signals() noexcept { return _signals; }
+  /// To be called when nothing more is asked of the server: a private one ends meanwhile.
+  void leave_server() noexcept {
+    if (_local) _local->ask_to_end();
+  }
   /// The token that the first signal requests.
   std::stop_token stop() const noexcept { return _signals.first(); }
   const Globals& globals() const noexcept { return _globals; }

@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <variant>
 
 #include "errors/errors.hpp"
@@ -38,6 +39,19 @@ void refuse_held(const fem::Load& load, const Motions& motions, const std::strin
   }
 }
 
+/// Whether all of the boundary is a Neumann boundary. Parts that make it one together are seen on
+/// the mesh.
+bool is_all_neumann(const mesh::Geometry& geometry) {
+  const auto named = [&](const auto& one) {
+    return std::ranges::find(geometry.neumann_sides, one.name) != geometry.neumann_sides.end();
+  };
+  const bool outer =
+      std::ranges::any_of(geometry.neumann,
+                          [](const mesh::Part& one) { return one.from == one.to; }) ||
+      (!geometry.sides.empty() && std::ranges::all_of(geometry.sides, named));
+  return outer && std::ranges::all_of(geometry.holes, named);
+}
+
 void check(const fem::Load& load, const mesh::Geometry& geometry, const Motions& motions,
            const std::map<std::string, int>& regions, const std::string& path) {
   if (!load.traction.empty() && load.traction != "0" && geometry.neumann.empty() &&
@@ -46,6 +60,8 @@ void check(const fem::Load& load, const mesh::Geometry& geometry, const Motions&
            "nothing has a traction, as no part of the boundary is in geometry.neumann; name its "
            "sides or holes there");
   }
+  if (!load.boundary_value.empty() && load.boundary_value != "0" && is_all_neumann(geometry))
+    refuse(path + ".boundary_value", no_boundary_value);
   if (const auto* force = std::get_if<fem::PerRegion>(&load.force)) {
     // Subdomains without a region are called omega1, omega2, ...; only the mesh tells how many.
     for (const auto& [name, value] : force->values)

@@ -13,6 +13,7 @@
 #include "fem/adaptive_load.hpp"
 #include "fem/load_vector.hpp"
 #include "fem/traction.hpp"
+#include "operators/check_loads.hpp"
 #include "stop/stop.hpp"
 
 namespace anticrack::operators {
@@ -297,10 +298,7 @@ class Block {
     if (load.boundary_value.empty() || load.boundary_value == "0") return;
     for (const ddm::Subdomain& subdomain : _decomposition.subdomains)
       if (subdomain.dirichlet > 0) return;
-    throw errors::Error(errors::Reason::invalid_argument,
-                        "nothing has a boundary value, as all of the boundary is a Neumann "
-                        "boundary; leave it out, or name fewer sides in the geometry's neumann")
-        .at("boundary_value");
+    throw errors::Error(errors::Reason::invalid_argument, no_boundary_value).at("boundary_value");
   }
 
   /// Lets a traction act on the length of the curve of which an edge is a chord.

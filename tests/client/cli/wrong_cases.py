@@ -286,6 +286,9 @@ CASES = [
     ([(F, F + '\ntraction = "1"')], 2,
      "wrong.toml:24: load.opening.traction: nothing has a traction, as no part of the boundary is in geometry.neumann; "
      "name its sides or holes there"),
+    ([("[1, 0]]\n", '[1, 0]]\nneumann = "all"\n'), ("delaminated = true", "fixed = 0"), (F, 'boundary_value = "x"')], 2,
+     "wrong.toml:24: load.opening.boundary_value: nothing has a boundary value, as all of the boundary is a Neumann "
+     "boundary; leave it out, or name fewer sides in the geometry's neumann"),
     ([(F, "point_forces = [{ at = [3, 3], value = 1 }]")], 1,
      'jobs/ID failed: wrong.toml:23: load.opening.point_forces.0.at: load case "opening": the point (3, 3) '
      "is outside the membrane: move it inside"),
