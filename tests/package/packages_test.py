@@ -41,7 +41,7 @@ FILES = {
                 *(f"usr/lib/cmake/anticrack/anticrack-{part}.cmake"
                   for part in ("config", "config-version", "targets", "targets-release")),
                 *(f"usr/include/anticrack/client/{part}.hpp" for part in
-                  ("block", "cases", "connection", "credentials", "error", "jobs", "meshes", "retry")),
+                  ("block", "connection", "credentials", "error", "jobs", "meshes", "retry")),
                 *(f"usr/include/anticrack/v1/{part}.{kind}.h" for part in ("case", "error", "job", "mesh", "server", "solve", "upload")
                   for kind in ("pb", "grpc.pb")),
                 f"{SHARE}/anticrack/examples/library/CMakeLists.txt", f"{SHARE}/anticrack/examples/library/main.cpp",
