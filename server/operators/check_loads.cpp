@@ -54,13 +54,12 @@ bool is_all_neumann(const mesh::Geometry& geometry) {
 
 void check(const fem::Load& load, const mesh::Geometry& geometry, const Motions& motions,
            const std::map<std::string, int>& regions, const std::string& path) {
-  if (!load.traction.empty() && load.traction != "0" && geometry.neumann.empty() &&
-      geometry.neumann_sides.empty()) {
+  if (acts(load.traction) && geometry.neumann.empty() && geometry.neumann_sides.empty()) {
     refuse(path + ".traction",
            "nothing has a traction, as no part of the boundary is in geometry.neumann; name its "
            "sides or holes there");
   }
-  if (!load.boundary_value.empty() && load.boundary_value != "0" && is_all_neumann(geometry))
+  if (acts(load.boundary_value) && is_all_neumann(geometry))
     refuse(path + ".boundary_value", no_boundary_value);
   if (const auto* force = std::get_if<fem::PerRegion>(&load.force)) {
     // Subdomains without a region are called omega1, omega2, ...; only the mesh tells how many.

@@ -12,6 +12,9 @@
 
 namespace anticrack::operators {
 
+/// Whether there is a traction or boundary value: its text is neither empty nor 0.
+inline bool acts(const std::string& text) { return !text.empty() && text != "0"; }
+
 inline constexpr const char* no_boundary_value =
     "nothing has a boundary value, as all of the boundary is a Neumann boundary; leave it out, or "
     "name fewer sides in the geometry's neumann";

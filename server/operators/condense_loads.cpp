@@ -283,7 +283,7 @@ class Block {
 
   /// Throws where a traction was given and no edge takes it.
   void require_traction_acts(const fem::Load& load) const {
-    if (load.traction.empty() || load.traction == "0") return;
+    if (!acts(load.traction)) return;
     for (std::size_t s = 0; s < _decomposition.subdomains.size(); ++s)
       if (!_neumann.of(s).nodes.empty()) return;
     throw errors::Error(errors::Reason::invalid_argument,
@@ -295,7 +295,7 @@ class Block {
 
   /// Throws where a boundary value was given and no part of the boundary takes it.
   void require_boundary_value_acts(const fem::Load& load) const {
-    if (load.boundary_value.empty() || load.boundary_value == "0") return;
+    if (!acts(load.boundary_value)) return;
     for (const ddm::Subdomain& subdomain : _decomposition.subdomains)
       if (subdomain.dirichlet > 0) return;
     throw errors::Error(errors::Reason::invalid_argument, no_boundary_value).at("boundary_value");

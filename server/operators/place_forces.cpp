@@ -49,17 +49,19 @@ Eigen::Vector3d vector_of(const contact::RigidForce& force) {
   return {force.force, force.moment_x, force.moment_y};
 }
 
-/// Warns of a force, or a moment, that does no work on the free motions of an inclusion.
-void warn_of_idle(const contact::RigidForce& given, std::size_t inclusion, const std::string& field,
-                  const mesh::Mesh& mesh, const ddm::Skeleton& skeleton,
-                  std::vector<std::string>& warnings) {
-  const Eigen::Vector3d force = vector_of(given);
+/// Adds to the forces given to an inclusion, and warns of one that does no work on its free
+/// motions.
+void give(const contact::RigidForce& force, std::size_t inclusion, const std::string& field,
+          const mesh::Mesh& mesh, const ddm::Skeleton& skeleton,
+          std::vector<contact::RigidForce>& given, std::vector<std::string>& warnings) {
+  add(given[inclusion], force, 1);
+  const Eigen::Vector3d parts = vector_of(force);
+  if (parts.isZero(0)) return;
   const Eigen::Matrix3Xd motions = free_motions(skeleton, inclusion);
   for (Eigen::Index k = 0; k < motions.cols(); ++k) {
-    const Eigen::Vector3d work = motions.col(k).cwiseProduct(force);
+    const Eigen::Vector3d work = motions.col(k).cwiseProduct(parts);
     if (std::abs(work.sum()) > of_rounding * work.lpNorm<1>()) return;
   }
-  if (force.isZero(0)) return;
   warnings.push_back(fmt::format("{} moves nothing: the inclusion \"{}\" {}", field,
                                  mesh.inclusions[inclusion],
                                  motions.cols() > 0 ? "does not turn that way" : "is held"));
@@ -84,8 +86,7 @@ void place_points(const std::vector<fem::PointForce>& forces, const mesh::Mesh& 
         own.moment_x = own.force * (forces[i].x - motion.centre[0]);
         own.moment_y = own.force * (forces[i].y - motion.centre[1]);
       }
-      warn_of_idle(own, j, field_of(i), mesh, decomposition.skeleton, placed.warnings);
-      add(given[j], own, 1);
+      give(own, j, field_of(i), mesh, decomposition.skeleton, given, placed.warnings);
       continue;
     }
     if (on != nullptr && on->kind[at(edge)] != mesh::Kind::glue) {
@@ -193,9 +194,7 @@ void add_moments(const fem::Load& load, const mesh::Mesh& mesh,
                               : why)
           .at(field);
     }
-    const contact::RigidForce own{0, moment.x, moment.y};
-    warn_of_idle(own, j, field, mesh, decomposition.skeleton, placed.warnings);
-    add(given[j], own, 1);
+    give({0, moment.x, moment.y}, j, field, mesh, decomposition.skeleton, given, placed.warnings);
   }
 }
 
@@ -224,8 +223,7 @@ PlacedForces place_forces(const fem::Load& load, const mesh::Mesh& mesh,
   for (const auto& [name, value] : load.inclusion_forces) {
     const std::string field = "inclusion_forces[" + name + "]";
     const std::size_t j = index_of(mesh.inclusions, name, "inclusion", field);
-    warn_of_idle({value, 0, 0}, j, field, mesh, decomposition.skeleton, placed.warnings);
-    given[j].force += value;
+    give({value, 0, 0}, j, field, mesh, decomposition.skeleton, given, placed.warnings);
   }
   add_moments(load, mesh, decomposition, placed, given);
   place_points(load.point_forces, mesh, decomposition, placed, given);
