@@ -5,12 +5,11 @@
 #include <atomic>
 #include <cstddef>
 #include <exception>
+#include <functional>
 #include <mutex>
-#include <system_error>
-#include <thread>
-#include <vector>
 
 #include "base/at.hpp"
+#include "base/helpers.hpp"
 #include "stop/stop.hpp"
 
 namespace anticrack::base {
@@ -55,17 +54,12 @@ void at_once(std::size_t count, int threads, const MakeWorker& make_worker) {
     }
   };
   if (count > 0) {
-    std::vector<std::jthread> helpers;
     const auto wanted = std::min(at(std::max(threads, 1)), count);
-    try {
-      for (std::size_t t = 1; t < wanted; ++t)
-        helpers.emplace_back([&] {
-          const stop::Scope scope(asked);
-          run();
-        });
-    } catch (const std::system_error&) {
-      // If there are no more threads, the present ones do the rest.
-    }
+    const std::function<void()> help = [&] {
+      const stop::Scope scope(asked);
+      run();
+    };
+    const Helpers helpers(static_cast<int>(wanted) - 1, help);
     run();
   }
   if (failure) std::rethrow_exception(failure);
