@@ -8,6 +8,7 @@
 #include <deque>
 #include <iterator>
 #include <mutex>
+#include <new>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -88,9 +89,11 @@ class Helpers::Waiting {
   /// Ends those that waited longest, beyond what the processors can use.
   void put(std::vector<std::unique_ptr<Thread>> threads) {
     static const std::size_t most = std::max(2U, 2 * std::thread::hardware_concurrency());
+    std::vector<std::unique_ptr<Thread>> ended;  // without the lock
     const std::lock_guard lock(_mutex);
     for (std::unique_ptr<Thread>& one : threads) _threads.push_back(std::move(one));
-    while (_threads.size() > most) _threads.pop_front();
+    for (; _threads.size() > most; _threads.pop_front())
+      ended.push_back(std::move(_threads.front()));
   }
 
   /// Never destroyed: threads may still work when the process ends.
@@ -122,7 +125,11 @@ Helpers::Helpers(int count, const std::function<void()>& work) {
 
 Helpers::~Helpers() {
   for (const std::unique_ptr<Thread>& one : _threads) one->wait();
-  Waiting::all().put(std::move(_threads));
+  try {
+    Waiting::all().put(std::move(_threads));
+  } catch (const std::bad_alloc&) {
+    // Threads for which there is no memory to keep them have ended.
+  }
 }
 
 }  // namespace anticrack::base

@@ -10,12 +10,13 @@
 #include <atomic>
 #include <cerrno>
 #include <filesystem>
+#include <functional>
 #include <mutex>
 #include <string_view>
 #include <system_error>
-#include <thread>
 #include <utility>
 
+#include "base/helpers.hpp"
 #include "digest/digest.hpp"
 #include "stop/stop.hpp"
 #include "store/disk_errors.hpp"
@@ -77,7 +78,7 @@ void flush_all(const std::vector<std::string>& paths) {
   std::atomic<std::size_t> next{0};
   std::mutex mutex;
   std::optional<errors::Error> failure;
-  const auto work = [&] {
+  const std::function<void()> work = [&] {
     for (std::size_t i = next++; i < paths.size(); i = next++) {
       try {
         flush(paths[i]);
@@ -88,13 +89,7 @@ void flush_all(const std::vector<std::string>& paths) {
     }
   };
   {
-    std::vector<std::jthread> others;
-    try {
-      for (std::size_t i = 1; i < std::min(paths.size(), most_at_once); ++i)
-        others.emplace_back(work);
-    } catch (const std::system_error&) {
-      // If there are no more threads, the present ones do the rest.
-    }
+    const base::Helpers others(static_cast<int>(std::min(paths.size(), most_at_once)) - 1, work);
     work();
   }
   if (failure) throw errors::Error(*failure);
