@@ -3,16 +3,21 @@
 // Arrays of the size of a mesh that are filled at once.
 #pragma once
 
-#include <sys/mman.h>
-
 #include <cstddef>
-#include <cstdlib>
-#include <memory>
 #include <new>
 #include <utility>
 #include <vector>
 
 namespace anticrack::base {
+
+/// Memory for `bytes`; null if there is none. Large blocks have huge pages. Blocks of 32 MB and
+/// more, which malloc would take from the system each time, are kept for the next of the same size
+/// when they are given back, 256 MB of them at most: clearing their pages took a tenth of the
+/// bounds of a million triangles.
+void* take_block(std::size_t bytes) noexcept;
+void give_block(void* block, std::size_t bytes) noexcept;
+/// Returns the blocks that are kept to the system.
+void return_kept_blocks() noexcept;
 
 /// Leaves numbers uninitialised, and takes huge pages for large arrays: setting memory to zero and
 /// faults of small pages took a quarter of the bounds of a million triangles.
@@ -24,15 +29,11 @@ struct LargeAllocator {
   explicit LargeAllocator(const LargeAllocator<Other>&) noexcept {}
 
   T* allocate(std::size_t count) {
-    constexpr std::size_t line = 64, huge = std::size_t{2} << 20;
-    const std::size_t bytes = count * sizeof(T), alignment = bytes < 2 * huge ? line : huge;
-    const std::size_t rounded = (bytes + alignment - 1) / alignment * alignment;
-    void* const memory = std::aligned_alloc(alignment, rounded);
+    void* const memory = take_block(count * sizeof(T));
     if (memory == nullptr) throw std::bad_alloc();
-    if (alignment == huge) static_cast<void>(madvise(memory, rounded, MADV_HUGEPAGE));  // a hint
     return static_cast<T*>(memory);
   }
-  void deallocate(T* memory, std::size_t) noexcept { std::free(memory); }
+  void deallocate(T* memory, std::size_t count) noexcept { give_block(memory, count * sizeof(T)); }
 
   template <class Made>
   void construct(Made* at) noexcept {

@@ -6,17 +6,37 @@
 #include <numbers>
 
 #include "base/at.hpp"
-#include "stop/stop.hpp"
+#include "base/at_once.hpp"
 
 namespace anticrack::estimate {
 namespace {
 
-/// Sums over all edges of one triangle on the boundary.
+/// TriangleSums over all edges of one triangle on the boundary.
 struct OnTriangle {
   double norm = 0;        ///< >= |w| in the energy norm
   double difference = 0;  ///< int (sigma - T grad u_h) . grad w
   double energy = 0;      ///< Pi(u_h + w) - Pi(u_h) - |w|^2 / 2
 };
+
+/// TriangleSums over triangles.
+struct TriangleSums {
+  double half_distance =
+      0;               ///< eta^2 / 2; if T is known, without |w|^2 / 2, which cancels in Pi(v)
+  double squared = 0;  ///< eta^2
+  double lift_energy = 0, lift_norm = 0, upper = 0, unknown = 0;
+
+  void operator+=(const TriangleSums& by) {
+    half_distance += by.half_distance;
+    squared += by.squared;
+    lift_energy += by.lift_energy;
+    lift_norm += by.lift_norm;
+    upper += by.upper;
+    unknown += by.unknown;
+  }
+};
+
+/// Triangles that are summed together.
+constexpr std::size_t summed_together = 8192;
 
 }  // namespace
 
@@ -65,58 +85,63 @@ Bracket bracket(const CutMesh& cut, const EquilibratedFlux& flux, const LoadBala
   }
 
   Bracket result;
-  result.indicator.assign(flux.distance().begin(), flux.distance().end());
+  result.indicator.resize(cut.triangle_count());
   const bool varies = !cut.shapes.variation.empty();
-  double half_distance = 0;  // eta^2 / 2; if T is known, without |w|^2 / 2, which cancels in Pi(v)
-  double squared = 0, lift_energy = 0, lift_norm = 0;
-  for (std::size_t t = 0; t < result.indicator.size(); ++t) {
-    stop::look_at_turn(t, "computing bounds of the energy");
+  const auto sum_to = [&](std::size_t t, TriangleSums& sums) {
     double& one = result.indicator[t];
-    one = std::max(0.0, one);
+    one = std::max(0.0, flux.distance()[t]);
     const double oscillation = load.oscillation.empty() ? 0 : load.oscillation[t];
     const fem::Variation of = varies ? cut.shapes.variation[t] : fem::Variation();
     const double own = varies ? flux.energy_of(t, u) : 0, spread = of.spread * std::sqrt(own);
-    unknown += of.unknown * own;
+    sums.unknown += of.unknown * own;
     if (lifted.empty()) {
       if (varies || oscillation > 0) {
         const double size = of.below * std::sqrt(one) + spread + oscillation;
         one = size * size;
       }
-      half_distance += 0.5 * one;
-      squared += one;
-      continue;
+      sums.half_distance += 0.5 * one;
+      sums.squared += one;
+      return;
     }
     const OnTriangle& w = lifted[t];
     const double distance = std::max(0.0, one - 2 * w.difference + w.norm * w.norm);
     const double rest = oscillation * (j_11 / std::numbers::pi * w.norm);  // error of int f w
     const double norm = of.above * w.norm, beyond = spread * norm + rest;  // of int T grad u.grad w
     const double size = of.below * std::sqrt(distance) + spread + of.most() * w.norm + oscillation;
-    half_distance += 0.5 * size * size + beyond + rest;
-    if (!varies) half_distance -= 0.5 * norm * norm;
-    lift_energy += w.energy;
-    result.upper += 0.5 * norm * norm + beyond;
-    lift_norm += norm * norm;
+    sums.half_distance += 0.5 * size * size + beyond + rest;
+    if (!varies) sums.half_distance -= 0.5 * norm * norm;
+    sums.lift_energy += w.energy;
+    sums.upper += 0.5 * norm * norm + beyond;
+    sums.lift_norm += norm * norm;
     one = size * size;
-    squared += one;
-  }
+    sums.squared += one;
+  };
+  std::vector<TriangleSums> parts((result.indicator.size() + summed_together - 1) /
+                                  summed_together);
+  base::at_once(parts.size(), base::Threads::allowed(), [&] {
+    return [&](std::size_t part) {
+      const std::size_t end = std::min(result.indicator.size(), (part + 1) * summed_together);
+      for (std::size_t t = part * summed_together; t < end; ++t) sum_to(t, parts[part]);
+    };
+  });
+  TriangleSums sums{.unknown = unknown};
+  for (const TriangleSums& part : parts) sums += part;
   const std::vector<double> work_of_face = flux.work_of_pressure();
   for (std::size_t face = 0; face < work_of_face.size(); ++face) {
     if (!(work_of_face[face] > 0)) continue;
     result.work += work_of_face[face];
     result.indicator[at(cut.faces[face].side / 3)] += 2 * work_of_face[face];
   }
-  result.distance = std::sqrt(squared) + lack;
-  half_distance += lack * (std::sqrt(squared) + lack / 2);
-  double largest = 0;
-  for (const double value : u) largest = std::max(largest, std::abs(value));
+  result.distance = std::sqrt(sums.squared) + lack;
+  sums.half_distance += lack * (std::sqrt(sums.squared) + lack / 2);
   const double rounding =
-      rounding_of(energy, flux.norm_squared(), cut.shapes.largest_tension, largest) +
-      unknown;  // means of T are less accurate
-  result.lower = energy + lift_energy - half_distance - result.work - rounding;
-  result.upper += energy + lift_energy + rounding;
+      rounding_of(energy, flux.norm_squared(), cut.shapes.largest_tension, flux.largest()) +
+      sums.unknown;  // means of T are less accurate
+  result.lower = energy + sums.lift_energy - sums.half_distance - result.work - rounding;
+  result.upper = energy + sums.lift_energy + sums.upper + rounding;
   result.error =
       0.5 * (result.distance + std::sqrt(result.distance * result.distance + 4 * result.work)) +
-      std::sqrt(lift_norm);
+      std::sqrt(sums.lift_norm);
   result.error_relative = result.error > 0 ? result.error / std::sqrt(flux.norm_squared()) : 0;
   return result;
 }

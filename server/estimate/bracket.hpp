@@ -22,6 +22,7 @@
 #include <span>
 #include <vector>
 
+#include "base/large.hpp"
 #include "estimate/boundary_lift.hpp"
 #include "estimate/equilibrated_flux.hpp"
 #include "estimate/load_balance.hpp"
@@ -57,7 +58,7 @@ struct Bracket {
   double distance = 0;        ///< >= eta, with what sigma lacks and does not balance
   double work = 0;            ///< P
   /// (triangles of CutMesh) the part of each triangle in eta^2 + 2 P.
-  std::vector<double> indicator;
+  base::Large<double> indicator;
 };
 
 /// `u`: u_h in the copies; `energy`: Pi(u_h). The flux balances `load` up to `lack` (Lack::flux)

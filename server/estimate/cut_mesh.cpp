@@ -24,6 +24,14 @@ constexpr std::int32_t previous(std::int32_t corner) {
   return corner % 3 == 0 ? corner + 2 : corner - 1;
 }
 
+/// A multiple of four, so that threads have equal numbers of blocks, where blocks are large enough
+/// to be worth it.
+constexpr std::size_t block_count(std::size_t triangles, std::size_t block) {
+  constexpr std::size_t equal = 4, worth = 16;
+  const std::size_t least = triangles / block + 1;
+  return triangles < equal * block / worth ? least : (least + equal - 1) / equal * equal;
+}
+
 class Cutting {
  public:
   Cutting(const mesh::Mesh& mesh, const ddm::Decomposition& decomposition)
@@ -241,7 +249,7 @@ class Cutting {
 
   /// Sorts the fans by blocks.
   void sort_fans(std::size_t block) {
-    const std::size_t blocks = _cut.triangle_count() / block + 1;
+    const std::size_t blocks = block_count(_cut.triangle_count(), block);
     _cut.first_fan.assign(blocks + 2, 0);
     std::vector<std::int32_t> block_of;  // per triangle
     for (std::size_t b = 0; b < blocks; ++b)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "estimate/equilibrated_flux.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -60,7 +61,7 @@ std::vector<FluxBlock> blocks_of(const CutMesh& cut) {
   return blocks;
 }
 
-std::size_t largest_of(const std::vector<FluxBlock>& blocks) {
+std::size_t largest_block(const std::vector<FluxBlock>& blocks) {
   std::size_t largest = 0;
   for (const FluxBlock& block : blocks)
     largest = std::max(largest, block.last_triangle - block.first_triangle);
@@ -139,7 +140,7 @@ void EquilibratedFlux::make(std::span<EquilibratedFlux> fluxes, std::span<const 
     });
   }
   std::vector<FluxBlock> blocks = blocks_of(cut);
-  const std::size_t own_scratch = lanes * flux_scratch(mesh, largest_of(blocks));
+  const std::size_t own_scratch = lanes * flux_scratch(mesh, largest_block(blocks));
   if (memory.means.use_count() != 1) memory.means = std::make_shared<base::Large<double>>();
   const auto means = memory.means;
   means->resize(lanes * 2 * cut.triangle_count());
@@ -176,6 +177,7 @@ void EquilibratedFlux::finish(std::size_t lane, std::size_t lanes,
   }
   for (std::size_t place = 0; place < _through.size(); ++place)
     _through[place] = through[lanes * place + lane];
+  _largest = largest_of(_balance.u);
   turn();
 }
 
@@ -279,6 +281,12 @@ Vector EquilibratedFlux::normal_of(std::size_t side) const {
 bool EquilibratedFlux::has_turn(std::size_t triangle) const {
   const auto first = first_turn(triangle);
   return first != _turns.end() && first->side < 3 * triangle + 3;
+}
+
+double largest_of(std::span<const double> values) {
+  if (values.empty()) return 0;
+  const auto size = static_cast<Eigen::Index>(values.size());
+  return Eigen::Map<const Eigen::ArrayXd>(values.data(), size).abs().maxCoeff();
 }
 
 double rest_of_forces(const CutMesh& cut, std::size_t triangle, const double* f, const double* g) {

@@ -1,25 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "estimate/interval.hpp"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <functional>
 
 #include "base/at.hpp"
 #include "base/at_once.hpp"
+#include "base/large.hpp"
 #include "estimate/bracket.hpp"
 #include "fem/triangle_rules.hpp"
 #include "stop/stop.hpp"
 
 namespace anticrack::estimate {
 namespace {
-
-double largest_of(std::span<const double> values) {
-  if (values.empty()) return 0;
-  const auto size = static_cast<Eigen::Index>(values.size());
-  return Eigen::Map<const Eigen::ArrayXd>(values.data(), size).abs().maxCoeff();
-}
 
 /// How far jumps or pressures leave the cone: values up to `rounding` count as 0, and `beyond` may
 /// be at most `most`.
@@ -108,8 +103,8 @@ class Sum {
   Sum(const Primal& primal, const Dual& dual, const EquilibratedFlux& tau)
       : _primal(primal), _tau(tau), _weight(dual.weight), _z(dual.z) {
     if (dual.reacting.data() == dual.z.data()) return;
-    _rest.reserve(_z.size());
-    for (std::size_t i = 0; i < _z.size(); ++i) _rest.push_back(dual.reacting[i] - _z[i]);
+    _rest.resize(_z.size());
+    std::ranges::transform(dual.reacting, _z, _rest.begin(), std::minus());
   }
 
   /// The products of `some_triangles`, from a multiple of it on, whose parts it sets.
@@ -241,7 +236,7 @@ class Sum {
   const EquilibratedFlux& _tau;
   const Weight* _weight;
   std::span<const double> _z;
-  std::vector<double> _rest;
+  base::Large<double> _rest;  // z' - z
 };
 
 /// The bounds of tau.n on minus faces, which is -q.
@@ -257,7 +252,7 @@ FluxBounds flux_bounds(const Primal& primal, const Dual& dual) {
   constexpr double unlimited = std::numeric_limits<double>::infinity();
   const CutMesh& cut = primal.cut;
   const EquilibratedFlux& sigma = primal.flux;
-  const double rounding = 1e-13 * largest_of(primal.u);
+  const double rounding = 1e-13 * sigma.largest();
   FluxBounds bounds{std::vector<double>(2 * cut.faces.size()),
                     std::vector<double>(2 * cut.faces.size())};
   WeightOf weights(sigma, dual.weight);
@@ -328,9 +323,11 @@ Bound bound(const Aimed& aimed, const EquilibratedFlux& tau, const Sum& sum,
   const double sign = dual.side == Side::upper ? 1 : -1;
   double c = 0, work = 0, pressure = 0;  // c as of Dual
   // Fluxes are sums of T grad z', whose rounding errors are relative to T |z'|.
-  const double of_jumps = 1e-12 * largest_of(dual.z),
+  const bool one_field = dual.z.data() == dual.reacting.data();
+  const double largest_z = one_field ? tau.largest() : largest_of(dual.z);
+  const double of_jumps = 1e-12 * largest_z,
                of_pressures = 1e-12 * largest_of(tau.through_faces()) +
-                              1e-13 * cut.shapes.largest_tension * largest_of(dual.reacting);
+                              1e-13 * cut.shapes.largest_tension * tau.largest();
   // Conjugate gradients leave more than rounding errors in z'; Ways lead them out of the membrane.
   const bool bridged = std::isfinite(cut.ways.triangle);
   std::vector<double> kept(cut.faces.size(), 0);
@@ -400,10 +397,9 @@ Bound bound(const Aimed& aimed, const EquilibratedFlux& tau, const Sum& sum,
     terms.parts = parts_of;
     terms.coupling = primal.stiff->coupling;
   }
-  terms.extra = aimed.unloaded * std::sqrt(rest.weighed) + rest.moved + 0.5 * products.slack +
-                unknown +
-                (bridged ? primal.lack.work * largest_of(dual.z)
-                         : 2 * largest_of(primal.u) * pressures.all_beyond);
+  terms.extra =
+      aimed.unloaded * std::sqrt(rest.weighed) + rest.moved + 0.5 * products.slack + unknown +
+      (bridged ? primal.lack.work * largest_z : 2 * sigma.largest() * pressures.all_beyond);
   Bound found = bound_of(terms, dual.side, c, dual.c);
   if (const double best = found.half.best(c); std::isfinite(best)) {
     found.parts = std::move(parts.primal);

@@ -31,8 +31,7 @@ std::string obstacle_of(const LoadOnTraces& load, const estimate::CutMesh& cut,
 
 /// Energies are squares, which vanish or overflow if u is very small or very large.
 std::string obstacle_of(std::span<const double> u, double tension) {
-  double largest = 0;
-  for (const double one : u) largest = std::max(largest, std::abs(one));
+  const double largest = estimate::largest_of(u);
   if (estimate::in_range(tension, largest)) return "";
   return fmt::format(
       "the largest |u| is {:g}, and its square is beyond the range of numbers: scale the load {}",

@@ -3,6 +3,8 @@
 
 #include <malloc.h>
 
+#include "base/large.hpp"
+
 namespace anticrack::operators {
 
 void set_up_heaps() noexcept {
@@ -20,6 +22,9 @@ void set_up_heaps() noexcept {
   static_cast<void>(done);
 }
 
-void return_freed_memory() noexcept { malloc_trim(0); }
+void return_freed_memory() noexcept {
+  base::return_kept_blocks();
+  malloc_trim(0);
+}
 
 }  // namespace anticrack::operators
