@@ -7,6 +7,7 @@
 
 #include "base/at.hpp"
 #include "base/at_once.hpp"
+#include "stop/stop.hpp"
 
 namespace anticrack::estimate {
 namespace {
@@ -120,6 +121,7 @@ Bracket bracket(const CutMesh& cut, const EquilibratedFlux& flux, const LoadBala
                                   summed_together);
   base::at_once(parts.size(), base::Threads::allowed(), [&] {
     return [&](std::size_t part) {
+      stop::look("computing bounds of the energy");
       const std::size_t end = std::min(result.indicator.size(), (part + 1) * summed_together);
       for (std::size_t t = part * summed_together; t < end; ++t) sum_to(t, parts[part]);
     };
