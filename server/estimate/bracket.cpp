@@ -137,7 +137,7 @@ Bracket bracket(const CutMesh& cut, const EquilibratedFlux& flux, const LoadBala
   result.distance = std::sqrt(sums.squared) + lack;
   sums.half_distance += lack * (std::sqrt(sums.squared) + lack / 2);
   const double rounding =
-      rounding_of(energy, flux.norm_squared(), cut.shapes.largest_tension, flux.largest()) +
+      rounding_of(energy, flux.norm_squared(), cut.shapes.largest_tension, largest_of(u)) +
       sums.unknown;  // means of T are less accurate
   result.lower = energy + sums.lift_energy - sums.half_distance - result.work - rounding;
   result.upper = energy + sums.lift_energy + sums.upper + rounding;

@@ -177,7 +177,6 @@ void EquilibratedFlux::finish(std::size_t lane, std::size_t lanes,
   }
   for (std::size_t place = 0; place < _through.size(); ++place)
     _through[place] = through[lanes * place + lane];
-  _largest = largest_of(_balance.u);
   turn();
 }
 

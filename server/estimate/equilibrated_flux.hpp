@@ -99,8 +99,6 @@ class EquilibratedFlux {
   Vector normal_of(std::size_t side) const;
   /// int |T grad u|^2 / T.
   double norm_squared() const noexcept { return _norm_squared; }
-  /// max |u|.
-  double largest() const noexcept { return _largest; }
   /// Sum of the imbalances of closed fans; it is rounding error if u solves the discrete problem.
   double imbalance() const noexcept { return _imbalance; }
 
@@ -130,7 +128,6 @@ class EquilibratedFlux {
   std::vector<Turn>::const_iterator first_turn(std::size_t triangle) const;
   bool has_turn(std::size_t triangle) const;
   double _norm_squared = 0;
-  double _largest = 0;
   double _imbalance = 0;
 };
 

@@ -252,7 +252,7 @@ FluxBounds flux_bounds(const Primal& primal, const Dual& dual) {
   constexpr double unlimited = std::numeric_limits<double>::infinity();
   const CutMesh& cut = primal.cut;
   const EquilibratedFlux& sigma = primal.flux;
-  const double rounding = 1e-13 * sigma.largest();
+  const double rounding = 1e-13 * primal.largest;
   FluxBounds bounds{std::vector<double>(2 * cut.faces.size()),
                     std::vector<double>(2 * cut.faces.size())};
   WeightOf weights(sigma, dual.weight);
@@ -324,10 +324,11 @@ Bound bound(const Aimed& aimed, const EquilibratedFlux& tau, const Sum& sum,
   double c = 0, work = 0, pressure = 0;  // c as of Dual
   // Fluxes are sums of T grad z', whose rounding errors are relative to T |z'|.
   const bool one_field = dual.z.data() == dual.reacting.data();
-  const double largest_z = one_field ? tau.largest() : largest_of(dual.z);
+  const double largest_z = largest_of(dual.z),
+               largest_reacting = one_field ? largest_z : largest_of(dual.reacting);
   const double of_jumps = 1e-12 * largest_z,
                of_pressures = 1e-12 * largest_of(tau.through_faces()) +
-                              1e-13 * cut.shapes.largest_tension * tau.largest();
+                              1e-13 * cut.shapes.largest_tension * largest_reacting;
   // Conjugate gradients leave more than rounding errors in z'; Ways lead them out of the membrane.
   const bool bridged = std::isfinite(cut.ways.triangle);
   std::vector<double> kept(cut.faces.size(), 0);
@@ -399,7 +400,7 @@ Bound bound(const Aimed& aimed, const EquilibratedFlux& tau, const Sum& sum,
   }
   terms.extra =
       aimed.unloaded * std::sqrt(rest.weighed) + rest.moved + 0.5 * products.slack + unknown +
-      (bridged ? primal.lack.work * largest_z : 2 * sigma.largest() * pressures.all_beyond);
+      (bridged ? primal.lack.work * largest_z : 2 * primal.largest * pressures.all_beyond);
   Bound found = bound_of(terms, dual.side, c, dual.c);
   if (const double best = found.half.best(c); std::isfinite(best)) {
     found.parts = std::move(parts.primal);

@@ -69,6 +69,7 @@ struct Primal {
   std::span<const double> u;         ///< (copies)
   Lack lack{};                       ///< of the flux
   const StiffPart* stiff = nullptr;  ///< null: none
+  double largest = largest_of(u);    ///< max |u|
 };
 
 enum class Side : std::uint8_t { lower, upper };
