@@ -7,51 +7,59 @@
 #include <array>
 #include <cstdlib>
 #include <mutex>
-#include <utility>
 
 namespace anticrack::base {
 namespace {
 
-constexpr std::size_t line = 64, huge = std::size_t{2} << 20, kept_from = std::size_t{16} << 20,
+constexpr std::size_t line = 64, huge = std::size_t{2} << 20, kept_from = 2 * huge,
                       kept_at_most = std::size_t{256} << 20;
 
-constexpr std::size_t alignment_of(std::size_t bytes) { return bytes < 2 * huge ? line : huge; }
+constexpr std::size_t alignment_of(std::size_t bytes) { return bytes < kept_from ? line : huge; }
 constexpr std::size_t rounded(std::size_t bytes) {
   const std::size_t to = alignment_of(bytes);
   return (bytes + to - 1) / to * to;
 }
 
-/// Blocks that are kept, by their size; none is null. It lives as long as the process.
+/// Blocks that are kept, the oldest first. It lives as long as the process.
 class Kept {
  public:
+  /// The youngest block of a size; null if there is none.
   void* take(std::size_t size) noexcept {
     const std::lock_guard lock(_mutex);
-    const auto found = std::ranges::find(_blocks, size, &Block::size);
-    if (found == _blocks.end()) return nullptr;
-    return std::exchange(*found, {}).at;
+    for (std::size_t i = _count; i-- > 0;)
+      if (_blocks[i].size == size) return remove(i);
+    return nullptr;
   }
-  /// False: there is no room for it.
-  bool keep(void* block, std::size_t size) noexcept {
+  /// Frees the oldest ones if there is no room.
+  void keep(void* block, std::size_t size) noexcept {
     const std::lock_guard lock(_mutex);
-    std::size_t all = size;
-    for (const Block& one : _blocks) all += one.size;
-    const auto free = std::ranges::find(_blocks, nullptr, &Block::at);
-    if (all > kept_at_most || free == _blocks.end()) return false;
-    *free = {block, size};
-    return true;
+    while (_count > 0 && _bytes + size > kept_at_most) std::free(remove(0));
+    if (size > kept_at_most) return std::free(block);
+    _blocks[_count++] = {block, size};
+    _bytes += size;
   }
-  void return_all() noexcept {
+  void free_all() noexcept {
     const std::lock_guard lock(_mutex);
-    for (Block& one : _blocks) std::free(std::exchange(one, {}).at);
+    while (_count > 0) std::free(remove(0));
   }
 
  private:
   struct Block {
-    void* at = nullptr;
-    std::size_t size = 0;
+    void* at;
+    std::size_t size;
   };
+
+  void* remove(std::size_t i) noexcept {
+    void* const block = _blocks[i].at;
+    _bytes -= _blocks[i].size;
+    std::copy(_blocks.begin() + i + 1, _blocks.begin() + _count, _blocks.begin() + i);
+    --_count;
+    return block;
+  }
+
   std::mutex _mutex;
   std::array<Block, kept_at_most / kept_from> _blocks;
+  std::size_t _count = 0, _bytes = 0;
 };
 
 Kept& kept() {
@@ -62,20 +70,20 @@ Kept& kept() {
 }  // namespace
 
 void* take_block(std::size_t bytes) noexcept {
-  const std::size_t size = rounded(bytes), alignment = alignment_of(bytes);
-  if (size >= kept_from)
-    if (void* const block = kept().take(size)) return block;
-  void* const block = std::aligned_alloc(alignment, size);
-  if (block != nullptr && alignment == huge)
-    static_cast<void>(madvise(block, size, MADV_HUGEPAGE));  // a hint
+  const std::size_t size = rounded(bytes);
+  if (size < kept_from) return std::aligned_alloc(line, size);
+  if (void* const block = kept().take(size)) return block;
+  void* const block = std::aligned_alloc(huge, size);
+  if (block != nullptr) static_cast<void>(madvise(block, size, MADV_HUGEPAGE));  // a hint
   return block;
 }
 
 void give_block(void* block, std::size_t bytes) noexcept {
   const std::size_t size = rounded(bytes);
-  if (size < kept_from || !kept().keep(block, size)) std::free(block);
+  if (size < kept_from) return std::free(block);
+  kept().keep(block, size);
 }
 
-void return_kept_blocks() noexcept { kept().return_all(); }
+void return_kept_blocks() noexcept { kept().free_all(); }
 
 }  // namespace anticrack::base

@@ -10,10 +10,9 @@
 
 namespace anticrack::base {
 
-/// Memory for `bytes`; null if there is none. Large blocks have huge pages. Blocks of 32 MB and
-/// more, which malloc would take from the system each time, are kept for the next of the same size
-/// when they are given back, 256 MB of them at most: clearing their pages took a tenth of the
-/// bounds of a million triangles.
+/// Memory for `bytes`; null if there is none. Blocks of 4 MB and more have huge pages, and when
+/// they are given back they are kept for the next of the same size, the last 256 MB of them:
+/// clearing pages that the system hands out anew took a tenth of the bounds of a million triangles.
 void* take_block(std::size_t bytes) noexcept;
 void give_block(void* block, std::size_t bytes) noexcept;
 /// Returns the blocks that are kept to the system.

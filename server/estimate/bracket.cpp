@@ -12,17 +12,16 @@
 namespace anticrack::estimate {
 namespace {
 
-/// TriangleSums over all edges of one triangle on the boundary.
+/// Sums over all edges of one triangle on the boundary.
 struct OnTriangle {
   double norm = 0;        ///< >= |w| in the energy norm
   double difference = 0;  ///< int (sigma - T grad u_h) . grad w
   double energy = 0;      ///< Pi(u_h + w) - Pi(u_h) - |w|^2 / 2
 };
 
-/// TriangleSums over triangles.
 struct TriangleSums {
-  double half_distance =
-      0;               ///< eta^2 / 2; if T is known, without |w|^2 / 2, which cancels in Pi(v)
+  /// eta^2 / 2; if T is known, without |w|^2 / 2, which cancels in Pi(v).
+  double half_distance = 0;
   double squared = 0;  ///< eta^2
   double lift_energy = 0, lift_norm = 0, upper = 0, unknown = 0;
 
