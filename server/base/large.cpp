@@ -14,9 +14,8 @@ namespace {
 constexpr std::size_t line = 64, huge = std::size_t{2} << 20, kept_from = 2 * huge,
                       kept_at_most = std::size_t{256} << 20;
 
-constexpr std::size_t alignment_of(std::size_t bytes) { return bytes < kept_from ? line : huge; }
 constexpr std::size_t rounded(std::size_t bytes) {
-  const std::size_t to = alignment_of(bytes);
+  const std::size_t to = bytes < kept_from ? line : huge;
   return (bytes + to - 1) / to * to;
 }
 

@@ -82,16 +82,13 @@ EquilibratedFlux::EquilibratedFlux(const Balance& balance, const CutMesh& cut, b
 EquilibratedFlux::EquilibratedFlux(const CutMesh& cut, const Balance& balance, FaceBounds bounds,
                                    int polish)
     : EquilibratedFlux(balance, cut, true) {
-  FluxMemory memory;
-  make({this, 1}, {&bounds, 1}, polish, memory);
+  make({this, 1}, {&bounds, 1}, polish);
 }
 
 std::vector<EquilibratedFlux> EquilibratedFlux::of_all(const CutMesh& cut,
                                                        std::span<const Balance> loads,
                                                        std::span<const FaceBounds> bounds,
-                                                       int polish, bool distances,
-                                                       FluxMemory* memory) {
-  FluxMemory own;
+                                                       int polish, bool distances) {
   std::vector<EquilibratedFlux> fluxes;
   fluxes.reserve(loads.size());
   for (const Balance& load : loads) {
@@ -101,15 +98,14 @@ std::vector<EquilibratedFlux> EquilibratedFlux::of_all(const CutMesh& cut,
   for (std::size_t done = 0; done < loads.size(); done += flux_lanes) {
     const std::size_t count = std::min(loads.size() - done, flux_lanes);
     make(std::span(fluxes).subspan(done, count),
-         bounds.empty() ? bounds : bounds.subspan(done, count), polish,
-         memory != nullptr ? *memory : own);
+         bounds.empty() ? bounds : bounds.subspan(done, count), polish);
   }
   return fluxes;
 }
 
 /// If loads are fewer than lanes, the last load fills the rest.
 void EquilibratedFlux::make(std::span<EquilibratedFlux> fluxes, std::span<const FaceBounds> bounds,
-                            int polish, FluxMemory& memory) {
+                            int polish) {
   static const FluxKernels& kernels = *supported_flux_kernels(0);
   const CutMesh& cut = fluxes.front()._cut;
   const std::size_t lanes = fluxes.size() <= 2 ? fluxes.size() : flux_lanes;
@@ -127,7 +123,7 @@ void EquilibratedFlux::make(std::span<EquilibratedFlux> fluxes, std::span<const 
                more && !own._distance.empty() ? own._distance.data() : nullptr};
   }
   look();
-  base::Large<double>& side_by_side = memory.side_by_side;
+  base::Large<double> side_by_side;
   if (lanes > 1) {
     side_by_side.resize(lanes * cut.at.size());
     constexpr std::size_t some = 65536;
@@ -141,9 +137,7 @@ void EquilibratedFlux::make(std::span<EquilibratedFlux> fluxes, std::span<const 
   }
   std::vector<FluxBlock> blocks = blocks_of(cut);
   const std::size_t own_scratch = lanes * flux_scratch(mesh, largest_block(blocks));
-  if (memory.means.use_count() != 1) memory.means = std::make_shared<base::Large<double>>();
-  const auto means = memory.means;
-  means->resize(lanes * 2 * cut.triangle_count());
+  const auto means = std::make_shared<base::Large<double>>(lanes * 2 * cut.triangle_count());
   base::Large<double> through(lanes * 2 * cut.faces.size(), 0.0);
   const FluxLoop loop = lanes == 1 ? kernels.one : lanes == 2 ? kernels.two : kernels.several;
   const auto take = [&](FluxStep step) {

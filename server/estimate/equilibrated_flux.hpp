@@ -18,13 +18,6 @@ namespace anticrack::estimate {
 
 struct FluxBlock;
 
-/// Memory of fluxes that are gone, for the next ones: the system clears what it hands out anew, a
-/// third of the time in which fluxes are made.
-struct FluxMemory {
-  std::shared_ptr<base::Large<double>> means = nullptr;
-  base::Large<double> side_by_side{};
-};
-
 /// The data from which a flux is made. Triangles and Neumann edges are in the order of CutMesh; an
 /// empty member means 0.
 struct Balance {
@@ -53,11 +46,10 @@ class EquilibratedFlux {
                    int polish = 1);
   /// Makes the fluxes of several loads at once; the bits of each are as if it were alone. Either
   /// all loads have a force or none has. `bounds`: those of each load, or empty: w <= 0.
-  /// `distances`: whether distance() is wanted. `memory`: kept between calls; null: none.
+  /// `distances`: whether distance() is wanted.
   static std::vector<EquilibratedFlux> of_all(const CutMesh& cut, std::span<const Balance> loads,
                                               std::span<const FaceBounds> bounds = {},
-                                              int polish = 1, bool distances = true,
-                                              FluxMemory* memory = nullptr);
+                                              int polish = 1, bool distances = true);
 
   /// int |sigma - T grad u|^2 / T over each triangle, shape (m); empty if it is not wanted.
   const base::Large<double>& distance() const noexcept { return _distance; }
@@ -105,7 +97,7 @@ class EquilibratedFlux {
  private:
   EquilibratedFlux(const Balance& balance, const CutMesh& cut, bool distances);  // not made yet
   static void make(std::span<EquilibratedFlux> fluxes, std::span<const FaceBounds> bounds,
-                   int polish, FluxMemory& memory);
+                   int polish);
   /// Takes its lane of what the blocks found and of the fluxes `through` faces.
   void finish(std::size_t lane, std::size_t lanes, std::span<const FluxBlock> blocks,
               std::span<const double> through);

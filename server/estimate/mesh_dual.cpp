@@ -26,7 +26,7 @@ MeshDual mesh_dual(const CutMesh& cut, const EquilibratedFlux& tau, std::span<co
                    double closed, std::span<const ForceOn> unit) {
   constexpr double rounding = 1e-6;  // of what the factors gave; it changes no digit of `off`
   MeshDual dual;
-  for (const double one : open) dual.largest = std::max(dual.largest, std::abs(one));
+  dual.largest = largest_of(open);
   double squared = 0, through = 0, distance = 0;
   for (std::size_t f = 0; f < cut.faces.size(); ++f) {
     if (!presses(cut.faces[f].condition)) continue;
@@ -61,7 +61,6 @@ std::vector<MeshDual> mesh_duals(const CutMesh& cut, std::span<const std::vector
   const std::vector<double> none(2 * cut.faces.size(), 0.0);
   const std::vector<FaceBounds> bounds(flux_lanes, FaceBounds{none, none});
   std::vector<MeshDual> duals(open.size());
-  FluxMemory memory;
   for (std::size_t first = 0; first < open.size(); first += flux_lanes) {
     std::vector<Balance> balances;
     std::vector<std::size_t> of;
@@ -72,7 +71,7 @@ std::vector<MeshDual> mesh_duals(const CutMesh& cut, std::span<const std::vector
     }
     constexpr int polish = 0;  // a sweep would take 3 % off the mismatch, 1 % off the bounds
     const std::vector<EquilibratedFlux> taus =
-        EquilibratedFlux::of_all(cut, balances, bounds, polish, true, &memory);
+        EquilibratedFlux::of_all(cut, balances, bounds, polish);
     for (std::size_t k = 0; k < of.size(); ++k)
       duals[of[k]] = mesh_dual(cut, taus[k], open[of[k]], closed[of[k]], units[of[k]]);
   }
